@@ -1,0 +1,49 @@
+/// What fem needs to know of a body, as values: mesh file, surface charts, material. No deal.II in this header.
+/// Lengths in m; ids are the physical groups of the .msh.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fem {
+
+/// Isotropic linear elasticity.
+struct Material {
+  double youngs_modulus_Pa = 0;
+  double poisson_ratio = 0;
+  double density_kg_m3 = 0;
+};
+
+/// Cells of the volume group: cylinder coordinates about z, composed with the eccentric shift
+/// (x, y) += clamp((r - inner_radius) / (outer_radius - inner_radius), 0, 1) (shift_x, shift_y).
+struct CylinderChart {
+  int volume_id = 0;
+  double shift_x_m = 0, shift_y_m = 0;
+  double inner_radius_m = 0, outer_radius_m = 0;
+};
+
+/// Faces of the boundary group: torus about z, a circle of `radius` about (z, r) = (centre_z, centre_radius).
+struct TorusChart {
+  int boundary_id = 0;
+  double centre_z_m = 0, centre_radius_m = 0, radius_m = 0;
+};
+
+struct Body {
+  std::filesystem::path mesh;  ///< .msh 4.1 of linear hexahedra with physical groups
+  std::vector<CylinderChart> cylinders;
+  std::vector<TorusChart> tori;
+  Material material;
+  int degree = 2;              ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
+};
+
+/// Mass, first moment and inertia of the meshed body by the quadrature of its load vectors, about the origin.
+struct MassProperties {
+  double volume_m3 = 0;
+  double mass_kg = 0;
+  std::array<double, 3> first_moment_kg_m{};     ///< m * centre of mass
+  std::array<double, 6> second_moments_kg_m2{};  ///< integrals of rho xx, yy, zz, xy, yz, xz (polar inertia J = xx + yy)
+};
+
+}  // namespace fem

@@ -1,0 +1,58 @@
+/// The finite-element model of one body: mesh, degrees of freedom, stiffness; solves all unit loads as one block.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/body.h"
+#include "fem/unit_load.h"
+#include "fem/unit_responses.h"
+
+namespace fem {
+
+/// Starts MPI and the threads of deal.II; one object lives as long as the program uses fem.
+class Environment {
+public:
+  /// @param n_threads 0: all cores
+  Environment(int& argc, char**& argv, int n_threads);
+  ~Environment();
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+};
+
+/// How nodal stresses are made from the finite-element stress.
+enum class Recovery {
+  patch,    ///< superconvergent patch recovery (Zienkiewicz and Zhu 1992)
+  average,  ///< mean of the cells' values at each node: a baseline for tests
+};
+
+class Model {
+public:
+  /// Reads the mesh, attaches the charts, numbers the unknowns.
+  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells, or the program runs on several MPI ranks
+  /// @throws std::invalid_argument for impossible material values
+  explicit Model(const Body& body);
+  ~Model();
+  Model(Model&&) noexcept;
+
+  std::size_t n_dofs() const;
+  MassProperties mass_properties() const;
+
+  /// The unit loads' responses. One factorisation (CHOLMOD), all loads as one block. Every load vector is balanced by a
+  /// rigid-mode body force, f - M R (R'MR)^-1 R'f, so the statically determinate support carries nothing; displacements
+  /// have no rigid part in the mass norm.
+  /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
+  /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces
+  /// @throws std::runtime_error if the factorisation fails
+  UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
+                               Recovery recovery = Recovery::patch,
+                               const std::function<void(double, const std::string&)>& progress = {}) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fem
