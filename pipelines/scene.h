@@ -1,0 +1,80 @@
+/// The scene: one TOML file read into values, checked, in SI units. Everything the stages need and nothing else.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fem/body.h"
+#include "kinetics/vibratory_mill.h"
+#include "meshes/shaft.h"
+
+namespace pipelines {
+
+/// One thing that is wrong with a scene.
+struct SceneError {
+  std::string file;
+  int line = 0, column = 0;  ///< 1-based; 0 where the file as a whole is meant
+  std::string key;           ///< dotted, e.g. "shaft.segments[3].diameter"
+  std::string value;         ///< as written; empty if missing
+  std::string remedy;        ///< a sentence: what is wrong and what to do
+
+  /// "file:line:column: key = value: remedy"
+  std::string text() const;
+};
+
+/// All errors of a scene at once; exit code 2.
+class SceneErrors : public std::runtime_error {
+public:
+  explicit SceneErrors(std::vector<SceneError> errors);
+  const std::vector<SceneError>& errors() const noexcept { return errors_; }
+
+private:
+  std::vector<SceneError> errors_;
+};
+
+/// Where a zone begins: a share of the peak or of the yield strength.
+struct ZoneRule {
+  enum class Reference { peak, yield };
+  Reference reference = Reference::peak;
+  double share = 0.5;  ///< in (0, 1]
+};
+
+struct ShaftScene {
+  meshes::Shaft geometry;
+  meshes::ShaftMeshControl mesh;
+  fem::Material material;
+  std::string material_name;
+  double yield_strength_Pa = 0;
+  int pressure_harmonics = 4;                  ///< highest harmonic of the seat pressure, even, 0 to 16
+  std::vector<double> debalance_shares = {0.5, 0.5};  ///< of debalance_1, debalance_2; sum 1
+};
+
+/// A value the user did not give; printed by `check`.
+struct DefaultUsed {
+  std::string key, value, reason;
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::string title;
+  kinetics::VibratoryMill machine;
+  std::vector<std::string> effects;            ///< as named in the scene; each known, none twice
+  kinetics::TimeGrid sampling;
+  std::optional<ShaftScene> shaft;             ///< empty: the load stage only
+  ZoneRule zones;
+  int snapshots = 24;                          ///< over the turn that contains the peak; 0: none
+  std::vector<DefaultUsed> defaults;
+
+  /// The scene's effects that kinetics evaluates: all but `gravity_shaft` and `shaft_inertia`, which need the body.
+  std::vector<std::string> kinetics_effects() const;
+  bool has_effect(const std::string& name) const;
+};
+
+/// Reads and checks a scene.
+/// @throws SceneErrors with every error found
+Scene read_scene(const std::filesystem::path& file);
+
+}  // namespace pipelines
