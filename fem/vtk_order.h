@@ -1,6 +1,6 @@
 /// Node order of VTK's quadratic cells, from the tensor-product order of a 3 x 3 (x 3) set of nodes.
-/// Lexicographic numbering: node (i, j, k) at the parametric point (i/2, j/2, k/2) has the number i + 3 j + 9
-/// k, x fastest.
+/// Lexicographic numbering: the node at the parametric point (i/2, j/2, k/2) has the number i + 3 j + 9 k, x
+/// fastest.
 ///   vtk_node[v] = lexicographic_node[table[v]]
 /// A test compares both tables with VTK's own parametric coordinates.
 #pragma once
