@@ -1,7 +1,8 @@
 /// Load history: what the kinetics stage hands on, and the only thing that leaves it.
 ///
-/// Conventions of all machines: x to the right, y up, z along the shaft towards the reader; forces in the fixed
-/// frame; a torque is the moment about +z, counter-clockwise positive. SI units. One column per instant.
+/// Conventions of all machines: x to the right, y up, z along the shaft towards the reader; forces in the
+/// fixed frame; a torque is the moment about +z, counter-clockwise positive. SI units. One column per
+/// instant.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,16 +13,18 @@ namespace kinetics {
 
 /// Equidistant instants over whole turns of the drive: t_i = i T / n, i = 0 .. turns * n - 1, T one turn.
 struct TimeGrid {
-  int turns = 1;              ///< turns of the drive covered, >= 1
+  int turns = 1;                ///< turns of the drive covered, >= 1
   int instants_per_turn = 120;  ///< n, >= 4
 };
 
-/// One scalar of the machine over time that is no load by itself, or a derived load figure (theta, T, R_E ...).
+/// One scalar of the machine over time that is no load by itself, or a derived load figure (theta, T, R_E
+/// ...).
 struct Quantity {
-  std::string name;         ///< as in the machine's documentation: "theta", "T", "R_E", "spring_1.fx" ...
-  std::string unit;         ///< SI unit: "N", "N m", "rad", "W" ...
-  std::string description;  ///< one line, with the equation number of the source
-  Eigen::ArrayXd values;    ///< n_instants
+  std::string name;            ///< as in the machine's documentation: "theta", "T", "R_E", "spring_1.fx" ...
+  std::string unit;            ///< SI unit: "N", "N m", "rad", "W" ...
+  std::string description;     ///< one line, with the equation number of the source
+  Eigen::ArrayXd values;       ///< n_instants
+  bool has_statistics = true;  ///< false: it has poles, so that its extremes and means say nothing
 };
 
 /// The part of a resultant that one effect brings.
@@ -30,8 +33,8 @@ struct Contribution {
   Eigen::Array3Xd load;  ///< rows fx [N], fy [N], torque [N m]; 3 x n_instants
 };
 
-/// A planar load resultant by its role in the machine ("eccentric", "debalance" ...): a force through the role's
-/// reference point and a torque about it. `contributions` add up to `total`.
+/// A planar load resultant by its role in the machine ("eccentric", "debalance" ...): a force through the
+/// role's reference point and a torque about it. `contributions` add up to `total`.
 struct Resultant {
   std::string role;
   std::string description;  ///< on which body it acts, and through which point
@@ -43,12 +46,12 @@ struct Resultant {
 struct LoadHistory {
   std::string machine;
   std::string convention;
-  std::vector<std::string> effects;      ///< the effects that were evaluated, in the order of summation
-  std::vector<std::string> warnings;     ///< sentences for the user (large pitch, reversed torque ...)
-  Eigen::ArrayXd time_s;                 ///< n_instants
-  Eigen::ArrayXd phi_rad;                ///< drive angle, clockwise positive for the vibratory mill
-  Eigen::ArrayXd speed_rad_s;            ///< d phi / dt
-  Eigen::ArrayXd acceleration_rad_s2;    ///< d2 phi / dt2
+  std::vector<std::string> effects;    ///< the effects that were evaluated, in the order of summation
+  std::vector<std::string> warnings;   ///< sentences for the user (large pitch, reversed torque ...)
+  Eigen::ArrayXd time_s;               ///< n_instants
+  Eigen::ArrayXd phi_rad;              ///< drive angle, clockwise positive for the vibratory mill
+  Eigen::ArrayXd speed_rad_s;          ///< d phi / dt
+  Eigen::ArrayXd acceleration_rad_s2;  ///< d2 phi / dt2
   std::vector<Quantity> quantities;
   std::vector<Resultant> resultants;
 

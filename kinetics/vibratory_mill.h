@@ -1,8 +1,9 @@
 /// Vibratory mill with an eccentric drive: loads on chamber, shaft and bearings.
 ///
-/// Source: N. U. Gracheva, "Development of a mathematical model of vibratory mill taking into account the dynamic loads
-/// to the bearing arrangements", equations (1)-(60); errata and the `consistent` convention: kinetics/README.md.
-/// x right, y up; phi and chi CLOCKWISE from +x; e(a) = (cos a, -sin a), n(a) = (-sin a, -cos a).
+/// Source: N. U. Gracheva, "Development of a mathematical model of vibratory mill taking into account the
+/// dynamic loads to the bearing arrangements", equations (1)-(60); errata and the `consistent` convention:
+/// kinetics/README.md. x right, y up; phi and chi CLOCKWISE from +x; e(a) = (cos a, -sin a), n(a) = (-sin a,
+/// -cos a).
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +20,10 @@ enum class Convention { published, consistent };
 
 /// One spring support of the chamber.
 struct Spring {
-  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();       ///< from E' in the chamber's rest attitude
-  Eigen::Vector2d stiffness_N_m = Eigen::Vector2d::Zero();    ///< (kx, ky), >= 0
-  Eigen::Vector2d damping_N_s_m = Eigen::Vector2d::Zero();    ///< (cx, cy), >= 0
-  std::optional<Eigen::Vector2d> preload_N;                   ///< force at rest; default: static balance of the weights
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();     ///< from E' in the chamber's rest attitude
+  Eigen::Vector2d stiffness_N_m = Eigen::Vector2d::Zero();  ///< (kx, ky), >= 0
+  Eigen::Vector2d damping_N_s_m = Eigen::Vector2d::Zero();  ///< (cx, cy), >= 0
+  std::optional<Eigen::Vector2d> preload_N;  ///< force at rest; default: static balance of the weights
 };
 
 /// Charge lag (effect `charge_lag`): exactly one of the two is given when the effect is on.
@@ -35,20 +36,21 @@ struct ChargeLag {
 struct VibratoryMill {
   Convention convention = Convention::consistent;
   double gravity_m_s2 = 9.81;
-  double eccentricity_m = 0;              ///< [C1C] ecc, >= 0
-  double speed_rad_s = 0;                 ///< [omega_e] drive speed, > 0
-  double initial_angle_rad = 0;           ///< [phi0]
-  double charge_relative_speed_rad_s = 0; ///< [omega_r] of CO relative to the frame that turns with the drive
-  double charge_initial_angle_rad = 0;    ///< [delta0]
-  double charge_offset_m = 0;             ///< [CO] r, >= 0
-  double charge_mass_kg = 0;              ///< m
-  double structure_mass_kg = 0;           ///< m1
-  double exciter_mass_kg = 0;             ///< m2
-  double debalance_mass_kg = 0;           ///< m3
-  double debalance_offset_m = 0;          ///< KE, signed along C1C
-  Eigen::Vector2d chamber_centre_m = Eigen::Vector2d::Zero();   ///< c, from E'
-  Eigen::Vector2d structure_centre_m = Eigen::Vector2d::Zero(); ///< l, from E'
-  double pitch_inertia_kg_m2 = 0;         ///< I_E about E', structure and exciter housing, not the charge
+  double eccentricity_m = 0;     ///< [C1C] ecc, >= 0
+  double speed_rad_s = 0;        ///< [omega_e] drive speed, > 0
+  double initial_angle_rad = 0;  ///< [phi0]
+  double charge_relative_speed_rad_s =
+      0;                                ///< [omega_r] of CO relative to the frame that turns with the drive
+  double charge_initial_angle_rad = 0;  ///< [delta0]
+  double charge_offset_m = 0;           ///< [CO] r, >= 0
+  double charge_mass_kg = 0;            ///< m
+  double structure_mass_kg = 0;         ///< m1
+  double exciter_mass_kg = 0;           ///< m2
+  double debalance_mass_kg = 0;         ///< m3
+  double debalance_offset_m = 0;        ///< KE, signed along C1C
+  Eigen::Vector2d chamber_centre_m = Eigen::Vector2d::Zero();    ///< c, from E'
+  Eigen::Vector2d structure_centre_m = Eigen::Vector2d::Zero();  ///< l, from E'
+  double pitch_inertia_kg_m2 = 0;  ///< I_E about E', structure and exciter housing, not the charge
   std::vector<Spring> springs;
   ChargeLag charge_lag;
 };
@@ -67,22 +69,25 @@ const std::vector<EffectInfo>& vibratory_mill_effects(Convention convention);
 ///
 /// Resultants under `consistent` (fixed frame; see coupling of loads and bodies):
 ///   "eccentric"       force -B of the chamber on the shaft, through E' = ecc e(phi)
-///   "debalance"       force on the debalances; fx, fy act at KE e(phi); torque = its moment about E, KE e(phi) x F
-///   "frame_bearings"  reaction R_E of the frame's bearings on the shaft, through E (massless shaft)
-///   "drive"           torque -T of the coupling on the shaft (T clockwise positive), fx = fy = 0
+///   "debalance"       force on the debalances; fx, fy act at KE e(phi); torque = its moment about E, KE
+///   e(phi) x F "frame_bearings"  reaction R_E of the frame's bearings on the shaft, through E (massless
+///   shaft) "drive"           torque -T of the coupling on the shaft (T clockwise positive), fx = fy = 0
 ///   "housing_bore"    force B of the eccentric on the chamber, through E'
-///   "inner_wall"      force F_w of the charge on the wall through the chamber's axis C, torque r e(chi) x F_w
-///   "spring_foot_i"   force f_i of spring i = 1, 2, ... on the chamber at its foot
-/// Quantities: chi, theta, theta_dot, theta_ddot, B_x, B_y, X_E, Y_E, R_E, T, drive_power, charge_power, damping_power,
-/// couple, spring_<i>.fx, spring_<i>.fy, charge_on_wall.fx, .fy, moment_residual, ...; under `published` X_E, Y_E, R_E,
-/// spring_force, spring_force_from_moments, K_star, a_n, a_xi, a_O and no resultants except "frame_bearings".
-/// @throws std::invalid_argument naming parameter, value and remedy: non-positive masses or speed, I_E < m1 |l|^2,
+///   "inner_wall"      force F_w of the charge on the wall through the chamber's axis C, torque r e(chi) x
+///   F_w "spring_foot_i"   force f_i of spring i = 1, 2, ... on the chamber at its foot
+/// Quantities: chi, theta, theta_dot, theta_ddot, B_x, B_y, X_E, Y_E, R_E, T, drive_power, charge_power,
+/// damping_power, couple, spring_<i>.fx, spring_<i>.fy, charge_on_wall.fx, .fy, moment_residual, ...; under
+/// `published` X_E, Y_E, R_E, spring_force, spring_force_from_moments, K_star, a_n, a_xi, a_O and no
+/// resultants except "frame_bearings".
+/// @throws std::invalid_argument naming parameter, value and remedy: non-positive masses or speed, I_E < m1
+/// |l|^2,
 ///         an unknown effect (with the nearest known one), a pitch resonance, k_theta = 0 with a mean moment,
 ///         sin(eta) above 1, charge_lag without angle or power
-LoadHistory compute_loads(const VibratoryMill& mill, const std::vector<std::string>& effects, const TimeGrid& grid);
+LoadHistory compute_loads(const VibratoryMill& mill, const std::vector<std::string>& effects,
+                          const TimeGrid& grid);
 
-/// The smallest whole number of turns after which the motion repeats, from (omega_e + omega_r) / omega_e = p / q; empty
-/// if no q up to `most_turns` gives the ratio to 1e-9.
+/// The smallest whole number of turns after which the motion repeats, from (omega_e + omega_r) / omega_e = p
+/// / q; empty if no q up to `most_turns` gives the ratio to 1e-9.
 std::optional<int> period_in_turns(const VibratoryMill& mill, int most_turns = 1000);
 
 }  // namespace kinetics

@@ -1,0 +1,27 @@
+/// Equilibrium of the vibratory mill's two bodies, effect by effect (convention `consistent`).
+///
+/// (a) the chamber with exciter housing and charge, pivot E' = E + s; (b) the shaft with debalances, axis E.
+///   B   = -(sum of all forces on the chamber)                    force of the eccentric ON the chamber at E'
+///   R_E = B - (sum of forces on the shaft)                       reaction of the frame's bearings ON the
+///   shaft T   = -s x B + KE e(phi) x (forces on the shaft)             drive torque on the shaft, clockwise
+///   positive
+/// All three are linear in the effects' forces, so every contribution keeps its effect. Source: ours;
+/// replaces (40)-(44).
+#pragma once
+
+#include <vector>
+
+#include "kinetics/load_history.h"
+#include "kinetics/vibratory/effect.h"
+
+namespace kinetics::vibratory {
+
+/// Load history under the convention `consistent`. `effects` is evaluated once per block of instants; if it
+/// contains `pitch`, once more on the (phi, chi) torus.
+LoadHistory balance(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const TimeGrid& grid);
+
+/// A history with its instants and nothing else.
+LoadHistory empty_history(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
+                          const TimeGrid& grid);
+
+}  // namespace kinetics::vibratory

@@ -1,0 +1,23 @@
+/// Wrong input to the vibratory mill is refused here, before anything is computed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinetics/vibratory_mill.h"
+
+namespace kinetics::vibratory {
+
+/// Parameters that no effect uses may be zero; NaN, infinity and negative masses are refused everywhere.
+/// @throws std::invalid_argument naming the parameter, its value and the remedy
+void check_parameters(const VibratoryMill& mill, const std::vector<std::string>& effects);
+
+/// @throws std::invalid_argument for an unknown effect (with the nearest known one), one that belongs to the
+/// other
+///         convention or to the pipeline, one that is named twice, or one that lacks the effect it builds on
+void check_effects(Convention convention, const std::vector<std::string>& effects);
+
+/// @throws std::invalid_argument if turns < 1 or instants_per_turn < 4
+void check_grid(const TimeGrid& grid);
+
+}  // namespace kinetics::vibratory

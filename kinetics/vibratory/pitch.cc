@@ -1,0 +1,143 @@
+#include "kinetics/vibratory/pitch.h"
+
+#include <cmath>
+#include <string>
+
+#include "kinetics/vibratory/springs.h"
+#include "kinetics/wrong_input.h"
+
+namespace kinetics::vibratory {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Forces are of degree 1 in phi and in chi, arms of degree 1 in chi: the moment has degree 2 at most, and 8
+// points to a turn resolve degree 3.
+constexpr int points = 8;
+constexpr int highest = 3;
+
+const double pi = std::acos(-1.0);
+
+Instants torus(const VibratoryMill& mill) {
+  Eigen::ArrayXd phi_rad(points * points), chi_rad(points * points);
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j) {
+      phi_rad[i * points + j] = 2 * pi * i / points;
+      chi_rad[i * points + j] = 2 * pi * j / points;
+    }
+  return steady_at(mill, phi_rad, chi_rad);
+}
+
+/// Component (p, q) of the two-dimensional discrete Fourier transform of values on the torus.
+Complex component(const Eigen::ArrayXd& values, const Instants& at, int p, int q) {
+  const Eigen::ArrayXd angle = p * at.phi_rad + q * at.chi_rad;
+  return {(values * angle.cos()).mean(), -(values * angle.sin()).mean()};
+}
+
+/// Of each pair (p, q), (-p, -q), which are conjugate, the one that is kept.
+bool is_kept(int p, int q) {
+  return q > 0 || (q == 0 && p >= 0);
+}
+
+std::string name_of(int p, int q, double w) {
+  return number(std::abs(w)) + " rad/s = |" + std::to_string(p) + " omega_e + " + std::to_string(q) +
+         " (omega_e + omega_r)|";
+}
+
+struct Oscillator {
+  double inertia_kg_m2 = 0, damping_Nm_s = 0, stiffness_Nm = 0;
+
+  /// Amplitude under a moment that turns at w, a component (p, q).
+  Complex response(Complex moment_Nm, int p, int q, double w, double omega_e) const {
+    if (stiffness_Nm == 0 && std::abs(w) <= 1e-12 * omega_e)
+      refuse("k_theta", stiffness_Nm,
+             "the chamber's moment about the eccentric has a mean of " + number(std::abs(moment_Nm)) +
+                 " N m that nothing resists; switch `springs` on and give them stiffness off the "
+                 "eccentric's axis, or take `pitch` out of the effects");
+    const double inertial = inertia_kg_m2 * w * w;
+    const Complex denominator(stiffness_Nm - inertial, w * damping_Nm_s);
+    if (std::abs(denominator) <= 1e-9 * (std::abs(stiffness_Nm) + inertial))
+      refuse("natural frequency of pitch sqrt(k_theta / I)", std::sqrt(stiffness_Nm / inertia_kg_m2),
+             "rad/s is excited exactly, undamped, at " + name_of(p, q, w) +
+                 ": resonance; change the springs or the speed, or give the springs damping");
+    return moment_Nm / denominator;
+  }
+};
+
+}  // namespace
+
+void PitchMotion::apply(Instants& at) const {
+  at.theta_rad = at.theta_rad_s = at.theta_rad_s2 = Eigen::ArrayXd::Zero(at.size());
+  for (const Harmonic& h : harmonics) {
+    const Eigen::ArrayXd angle = h.p * at.phi_rad + h.q * at.chi_rad;
+    const double a = h.amplitude_rad.real(), b = h.amplitude_rad.imag(), w = h.frequency_rad_s;
+    const Eigen::ArrayXd value = a * angle.cos() - b * angle.sin();
+    at.theta_rad += value;
+    at.theta_rad_s -= w * (a * angle.sin() + b * angle.cos());
+    at.theta_rad_s2 -= w * w * value;
+  }
+}
+
+MomentSum chamber_moment(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
+                         const Instants& at) {
+  MomentSum sum{Eigen::ArrayXd::Zero(at.size()), Eigen::ArrayXd::Zero(at.size())};
+  for (const NamedEffect& effect : effects)
+    for (const PlacedForce& placed : effect.evaluate(at)) {
+      if (placed.place == Place::debalance) continue;
+      const Eigen::Array2Xd arm_m = position(mill, placed, at);
+      sum.moment_Nm += cross(arm_m, placed.force_N);
+      sum.scale_Nm += (arm_m.row(0) * placed.force_N.row(1)).abs().transpose() +
+                      (arm_m.row(1) * placed.force_N.row(0)).abs().transpose();
+      if (placed.couple_Nm.size() > 0) {
+        sum.moment_Nm += placed.couple_Nm;
+        sum.scale_Nm += placed.couple_Nm.abs();
+      }
+    }
+  return sum;
+}
+
+PitchMotion solve_pitch(const VibratoryMill& mill, const std::vector<NamedEffect>& effects) {
+  Oscillator chamber;
+  chamber.inertia_kg_m2 = mill.pitch_inertia_kg_m2;
+  if (contains(effects, "charge_follows_pitch"))
+    chamber.inertia_kg_m2 += mill.charge_mass_kg * mill.chamber_centre_m.squaredNorm();
+  if (contains(effects, "springs")) chamber.stiffness_Nm = pitch_stiffness_Nm(mill.springs);
+  if (contains(effects, "spring_damping")) chamber.damping_Nm_s = pitch_damping_Nm_s(mill.springs);
+
+  const Instants at = torus(mill);  // theta = 0: the pitch effects themselves are silent here
+  const MomentSum forcing = chamber_moment(mill, effects, at);
+  const double round_off_Nm = 1e-13 * forcing.scale_Nm.maxCoeff();
+
+  PitchMotion motion;
+  for (int p = -highest; p <= highest; ++p)
+    for (int q = -highest; q <= highest; ++q) {
+      if (!is_kept(p, q)) continue;
+      const bool mean = p == 0 && q == 0;
+      const Complex moment_Nm = (mean ? 1.0 : 2.0) * component(forcing.moment_Nm, at, p, q);
+      if (std::abs(moment_Nm) <= round_off_Nm) continue;
+      const double w = p * mill.speed_rad_s + q * mill.speed_rad_s * charge_speed_ratio(mill);
+      motion.harmonics.push_back({p, q, w, chamber.response(moment_Nm, p, q, w, mill.speed_rad_s)});
+    }
+  return motion;
+}
+
+Effect pitch(const VibratoryMill& mill) {
+  const double own_kg_m2 =
+      mill.pitch_inertia_kg_m2 - mill.structure_mass_kg * mill.structure_centre_m.squaredNorm();
+  return [mill, own_kg_m2](const Instants& at) {
+    const Eigen::Array2Xd arm_m = constant(turned(mill.structure_centre_m), at.size());
+    return std::vector<PlacedForce>{{Place::structure_centre, 0,
+                                     scaled(-mill.structure_mass_kg * at.theta_rad_s2, arm_m),
+                                     -own_kg_m2 * at.theta_rad_s2}};
+  };
+}
+
+Effect charge_follows_pitch(const VibratoryMill& mill) {
+  return [mill](const Instants& at) {
+    const Eigen::Array2Xd arm_m = constant(turned(mill.chamber_centre_m), at.size());
+    return std::vector<PlacedForce>{
+        {Place::chamber_centre, 0, scaled(-mill.charge_mass_kg * at.theta_rad_s2, arm_m), {}}};
+  };
+}
+
+}  // namespace kinetics::vibratory
