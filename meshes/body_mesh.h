@@ -14,7 +14,7 @@ struct Port {
   std::string name;
   Kind kind = Kind::seat;
   int boundary_id = 0;
-  double begin_m = 0, end_m = 0;    ///< range in z of the loaded surface; equal for an end face
+  double begin_m = 0, end_m = 0;  ///< range in z of the loaded surface; equal for an end face
   double radius_m = 0;
   double axis_x_m = 0, axis_y_m = 0;  ///< the seat's own axis (eccentric seats lie off the z axis)
 };
@@ -22,14 +22,15 @@ struct Port {
 /// A named piece of surface (every boundary face belongs to exactly one).
 struct Feature {
   enum class Kind { seat, surface, fillet, shoulder, end_face };
-  std::string name;      ///< "main_bearing_1", "fillet main_bearing_1/body_1", "body_1" ...
+  std::string name;  ///< "main_bearing_1", "fillet main_bearing_1/body_1", "body_1" ...
   Kind kind = Kind::surface;
   int boundary_id = 0;
   double begin_m = 0, end_m = 0;  ///< range in z
 };
 
-/// All cells of the volume group outside the core: cylinder coordinates (r, angle, z) about the z axis, composed with
-/// the eccentric shift  (x, y) += s(r) (shift_x, shift_y),  s(r) = clamp((r - inner_radius)/(outer_radius - inner_radius), 0, 1).
+/// All cells of the volume group outside the core: cylinder coordinates (r, angle, z) about the z axis,
+/// composed with the eccentric shift  (x, y) += s(r) (shift_x, shift_y),  s(r) = clamp((r -
+/// inner_radius)/(outer_radius - inner_radius), 0, 1).
 struct CylinderChart {
   int volume_id = 0;
   double shift_x_m = 0, shift_y_m = 0;
@@ -37,7 +38,8 @@ struct CylinderChart {
   double outer_radius_m = 0;  ///< R: the surface of the segment, fully shifted
 };
 
-/// The faces of a fillet: part of a torus about the z axis. Circle of `radius` about (z, r) = (centre_z, centre_radius).
+/// The faces of a fillet: part of a torus about the z axis. Circle of `radius` about (z, r) = (centre_z,
+/// centre_radius).
 struct TorusChart {
   int boundary_id = 0;
   double centre_z_m = 0, centre_radius_m = 0, radius_m = 0;

@@ -11,17 +11,18 @@ namespace meshes {
 
 /// One cylindrical length of the shaft.
 struct ShaftSegment {
-  std::string name;            ///< unique; also the port's name if it is one
-  double begin_m = 0;          ///< z; end_m > begin_m
+  std::string name;    ///< unique; also the port's name if it is one
+  double begin_m = 0;  ///< z; end_m > begin_m
   double end_m = 0;
   double diameter_m = 0;
-  double eccentricity_m = 0;   ///< offset of this segment's axis along +x (the body's xi axis)
-  bool is_port = false;        ///< its surface takes load; see Shaft
+  double eccentricity_m = 0;  ///< offset of this segment's axis along +x (the body's xi axis)
+  bool is_port = false;       ///< its surface takes load; see Shaft
 };
 
-/// Segments from left to right without gaps. fillet_m[i] is the fillet radius at the shoulder between segments i and i+1
-/// (at its inner corner, on the side of the smaller diameter; 0: sharp corner).
-/// The loaded zone of a port is centred in its segment: the segment less the largest fillet that it carries at both ends.
+/// Segments from left to right without gaps. fillet_m[i] is the fillet radius at the shoulder between
+/// segments i and i+1 (at its inner corner, on the side of the smaller diameter; 0: sharp corner). The loaded
+/// zone of a port is centred in its segment: the segment less the largest fillet that it carries at both
+/// ends.
 struct Shaft {
   std::vector<ShaftSegment> segments;
   std::vector<double> fillets_m;
@@ -37,8 +38,10 @@ struct ShaftMeshControl {
 
 /// Meshes the shaft and writes `file` (through a temporary name).
 /// Ports: every segment with is_port, and the end faces "end_1" (smallest z) and "end_2".
-/// @throws std::invalid_argument with the offending numbers: gaps, non-positive sizes, a fillet that does not fit its
-///         step (eccentric: r < (D - d)/2 - ecc) or its segment's length, an eccentricity that leaves the neighbour outside
+/// @throws std::invalid_argument with the offending numbers: gaps, non-positive sizes, a fillet that does not
+/// fit its
+///         step (eccentric: r < (D - d)/2 - ecc) or its segment's length, an eccentricity that leaves the
+///         neighbour outside
 /// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian (place and value named)
 BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file);
 

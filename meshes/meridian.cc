@@ -1,0 +1,158 @@
+#include "meshes/meridian.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "meshes/fan.h"
+#include "meshes/grading.h"
+
+namespace meshes {
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+/// Rows of a segment where nothing else prescribes them: equal, with one boundary at the inner radius if
+/// eccentric.
+std::vector<double> plain_radii(const SegmentLayout& segment, double core_radius_m) {
+  const double top_m = segment.is_eccentric() ? segment.inner_radius_m : segment.radius_m;
+  std::vector<double> radii = spread(core_radius_m, top_m, geometric_fractions(segment.n_inner_rows, 1));
+  if (segment.is_eccentric()) {
+    const auto outer = spread(top_m, segment.radius_m, geometric_fractions(segment.n_outer_rows, 1));
+    radii.insert(radii.end(), outer.begin() + 1, outer.end());
+  }
+  return radii;
+}
+
+/// The two faces of each segment's column, from the core outwards.
+struct Faces {
+  std::vector<int> begin, end;
+};
+
+/// Wanted axial cell sizes in a segment's column.
+AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshControl& control) {
+  const SegmentLayout& segment = layout.segments[index];
+  AxialSize size;
+  size.growth = control.growth;
+  size.largest_m =
+      control.largest_cell_m > 0 ? control.largest_cell_m : 6 * pi * segment.radius_m / control.n_sectors;
+  for (const Junction& junction : layout.junctions) {
+    if (junction.kind == Junction::Kind::flush) continue;
+    const bool towards_end = junction.z_m > 0.5 * (segment.begin_m + segment.end_m);
+    const double z_m = towards_end ? segment.column_end_m : segment.column_begin_m;
+    if (junction.kind == Junction::Kind::sharp && (junction.small == index || junction.big == index))
+      size.sources.push_back({z_m, junction.first_cell_m});
+    else if (junction.small == index)
+      size.sources.push_back({z_m, 2 * junction.first_cell_m});
+    else if (junction.big == index)
+      size.sources.push_back({z_m, junction.depth_m * (1 - *(junction.depth_fractions.end() - 2))});
+  }
+  return size;
+}
+
+/// Where a cell boundary must lie inside the column: limits of the loaded zone, the middle of a long segment.
+std::vector<double> breaks_of(const SegmentLayout& segment) {
+  std::vector<double> breaks = {segment.column_begin_m};
+  const double tiny_m = 1e-9 * segment.radius_m;
+  const auto add = [&](double z_m) {
+    if (z_m > breaks.back() + tiny_m && z_m < segment.column_end_m - tiny_m) breaks.push_back(z_m);
+  };
+  const double length_m = segment.end_m - segment.begin_m;
+  if (segment.is_port) add(segment.zone_begin_m);
+  if (length_m >= 2 * segment.radius_m - tiny_m) add(0.5 * (segment.begin_m + segment.end_m));
+  if (segment.is_port) add(segment.zone_end_m);
+  breaks.push_back(segment.column_end_m);
+  return breaks;
+}
+
+std::vector<double> column_stations(const ShaftLayout& layout, int index, const ShaftMeshControl& control) {
+  const std::vector<double> breaks = breaks_of(layout.segments[index]);
+  const AxialSize size = axial_size(layout, index, control);
+  const double column_m = breaks.back() - breaks.front();
+  std::vector<double> stations = {breaks.front()};
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const int n_min = static_cast<int>(std::ceil(4 * (breaks[i] - breaks[i - 1]) / column_m - 0.5));
+    const auto piece = axial_stations(breaks[i - 1], breaks[i], size, std::max(1, n_min));
+    stations.insert(stations.end(), piece.begin() + 1, piece.end());
+  }
+  return stations;
+}
+
+/// Cells between the two faces of a column: rows run straight from one face to the other.
+void fill_column(BlockMesh& mesh, const Faces& faces, const std::vector<double>& stations, int segment,
+                 const SurfaceTable& surfaces) {
+  const std::size_t n_rows = faces.begin.size() - 1;
+  const double begin_m = stations.front(), length_m = stations.back() - begin_m;
+  std::vector<int> previous = faces.begin;
+  for (std::size_t i = 1; i < stations.size(); ++i) {
+    std::vector<int> next = faces.end;
+    if (i + 1 < stations.size())
+      for (std::size_t k = 0; k <= n_rows; ++k) {
+        const double from_m = mesh.points[faces.begin[k]].r_m, to_m = mesh.points[faces.end[k]].r_m;
+        next[k] =
+            mesh.add_point(stations[i], from_m + (to_m - from_m) * ((stations[i] - begin_m) / length_m));
+      }
+    for (std::size_t k = 0; k < n_rows; ++k)
+      mesh.add_quad({previous[k], next[k], next[k + 1], previous[k + 1]}, segment);
+    const double middle_m = 0.5 * (stations[i - 1] + stations[i]);
+    mesh.edges.push_back({{previous.back(), next.back()}, surfaces.cylinder_at(segment, middle_m)});
+    previous = std::move(next);
+  }
+}
+
+void add_end_edges(BlockMesh& mesh, const std::vector<int>& face, int boundary_id) {
+  for (std::size_t k = 0; k + 1 < face.size(); ++k)
+    mesh.edges.push_back({{face[k], face[k + 1]}, boundary_id});
+}
+
+}  // namespace
+
+Meridian build_meridian(const ShaftLayout& layout, const SurfaceTable& surfaces,
+                        const ShaftMeshControl& control) {
+  const auto n = static_cast<int>(layout.segments.size());
+  BlockMesh mesh;
+  std::vector<Faces> faces(n);
+  const auto plain_face = [&](int segment, double z_m) {
+    return mesh.add_line(z_m, plain_radii(layout.segments[segment], layout.core_radius_m));
+  };
+
+  faces.front().begin = plain_face(0, layout.segments.front().begin_m);
+  for (int i = 0; i + 1 < n; ++i) {
+    const Junction& junction = layout.junctions[i];
+    if (junction.kind == Junction::Kind::flush) {
+      faces[i].end = plain_face(i, junction.z_m);
+      faces[i + 1].begin = faces[i].end;
+      continue;
+    }
+    JunctionFaces built = build_junction(mesh, layout, i, surfaces);
+    faces[i].end = junction.direction > 0 ? built.small : built.big;
+    faces[i + 1].begin = junction.direction > 0 ? built.big : built.small;
+  }
+  faces.back().end = plain_face(n - 1, layout.segments.back().end_m);
+
+  Meridian meridian;
+  for (int i = 0; i < n; ++i) {
+    const std::vector<double> stations = column_stations(layout, i, control);
+    fill_column(mesh, faces[i], stations, i, surfaces);
+    const bool begins_flush = i > 0 && layout.junctions[i - 1].kind == Junction::Kind::flush;
+    const bool begins_in_fan = i > 0 && layout.junctions[i - 1].kind == Junction::Kind::fillet;
+    const bool ends_in_fan = i + 1 < n && layout.junctions[i].kind == Junction::Kind::fillet;
+    const std::size_t from = begins_flush || begins_in_fan ? 0 : 1;
+    const std::size_t to = stations.size() - (ends_in_fan ? 0 : 1);
+    for (std::size_t k = from; k < to; ++k) meridian.stations.push_back({stations[k], i});
+  }
+  add_end_edges(mesh, faces.front().begin, surfaces.end_1_id);
+  add_end_edges(mesh, faces.back().end, surfaces.end_2_id);
+
+  meridian.points = std::move(mesh.points);
+  meridian.quads = std::move(mesh.quads);
+  meridian.edges = std::move(mesh.edges);
+  for (std::size_t i = 0; i < meridian.points.size(); ++i)
+    if (meridian.points[i].r_m == layout.core_radius_m) meridian.core_line.push_back(static_cast<int>(i));
+  std::sort(meridian.core_line.begin(), meridian.core_line.end(),
+            [&](int a, int b) { return meridian.points[a].z_m < meridian.points[b].z_m; });
+  return meridian;
+}
+
+}  // namespace meshes

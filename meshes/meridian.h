@@ -1,0 +1,47 @@
+/// The meridian of the shaft: quadrilaterals in the half plane (z, r) from the core's radius to the surface.
+/// Lengths in m; r is the distance from the z axis before any eccentric shift.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "meshes/shaft_layout.h"
+#include "meshes/surfaces.h"
+
+namespace meshes {
+
+struct MeridianPoint {
+  double z_m = 0, r_m = 0;
+};
+
+/// Corners counter-clockwise in (z, r).
+struct MeridianQuad {
+  std::array<int, 4> corners{};
+  int segment = 0;
+};
+
+/// A piece of the profile.
+struct MeridianEdge {
+  std::array<int, 2> ends{};
+  int boundary_id = 0;
+};
+
+/// A straight line of cell edges z = const from the core to the surface of one segment.
+struct MeridianStation {
+  double z_m = 0;
+  int segment = 0;
+};
+
+struct Meridian {
+  std::vector<MeridianPoint> points;
+  std::vector<MeridianQuad> quads;
+  std::vector<MeridianEdge> edges;
+  std::vector<int> core_line;             ///< points at the core's radius, ascending in z
+  std::vector<MeridianStation> stations;  ///< ascending in z, without the end faces
+};
+
+/// Blocks: one column per segment, a fan of five at each fillet; transfinite inside, shared edges built once.
+Meridian build_meridian(const ShaftLayout& layout, const SurfaceTable& surfaces,
+                        const ShaftMeshControl& control);
+
+}  // namespace meshes

@@ -1,0 +1,58 @@
+#include "meshes/quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshes {
+
+namespace {
+
+Point unit_edge(const Point& from, const Point& to) {
+  const Point d = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  return {d[0] / length, d[1] / length, d[2] / length};
+}
+
+double determinant(const Point& a, const Point& b, const Point& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+}  // namespace
+
+double scaled_jacobian(const HexMesh& mesh, const Hex& hex) {
+  // For each corner its three neighbours, right-handed.
+  static const int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                       {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  double smallest = 1;
+  for (int i = 0; i < 8; ++i) {
+    const Point& corner = mesh.points[hex.nodes[i]];
+    const auto edge = [&](int k) { return unit_edge(corner, mesh.points[hex.nodes[neighbours[i][k]]]); };
+    smallest = std::min(smallest, determinant(edge(0), edge(1), edge(2)));
+  }
+  return smallest;
+}
+
+MeshQuality measure_quality(const HexMesh& mesh) {
+  MeshQuality quality;
+  quality.n_cells = mesh.hexes.size();
+  quality.n_vertices = mesh.points.size();
+  std::vector<double> values;
+  for (const Hex& hex : mesh.hexes) values.push_back(scaled_jacobian(mesh, hex));
+
+  const auto worst = std::min_element(values.begin(), values.end());
+  quality.min_scaled_jacobian = *worst;
+  Point centre{};
+  for (const int node : mesh.hexes[worst - values.begin()].nodes)
+    for (int i = 0; i < 3; ++i) centre[i] += mesh.points[node][i] / 8;
+  quality.worst_x_m = centre[0];
+  quality.worst_y_m = centre[1];
+  quality.worst_z_m = centre[2];
+
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  quality.median_scaled_jacobian = *middle;
+  return quality;
+}
+
+}  // namespace meshes

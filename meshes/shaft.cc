@@ -1,0 +1,74 @@
+#include "meshes/shaft.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "meshes/meridian.h"
+#include "meshes/msh_writer.h"
+#include "meshes/quality.h"
+#include "meshes/revolve.h"
+#include "meshes/shaft_checks.h"
+#include "meshes/shaft_layout.h"
+#include "meshes/surfaces.h"
+
+namespace meshes {
+
+namespace {
+
+GroupNames group_names(const Shaft& shaft, const SurfaceTable& surfaces) {
+  GroupNames names;
+  names.volumes[surfaces.core_id] = "core";
+  for (std::size_t i = 0; i < shaft.segments.size(); ++i)
+    names.volumes[surfaces.ring_ids[i]] = "ring_" + shaft.segments[i].name;
+  for (const Feature& feature : surfaces.features) names.boundaries[feature.boundary_id] = feature.name;
+  return names;
+}
+
+std::vector<SectionPlane> sections_of(const Shaft& shaft, const ShaftLayout& layout,
+                                      const Meridian& meridian) {
+  std::vector<SectionPlane> planes;
+  for (const MeridianStation& station : meridian.stations) {
+    const SegmentLayout& segment = layout.segments[station.segment];
+    const double margin_m = std::min(station.z_m - segment.begin_m, segment.end_m - station.z_m);
+    const bool plain = margin_m >= segment.radius_m * (1 - 1e-9);
+    planes.push_back(
+        {station.z_m, segment.radius_m, segment.shift_m, 0, shaft.segments[station.segment].name, plain});
+  }
+  return planes;
+}
+
+void require_quality(const MeshQuality& quality, double wanted) {
+  if (quality.min_scaled_jacobian >= wanted) return;
+  std::ostringstream text;
+  text << "shaft mesh: the smallest scaled Jacobian is " << quality.min_scaled_jacobian << " at (x, y, z) = ("
+       << quality.worst_x_m * 1e3 << ", " << quality.worst_y_m * 1e3 << ", " << quality.worst_z_m * 1e3
+       << ") mm, wanted " << wanted
+       << "; change the fillet or the eccentricity there, or lower min_scaled_jacobian";
+  throw std::runtime_error(text.str());
+}
+
+}  // namespace
+
+BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file) {
+  check_control(control);
+  check_shaft(shaft);
+  const ShaftLayout layout = lay_out(shaft, control);
+  const SurfaceTable surfaces = name_surfaces(shaft, layout);
+  const Meridian meridian = build_meridian(layout, surfaces, control);
+  const HexMesh mesh = revolve(meridian, layout, surfaces, control.n_sectors);
+
+  BodyMesh body;
+  body.file = file;
+  body.ports = ports_of(shaft, layout, surfaces);
+  body.features = surfaces.features;
+  body.cylinders = cylinders_of(layout, surfaces);
+  body.tori = tori_of(layout, surfaces);
+  body.sections = sections_of(shaft, layout, meridian);
+  body.quality = measure_quality(mesh);
+  require_quality(body.quality, control.min_scaled_jacobian);
+  write_msh(mesh, group_names(shaft, surfaces), file);
+  return body;
+}
+
+}  // namespace meshes
