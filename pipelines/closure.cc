@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "pipelines/distribute.h"
+
+namespace pipelines {
+namespace {
+
+using Resultant6 = std::array<double, 6>;
+
+struct WantedResultant {
+  const fem::MassProperties& masses;
+
+  Resultant6 operator()(const fem::SurfaceResultant& load) const {
+    Resultant6 r{};
+    const auto component =
+        std::size_t(load.component);  // fx, fy, fz, mx, my, torque: the order of Resultant6
+    r[component] = 1;
+    const auto& c = load.surface.centre_m;
+    r[3] += c[1] * r[2] - c[2] * r[1];
+    r[4] += c[2] * r[0] - c[0] * r[2];
+    r[5] += c[0] * r[1] - c[1] * r[0];
+    return r;
+  }
+  Resultant6 operator()(const fem::SeatPressure&) const { return {}; }
+  Resultant6 operator()(const fem::BodyForce& load) const {
+    const double m = masses.mass_kg;
+    const auto& s = masses.first_moment_kg_m;
+    const auto& [xx, yy, zz, xy, yz, xz] = masses.second_moments_kg_m2;
+    using Field = fem::BodyForce::Field;
+    switch (load.field) {  // force: integral of rho a; moment: integral of rho r x a
+      case Field::translation_x:
+        return {m, 0, 0, 0, s[2], -s[1]};
+      case Field::translation_y:
+        return {0, m, 0, -s[2], 0, s[0]};
+      case Field::translation_z:
+        return {0, 0, m, s[1], -s[0], 0};
+      case Field::rotation:
+        return {-s[1], s[0], 0, -xz, -yz, xx + yy};
+      case Field::spin:
+        return {s[0], s[1], 0, -yz, xz, 0};
+    }
+    throw std::logic_error("unknown body force");
+  }
+};
+
+/// Size against which a unit load's resultant is judged: its largest force or moment, or what its pressure
+/// would carry one-sidedly if it carries nothing (1 N at the radius of its seat).
+double scale_of(const fem::UnitLoad& load, const Resultant6& wanted, bool moment) {
+  if (const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape))
+    return moment ? std::hypot(pressure->surface.radius_m, pressure->surface.centre_m[2]) : 1.0;
+  double force = 0, torque = 0;
+  for (std::size_t c = 0; c < 3; ++c) force = std::max(force, std::abs(wanted[c]));
+  for (std::size_t c = 3; c < 6; ++c) torque = std::max(torque, std::abs(wanted[c]));
+  if (const auto* on_surface = std::get_if<fem::SurfaceResultant>(&load.shape)) {
+    const double arm = on_surface->surface.radius_m;
+    force = std::max(force, torque / arm);
+    torque = std::max(torque, force * arm);
+  }
+  return std::max(moment ? torque : force, 1e-300);
+}
+
+}  // namespace
+
+std::array<double, 6> wanted_resultant(const fem::UnitLoad& load, const fem::MassProperties& masses) {
+  return std::visit(WantedResultant{masses}, load.shape);
+}
+
+double Closure::worst_force() const {
+  return *std::max_element(force.begin(), force.end());
+}
+double Closure::worst_moment() const {
+  return *std::max_element(moment.begin(), moment.end());
+}
+
+Closure check_closure(const BodyLoads& loads, const std::vector<std::array<double, 6>>& mesh_resultants,
+                      const fem::MassProperties& masses) {
+  if (mesh_resultants.size() != loads.unit_loads.size())
+    throw std::invalid_argument("check_closure: " + std::to_string(mesh_resultants.size()) +
+                                " mesh resultants for " + std::to_string(loads.unit_loads.size()) +
+                                " channels");
+  Closure closure;
+  const auto& values = loads.history.values;
+  std::array<Eigen::ArrayXd, 6> sums, sizes;
+  for (std::size_t c = 0; c < 6; ++c) sums[c] = sizes[c] = Eigen::ArrayXd::Zero(values.cols());
+  for (std::size_t k = 0; k < mesh_resultants.size(); ++k) {
+    const auto wanted = wanted_resultant(loads.unit_loads[k], masses);
+    const Eigen::ArrayXd a = values.row(Eigen::Index(k)).transpose();
+    for (std::size_t c = 0; c < 6; ++c) {
+      sums[c] += a * mesh_resultants[k][c];
+      sizes[c] += (a * mesh_resultants[k][c]).abs();
+      closure.channel_resultant =
+          std::max(closure.channel_resultant, std::abs(mesh_resultants[k][c] - wanted[c]) /
+                                                  scale_of(loads.unit_loads[k], wanted, c >= 3));
+    }
+  }
+  // The components of one kind share a scale: a component that carries nothing has no size of its own to be
+  // judged by.
+  double force_size = 0, moment_size = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (values.cols() == 0) break;
+    closure.force_scale_N[c] = sizes[c].maxCoeff();
+    closure.moment_scale_Nm[c] = sizes[c + 3].maxCoeff();
+    force_size = std::max(force_size, closure.force_scale_N[c]);
+    moment_size = std::max(moment_size, closure.moment_scale_Nm[c]);
+  }
+  for (std::size_t c = 0; c < 3 && values.cols() > 0; ++c) {
+    const auto relative = [](double residual, double own, double common) {
+      return residual == 0 ? 0.0 : residual / (own > 1e-6 * common ? own : common);
+    };
+    closure.force[c] = relative(sums[c].abs().maxCoeff(), closure.force_scale_N[c], force_size);
+    closure.moment[c] = relative(sums[c + 3].abs().maxCoeff(), closure.moment_scale_Nm[c], moment_size);
+  }
+  return closure;
+}
+
+}  // namespace pipelines

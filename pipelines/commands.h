@@ -1,0 +1,33 @@
+/// The commands of the program, one function each. Results on `out`, progress on stderr. They throw what went
+/// wrong; the program turns that into a message and an exit code.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+#include "pipelines/progress.h"
+
+namespace pipelines {
+
+struct CommandOptions {
+  std::filesystem::path scene;
+  std::filesystem::path
+      output;                 ///< run: directory; loads: .h5 file; empty: the default (run) or none (loads)
+  std::filesystem::path csv;  ///< loads only; empty: none
+  int n_threads = 0;          ///< 0: all cores
+  bool fresh = false;
+  bool json = false;  ///< the summary as JSON instead of the table
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// `millstress run`: everything. The directory defaults to results/<scene's name>.
+void run_command(const CommandOptions& options, std::ostream& out);
+
+/// `millstress loads`: the load stage alone.
+void loads_command(const CommandOptions& options, std::ostream& out);
+
+/// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
+/// nothing.
+void check_command(const CommandOptions& options, std::ostream& out);
+
+}  // namespace pipelines

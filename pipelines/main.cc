@@ -1,0 +1,85 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "fem/model.h"
+#include "pipelines/commands.h"
+#include "pipelines/scene.h"
+#include "pipelines/version.h"
+
+namespace {
+
+enum ExitCode { done = 0, scene_is_wrong = 2, mesh_or_solve_failed = 3 };
+
+/// Runs a command and turns what it throws into a message and an exit code.
+template <typename Command>
+int guarded(Command&& command) {
+  try {
+    command();
+    return done;
+  } catch (const pipelines::SceneErrors& errors) {
+    for (const auto& error : errors.errors()) std::cerr << error.text() << '\n';
+    return scene_is_wrong;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "millstress: " << error.what() << '\n';
+    return scene_is_wrong;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "millstress: " << error.code().message() << ": " << error.path1().string()
+              << ": choose another output with -o, or make room for it\n";
+    return scene_is_wrong;
+  } catch (const std::exception& error) {
+    std::cerr << "millstress: " << error.what() << '\n';
+    return mesh_or_solve_failed;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"From the kinetics of a mill to stress zones in its shaft."};
+  app.set_version_flag("--version", std::string("millstress ") + pipelines::version);
+  app.require_subcommand(1);
+  pipelines::CommandOptions options;
+  bool quiet = false, verbose = false;
+
+  const auto add = [&](const char* name, const char* description) {
+    auto* command = app.add_subcommand(name, description);
+    command->add_option("scene", options.scene, "scene file (TOML)")->required();
+    command->add_flag("-q,--quiet", quiet, "no progress");
+    command->add_flag("-v,--verbose", verbose, "more progress");
+    return command;
+  };
+  auto* run = add("run", "everything: loads, mesh, stresses, zones, results");
+  run->add_option("-o,--output", options.output, "result directory (default: results/<scene>)");
+  run->add_option("--threads", options.n_threads, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  run->add_flag("--fresh", options.fresh, "reuse nothing of an earlier run");
+  run->add_flag("--json", options.json, "print summary.json instead of the table");
+  auto* loads = add("loads", "the load stage alone");
+  loads->add_option("-o,--output", options.output, "write the load history to this HDF5 file");
+  loads->add_option("--csv", options.csv, "write the load history to this CSV file");
+  loads->add_flag("--json", options.json, "print the summary as JSON instead of the table");
+  auto* check =
+      add("check",
+          "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : scene_is_wrong;
+  }
+  using pipelines::Verbosity;
+  options.verbosity = quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+
+  return guarded([&] {
+    if (run->parsed()) {
+      const fem::Environment environment(argc, argv, options.n_threads);
+      pipelines::run_command(options, std::cout);
+    } else if (loads->parsed()) {
+      pipelines::loads_command(options, std::cout);
+    } else if (check->parsed()) {
+      pipelines::check_command(options, std::cout);
+    }
+  });
+}

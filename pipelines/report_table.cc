@@ -1,0 +1,97 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "pipelines/results.h"
+#include "pipelines/statistics.h"
+#include "pipelines/summary.h"
+
+namespace pipelines {
+namespace {
+
+/// The quantities a reader of a terminal wants first; the rest is in summary.json.
+const std::vector<std::string> headline_loads{
+    "R_E",        "R_E_shaft", "X_E",   "Y_E",          "B",
+    "T",          "T_shaft",   "theta", "spring_force", "spring_force_from_moments",
+    "drive_power"};
+
+void print_loads(std::ostream& out, const RunReport& report) {
+  out << fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}\n", "load", "max", "min", "mean", "rms");
+  for (const auto& name : headline_loads)
+    for (const auto& quantity : report.loads.quantities) {
+      if (quantity.name != name) continue;
+      const auto s = statistics(quantity.values);
+      out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n",
+                         quantity.name + " [" + quantity.unit + "]", s.max, s.min, s.mean, s.rms);
+    }
+}
+
+std::string when(const RunReport& report, std::int32_t instant) {
+  const auto moment = moment_of(report.scene, report.loads, instant);
+  return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / M_PI);
+}
+
+std::string where(const std::array<double, 3>& p) {
+  return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", p[0] * 1e3, p[1] * 1e3, p[2] * 1e3);
+}
+
+void print_shaft(std::ostream& out, const RunReport& report, const ShaftAnalysis& analysis) {
+  const Peak& peak = analysis.peak;
+  const auto& e = peak.errors;
+  out << fmt::format("\n  shaft: {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.responses.n_dofs,
+                     analysis.responses.channels.size(),
+                     analysis.responses_reused ? " (responses of an earlier run)" : "",
+                     analysis.masses.mass_kg);
+  out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
+                     analysis.closure.worst_moment());
+  out << fmt::format(
+      "\n  peak von Mises stress   {:.1f} MPa (error about {:.1f} MPa), safety against yield {:.2f}\n",
+      peak.value_Pa / 1e6,
+      (e.time_sampling + e.pressure_harmonics + e.discretisation + e.linear_solver) / 1e6, peak.safety);
+  out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place), where(peak.position_m),
+                     when(report, peak.instant));
+  const std::size_t p = analysis.principal_node;
+  out << fmt::format("  largest principal stress {:.1f} MPa\n",
+                     analysis.envelope.principal.value_Pa[p] / 1e6);
+  if (const auto* ring = largest_torsion_ring(analysis.diagrams))
+    out << fmt::format("  largest torsional stress {:.2f} MPa at {}, z = {:.1f} mm\n", ring->max_Pa / 1e6,
+                       ring->feature, ring->z_m * 1e3);
+
+  const auto& zones = analysis.zones.zones;
+  out << fmt::format("\n  zones above {:.1f} MPa{:>22}{:>9}{:>13}  {:<20}{}\n", analysis.zones.level_Pa / 1e6,
+                     "peak MPa", "safety", "volume mm3", "  moment", "where");
+  constexpr std::size_t shown = 10;
+  for (std::size_t i = 0; i < std::min(shown, zones.size()); ++i)
+    out << fmt::format("  {:>3}  {:<34}{:>7.1f}{:>9.2f}{:>13.1f}  {:<20}{}\n", i + 1, zones[i].feature,
+                       zones[i].peak_Pa / 1e6, zones[i].safety, zones[i].volume_m3 * 1e9,
+                       "  " + when(report, zones[i].instant), to_string(zones[i].place));
+  if (zones.size() > shown) out << fmt::format("       and {} more in zones.csv\n", zones.size() - shown);
+
+  out << fmt::format("\n  {:<28}{:>16}{:>16}\n", "seat", "deflection mm", "slope mrad");
+  for (const auto& seat : analysis.diagrams.seats)
+    out << fmt::format("  {:<28}{:>16.4f}{:>16.3f}\n", seat.port, seat.max_deflection_m * 1e3,
+                       seat.max_slope_rad * 1e3);
+}
+
+}  // namespace
+
+void print_report(std::ostream& out, const RunReport& report) {
+  out << fmt::format("\n{}: {} ({}), {} turns of {} instants\n\n", report.scene.title, report.loads.machine,
+                     report.loads.convention, report.scene.sampling.turns,
+                     report.scene.sampling.instants_per_turn);
+  print_loads(out, report);
+  if (report.analysis) print_shaft(out, report, *report.analysis);
+  double total = 0;
+  out << fmt::format("\n  {:<28}{:>12}\n", "stage", "seconds");
+  for (const auto& cost : report.costs) {
+    out << fmt::format("  {:<28}{:>12.2f}\n", cost.stage, cost.seconds);
+    total += cost.seconds;
+  }
+  out << fmt::format("  {:<28}{:>12.2f}   peak memory {:.1f} GB\n", "total", total, peak_memory_gigabytes());
+  for (const auto& warning : report.scene.warnings) out << "  warning: " << warning << '\n';
+  for (const auto& warning : report.loads.warnings) out << "  warning: " << warning << '\n';
+}
+
+}  // namespace pipelines

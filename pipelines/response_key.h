@@ -1,0 +1,25 @@
+/// The key under which unit responses are kept: everything they depend on, as text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fem/body.h"
+#include "fem/unit_load.h"
+#include "fem/unit_responses.h"
+
+namespace pipelines {
+
+/// Program, content of the mesh file, charts, material, unit loads and section planes. Two runs with equal
+/// keys have equal unit responses, bit for bit on the same machine.
+/// @throws std::runtime_error if the mesh file cannot be read
+std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
+                         const std::vector<fem::SectionPlane>& planes, int n_threads);
+
+/// 128-bit hash of a file's content in hexadecimal digits. @throws std::runtime_error if it cannot be read
+std::string content_hash(const std::filesystem::path& file);
+
+/// Hash of the running program, so that another build never reuses the results of this one.
+const std::string& program_fingerprint();
+
+}  // namespace pipelines

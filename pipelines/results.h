@@ -1,0 +1,30 @@
+/// The result directory of a run: every file of design, written under a temporary name and renamed.
+#pragma once
+
+#include <filesystem>
+
+#include "kinetics/load_history.h"
+#include "pipelines/scene.h"
+#include "pipelines/shaft_analysis.h"
+
+namespace pipelines {
+
+/// loads.h5 and loads.csv, with the channels of the body where there is one.
+void write_load_results(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
+                        const ChannelHistory* channels);
+
+/// In `directory`: envelope.vtu, cycle.pvd with cycle_*.vtu, zones.csv, diagrams.csv, torsion.csv,
+/// torsion_cycle.csv. Snapshots of an earlier run that this one does not write are removed, so that the
+/// folder shows one run.
+void write_shaft_results(const std::filesystem::path& directory, const Scene& scene,
+                         const kinetics::LoadHistory& loads, const ShaftAnalysis& analysis);
+
+/// Whole turns of the drive before the instant, and the drive angle within the turn [rad], for messages and
+/// tables.
+struct Moment {
+  int turn = 1;  ///< 1-based
+  double angle_rad = 0;
+};
+Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::Index instant);
+
+}  // namespace pipelines

@@ -1,0 +1,175 @@
+#include "pipelines/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/response_key.h"
+#include "pipelines/results.h"
+#include "pipelines/statistics.h"
+#include "pipelines/version.h"
+
+namespace pipelines {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity: a figure that is not finite is null.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json figure(double value, const std::string& unit) {
+  return {{"value", number(value)}, {"unit", unit}};
+}
+
+Json place_and_moment(const RunReport& report, const std::array<double, 3>& position,
+                      const std::string& feature, Place place, std::int32_t instant) {
+  const auto moment = moment_of(report.scene, report.loads, instant);
+  return {{"feature", feature},
+          {"place", to_string(place)},
+          {"position_m", position},
+          {"turn", moment.turn},
+          {"drive_angle_rad", moment.angle_rad}};
+}
+
+Json peak_json(const RunReport& report, const ShaftAnalysis& analysis) {
+  const Peak& peak = analysis.peak;
+  Json json = figure(peak.value_Pa, "Pa");
+  const auto& e = peak.errors;
+  json["error"] = {
+      {"total", number(e.time_sampling + e.pressure_harmonics + e.discretisation + e.linear_solver)},
+      {"time_sampling", number(e.time_sampling)},
+      {"pressure_harmonics", number(e.pressure_harmonics)},
+      {"discretisation", number(e.discretisation)},
+      {"linear_solver", number(e.linear_solver)}};
+  json["safety_against_yield"] = number(peak.safety);
+  json.update(place_and_moment(report, peak.position_m, peak.feature, peak.place, peak.instant));
+  json["stress_Pa"] = peak.stress_Pa;
+  const auto& effects = analysis.loads.history.effects;
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    json["effect_share"][effects[i]] = number(peak.effect_share[i]);
+  return json;
+}
+
+Json principal_json(const RunReport& report, const ShaftAnalysis& analysis) {
+  const std::size_t node = analysis.principal_node;
+  const auto& maximum = analysis.envelope.principal;
+  std::array<double, 3> position;
+  std::copy_n(&analysis.responses.nodes.xyz_m[3 * node], 3, position.begin());
+  const auto feature = analysis.places.feature[node];
+  Json json = figure(maximum.value_Pa[node], "Pa");
+  json.update(place_and_moment(report, position,
+                               feature >= 0 ? analysis.places.feature_names[std::size_t(feature)] : "",
+                               analysis.places.place[node], maximum.instant[node]));
+  json["stress_Pa"] = maximum.stress_Pa[node];
+  return json;
+}
+
+Json zones_json(const RunReport& report, const ShaftAnalysis& analysis) {
+  Json json = Json::array();
+  for (const Zone& zone : analysis.zones.zones) {
+    Json entry{{"peak_von_mises_Pa", number(zone.peak_Pa)},
+               {"safety_against_yield", number(zone.safety)},
+               {"volume_m3", number(zone.volume_m3)},
+               {"nodes", zone.n_nodes}};
+    entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
+    json.push_back(entry);
+  }
+  return json;
+}
+
+Json torsion_json(const ShaftAnalysis& analysis) {
+  const auto& diagrams = analysis.diagrams;
+  const auto largest_in_section =
+      std::max_element(diagrams.sections.begin(), diagrams.sections.end(), [](const auto& a, const auto& b) {
+        return a.torsion_Pa.abs().maxCoeff() < b.torsion_Pa.abs().maxCoeff();
+      });
+  Json json;
+  const auto ring = largest_torsion_ring(diagrams);
+  json["max_shear_stress"] = figure(ring ? ring->max_Pa : 0.0, "Pa");
+  if (ring) {
+    json["max_shear_stress"]["feature"] = ring->feature;
+    json["max_shear_stress"]["z_m"] = ring->z_m;
+  }
+  json["max_section_shear_stress"] = figure(largest_in_section->torsion_Pa.abs().maxCoeff(), "Pa");
+  json["max_section_shear_stress"]["segment"] = largest_in_section->plane.segment;
+  json["max_section_shear_stress"]["z_m"] = largest_in_section->plane.z_m;
+  const auto mismatch = plain_torsion_mismatch(diagrams);
+  json["plain_sections_against_beam"] = number(mismatch);
+  return json;
+}
+
+Json shaft_json(const RunReport& report, const ShaftAnalysis& analysis) {
+  const auto& quality = analysis.mesh.quality;
+  Json json;
+  json["dofs"] = analysis.responses.n_dofs;
+  json["cells"] = quality.n_cells;
+  json["min_scaled_jacobian"] = number(quality.min_scaled_jacobian);
+  json["median_scaled_jacobian"] = number(quality.median_scaled_jacobian);
+  json["mass"] = figure(analysis.masses.mass_kg, "kg");
+  json["unbalance"] =
+      figure(std::hypot(analysis.masses.first_moment_kg_m[0], analysis.masses.first_moment_kg_m[1]), "kg m");
+  json["channels"] = analysis.responses.channels;
+  json["material"] = report.scene.shaft->material_name;
+  json["yield_strength"] = figure(report.scene.shaft->yield_strength_Pa, "Pa");
+  json["peak_von_mises"] = peak_json(report, analysis);
+  json["peak_principal"] = principal_json(report, analysis);
+  json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
+  json["zones"] = zones_json(report, analysis);
+  json["torsion"] = torsion_json(analysis);
+  for (const auto& seat : analysis.diagrams.seats)
+    json["seats"][seat.port] = {{"z_m", seat.z_m},
+                                {"max_deflection_m", seat.max_deflection_m},
+                                {"max_slope_rad", seat.max_slope_rad}};
+  json["stress_against_statics"] = {{"force", number(analysis.diagrams.force_mismatch)},
+                                    {"bending", number(analysis.diagrams.bending_mismatch)},
+                                    {"torque", number(analysis.diagrams.torque_mismatch)}};
+  for (const auto& corner : analysis.sharp_corners)
+    json["singular"].push_back(
+        {{"corner", corner.name}, {"z_m", corner.z_m}, {"excluded_within_m", corner.distance_m}});
+  json["solver"] = {{"residual", number(analysis.responses.residual)},
+                    {"support_reaction", number(analysis.responses.support_reaction)},
+                    {"factor_gigabytes", number(analysis.responses.factor_gigabytes)}};
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const RunReport& report) {
+  Json json;
+  json["program"] = {{"name", "millstress"}, {"version", version}};
+  json["input"] = {{"scene", report.scene.file.filename().string()},
+                   {"title", report.scene.title},
+                   {"hash", content_hash(report.scene.file)},
+                   {"machine", report.loads.machine},
+                   {"convention", report.loads.convention},
+                   {"effects", report.scene.effects},
+                   {"turns", report.scene.sampling.turns},
+                   {"instants_per_turn", report.scene.sampling.instants_per_turn}};
+  json["warnings"] = report.loads.warnings;
+  for (const auto& warning : report.scene.warnings) json["warnings"].push_back(warning);
+  for (const auto& quantity : report.loads.quantities) {
+    const auto s = statistics(quantity.values);
+    json["loads"][quantity.name] = {{"max", number(s.max)},
+                                    {"min", number(s.min)},
+                                    {"mean", number(s.mean)},
+                                    {"rms", number(s.rms)},
+                                    {"unit", quantity.unit}};
+  }
+  if (report.analysis) {
+    json["bodies"]["shaft"] = shaft_json(report, *report.analysis);
+    const Closure& closure = report.analysis->closure;
+    json["closure"]["shaft"] = {{"force", number(closure.worst_force())},
+                                {"moment", number(closure.worst_moment())},
+                                {"carried_moment", 0.0},
+                                {"force_scale_N", closure.force_scale_N},
+                                {"moment_scale_Nm", closure.moment_scale_Nm},
+                                {"channel_resultant", number(closure.channel_resultant)}};
+  }
+  for (const auto& cost : report.costs)
+    json["timing"][cost.stage] = {{"seconds", cost.seconds}, {"peak_memory_gigabytes", cost.peak_gigabytes}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace pipelines

@@ -1,0 +1,30 @@
+/// summary.json: every headline number of a run under keys that stay, and the short table on the terminal.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "kinetics/load_history.h"
+#include "pipelines/scene.h"
+#include "pipelines/shaft_analysis.h"
+#include "pipelines/stage_clock.h"
+
+namespace pipelines {
+
+/// What a run has come to; `analysis` is null for the load stage alone.
+struct RunReport {
+  const Scene& scene;
+  const kinetics::LoadHistory& loads;
+  const ShaftAnalysis* analysis = nullptr;
+  const std::vector<StageCost>& costs;
+};
+
+/// The text of summary.json. Everything but `timing` is the same from run to run.
+std::string summary_json(const RunReport& report);
+
+/// The table for a person: loads, peak stress with place and moment, zones, torsion, seconds per stage.
+void print_report(std::ostream& out, const RunReport& report);
+
+}  // namespace pipelines

@@ -1,0 +1,67 @@
+/// Stress zones: connected regions of a body where the envelope exceeds a level, ranked by their peak.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fem/unit_responses.h"
+#include "meshes/body_mesh.h"
+#include "pipelines/superposition.h"
+
+namespace pipelines {
+
+/// Whether a node lies under a load, on free surface, or inside the body.
+enum class Place { loaded_seat, free_surface, interior };
+std::string to_string(Place place);
+
+/// Where each node of a body lies, from the features of its mesh.
+struct NodePlaces {
+  std::vector<std::string> feature_names;
+  std::vector<std::int32_t>
+      feature;  ///< per node: the feature it lies on (fillets before seats before others), -1 inside
+  std::vector<Place> place;    ///< per node
+  std::vector<char> excluded;  ///< per node: within the exclusion distance of a sharp re-entrant corner
+};
+
+/// A circle where the model is sharp and stress has no converged value: z, radius, and the distance that the
+/// geometry (never the mesh) fixes.
+struct SharpCorner {
+  std::string name;
+  double z_m = 0, radius_m = 0, distance_m = 0;
+};
+
+NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Feature>& features,
+                        const std::vector<meshes::Port>& ports, const std::vector<SharpCorner>& corners);
+
+/// One zone.
+struct Zone {
+  std::size_t peak_node = 0;
+  double peak_Pa = 0;
+  std::array<double, 3> peak_m{};
+  std::int32_t instant = 0;  ///< of the peak
+  Stress stress_Pa{};        ///< tensor at the peak and instant
+  double safety = 0;         ///< yield strength / peak
+  double volume_m3 = 0;
+  std::size_t n_nodes = 0;
+  std::string feature;            ///< the nearest feature or port
+  Place place = Place::interior;  ///< of the peak
+};
+
+struct Zones {
+  double level_Pa = 0;
+  std::vector<Zone> zones;                 ///< descending peak
+  std::vector<std::int32_t> zone_of_node;  ///< 1-based rank, 0 outside all zones
+};
+
+/// The node with the largest value outside the excluded ones; lowest index among equals.
+/// @throws std::invalid_argument if every node is excluded
+std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places);
+
+/// Nodes at or above the level, connected when they share a cell. The volume is the sum of nodal volumes.
+/// Excluded nodes belong to no zone.
+Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places,
+                 double level_Pa, double yield_strength_Pa);
+
+}  // namespace pipelines
