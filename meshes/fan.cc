@@ -18,7 +18,7 @@ std::vector<double> radii_above(const Junction& junction, const SegmentLayout& b
   const int n_used = junction.n_below + (junction.kind == Junction::Kind::fillet ? junction.n_half_arc : 0);
   const int n_inner = big.n_inner_rows - n_used;
   const double inner_top_m = big.is_eccentric() ? big.inner_radius_m : big.radius_m;
-  const double first_m = 2 * junction.first_cell_m;
+  const double first_m = 4 * junction.first_cell_m;
   std::vector<double> radii = {junction.top_radius_m};
   if (n_inner > 0)
     radii = spread(junction.top_radius_m, inner_top_m,

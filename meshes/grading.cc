@@ -58,7 +58,7 @@ std::vector<double> axial_stations(double begin_m, double end_m, const AxialSize
     cells[i + 1] = cells[i] + step_m / size.at(begin_m + (i + 0.5) * step_m);
 
   const double wanted = cells.back();
-  const int n = std::max(n_min, static_cast<int>(std::ceil(wanted - 0.4)));
+  const int n = std::max(n_min, static_cast<int>(std::ceil(wanted - 0.5)));
   std::vector<double> stations(n + 1);
   stations.front() = begin_m;
   stations.back() = end_m;

@@ -44,15 +44,17 @@ AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshContro
     if (junction.kind == Junction::Kind::sharp && (junction.small == index || junction.big == index))
       size.sources.push_back({z_m, junction.first_cell_m});
     else if (junction.small == index)
-      size.sources.push_back({z_m, 2 * junction.first_cell_m});
+      size.sources.push_back({z_m, 3 * junction.first_cell_m});
     else if (junction.big == index)
       size.sources.push_back({z_m, junction.depth_m * (1 - *(junction.depth_fractions.end() - 2))});
   }
   return size;
 }
 
-/// Where a cell boundary must lie inside the column: limits of the loaded zone, the middle of a long segment.
-std::vector<double> breaks_of(const SegmentLayout& segment) {
+/// Where a cell boundary must lie inside the column: the limits of the loaded zone; the middle, if the part
+/// at least half a diameter from both ends is shorter than the largest cell, so that it might get no boundary
+/// of its own.
+std::vector<double> breaks_of(const SegmentLayout& segment, double largest_m) {
   std::vector<double> breaks = {segment.column_begin_m};
   const double tiny_m = 1e-9 * segment.radius_m;
   const auto add = [&](double z_m) {
@@ -60,15 +62,16 @@ std::vector<double> breaks_of(const SegmentLayout& segment) {
   };
   const double length_m = segment.end_m - segment.begin_m;
   if (segment.is_port) add(segment.zone_begin_m);
-  if (length_m >= 2 * segment.radius_m - tiny_m) add(0.5 * (segment.begin_m + segment.end_m));
+  const double plain_m = length_m - 2 * segment.radius_m;
+  if (plain_m >= -tiny_m && plain_m <= largest_m) add(0.5 * (segment.begin_m + segment.end_m));
   if (segment.is_port) add(segment.zone_end_m);
   breaks.push_back(segment.column_end_m);
   return breaks;
 }
 
 std::vector<double> column_stations(const ShaftLayout& layout, int index, const ShaftMeshControl& control) {
-  const std::vector<double> breaks = breaks_of(layout.segments[index]);
   const AxialSize size = axial_size(layout, index, control);
+  const std::vector<double> breaks = breaks_of(layout.segments[index], size.largest_m);
   const double column_m = breaks.back() - breaks.front();
   std::vector<double> stations = {breaks.front()};
   for (std::size_t i = 1; i < breaks.size(); ++i) {

@@ -31,7 +31,7 @@ struct Shaft {
 struct ShaftMeshControl {
   int cells_per_fillet_quarter = 8;  ///< even, >= 2
   int n_sectors = 16;                ///< around, a multiple of 4, >= 8
-  double growth = 0.35;              ///< slope of the cell size away from fillets
+  double growth = 1.0;  ///< slope of the axial cell size away from fillets; cells grow by at most e^growth
   double largest_cell_m = 0;         ///< axial; 0: chosen from the diameters
   double min_scaled_jacobian = 0.3;  ///< refused below
 };

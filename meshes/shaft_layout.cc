@@ -11,10 +11,14 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-const double core_share = 0.5;  // of the smallest radius
-const double fan_depth = 2;     // in fillets, where there is room
-const double fan_ratio = 1.65;  // growth of the cells from the arc into the fan
-const double rows_ratio = 3;    // growth of the rows above and below a fan
+const double core_share = 0.6;  // of the smallest radius
+const double fan_depth = 3;     // in fillets, where there is room
+const double fan_ratio = 1.6;   // growth of the cells from the arc into the fan
+// Away from the arc stress varies slowly, and every row runs on into the thicker segments: few rows, growing
+// fast.
+const double rows_ratio = 3;
+const double first_above = 13;  // of the rows above a fan, in cells of the arc
+const double first_below = 7;   // of the rows below a fan, in the fan's last cell
 
 /// Cell boundaries of the fan from the arc outwards; a boundary at `must` (a fraction, 0: none) is forced.
 std::vector<double> fan_fractions(double first, double must) {
@@ -131,7 +135,7 @@ RowRule row_rule(const Junction& junction, const SegmentLayout& big) {
   const double above_m = inner_top_m - junction.top_radius_m;
   const int through = junction.kind == Junction::Kind::fillet ? junction.n_half_arc - junction.n_depth() : 0;
   if (above_m <= 1e-9 * big.radius_m) return {through, true};
-  return {through + geometric_count(above_m, 2 * junction.first_cell_m, rows_ratio), false};
+  return {through + geometric_count(above_m, first_above * junction.first_cell_m, rows_ratio), false};
 }
 
 /// Row counts only ever rise, and the junctions form a chain, so this ends.
@@ -146,12 +150,14 @@ void set_rows(ShaftLayout& layout, int n_sectors) {
     if (junction.kind == Junction::Kind::fillet) {
       const double below_m = junction.small_radius_m - junction.depth_m - layout.core_radius_m;
       const double last_m = junction.depth_m * (1 - *(junction.depth_fractions.end() - 2));
-      small.n_inner_rows = std::max(small.n_inner_rows,
-                                    junction.n_depth() + geometric_count(below_m, 1.5 * last_m, rows_ratio));
+      small.n_inner_rows =
+          std::max(small.n_inner_rows,
+                   junction.n_depth() + geometric_count(below_m, first_below * last_m, rows_ratio));
     }
     if (big.is_eccentric() && junction.kind != Junction::Kind::flush)
-      big.n_outer_rows = std::max(big.n_outer_rows, geometric_count(big.radius_m - big.inner_radius_m,
-                                                                    2 * junction.first_cell_m, rows_ratio));
+      big.n_outer_rows =
+          std::max(big.n_outer_rows, geometric_count(big.radius_m - big.inner_radius_m,
+                                                     first_above * junction.first_cell_m, rows_ratio));
   }
   for (bool changed = true; changed;) {
     changed = false;
