@@ -1,8 +1,7 @@
 /// Load history: what the kinetics stage hands on, and the only thing that leaves it.
 ///
 /// Conventions of all machines: x to the right, y up, z along the shaft towards the reader; forces in the
-/// fixed frame; a torque is the moment about +z, counter-clockwise positive. SI units. One column per
-/// instant.
+/// fixed frame; a torque is the moment about +z, counter-clockwise positive. SI units; a column per instant.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +16,7 @@ struct TimeGrid {
   int instants_per_turn = 120;  ///< n, >= 4
 };
 
-/// One scalar of the machine over time that is no load by itself, or a derived load figure (theta, T, R_E
-/// ...).
+/// One scalar of the machine over time: no load by itself, or a derived load figure (theta, T, R_E ...).
 struct Quantity {
   std::string name;            ///< as in the machine's documentation: "theta", "T", "R_E", "spring_1.fx" ...
   std::string unit;            ///< SI unit: "N", "N m", "rad", "W" ...

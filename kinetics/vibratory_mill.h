@@ -1,9 +1,9 @@
 /// Vibratory mill with an eccentric drive: loads on chamber, shaft and bearings.
 ///
 /// Source: N. U. Gracheva, "Development of a mathematical model of vibratory mill taking into account the
-/// dynamic loads to the bearing arrangements", equations (1)-(60); errata and the `consistent` convention:
-/// kinetics/README.md. x right, y up; phi and chi CLOCKWISE from +x; e(a) = (cos a, -sin a), n(a) = (-sin a,
-/// -cos a).
+/// dynamic loads to the bearing arrangements", equations (1)-(60).
+/// Errata and the `consistent` convention: kinetics/README.md.
+/// x right, y up; phi and chi CLOCKWISE from +x; e(a) = (cos a, -sin a), n(a) = (-sin a, -cos a).
 #pragma once
 
 #include <Eigen/Core>
@@ -32,26 +32,26 @@ struct ChargeLag {
   std::optional<double> grinding_power_W;  ///< P, sin(eta) = P / (m ecc^2 omega_e^3)
 };
 
-/// Parameters of the machine. Names of the paper in brackets.
+/// Parameters of the machine. Names of the paper in brackets. A mass may be zero where no effect that is on
+/// uses it.
 struct VibratoryMill {
   Convention convention = Convention::consistent;
   double gravity_m_s2 = 9.81;
-  double eccentricity_m = 0;     ///< [C1C] ecc, >= 0
-  double speed_rad_s = 0;        ///< [omega_e] drive speed, > 0
-  double initial_angle_rad = 0;  ///< [phi0]
-  double charge_relative_speed_rad_s =
-      0;                                ///< [omega_r] of CO relative to the frame that turns with the drive
-  double charge_initial_angle_rad = 0;  ///< [delta0]
-  double charge_offset_m = 0;           ///< [CO] r, >= 0
-  double charge_mass_kg = 0;            ///< m
-  double structure_mass_kg = 0;         ///< m1
-  double exciter_mass_kg = 0;           ///< m2
-  double debalance_mass_kg = 0;         ///< m3
-  double debalance_offset_m = 0;        ///< KE, signed along C1C
-  Eigen::Vector2d chamber_centre_m = Eigen::Vector2d::Zero();    ///< c, from E'
-  Eigen::Vector2d structure_centre_m = Eigen::Vector2d::Zero();  ///< l, from E'
+  double eccentricity_m = 0;               ///< [C1C] ecc, >= 0
+  double speed_rad_s = 0;                  ///< [omega_e] drive speed, > 0
+  double initial_angle_rad = 0;            ///< [phi0]
+  double charge_relative_speed_rad_s = 0;  ///< [omega_r] of CO relative to a frame that turns with the drive
+  double charge_initial_angle_rad = 0;     ///< [delta0]
+  double charge_offset_m = 0;              ///< [CO] r, >= 0
+  double charge_mass_kg = 0;               ///< [m]
+  double structure_mass_kg = 0;            ///< [m1] chamber
+  double exciter_mass_kg = 0;              ///< [m2] exciter housing
+  double debalance_mass_kg = 0;            ///< [m3] debalances only, not the shaft
+  double debalance_offset_m = 0;           ///< [KE], signed along C1C: negative for counterweights
+  Eigen::Vector2d chamber_centre_m = Eigen::Vector2d::Zero();    ///< c, from E'; its x is [JE]
+  Eigen::Vector2d structure_centre_m = Eigen::Vector2d::Zero();  ///< l, from E'; its x is [LE]
   double pitch_inertia_kg_m2 = 0;  ///< I_E about E', structure and exciter housing, not the charge
-  std::vector<Spring> springs;
+  std::vector<Spring> springs;     ///< `published` needs two; the x of their positions are [QE], [HE]
   ChargeLag charge_lag;
 };
 
@@ -69,25 +69,36 @@ const std::vector<EffectInfo>& vibratory_mill_effects(Convention convention);
 ///
 /// Resultants under `consistent` (fixed frame; see coupling of loads and bodies):
 ///   "eccentric"       force -B of the chamber on the shaft, through E' = ecc e(phi)
-///   "debalance"       force on the debalances; fx, fy act at KE e(phi); torque = its moment about E, KE
-///   e(phi) x F "frame_bearings"  reaction R_E of the frame's bearings on the shaft, through E (massless
-///   shaft) "drive"           torque -T of the coupling on the shaft (T clockwise positive), fx = fy = 0
+///   "debalance"       force on the debalances; fx, fy act at KE e(phi); torque: its moment about E
+///   "frame_bearings"  reaction R_E of the frame's bearings on the shaft, through E (massless shaft)
+///   "drive"           torque -T of the coupling on the shaft (T clockwise positive), fx = fy = 0
 ///   "housing_bore"    force B of the eccentric on the chamber, through E'
-///   "inner_wall"      force F_w of the charge on the wall through the chamber's axis C, torque r e(chi) x
-///   F_w "spring_foot_i"   force f_i of spring i = 1, 2, ... on the chamber at its foot
-/// Quantities: chi, theta, theta_dot, theta_ddot, B_x, B_y, X_E, Y_E, R_E, T, drive_power, charge_power,
-/// damping_power, couple, spring_<i>.fx, spring_<i>.fy, charge_on_wall.fx, .fy, moment_residual, ...; under
-/// `published` X_E, Y_E, R_E, spring_force, spring_force_from_moments, K_star, a_n, a_xi, a_O and no
-/// resultants except "frame_bearings".
-/// @throws std::invalid_argument naming parameter, value and remedy: non-positive masses or speed, I_E < m1
-/// |l|^2,
-///         an unknown effect (with the nearest known one), a pitch resonance, k_theta = 0 with a mean moment,
-///         sin(eta) above 1, charge_lag without angle or power
+///   "inner_wall"      force F_w of the charge on the wall, through its axis C; torque r e(chi) x F_w
+///   "spring_foot_i"   force f_i of spring i = 1, 2, ... on the chamber at its foot
+/// The joints ("eccentric", "frame_bearings", "drive", "housing_bore") are always there; the others only if
+/// an effect that is on loads them.
+///
+/// Quantities under `consistent`: chi, theta, theta_dot, theta_ddot (zero with pitch off), B_x, B_y, B, X_E,
+/// Y_E, R_E, T, drive_power, couple, moment_residual [N m, about E'], closure_force and closure_moment
+/// (relative, the worse of the two bodies); with the effects they belong to: neglected_pitch_centripetal,
+/// spring_<i>.fx, .fy, spring_force, damping_power, charge_on_wall.fx, .fy, charge_at.x, .y, charge_power.
+/// Under `published`: X_E, Y_E, R_E, chi, a_n, a_xi, a_O, and with `springs` spring_force (31),
+/// spring_force_from_moments (59), K_star (60; at its poles the principal value, has_statistics = false); no
+/// resultant but "frame_bearings".
+///
+/// Without `springs`' preload given, it is the static balance of those weights that are in effect, the
+/// charge's centre taken at C.
+/// @param effects  names in any order; they are summed in the order of vibratory_mill_effects
+/// @throws std::invalid_argument naming parameter, value and remedy: NaN or infinity, a negative mass,
+///         one that is missing for an effect, speed not positive, I_E < m1 |l|^2, an unknown effect (with the
+///         nearest known one) or one that lacks the effect it builds on, an undamped pitch resonance,
+///         k_theta = 0 with a mean moment, sin(eta) above 1, charge_lag without angle or power, `published`
+///         with other than two springs
 LoadHistory compute_loads(const VibratoryMill& mill, const std::vector<std::string>& effects,
                           const TimeGrid& grid);
 
-/// The smallest whole number of turns after which the motion repeats, from (omega_e + omega_r) / omega_e = p
-/// / q; empty if no q up to `most_turns` gives the ratio to 1e-9.
+/// The smallest whole number q of turns after which the loads repeat, (omega_e + omega_r) / omega_e = p / q;
+/// empty if no q up to `most_turns` gives the ratio to 1e-9. One turn if charge_offset_m is zero.
 std::optional<int> period_in_turns(const VibratoryMill& mill, int most_turns = 1000);
 
 }  // namespace kinetics

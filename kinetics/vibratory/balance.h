@@ -1,12 +1,11 @@
 /// Equilibrium of the vibratory mill's two bodies, effect by effect (convention `consistent`).
 ///
 /// (a) the chamber with exciter housing and charge, pivot E' = E + s; (b) the shaft with debalances, axis E.
-///   B   = -(sum of all forces on the chamber)                    force of the eccentric ON the chamber at E'
-///   R_E = B - (sum of forces on the shaft)                       reaction of the frame's bearings ON the
-///   shaft T   = -s x B + KE e(phi) x (forces on the shaft)             drive torque on the shaft, clockwise
-///   positive
-/// All three are linear in the effects' forces, so every contribution keeps its effect. Source: ours;
-/// replaces (40)-(44).
+///   B   = -(sum of all forces on the chamber)           force of the eccentric ON the chamber, at E'
+///   R_E = B - (sum of forces on the shaft)              reaction of the frame's bearings ON the shaft
+///   T   = -s x B + KE e(phi) x (forces on the shaft)    drive torque on the shaft, clockwise positive
+/// All three are linear in the effects' forces, so every contribution keeps its effect.
+/// Source: ours; replaces (40)-(44).
 #pragma once
 
 #include <vector>

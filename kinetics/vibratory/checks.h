@@ -12,9 +12,8 @@ namespace kinetics::vibratory {
 /// @throws std::invalid_argument naming the parameter, its value and the remedy
 void check_parameters(const VibratoryMill& mill, const std::vector<std::string>& effects);
 
-/// @throws std::invalid_argument for an unknown effect (with the nearest known one), one that belongs to the
-/// other
-///         convention or to the pipeline, one that is named twice, or one that lacks the effect it builds on
+/// @throws std::invalid_argument for an unknown effect (with the nearest known one), one that belongs to
+///         the other convention or to the pipeline, one that is named twice, one that lacks its base effect
 void check_effects(Convention convention, const std::vector<std::string>& effects);
 
 /// @throws std::invalid_argument if turns < 1 or instants_per_turn < 4

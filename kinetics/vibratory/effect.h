@@ -1,5 +1,4 @@
-/// What an effect of the vibratory mill is: a function that fills a block of instants with forces on named
-/// places.
+/// What an effect of the vibratory mill is: a function that fills a block of instants with placed forces.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,8 +1,7 @@
 /// Motion of the vibratory mill: what all its effects are functions of.
 ///
 /// Frame: x right, y up; phi and chi clockwise from +x, theta counter-clockwise. Vectors are 2 x n arrays,
-/// one column per instant. Symbols of the paper in brackets; the pivot E' = E + s is the axis of the
-/// eccentric.
+/// one column per instant. Symbols of the paper in brackets. The pivot E' = E + s is the eccentric's axis.
 #pragma once
 
 #include <Eigen/Core>
@@ -57,8 +56,7 @@ Eigen::ArrayXd dot(const Eigen::Array2Xd& a, const Eigen::Array2Xd& b);
 Eigen::Array2Xd translation(const VibratoryMill& mill, const Instants& at);
 /// ds/dt [m/s]
 Eigen::Array2Xd translation_velocity(const VibratoryMill& mill, const Instants& at);
-/// d2s/dt2 = ecc (phi'' n(phi + shift) - phi'^2 e(phi + shift)) [m/s2]; shift_rad is zero but for a lagging
-/// charge.
+/// d2s/dt2 = ecc (phi'' n(a) - phi'^2 e(a)) [m/s2], a = phi + shift; shift_rad: only for a lagging charge.
 Eigen::Array2Xd translation_acceleration(const VibratoryMill& mill, const Instants& at, double shift_rad = 0);
 
 }  // namespace kinetics::vibratory

@@ -57,8 +57,8 @@ struct Oscillator {
     const double inertial = inertia_kg_m2 * w * w;
     const Complex denominator(stiffness_Nm - inertial, w * damping_Nm_s);
     if (std::abs(denominator) <= 1e-9 * (std::abs(stiffness_Nm) + inertial))
-      refuse("natural frequency of pitch sqrt(k_theta / I)", std::sqrt(stiffness_Nm / inertia_kg_m2),
-             "rad/s is excited exactly, undamped, at " + name_of(p, q, w) +
+      refuse("natural frequency of pitch [rad/s]", std::sqrt(stiffness_Nm / inertia_kg_m2),
+             "is excited exactly and undamped by the moment at " + name_of(p, q, w) +
                  ": resonance; change the springs or the speed, or give the springs damping");
     return moment_Nm / denominator;
   }

@@ -1,11 +1,10 @@
-/// The chamber's small pitch about the eccentric's axis E', exactly, as a sum of harmonics on the torus (phi,
-/// chi).
+/// The chamber's small pitch about the eccentric's axis E': an exact sum of harmonics of (phi, chi).
 ///
 ///   I theta'' + c_theta theta' + k_theta theta = moment about E' of the chamber's forces at theta = 0
 ///
-/// In steady running the moment is a trigonometric polynomial of low degree in phi and chi. Its component (p,
-/// q) turns at w = p omega_e + q (omega_e + omega_r) and is divided by k_theta - I w^2 + i w c_theta. Source:
-/// ours.
+/// In steady running the moment is a trigonometric polynomial of low degree in phi and chi. A component
+/// (p, q) of it turns at w = p omega_e + q (omega_e + omega_r); divided by k_theta - I w^2 + i w c_theta it
+/// is a component of theta. Source: ours.
 #pragma once
 
 #include <complex>
@@ -32,8 +31,7 @@ struct PitchMotion {
 /// charge_follows_pitch is among them; stiffness and damping are those of `springs` and `spring_damping`, as
 /// far as they are. Components of the moment that are zero to round-off are skipped.
 /// @throws std::invalid_argument naming the frequency if a component meets k_theta - I w^2 + i w c_theta = 0
-/// (to 1e-9 of
-///         |k_theta| + I w^2); if k_theta = 0 and the moment has a mean
+///         (to 1e-9 of |k_theta| + I w^2); if k_theta = 0 and the moment has a mean
 PitchMotion solve_pitch(const VibratoryMill& mill, const std::vector<NamedEffect>& effects);
 
 /// Moment about E' of the chamber's forces, counter-clockwise [N m].

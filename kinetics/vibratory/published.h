@@ -1,5 +1,4 @@
-/// The paper's own formulas, exactly (convention `published`). They do not close; kinetics/README.md says
-/// where.
+/// The paper's own formulas, exactly (convention `published`). Where they do not close: kinetics/README.md.
 #pragma once
 
 #include <vector>

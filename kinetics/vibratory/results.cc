@@ -109,7 +109,15 @@ void write_closure(const Books& books, LoadHistory& history) {
                chamber_moment.max(shaft_moment)});
 }
 
-void write_warnings(const LoadHistory& history, bool pitching, std::vector<std::string>& warnings) {
+void write_warnings(const VibratoryMill& mill, const LoadHistory& history, bool pitching,
+                    std::vector<std::string>& warnings) {
+  if (pitching && contains(history.effects, "charge_lag") && mill.charge_lag.grinding_power_W)
+    warnings.push_back("charge_lag: the loss angle follows from the grinding power of " +
+                       number(*mill.charge_lag.grinding_power_W) +
+                       " W for a chamber that moves on the eccentric's circle alone; with pitch on the "
+                       "charge takes another power: " +
+                       "mean charge_power over the window is " +
+                       number(history.quantity("charge_power").values.mean()) + " W");
   const double largest_rad = history.quantity("theta").values.abs().maxCoeff();
   if (largest_rad > 0.05)
     warnings.push_back(
@@ -144,7 +152,7 @@ void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& ef
   write_springs(mill, effects, books, history);
   write_charge(mill, books, history);
   write_closure(books, history);
-  write_warnings(history, pitching, history.warnings);
+  write_warnings(mill, history, pitching, history.warnings);
 }
 
 }  // namespace kinetics::vibratory

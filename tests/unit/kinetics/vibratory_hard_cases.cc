@@ -1,0 +1,125 @@
+// Limits in which a formula could divide by zero or an effect should vanish.
+#include <gtest/gtest.h>
+
+#include "machines.h"
+
+namespace {
+
+using kinetics::LoadHistory;
+using kinetics::VibratoryMill;
+using machines::effects_without;
+using machines::largest;
+
+const kinetics::TimeGrid grid{2, 60};
+
+LoadHistory all_effects(const VibratoryMill& mill) {
+  const auto loads = compute_loads(mill, effects_without(mill, {"charge_lag"}), grid);
+  for (const auto& quantity : loads.quantities) EXPECT_TRUE(quantity.values.allFinite()) << quantity.name;
+  EXPECT_LE(largest(loads.quantity("closure_force").values), 1e-12);
+  EXPECT_LE(largest(loads.quantity("closure_moment").values), 1e-12);
+  return loads;
+}
+
+Eigen::Array3Xd charge_part(const LoadHistory& loads, const std::string& effect) {
+  for (const auto& part : loads.resultant("inner_wall").contributions)
+    if (part.effect == effect) return part.load;
+  ADD_FAILURE() << effect;
+  return {};
+}
+
+}  // namespace
+
+TEST(VibratoryHardCases, charge_in_the_chamber_centre) {
+  auto mill = machines::laboratory();
+  mill.charge_offset_m = 0;
+  const auto loads = all_effects(mill);
+  EXPECT_EQ(loads.resultant("inner_wall").total.row(2).abs().maxCoeff(), 0);  // no arm, no torque
+  EXPECT_EQ(charge_part(loads, "charge_coriolis").abs().maxCoeff(), 0);
+  EXPECT_EQ(period_in_turns(mill), 1);  // where the charge points no longer matters
+}
+
+TEST(VibratoryHardCases, no_eccentricity) {
+  auto mill = machines::laboratory();
+  mill.eccentricity_m = 0;
+  const auto loads = all_effects(mill);
+  // The eccentric's axis does not move: the torque only lifts the debalance, 4 kg at 10 mm.
+  const Eigen::ArrayXd lift = -4 * 9.81 * 0.01 * loads.phi_rad.cos();
+  EXPECT_LE(largest(loads.quantity("T").values - lift), 1e-14);
+}
+
+TEST(VibratoryHardCases, charge_turns_with_the_drive) {
+  auto mill = machines::laboratory();
+  mill.charge_relative_speed_rad_s = 0;
+  const auto loads = all_effects(mill);
+  EXPECT_EQ(charge_part(loads, "charge_coriolis").abs().maxCoeff(), 0);
+  EXPECT_EQ(charge_part(loads, "charge_relative").abs().maxCoeff(), 0);
+  EXPECT_EQ(period_in_turns(mill), 1);
+}
+
+// A charge whose centre does not turn in space feels only the translation: its centripetal, Coriolis and
+// relative terms are m r omega^2 (1 - 2 + 1). The published formulas lack the first, erratum 1.
+TEST(VibratoryHardCases, charge_at_rest_in_space) {
+  auto mill = machines::laboratory();
+  mill.charge_relative_speed_rad_s = -mill.speed_rad_s;
+  const auto loads = all_effects(mill);
+  const Eigen::Array3Xd circulation = charge_part(loads, "charge_centripetal") +
+                                      charge_part(loads, "charge_coriolis") +
+                                      charge_part(loads, "charge_relative");
+  EXPECT_LE(circulation.abs().maxCoeff(), 1e-12 * charge_part(loads, "charge_coriolis").abs().maxCoeff());
+  EXPECT_EQ(period_in_turns(mill), 1);
+}
+
+TEST(VibratoryHardCases, no_springs_and_pitch_held) {
+  auto mill = machines::laboratory();
+  mill.springs.clear();
+  const auto loads = compute_loads(
+      mill,
+      effects_without(mill, {"springs", "spring_damping", "pitch", "charge_follows_pitch", "charge_lag"}),
+      {20, 90});
+  EXPECT_LE(largest(loads.quantity("closure_force").values), 1e-12);
+  EXPECT_FALSE(loads.has_resultant("spring_foot_1"));
+  // The figures that the coupling of loads and bodies states for this case, to their print.
+  const auto& residual = loads.quantity("moment_residual").values;
+  EXPECT_NEAR(largest(residual), 1436, 1);
+  EXPECT_NEAR(residual.mean(), -131, 0.6);
+}
+
+TEST(VibratoryHardCases, no_effects_no_loads) {
+  const auto loads = compute_loads(machines::laboratory(), {}, grid);
+  for (const char* name : {"B", "R_E", "T", "closure_force", "closure_moment", "theta"})
+    EXPECT_EQ(largest(loads.quantity(name).values), 0) << name;
+}
+
+TEST(VibratoryHardCases, a_window_that_is_no_period_says_so) {
+  const auto warned = [](const VibratoryMill& mill, const kinetics::TimeGrid& window) {
+    std::string all;
+    for (const auto& warning : compute_loads(mill, {"gravity_charge"}, window).warnings) all += warning;
+    return all;
+  };
+  auto mill = machines::laboratory();
+  EXPECT_NE(warned(mill, {1, 12}).find("repeats after 20 turns"), std::string::npos);
+  EXPECT_EQ(warned(mill, {40, 12}).find("the motion repeats"), std::string::npos);
+  mill.charge_relative_speed_rad_s = -159.123456789;
+  EXPECT_EQ(period_in_turns(mill), std::nullopt);
+  EXPECT_NE(warned(mill, {20, 12}).find("never"), std::string::npos);
+}
+
+TEST(VibratoryHardCases, what_the_user_should_know_is_said) {
+  const auto warned = [](const VibratoryMill& mill, const std::string& sentence) {
+    for (const auto& warning : compute_loads(mill, effects_without(mill, {}), {20, 60}).warnings)
+      if (warning.find(sentence) != std::string::npos) return true;
+    return false;
+  };
+  auto mill = machines::laboratory();
+  mill.charge_lag.loss_angle_rad = 0;
+  EXPECT_TRUE(warned(mill, "the drive torque reverses"));
+  EXPECT_FALSE(warned(mill, "the chamber pitches by up to"));
+  EXPECT_FALSE(warned(mill, "pulls the chamber down"));
+  EXPECT_FALSE(warned(mill, "charge_lag"));
+  mill.charge_lag = {std::nullopt, 100};  // exact with the pitch held only
+  EXPECT_TRUE(warned(mill, "charge_lag"));
+  mill.eccentricity_m = 0.04;  // ten times as far as it should
+  EXPECT_TRUE(warned(mill, "spring_1 pulls the chamber down"));
+  EXPECT_TRUE(warned(mill, "the chamber pitches by up to"));
+  EXPECT_TRUE(warned(mill, "neglected centripetal force"));
+}
