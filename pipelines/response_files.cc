@@ -1,0 +1,150 @@
+#include "pipelines/response_files.h"
+
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "pipelines/atomic_file.h"
+#include "pipelines/hdf5_file.h"
+
+namespace pipelines {
+namespace {
+
+/// Of the arrangement of the file: files of another one count as missing.
+constexpr double arrangement = 1;
+
+struct Counts {
+  std::size_t nodes, cells, faces, channels, planes, rings;
+};
+
+// These are written and read as rows of numbers.
+static_assert(sizeof(fem::SectionPlane) == 4 * sizeof(double));
+static_assert(sizeof(fem::SectionResponse) == 14 * sizeof(double));
+
+double* entries(std::vector<double>& v) {
+  return v.data();
+}
+std::int32_t* entries(std::vector<std::int32_t>& v) {
+  return v.data();
+}
+template <std::size_t n>
+double* entries(std::vector<std::array<double, n>>& v) {
+  return v.empty() ? nullptr : v.front().data();
+}
+template <std::size_t n>
+std::int32_t* entries(std::vector<std::array<std::int32_t, n>>& v) {
+  return v.empty() ? nullptr : v.front().data();
+}
+double* entries(std::vector<fem::SectionPlane>& v) {
+  return reinterpret_cast<double*>(v.data());
+}
+double* entries(std::vector<fem::SectionResponse>& v) {
+  return reinterpret_cast<double*>(v.data());
+}
+
+/// Every array of the responses with its name, its extents and its label: the one list that writer and reader
+/// share.
+template <class Visit>
+void visit_arrays(fem::UnitResponses& r, const Counts& n, Visit visit) {
+  using Extents = std::vector<std::size_t>;
+  visit("/nodes/xyz", r.nodes.xyz_m, Extents{n.nodes, 3}, Hdf5Label{"m", ""});
+  visit("/nodes/volume", r.nodes.volume_m3, Extents{n.nodes},
+        Hdf5Label{"m3", "integral of the shape function"});
+  visit("/nodes/cells", r.nodes.cells, Extents{n.cells, 27}, Hdf5Label{"", "VTK_TRIQUADRATIC_HEXAHEDRON"});
+  visit("/nodes/faces", r.nodes.faces, Extents{n.faces, 9}, Hdf5Label{"", "VTK_BIQUADRATIC_QUAD"});
+  visit("/nodes/face_boundary_id", r.nodes.face_boundary_id, Extents{n.faces}, Hdf5Label{});
+  visit("/displacement", r.displacement_m, Extents{n.nodes, n.channels, 3}, Hdf5Label{"m", "x y z"});
+  visit("/stress", r.stress_Pa, Extents{n.nodes, n.channels, 6}, Hdf5Label{"Pa", "xx yy zz xy yz xz"});
+  visit("/resultants", r.resultants, Extents{n.channels, 6}, Hdf5Label{"", "fx fy fz [N], mx my mz [N m]"});
+  visit("/planes", r.planes, Extents{n.planes, 4}, Hdf5Label{"m", "z, radius, axis x, axis y"});
+  visit("/plane_area", r.plane_area_m2, Extents{n.planes}, Hdf5Label{"m2", ""});
+  visit("/sections", r.sections, Extents{n.planes, n.channels, 14},
+        Hdf5Label{"",
+                  "fx fy fz [N], mx my mz [N m], mean rim shear r_theta, theta_z [Pa], translation [m], "
+                  "rotation [rad]"});
+  visit("/ring_shear", r.ring_shear_Pa, Extents{n.rings, n.channels, 2}, Hdf5Label{"Pa", "r_theta, theta_z"});
+}
+
+/// Sizes a vector for extents whose last one may be that of its elements.
+template <class Element>
+void resize(std::vector<Element>& v, const std::vector<std::size_t>& extents) {
+  const std::size_t n = std::accumulate(extents.begin(), extents.end(), std::size_t{1}, std::multiplies<>());
+  v.resize(n * sizeof(*entries(v)) / sizeof(Element));
+}
+
+template <class Element>
+bool fits(std::vector<Element>& v, const std::vector<std::size_t>& extents) {
+  const std::size_t n = std::accumulate(extents.begin(), extents.end(), std::size_t{1}, std::multiplies<>());
+  return v.size() * sizeof(Element) == n * sizeof(*entries(v));
+}
+
+fem::UnitResponses read(const Hdf5Reader& in) {
+  fem::UnitResponses r;
+  r.channels = in.texts("/channels");
+  r.nodes.n = in.shape("/nodes/xyz").at(0);
+  const Counts n = {r.nodes.n,         in.shape("/nodes/cells").at(0), in.shape("/nodes/faces").at(0),
+                    r.channels.size(), in.shape("/planes").at(0),      in.shape("/rings").at(0)};
+  visit_arrays(r, n, [&](const char* name, auto& values, const auto& extents, const Hdf5Label&) {
+    if (in.shape(name) != extents) throw std::runtime_error(std::string(name) + ": unexpected extents");
+    resize(values, extents);
+    in.read(name, entries(values));
+  });
+  const auto rings = in.numbers("/rings");
+  for (std::size_t i = 0; i < n.rings; ++i)
+    r.rings.push_back({rings.at(3 * i), rings.at(3 * i + 1), static_cast<std::int32_t>(rings.at(3 * i + 2))});
+  r.support_reaction = in.number_attribute("/", "support_reaction");
+  r.residual = in.number_attribute("/", "residual");
+  r.n_dofs = static_cast<std::size_t>(in.number_attribute("/", "n_dofs"));
+  r.factor_gigabytes = in.number_attribute("/", "factor_gigabytes");
+  return r;
+}
+
+}  // namespace
+
+void write_unit_responses(const std::filesystem::path& path, const std::string& key,
+                          const fem::UnitResponses& responses) {
+  AtomicFile file(path);
+  Hdf5Writer out(file.temporary());
+  out.attribute("/", "key", key);
+  out.attribute("/", "arrangement", arrangement);
+  out.attribute("/", "support_reaction", responses.support_reaction);
+  out.attribute("/", "residual", responses.residual);
+  out.attribute("/", "n_dofs", static_cast<double>(responses.n_dofs));
+  out.attribute("/", "factor_gigabytes", responses.factor_gigabytes);
+  out.write("/channels", responses.channels);
+  std::vector<double> rings;
+  for (const auto& ring : responses.rings)
+    rings.insert(rings.end(), {ring.z_m, ring.radius_m, static_cast<double>(ring.boundary_id)});
+  out.write("/rings", rings.data(), {responses.rings.size(), 3}, {"", "z [m], radius [m], boundary id"});
+
+  const Counts n = {responses.nodes.n,         responses.nodes.cells.size(), responses.nodes.faces.size(),
+                    responses.channels.size(), responses.planes.size(),      responses.rings.size()};
+  // The list is shared with the reader, which fills the arrays; here they are only looked at.
+  visit_arrays(
+      const_cast<fem::UnitResponses&>(responses), n,
+      [&](const char* name, auto& values, const auto& extents, const Hdf5Label& label) {
+        if (!fits(values, extents))
+          throw std::invalid_argument(std::string("unit responses: the size of ") + name +
+                                      " does not fit the number of nodes, channels, planes or rings");
+        out.write(name, entries(values), extents, label);
+      });
+  out.close();
+  file.commit();
+}
+
+std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::path& path,
+                                                      const std::string& key) {
+  try {
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    const Hdf5Reader in(path);
+    if (in.text_attribute("/", "key") != key || in.number_attribute("/", "arrangement") != arrangement)
+      return std::nullopt;
+    return read(in);
+  } catch (const std::exception&) {
+    return std::nullopt;  // a damaged file: as good as none
+  }
+}
+
+}  // namespace pipelines

@@ -1,0 +1,202 @@
+#include "pipelines/vtk_files.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCommand.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "pipelines/atomic_file.h"
+#include "pipelines/csv.h"
+
+namespace pipelines {
+namespace {
+
+/// Values of the chosen nodes as a VTK array of T.
+template <class Array>
+vtkSmartPointer<Array> array_of(const double* values, int n_components,
+                                const std::vector<std::int32_t>& chosen) {
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfComponents(n_components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(chosen.size()));
+  auto* into = array->GetPointer(0);
+  for (const std::int32_t node : chosen)
+    for (int c = 0; c < n_components; ++c)
+      *into++ = static_cast<typename Array::ValueType>(values[std::size_t(node) * n_components + c]);
+  return array;
+}
+
+void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n_nodes,
+               const std::vector<std::int32_t>& chosen) {
+  const auto n_components = static_cast<std::size_t>(field.n_components);
+  if (field.n_components < 1 || field.n_values != n_nodes * n_components ||
+      (!field.component_names.empty() && field.component_names.size() != n_components))
+    throw std::invalid_argument("field \"" + field.name + "\": " + std::to_string(field.n_values) +
+                                " values do not make " + std::to_string(field.n_components) +
+                                " components at " + std::to_string(n_nodes) +
+                                " nodes, or the names of the components are not as many");
+  vtkSmartPointer<vtkDataArray> array;
+  if (field.precision == FieldPrecision::float32)
+    array = array_of<vtkFloatArray>(field.values, field.n_components, chosen);
+  else
+    array = array_of<vtkDoubleArray>(field.values, field.n_components, chosen);
+  array->SetName(field.name.c_str());
+  for (std::size_t c = 0; c < field.component_names.size(); ++c)
+    array->SetComponentName(static_cast<vtkIdType>(c), field.component_names[c].c_str());
+  grid.GetPointData()->AddArray(array);
+}
+
+void add_ids(vtkDataSetAttributes& data, const std::string& name, const std::vector<std::int32_t>& values) {
+  vtkNew<vtkTypeInt32Array> array;
+  array->SetName(name.c_str());
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  data.AddArray(array);
+}
+
+template <std::size_t n>
+void set_cells(vtkUnstructuredGrid& grid, int type, const std::vector<std::array<std::int32_t, n>>& cells) {
+  vtkNew<vtkTypeInt32Array> offsets, connectivity;
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(cells.size() + 1));
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(cells.size() * n));
+  for (std::size_t i = 0; i <= cells.size(); ++i)
+    offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * n));
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    std::copy(cells[i].begin(), cells[i].end(), connectivity->GetPointer(static_cast<vtkIdType>(i * n)));
+  vtkNew<vtkCellArray> array;
+  array->SetData(offsets.Get(), connectivity.Get());
+  grid.SetCells(type, array);
+}
+
+/// A grid of the cells given, over the chosen nodes of the body (the cells name nodes by their place among
+/// the chosen).
+template <std::size_t n>
+void write_grid(const std::filesystem::path& path, int type,
+                const std::vector<std::array<std::int32_t, n>>& cells, const fem::Nodes& nodes,
+                const std::vector<std::int32_t>& chosen, const std::vector<NodalField>& fields,
+                const std::vector<IdField>& ids, VtuCompression compression) {
+  if (nodes.xyz_m.size() != 3 * nodes.n)
+    throw std::invalid_argument("nodes: " + std::to_string(nodes.xyz_m.size()) + " coordinates for " +
+                                std::to_string(nodes.n) + " nodes");
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetData(array_of<vtkDoubleArray>(nodes.xyz_m.data(), 3, chosen));
+  grid->SetPoints(points);
+  set_cells(*grid, type, cells);
+  for (const auto& field : fields) add_field(*grid, field, nodes.n, chosen);
+  for (const auto& id : ids) {
+    const bool at_nodes = id.at == IdField::At::nodes;
+    if (id.values.size() != (at_nodes ? nodes.n : cells.size()))
+      throw std::invalid_argument("field \"" + id.name + "\": " + std::to_string(id.values.size()) +
+                                  " ids for " + std::to_string(at_nodes ? nodes.n : cells.size()) +
+                                  (at_nodes ? " nodes" : " cells"));
+    std::vector<std::int32_t> values;
+    if (at_nodes)
+      for (const std::int32_t node : chosen) values.push_back(id.values[static_cast<std::size_t>(node)]);
+    if (at_nodes)
+      add_ids(*grid->GetPointData(), id.name, values);
+    else
+      add_ids(*grid->GetCellData(), id.name, id.values);
+  }
+
+  AtomicFile file(path);
+  std::string trouble;
+  vtkNew<vtkCallbackCommand> listener;
+  listener->SetClientData(&trouble);
+  listener->SetCallback([](vtkObject*, unsigned long, void* text, void* message) {
+    if (message) *static_cast<std::string*>(text) = static_cast<const char*>(message);
+  });
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->AddObserver(vtkCommand::ErrorEvent, listener);  // with a listener VTK prints nothing
+  writer->SetFileName(file.temporary().c_str());
+  writer->SetInputData(grid);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetHeaderTypeToUInt64();
+  if (compression == VtuCompression::none)
+    writer->SetCompressorTypeToNone();
+  else
+    writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(1);  // half the time of the default for one percent more bytes
+  if (!writer->Write() || !trouble.empty())
+    throw std::runtime_error(path.string() + ": cannot be written; check the directory and the free space" +
+                             (trouble.empty() ? "" : " (VTK: " + trouble + ")"));
+  file.commit();
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  return result;
+}
+
+}  // namespace
+
+void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
+                        const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
+                        VtuCompression compression) {
+  std::vector<std::int32_t> all(nodes.n);
+  std::iota(all.begin(), all.end(), 0);
+  write_grid(path, VTK_TRIQUADRATIC_HEXAHEDRON, nodes.cells, nodes, all, fields, ids, compression);
+}
+
+void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
+                                const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
+                                VtuCompression compression) {
+  std::vector<std::int32_t> place(nodes.n, -1), chosen;
+  for (const auto& face : nodes.faces)
+    for (const std::int32_t node : face) place[static_cast<std::size_t>(node)] = 0;
+  for (std::size_t node = 0; node < nodes.n; ++node)
+    if (place[node] == 0) {
+      place[node] = static_cast<std::int32_t>(chosen.size());
+      chosen.push_back(static_cast<std::int32_t>(node));
+    }
+  auto faces = nodes.faces;
+  for (auto& face : faces)
+    for (std::int32_t& node : face) node = place[static_cast<std::size_t>(node)];
+  auto with_boundary = ids;
+  with_boundary.push_back({"boundary_id", nodes.face_boundary_id, IdField::At::cells});
+  write_grid(path, VTK_BIQUADRATIC_QUAD, faces, nodes, chosen, fields, with_boundary, compression);
+}
+
+void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  for (const auto& entry : entries)
+    text += "    <DataSet timestep=\"" + shortest(entry.time_s) + "\" group=\"\" part=\"0\" name=\"" +
+            escaped(entry.name) + "\" file=\"" + escaped(entry.file.generic_string()) + "\"/>\n";
+  write_text_file(path, text + "  </Collection>\n</VTKFile>\n");
+}
+
+}  // namespace pipelines
