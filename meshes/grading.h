@@ -7,8 +7,7 @@ namespace meshes {
 
 /// Boundaries of n cells on [0, 1] in geometric progression.
 /// @param first size of the first cell as a fraction of the length; cells only ever grow: where n cells of
-/// that size would
-///              not fit, the cells are equal
+///              that size would not fit, the cells are equal
 /// @return n + 1 ascending numbers, exactly 0 and 1 at the ends
 std::vector<double> geometric_fractions(int n, double first);
 

@@ -14,6 +14,7 @@ struct Hex {
   int volume_id = 0;
 };
 
+/// Corners counter-clockwise seen from outside.
 struct BoundaryQuad {
   std::array<int, 4> nodes{};
   int boundary_id = 0;

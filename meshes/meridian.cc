@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "meshes/fan.h"
@@ -109,6 +110,15 @@ void add_end_edges(BlockMesh& mesh, const std::vector<int>& face, int boundary_i
     mesh.edges.push_back({{face[k], face[k + 1]}, boundary_id});
 }
 
+/// Turns each edge so that the material lies on its left.
+void orient_edges(BlockMesh& mesh) {
+  std::set<std::array<int, 2>> sides;
+  for (const MeridianQuad& quad : mesh.quads)
+    for (int i = 0; i < 4; ++i) sides.insert({quad.corners[i], quad.corners[(i + 1) % 4]});
+  for (MeridianEdge& edge : mesh.edges)
+    if (sides.count(edge.ends) == 0) std::swap(edge.ends[0], edge.ends[1]);
+}
+
 }  // namespace
 
 Meridian build_meridian(const ShaftLayout& layout, const SurfaceTable& surfaces,
@@ -147,6 +157,7 @@ Meridian build_meridian(const ShaftLayout& layout, const SurfaceTable& surfaces,
   }
   add_end_edges(mesh, faces.front().begin, surfaces.end_1_id);
   add_end_edges(mesh, faces.back().end, surfaces.end_2_id);
+  orient_edges(mesh);
 
   meridian.points = std::move(mesh.points);
   meridian.quads = std::move(mesh.quads);

@@ -20,7 +20,7 @@ struct MeridianQuad {
   int segment = 0;
 };
 
-/// A piece of the profile.
+/// A piece of the profile, the material on its left in (z, r).
 struct MeridianEdge {
   std::array<int, 2> ends{};
   int boundary_id = 0;

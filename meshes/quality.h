@@ -7,8 +7,8 @@
 namespace meshes {
 
 /// Scaled Jacobian of one cell: the smallest, over its 8 corners, of the determinant of the three unit
-/// vectors along the edges that leave the corner. 1 for a brick, not above 0 if the cell is turned inside
-/// out.
+/// vectors along the edges that leave the corner. 1 for a brick; 0 or less if a corner is turned inside
+/// out or flat.
 double scaled_jacobian(const HexMesh& mesh, const Hex& hex);
 
 /// Counts, the smallest and the median scaled Jacobian, and where the worst cell lies.

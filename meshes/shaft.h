@@ -19,10 +19,10 @@ struct ShaftSegment {
   bool is_port = false;       ///< its surface takes load; see Shaft
 };
 
-/// Segments from left to right without gaps. fillet_m[i] is the fillet radius at the shoulder between
-/// segments i and i+1 (at its inner corner, on the side of the smaller diameter; 0: sharp corner). The loaded
-/// zone of a port is centred in its segment: the segment less the largest fillet that it carries at both
-/// ends.
+/// Segments from left to right without gaps. fillets_m[i] is the radius at the shoulder between segments i
+/// and i+1: at its inner corner, on the surface of the smaller diameter; 0: sharp corner. The loaded zone of
+/// a port is centred in its segment: the segment less, at both ends, the larger of the fillets that lie on
+/// its own surface. An eccentric segment is thicker than both neighbours, and these are concentric.
 struct Shaft {
   std::vector<ShaftSegment> segments;
   std::vector<double> fillets_m;
@@ -38,11 +38,14 @@ struct ShaftMeshControl {
 
 /// Meshes the shaft and writes `file` (through a temporary name).
 /// Ports: every segment with is_port, and the end faces "end_1" (smallest z) and "end_2".
-/// @throws std::invalid_argument with the offending numbers: gaps, non-positive sizes, a fillet that does not
-/// fit its
-///         step (eccentric: r < (D - d)/2 - ecc) or its segment's length, an eccentricity that leaves the
-///         neighbour outside
-/// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian (place and value named)
+/// One call at a time in a process: gmsh is global.
+/// @throws std::invalid_argument with the offending numbers: gaps, sizes that are not positive, repeated
+/// names,
+///         a fillet that does not fit its step (eccentric: r < (D - d)/2 - ecc) or its segment's length,
+///         a port without room, an eccentricity that leaves the neighbour outside or the shifted ring flat,
+///         bad controls
+/// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian (place and value named),
+///         or the file cannot be written
 BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file);
 
 }  // namespace meshes

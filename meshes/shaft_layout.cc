@@ -40,7 +40,7 @@ std::vector<SegmentLayout> segments_of(const Shaft& shaft) {
   for (std::size_t i = 0; i < shaft.segments.size(); ++i) {
     const ShaftSegment& from = shaft.segments[i];
     SegmentLayout segment;
-    segment.begin_m = from.begin_m;
+    segment.begin_m = i > 0 ? shaft.segments[i - 1].end_m : from.begin_m;  // one number for the common plane
     segment.end_m = from.end_m;
     segment.radius_m = 0.5 * from.diameter_m;
     segment.shift_m = from.eccentricity_m;
