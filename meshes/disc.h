@@ -6,8 +6,7 @@
 
 namespace meshes {
 
-/// Cells of the unit disc. The first n_sectors points lie on the circle: point j at the angle 2 pi
-/// j/n_sectors.
+/// Cells of the unit disc. The first n_sectors points lie on the circle, at angles of 2 pi j / n_sectors.
 struct Disc {
   std::vector<std::array<double, 2>> points;
   std::vector<std::array<int, 4>> quads;  ///< counter-clockwise

@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/unit/meshes/example_shafts.h"
+
+namespace {
+
+using meshes::Shaft;
+using meshes::ShaftMeshControl;
+
+struct Refusal {
+  std::string what;
+  std::function<void(Shaft&, ShaftMeshControl&)> spoil;  ///< applied to the laboratory shaft
+  std::vector<std::string> expected;                     ///< all of them in the message
+};
+
+const double nan = std::numeric_limits<double>::quiet_NaN();
+const double mm = 1e-3;
+
+std::vector<Refusal> refusals() {
+  return {
+      {"gap",
+       [](Shaft& s, auto&) { s.segments[3].begin_m = -168 * mm; },
+       {"gap of 0.5 mm", "main_bearing_1", "body_1"}},
+      {"overlap",
+       [](Shaft& s, auto&) { s.segments[3].begin_m = -169 * mm; },
+       {"overlap of 0.5 mm", "-168.5 mm"}},
+      {"no segments", [](Shaft& s, auto&) { s = {}; }, {"no segments"}},
+      {"fillet count",
+       [](Shaft& s, auto&) { s.fillets_m.pop_back(); },
+       {"8 segments need 7 fillets", "there are 6"}},
+      {"backwards",
+       [](Shaft& s, auto&) { s.segments[0].end_m = -280 * mm; },
+       {"coupling", "-272.5 mm to -280 mm"}},
+      {"zero diameter",
+       [](Shaft& s, auto&) { s.segments[2].diameter_m = 0; },
+       {"main_bearing_1", "diameter 0 mm"}},
+      {"NaN diameter",
+       [](Shaft& s, auto&) { s.segments[2].diameter_m = nan; },
+       {"main_bearing_1", "diameter nan"}},
+      {"NaN length", [](Shaft& s, auto&) { s.segments[7].end_m = nan; }, {"debalance_2", "nan"}},
+      {"NaN eccentricity", [](Shaft& s, auto&) { s.segments[4].eccentricity_m = nan; }, {"eccentricity nan"}},
+      {"NaN fillet",
+       [](Shaft& s, auto&) { s.fillets_m[2] = nan; },
+       {"fillet", "main_bearing_1 and body_1", "nan"}},
+      {"negative fillet",
+       [](Shaft& s, auto&) { s.fillets_m[2] = -1 * mm; },
+       {"radius -1 mm", "0 for a sharp"}},
+      {"names twice", [](Shaft& s, auto&) { s.segments[5].name = "body_1"; }, {"two segments", "'body_1'"}},
+      {"no name", [](Shaft& s, auto&) { s.segments[5].name = ""; }, {"no name", "30 mm"}},
+      {"name of an end", [](Shaft& s, auto&) { s.segments[5].name = "end_1"; }, {"'end_1'", "rename"}},
+      {"name with quotes", [](Shaft& s, auto&) { s.segments[5].name = "a\"b"; }, {"quotes", "rename"}},
+      {"fillet above step",
+       [](Shaft& s, auto&) { s.fillets_m[0] = 2.6 * mm; },
+       {"radius 2.6 mm", "step of 2.5 mm", "diameter 25 mm to 30 mm", "make it smaller"}},
+      {"fillet above the low side",
+       [](Shaft& s, auto&) { s.fillets_m[3] = 5 * mm; },
+       {"radius 5 mm", "smaller than 5 mm", "low side", "eccentric by 4 mm", "diameter 42 mm"}},
+      {"fillet longer than its segment",
+       [](Shaft& s, auto&) {
+         s.segments = {{"disc", 0, 3 * mm, 30 * mm, 0, false}, {"wheel", 3 * mm, 40 * mm, 60 * mm, 0, false}};
+         s.fillets_m = {2 * mm};
+       },
+       {"disc", "3 mm long", "fillets of 0 mm and 2 mm", "60 %"}},
+      {"two fillets longer than their segment",
+       [](Shaft& s, auto&) {
+         s.segments = {{"wheel_1", 0, 40 * mm, 60 * mm, 0, false},
+                       {"neck", 40 * mm, 44 * mm, 30 * mm, 0, false},
+                       {"wheel_2", 44 * mm, 80 * mm, 60 * mm, 0, false}};
+         s.fillets_m = {2 * mm, 2 * mm};
+       },
+       {"neck", "4 mm long", "fillets of 2 mm and 2 mm", "90 %"}},
+      {"port without room",
+       [](Shaft& s, auto&) {
+         s.segments = {{"pin", 0, 4 * mm, 30 * mm, 0, true}, {"wheel", 4 * mm, 40 * mm, 60 * mm, 0, false}};
+         s.fillets_m = {2 * mm};
+       },
+       {"pin", "is a port", "2 mm", "loaded zone of 0 mm"}},
+      {"eccentricity beyond the neighbour",
+       [](Shaft& s, auto&) { s.segments[4].eccentricity_m = 9.5 * mm; },
+       {"eccentricity of eccentric_seat", "leaves the disc", "9.5 mm", "step of 9 mm"}},
+      {"eccentricity that flattens the ring",
+       [](Shaft& s, auto&) { s.segments[4].eccentricity_m = 6.2 * mm; },
+       {"eccentric_seat", "6.2 mm", "90 %", "6.5 mm", "radius 23.5 mm"}},
+      {"eccentric and thin",
+       [](Shaft& s, auto&) { s.segments[3].eccentricity_m = 1 * mm; },
+       {"body_1", "eccentric by 1 mm", "thicker than both"}},
+      {"odd cells",
+       [](auto&, ShaftMeshControl& c) { c.cells_per_fillet_quarter = 3; },
+       {"cells_per_fillet_quarter = 3"}},
+      {"no cells",
+       [](auto&, ShaftMeshControl& c) { c.cells_per_fillet_quarter = 0; },
+       {"cells_per_fillet_quarter = 0"}},
+      {"sectors", [](auto&, ShaftMeshControl& c) { c.n_sectors = 18; }, {"n_sectors = 18", "multiple of 4"}},
+      {"few sectors", [](auto&, ShaftMeshControl& c) { c.n_sectors = 4; }, {"n_sectors = 4", "at least 8"}},
+      {"growth", [](auto&, ShaftMeshControl& c) { c.growth = 0; }, {"growth = 0"}},
+      {"largest cell", [](auto&, ShaftMeshControl& c) { c.largest_cell_m = -1; }, {"largest_cell_m = -1"}},
+      {"wanted quality",
+       [](auto&, ShaftMeshControl& c) { c.min_scaled_jacobian = 1.5; },
+       {"min_scaled_jacobian = 1.5"}},
+  };
+}
+
+TEST(RefusedShafts, are_refused_with_the_numbers_and_the_remedy) {
+  for (const auto& refusal : refusals()) {
+    SCOPED_TRACE(refusal.what);
+    Shaft shaft = laboratory_shaft();
+    ShaftMeshControl control;
+    refusal.spoil(shaft, control);
+    const auto file = temporary_msh("refused");
+    try {
+      meshes::build_shaft(shaft, control, file);
+      ADD_FAILURE() << "was meshed";
+    } catch (const std::invalid_argument& error) {
+      for (const auto& part : refusal.expected)
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+            << error.what() << "\nlacks: " << part;
+    }
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+}
+
+/// A limit of quality above what the shaft reaches: the message names the value and the place.
+TEST(RefusedShafts, name_the_worst_cell) {
+  ShaftMeshControl control;
+  control.min_scaled_jacobian = 0.95;
+  const auto file = temporary_msh("too_bad");
+  try {
+    meshes::build_shaft(laboratory_shaft(), control, file);
+    ADD_FAILURE() << "was meshed";
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    for (const std::string part : {"scaled Jacobian is 0.6", "(x, y, z)", "wanted 0.95", "fillet"})
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(RefusedShafts, say_when_the_file_cannot_be_written) {
+  const auto file = temporary_msh("x").parent_path() / "no_such_directory" / "shaft.msh";
+  try {
+    meshes::build_shaft(plain_cylinder(), {}, file);
+    ADD_FAILURE() << "was written";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("no_such_directory"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
