@@ -17,7 +17,7 @@ namespace pipelines {
 struct SceneError {
   std::string file;
   int line = 0, column = 0;  ///< 1-based; 0 where the file as a whole is meant
-  std::string key;           ///< dotted, e.g. "shaft.segments[3].diameter"
+  std::string key;           ///< dotted, items counted from 1, e.g. "shaft.contour[3].diameter"; may be empty
   std::string value;         ///< as written; empty if missing
   std::string remedy;        ///< a sentence: what is wrong and what to do
 
@@ -52,6 +52,12 @@ struct ShaftScene {
   std::vector<double> debalance_shares = {0.5, 0.5};  ///< of debalance_1, debalance_2; sum 1
 };
 
+/// The room that the charge has. Mass and offset of the charge are checked against it; no load depends on it.
+struct MillingSpace {
+  double inner_radius_m = 0;
+  double inner_length_m = 0;
+};
+
 /// A value the user did not give; printed by `check`.
 struct DefaultUsed {
   std::string key, value, reason;
@@ -61,20 +67,23 @@ struct Scene {
   std::filesystem::path file;
   std::string title;
   kinetics::VibratoryMill machine;
+  std::optional<MillingSpace> milling_space;   ///< empty if the scene does not give it
   std::vector<std::string> effects;            ///< as named in the scene; each known, none twice
   kinetics::TimeGrid sampling;
   std::optional<ShaftScene> shaft;             ///< empty: the load stage only
   ZoneRule zones;
   int snapshots = 24;                          ///< over the turn that contains the peak; 0: none
   std::vector<DefaultUsed> defaults;
+  std::vector<std::string> warnings;           ///< sentences for the user: legal, but worth a look
 
   /// The scene's effects that kinetics evaluates: all but `gravity_shaft` and `shaft_inertia`, which need the body.
   std::vector<std::string> kinetics_effects() const;
   bool has_effect(const std::string& name) const;
 };
 
-/// Reads and checks a scene.
-/// @throws SceneErrors with every error found
+/// Reads and checks a scene. scenes/vibratory_mill.toml shows every key with its meaning.
+/// @throws SceneErrors with every error found, in the order of the file
+/// @throws std::runtime_error if the unit database of udunits2 is not installed
 Scene read_scene(const std::filesystem::path& file);
 
 }  // namespace pipelines

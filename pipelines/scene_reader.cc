@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "meshes/shaft_checks.h"
+#include "pipelines/scene.h"
+#include "pipelines/scene_effects.h"
+#include "pipelines/scene_machine.h"
+#include "pipelines/scene_shaft.h"
+#include "pipelines/scene_table.h"
+#include "pipelines/toml_tree.h"
+#include "pipelines/units.h"
+
+namespace pipelines {
+namespace {
+
+[[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& remedy) {
+  throw SceneErrors({{file.string(), 0, 0, "", "", remedy}});
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status))
+    refuse_file(file, "there is no such file; give the path of a scene, such as scenes/vibratory_mill.toml");
+  if (std::filesystem::is_directory(status))
+    refuse_file(file, "is a directory; give the path of a scene, a .toml file");
+  constexpr std::uintmax_t most_bytes = 10'000'000;
+  if (!std::filesystem::is_regular_file(status) || std::filesystem::file_size(file, error) > most_bytes)
+    refuse_file(file, "is no ordinary file of less than 10 MB; give the path of a scene, a .toml file");
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in) refuse_file(file, "cannot be read; check its permissions");
+  return text;
+}
+
+TomlNode parse(const std::filesystem::path& file) {
+  TomlNode root;
+  try {
+    root = parse_toml(read_text(file));
+  } catch (const TomlSyntaxError& error) {
+    const auto [line, column] = error.at();
+    throw SceneErrors({{file.string(), line, column, "", "",
+                        "is not TOML: " + std::string(error.what()) + "; correct the line"}});
+  }
+  if (root.entries.empty())
+    refuse_file(file, "the scene is empty; begin with a copy of scenes/vibratory_mill.toml");
+  return root;
+}
+
+kinetics::TimeGrid read_sampling(SceneTable sampling, const kinetics::VibratoryMill& mill,
+                                 SceneFindings& findings) {
+  constexpr int most_turns = 1000;
+  constexpr int most_instants = 2'000'000;
+  kinetics::TimeGrid grid;
+  grid.instants_per_turn =
+      sampling.count_or("instants_per_turn", 8, 100'000, 120, "one instant every 3 degrees of the drive");
+  const bool speeds_are_known =
+      std::isfinite(mill.speed_rad_s) && std::isfinite(mill.charge_relative_speed_rad_s);
+  const int period =  // 0: none
+      speeds_are_known ? kinetics::period_in_turns(mill, most_turns).value_or(0) : 0;
+  if (sampling.has("turns") || period > 0)
+    grid.turns = sampling.count_or("turns", 1, most_turns, period, "the period of the motion");
+  else if (sampling.know("turns"); speeds_are_known)
+    sampling.refuse_missing("turns",
+                            "is missing, and the motion does not repeat within 1000 turns; add the number of "
+                            "turns to look at, or a machine.charge.turn_ratio with a small denominator");
+  if (sampling.has("turns") && period > 0 && grid.turns % period != 0)
+    findings.warnings.push_back("sampling.turns = " + std::to_string(grid.turns) +
+                                ": the motion repeats after " + std::to_string(period) +
+                                " turns; extremes and means are those of the turns given");
+  if (static_cast<double>(grid.turns) * grid.instants_per_turn > most_instants)
+    sampling.refuse(sampling.has("instants_per_turn") ? "instants_per_turn" : "turns",
+                    std::to_string(grid.turns) + " turns of " + std::to_string(grid.instants_per_turn) +
+                        " instants are more than 2 million; take fewer of either");
+  sampling.finish();
+  return grid;
+}
+
+/// "50 % of peak", "40 % of yield"
+ZoneRule read_zones(SceneTable zones) {
+  ZoneRule rule;
+  const std::string level = zones.text_or("level", "50 % of peak", "where a zone begins");
+  if (!level.empty()) {
+    const std::string remedy =
+        "is no level; write a share above 0 and up to 100 %, such as \"50 % of peak\" or \"40 % of yield\"";
+    const auto of = level.find(" of ");
+    const std::string whole = of == std::string::npos ? "" : level.substr(of + 4);
+    try {
+      rule.share = to_si(level.substr(0, of), "1");
+      if (!(rule.share > 0 && rule.share <= 1) || (whole != "peak" && whole != "yield"))
+        zones.refuse("level", remedy);
+    } catch (const UnitError&) {
+      zones.refuse("level", remedy);
+    }
+    rule.reference = whole == "yield" ? ZoneRule::Reference::yield : ZoneRule::Reference::peak;
+  }
+  zones.finish();
+  return rule;
+}
+
+int read_snapshots(SceneTable results) {
+  const int n = results.count_or("snapshots", 0, 3600, 24, "over the turn that contains the peak");
+  results.finish();
+  return n;
+}
+
+/// The published formulas leave out terms that a body would feel as a resultant without a counterpart.
+void refuse_open_balance(SceneTable& machine, const kinetics::VibratoryMill& mill) {
+  const double omega2 = mill.speed_rad_s * mill.speed_rad_s;
+  const auto kN = [](double force_N) { return shown(std::round(force_N / 10) / 100) + " kN"; };
+  machine.refuse("convention",
+                 "the published formulas do not close: they leave out m r omega^2 = " +
+                     kN(mill.charge_mass_kg * mill.charge_offset_m * omega2) +
+                     " of the charge and (m1 + m2) ecc omega^2 = " +
+                     kN((mill.structure_mass_kg + mill.exciter_mass_kg) * mill.eccentricity_m * omega2) +
+                     " of the moving structure, which a shaft in equilibrium needs; write \"consistent\", or "
+                     "remove [shaft] for "
+                     "the load stage alone");
+}
+
+/// What the stages themselves refuse (resonances, springs that cannot carry the weights, shafts that cannot
+/// be meshed) is better said now, with a line, than after the first stage: a few instants cost next to
+/// nothing.
+void rehearse(const Scene& scene, SceneTable& machine, SceneTable* shaft) {
+  try {
+    kinetics::compute_loads(scene.machine, scene.kinetics_effects(), {1, 8});
+  } catch (const std::invalid_argument& error) {
+    machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
+  }
+  try {
+    if (shaft != nullptr) meshes::check_shaft(scene.shaft->geometry);
+  } catch (const std::invalid_argument& error) {
+    shaft->refuse("contour", "the mesher refuses it: " + std::string(error.what()));
+  }
+}
+
+[[noreturn]] void throw_sorted(std::vector<SceneError> errors) {
+  std::stable_sort(errors.begin(), errors.end(), [](const SceneError& a, const SceneError& b) {
+    return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+  });
+  throw SceneErrors(std::move(errors));
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) {
+  const TomlNode tree = parse(file);
+  SceneFindings findings;
+  findings.file = file.string();
+  SceneTable root(tree, "", findings);
+
+  Scene scene;
+  scene.file = file;
+  scene.title = root.text_or("title", file.stem().string(), "the name of the file");
+  SceneTable machine = root.table("machine");
+  const auto convention = read_convention(machine);
+  if (!convention) throw_sorted(findings.errors);
+  scene.effects = read_effects(root, *convention, root.has("shaft"), findings);
+  scene.machine = read_vibratory_mill(machine, *convention, scene.effects, scene.milling_space);
+  scene.sampling = read_sampling(root.table_or_empty("sampling"), scene.machine, findings);
+
+  std::optional<SceneTable> shaft;
+  if (root.has("shaft")) {
+    if (*convention == kinetics::Convention::published) refuse_open_balance(machine, scene.machine);
+    shaft = root.table("shaft");
+    scene.shaft = read_shaft(*shaft, scene.machine, findings);
+  } else {
+    root.know("shaft");
+    if (root.has("zones") || root.has("results"))
+      findings.warnings.push_back("without [shaft] there is no body: [zones] and [results] have no use");
+  }
+  scene.zones = read_zones(root.table_or_empty("zones"));
+  scene.snapshots = read_snapshots(root.table_or_empty("results"));
+  root.finish();
+
+  if (findings.errors.empty()) rehearse(scene, machine, shaft ? &*shaft : nullptr);
+  if (!findings.errors.empty()) throw_sorted(std::move(findings.errors));
+  scene.defaults = std::move(findings.defaults);
+  scene.warnings = std::move(findings.warnings);
+  return scene;
+}
+
+}  // namespace pipelines
