@@ -1,0 +1,129 @@
+/// Every *.toml of this folder is a scene that must be refused, and says itself with which errors. Comment
+/// lines:
+///   # BASE: mill.toml            the scene is base/mill.toml with the edits below; without it, this file is
+///   the scene # REPLACE: old -> new        `old` occurs exactly once; \n in `new` begins a line # EXPECT:
+///   9:9: fragment      one error, at line:column of the edited scene (0:0: the file as a whole), whose text
+///                                holds the fragment; there are as many errors as EXPECT lines
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "pipelines/scene.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+struct RefusedScene {
+  std::string scene;                      // the edited text
+  std::vector<std::string> expectations;  // "line:column: fragment"
+};
+
+RefusedScene load(const fs::path& file) {
+  RefusedScene result{read(file), {}};
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const auto value_of = [&](const std::string& word) {
+      const std::string prefix = "# " + word + ": ";
+      return line.rfind(prefix, 0) == 0 ? line.substr(prefix.size()) : std::string();
+    };
+    if (const std::string base = value_of("BASE"); !base.empty()) {
+      result.scene = read(file.parent_path() / "base" / base);
+    } else if (const std::string edit = value_of("REPLACE"); !edit.empty()) {
+      const auto arrow = edit.find(" -> ");
+      const std::string old_text = edit.substr(0, arrow);
+      std::string new_text = arrow == std::string::npos ? "" : edit.substr(arrow + 4);
+      replace_all(new_text, "\\n", "\n");
+      const auto at = result.scene.find(old_text);
+      if (arrow == std::string::npos || at == std::string::npos ||
+          result.scene.find(old_text, at + 1) != std::string::npos)
+        throw std::runtime_error(file.string() + ": not exactly one place for: " + line);
+      result.scene.replace(at, old_text.size(), new_text);
+    } else if (const std::string expectation = value_of("EXPECT"); !expectation.empty()) {
+      result.expectations.push_back(expectation);
+    }
+  }
+  return result;
+}
+
+/// "line:column: key = value: remedy"
+std::string without_file(const pipelines::SceneError& error) {
+  pipelines::SceneError local = error;
+  local.file = "";
+  const std::string text = local.text();
+  return error.line == 0 ? "0:0" + text : text.substr(1);
+}
+
+bool fits(const pipelines::SceneError& error, const std::string& expectation) {
+  const auto end_of_place = expectation.find(": ");
+  const std::string text = without_file(error);
+  return text.rfind(expectation.substr(0, end_of_place + 1), 0) == 0 &&
+         text.find(expectation.substr(end_of_place + 2)) != std::string::npos;
+}
+
+std::vector<fs::path> refused_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(TEST_DATA))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class Refused : public testing::TestWithParam<fs::path> {};
+
+TEST_P(Refused, with_the_expected_errors) {
+  const RefusedScene wrong = load(GetParam());
+  ASSERT_FALSE(wrong.expectations.empty()) << "no # EXPECT line in " << GetParam();
+  const fs::path file = fs::path(testing::TempDir()) / ("refused_" + GetParam().filename().string());
+  std::ofstream(file, std::ios::binary) << wrong.scene;
+  std::vector<pipelines::SceneError> errors;
+  try {
+    pipelines::read_scene(file);
+  } catch (const pipelines::SceneErrors& refused) {
+    errors = refused.errors();
+  }
+  fs::remove(file);
+
+  std::string report;
+  for (const auto& error : errors) {
+    report += without_file(error) + "\n";
+    EXPECT_EQ(error.file, file.string());
+    EXPECT_FALSE(error.remedy.empty());
+    const bool is_of_the_file = error.line == 0 || error.remedy.rfind("is not TOML", 0) == 0;
+    EXPECT_TRUE(is_of_the_file || !error.key.empty()) << error.text();
+  }
+  EXPECT_EQ(errors.size(), wrong.expectations.size()) << report;
+  for (const std::string& expectation : wrong.expectations)
+    EXPECT_TRUE(
+        std::any_of(errors.begin(), errors.end(), [&](const auto& e) { return fits(e, expectation); }))
+        << "expected " << expectation << "\namong\n"
+        << report;
+}
+
+INSTANTIATE_TEST_SUITE_P(scenes, Refused, testing::ValuesIn(refused_files()), [](const auto& info) {
+  std::string name = info.param.stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+});
+
+TEST(refused, the_base_of_the_refused_scenes_is_accepted) {
+  EXPECT_NO_THROW(pipelines::read_scene(fs::path(TEST_DATA) / "base" / "mill.toml"));
+}
+
+}  // namespace

@@ -1,0 +1,94 @@
+/// Files that are no scenes. Scenes with wrong content: tests/refused.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "pipelines/nearest.h"
+#include "pipelines/scene.h"
+#include "pipelines/toml_tree.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string refusal(const fs::path& file) {
+  try {
+    pipelines::read_scene(file);
+    return "accepted";
+  } catch (const pipelines::SceneErrors& refused) {
+    EXPECT_EQ(refused.errors().size(), 1u);
+    EXPECT_EQ(refused.errors()[0].line, 0);
+    EXPECT_EQ(std::string(refused.what()), refused.errors()[0].text());
+    return refused.what();
+  }
+}
+
+fs::path written(const std::string& name, const std::string& text) {
+  const fs::path file = fs::path(testing::TempDir()) / name;
+  std::ofstream(file, std::ios::binary) << text;
+  return file;
+}
+
+TEST(scene_file, missing) {
+  EXPECT_EQ(refusal("/nowhere/scene.toml"),
+            "/nowhere/scene.toml: there is no such file; give the path of a scene, such as "
+            "scenes/vibratory_mill.toml");
+}
+
+TEST(scene_file, directory) {
+  EXPECT_NE(refusal(testing::TempDir()).find("is a directory; give the path of a scene"), std::string::npos);
+}
+
+TEST(scene_file, empty_or_only_comments) {
+  EXPECT_NE(refusal(written("empty.toml", "")).find("the scene is empty"), std::string::npos);
+  EXPECT_NE(refusal(written("comments.toml", "# nothing\n\n")).find("the scene is empty"), std::string::npos);
+}
+
+TEST(scene_file, device) {
+  EXPECT_NE(refusal("/dev/zero").find("no ordinary file"), std::string::npos);
+}
+
+TEST(scene_file, unreadable) {
+  const fs::path file = written("unreadable.toml", "title = \"secret\"\n");
+  fs::permissions(file, fs::perms::none);
+  if (access(file.c_str(), R_OK) == 0) GTEST_SKIP() << "this user may read every file";
+  EXPECT_NE(refusal(file).find("cannot be read; check its permissions"), std::string::npos);
+}
+
+TEST(scene_file, bytes_that_are_no_text) {
+  const fs::path file = written("bytes.toml", std::string("a = 1\n\xff\xfe\x00\x01", 10));
+  EXPECT_THROW(pipelines::read_scene(file), pipelines::SceneErrors);
+}
+
+TEST(toml_tree, knows_where_values_stand_and_how_they_were_written) {
+  const auto tree =
+      pipelines::parse_toml("title = 'Mühle' # ü\r\n[a]\nx = [ 1_000, \"µ\",  0x10 ]\r\nb.c = 1.50e3\n");
+  const auto& title = tree.find("title")->value;
+  EXPECT_EQ(title.text, "Mühle");
+  EXPECT_EQ(title.as_written, "'Mühle'");
+  const auto& a = tree.find("a")->value;
+  const auto& items = a.find("x")->value.items;
+  EXPECT_EQ(items[0].as_written, "1_000");
+  EXPECT_EQ(items[0].integer, 1000);
+  EXPECT_EQ(items[2].as_written, "0x10");
+  EXPECT_EQ(items[2].at.line, 3);
+  EXPECT_EQ(items[2].at.column, 20) << "in characters, not bytes";
+  EXPECT_EQ(a.find("b")->value.find("c")->value.as_written, "1.50e3");
+  EXPECT_EQ(a.find("nothing"), nullptr);
+}
+
+TEST(nearest_name, suggests_only_what_is_near) {
+  const std::vector<std::string> known = {"mass", "offset", "turn_ratio", "charge_translation"};
+  EXPECT_EQ(pipelines::nearest_name("mas", known), "mass");
+  EXPECT_EQ(pipelines::nearest_name("Offset", known), "offset");
+  EXPECT_EQ(pipelines::nearest_name("turnratio", known), "turn_ratio");
+  EXPECT_EQ(pipelines::nearest_name("charge_trnaslation", known), "charge_translation");
+  EXPECT_EQ(pipelines::nearest_name("colour", known), "");
+  EXPECT_EQ(pipelines::nearest_name("", known), "");
+  EXPECT_EQ(pipelines::nearest_name(std::string(100000, 'x'), known), "");
+}
+
+}  // namespace

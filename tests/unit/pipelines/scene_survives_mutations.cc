@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "pipelines/scene.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Deletes, doubles, moves or alters one line; the generator alone decides, so the same seed gives the same
+/// scenes.
+void mutate(std::vector<std::string>& lines, std::mt19937& random) {
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+  static const std::vector<std::string> pieces = {
+      "\"", "[", "]",    "=",  "-",          "1e999", "nan",     "{",      "}",      ",",
+      "mm", "#", "\t",   "\\", "9999999999", "0",     "Hz",      "\"\"",   "[[",     "true",
+      "°",  ".", "-1/0", "''", "1979-05-27", "inf",   "machine", "fillet", "\"\"\"", "= ["};
+  const std::size_t at = below(lines.size());
+  const auto here = lines.begin() + static_cast<std::ptrdiff_t>(at);
+  switch (below(6)) {
+    case 0:
+      lines.erase(here);
+      break;
+    case 1:
+      lines.insert(here, std::string(*here));
+      break;
+    case 2:
+      std::swap(lines[at], lines[below(lines.size())]);
+      break;
+    case 3:
+      here->insert(below(here->size() + 1), pieces[below(pieces.size())]);
+      break;
+    case 4:
+      if (!here->empty()) here->erase(below(here->size()), 1 + below(4));
+      break;
+    default:
+      for (char& c : *here)
+        if (c >= '0' && c <= '9' && below(2) == 0) c = static_cast<char>('0' + below(10));
+  }
+}
+
+TEST(scene, mutated_is_read_or_refused_and_nothing_else) {
+  const auto original = lines_of(fs::path(SOURCE_DIR) / "pipelines/scenes/vibratory_mill.toml");
+  const fs::path file = fs::path(testing::TempDir()) / "mutated_scene.toml";
+  std::mt19937 random(20240229);
+  int n_read = 0, n_refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::string> lines = original;
+    const std::size_t n_mutations = 1 + static_cast<std::size_t>(random()) % 3;
+    for (std::size_t m = 0; m < n_mutations; ++m) mutate(lines, random);
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    std::ofstream(file, std::ios::binary) << text;
+    try {
+      pipelines::read_scene(file);
+      ++n_read;
+    } catch (const pipelines::SceneErrors& refused) {
+      ++n_refused;
+      EXPECT_FALSE(refused.errors().empty());
+      for (const auto& error : refused.errors()) {
+        EXPECT_FALSE(error.remedy.empty()) << text;
+        EXPECT_LE(error.line, static_cast<int>(lines.size()) + 1) << error.text();
+        EXPECT_TRUE(error.line > 0 || error.remedy.find("empty") != std::string::npos) << error.text();
+      }
+    } catch (const std::exception& other) {
+      ADD_FAILURE() << "mutation " << i << ": " << other.what() << "\n" << text;
+    }
+  }
+  fs::remove(file);
+  EXPECT_GT(n_read, 30) << "many mutations touch comments or stay within reason";
+  EXPECT_GT(n_refused, 100);
+}
+
+}  // namespace
