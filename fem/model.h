@@ -20,7 +20,14 @@ public:
   ~Environment();
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
+
+/// Told the share done, 0 to 1, and the name of the step that starts.
+using Progress = std::function<void(double, const std::string&)>;
 
 /// How nodal stresses are made from the finite-element stress.
 enum class Recovery {
@@ -31,9 +38,10 @@ enum class Recovery {
 class Model {
 public:
   /// Reads the mesh, attaches the charts, numbers the unknowns.
+  /// @param progress told that reading starts; may be empty
   /// @throws std::runtime_error if the mesh cannot be read, has inverted cells, or the program runs on several MPI ranks
   /// @throws std::invalid_argument for impossible material values
-  explicit Model(const Body& body);
+  explicit Model(const Body& body, const Progress& progress = {});
   ~Model();
   Model(Model&&) noexcept;
 
@@ -48,7 +56,7 @@ public:
   /// @throws std::runtime_error if the factorisation fails
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
                                Recovery recovery = Recovery::patch,
-                               const std::function<void(double, const std::string&)>& progress = {}) const;
+                               const Progress& progress = {}) const;
 
 private:
   struct Impl;

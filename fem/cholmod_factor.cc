@@ -1,0 +1,132 @@
+#include "fem/cholmod_factor.h"
+
+#include <algorithm>
+#include <cholmod.h>
+#include <cstdint>
+#include <metis.h>
+#include <stdexcept>
+#include <string>
+
+namespace fem {
+
+std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
+  static_assert(sizeof(idx_t) == sizeof(std::int32_t), "METIS with 32-bit indices is expected");
+  idx_t n = static_cast<idx_t>(graph.n_nodes());
+  std::vector<idx_t> begin(n + 1, 0);
+  for (idx_t j = 0; j < n; ++j) {
+    begin[j + 1] += static_cast<idx_t>(graph.begin[j + 1] - graph.begin[j]);
+    for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) ++begin[graph.neighbour[k] + 1];
+  }
+  for (idx_t j = 0; j < n; ++j) begin[j + 1] += begin[j];
+  std::vector<idx_t> neighbour(begin[n]), next(begin.begin(), begin.end() - 1);
+  for (idx_t j = 0; j < n; ++j)
+    for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) {
+      neighbour[next[j]++] = graph.neighbour[k];
+      neighbour[next[graph.neighbour[k]]++] = j;
+    }
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  std::vector<idx_t> order(n), place(n);
+  if (METIS_NodeND(&n, begin.data(), neighbour.data(), nullptr, options, order.data(), place.data()) != METIS_OK)
+    throw std::runtime_error("METIS could not order the " + std::to_string(n) + " nodes of the mesh");
+  return {order.begin(), order.end()};
+}
+
+struct CholmodFactor::Impl {
+  mutable cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+
+  Impl() {
+    cholmod_l_start(&common);
+    common.print = 0;
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+  }
+  ~Impl() {
+    cholmod_l_free_factor(&factor, &common);
+    cholmod_l_finish(&common);
+  }
+  void check(const char* step) const {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+      throw std::runtime_error(std::string("not enough memory to ") + step + " the stiffness: use a coarser mesh");
+    if (common.status < CHOLMOD_OK)
+      throw std::runtime_error(std::string("CHOLMOD could not ") + step + " the stiffness (status " +
+                               std::to_string(common.status) + ")");
+  }
+  /// The matrix as CHOLMOD sees it; nothing is copied, and CHOLMOD does not write to it.
+  static cholmod_sparse view(const SymmetricMatrix& matrix) {
+    cholmod_sparse a{};
+    a.nrow = a.ncol = matrix.n;
+    a.nzmax = matrix.value.size();
+    a.p = const_cast<std::int64_t*>(matrix.column_begin.data());
+    a.i = const_cast<std::int64_t*>(matrix.row.data());
+    a.x = const_cast<double*>(matrix.value.data());
+    a.stype = -1;
+    a.itype = CHOLMOD_LONG;
+    a.xtype = CHOLMOD_REAL;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = a.packed = 1;
+    return a;
+  }
+};
+
+CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& node_order)
+    : impl_(std::make_unique<Impl>()) {
+  static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t), "CHOLMOD with 64-bit indices is expected");
+  std::vector<SuiteSparse_long> order;
+  order.reserve(3 * node_order.size());
+  for (const auto node : node_order)
+    for (int d = 0; d < 3; ++d) order.push_back(3 * SuiteSparse_long(node) + d);
+  auto a = Impl::view(matrix);
+  impl_->factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &impl_->common);
+  impl_->check("analyse");
+}
+
+CholmodFactor::~CholmodFactor() = default;
+
+void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
+  auto a = Impl::view(matrix);
+  cholmod_l_factorize(&a, impl_->factor, &impl_->common);
+  impl_->check("factorise");
+  if (impl_->common.status == CHOLMOD_NOT_POSDEF || impl_->factor->minor < impl_->factor->n)
+    throw std::runtime_error(
+        "the stiffness is not positive definite: the mesh may fall into parts that do not touch, or has degenerate "
+        "cells");
+}
+
+Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  constexpr Eigen::Index block = 32;  // CHOLMOD's work space is twice the block
+  Eigen::MatrixXd solution(right_hand_sides.rows(), right_hand_sides.cols());
+  cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
+  const auto release = [&] {
+    for (auto* dense : {&x, &y, &e}) cholmod_l_free_dense(dense, &impl_->common);
+  };
+  for (Eigen::Index first = 0; first < right_hand_sides.cols(); first += block) {
+    const auto columns = std::min(block, right_hand_sides.cols() - first);
+    cholmod_dense b{};
+    b.nrow = b.d = right_hand_sides.rows();
+    b.ncol = columns;
+    b.nzmax = b.nrow * b.ncol;
+    b.x = const_cast<double*>(right_hand_sides.data() + first * right_hand_sides.rows());
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    if (!cholmod_l_solve2(CHOLMOD_A, impl_->factor, &b, nullptr, &x, nullptr, &y, &e, &impl_->common)) {
+      release();
+      impl_->check("solve with");
+      throw std::runtime_error("CHOLMOD could not solve");
+    }
+    solution.middleCols(first, columns) =
+        Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), x->nrow, columns);
+  }
+  release();
+  return solution;
+}
+
+double CholmodFactor::gigabytes() const {
+  const auto& l = *impl_->factor;
+  return 1e-9 * (8.0 * double(l.xsize) + 8.0 * double(l.ssize) + 24.0 * double(l.nsuper) + 16.0 * double(l.n));
+}
+
+}  // namespace fem

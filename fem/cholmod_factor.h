@@ -1,0 +1,39 @@
+/// Sparse Cholesky factorisation of the stiffness with CHOLMOD (supernodal), ordered by METIS on the graph of nodes.
+/// Internal to fem.
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <vector>
+
+#include "fem/symmetric_matrix.h"
+
+namespace fem {
+
+/// Nested dissection of the nodes: position p of the new order is node result[p].
+/// @throws std::runtime_error if METIS fails
+std::vector<std::int32_t> order_nodes(const NodeGraph& graph);
+
+class CholmodFactor {
+public:
+  /// Finds the shape of the factor. The matrix has to outlive factorise() only.
+  /// @throws std::runtime_error if memory does not suffice
+  CholmodFactor(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& node_order);
+  ~CholmodFactor();
+  CholmodFactor(const CholmodFactor&) = delete;
+  CholmodFactor& operator=(const CholmodFactor&) = delete;
+
+  /// @throws std::runtime_error if the matrix is not positive definite or memory does not suffice
+  void factorise(const SymmetricMatrix& matrix);
+
+  /// All columns, in blocks that bound the memory.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
+
+  double gigabytes() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fem

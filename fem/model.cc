@@ -1,0 +1,147 @@
+#include "fem/model.h"
+
+#include <algorithm>
+
+#include "fem/cholmod_factor.h"
+#include "fem/grid.h"
+#include "fem/mesh_reader.h"
+#include "fem/nodes_export.h"
+#include "fem/ranks.h"
+#include "fem/rigid_modes.h"
+#include "fem/sections.h"
+#include "fem/stiffness.h"
+#include "fem/stress_recovery.h"
+#include "fem/supports.h"
+#include "fem/surface_loads.h"
+
+namespace fem {
+
+struct Model::Impl {
+  Body body;
+  Grid grid;
+  CellsOfNodes cells;
+  std::vector<std::vector<std::int32_t>> colours;
+  NodeIntegrals integrals;
+};
+
+Model::Model(const Body& body, const Progress& progress) : impl_(std::make_unique<Impl>()) {
+  refuse_several_ranks(n_ranks());
+  refuse_impossible(body.material);
+  if (progress) progress(0, "read mesh");
+  impl_->body = body;
+  impl_->grid = read_grid(body);
+  impl_->cells = cells_of_nodes(impl_->grid);
+  impl_->colours = colour_cells(impl_->grid, impl_->cells);
+  impl_->integrals = integrate_nodes(impl_->grid, impl_->colours);
+}
+
+Model::~Model() = default;
+Model::Model(Model&&) noexcept = default;
+
+std::size_t Model::n_dofs() const { return 3 * impl_->grid.n_nodes; }
+
+MassProperties Model::mass_properties() const {
+  return fem::mass_properties(impl_->grid, impl_->integrals, impl_->body.material.density_kg_m3);
+}
+
+namespace {
+
+// Rounding alone leaves eps |K| |u| / |f|, up to 1e-9 in slender bodies: refinement cannot go below that.
+constexpr double acceptable_residual = 1e-8;
+
+/// Sizes of the load vectors as applied. A balanced one may vanish (a uniform acceleration), and is no scale.
+struct Scales {
+  Eigen::RowVectorXd norm, largest_entry;
+};
+
+Scales scales_of(const Eigen::MatrixXd& force) {
+  return {force.colwise().norm().cwiseMax(1e-300), force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300)};
+}
+
+/// K u = f on the supported body; fills the solver's figures of `responses`.
+Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
+                               const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
+                               const Eigen::MatrixXd& force, const Scales& scales, UnitResponses& responses,
+                               const Progress& progress) {
+  progress(0.05, "assemble");
+  const NodeGraph graph = make_node_graph(grid, cells);
+  SymmetricMatrix matrix = make_matrix(graph);
+  assemble_stiffness(grid, colours, graph, material, matrix);
+  const Supports supports(choose_supports(grid), matrix);
+
+  progress(0.1, "order");
+  CholmodFactor factor(matrix, order_nodes(graph));
+  progress(0.25, "factorise");
+  factor.factorise(matrix);
+  responses.factor_gigabytes = factor.gigabytes();
+
+  progress(0.75, "solve");
+  Eigen::MatrixXd free_force = force;
+  supports.clear(free_force);
+  Eigen::MatrixXd displacement = factor.solve(free_force);
+  Eigen::MatrixXd rest = free_force - multiply(matrix, displacement);
+  responses.residual = rest.colwise().norm().cwiseQuotient(scales.norm).maxCoeff();
+  if (responses.residual > acceptable_residual) {
+    displacement += factor.solve(rest);
+    rest = free_force - multiply(matrix, displacement);
+    responses.residual = rest.colwise().norm().cwiseQuotient(scales.norm).maxCoeff();
+  }
+  responses.support_reaction = supports.reactions(displacement, force)
+                                   .colwise()
+                                   .lpNorm<Eigen::Infinity>()
+                                   .cwiseQuotient(scales.largest_entry)
+                                   .maxCoeff();
+  return displacement;
+}
+
+}  // namespace
+
+UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
+                                    Recovery recovery, const Progress& progress) const {
+  const Progress report = progress ? progress : [](double, const std::string&) {};
+  const auto& grid = impl_->grid;
+  const auto n_loads = static_cast<Eigen::Index>(loads.size());
+  UnitResponses responses;
+  responses.n_dofs = n_dofs();
+  for (const auto& load : loads) responses.channels.push_back(load.channel);
+
+  report(0, "loads");
+  Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads);
+  const Eigen::MatrixXd applied = resultants(grid, force, Eigen::Vector3d::Zero());
+  responses.resultants.resize(loads.size());
+  for (Eigen::Index k = 0; k < n_loads; ++k)
+    for (int c = 0; c < 6; ++c) responses.resultants[k][c] = applied(c, k);
+
+  {
+    const Scales scales = scales_of(force);
+    const RigidBalance rigid(grid, impl_->integrals);
+    rigid.balance(force);
+    Eigen::MatrixXd displacement = solve_balanced(grid, impl_->cells, impl_->colours, impl_->body.material, force,
+                                                  scales, responses, report);
+    rigid.remove_motion(displacement);
+    responses.displacement_m.resize(displacement.size());
+    for (std::size_t i = 0; i < grid.n_nodes; ++i)
+      for (Eigen::Index k = 0; k < n_loads; ++k)
+        for (int d = 0; d < 3; ++d)
+          responses.displacement_m[(i * n_loads + k) * 3 + d] = displacement(3 * i + d, k);
+  }
+  force.resize(0, 0);
+
+  report(0.85, "recover");
+  const Lame elastic = lame(impl_->body.material);
+  responses.stress_Pa.resize(grid.n_nodes * n_loads * 6);
+  const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), grid.n_nodes, 3 * n_loads);
+  Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), grid.n_nodes, 6 * n_loads);
+  if (recovery == Recovery::average) {
+    average_stress(grid, impl_->cells, elastic, displacement, stress);
+  } else {
+    const Tabulation sampling = gauss_in_cell(grid.degree, grid.degree);
+    recover_by_patches(grid, impl_->cells, stress_at_points(grid, sampling, elastic, displacement), stress);
+  }
+  responses.nodes = export_nodes(grid, impl_->integrals);
+  respond_on_sections(grid, planes, responses);
+  respond_on_rings(grid, impl_->body, responses);
+  return responses;
+}
+
+}  // namespace fem

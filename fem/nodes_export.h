@@ -1,0 +1,13 @@
+/// The nodes and cells of the solution as plain arrays. Internal to fem.
+#pragma once
+
+#include "fem/grid.h"
+#include "fem/rigid_modes.h"
+#include "fem/unit_responses.h"
+
+namespace fem {
+
+/// Cells and faces in VTK's order (degree 2 only, empty otherwise).
+Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals);
+
+}  // namespace fem

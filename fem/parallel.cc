@@ -1,0 +1,36 @@
+#include "fem/parallel.h"
+
+#include <deal.II/base/parallel.h>
+#include <dlfcn.h>
+
+namespace fem {
+
+namespace {
+
+// Looked up at run time: the reference BLAS has no such functions, and both go by the name libblas.so.3.
+template <typename Function>
+Function* blas_function(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+int blas_threads() {
+  const auto get = blas_function<int()>("openblas_get_num_threads");
+  return get != nullptr ? get() : 1;
+}
+
+}  // namespace
+
+void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  if (n == 0) return;
+  dealii::parallel::apply_to_subranges(std::size_t{0}, n, body, static_cast<unsigned>(grain));
+}
+
+void set_blas_threads(int n_threads) {
+  if (const auto set = blas_function<void(int)>("openblas_set_num_threads")) set(n_threads);
+}
+
+SerialBlas::SerialBlas() : n_threads_before_(blas_threads()) { set_blas_threads(1); }
+
+SerialBlas::~SerialBlas() { set_blas_threads(n_threads_before_); }
+
+}  // namespace fem

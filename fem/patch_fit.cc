@@ -1,0 +1,83 @@
+#include "fem/patch_fit.h"
+
+#include <array>
+#include <vector>
+
+namespace fem {
+
+namespace {
+
+using Exponents = std::vector<std::array<int, 3>>;
+
+Exponents tensor_space(int degree) {
+  Exponents e;
+  for (int c = 0; c <= degree; ++c)
+    for (int b = 0; b <= degree; ++b)
+      for (int a = 0; a <= degree; ++a) e.push_back({a, b, c});
+  return e;
+}
+
+Exponents complete_space(int degree) {
+  Exponents e;
+  for (const auto& t : tensor_space(degree))
+    if (t[0] + t[1] + t[2] <= degree) e.push_back(t);
+  return e;
+}
+
+/// Products of Legendre polynomials: the same spaces as monomials, well conditioned on [-1, 1]^3.
+Eigen::MatrixXd basis(const Exponents& exponents, const Points& points) {
+  Eigen::MatrixXd values(points.cols(), exponents.size());
+  for (Eigen::Index p = 0; p < points.cols(); ++p) {
+    std::array<std::array<double, 4>, 3> legendre{};
+    for (int d = 0; d < 3; ++d) {
+      const double x = points(d, p);
+      legendre[d] = {{1, x, (3 * x * x - 1) / 2, (5 * x * x - 3) * x / 2}};
+    }
+    for (std::size_t k = 0; k < exponents.size(); ++k)
+      values(p, k) = legendre[0][exponents[k][0]] * legendre[1][exponents[k][1]] * legendre[2][exponents[k][2]];
+  }
+  return values;
+}
+
+/// The fit in one space; an empty matrix if the samples do not determine it well.
+Eigen::MatrixXd fit_in(const Exponents& space, const Points& samples, const Points& targets) {
+  // The squared sine between a basis function and the span of the others, on the samples: below this they are as good
+  // as dependent, and noise of the samples would grow tenfold.
+  constexpr double smallest_pivot = 1e-2;
+  if (samples.cols() < static_cast<Eigen::Index>(space.size())) return {};
+  const Eigen::MatrixXd at_samples = basis(space, samples);
+  const Eigen::VectorXd norm = at_samples.colwise().norm();
+  if (!(norm.minCoeff() > 0)) return {};
+  const Eigen::MatrixXd scaled = at_samples * norm.cwiseInverse().asDiagonal();
+  const Eigen::LDLT<Eigen::MatrixXd> gram(scaled.transpose() * scaled);
+  if (!(gram.vectorD().minCoeff() > smallest_pivot)) return {};
+  const Eigen::MatrixXd at_targets = basis(space, targets) * norm.cwiseInverse().asDiagonal();
+  return at_targets * gram.solve(scaled.transpose());
+}
+
+}  // namespace
+
+Eigen::MatrixXd fit_operator(int degree, bool full_patch, const Eigen::Matrix3d& directions, const Points& samples,
+                             const Points& targets) {
+  constexpr double nearly_coplanar = 0.05;
+  const Eigen::Matrix3d unit = directions.colwise().normalized();
+  const bool usable = std::abs(unit.determinant()) > nearly_coplanar;
+  const Eigen::Matrix3d to_patch = usable ? Eigen::Matrix3d(unit.inverse()) : Eigen::Matrix3d::Identity();
+  Points s = to_patch * samples, t = to_patch * targets;
+  for (int d = 0; d < 3; ++d) {
+    const double low = std::min(s.row(d).minCoeff(), t.row(d).minCoeff());
+    const double high = std::max(s.row(d).maxCoeff(), t.row(d).maxCoeff());
+    const double centre = (low + high) / 2, half = high > low ? (high - low) / 2 : 1.0;
+    s.row(d).array() = (s.row(d).array() - centre) / half;
+    t.row(d).array() = (t.row(d).array() - centre) / half;
+  }
+  // Trilinear fits of one sample per cell would be interpolations that amplify the samples' errors: degree 1 goes
+  // straight to the complete space.
+  if (full_patch && degree > 1)
+    if (auto fit = fit_in(tensor_space(degree), s, t); fit.size() > 0) return fit;
+  for (int p = degree; p > 0; --p)
+    if (auto fit = fit_in(complete_space(p), s, t); fit.size() > 0) return fit;
+  return Eigen::MatrixXd::Constant(t.cols(), s.cols(), 1.0 / double(s.cols()));
+}
+
+}  // namespace fem

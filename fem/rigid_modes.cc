@@ -1,0 +1,78 @@
+#include "fem/rigid_modes.h"
+
+#include "fem/cell_geometry.h"
+#include "fem/parallel.h"
+#include "fem/reference_cell.h"
+
+namespace fem {
+
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours) {
+  // N, x and det J have degree k, k and 3 k - 1 in each direction; second moments take two x: 5 k - 1 in all.
+  const Tabulation at = gauss_in_cell(grid.degree, (5 * grid.degree + 1) / 2);
+  NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
+  for (const auto& cells : colours)
+    parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) {
+        const auto* nodes = grid.nodes_of(cells[c]);
+        for (int q = 0; q < at.n_points; ++q) {
+          const double volume = jacobian(grid, cells[c], at, q).determinant() * at.weight[q];
+          const Eigen::Vector3d x = position(grid, cells[c], at, q);
+          const Eigen::RowVector4d moments = volume * Eigen::RowVector4d(1, x[0], x[1], x[2]);
+          for (int i = 0; i < at.n_shapes; ++i)
+            integrals.row(nodes[i]) += at.value[std::size_t(q) * at.n_shapes + i] * moments;
+        }
+      }
+    });
+  return integrals;
+}
+
+MassProperties mass_properties(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3) {
+  MassProperties body;
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> x(grid.xyz_m.data(), grid.n_nodes, 3);
+  body.volume_m3 = integrals.col(0).sum();
+  body.mass_kg = density_kg_m3 * body.volume_m3;
+  for (int d = 0; d < 3; ++d) body.first_moment_kg_m[d] = density_kg_m3 * integrals.col(1 + d).sum();
+  const Eigen::Matrix3d second = density_kg_m3 * x.transpose() * integrals.rightCols<3>();
+  body.second_moments_kg_m2 = {second(0, 0), second(1, 1), second(2, 2), second(0, 1), second(1, 2), second(0, 2)};
+  return body;
+}
+
+Eigen::MatrixXd rigid_modes(const Grid& grid, const Eigen::Vector3d& centre) {
+  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(3 * grid.n_nodes, 6);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) {
+    const double x = grid.xyz_m[3 * i] - centre[0], y = grid.xyz_m[3 * i + 1] - centre[1],
+                 z = grid.xyz_m[3 * i + 2] - centre[2];
+    modes.block<3, 3>(3 * i, 0).setIdentity();
+    modes.block<3, 3>(3 * i, 3) << 0, z, -y, -z, 0, x, y, -x, 0;
+  }
+  return modes;
+}
+
+Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const Eigen::Vector3d& centre) {
+  return rigid_modes(grid, centre).transpose() * force;
+}
+
+RigidBalance::RigidBalance(const Grid& grid, const NodeIntegrals& integrals) {
+  const Eigen::Vector3d centre = integrals.rightCols<3>().colwise().sum().transpose() / integrals.col(0).sum();
+  modes_ = rigid_modes(grid, centre);
+  mass_modes_ = Eigen::MatrixXd::Zero(modes_.rows(), 6);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) {
+    const double m = integrals(i, 0);
+    const Eigen::Vector3d s = integrals.block<1, 3>(i, 1).transpose() - m * centre;
+    mass_modes_.block<3, 3>(3 * i, 0).diagonal().setConstant(m);
+    mass_modes_.block<3, 3>(3 * i, 3) << 0, s[2], -s[1], -s[2], 0, s[0], s[1], -s[0], 0;
+  }
+  inverse_ = (modes_.transpose() * mass_modes_).inverse();
+}
+
+void RigidBalance::balance(Eigen::MatrixXd& force) const {
+  const Eigen::MatrixXd acceleration = inverse_ * (modes_.transpose() * force);
+  force.noalias() -= mass_modes_ * acceleration;
+}
+
+void RigidBalance::remove_motion(Eigen::MatrixXd& displacement) const {
+  const Eigen::MatrixXd motion = inverse_ * (mass_modes_.transpose() * displacement);
+  displacement.noalias() -= modes_ * motion;
+}
+
+}  // namespace fem

@@ -1,0 +1,37 @@
+/// Mass integrals of the nodes, the six rigid modes, and the balancing of load vectors. Internal to fem.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "fem/body.h"
+#include "fem/grid.h"
+
+namespace fem {
+
+/// Integrals over the body of N_i, N_i x, N_i y, N_i z for every node (n x 4). Gauss points in number that makes them
+/// exact on isoparametric cells: mass, first and second moments, body loads and balancing all come from this table.
+using NodeIntegrals = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours);
+
+MassProperties mass_properties(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3);
+
+/// Displacements of unit translations along and unit rotations about x, y, z through `centre` (3 n x 6).
+Eigen::MatrixXd rigid_modes(const Grid& grid, const Eigen::Vector3d& centre);
+
+/// fx, fy, fz, mx, my, mz about `centre` of each column of nodal forces (6 x columns).
+Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const Eigen::Vector3d& centre);
+
+/// Takes resultants out of loads and rigid motion out of displacements, both by the mass (of density 1).
+class RigidBalance {
+public:
+  RigidBalance(const Grid& grid, const NodeIntegrals& integrals);
+  void balance(Eigen::MatrixXd& force) const;              ///< f - M R (R'MR)^-1 R'f
+  void remove_motion(Eigen::MatrixXd& displacement) const;  ///< u - R (R'MR)^-1 R'M u
+
+private:
+  Eigen::MatrixXd modes_, mass_modes_;  // R and M R, 3 n x 6
+  Eigen::MatrixXd inverse_;             // (R'MR)^-1
+};
+
+}  // namespace fem

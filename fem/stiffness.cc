@@ -1,0 +1,100 @@
+#include "fem/stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "fem/cell_geometry.h"
+#include "fem/parallel.h"
+#include "fem/reference_cell.h"
+
+namespace fem {
+
+namespace {
+
+/// Lower triangle of  H_ij = integral of grad N_i (x) grad N_j,  3 x 3 blocks.
+void gradient_products(const CellGradients& cell, Eigen::MatrixXd& scaled, Eigen::MatrixXd& products) {
+  const auto n_points = static_cast<Eigen::Index>(cell.jxw.size());
+  const auto n_nodes = cell.gradient.cols();
+  scaled.resize(3 * n_nodes, n_points);
+  for (Eigen::Index q = 0; q < n_points; ++q)
+    for (Eigen::Index i = 0; i < n_nodes; ++i)
+      scaled.block<3, 1>(3 * i, q) = std::sqrt(cell.jxw[q]) * cell.gradient.block<3, 1>(3 * q, i);
+  products.setZero(3 * n_nodes, 3 * n_nodes);
+  products.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
+}
+
+/// The block K_ij that goes with H_ij: lambda H + mu H' + mu tr(H) I.
+Eigen::Matrix3d elastic_block(const Lame& elastic, const Eigen::Matrix3d& h) {
+  Eigen::Matrix3d k = elastic.lambda_Pa * h + elastic.mu_Pa * h.transpose();
+  k.diagonal().array() += elastic.mu_Pa * h.trace();
+  return k;
+}
+
+void add_block(const NodeGraph& graph, SymmetricMatrix& matrix, std::int32_t row_node, std::int32_t column_node,
+               const Eigen::Matrix3d& k) {
+  const auto begin = graph.neighbour.begin() + graph.begin[column_node];
+  const auto end = graph.neighbour.begin() + graph.begin[column_node + 1];
+  const auto place = std::lower_bound(begin, end, row_node) - begin;
+  for (int c = 0; c < 3; ++c) {
+    double* value = matrix.value.data() + matrix.column_begin[3 * std::int64_t(column_node) + c] + 3 - c + 3 * place;
+    for (int a = 0; a < 3; ++a) value[a] += k(a, c);
+  }
+}
+
+void add_diagonal_block(SymmetricMatrix& matrix, std::int32_t node, const Eigen::Matrix3d& k) {
+  for (int c = 0; c < 3; ++c) {
+    double* value = matrix.value.data() + matrix.column_begin[3 * std::int64_t(node) + c];
+    for (int a = c; a < 3; ++a) value[a - c] += k(a, c);
+  }
+}
+
+}  // namespace
+
+Lame lame(const Material& material) {
+  const double e = material.youngs_modulus_Pa, nu = material.poisson_ratio;
+  return {e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))};
+}
+
+void refuse_impossible(const Material& material) {
+  const auto refuse = [](const char* key, double value, const char* rule) {
+    std::ostringstream message;
+    message << "material." << key << " = " << value << ": must " << rule;
+    throw std::invalid_argument(message.str());
+  };
+  if (!(material.youngs_modulus_Pa > 0)) refuse("youngs_modulus", material.youngs_modulus_Pa, "be positive");
+  if (!(material.poisson_ratio > -1 && material.poisson_ratio < 0.5))
+    refuse("poisson_ratio", material.poisson_ratio, "lie between -1 and 0.5");
+  if (!(material.density_kg_m3 > 0)) refuse("density", material.density_kg_m3, "be positive");
+}
+
+void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours, const NodeGraph& graph,
+                        const Material& material, SymmetricMatrix& matrix) {
+  const Lame elastic = lame(material);
+  const Tabulation at = gauss_in_cell(grid.degree, grid.degree + 1);
+  const int n_local = grid.nodes_per_cell();
+  for (const auto& cells : colours)
+    parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
+      CellGradients gradients;
+      Eigen::MatrixXd scaled, h;
+      for (std::size_t c = begin; c < end; ++c) {
+        compute_gradients(grid, cells[c], at, gradients);
+        gradient_products(gradients, scaled, h);
+        const auto* nodes = grid.nodes_of(cells[c]);
+        for (int j = 0; j < n_local; ++j) {
+          const Eigen::Matrix3d diagonal = h.block<3, 3>(3 * j, 3 * j).selfadjointView<Eigen::Lower>();
+          add_diagonal_block(matrix, nodes[j], elastic_block(elastic, diagonal));
+          for (int i = j + 1; i < n_local; ++i) {
+            const Eigen::Matrix3d k = elastic_block(elastic, h.block<3, 3>(3 * i, 3 * j));
+            if (nodes[i] > nodes[j])
+              add_block(graph, matrix, nodes[i], nodes[j], k);
+            else
+              add_block(graph, matrix, nodes[j], nodes[i], k.transpose());
+          }
+        }
+      }
+    });
+}
+
+}  // namespace fem

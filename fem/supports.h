@@ -1,0 +1,34 @@
+/// Statically determinate supports: six unknowns held at three nodes. Internal to fem.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstdint>
+
+#include "fem/grid.h"
+#include "fem/symmetric_matrix.h"
+
+namespace fem {
+
+/// The six unknowns of a 3-2-1 support: all of a corner A, two of the corner B farthest from A (across AB), one of the
+/// corner C farthest from the line AB (across the plane ABC). Ascending.
+std::array<std::int64_t, 6> choose_supports(const Grid& grid);
+
+/// The matrix rows of the supported unknowns, taken out of the matrix: what is left is positive definite.
+class Supports {
+public:
+  /// Zeroes rows and columns of the unknowns and leaves their diagonal.
+  Supports(const std::array<std::int64_t, 6>& unknowns, SymmetricMatrix& matrix);
+
+  /// Sets the supported rows to zero.
+  void clear(Eigen::MatrixXd& vectors) const;
+
+  /// K u - f in the supported rows (6 x columns), from the rows taken out.
+  Eigen::MatrixXd reactions(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const;
+
+private:
+  std::array<std::int64_t, 6> unknowns_;
+  Eigen::MatrixXd rows_;  // 6 x n
+};
+
+}  // namespace fem

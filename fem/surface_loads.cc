@@ -1,0 +1,137 @@
+#include "fem/surface_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "fem/cell_geometry.h"
+#include "fem/reference_cell.h"
+
+namespace fem {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+void refuse_impossible(const LoadSurface& surface) {
+  const bool seat = surface.kind == LoadSurface::Kind::seat;
+  if (!(surface.radius_m > 0) || (seat && !(surface.length_m > 0)))
+    throw std::invalid_argument("loaded surface with boundary group " + std::to_string(surface.boundary_id) +
+                                ": radius" + (seat ? " and length" : "") + " must be positive");
+}
+
+/// Coefficient of the half-cosine's harmonic n against n = 1 (unit_load.h).
+double half_cosine_coefficient(int n) {
+  if (n == 0) return 2 / pi;
+  return (n / 2 % 2 == 1 ? 1 : -1) * 4 / (pi * (double(n) * n - 1));
+}
+
+}  // namespace
+
+LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : grid_(&grid), surface_(surface) {
+  refuse_impossible(surface);
+  for (const auto& face : grid.boundary)
+    if (face.boundary_id == surface.boundary_id) faces_.push_back(face);
+  if (faces_.empty())
+    throw std::invalid_argument("the mesh has no faces in the boundary group " + std::to_string(surface.boundary_id) +
+                                " of a loaded surface: check the port's group in the mesh");
+  for (const auto& face : faces_)
+    for (const auto node : nodes_of_face(grid, face.cell, face.face)) nodes_.push_back(node);
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+
+  // Six tractions whose resultants are about right, in the order of Component; the mesh's own resultants then make
+  // them exact. local = position from the centre.
+  using V = Eigen::Vector3d;
+  std::vector<Traction> raw;
+  if (surface.kind == LoadSurface::Kind::seat) {
+    const auto taper = [half = surface.length_m / 2](double z) { return std::max(0.0, 1 - z * z / (half * half)); };
+    const auto ring = [](const V& p) { return std::hypot(p[0], p[1]); };
+    raw = {[=](const V& p, const V& n) -> V { return p[0] / ring(p) * n; },
+           [=](const V& p, const V& n) -> V { return p[1] / ring(p) * n; },
+           [=](const V& p, const V&) -> V { return taper(p[2]) * V::UnitZ(); },
+           [=](const V& p, const V& n) -> V { return p[2] * p[1] / ring(p) * n; },
+           [=](const V& p, const V& n) -> V { return p[2] * p[0] / ring(p) * n; },
+           [=](const V& p, const V&) -> V { return taper(p[2]) / ring(p) * V(-p[1], p[0], 0); }};
+  } else {
+    raw = {[](const V&, const V&) -> V { return V::UnitX(); },
+           [](const V&, const V&) -> V { return V::UnitY(); },
+           [](const V&, const V&) -> V { return V::UnitZ(); },
+           [](const V& p, const V&) -> V { return V(0, 0, p[1]); },
+           [](const V& p, const V&) -> V { return V(0, 0, p[0]); },
+           [](const V& p, const V&) -> V { return V(-p[1], p[0], 0); }};
+  }
+  basis_.resize(3 * nodes_.size(), 6);
+  for (int k = 0; k < 6; ++k) basis_.col(k) = integrate(raw[k]);
+  basis_.colwise().normalize();
+  const Eigen::FullPivLU<Eigen::MatrixXd> own(about_centre(basis_));
+  if (!own.isInvertible())
+    throw std::runtime_error("the faces of boundary group " + std::to_string(surface.boundary_id) +
+                             " cannot carry six independent resultants: a seat must go all the way round its axis");
+  // Twice: the second pass takes out what rounding left in the first.
+  basis_ = (basis_ * own.inverse()).eval();
+  basis_ = (basis_ * about_centre(basis_).inverse()).eval();
+}
+
+Eigen::VectorXd LoadedSurface::integrate(const Traction& traction) const {
+  const Tabulation at = gauss_on_face(grid_->degree, grid_->degree + 3);
+  const Eigen::Map<const Eigen::Vector3d> centre(surface_.centre_m.data());
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * nodes_.size());
+  for (const auto& face : faces_) {
+    const auto face_nodes = nodes_of_face(*grid_, face.cell, face.face);
+    std::vector<std::size_t> place;
+    for (const auto node : face_nodes)
+      place.push_back(std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin());
+    for (int q = 0; q < at.n_points; ++q) {
+      const FacePoint p = face_point(*grid_, face_nodes, at, q);
+      const double area = p.area.norm();
+      const Eigen::Vector3d t = area * traction(p.position - centre, p.area / area);
+      for (int i = 0; i < at.n_shapes; ++i)
+        force.segment<3>(3 * place[i]) += at.value[std::size_t(q) * at.n_shapes + i] * t;
+    }
+  }
+  return force;
+}
+
+Eigen::MatrixXd LoadedSurface::about_centre(const Eigen::MatrixXd& force) const {
+  const Eigen::Map<const Eigen::Vector3d> centre(surface_.centre_m.data());
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(6, force.cols());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Eigen::Vector3d x = Eigen::Map<const Eigen::Vector3d>(grid_->position(nodes_[i])) - centre;
+    for (Eigen::Index k = 0; k < force.cols(); ++k) {
+      const Eigen::Vector3d f = force.block<3, 1>(3 * i, k);
+      sums.col(k).head<3>() += f;
+      sums.col(k).tail<3>() += x.cross(f);
+    }
+  }
+  return sums;
+}
+
+Eigen::VectorXd LoadedSurface::resultant(SurfaceResultant::Component component) const {
+  return basis_.col(static_cast<int>(component));
+}
+
+Eigen::VectorXd LoadedSurface::pressure(int harmonic, SeatPressure::Phase phase) const {
+  if (surface_.kind != LoadSurface::Kind::seat)
+    throw std::invalid_argument("pressure harmonics need a seat; an end face has none");
+  if (harmonic < 0 || harmonic % 2 != 0)
+    throw std::invalid_argument("pressure harmonic " + std::to_string(harmonic) +
+                                ": must be 0 or even (harmonic 1 is the resultant fx, fy)");
+  const bool sine = phase == SeatPressure::Phase::sine;
+  if (sine && harmonic == 0) throw std::invalid_argument("pressure harmonic 0 has no sine phase");
+  const double scale = half_cosine_coefficient(harmonic) / (pi * surface_.radius_m * surface_.length_m);
+  Eigen::VectorXd force = integrate([=](const Eigen::Vector3d& p, const Eigen::Vector3d& n) -> Eigen::Vector3d {
+    const double theta = std::atan2(p[1], p[0]);
+    return -scale * (sine ? std::sin(harmonic * theta) : std::cos(harmonic * theta)) * n;
+  });
+  for (int pass = 0; pass < 2; ++pass) force -= basis_ * about_centre(force);
+  return force;
+}
+
+bool same_surface(const LoadSurface& a, const LoadSurface& b) {
+  return a.kind == b.kind && a.boundary_id == b.boundary_id && a.centre_m == b.centre_m && a.radius_m == b.radius_m &&
+         a.length_m == b.length_m;
+}
+
+}  // namespace fem
