@@ -1,4 +1,5 @@
-/// The scene: one TOML file read into values, checked, in SI units. Everything the stages need and nothing else.
+/// The scene: one TOML file read into values, checked, in SI units. Everything the stages need and nothing
+/// else.
 #pragma once
 
 #include <filesystem>
@@ -48,7 +49,7 @@ struct ShaftScene {
   fem::Material material;
   std::string material_name;
   double yield_strength_Pa = 0;
-  int pressure_harmonics = 4;                  ///< highest harmonic of the seat pressure, even, 0 to 16
+  int pressure_harmonics = 4;  ///< highest harmonic of the seat pressure, even, 0 to 16
   std::vector<double> debalance_shares = {0.5, 0.5};  ///< of debalance_1, debalance_2; sum 1
 };
 
@@ -67,16 +68,17 @@ struct Scene {
   std::filesystem::path file;
   std::string title;
   kinetics::VibratoryMill machine;
-  std::optional<MillingSpace> milling_space;   ///< empty if the scene does not give it
-  std::vector<std::string> effects;            ///< as named in the scene; each known, none twice
+  std::optional<MillingSpace> milling_space;  ///< empty if the scene does not give it
+  std::vector<std::string> effects;           ///< as named in the scene; each known, none twice
   kinetics::TimeGrid sampling;
-  std::optional<ShaftScene> shaft;             ///< empty: the load stage only
+  std::optional<ShaftScene> shaft;  ///< empty: the load stage only
   ZoneRule zones;
-  int snapshots = 24;                          ///< over the turn that contains the peak; 0: none
+  int snapshots = 24;  ///< over the turn that contains the peak; 0: none
   std::vector<DefaultUsed> defaults;
-  std::vector<std::string> warnings;           ///< sentences for the user: legal, but worth a look
+  std::vector<std::string> warnings;  ///< sentences for the user: legal, but worth a look
 
-  /// The scene's effects that kinetics evaluates: all but `gravity_shaft` and `shaft_inertia`, which need the body.
+  /// The scene's effects that kinetics evaluates: all but `gravity_shaft` and `shaft_inertia`, which need the
+  /// body.
   std::vector<std::string> kinetics_effects() const;
   bool has_effect(const std::string& name) const;
 };

@@ -175,7 +175,8 @@ void read_springs(SceneTable& machine, const std::vector<std::string>& effects,
   }
   if (springs.empty() && machine.has("springs"))
     machine.refuse("springs", "has no spring; add a table [[machine.springs]], or remove the spring effects");
-  else if (!springs.empty() && !springs.front().has("preload"))
+  else if (!springs.empty() && !springs.front().has("preload") && contains(effects, "springs") &&
+           mill.convention == kinetics::Convention::consistent)
     machine.record_default("springs.preload", "static balance", "the springs carry the weights at rest");
 
   double pitch_stiffness_N_m = 0;

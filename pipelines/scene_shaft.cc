@@ -149,12 +149,11 @@ void check_shoulder(Contour& contour, std::size_t i, SceneFindings& findings) {
 /// of a port stays centred in what the larger one leaves.
 void check_length(Contour& contour, std::size_t i) {
   const auto& segment = contour.segments[i];
-  const auto carried = [&](std::size_t shoulder, std::size_t other) {
-    const bool is_inside = shoulder < contour.fillets_m.size() && other < contour.segments.size();
-    return is_inside && segment.diameter_m < contour.segments[other].diameter_m ? contour.fillets_m[shoulder]
-                                                                                : 0;
+  const auto carried = [&](std::size_t shoulder, std::size_t neighbour) {
+    return segment.diameter_m < contour.segments[neighbour].diameter_m ? contour.fillets_m[shoulder] : 0;
   };
-  const double left_m = carried(i - 1, i - 1), right_m = carried(i, i + 1);  // i - 1 wraps round: outside
+  const double left_m = i > 0 ? carried(i - 1, i - 1) : 0;
+  const double right_m = i + 1 < contour.segments.size() ? carried(i, i + 1) : 0;
   const double taken_m = segment.is_port ? 2 * std::max(left_m, right_m) : left_m + right_m;
   if (taken_m < segment.end_m || std::isnan(taken_m) || std::isnan(segment.end_m)) return;
   auto& fillet = contour.fillet_tables[left_m > right_m ? i - 1 : i];

@@ -162,6 +162,20 @@ TEST(scene, records_the_defaults_that_it_takes) {
   EXPECT_EQ(scene.machine.charge_initial_angle_rad, 0);
 }
 
+TEST(scene, of_the_paper_to_the_letter_is_for_the_load_stage) {
+  std::ifstream in(default_scene);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  text = text.substr(text.find("[machine]"));
+  text = text.substr(0, text.find("[shaft]"));
+  text.replace(text.find("\"consistent\""), 12, "\"published\"");
+  const fs::path file = fs::path(testing::TempDir()) / "published.toml";
+  std::ofstream(file) << "effects = [\"gravity_structure\", \"charge_coriolis\", \"springs\"]\n" << text;
+  const Scene scene = pipelines::read_scene(file);
+  EXPECT_EQ(scene.machine.convention, kinetics::Convention::published);
+  EXPECT_FALSE(scene.shaft);
+  EXPECT_FALSE(has_default(scene, "machine.springs.preload", "static balance")) << "the paper has no preload";
+}
+
 TEST(scene, warns_of_a_corner_without_fillet) {
   const Scene scene = read_without({"  { fillet = \"2.5"});
   ASSERT_EQ(scene.warnings.size(), 2u);
