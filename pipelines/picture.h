@@ -1,0 +1,35 @@
+/// Pictures of a field on a body, for the report and the result directory. Needs no display.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace pipelines {
+
+struct PictureOptions {
+  int width = 1600, height = 1000;  ///< pixels
+  double scale = 1;                 ///< from the field's unit to the one shown: 1e-6 for Pa to MPa
+  std::optional<std::array<double, 2>>
+      range;             ///< of the colours, in the unit shown; else from 0 (or below) to the peak
+  bool edges = true;     ///< the edges of the cells, as curved as they are
+  int subdivisions = 3;  ///< each face is drawn as 4^n pieces, 0 to 5: more makes it rounder
+  double detail = 0.35;  ///< width of the detail over the largest extent of the body
+};
+
+/// Draws the surface of a VTU file coloured by a field at its nodes: the whole body above, the neighbourhood
+/// of the peak below. Both look at the side where the peak is; what stands between the eye and the
+/// neighbourhood of the peak is cut away.
+/// @param field  one component
+/// @param title  of the picture
+/// @param unit   as shown beside the colours ("MPa")
+/// @param png    written whole or not at all
+/// @return false if this machine cannot draw (no EGL): nothing is written
+/// @throws std::runtime_error naming the file if the VTU cannot be read, has no such field, or the picture
+/// cannot be written
+bool write_picture(const std::filesystem::path& vtu, const std::string& field, const std::string& title,
+                   const std::string& unit, const std::filesystem::path& png,
+                   const PictureOptions& options = {});
+
+}  // namespace pipelines

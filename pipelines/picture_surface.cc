@@ -1,0 +1,167 @@
+#include "pipelines/picture_surface.h"
+
+#include <vtkCellArray.h>
+#include <vtkDataSetSurfaceFilter.h>
+#include <vtkFloatArray.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkUnstructuredGridGeometryFilter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace pipelines {
+namespace {
+
+Vector operator+(const Vector& a, const Vector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Vector operator*(double s, const Vector& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
+double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double length(const Vector& a) {
+  return std::sqrt(dot(a, a));
+}
+Vector unit_of(const Vector& a) {
+  return (1 / length(a)) * a;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
+                                                    const std::string& field, double scale) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  if (!reader->CanReadFile(vtu.c_str()))
+    throw std::runtime_error(vtu.string() + ": is no VTU file that can be read");
+  reader->SetFileName(vtu.c_str());
+  vtkNew<vtkUnstructuredGridGeometryFilter> geometry;
+  geometry->SetInputConnection(reader->GetOutputPort());
+  geometry->Update();
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(geometry->GetOutput());
+  auto* values = grid->GetPointData()->GetArray(field.c_str());
+  if (!values || values->GetNumberOfComponents() != 1 || values->GetNumberOfTuples() == 0)
+    throw std::runtime_error(vtu.string() + ": has no nodal field \"" + field + "\" of one component");
+  vtkNew<vtkFloatArray> shown;
+  shown->SetName("shown");
+  shown->SetNumberOfTuples(values->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    shown->SetValue(i, static_cast<float>(scale * values->GetComponent(i, 0)));
+  auto faces = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  faces->CopyStructure(grid);
+  faces->GetPointData()->SetScalars(shown);
+  return faces;
+}
+
+vtkSmartPointer<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions) {
+  vtkNew<vtkDataSetSurfaceFilter> surface;
+  surface->SetInputData(faces);
+  surface->SetNonlinearSubdivisionLevel(std::clamp(subdivisions, 0, 5));
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputConnection(surface->GetOutputPort());
+  normals->SetFeatureAngle(30);
+  normals->ConsistencyOn();
+  normals->AutoOrientNormalsOn();
+  normals->Update();
+  return normals->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces) {
+  constexpr int n_pieces = 8;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  std::set<std::pair<vtkIdType, vtkIdType>> drawn;
+  for (vtkIdType f = 0; f < faces->GetNumberOfCells(); ++f)
+    for (int e = 0; e < faces->GetCell(f)->GetNumberOfEdges(); ++e) {
+      vtkCell* edge = faces->GetCell(f)->GetEdge(e);
+      const auto ends = std::minmax({edge->GetPointId(0), edge->GetPointId(1)});
+      if (!drawn.insert(ends).second) continue;
+      lines->InsertNextCell(n_pieces + 1);
+      for (int i = 0; i <= n_pieces; ++i) {
+        int sub = 0;
+        double parametric[3] = {double(i) / n_pieces, 0, 0}, x[3], weights[3];
+        edge->EvaluateLocation(sub, parametric, x, weights);
+        lines->InsertCellPoint(points->InsertNextPoint(x));
+      }
+    }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  result->SetLines(lines);
+  return result;
+}
+
+Peak peak_of(vtkPolyData* surface) {
+  auto* values = surface->GetPointData()->GetScalars();
+  auto* normals = surface->GetPointData()->GetNormals();
+  vtkIdType largest = 0;
+  for (vtkIdType i = 1; i < values->GetNumberOfTuples(); ++i)
+    if (values->GetComponent(i, 0) > values->GetComponent(largest, 0)) largest = i;
+  Peak peak;
+  peak.value = values->GetComponent(largest, 0);
+  surface->GetPoint(largest, peak.at.data());
+  normals->GetTuple(largest, peak.normal.data());
+  return peak;
+}
+
+std::array<Vector, 3> View::axes() const {
+  std::array<Vector, 3> result;
+  const Vector eye = unit_of(towards_eye);
+  vtkMath::Cross(up.data(), eye.data(), result[0].data());
+  result[0] = unit_of(result[0]);
+  vtkMath::Cross(eye.data(), result[0].data(), result[1].data());
+  result[2] = eye;
+  return result;
+}
+
+View view_of(const double* bounds, const Vector& normal) {
+  int longest = 0;
+  for (int d = 1; d < 3; ++d)
+    if (bounds[2 * d + 1] - bounds[2 * d] > 1.001 * (bounds[2 * longest + 1] - bounds[2 * longest]))
+      longest = d;
+  Vector right{};
+  right[static_cast<std::size_t>(longest)] = 1;
+  Vector near = normal + (-dot(normal, right)) * right;
+  if (length(near) < 0.1)
+    near[static_cast<std::size_t>((longest + 1) % 3)] = -1;  // the peak is on an end face
+  near = unit_of(near);
+  Vector up;
+  vtkMath::Cross(near.data(), right.data(), up.data());
+  // Three quarters: 30 degrees round towards the right end, or the left one if the peak faces it, and 20
+  // degrees from above.
+  const double turn = std::copysign(30 * vtkMath::Pi() / 180, dot(normal, right) < -0.3 ? -1 : 1);
+  const double tilt = 20 * vtkMath::Pi() / 180;
+  return {std::cos(tilt) * (std::cos(turn) * near + std::sin(turn) * right) + std::sin(tilt) * up, up};
+}
+
+Frame frame_of(vtkPolyData* surface, const View& view) {
+  const std::array<Vector, 3> axes = view.axes();
+  std::array<double, 3> low, high;
+  low.fill(std::numeric_limits<double>::max());
+  high.fill(std::numeric_limits<double>::lowest());
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i) {
+    Vector x;
+    surface->GetPoint(i, x.data());
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], dot(axes[d], x));
+      high[d] = std::max(high[d], dot(axes[d], x));
+    }
+  }
+  Frame frame;
+  for (std::size_t d = 0; d < 3; ++d) frame.centre = frame.centre + 0.5 * (low[d] + high[d]) * axes[d];
+  frame.half_width = 0.5 * (high[0] - low[0]);
+  frame.half_height = 0.5 * (high[1] - low[1]);
+  frame.half_depth = 0.5 * (high[2] - low[2]);
+  return frame;
+}
+
+}  // namespace pipelines

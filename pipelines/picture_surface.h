@@ -1,0 +1,57 @@
+/// What a picture shows: the surface of a body with a field on it, and how to look at it.
+#pragma once
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+namespace pipelines {
+
+using Vector = std::array<double, 3>;
+
+/// The boundary faces of the cells with their quadratic shape; the field times `scale` is the active scalars.
+/// @throws std::runtime_error naming the file if it cannot be read or has no such field of one component at
+///         its nodes
+vtkSmartPointer<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
+                                                    const std::string& field, double scale);
+
+/// The faces in 4^subdivisions pieces each, with outward normals; sharp edges stay sharp.
+vtkSmartPointer<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions);
+
+/// The edges of the faces, each once, as polylines along their quadratic shape.
+vtkSmartPointer<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces);
+
+/// Where the field is largest on the surface, and the direction from which that place is seen.
+struct Peak {
+  double value = 0;
+  Vector at{}, normal{};
+};
+
+Peak peak_of(vtkPolyData* surface);
+
+/// The eye's frame: the body's longest extent runs to the right, the peak is on the near side.
+struct View {
+  Vector towards_eye{}, up{};
+
+  /// Right, up and towards the eye in the picture; orthonormal.
+  std::array<Vector, 3> axes() const;
+};
+
+/// @param bounds  of the body: x, y, z from and to
+/// @param normal  outward, at the peak
+View view_of(const double* bounds, const Vector& normal);
+
+/// A rectangle in the plane of the picture, at the depth of `centre`.
+struct Frame {
+  Vector centre{};
+  double half_width = 0, half_height = 0, half_depth = 0;
+};
+
+/// The smallest frame round all points.
+Frame frame_of(vtkPolyData* surface, const View& view);
+
+}  // namespace pipelines

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "pipelines/picture.h"
+#include "pipelines/vtk_files.h"
+#include "tests/unit/pipelines/results_bar.h"
+#include "tests/unit/pipelines/results_directory.h"
+
+using namespace pipelines;
+using results_test::Directory;
+
+namespace {
+
+/// A round bar along z, 1 m long; the field has its peak, 200, on the surface at z = 0.3.
+void write_bar(const std::filesystem::path& path) {
+  const auto disc = [](results_test::Point p) -> results_test::Point {
+    const double u = 2 * p[0] - 1, v = 2 * p[1] - 1;
+    return {0.1 * u * std::sqrt(1 - v * v / 2), 0.1 * v * std::sqrt(1 - u * u / 2), p[2]};
+  };
+  const auto nodes = results_test::mapped_cube(2, 2, 10, disc);
+  std::vector<double> stress(nodes.n);
+  for (std::size_t i = 0; i < nodes.n; ++i)
+    stress[i] = 2e9 * nodes.xyz_m[3 * i] * std::exp(-50 * std::pow(nodes.xyz_m[3 * i + 2] - 0.3, 2));
+  write_envelope_vtu(path, nodes, {nodal_field("stress [Pa]", stress)});
+}
+
+struct Pixels {
+  vtkNew<vtkPNGReader> reader;
+  explicit Pixels(const std::filesystem::path& path) {
+    reader->SetFileName(path.c_str());
+    reader->Update();
+  }
+  /// Share of the pixels of the rectangle (shares of the picture, from below) that have the property.
+  template <class Property>
+  double share(double left, double bottom, double right, double top, Property property) const {
+    auto* image = reader->GetOutput();
+    const int* size = image->GetDimensions();
+    int n = 0, n_all = 0;
+    for (int y = int(bottom * size[1]); y < int(top * size[1]); ++y)
+      for (int x = int(left * size[0]); x < int(right * size[0]); ++x, ++n_all) {
+        const auto* rgb = static_cast<unsigned char*>(image->GetScalarPointer(x, y, 0));
+        n += property(rgb[0], rgb[1], rgb[2]);
+      }
+    return double(n) / n_all;
+  }
+};
+
+bool white(int r, int g, int b) {
+  return r > 250 && g > 250 && b > 250;
+}
+bool dark(int r, int g, int b) {
+  return r < 80 && g < 80 && b < 80;
+}
+bool yellow(int r, int g, int b) {
+  return r > 150 && g > 130 && b < 100;
+}
+
+TEST(Picture, shows_the_body_the_peak_and_the_scale) {
+  const Directory at;
+  write_bar(at / "bar.vtu");
+  PictureOptions options;
+  options.scale = 1e-6;
+  if (!write_picture(at / "bar.vtu", "stress [Pa]", "A bar", "MPa", at / "bar.png", options))
+    GTEST_SKIP() << "no EGL on this machine";
+  const Pixels picture(at / "bar.png");
+  EXPECT_EQ(picture.reader->GetOutput()->GetDimensions()[0], options.width);
+  EXPECT_EQ(picture.reader->GetOutput()->GetDimensions()[1], options.height);
+  EXPECT_GT(picture.share(0, 0.93, 1, 1, white), 0.9);  // the heading: dark words on white
+  EXPECT_GT(picture.share(0, 0.93, 0.3, 1, dark), 0.005);
+  const double body =
+      1 - picture.share(0, 0.48, 1, 0.93, white);  // the whole body, neither lost nor too near
+  EXPECT_GT(body, 0.15);
+  EXPECT_LT(body, 0.8);
+  EXPECT_GT(picture.share(0.3, 0.2, 0.45, 0.3, yellow), 0.5);  // the peak is in the middle of the detail
+  EXPECT_GT(picture.share(0.74, 0.02, 0.8, 0.4, [](int r, int g, int b) { return !white(r, g, b); }), 0.1);
+}
+
+TEST(Picture, tells_what_is_missing) {
+  const Directory at;
+  write_bar(at / "bar.vtu");
+  const auto message = [&](const char* vtu, const char* field) -> std::string {
+    try {
+      return write_picture(at / vtu, field, "", "", at / "bar.png") ? "drawn" : "no EGL";
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  };
+  if (message("bar.vtu", "stress [Pa]") == "no EGL") GTEST_SKIP() << "no EGL on this machine";
+  EXPECT_NE(message("bar.vtu", "strain").find("\"strain\""), std::string::npos);
+  EXPECT_NE(message("none.vtu", "strain").find("none.vtu"), std::string::npos);
+}
+
+TEST(PictureDeathTest, without_egl_nothing_is_drawn_and_nothing_ends) {
+  const Directory at;
+  write_bar(at / "bar.vtu");
+  testing::FLAGS_gtest_death_test_style = "threadsafe";  // a fresh process: EGL is found once per process
+  EXPECT_EXIT(
+      {
+        setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1);
+        unsetenv("DISPLAY");
+        std::exit(write_picture(at / "bar.vtu", "stress [Pa]", "", "", at / "bar.png") ? 1 : 0);
+      },
+      testing::ExitedWithCode(0), "");
+  EXPECT_FALSE(std::filesystem::exists(at / "bar.png"));
+}
+
+}  // namespace
