@@ -5,6 +5,7 @@
 ///   9:9: fragment      one error, at line:column of the edited scene (0:0: the file as a whole), whose text
 ///                                holds the fragment; there are as many errors as EXPECT lines
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -89,7 +90,8 @@ class Refused : public testing::TestWithParam<fs::path> {};
 TEST_P(Refused, with_the_expected_errors) {
   const RefusedScene wrong = load(GetParam());
   ASSERT_FALSE(wrong.expectations.empty()) << "no # EXPECT line in " << GetParam();
-  const fs::path file = fs::path(testing::TempDir()) / ("refused_" + GetParam().filename().string());
+  const fs::path file =
+      fs::path(testing::TempDir()) / (std::to_string(getpid()) + "_" + GetParam().filename().string());
   std::ofstream(file, std::ios::binary) << wrong.scene;
   std::vector<pipelines::SceneError> errors;
   try {

@@ -26,10 +26,20 @@ std::string refusal(const fs::path& file) {
   }
 }
 
-fs::path written(const std::string& name, const std::string& text) {
-  const fs::path file = fs::path(testing::TempDir()) / name;
+/// A file that goes when the test ends.
+struct ScratchFile {
+  fs::path path;
+  ~ScratchFile() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+  operator const fs::path&() const { return path; }
+};
+
+ScratchFile written(const std::string& name, const std::string& text) {
+  const fs::path file = fs::path(testing::TempDir()) / (std::to_string(getpid()) + "_" + name);
   std::ofstream(file, std::ios::binary) << text;
-  return file;
+  return {file};
 }
 
 TEST(scene_file, missing) {
@@ -52,14 +62,14 @@ TEST(scene_file, device) {
 }
 
 TEST(scene_file, unreadable) {
-  const fs::path file = written("unreadable.toml", "title = \"secret\"\n");
-  fs::permissions(file, fs::perms::none);
-  if (access(file.c_str(), R_OK) == 0) GTEST_SKIP() << "this user may read every file";
+  const ScratchFile file = written("unreadable.toml", "title = \"secret\"\n");
+  fs::permissions(file.path, fs::perms::none);
+  if (access(file.path.c_str(), R_OK) == 0) GTEST_SKIP() << "this user may read every file";
   EXPECT_NE(refusal(file).find("cannot be read; check its permissions"), std::string::npos);
 }
 
 TEST(scene_file, bytes_that_are_no_text) {
-  const fs::path file = written("bytes.toml", std::string("a = 1\n\xff\xfe\x00\x01", 10));
+  const ScratchFile file = written("bytes.toml", std::string("a = 1\n\xff\xfe\x00\x01", 10));
   EXPECT_THROW(pipelines::read_scene(file), pipelines::SceneErrors);
 }
 

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -53,7 +54,7 @@ void mutate(std::vector<std::string>& lines, std::mt19937& random) {
 
 TEST(scene, mutated_is_read_or_refused_and_nothing_else) {
   const auto original = lines_of(fs::path(SOURCE_DIR) / "pipelines/scenes/vibratory_mill.toml");
-  const fs::path file = fs::path(testing::TempDir()) / "mutated_scene.toml";
+  const fs::path file = fs::path(testing::TempDir()) / ("mutated_" + std::to_string(getpid()) + ".toml");
   std::mt19937 random(20240229);
   int n_read = 0, n_refused = 0;
   for (int i = 0; i < 300; ++i) {
