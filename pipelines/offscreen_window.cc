@@ -7,6 +7,7 @@
 #include <EGL/eglext.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkObjectFactory.h>
+#include <vtkSmartPointer.h>
 
 namespace pipelines {
 namespace {
@@ -88,10 +89,10 @@ vtkStandardNewMacro(OffscreenWindow);
 
 }  // namespace
 
-vtkSmartPointer<vtkRenderWindow> make_offscreen_window() {
-  auto window = vtkSmartPointer<OffscreenWindow>::New();
+std::shared_ptr<vtkRenderWindow> make_offscreen_window() {
+  const auto window = vtkSmartPointer<OffscreenWindow>::New();
   if (!window->works()) return nullptr;
-  return window;
+  return {window.Get(), [window](vtkRenderWindow*) {}};  // the deleter holds VTK's own reference
 }
 
 }  // namespace pipelines

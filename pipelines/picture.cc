@@ -16,10 +16,13 @@
 #include <vtkProperty.h>
 #include <vtkProperty2D.h>
 #include <vtkRegularPolygonSource.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
+#include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
@@ -208,15 +211,16 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   if (!window) return false;
 
   const auto faces = boundary_faces(vtu, field, options.scale);
-  const auto surface = smooth_surface(faces, options.subdivisions);
-  const Peak peak = peak_of(surface);
+  const auto surface = smooth_surface(faces.get(), options.subdivisions);
+  const auto edge_lines = curved_edges(faces.get());
+  const Peak peak = peak_of(surface.get());
   const View view = view_of(surface->GetBounds(), peak.normal);
   const double lowest = surface->GetPointData()->GetScalars()->GetRange()[0];
   const double from = std::min(0., lowest);
   const auto table =
       colours(options.range.value_or(std::array<double, 2>{from, peak.value > from ? peak.value : from + 1}));
-  const auto body = actor_of(surface, table);
-  const auto edges = actor_of(curved_edges(faces), nullptr);
+  const auto body = actor_of(surface.get(), table);
+  const auto edges = actor_of(edge_lines.get(), nullptr);
 
   window->SetSize(options.width, options.height);
   window->SetMultiSamples(4);
@@ -233,7 +237,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const auto heading = add(0, 1 - head, 1, 1), whole = add(0, split, 1, 1 - head),
              detail = add(gap, gap, detail_width, split - gap), legend = add(detail_width, 0, 1, split);
 
-  Frame all = frame_of(surface, view);
+  Frame all = frame_of(surface.get(), view);
   for (const auto& [renderer, show_edges] : {std::pair(whole, false), std::pair(detail, options.edges)}) {
     renderer->AddActor(body);
     if (show_edges) renderer->AddActor(edges);
@@ -256,7 +260,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
                 unit.c_str(), 1e3 * peak.at[0], 1e3 * peak.at[1], 1e3 * peak.at[2]);
   legend->AddActor2D(text_at(words, font_size, 0.12, 0.8));
   legend->AddActor2D(colour_bar(table, unit, font_size));
-  write_png(window, png);
+  write_png(window.get(), png);
   return true;
 }
 

@@ -7,7 +7,10 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkPolyDataNormals.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridGeometryFilter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -37,9 +40,15 @@ Vector unit_of(const Vector& a) {
   return (1 / length(a)) * a;
 }
 
+/// The deleter holds VTK's own reference.
+template <class Object>
+std::shared_ptr<Object> shared(const vtkSmartPointer<Object>& object) {
+  return {object.Get(), [object](Object*) {}};
+}
+
 }  // namespace
 
-vtkSmartPointer<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
+std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
                                                     const std::string& field, double scale) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   if (!reader->CanReadFile(vtu.c_str()))
@@ -60,10 +69,10 @@ vtkSmartPointer<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path&
   auto faces = vtkSmartPointer<vtkUnstructuredGrid>::New();
   faces->CopyStructure(grid);
   faces->GetPointData()->SetScalars(shown);
-  return faces;
+  return shared(faces);
 }
 
-vtkSmartPointer<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions) {
+std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions) {
   vtkNew<vtkDataSetSurfaceFilter> surface;
   surface->SetInputData(faces);
   surface->SetNonlinearSubdivisionLevel(std::clamp(subdivisions, 0, 5));
@@ -73,10 +82,10 @@ vtkSmartPointer<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subd
   normals->ConsistencyOn();
   normals->AutoOrientNormalsOn();
   normals->Update();
-  return normals->GetOutput();
+  return shared(vtkSmartPointer<vtkPolyData>(normals->GetOutput()));
 }
 
-vtkSmartPointer<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces) {
+std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces) {
   constexpr int n_pieces = 8;
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
@@ -97,7 +106,7 @@ vtkSmartPointer<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces) {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(points);
   result->SetLines(lines);
-  return result;
+  return shared(result);
 }
 
 Peak peak_of(vtkPolyData* surface) {

@@ -1,13 +1,13 @@
 /// What a picture shows: the surface of a body with a field on it, and how to look at it.
 #pragma once
 
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
-
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <string>
+
+class vtkPolyData;
+class vtkUnstructuredGrid;
 
 namespace pipelines {
 
@@ -16,14 +16,14 @@ using Vector = std::array<double, 3>;
 /// The boundary faces of the cells with their quadratic shape; the field times `scale` is the active scalars.
 /// @throws std::runtime_error naming the file if it cannot be read or has no such field of one component at
 ///         its nodes
-vtkSmartPointer<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
+std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
                                                     const std::string& field, double scale);
 
 /// The faces in 4^subdivisions pieces each, with outward normals; sharp edges stay sharp.
-vtkSmartPointer<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions);
+std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions);
 
 /// The edges of the faces, each once, as polylines along their quadratic shape.
-vtkSmartPointer<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces);
+std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces);
 
 /// Where the field is largest on the surface, and the direction from which that place is seen.
 struct Peak {
