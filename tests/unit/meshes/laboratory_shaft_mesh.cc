@@ -14,7 +14,7 @@ const meshes::Port& port(const meshes::BodyMesh& body, const std::string& name) 
 }
 
 /// Facts of the design: structured blocks keep the worst corner above 0.49; the shaft with 8 cells per
-/// quarter and 16 sectors stays within a direct solver's reach (330 thousand quadratic unknowns, some 25 per
+/// quarter and 16 sectors stays within a direct solver's reach (335 thousand quadratic unknowns, some 25 per
 /// cell).
 TEST(LaboratoryShaft, meshes_well_at_every_fineness) {
   for (const int cells : {2, 4, 8, 16}) {
@@ -28,7 +28,7 @@ TEST(LaboratoryShaft, meshes_well_at_every_fineness) {
     EXPECT_GT(quality.median_scaled_jacobian, 0.95) << cells;
     if (cells == 8) {
       EXPECT_GT(quality.n_cells, 8000u);
-      EXPECT_LT(quality.n_cells, 13200u);
+      EXPECT_LT(quality.n_cells, 13400u);
     }
   }
 }
