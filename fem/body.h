@@ -1,5 +1,5 @@
-/// What fem needs to know of a body, as values: mesh file, surface charts, material. No deal.II in this header.
-/// Lengths in m; ids are the physical groups of the .msh.
+/// What fem needs to know of a body, as values: mesh file, surface charts, material. No deal.II in this
+/// header. Lengths in m; ids are the physical groups of the .msh.
 #pragma once
 
 #include <array>
@@ -35,15 +35,16 @@ struct Body {
   std::vector<CylinderChart> cylinders;
   std::vector<TorusChart> tori;
   Material material;
-  int degree = 2;              ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
+  int degree = 2;  ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
 };
 
 /// Mass, first moment and inertia of the meshed body by the quadrature of its load vectors, about the origin.
 struct MassProperties {
   double volume_m3 = 0;
   double mass_kg = 0;
-  std::array<double, 3> first_moment_kg_m{};     ///< m * centre of mass
-  std::array<double, 6> second_moments_kg_m2{};  ///< integrals of rho xx, yy, zz, xy, yz, xz (polar inertia J = xx + yy)
+  std::array<double, 3> first_moment_kg_m{};  ///< m * centre of mass
+  std::array<double, 6>
+      second_moments_kg_m2{};  ///< integrals of rho xx, yy, zz, xy, yz, xz (polar inertia J = xx + yy)
 };
 
 }  // namespace fem

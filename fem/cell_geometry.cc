@@ -20,7 +20,8 @@ Eigen::Vector3d position(const Grid& grid, std::size_t cell, const Tabulation& a
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   const auto* nodes = grid.nodes_of(cell);
   for (int i = 0; i < at.n_shapes; ++i)
-    x += at.value[std::size_t(q) * at.n_shapes + i] * Eigen::Map<const Eigen::Vector3d>(grid.position(nodes[i]));
+    x += at.value[std::size_t(q) * at.n_shapes + i] *
+         Eigen::Map<const Eigen::Vector3d>(grid.position(nodes[i]));
   return x;
 }
 
@@ -30,7 +31,8 @@ void compute_gradients(const Grid& grid, std::size_t cell, const Tabulation& at,
   for (int q = 0; q < at.n_points; ++q) {
     const Eigen::Matrix3d j = jacobian(grid, cell, at, q);
     const Eigen::Matrix3d to_space = j.inverse().transpose();
-    const Eigen::Map<const Eigen::Matrix3Xd> reference(at.gradient[std::size_t(q) * at.n_shapes].data(), 3, at.n_shapes);
+    const Eigen::Map<const Eigen::Matrix3Xd> reference(at.gradient[std::size_t(q) * at.n_shapes].data(), 3,
+                                                       at.n_shapes);
     result.gradient.middleRows<3>(3 * q).noalias() = to_space.lazyProduct(reference);
     result.jxw[q] = j.determinant() * (at.weight.empty() ? 1.0 : at.weight[q]);
   }
@@ -64,8 +66,9 @@ void refuse_inverted_cells(const Grid& grid) {
         if (!(jacobian(grid, c, at, q).determinant() > 0)) {
           const Eigen::Vector3d x = position(grid, c, at, q);
           std::ostringstream message;
-          message << "the mesh has an inverted or degenerate cell in volume " << grid.volume_id[c] << " near (" << x[0]
-                  << ", " << x[1] << ", " << x[2] << ") m: refine the mesh there or check its charts";
+          message << "the mesh has an inverted or degenerate cell in volume " << grid.volume_id[c]
+                  << " near (" << x[0] << ", " << x[1] << ", " << x[2]
+                  << ") m: refine the mesh there or check its charts";
           throw std::runtime_error(message.str());
         }
 }

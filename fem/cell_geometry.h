@@ -15,8 +15,9 @@ Eigen::Matrix3d jacobian(const Grid& grid, std::size_t cell, const Tabulation& a
 /// Position of point q.
 Eigen::Vector3d position(const Grid& grid, std::size_t cell, const Tabulation& at, int q);
 
-/// Gradients of the shape functions in space at all points: row 3 q + d is the derivative along d, one column per shape
-/// function; `jxw` the Jacobian's determinant times the weight (the determinant alone if `at` has no weights).
+/// Gradients of the shape functions in space at all points: row 3 q + d is the derivative along d, one column
+/// per shape function; `jxw` the Jacobian's determinant times the weight (the determinant alone if `at` has
+/// no weights).
 struct CellGradients {
   Eigen::MatrixXd gradient;
   std::vector<double> jxw;
@@ -32,7 +33,8 @@ FacePoint face_point(const Grid& grid, const std::vector<std::int32_t>& nodes, c
 /// Global nodes of a face in the order of face_nodes.
 std::vector<std::int32_t> nodes_of_face(const Grid& grid, std::size_t cell, int face);
 
-/// @throws std::runtime_error naming volume and centre of the first cell whose Jacobian is not positive everywhere it
+/// @throws std::runtime_error naming volume and centre of the first cell whose Jacobian is not positive
+/// everywhere it
 ///         is looked at (its nodes and Gauss points)
 void refuse_inverted_cells(const Grid& grid);
 

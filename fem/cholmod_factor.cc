@@ -1,9 +1,9 @@
 #include "fem/cholmod_factor.h"
 
-#include <algorithm>
 #include <cholmod.h>
-#include <cstdint>
 #include <metis.h>
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -28,7 +28,8 @@ std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
   std::vector<idx_t> order(n), place(n);
-  if (METIS_NodeND(&n, begin.data(), neighbour.data(), nullptr, options, order.data(), place.data()) != METIS_OK)
+  if (METIS_NodeND(&n, begin.data(), neighbour.data(), nullptr, options, order.data(), place.data()) !=
+      METIS_OK)
     throw std::runtime_error("METIS could not order the " + std::to_string(n) + " nodes of the mesh");
   return {order.begin(), order.end()};
 }
@@ -50,7 +51,8 @@ struct CholmodFactor::Impl {
   }
   void check(const char* step) const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
-      throw std::runtime_error(std::string("not enough memory to ") + step + " the stiffness: use a coarser mesh");
+      throw std::runtime_error(std::string("not enough memory to ") + step +
+                               " the stiffness: use a coarser mesh");
     if (common.status < CHOLMOD_OK)
       throw std::runtime_error(std::string("CHOLMOD could not ") + step + " the stiffness (status " +
                                std::to_string(common.status) + ")");
@@ -92,7 +94,8 @@ void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
   impl_->check("factorise");
   if (impl_->common.status == CHOLMOD_NOT_POSDEF || impl_->factor->minor < impl_->factor->n)
     throw std::runtime_error(
-        "the stiffness is not positive definite: the mesh may fall into parts that do not touch, or has degenerate "
+        "the stiffness is not positive definite: the mesh may fall into parts that do not touch, or has "
+        "degenerate "
         "cells");
 }
 
@@ -126,7 +129,8 @@ Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) co
 
 double CholmodFactor::gigabytes() const {
   const auto& l = *impl_->factor;
-  return 1e-9 * (8.0 * double(l.xsize) + 8.0 * double(l.ssize) + 24.0 * double(l.nsuper) + 16.0 * double(l.n));
+  return 1e-9 *
+         (8.0 * double(l.xsize) + 8.0 * double(l.ssize) + 24.0 * double(l.nsuper) + 16.0 * double(l.n));
 }
 
 }  // namespace fem

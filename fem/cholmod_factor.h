@@ -1,5 +1,5 @@
-/// Sparse Cholesky factorisation of the stiffness with CHOLMOD (supernodal), ordered by METIS on the graph of nodes.
-/// Internal to fem.
+/// Sparse Cholesky factorisation of the stiffness with CHOLMOD (supernodal), ordered by METIS on the graph of
+/// nodes. Internal to fem.
 #pragma once
 
 #include <Eigen/Dense>

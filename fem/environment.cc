@@ -17,9 +17,10 @@ struct Environment::Impl {
 
 Environment::Environment(int& argc, char**& argv, int n_threads) {
   if (n_threads < 0)
-    throw std::invalid_argument("threads = " + std::to_string(n_threads) + ": must be 0 (all cores) or positive");
-  impl_ = std::make_unique<Impl>(argc, argv,
-                                 n_threads == 0 ? dealii::numbers::invalid_unsigned_int : unsigned(n_threads));
+    throw std::invalid_argument("threads = " + std::to_string(n_threads) +
+                                ": must be 0 (all cores) or positive");
+  impl_ = std::make_unique<Impl>(
+      argc, argv, n_threads == 0 ? dealii::numbers::invalid_unsigned_int : unsigned(n_threads));
   set_blas_threads(static_cast<int>(dealii::MultithreadInfo::n_threads()));
 }
 

@@ -1,4 +1,5 @@
-/// The mesh as fem computes with it: nodes of the isoparametric Q_k hexahedra, as plain arrays. Internal to fem.
+/// The mesh as fem computes with it: nodes of the isoparametric Q_k hexahedra, as plain arrays. Internal to
+/// fem.
 ///
 /// Reference cell [0,1]^3. The (k+1)^3 nodes of a cell are lexicographic, the first coordinate runs fastest.
 /// Face f of a cell is normal to axis f/2, at its low (f even) or high (f odd) end.
@@ -38,15 +39,16 @@ std::vector<int> face_nodes(int degree, int face);
 /// Local node numbers of the 8 corners, lexicographic.
 std::array<int, 8> corner_nodes(int degree);
 
-/// Cells that contain a node, for all nodes: cells of node i are cell[begin[i]] .. cell[begin[i+1]-1], ascending.
+/// Cells that contain a node, for all nodes: cells of node i are cell[begin[i]] .. cell[begin[i+1]-1],
+/// ascending.
 struct CellsOfNodes {
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> cell;
 };
 CellsOfNodes cells_of_nodes(const Grid& grid);
 
-/// Groups of cells of which no two share a node. Adding to nodes group after group, in parallel inside a group, gives
-/// the same sums for every number of threads.
+/// Groups of cells of which no two share a node. Adding to nodes group after group, in parallel inside a
+/// group, gives the same sums for every number of threads.
 std::vector<std::vector<std::int32_t>> colour_cells(const Grid& grid, const CellsOfNodes& cells);
 
 }  // namespace fem

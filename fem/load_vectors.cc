@@ -12,11 +12,21 @@ Eigen::VectorXd body_force(const NodeIntegrals& integrals, double density_kg_m3,
     const double v = integrals(i, 0), vx = integrals(i, 1), vy = integrals(i, 2);
     auto f = force.segment<3>(3 * i);
     switch (field) {
-      case BodyForce::Field::translation_x: f << v, 0, 0; break;
-      case BodyForce::Field::translation_y: f << 0, v, 0; break;
-      case BodyForce::Field::translation_z: f << 0, 0, v; break;
-      case BodyForce::Field::rotation: f << -vy, vx, 0; break;
-      case BodyForce::Field::spin: f << vx, vy, 0; break;
+      case BodyForce::Field::translation_x:
+        f << v, 0, 0;
+        break;
+      case BodyForce::Field::translation_y:
+        f << 0, v, 0;
+        break;
+      case BodyForce::Field::translation_z:
+        f << 0, 0, v;
+        break;
+      case BodyForce::Field::rotation:
+        f << -vy, vx, 0;
+        break;
+      case BodyForce::Field::spin:
+        f << vx, vy, 0;
+        break;
     }
   }
   return density_kg_m3 * force;
@@ -49,7 +59,8 @@ private:
     surfaces_.push_back(std::make_unique<LoadedSurface>(grid_, wanted));
     return *surfaces_.back();
   }
-  static void scatter(const LoadedSurface& surface, const Eigen::VectorXd& force, Eigen::Ref<Eigen::VectorXd> column) {
+  static void scatter(const LoadedSurface& surface, const Eigen::VectorXd& force,
+                      Eigen::Ref<Eigen::VectorXd> column) {
     for (std::size_t i = 0; i < surface.nodes().size(); ++i)
       column.segment<3>(3 * std::size_t(surface.nodes()[i])) = force.segment<3>(3 * i);
   }

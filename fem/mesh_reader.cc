@@ -9,21 +9,33 @@
 #include <deal.II/grid/tria.h>
 
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "fem/cell_geometry.h"
-#include "fem/charts.h"
+#include "fem/manifolds.h"
 
 namespace fem {
 
 namespace {
 
-void read_mesh(const std::filesystem::path& path, dealii::Triangulation<3>& mesh) {
-  std::ifstream file(path);
+/// deal.II's reader trusts the file: one that was cut off makes it write out of bounds.
+std::string read_whole(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("cannot open the mesh file " + path.string());
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  if (text.find("$EndElements") == std::string::npos)
+    throw std::runtime_error("the mesh file " + path.string() + " is cut off: it has no $EndElements");
+  return text;
+}
+
+void read_mesh(const std::filesystem::path& path, dealii::Triangulation<3>& mesh) {
+  std::istringstream text(read_whole(path));
   dealii::GridIn<3> reader(mesh);
   try {
-    reader.read_msh(file);  // the overload for file names would end the program's own gmsh session
+    reader.read_msh(text);  // the overload for file names would end the program's own gmsh session
   } catch (const dealii::ExceptionBase& error) {
     throw std::runtime_error("cannot read the mesh file " + path.string() +
                              " (a .msh of linear hexahedra is expected): " + error.what());
@@ -41,8 +53,8 @@ Grid read_grid(const Body& body) {
   read_mesh(body.mesh, mesh);
   attach_charts(mesh, body.cylinders, body.tori);
 
-  // One scalar space numbers the nodes: the unknowns of node i are 3 i, 3 i + 1, 3 i + 2. The mapping has the same
-  // degree, so geometry and displacement share their nodes and rigid rotations are in the space exactly.
+  // One scalar space numbers the nodes: the unknowns of node i are 3 i, 3 i + 1, 3 i + 2. The mapping has the
+  // same degree, so geometry and displacement share their nodes and rigid rotations are in the space exactly.
   const dealii::FE_Q<3> element(body.degree);
   dealii::DoFHandler<3> nodes(mesh);
   nodes.distribute_dofs(element);

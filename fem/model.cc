@@ -38,7 +38,9 @@ Model::Model(const Body& body, const Progress& progress) : impl_(std::make_uniqu
 Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 
-std::size_t Model::n_dofs() const { return 3 * impl_->grid.n_nodes; }
+std::size_t Model::n_dofs() const {
+  return 3 * impl_->grid.n_nodes;
+}
 
 MassProperties Model::mass_properties() const {
   return fem::mass_properties(impl_->grid, impl_->integrals, impl_->body.material.density_kg_m3);
@@ -55,14 +57,15 @@ struct Scales {
 };
 
 Scales scales_of(const Eigen::MatrixXd& force) {
-  return {force.colwise().norm().cwiseMax(1e-300), force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300)};
+  return {force.colwise().norm().cwiseMax(1e-300),
+          force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300)};
 }
 
 /// K u = f on the supported body; fills the solver's figures of `responses`.
 Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
-                               const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
-                               const Eigen::MatrixXd& force, const Scales& scales, UnitResponses& responses,
-                               const Progress& progress) {
+                               const std::vector<std::vector<std::int32_t>>& colours,
+                               const Material& material, const Eigen::MatrixXd& force, const Scales& scales,
+                               UnitResponses& responses, const Progress& progress) {
   progress(0.05, "assemble");
   const NodeGraph graph = make_node_graph(grid, cells);
   SymmetricMatrix matrix = make_matrix(graph);
@@ -96,8 +99,9 @@ Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
 
 }  // namespace
 
-UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
-                                    Recovery recovery, const Progress& progress) const {
+UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
+                                    const std::vector<SectionPlane>& planes, Recovery recovery,
+                                    const Progress& progress) const {
   const Progress report = progress ? progress : [](double, const std::string&) {};
   const auto& grid = impl_->grid;
   const auto n_loads = static_cast<Eigen::Index>(loads.size());
@@ -116,8 +120,8 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads, const st
     const Scales scales = scales_of(force);
     const RigidBalance rigid(grid, impl_->integrals);
     rigid.balance(force);
-    Eigen::MatrixXd displacement = solve_balanced(grid, impl_->cells, impl_->colours, impl_->body.material, force,
-                                                  scales, responses, report);
+    Eigen::MatrixXd displacement = solve_balanced(grid, impl_->cells, impl_->colours, impl_->body.material,
+                                                  force, scales, responses, report);
     rigid.remove_motion(displacement);
     responses.displacement_m.resize(displacement.size());
     for (std::size_t i = 0; i < grid.n_nodes; ++i)

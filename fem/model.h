@@ -1,4 +1,5 @@
-/// The finite-element model of one body: mesh, degrees of freedom, stiffness; solves all unit loads as one block.
+/// The finite-element model of one body: mesh, degrees of freedom, stiffness; solves all unit loads as one
+/// block.
 #pragma once
 
 #include <functional>
@@ -39,7 +40,8 @@ class Model {
 public:
   /// Reads the mesh, attaches the charts, numbers the unknowns.
   /// @param progress told that reading starts; may be empty
-  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells, or the program runs on several MPI ranks
+  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells, or the program runs on
+  /// several MPI ranks
   /// @throws std::invalid_argument for impossible material values
   explicit Model(const Body& body, const Progress& progress = {});
   ~Model();
@@ -48,15 +50,14 @@ public:
   std::size_t n_dofs() const;
   MassProperties mass_properties() const;
 
-  /// The unit loads' responses. One factorisation (CHOLMOD), all loads as one block. Every load vector is balanced by a
-  /// rigid-mode body force, f - M R (R'MR)^-1 R'f, so the statically determinate support carries nothing; displacements
-  /// have no rigid part in the mass norm.
+  /// The unit loads' responses. One factorisation (CHOLMOD), all loads as one block. Every load vector is
+  /// balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the statically determinate support
+  /// carries nothing; displacements have no rigid part in the mass norm.
   /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
   /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces
   /// @throws std::runtime_error if the factorisation fails
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
-                               Recovery recovery = Recovery::patch,
-                               const Progress& progress = {}) const;
+                               Recovery recovery = Recovery::patch, const Progress& progress = {}) const;
 
 private:
   struct Impl;

@@ -15,7 +15,8 @@ Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals) {
 
   nodes.cells.resize(grid.n_cells());
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (std::size_t v = 0; v < 27; ++v) nodes.cells[c][v] = grid.nodes_of(c)[vtk_hexahedron_from_lexicographic[v]];
+    for (std::size_t v = 0; v < 27; ++v)
+      nodes.cells[c][v] = grid.nodes_of(c)[vtk_hexahedron_from_lexicographic[v]];
   for (const auto& face : grid.boundary) {
     const auto lexicographic = nodes_of_face(grid, face.cell, face.face);
     auto& quad = nodes.faces.emplace_back();

@@ -20,7 +20,8 @@ int blas_threads() {
 
 }  // namespace
 
-void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_for(std::size_t n, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body) {
   if (n == 0) return;
   dealii::parallel::apply_to_subranges(std::size_t{0}, n, body, static_cast<unsigned>(grain));
 }
@@ -29,8 +30,12 @@ void set_blas_threads(int n_threads) {
   if (const auto set = blas_function<void(int)>("openblas_set_num_threads")) set(n_threads);
 }
 
-SerialBlas::SerialBlas() : n_threads_before_(blas_threads()) { set_blas_threads(1); }
+SerialBlas::SerialBlas() : n_threads_before_(blas_threads()) {
+  set_blas_threads(1);
+}
 
-SerialBlas::~SerialBlas() { set_blas_threads(n_threads_before_); }
+SerialBlas::~SerialBlas() {
+  set_blas_threads(n_threads_before_);
+}
 
 }  // namespace fem

@@ -8,8 +8,10 @@ namespace fem {
 
 /// Calls body(begin, end) for disjoint ranges that cover 0..n, on several threads.
 /// @param grain  smallest range worth a task of its own
-/// The ranges depend on the machine; results do not as long as no item writes what another one reads or writes.
-void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
+/// The ranges depend on the machine; results do not as long as no item writes what another one reads or
+/// writes.
+void parallel_for(std::size_t n, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body);
 
 /// While it lives, BLAS calls stay on the calling thread: for calls from inside parallel_for.
 class SerialBlas {

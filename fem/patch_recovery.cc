@@ -61,7 +61,8 @@ std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
     const auto hats = corner_hats(table.point[local]);
     const auto by_hats = [&](Centre kind) {
       for (int c = 0; c < 8; ++c)
-        if (hats[c] > 1e-12 && centre[first[corners[c]]] == kind) shares.emplace_back(first[corners[c]], hats[c]);
+        if (hats[c] > 1e-12 && centre[first[corners[c]]] == kind)
+          shares.emplace_back(first[corners[c]], hats[c]);
     };
     shares.clear();
     by_hats(Centre::interior);
@@ -85,8 +86,8 @@ std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
   return patches;
 }
 
-/// Axes of a patch: the edges of its first cell at the corner, each made straight with the edge that best continues it
-/// on the other side.
+/// Axes of a patch: the edges of its first cell at the corner, each made straight with the edge that best
+/// continues it on the other side.
 Eigen::Matrix3d patch_directions(const Grid& grid, const CellsOfNodes& cells, std::int32_t corner) {
   const auto corners = corner_nodes(grid.degree);
   const Eigen::Vector3d origin(grid.position(corner));
@@ -118,18 +119,19 @@ Points sample_positions(const Grid& grid, const Tabulation& at) {
 }
 
 /// Values at the samples of a patch's cells (cell after cell) to weighted values at its nodes.
-Eigen::MatrixXd patch_operator(const Grid& grid, const CellsOfNodes& cells, int per_cell, const Points& positions,
-                               const Patch& patch) {
+Eigen::MatrixXd patch_operator(const Grid& grid, const CellsOfNodes& cells, int per_cell,
+                               const Points& positions, const Patch& patch) {
   const auto first = cells.begin[patch.corner];
   const auto n_cells = static_cast<Eigen::Index>(cells.begin[patch.corner + 1] - first);
   Points samples(3, n_cells * per_cell), targets(3, patch.nodes.size());
   for (Eigen::Index k = 0; k < n_cells; ++k)
-    samples.middleCols(k * per_cell, per_cell) = positions.middleCols(cells.cell[first + k] * Eigen::Index(per_cell), per_cell);
+    samples.middleCols(k * per_cell, per_cell) =
+        positions.middleCols(cells.cell[first + k] * Eigen::Index(per_cell), per_cell);
   for (std::size_t i = 0; i < patch.nodes.size(); ++i)
     targets.col(i) = Eigen::Map<const Eigen::Vector3d>(grid.position(patch.nodes[i]));
   const Eigen::Map<const Eigen::VectorXd> weights(patch.weights.data(), patch.weights.size());
-  return weights.asDiagonal() *
-         fit_operator(grid.degree, n_cells >= 8, patch_directions(grid, cells, patch.corner), samples, targets);
+  return weights.asDiagonal() * fit_operator(grid.degree, n_cells >= 8,
+                                             patch_directions(grid, cells, patch.corner), samples, targets);
 }
 
 }  // namespace
@@ -141,8 +143,9 @@ void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const Const
   const auto patches = make_patches(grid, cells);
   nodal.setZero();
 
-  // Batches bound the memory of the operators. Inside a batch the operators are made in parallel; then they are applied
-  // in parallel over groups of columns, patch after patch, so that sums do not depend on the number of threads.
+  // Batches bound the memory of the operators. Inside a batch the operators are made in parallel; then they
+  // are applied in parallel over groups of columns, patch after patch, so that sums do not depend on the
+  // number of threads.
   constexpr std::size_t batch = 512;
   constexpr Eigen::Index width = 48;
   std::vector<Eigen::MatrixXd> operators(std::min(batch, patches.size()));

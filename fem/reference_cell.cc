@@ -9,7 +9,8 @@ namespace fem {
 namespace {
 
 template <int dim>
-Tabulation tabulate(int degree, const std::vector<dealii::Point<dim>>& points, const std::vector<double>& weights) {
+Tabulation tabulate(int degree, const std::vector<dealii::Point<dim>>& points,
+                    const std::vector<double>& weights) {
   const dealii::FE_Q<dim> element(degree);
   const auto hierarchic = dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
   Tabulation t;

@@ -6,7 +6,8 @@
 
 namespace fem {
 
-/// value[q][i], gradient[q][i][axis], weight[q] flattened; shape functions lexicographic. Faces use axes 0 and 1 only.
+/// value[q][i], gradient[q][i][axis], weight[q] flattened; shape functions lexicographic. Faces use axes 0
+/// and 1 only.
 struct Tabulation {
   int n_points = 0, n_shapes = 0;
   std::vector<double> value;

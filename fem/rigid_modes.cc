@@ -28,12 +28,14 @@ NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<st
 
 MassProperties mass_properties(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3) {
   MassProperties body;
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> x(grid.xyz_m.data(), grid.n_nodes, 3);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> x(grid.xyz_m.data(),
+                                                                                      grid.n_nodes, 3);
   body.volume_m3 = integrals.col(0).sum();
   body.mass_kg = density_kg_m3 * body.volume_m3;
   for (int d = 0; d < 3; ++d) body.first_moment_kg_m[d] = density_kg_m3 * integrals.col(1 + d).sum();
   const Eigen::Matrix3d second = density_kg_m3 * x.transpose() * integrals.rightCols<3>();
-  body.second_moments_kg_m2 = {second(0, 0), second(1, 1), second(2, 2), second(0, 1), second(1, 2), second(0, 2)};
+  body.second_moments_kg_m2 = {second(0, 0), second(1, 1), second(2, 2),
+                               second(0, 1), second(1, 2), second(0, 2)};
   return body;
 }
 
@@ -53,7 +55,8 @@ Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const
 }
 
 RigidBalance::RigidBalance(const Grid& grid, const NodeIntegrals& integrals) {
-  const Eigen::Vector3d centre = integrals.rightCols<3>().colwise().sum().transpose() / integrals.col(0).sum();
+  const Eigen::Vector3d centre =
+      integrals.rightCols<3>().colwise().sum().transpose() / integrals.col(0).sum();
   modes_ = rigid_modes(grid, centre);
   mass_modes_ = Eigen::MatrixXd::Zero(modes_.rows(), 6);
   for (std::size_t i = 0; i < grid.n_nodes; ++i) {

@@ -9,8 +9,9 @@
 
 namespace fem {
 
-/// Integrals over the body of N_i, N_i x, N_i y, N_i z for every node (n x 4). Gauss points in number that makes them
-/// exact on isoparametric cells: mass, first and second moments, body loads and balancing all come from this table.
+/// Integrals over the body of N_i, N_i x, N_i y, N_i z for every node (n x 4). Gauss points in number that
+/// makes them exact on isoparametric cells: mass, first and second moments, body loads and balancing all come
+/// from this table.
 using NodeIntegrals = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours);
 
@@ -26,7 +27,7 @@ Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const
 class RigidBalance {
 public:
   RigidBalance(const Grid& grid, const NodeIntegrals& integrals);
-  void balance(Eigen::MatrixXd& force) const;              ///< f - M R (R'MR)^-1 R'f
+  void balance(Eigen::MatrixXd& force) const;               ///< f - M R (R'MR)^-1 R'f
   void remove_motion(Eigen::MatrixXd& displacement) const;  ///< u - R (R'MR)^-1 R'M u
 
 private:

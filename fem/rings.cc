@@ -29,9 +29,11 @@ bool is_flat(const Grid& grid, const std::vector<std::int32_t>& nodes) {
 /// Nodes of concentric surfaces with their group; where groups meet, a fillet's wins, then the smaller id.
 std::vector<RingNode> concentric_nodes(const Grid& grid, const Body& body) {
   std::map<int, bool> concentric;  // by volume
-  for (const auto& chart : body.cylinders) concentric[chart.volume_id] = chart.shift_x_m == 0 && chart.shift_y_m == 0;
+  for (const auto& chart : body.cylinders)
+    concentric[chart.volume_id] = chart.shift_x_m == 0 && chart.shift_y_m == 0;
   const auto is_fillet = [&](int id) {
-    return std::any_of(body.tori.begin(), body.tori.end(), [id](const auto& torus) { return torus.boundary_id == id; });
+    return std::any_of(body.tori.begin(), body.tori.end(),
+                       [id](const auto& torus) { return torus.boundary_id == id; });
   };
   std::map<std::int32_t, std::pair<bool, int>> group;  // not a fillet, id: the smallest wins
   for (const auto& face : grid.boundary) {
@@ -53,7 +55,8 @@ std::vector<RingNode> concentric_nodes(const Grid& grid, const Body& body) {
   return result;
 }
 
-/// Sorts by key and calls handle(begin, end) for every run of nodes whose keys follow each other within the tolerance.
+/// Sorts by key and calls handle(begin, end) for every run of nodes whose keys follow each other within the
+/// tolerance.
 template <typename Iterator, typename Key, typename Handle>
 void for_each_run(Iterator begin, Iterator end, double tolerance, const Key& key, const Handle& handle) {
   std::stable_sort(begin, end, [&](const auto& a, const auto& b) { return key(a) < key(b); });
@@ -78,7 +81,8 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
 
   using Iterator = std::vector<RingNode>::iterator;
   const auto add_ring = [&](Iterator begin, Iterator end) {
-    const auto least = std::min_element(begin, end, [](const auto& a, const auto& b) { return a.boundary_id < b.boundary_id; });
+    const auto least = std::min_element(
+        begin, end, [](const auto& a, const auto& b) { return a.boundary_id < b.boundary_id; });
     responses.rings.push_back({begin->z_m, begin->radius_m, least->boundary_id});
     for (std::size_t k = 0; k < n_loads; ++k) {
       std::array<double, 2> mean{};
@@ -90,10 +94,12 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
       responses.ring_shear_Pa.push_back(mean);
     }
   };
-  for_each_run(nodes.begin(), nodes.end(), tolerance, [](const RingNode& n) { return n.z_m; },
-               [&](Iterator begin, Iterator end) {
-                 for_each_run(begin, end, tolerance, [](const RingNode& n) { return n.radius_m; }, add_ring);
-               });
+  for_each_run(
+      nodes.begin(), nodes.end(), tolerance, [](const RingNode& n) { return n.z_m; },
+      [&](Iterator begin, Iterator end) {
+        for_each_run(
+            begin, end, tolerance, [](const RingNode& n) { return n.radius_m; }, add_ring);
+      });
 }
 
 }  // namespace fem

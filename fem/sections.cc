@@ -13,7 +13,8 @@ namespace fem {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double relative_tolerance = 1e-6;  // of the radius: coordinates in the file carry 16 digits, charts 15
+constexpr double relative_tolerance =
+    1e-6;  // of the radius: coordinates in the file carry 16 digits, charts 15
 
 struct FlatFace {
   double z_m = 0;
@@ -35,7 +36,8 @@ std::vector<FlatFace> flat_faces(const Grid& grid) {
         const double* x = grid.position(nodes[corner]);
         low = std::min(low, x[2]);
         high = std::max(high, x[2]);
-        size = std::max(size, std::hypot(x[0] - grid.position(nodes[0])[0], x[1] - grid.position(nodes[0])[1]));
+        size =
+            std::max(size, std::hypot(x[0] - grid.position(nodes[0])[0], x[1] - grid.position(nodes[0])[1]));
       }
       const bool cell_is_below = grid.position(opposite[0])[2] < low;
       if (high - low <= relative_tolerance * size && (cell_is_below || at_boundary[6 * c + f]))
@@ -53,7 +55,8 @@ struct Section {
   std::map<std::int32_t, Weight> weights;
   std::vector<std::int32_t> rim;
   double area_m2 = 0;
-  Eigen::Matrix<double, 6, 6> rigid = Eigen::Matrix<double, 6, 6>::Zero();  // of the modes about the section's axis
+  Eigen::Matrix<double, 6, 6> rigid =
+      Eigen::Matrix<double, 6, 6>::Zero();  // of the modes about the section's axis
 };
 
 void refuse(const SectionPlane& plane, const std::string& what) {
@@ -95,10 +98,12 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
     }
   }
   if (section.weights.empty()) refuse(plane, "no cell faces lie in it");
-  // A circle of n chords covers sin(2 pi / n) / (2 pi / n) of its disc: 10 % off for 8 chords, far less for parabolas.
+  // A circle of n chords covers sin(2 pi / n) / (2 pi / n) of its disc: 10 % off for 8 chords, far less for
+  // parabolas.
   const double disc = pi * plane.radius_m * plane.radius_m, allowed = grid.degree == 1 ? 0.15 : 0.01;
   if (std::abs(section.area_m2 - disc) > allowed * disc)
-    refuse(plane, "its cell faces have " + std::to_string(section.area_m2 / disc) + " of the area of the disc");
+    refuse(plane,
+           "its cell faces have " + std::to_string(section.area_m2 / disc) + " of the area of the disc");
   for (const auto& [node, weight] : section.weights)
     if (std::abs(from_axis(node) - plane.radius_m) <= tolerance) section.rim.push_back(node);
   if (section.rim.empty()) refuse(plane, "no node lies on its rim");
@@ -108,7 +113,9 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
 SectionResponse respond(const Grid& grid, const SectionPlane& plane, const Section& section,
                         const UnitResponses& responses, std::size_t load) {
   const std::size_t n_loads = responses.channels.size();
-  const auto stress = [&](std::int32_t node) { return responses.stress_Pa.data() + (node * n_loads + load) * 6; };
+  const auto stress = [&](std::int32_t node) {
+    return responses.stress_Pa.data() + (node * n_loads + load) * 6;
+  };
   SectionResponse r;
   Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
   for (const auto& [node, weight] : section.weights) {
@@ -127,8 +134,8 @@ SectionResponse respond(const Grid& grid, const SectionPlane& plane, const Secti
     motion[5] += x * u[1] - y * u[0];
   }
   for (const auto node : section.rim) {
-    const auto shear = rim_shear(grid.position(node)[0] - plane.axis_x_m, grid.position(node)[1] - plane.axis_y_m,
-                                 stress(node));
+    const auto shear = rim_shear(grid.position(node)[0] - plane.axis_x_m,
+                                 grid.position(node)[1] - plane.axis_y_m, stress(node));
     for (int c = 0; c < 2; ++c) r.mean_rim_shear_Pa[c] += shear[c] / double(section.rim.size());
   }
   motion = section.rigid.ldlt().solve(motion).eval();
@@ -143,10 +150,12 @@ SectionResponse respond(const Grid& grid, const SectionPlane& plane, const Secti
 
 std::array<double, 2> rim_shear(double x_m, double y_m, const double* stress_Pa) {
   const double r = std::hypot(x_m, y_m), c = x_m / r, s = y_m / r;
-  return {(stress_Pa[1] - stress_Pa[0]) * s * c + stress_Pa[3] * (c * c - s * s), stress_Pa[4] * c - stress_Pa[5] * s};
+  return {(stress_Pa[1] - stress_Pa[0]) * s * c + stress_Pa[3] * (c * c - s * s),
+          stress_Pa[4] * c - stress_Pa[5] * s};
 }
 
-void respond_on_sections(const Grid& grid, const std::vector<SectionPlane>& planes, UnitResponses& responses) {
+void respond_on_sections(const Grid& grid, const std::vector<SectionPlane>& planes,
+                         UnitResponses& responses) {
   responses.planes = planes;
   responses.plane_area_m2.clear();
   responses.sections.clear();

@@ -15,7 +15,8 @@ namespace fem {
 std::array<double, 2> rim_shear(double x_m, double y_m, const double* stress_Pa);
 
 /// Fills planes, plane_area_m2 and sections from displacement and stress.
-/// @throws std::invalid_argument for a plane that no cell faces lie in, or that they do not fill, or without rim nodes
+/// @throws std::invalid_argument for a plane that no cell faces lie in, or that they do not fill, or without
+/// rim nodes
 void respond_on_sections(const Grid& grid, const std::vector<SectionPlane>& planes, UnitResponses& responses);
 
 /// Fills rings and ring_shear_Pa: nodes of curved boundary faces whose chart has no shift, and of fillets.

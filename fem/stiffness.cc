@@ -32,13 +32,14 @@ Eigen::Matrix3d elastic_block(const Lame& elastic, const Eigen::Matrix3d& h) {
   return k;
 }
 
-void add_block(const NodeGraph& graph, SymmetricMatrix& matrix, std::int32_t row_node, std::int32_t column_node,
-               const Eigen::Matrix3d& k) {
+void add_block(const NodeGraph& graph, SymmetricMatrix& matrix, std::int32_t row_node,
+               std::int32_t column_node, const Eigen::Matrix3d& k) {
   const auto begin = graph.neighbour.begin() + graph.begin[column_node];
   const auto end = graph.neighbour.begin() + graph.begin[column_node + 1];
   const auto place = std::lower_bound(begin, end, row_node) - begin;
   for (int c = 0; c < 3; ++c) {
-    double* value = matrix.value.data() + matrix.column_begin[3 * std::int64_t(column_node) + c] + 3 - c + 3 * place;
+    double* value =
+        matrix.value.data() + matrix.column_begin[3 * std::int64_t(column_node) + c] + 3 - c + 3 * place;
     for (int a = 0; a < 3; ++a) value[a] += k(a, c);
   }
 }
@@ -69,8 +70,8 @@ void refuse_impossible(const Material& material) {
   if (!(material.density_kg_m3 > 0)) refuse("density", material.density_kg_m3, "be positive");
 }
 
-void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours, const NodeGraph& graph,
-                        const Material& material, SymmetricMatrix& matrix) {
+void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
+                        const NodeGraph& graph, const Material& material, SymmetricMatrix& matrix) {
   const Lame elastic = lame(material);
   const Tabulation at = gauss_in_cell(grid.degree, grid.degree + 1);
   const int n_local = grid.nodes_per_cell();

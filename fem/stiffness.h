@@ -16,9 +16,10 @@ Lame lame(const Material& material);
 /// @throws std::invalid_argument unless youngs_modulus > 0, -1 < poisson_ratio < 0.5, density > 0
 void refuse_impossible(const Material& material);
 
-/// Adds all cells' stiffness with (k+1)^3 Gauss points: colour after colour, so that the sums do not depend on threads.
+/// Adds all cells' stiffness with (k+1)^3 Gauss points: colour after colour, so that the sums do not depend
+/// on threads.
 /// @param matrix  made from the graph, zero on entry
-void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours, const NodeGraph& graph,
-                        const Material& material, SymmetricMatrix& matrix);
+void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
+                        const NodeGraph& graph, const Material& material, SymmetricMatrix& matrix);
 
 }  // namespace fem

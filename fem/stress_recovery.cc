@@ -47,7 +47,8 @@ private:
 
 }  // namespace
 
-RowMajor stress_at_points(const Grid& grid, const Tabulation& at, const Lame& elastic, const ConstBlock& displacement) {
+RowMajor stress_at_points(const Grid& grid, const Tabulation& at, const Lame& elastic,
+                          const ConstBlock& displacement) {
   RowMajor stress(grid.n_cells() * at.n_points, 2 * displacement.cols());
   parallel_for(grid.n_cells(), 32, [&](std::size_t begin, std::size_t end) {
     CellStress compute(grid, at, elastic, displacement);
@@ -56,8 +57,8 @@ RowMajor stress_at_points(const Grid& grid, const Tabulation& at, const Lame& el
   return stress;
 }
 
-void average_stress(const Grid& grid, const CellsOfNodes& cells, const Lame& elastic, const ConstBlock& displacement,
-                    Eigen::Ref<RowMajor> stress) {
+void average_stress(const Grid& grid, const CellsOfNodes& cells, const Lame& elastic,
+                    const ConstBlock& displacement, Eigen::Ref<RowMajor> stress) {
   const Tabulation at = nodes_in_cell(grid.degree);
   stress.setZero();
   for (const auto& group : colour_cells(grid, cells))

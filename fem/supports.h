@@ -10,8 +10,8 @@
 
 namespace fem {
 
-/// The six unknowns of a 3-2-1 support: all of a corner A, two of the corner B farthest from A (across AB), one of the
-/// corner C farthest from the line AB (across the plane ABC). Ascending.
+/// The six unknowns of a 3-2-1 support: all of a corner A, two of the corner B farthest from A (across AB),
+/// one of the corner C farthest from the line AB (across the plane ABC). Ascending.
 std::array<std::int64_t, 6> choose_supports(const Grid& grid);
 
 /// The matrix rows of the supported unknowns, taken out of the matrix: what is left is positive definite.

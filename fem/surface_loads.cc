@@ -34,19 +34,22 @@ LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : gri
   for (const auto& face : grid.boundary)
     if (face.boundary_id == surface.boundary_id) faces_.push_back(face);
   if (faces_.empty())
-    throw std::invalid_argument("the mesh has no faces in the boundary group " + std::to_string(surface.boundary_id) +
+    throw std::invalid_argument("the mesh has no faces in the boundary group " +
+                                std::to_string(surface.boundary_id) +
                                 " of a loaded surface: check the port's group in the mesh");
   for (const auto& face : faces_)
     for (const auto node : nodes_of_face(grid, face.cell, face.face)) nodes_.push_back(node);
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 
-  // Six tractions whose resultants are about right, in the order of Component; the mesh's own resultants then make
-  // them exact. local = position from the centre.
+  // Six tractions whose resultants are about right, in the order of Component; the mesh's own resultants then
+  // make them exact. local = position from the centre.
   using V = Eigen::Vector3d;
   std::vector<Traction> raw;
   if (surface.kind == LoadSurface::Kind::seat) {
-    const auto taper = [half = surface.length_m / 2](double z) { return std::max(0.0, 1 - z * z / (half * half)); };
+    const auto taper = [half = surface.length_m / 2](double z) {
+      return std::max(0.0, 1 - z * z / (half * half));
+    };
     const auto ring = [](const V& p) { return std::hypot(p[0], p[1]); };
     raw = {[=](const V& p, const V& n) -> V { return p[0] / ring(p) * n; },
            [=](const V& p, const V& n) -> V { return p[1] / ring(p) * n; },
@@ -67,8 +70,9 @@ LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : gri
   basis_.colwise().normalize();
   const Eigen::FullPivLU<Eigen::MatrixXd> own(about_centre(basis_));
   if (!own.isInvertible())
-    throw std::runtime_error("the faces of boundary group " + std::to_string(surface.boundary_id) +
-                             " cannot carry six independent resultants: a seat must go all the way round its axis");
+    throw std::runtime_error(
+        "the faces of boundary group " + std::to_string(surface.boundary_id) +
+        " cannot carry six independent resultants: a seat must go all the way round its axis");
   // Twice: the second pass takes out what rounding left in the first.
   basis_ = (basis_ * own.inverse()).eval();
   basis_ = (basis_ * about_centre(basis_).inverse()).eval();
@@ -121,17 +125,18 @@ Eigen::VectorXd LoadedSurface::pressure(int harmonic, SeatPressure::Phase phase)
   const bool sine = phase == SeatPressure::Phase::sine;
   if (sine && harmonic == 0) throw std::invalid_argument("pressure harmonic 0 has no sine phase");
   const double scale = half_cosine_coefficient(harmonic) / (pi * surface_.radius_m * surface_.length_m);
-  Eigen::VectorXd force = integrate([=](const Eigen::Vector3d& p, const Eigen::Vector3d& n) -> Eigen::Vector3d {
-    const double theta = std::atan2(p[1], p[0]);
-    return -scale * (sine ? std::sin(harmonic * theta) : std::cos(harmonic * theta)) * n;
-  });
+  Eigen::VectorXd force =
+      integrate([=](const Eigen::Vector3d& p, const Eigen::Vector3d& n) -> Eigen::Vector3d {
+        const double theta = std::atan2(p[1], p[0]);
+        return -scale * (sine ? std::sin(harmonic * theta) : std::cos(harmonic * theta)) * n;
+      });
   for (int pass = 0; pass < 2; ++pass) force -= basis_ * about_centre(force);
   return force;
 }
 
 bool same_surface(const LoadSurface& a, const LoadSurface& b) {
-  return a.kind == b.kind && a.boundary_id == b.boundary_id && a.centre_m == b.centre_m && a.radius_m == b.radius_m &&
-         a.length_m == b.length_m;
+  return a.kind == b.kind && a.boundary_id == b.boundary_id && a.centre_m == b.centre_m &&
+         a.radius_m == b.radius_m && a.length_m == b.length_m;
 }
 
 }  // namespace fem

@@ -12,7 +12,8 @@
 
 namespace fem {
 
-/// Nodal forces on the nodes of one surface: row 3 i + d belongs to component d of nodes[i]; one column per vector.
+/// Nodal forces on the nodes of one surface: row 3 i + d belongs to component d of nodes[i]; one column per
+/// vector.
 struct SurfaceForces {
   std::vector<std::int32_t> nodes;
   Eigen::MatrixXd force;
@@ -36,7 +37,8 @@ public:
   Eigen::VectorXd pressure(int harmonic, SeatPressure::Phase phase) const;
 
 private:
-  using Traction = std::function<Eigen::Vector3d(const Eigen::Vector3d& local, const Eigen::Vector3d& normal)>;
+  using Traction =
+      std::function<Eigen::Vector3d(const Eigen::Vector3d& local, const Eigen::Vector3d& normal)>;
   Eigen::VectorXd integrate(const Traction& traction) const;
   Eigen::MatrixXd about_centre(const Eigen::MatrixXd& force) const;  // 6 x columns
 
@@ -54,7 +56,8 @@ bool same_surface(const LoadSurface& a, const LoadSurface& b);
 Eigen::VectorXd body_force(const NodeIntegrals& integrals, double density_kg_m3, BodyForce::Field field);
 
 /// All load vectors as applied, one column per load.
-/// @throws std::invalid_argument for an empty list, an empty or repeated channel, and as LoadedSurface, naming the channel
+/// @throws std::invalid_argument for an empty list, an empty or repeated channel, and as LoadedSurface,
+/// naming the channel
 Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
                              const std::vector<UnitLoad>& loads);
 

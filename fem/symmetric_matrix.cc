@@ -25,7 +25,8 @@ NodeGraph make_node_graph(const Grid& grid, const CellsOfNodes& cells) {
   });
   NodeGraph graph;
   graph.begin.assign(1, 0);
-  for (const auto& list : larger) graph.begin.push_back(graph.begin.back() + static_cast<std::int64_t>(list.size()));
+  for (const auto& list : larger)
+    graph.begin.push_back(graph.begin.back() + static_cast<std::int64_t>(list.size()));
   graph.neighbour.reserve(graph.begin.back());
   for (const auto& list : larger) graph.neighbour.insert(graph.neighbour.end(), list.begin(), list.end());
   return graph;
@@ -39,7 +40,8 @@ SymmetricMatrix make_matrix(const NodeGraph& graph) {
   matrix.column_begin.reserve(matrix.n + 1);
   for (std::size_t j = 0; j < n_nodes; ++j)
     for (int c = 0; c < 3; ++c)
-      matrix.column_begin.push_back(matrix.column_begin.back() + 3 - c + 3 * (graph.begin[j + 1] - graph.begin[j]));
+      matrix.column_begin.push_back(matrix.column_begin.back() + 3 - c +
+                                    3 * (graph.begin[j + 1] - graph.begin[j]));
   matrix.row.resize(matrix.column_begin.back());
   matrix.value.assign(matrix.column_begin.back(), 0.0);
   parallel_for(n_nodes, 1000, [&](std::size_t begin, std::size_t end) {

@@ -12,7 +12,7 @@ namespace fem {
 
 /// Neighbours of every node in the mesh that have a larger number, ascending.
 struct NodeGraph {
-  std::vector<std::int64_t> begin;       ///< n_nodes + 1
+  std::vector<std::int64_t> begin;  ///< n_nodes + 1
   std::vector<std::int32_t> neighbour;
   std::size_t n_nodes() const noexcept { return begin.size() - 1; }
 };

@@ -19,19 +19,22 @@ struct SectionPlane {
 /// The nodes of the solution on the body: every support point of the displacement space once.
 struct Nodes {
   std::size_t n = 0;
-  std::vector<double> xyz_m;                 ///< n x 3
-  std::vector<double> volume_m3;             ///< n; integral of the node's shape function, sums to the body's volume
+  std::vector<double> xyz_m;      ///< n x 3
+  std::vector<double> volume_m3;  ///< n; integral of the node's shape function, sums to the body's volume
   std::vector<std::array<std::int32_t, 27>> cells;  ///< VTK_TRIQUADRATIC_HEXAHEDRON order (degree 2 only)
   std::vector<std::array<std::int32_t, 9>> faces;   ///< boundary faces, VTK_BIQUADRATIC_QUAD order
   std::vector<std::int32_t> face_boundary_id;       ///< one per face
 };
 
-/// What one unit load does to one section plane. Resultants of the traction sigma e_z: the action of the part above the
-/// plane on the part below it (tension and right-handed torque positive), moments about (0, 0, z_m).
+/// What one unit load does to one section plane. Resultants of the traction sigma e_z: the action of the part
+/// above the plane on the part below it (tension and right-handed torque positive), moments about (0, 0,
+/// z_m).
 struct SectionResponse {
-  std::array<double, 6> resultant{};         ///< fx, fy, fz [N], mx, my, mz [N m], integrals of the recovered stress
-  std::array<double, 2> mean_rim_shear_Pa{};  ///< means over the rim of sigma_r_theta and sigma_theta_z about the section's axis
-  std::array<double, 3> translation_m{};     ///< of the section's axis point, least-squares rigid motion of the section
+  std::array<double, 6> resultant{};  ///< fx, fy, fz [N], mx, my, mz [N m], integrals of the recovered stress
+  std::array<double, 2> mean_rim_shear_Pa{};  ///< means over the rim of sigma_r_theta and sigma_theta_z about
+                                              ///< the section's axis
+  std::array<double, 3>
+      translation_m{};  ///< of the section's axis point, least-squares rigid motion of the section
   std::array<double, 3> rotation_rad{};
 };
 
@@ -42,17 +45,19 @@ struct RimRing {
 };
 
 struct UnitResponses {
-  std::vector<std::string> channels;         ///< K names, the order of all arrays
+  std::vector<std::string> channels;  ///< K names, the order of all arrays
   Nodes nodes;
-  std::vector<double> displacement_m;        ///< n x K x 3
-  std::vector<double> stress_Pa;             ///< n x K x 6, recovered at the nodes
-  std::vector<std::array<double, 6>> resultants;  ///< K; fx, fy, fz, mx, my, mz about the origin of the load vector as applied
+  std::vector<double> displacement_m;  ///< n x K x 3
+  std::vector<double> stress_Pa;       ///< n x K x 6, recovered at the nodes
+  std::vector<std::array<double, 6>>
+      resultants;  ///< K; fx, fy, fz, mx, my, mz about the origin of the load vector as applied
   std::vector<SectionPlane> planes;
   std::vector<double> plane_area_m2;
-  std::vector<SectionResponse> sections;     ///< n_planes x K
+  std::vector<SectionResponse> sections;  ///< n_planes x K
   std::vector<RimRing> rings;
   std::vector<std::array<double, 2>> ring_shear_Pa;  ///< n_rings x K; means of sigma_r_theta, sigma_theta_z
-  /// Largest support reaction over all unit loads, relative to the load vector's largest entry: must be round-off.
+  /// Largest support reaction over all unit loads, relative to the load vector's largest entry: must be
+  /// round-off.
   double support_reaction = 0;
   /// Largest |K u - f| / |f| over all unit loads.
   double residual = 0;

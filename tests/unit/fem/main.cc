@@ -1,0 +1,10 @@
+#include <gtest/gtest.h>
+
+#include "fem/model.h"
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  if (testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();  // listing needs no MPI
+  const fem::Environment environment(argc, argv, 0);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,47 @@
+/// Shafts of meshes as bodies of fem, and sums of unit responses: what the tests of fem share.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/body.h"
+#include "fem/unit_load.h"
+#include "fem/unit_responses.h"
+#include "meshes/shaft.h"
+
+namespace fem_tests {
+
+inline constexpr fem::Material steel{206e9, 0.3, 7850};
+
+struct ShaftBody {
+  fem::Body body;
+  std::map<std::string, fem::LoadSurface> ports;
+  std::map<std::string, int> features;  ///< boundary ids
+  std::vector<fem::SectionPlane> planes;
+};
+
+/// Meshes the shaft in a directory of this process, which goes when the process ends.
+ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control);
+
+/// Rod of diameter 50 mm and length 200 mm from z = 0: ports end_1, end_2, and its whole surface "rod".
+ShaftBody rod(int n_sectors = 16);
+
+/// Small stepped shaft with an eccentric seat (offset 2 mm along x) between two bearing seats.
+ShaftBody eccentric_shaft(int cells_per_fillet_quarter = 4);
+
+/// One unit load named "<port>.<component>".
+fem::UnitLoad resultant(const ShaftBody& body, const std::string& port,
+                        fem::SurfaceResultant::Component component);
+
+/// Tensor (xx, yy, zz, xy, yz, xz) at a node in the load case: sum of factor times channel.
+using LoadCase = std::vector<std::pair<std::string, double>>;
+std::array<double, 6> stress(const fem::UnitResponses& responses, const LoadCase& sum, std::size_t node);
+
+/// Resultant, rim shear, rigid motion of one plane in the load case.
+fem::SectionResponse section(const fem::UnitResponses& responses, const LoadCase& sum, std::size_t plane);
+
+}  // namespace fem_tests
