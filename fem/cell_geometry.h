@@ -9,6 +9,8 @@
 
 namespace fem {
 
+using Points = Eigen::Matrix3Xd;  ///< one point per column
+
 /// Jacobian dx/dxi (column = reference axis) of a cell at point q.
 Eigen::Matrix3d jacobian(const Grid& grid, std::size_t cell, const Tabulation& at, int q);
 

@@ -97,6 +97,18 @@ Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
   return displacement;
 }
 
+/// Boundary groups that any of the loads acts on.
+std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads) {
+  std::vector<int> groups;
+  for (const auto& load : loads) {
+    if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
+      groups.push_back(resultant->surface.boundary_id);
+    if (const auto* pressure = std::get_if<SeatPressure>(&load.shape))
+      groups.push_back(pressure->surface.boundary_id);
+  }
+  return groups;
+}
+
 }  // namespace
 
 UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
@@ -139,8 +151,9 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   if (recovery == Recovery::average) {
     average_stress(grid, impl_->cells, elastic, displacement, stress);
   } else {
-    const Tabulation sampling = gauss_in_cell(grid.degree, grid.degree);
-    recover_by_patches(grid, impl_->cells, stress_at_points(grid, sampling, elastic, displacement), stress);
+    const auto free = free_faces(grid, loaded_groups(loads));
+    recover_by_patches(grid, impl_->cells, impl_->body.cylinders, make_samples(grid, free),
+                       stress_at_samples(grid, free, elastic, displacement), stress);
   }
   responses.nodes = export_nodes(grid, impl_->integrals);
   respond_on_sections(grid, planes, responses);

@@ -1,6 +1,8 @@
 #include "fem/patch_fit.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace fem {
@@ -24,14 +26,19 @@ Exponents complete_space(int degree) {
   return e;
 }
 
+/// What stands for x and x^2 of each coordinate, both in [-1, 1] over the patch.
+struct Scaled {
+  Points first, second;
+};
+
 /// Products of Legendre polynomials: the same spaces as monomials, well conditioned on [-1, 1]^3.
-Eigen::MatrixXd basis(const Exponents& exponents, const Points& points) {
-  Eigen::MatrixXd values(points.cols(), exponents.size());
-  for (Eigen::Index p = 0; p < points.cols(); ++p) {
+Eigen::MatrixXd basis(const Exponents& exponents, const Scaled& points) {
+  Eigen::MatrixXd values(points.first.cols(), exponents.size());
+  for (Eigen::Index p = 0; p < points.first.cols(); ++p) {
     std::array<std::array<double, 4>, 3> legendre{};
     for (int d = 0; d < 3; ++d) {
-      const double x = points(d, p);
-      legendre[d] = {{1, x, (3 * x * x - 1) / 2, (5 * x * x - 3) * x / 2}};
+      const double x = points.first(d, p), x2 = points.second(d, p);
+      legendre[d] = {{1, x, (3 * x2 - 1) / 2, (5 * x2 - 3) * x / 2}};
     }
     for (std::size_t k = 0; k < exponents.size(); ++k)
       values(p, k) =
@@ -41,11 +48,12 @@ Eigen::MatrixXd basis(const Exponents& exponents, const Points& points) {
 }
 
 /// The fit in one space; an empty matrix if the samples do not determine it well.
-Eigen::MatrixXd fit_in(const Exponents& space, const Points& samples, const Points& targets) {
-  // The squared sine between a basis function and the span of the others, on the samples. Below this they are as good as
-  // dependent: errors of the samples could grow thirtyfold. Sound patches of shafts have 0.003 and more.
+Eigen::MatrixXd fit_in(const Exponents& space, const Scaled& samples, const Scaled& targets) {
+  // The squared sine between a basis function and the span of the others, on the samples. Below this they are
+  // as good as dependent: errors of the samples could grow thirtyfold. Sound patches of shafts have 0.003 and
+  // more.
   constexpr double smallest_pivot = 1e-3;
-  if (samples.cols() < static_cast<Eigen::Index>(space.size())) return {};
+  if (samples.first.cols() < static_cast<Eigen::Index>(space.size())) return {};
   const Eigen::MatrixXd at_samples = basis(space, samples);
   const Eigen::VectorXd norm = at_samples.colwise().norm();
   if (!(norm.minCoeff() > 0)) return {};
@@ -58,19 +66,25 @@ Eigen::MatrixXd fit_in(const Exponents& space, const Points& samples, const Poin
 
 }  // namespace
 
-Eigen::MatrixXd fit_operator(int degree, bool full_patch, const Eigen::Matrix3d& directions,
-                             const Points& samples, const Points& targets) {
-  constexpr double nearly_coplanar = 0.05;
-  const Eigen::Matrix3d unit = directions.colwise().normalized();
-  const bool usable = std::abs(unit.determinant()) > nearly_coplanar;
-  const Eigen::Matrix3d to_patch = usable ? Eigen::Matrix3d(unit.inverse()) : Eigen::Matrix3d::Identity();
-  Points s = to_patch * samples, t = to_patch * targets;
+Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& points) {
+  Scaled s{points.samples, points.samples}, t{points.targets, points.targets};
   for (int d = 0; d < 3; ++d) {
-    const double low = std::min(s.row(d).minCoeff(), t.row(d).minCoeff());
-    const double high = std::max(s.row(d).maxCoeff(), t.row(d).maxCoeff());
-    const double centre = (low + high) / 2, half = high > low ? (high - low) / 2 : 1.0;
-    s.row(d).array() = (s.row(d).array() - centre) / half;
-    t.row(d).array() = (t.row(d).array() - centre) / half;
+    const double low = std::min(points.samples.row(d).minCoeff(), points.targets.row(d).minCoeff());
+    const double high = std::max(points.samples.row(d).maxCoeff(), points.targets.row(d).maxCoeff());
+    if (d == points.angle_axis) {
+      const double half = std::max(high, -low);
+      for (auto* scaled : {&s, &t}) {
+        const Eigen::ArrayXd angle = scaled->first.row(d).array();
+        scaled->first.row(d) = angle.sin() / std::sin(half);
+        scaled->second.row(d) = (1 - angle.cos()) / (1 - std::cos(half));
+      }
+    } else {
+      const double centre = (low + high) / 2, half = high > low ? (high - low) / 2 : 1.0;
+      for (auto* scaled : {&s, &t}) {
+        scaled->first.row(d).array() = (scaled->first.row(d).array() - centre) / half;
+        scaled->second.row(d) = scaled->first.row(d).cwiseAbs2();
+      }
+    }
   }
   // Trilinear fits of one sample per cell would be interpolations that amplify the samples' errors: degree 1
   // goes straight to the complete space.
@@ -78,7 +92,7 @@ Eigen::MatrixXd fit_operator(int degree, bool full_patch, const Eigen::Matrix3d&
     if (auto fit = fit_in(tensor_space(degree), s, t); fit.size() > 0) return fit;
   for (int p = degree; p > 0; --p)
     if (auto fit = fit_in(complete_space(p), s, t); fit.size() > 0) return fit;
-  return Eigen::MatrixXd::Constant(t.cols(), s.cols(), 1.0 / double(s.cols()));
+  return Eigen::MatrixXd::Constant(t.first.cols(), s.first.cols(), 1.0 / double(s.first.cols()));
 }
 
 }  // namespace fem

@@ -3,16 +3,22 @@
 
 #include <Eigen/Dense>
 
+#include "fem/cell_geometry.h"
+
 namespace fem {
 
-using Points = Eigen::Matrix3Xd;
+/// Where the samples and targets of a patch lie, in coordinates along the lines of its mesh.
+struct PatchPoints {
+  Points samples, targets;
+  int angle_axis =
+      -1;  ///< the coordinate that is an angle [rad] from the patch's centre, within (-pi/2, pi/2); -1: none
+};
 
-/// Matrix that takes the values at `samples` to the values of their fit at `targets` (targets x samples).
-/// Polynomials of the affine coordinates  directions^-1 x, scaled to the patch: the tensor-product space of
-/// `degree` if the patch is a full one, else (or if the samples do not determine it) the complete space of
-/// `degree`, then lower ones down to the mean.
-/// @param directions  columns: the patch's axes; replaced by x, y, z if nearly coplanar
-Eigen::MatrixXd fit_operator(int degree, bool full_patch, const Eigen::Matrix3d& directions,
-                             const Points& samples, const Points& targets);
+/// Matrix that takes the values at the samples to the values of their fit at the targets (targets x samples).
+/// Polynomials of the coordinates, scaled to the patch: the tensor-product space of `degree` if the patch is
+/// a full one, else (or if the samples do not determine it) the complete space of `degree`, then lower ones
+/// down to the mean. Of an angle t the powers are 1, sin t, 1 - cos t, sin t (1 - cos t): the harmonics 0 and
+/// 1 are in the space exactly.
+Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& points);
 
 }  // namespace fem

@@ -1,10 +1,11 @@
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <vector>
 
 #include "fem/cell_geometry.h"
 #include "fem/parallel.h"
 #include "fem/patch_fit.h"
+#include "fem/patch_geometry.h"
 #include "fem/stress_recovery.h"
 
 namespace fem {
@@ -41,10 +42,57 @@ std::vector<Centre> choose_centres(const Grid& grid) {
   return centre;
 }
 
+using Shares = std::vector<std::pair<std::int32_t, double>>;  // corner with a patch, weight
+
+/// Whose fits stand for that of a boundary corner: the interior corners joined to it by an edge; if there are
+/// none, those of its cells.
+Shares stand_ins(const Grid& grid, const CellsOfNodes& cells, const std::vector<Centre>& centre,
+                 std::int32_t corner) {
+  const auto corners = corner_nodes(grid.degree);
+  std::vector<std::int32_t> joined, in_cells;
+  for (auto k = cells.begin[corner]; k < cells.begin[corner + 1]; ++k) {
+    const auto* nodes = grid.nodes_of(cells.cell[k]);
+    int own = 0;
+    while (nodes[corners[own]] != corner) ++own;
+    for (int c = 0; c < 8; ++c) {
+      if (centre[nodes[corners[c]]] != Centre::interior) continue;
+      in_cells.push_back(nodes[corners[c]]);
+      const int difference = own ^ c;
+      if (difference == 1 || difference == 2 || difference == 4) joined.push_back(nodes[corners[c]]);
+    }
+  }
+  auto& chosen = joined.empty() ? in_cells : joined;
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  Shares shares;
+  for (const auto c : chosen) shares.emplace_back(c, 1.0 / double(chosen.size()));
+  return shares;
+}
+
+/// Shares of one node in the fits of corners, by the rule of recover_by_patches; not normalised.
+Shares shares_of(const Grid& grid, const CellsOfNodes& cells, const std::vector<Centre>& centre,
+                 const Tabulation& table, std::int32_t node) {
+  const auto corners = corner_nodes(grid.degree);
+  const auto* nodes = grid.nodes_of(cells.cell[cells.begin[node]]);
+  const auto hats = corner_hats(table.point[std::find(nodes, nodes + grid.nodes_per_cell(), node) - nodes]);
+  Shares interior, substitutes, boundary;
+  for (int c = 0; c < 8; ++c) {
+    if (hats[c] < 1e-12) continue;
+    const auto corner = nodes[corners[c]];
+    if (centre[corner] == Centre::interior) {
+      interior.emplace_back(corner, hats[c]);
+      continue;
+    }
+    if (centre[corner] == Centre::boundary) boundary.emplace_back(corner, hats[c]);
+    for (const auto& [other, weight] : stand_ins(grid, cells, centre, corner))
+      substitutes.emplace_back(other, hats[c] * weight);
+  }
+  return !interior.empty() ? interior : !substitutes.empty() ? substitutes : boundary;
+}
+
 /// The patches and their nodes; every node's weights sum to 1.
 std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
   const auto centre = choose_centres(grid);
-  const auto corners = corner_nodes(grid.degree);
   const auto table = nodes_in_cell(grid.degree);
   std::vector<Patch> patches;
   std::vector<std::int32_t> patch_of(grid.n_nodes, -1);
@@ -53,93 +101,79 @@ std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
       patch_of[i] = static_cast<std::int32_t>(patches.size());
       patches.push_back({static_cast<std::int32_t>(i), {}, {}});
     }
-
-  std::vector<std::pair<std::int32_t, double>> shares;  // corner, weight
   for (std::size_t i = 0; i < grid.n_nodes; ++i) {
-    const auto* first = grid.nodes_of(cells.cell[cells.begin[i]]);
-    const auto local = std::find(first, first + grid.nodes_per_cell(), static_cast<std::int32_t>(i)) - first;
-    const auto hats = corner_hats(table.point[local]);
-    const auto by_hats = [&](Centre kind) {
-      for (int c = 0; c < 8; ++c)
-        if (hats[c] > 1e-12 && centre[first[corners[c]]] == kind)
-          shares.emplace_back(first[corners[c]], hats[c]);
-    };
-    shares.clear();
-    by_hats(Centre::interior);
-    if (shares.empty()) {
-      for (auto k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-        for (const int c : corners)
-          if (const auto node = grid.nodes_of(cells.cell[k])[c]; centre[node] == Centre::interior)
-            shares.emplace_back(node, 1.0);
-      std::sort(shares.begin(), shares.end());
-      shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
-    }
-    if (shares.empty()) by_hats(Centre::boundary);
+    const auto shares = shares_of(grid, cells, centre, table, static_cast<std::int32_t>(i));
     double sum = 0;
     for (const auto& share : shares) sum += share.second;
     for (const auto& [corner, weight] : shares) {
       auto& patch = patches[patch_of[corner]];
-      patch.nodes.push_back(static_cast<std::int32_t>(i));
-      patch.weights.push_back(weight / sum);
+      if (patch.nodes.empty() || patch.nodes.back() != static_cast<std::int32_t>(i)) {
+        patch.nodes.push_back(static_cast<std::int32_t>(i));
+        patch.weights.push_back(0);
+      }
+      patch.weights.back() += weight / sum;
     }
   }
   return patches;
 }
 
-/// Axes of a patch: the edges of its first cell at the corner, each made straight with the edge that best
-/// continues it on the other side.
-Eigen::Matrix3d patch_directions(const Grid& grid, const CellsOfNodes& cells, std::int32_t corner) {
-  const auto corners = corner_nodes(grid.degree);
-  const Eigen::Vector3d origin(grid.position(corner));
-  std::vector<Eigen::Vector3d> edges;  // the first three belong to the first cell
-  for (auto k = cells.begin[corner]; k < cells.begin[corner + 1]; ++k) {
-    const auto* nodes = grid.nodes_of(cells.cell[k]);
-    for (int c = 0; c < 8; ++c)
-      if (nodes[corners[c]] == corner)
-        for (const int axis : {1, 2, 4})
-          edges.push_back((Eigen::Vector3d(grid.position(nodes[corners[c ^ axis]])) - origin).normalized());
-  }
-  Eigen::Matrix3d directions;
-  for (int d = 0; d < 3; ++d) {
-    const auto opposite = *std::min_element(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
-      return a.dot(edges[d]) < b.dot(edges[d]);
-    });
-    directions.col(d) = opposite.dot(edges[d]) < -0.5 ? Eigen::Vector3d(edges[d] - opposite) : edges[d];
-  }
-  return directions;
-}
+/// What takes the values at the samples around a patch to weighted values at its nodes.
+struct PatchOperator {
+  std::vector<std::int32_t> samples;
+  Eigen::MatrixXd fit;
+};
 
-Points sample_positions(const Grid& grid, const Tabulation& at) {
-  Points x(3, grid.n_cells() * at.n_points);
-  parallel_for(grid.n_cells(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c)
-      for (int q = 0; q < at.n_points; ++q) x.col(c * at.n_points + q) = position(grid, c, at, q);
-  });
-  return x;
-}
-
-/// Values at the samples of a patch's cells (cell after cell) to weighted values at its nodes.
-Eigen::MatrixXd patch_operator(const Grid& grid, const CellsOfNodes& cells, int per_cell,
-                               const Points& positions, const Patch& patch) {
-  const auto first = cells.begin[patch.corner];
-  const auto n_cells = static_cast<Eigen::Index>(cells.begin[patch.corner + 1] - first);
-  Points samples(3, n_cells * per_cell), targets(3, patch.nodes.size());
-  for (Eigen::Index k = 0; k < n_cells; ++k)
-    samples.middleCols(k * per_cell, per_cell) =
-        positions.middleCols(cells.cell[first + k] * Eigen::Index(per_cell), per_cell);
-  for (std::size_t i = 0; i < patch.nodes.size(); ++i)
-    targets.col(i) = Eigen::Map<const Eigen::Vector3d>(grid.position(patch.nodes[i]));
+PatchOperator patch_operator(const Grid& grid, const CellsOfNodes& cells, const PatchGeometry& geometry,
+                             const Patch& patch) {
+  const auto n_cells = cells.begin[patch.corner + 1] - cells.begin[patch.corner];
   const Eigen::Map<const Eigen::VectorXd> weights(patch.weights.data(), patch.weights.size());
-  return weights.asDiagonal() * fit_operator(grid.degree, n_cells >= 8,
-                                             patch_directions(grid, cells, patch.corner), samples, targets);
+  PatchOperator result;
+  result.samples = geometry.samples_around(patch.corner);
+  result.fit =
+      weights.asDiagonal() *
+      fit_operator(grid.degree, n_cells >= 8, geometry.points(patch.corner, result.samples, patch.nodes));
+  return result;
 }
+
+/// Turns all tensors of a row into the axes at `angle` about z, or back with the opposite angle.
+template <typename Row>
+void turn_row(Row&& row, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (Eigen::Index k = 0; k + 6 <= row.size(); k += 6) turn_about_z(c, s, &row(k));
+}
+
+/// One group of columns of one patch: gather, fit, scatter. Keeps its work space.
+class PatchColumns {
+public:
+  PatchColumns(const PatchGeometry& geometry, const ConstBlock& values, Eigen::Ref<RowMajor> nodal)
+      : geometry_(geometry), values_(values), nodal_(nodal) {}
+
+  void apply(const Patch& patch, const PatchOperator& linear, Eigen::Index column, Eigen::Index columns) {
+    const bool round = geometry_.is_round(patch.corner);
+    gathered_.resize(linear.samples.size(), columns);
+    for (std::size_t s = 0; s < linear.samples.size(); ++s) {
+      gathered_.row(s) = values_.row(linear.samples[s]).segment(column, columns);
+      if (round) turn_row(gathered_.row(s), geometry_.sample_angle(linear.samples[s]));
+    }
+    fitted_.noalias() = linear.fit * gathered_;
+    for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
+      if (round) turn_row(fitted_.row(i), -geometry_.node_angle(patch.nodes[i]));
+      nodal_.row(patch.nodes[i]).segment(column, columns) += fitted_.row(i);
+    }
+  }
+
+private:
+  const PatchGeometry& geometry_;
+  ConstBlock values_;
+  Eigen::Ref<RowMajor> nodal_;
+  RowMajor gathered_, fitted_;
+};
 
 }  // namespace
 
-void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const ConstBlock& samples,
-                        Eigen::Ref<RowMajor> nodal) {
-  const Tabulation at = gauss_in_cell(grid.degree, grid.degree);
-  const Points positions = sample_positions(grid, at);
+void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const std::vector<CylinderChart>& charts,
+                        const StressSamples& samples, const ConstBlock& values, Eigen::Ref<RowMajor> nodal) {
+  const PatchGeometry geometry(grid, cells, samples, charts);
   const auto patches = make_patches(grid, cells);
   nodal.setZero();
 
@@ -147,29 +181,20 @@ void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const Const
   // are applied in parallel over groups of columns, patch after patch, so that sums do not depend on the
   // number of threads.
   constexpr std::size_t batch = 512;
-  constexpr Eigen::Index width = 48;
-  std::vector<Eigen::MatrixXd> operators(std::min(batch, patches.size()));
+  constexpr Eigen::Index width = 48;  // eight load cases: a patch's samples and values stay in the cache
+  std::vector<PatchOperator> operators(std::min(batch, patches.size()));
   for (std::size_t first = 0; first < patches.size(); first += batch) {
     const std::size_t n = std::min(batch, patches.size() - first);
     parallel_for(n, 8, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p)
-        operators[p] = patch_operator(grid, cells, at.n_points, positions, patches[first + p]);
+        operators[p] = patch_operator(grid, cells, geometry, patches[first + p]);
     });
-    parallel_for((samples.cols() + width - 1) / width, 1, [&](std::size_t begin, std::size_t end) {
-      RowMajor gathered, values;
+    parallel_for((values.cols() + width - 1) / width, 1, [&](std::size_t begin, std::size_t end) {
+      PatchColumns columns(geometry, values, nodal);
       for (std::size_t group = begin; group < end; ++group) {
         const auto column = static_cast<Eigen::Index>(group) * width;
-        const auto columns = std::min(width, samples.cols() - column);
-        for (std::size_t p = 0; p < n; ++p) {
-          const auto& patch = patches[first + p];
-          gathered.resize(operators[p].cols(), columns);
-          for (auto k = cells.begin[patch.corner]; k < cells.begin[patch.corner + 1]; ++k)
-            gathered.middleRows((k - cells.begin[patch.corner]) * at.n_points, at.n_points) =
-                samples.block(cells.cell[k] * Eigen::Index(at.n_points), column, at.n_points, columns);
-          values.noalias() = operators[p] * gathered;
-          for (std::size_t i = 0; i < patch.nodes.size(); ++i)
-            nodal.row(patch.nodes[i]).segment(column, columns) += values.row(i);
-        }
+        for (std::size_t p = 0; p < n; ++p)
+          columns.apply(patches[first + p], operators[p], column, std::min(width, values.cols() - column));
       }
     });
   }

@@ -6,7 +6,6 @@
 
 #include "fem/body.h"
 #include "fem/grid.h"
-#include "fem/stress_recovery.h"
 #include "fem/unit_responses.h"
 
 namespace fem {

@@ -44,21 +44,18 @@ fem::Grid cube(int n, int degree, const std::function<Point(const Point&)>& bend
   return grid;
 }
 
-fem::RowMajor sample(const fem::Grid& grid, const std::function<double(const Point&)>& field) {
-  const auto at = fem::gauss_in_cell(grid.degree, grid.degree);
-  fem::RowMajor values(grid.n_cells() * at.n_points, 1);
-  for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (int q = 0; q < at.n_points; ++q)
-      values(c * at.n_points + q, 0) = field(fem::position(grid, c, at, q));
-  return values;
-}
-
+/// Largest nodal error for a field known at the samples: inside the cells only, and on the boundary too.
 double recovery_error(const fem::Grid& grid, const std::function<double(const Point&)>& field) {
-  fem::RowMajor nodal(grid.n_nodes, 1);
-  fem::recover_by_patches(grid, fem::cells_of_nodes(grid), sample(grid, field), nodal);
+  const auto cells = fem::cells_of_nodes(grid);
   double worst = 0;
-  for (std::size_t i = 0; i < grid.n_nodes; ++i)
-    worst = std::max(worst, std::abs(nodal(i, 0) - field(Point(grid.position(i)))));
+  for (const auto& free : {std::vector<fem::BoundaryFace>{}, grid.boundary}) {
+    const auto samples = fem::make_samples(grid, free);
+    fem::RowMajor values(samples.cell.size(), 1), nodal(grid.n_nodes, 1);
+    for (std::size_t s = 0; s < samples.cell.size(); ++s) values(s, 0) = field(samples.position.col(s));
+    fem::recover_by_patches(grid, cells, {}, samples, values, nodal);
+    for (std::size_t i = 0; i < grid.n_nodes; ++i)
+      worst = std::max(worst, std::abs(nodal(i, 0) - field(Point(grid.position(i)))));
+  }
   return worst;
 }
 
@@ -130,8 +127,8 @@ double stress_error(int n, bool patches) {
   }
   const auto cells = fem::cells_of_nodes(grid);
   if (patches)
-    fem::recover_by_patches(grid, cells, fem::stress_at_points(grid, fem::gauss_in_cell(2, 2), elastic, u),
-                            stress);
+    fem::recover_by_patches(grid, cells, {}, fem::make_samples(grid, {}),
+                            fem::stress_at_samples(grid, {}, elastic, u), stress);
   else
     fem::average_stress(grid, cells, elastic, u, stress);
   double worst = 0;
@@ -153,6 +150,44 @@ TEST(PatchRecovery, smooth_fields_converge_one_order_faster_than_averages) {
   EXPECT_LT(fine, fine_average);
   EXPECT_GT(std::log2(coarse / fine), 2.7);
   EXPECT_NEAR(std::log2(coarse_average / fine_average), 2, 0.4);
+}
+
+// In r, theta, z with the angle's sine and cosine: pull, torsion and bending of a shaft are of the harmonics
+// 0 and 1, and linear in r. Around a curved surface 45 degrees wide, polynomials of x and y would not do.
+TEST(PatchRecovery, beam_stresses_are_exact_in_round_patches) {
+  const auto rod = fem_tests::rod(8);
+  const auto grid = fem::read_grid(rod.body);
+  const auto cells = fem::cells_of_nodes(grid);
+  const auto field = [](const Point& x) {
+    return std::array<double, 6>{{0, 0, 1 + 40 * x[0] - 30 * x[1], 0, 50 * x[0], -50 * x[1]}};
+  };
+  const auto samples = fem::make_samples(grid, {});
+  fem::RowMajor values(samples.cell.size(), 6), nodal(grid.n_nodes, 6);
+  for (std::size_t s = 0; s < samples.cell.size(); ++s)
+    for (int c = 0; c < 6; ++c) values(s, c) = field(samples.position.col(s))[c];
+  fem::recover_by_patches(grid, cells, rod.body.cylinders, samples, values, nodal);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i)
+    for (int c = 0; c < 6; ++c)
+      ASSERT_NEAR(nodal(i, c), field(Point(grid.position(i)))[c], 1e-11) << i << " " << c;
+}
+
+// Uniaxial tension along a skew direction, on faces parallel to it: the strains along the face give it back.
+TEST(FreeFaces, carry_the_stress_along_them_and_none_across) {
+  const auto grid = cube(2, 2, straight);
+  const fem::Lame elastic = fem::lame({200e9, 0.3, 1});
+  fem::RowMajor u(grid.n_nodes, 3);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) {
+    const double* x =
+        grid.position(i);  // 1 MPa along x: strain and lateral contraction, and a rigid turn about z
+    const double strain = 1e6 / 200e9;
+    u.row(i) << strain * x[0] - 1e-3 * x[1], -0.3 * strain * x[1] + 1e-3 * x[0], -0.3 * strain * x[2];
+  }
+  std::vector<fem::BoundaryFace> along;
+  for (const auto& face : grid.boundary)
+    if (face.face >= 2) along.push_back(face);
+  const auto at_faces = fem::stress_at_samples(grid, along, elastic, u).bottomRows(4 * along.size()).eval();
+  for (Eigen::Index s = 0; s < at_faces.rows(); ++s)
+    for (int c = 0; c < 6; ++c) EXPECT_NEAR(at_faces(s, c), c == 0 ? 1e6 : 0, 1e-3);
 }
 
 }  // namespace
