@@ -2,6 +2,7 @@
 
 #include <cholmod.h>
 #include <metis.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>

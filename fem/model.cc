@@ -1,6 +1,7 @@
 #include "fem/model.h"
 
-#include <algorithm>
+#include <functional>
+#include <future>
 
 #include "fem/cholmod_factor.h"
 #include "fem/grid.h"
@@ -68,12 +69,14 @@ Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
                                UnitResponses& responses, const Progress& progress) {
   progress(0.05, "assemble");
   const NodeGraph graph = make_node_graph(grid, cells);
+  auto order =
+      std::async(std::launch::async, order_nodes, std::cref(graph));  // one thread, while others assemble
   SymmetricMatrix matrix = make_matrix(graph);
   assemble_stiffness(grid, colours, graph, material, matrix);
   const Supports supports(choose_supports(grid), matrix);
 
   progress(0.1, "order");
-  CholmodFactor factor(matrix, order_nodes(graph));
+  CholmodFactor factor(matrix, order.get());
   progress(0.25, "factorise");
   factor.factorise(matrix);
   responses.factor_gigabytes = factor.gigabytes();

@@ -37,20 +37,30 @@ std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
 
 Supports::Supports(const std::array<std::int64_t, 6>& unknowns, SymmetricMatrix& matrix)
     : unknowns_(unknowns), rows_(Eigen::MatrixXd::Zero(6, matrix.n)) {
-  const auto place = [&](std::int64_t i) {
-    const auto it = std::lower_bound(unknowns_.begin(), unknowns_.end(), i);
-    return it != unknowns_.end() && *it == i ? static_cast<int>(it - unknowns_.begin()) : -1;
-  };
-  for (std::int64_t j = 0; j < matrix.n; ++j) {
-    const int column = place(j);
-    for (auto k = matrix.column_begin[j]; k < matrix.column_begin[j + 1]; ++k) {
-      const auto i = matrix.row[k];
-      const int row = i > unknowns_.back() ? -1 : place(i);
-      if (row < 0 && column < 0) continue;
-      if (row >= 0) rows_(row, j) = matrix.value[k];
-      if (column >= 0) rows_(column, i) = matrix.value[k];
-      if (i != j) matrix.value[k] = 0;
+  for (int s = 0; s < 6; ++s) {
+    const auto unknown = unknowns_[s];
+    // The row left of the diagonal, spread over the columns before it ...
+    for (std::int64_t j = 0; j < unknown; ++j) {
+      const auto end = matrix.row.begin() + matrix.column_begin[j + 1];
+      const auto found = std::lower_bound(matrix.row.begin() + matrix.column_begin[j], end, unknown);
+      if (found == end || *found != unknown) continue;
+      rows_(s, j) = matrix.value[found - matrix.row.begin()];
     }
+    // ... and from the diagonal on the column itself.
+    for (auto k = matrix.column_begin[unknown]; k < matrix.column_begin[unknown + 1]; ++k)
+      rows_(s, matrix.row[k]) = matrix.value[k];
+  }
+  // Only then are they cleared: the rows of two supports cross.
+  for (int s = 0; s < 6; ++s) {
+    const auto unknown = unknowns_[s];
+    for (std::int64_t j = 0; j < unknown; ++j) {
+      if (rows_(s, j) == 0) continue;
+      const auto begin = matrix.row.begin() + matrix.column_begin[j];
+      const auto found = std::lower_bound(begin, matrix.row.begin() + matrix.column_begin[j + 1], unknown);
+      matrix.value[found - matrix.row.begin()] = 0;
+    }
+    for (auto k = matrix.column_begin[unknown] + 1; k < matrix.column_begin[unknown + 1]; ++k)
+      matrix.value[k] = 0;
   }
 }
 
