@@ -45,21 +45,31 @@ struct WantedResultant {
   }
 };
 
-/// Size against which a unit load's resultant is judged: its largest force or moment, or what its pressure
-/// would carry one-sidedly if it carries nothing (1 N at the radius of its seat).
-double scale_of(const fem::UnitLoad& load, const Resultant6& wanted, bool moment) {
-  if (const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape))
-    return moment ? std::hypot(pressure->surface.radius_m, pressure->surface.centre_m[2]) : 1.0;
-  double force = 0, torque = 0;
-  for (std::size_t c = 0; c < 3; ++c) force = std::max(force, std::abs(wanted[c]));
-  for (std::size_t c = 3; c < 6; ++c) torque = std::max(torque, std::abs(wanted[c]));
-  if (const auto* on_surface = std::get_if<fem::SurfaceResultant>(&load.shape)) {
-    const double arm = on_surface->surface.radius_m;
-    force = std::max(force, torque / arm);
-    torque = std::max(torque, force * arm);
+/// Sizes against which a unit load's resultant is judged: what it carries, or would carry if nothing
+/// cancelled.
+struct Scale {
+  double force = 0, moment = 0;
+};
+
+struct ScaleOf {
+  const fem::MassProperties& masses;
+
+  Scale operator()(const fem::SurfaceResultant& load) const {
+    using Component = fem::SurfaceResultant::Component;
+    const double arm = std::hypot(load.surface.radius_m, load.surface.centre_m[2]);
+    const bool is_force = load.component <= Component::fz;
+    return is_force ? Scale{1, arm} : Scale{1 / load.surface.radius_m, 1};
   }
-  return std::max(moment ? torque : force, 1e-300);
-}
+  Scale operator()(const fem::SeatPressure& load) const {
+    return {1, std::hypot(load.surface.radius_m, load.surface.centre_m[2])};
+  }
+  Scale operator()(const fem::BodyForce& load) const {
+    const auto& m = masses.second_moments_kg_m2;
+    const double second = m[0] + m[1] + m[2], first = std::sqrt(masses.mass_kg * second);
+    const bool uniform = load.field <= fem::BodyForce::Field::translation_z;
+    return uniform ? Scale{masses.mass_kg, first} : Scale{first, second};
+  }
+};
 
 }  // namespace
 
@@ -87,12 +97,12 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
   for (std::size_t k = 0; k < mesh_resultants.size(); ++k) {
     const auto wanted = wanted_resultant(loads.unit_loads[k], masses);
     const Eigen::ArrayXd a = values.row(Eigen::Index(k)).transpose();
+    const Scale scale = std::visit(ScaleOf{masses}, loads.unit_loads[k].shape);
     for (std::size_t c = 0; c < 6; ++c) {
       sums[c] += a * mesh_resultants[k][c];
       sizes[c] += (a * mesh_resultants[k][c]).abs();
-      closure.channel_resultant =
-          std::max(closure.channel_resultant, std::abs(mesh_resultants[k][c] - wanted[c]) /
-                                                  scale_of(loads.unit_loads[k], wanted, c >= 3));
+      const double error = std::abs(mesh_resultants[k][c] - wanted[c]) / (c < 3 ? scale.force : scale.moment);
+      closure.channel_resultant = std::max(closure.channel_resultant, error);
     }
   }
   // The components of one kind share a scale: a component that carries nothing has no size of its own to be

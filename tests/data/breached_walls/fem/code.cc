@@ -1,0 +1,1 @@
+#include "fem/code.h"

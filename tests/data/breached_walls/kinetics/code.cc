@@ -1,0 +1,2 @@
+#include "kinetics/code.h"
+#include "fem/code.h"

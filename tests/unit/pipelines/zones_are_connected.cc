@@ -1,0 +1,102 @@
+/// Zones on a row of cells whose answer can be written down.
+#include <gtest/gtest.h>
+
+#include "pipelines/zones.h"
+
+namespace {
+
+/// Cells in a row along z, each with its 27 nodes as 3 layers of 9; neighbours share a layer. Node volume 1.
+struct Row {
+  fem::Nodes nodes;
+  pipelines::NodalMaximum envelope;
+  std::vector<meshes::Feature> features{{"left", meshes::Feature::Kind::surface, 1, 0, 1},
+                                        {"fillet", meshes::Feature::Kind::fillet, 2, 1, 2},
+                                        {"seat", meshes::Feature::Kind::seat, 3, 2, 3}};
+  std::vector<meshes::Port> ports{{"seat", meshes::Port::Kind::seat, 3, 2, 3, 1, 0, 0}};
+
+  explicit Row(int n_cells) {
+    nodes.n = std::size_t(9 * (2 * n_cells + 1));
+    for (std::size_t i = 0; i < nodes.n; ++i) {
+      nodes.xyz_m.insert(nodes.xyz_m.end(), {double(i % 3), double(i / 3 % 3), double(i / 9)});
+      nodes.volume_m3.push_back(1);
+    }
+    for (int c = 0; c < n_cells; ++c) {
+      std::array<std::int32_t, 27> cell;
+      for (int v = 0; v < 27; ++v) cell[std::size_t(v)] = 18 * c + v;
+      nodes.cells.push_back(cell);
+      std::array<std::int32_t, 9> face;
+      for (int v = 0; v < 9; ++v) face[std::size_t(v)] = 18 * c + 3 * v;  // x = 0
+      nodes.faces.push_back(face);
+      nodes.face_boundary_id.push_back(std::min(c, 2) + 1);
+    }
+    envelope.value_Pa.assign(nodes.n, 0);
+    envelope.instant.assign(nodes.n, 4);
+    envelope.stress_Pa.assign(nodes.n, {});
+  }
+  void layer(std::size_t l, double value) {
+    std::fill_n(envelope.value_Pa.begin() + std::ptrdiff_t(9 * l), 9, value);
+  }
+  pipelines::NodePlaces places(const std::vector<pipelines::SharpCorner>& corners = {}) const {
+    return pipelines::locate_nodes(nodes, features, ports, corners);
+  }
+};
+
+TEST(Zones, RegionsThatShareNoCellAreApart) {
+  Row row(4);
+  row.layer(0, 80);
+  row.layer(1, 60);
+  row.layer(4, 20);
+  row.layer(7, 90);
+  row.layer(8, 100);
+  row.envelope.value_Pa[9 * 8 + 4] = 110;
+  const auto zones = find_zones(row.nodes, row.envelope, row.places(), 50, 220);
+  ASSERT_EQ(zones.zones.size(), 2u);
+  EXPECT_EQ(zones.zones[0].peak_Pa, 110);
+  EXPECT_EQ(zones.zones[0].safety, 2);
+  EXPECT_EQ(zones.zones[0].n_nodes, 18u);
+  EXPECT_EQ(zones.zones[0].volume_m3, 18);
+  EXPECT_EQ(zones.zones[0].instant, 4);
+  EXPECT_EQ(zones.zones[1].peak_Pa, 80);
+  EXPECT_EQ(zones.zone_of_node[0], 2);
+  EXPECT_EQ(zones.zone_of_node[9 * 8], 1);
+  EXPECT_EQ(zones.zone_of_node[9 * 4], 0);
+}
+
+TEST(Zones, OneCellJoins) {
+  Row row(1);
+  row.layer(0, 80);
+  row.layer(2, 60);  // not adjacent layers, but nodes of one cell
+  EXPECT_EQ(find_zones(row.nodes, row.envelope, row.places(), 50, 200).zones.size(), 1u);
+}
+
+TEST(Zones, NamedAfterTheMostTellingFeature) {
+  Row row(3);
+  row.envelope.value_Pa[9 * 2] = 70;      // shared by "left" and "fillet"
+  row.envelope.value_Pa[9 * 5 + 2] = 60;  // inside, nearest to the seat
+  const auto zones = find_zones(row.nodes, row.envelope, row.places(), 50, 200);
+  ASSERT_EQ(zones.zones.size(), 2u);
+  EXPECT_EQ(zones.zones[0].feature, "fillet");
+  EXPECT_EQ(zones.zones[0].place, pipelines::Place::free_surface);
+  EXPECT_EQ(zones.zones[1].feature, "seat");
+  EXPECT_EQ(zones.zones[1].place, pipelines::Place::interior);
+  EXPECT_EQ(row.places().place[9 * 5], pipelines::Place::loaded_seat);
+}
+
+TEST(Zones, SharpCornersHoldNoPeak) {
+  Row row(2);
+  row.layer(0, 10);
+  row.envelope.value_Pa[0] = 1000;  // at z = 0, radius 0
+  const auto places = row.places({{"a/b", 0, 0, 0.5}});
+  EXPECT_EQ(row.envelope.value_Pa[pipelines::peak_node(row.envelope.value_Pa, places)], 10);
+  const auto zones = find_zones(row.nodes, row.envelope, places, 5, 100);
+  ASSERT_EQ(zones.zones.size(), 1u);
+  EXPECT_EQ(zones.zones[0].peak_Pa, 10);
+  EXPECT_EQ(zones.zone_of_node[0], 0);
+}
+
+TEST(Zones, ABodyWithoutStressHasNone) {
+  Row row(2);
+  EXPECT_TRUE(find_zones(row.nodes, row.envelope, row.places(), 0, 100).zones.empty());
+}
+
+}  // namespace
