@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "fem/cell_stress.h"
+#include "fem/mean_cell_stress.h"
 #include "fem/model.h"
 #include "pipelines/response_files.h"
 #include "pipelines/response_key.h"

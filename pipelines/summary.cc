@@ -150,6 +150,7 @@ std::string summary_json(const RunReport& report) {
   json["warnings"] = report.loads.warnings;
   for (const auto& warning : report.scene.warnings) json["warnings"].push_back(warning);
   for (const auto& quantity : report.loads.quantities) {
+    if (!quantity.has_statistics) continue;
     const auto s = statistics(quantity.values);
     json["loads"][quantity.name] = {{"max", number(s.max)},
                                     {"min", number(s.min)},

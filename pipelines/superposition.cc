@@ -40,9 +40,21 @@ Stress combine(const double* unit, const Eigen::ArrayXXd& factors, Eigen::Index 
   return s;
 }
 
+/// Stress of a node over one block of instants: six components of `block` values.
+std::array<std::array<double, kernel::block>, 6> stress_of_block(const double* unit,
+                                                                 const PackedFactors& factors,
+                                                                 std::size_t b) {
+  std::array<std::array<double, kernel::block>, 6> stress{};
+  const double* a = factors.values.data() + b * factors.n_channels * kernel::block;
+  for (std::size_t k = 0; k < factors.n_channels; ++k, a += kernel::block, unit += 6)
+    for (std::size_t c = 0; c < 6; ++c)
+      for (std::size_t i = 0; i < kernel::block; ++i) stress[c][i] += unit[c] * a[i];
+  return stress;
+}
+
 /// Largest principal stress over the cycle, best-first: blocks in descending order of their bound until the
 /// bound of the next one cannot beat what has been found.
-void find_principal(const double* unit, const ChannelHistory& loads, const double* bounds,
+void find_principal(const double* unit, const PackedFactors& factors, const double* bounds,
                     std::size_t n_blocks, std::vector<std::size_t>& order, double& value,
                     std::int32_t& instant, Stress& tensor) {
   order.resize(n_blocks);
@@ -52,19 +64,22 @@ void find_principal(const double* unit, const ChannelHistory& loads, const doubl
   };
   std::make_heap(order.begin(), order.end(), by_bound);
   value = -HUGE_VAL;
-  const auto n_instants = std::size_t(loads.values.cols());
   while (!order.empty()) {
     std::pop_heap(order.begin(), order.end(), by_bound);
     const std::size_t b = order.back();
     order.pop_back();
     // The bound holds up to rounding; the slack keeps a tie from being lost.
     if (bounds[b] < value - 1e-12 * std::abs(value)) break;
-    for (std::size_t i = b * kernel::block; i < std::min((b + 1) * kernel::block, n_instants); ++i) {
-      const Stress s = combine(unit, loads.values, Eigen::Index(i));
+    const auto stress = stress_of_block(unit, factors, b);
+    for (std::size_t i = 0; i < kernel::block && b * kernel::block + i < factors.n_instants; ++i) {
+      const Stress s{stress[0][i], stress[1][i], stress[2][i], stress[3][i], stress[4][i], stress[5][i]};
+      const double mean = (s[0] + s[1] + s[2]) / 3;
+      if (mean + 2.0 / 3.0 * von_mises_Pa(s) < value - 1e-12 * std::abs(value)) continue;
       const double principal = largest_principal_Pa(s);
-      if (principal > value || (principal == value && std::int32_t(i) < instant)) {
+      const auto at = std::int32_t(b * kernel::block + i);
+      if (principal > value || (principal == value && at < instant)) {
         value = principal;
-        instant = std::int32_t(i);
+        instant = at;
         tensor = s;
       }
     }
@@ -152,7 +167,7 @@ Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& respons
         result.von_mises.instant[node] = std::int32_t(instant);
         result.von_mises.stress_Pa[node] = stress;
         result.von_mises.value_Pa[node] = von_mises_Pa(stress);
-        find_principal(unit, loads, bounds.data() + i * factors.n_blocks, factors.n_blocks, order,
+        find_principal(unit, factors, bounds.data() + i * factors.n_blocks, factors.n_blocks, order,
                        result.principal.value_Pa[node], result.principal.instant[node],
                        result.principal.stress_Pa[node]);
         find_shares(unit, loads, stress, instant, result.effect_share.data() + node * n_effects);
