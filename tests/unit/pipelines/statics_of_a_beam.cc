@@ -8,6 +8,7 @@
 
 namespace {
 
+using pipelines::internal_resultant;
 using Component = fem::SurfaceResultant::Component;
 
 fem::UnitLoad seat_load(double z, double length, Component component, double offset = 0) {
