@@ -1,8 +1,6 @@
 /// gmsh as a resource: started in the constructor, stopped in the destructor. gmsh is global to the process:
-/// one session at a time, not from several threads. Only for .cc files.
+/// one session at a time, not from several threads.
 #pragma once
-
-#include <gmsh.h>
 
 #include <stdexcept>
 #include <string>
@@ -12,16 +10,8 @@ namespace meshes {
 class GmshSession {
 public:
   /// Ignores the user's own configuration and prints nothing.
-  GmshSession() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-  }
-  ~GmshSession() {
-    try {
-      gmsh::finalize();
-    } catch (...) {  // a destructor must not throw, and there is nothing left to save
-    }
-  }
+  GmshSession();
+  ~GmshSession();
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 };

@@ -1,5 +1,6 @@
 #include "meshes/msh_writer.h"
 
+#include <gmsh.h>
 #include <unistd.h>
 
 #include <cstddef>

@@ -26,8 +26,6 @@ foreach(folder kinetics meshes fem pipelines)
     message(FATAL_ERROR "${ROOT}/${folder} holds no code: nothing was checked")
   endif()
   forbid("[\"<](${others_${folder}})/" "${folder} must not know this folder" ${headers} ${sources})
-  # The session is the one internal header that holds the library itself; only .cc files of meshes include it.
-  list(FILTER headers EXCLUDE REGEX "meshes/gmsh_session\\.h$")
   forbid("[\"<](gmsh\\.h|vtk|hdf5\\.h)" "keep this library out of headers" ${headers})
   if(NOT folder STREQUAL "meshes")
     forbid("[\"<]gmsh\\.h" "only meshes uses gmsh" ${sources})

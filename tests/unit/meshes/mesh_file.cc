@@ -1,5 +1,7 @@
 #include "tests/unit/meshes/mesh_file.h"
 
+#include <gmsh.h>
+
 #include <cmath>
 #include <stdexcept>
 
