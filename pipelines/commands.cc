@@ -3,11 +3,12 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <ostream>
+#include <iostream>
 
 #include "kinetics/vibratory_mill.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/load_files.h"
+#include "pipelines/picture.h"
 #include "pipelines/results.h"
 #include "pipelines/scene.h"
 #include "pipelines/shaft_analysis.h"
@@ -27,6 +28,16 @@ void add_shaft_quantities(kinetics::LoadHistory& loads, const BodyLoads& body) {
                               body.frame_bearing_force_N.matrix().colwise().norm().transpose()});
   loads.quantities.push_back(
       {"T_shaft", "N m", "drive torque with the shaft's own mass, clockwise positive", body.drive_torque_Nm});
+}
+
+/// The envelope as a picture; a machine that cannot draw gets a line instead.
+void draw(const std::filesystem::path& directory, const std::string& title) {
+  PictureOptions options;
+  options.scale = 1e-6;
+  if (!write_picture(directory / "envelope.vtu", "von Mises stress, maximum [Pa]",
+                     title + ": largest von Mises stress over the cycle", "MPa", directory / "envelope.png",
+                     options))
+    std::cerr << "no picture: this machine offers no EGL (package libegl1); envelope.vtu opens in ParaView\n";
 }
 
 void report(std::ostream& out, const CommandOptions& options, const RunReport& content) {
@@ -69,6 +80,7 @@ void run_command(const CommandOptions& options, std::ostream& out) {
     write_load_results(directory, loads, &analysis.loads.history);
     write_shaft_results(directory / "shaft", scene, loads, analysis);
   });
+  if (scene.pictures) clock.run("pictures", [&] { draw(directory / "shaft", scene.title); });
   const RunReport content{scene, loads, &analysis, clock.costs()};
   write_text_file(directory / "summary.json", summary_json(content));
   report(out, options, content);

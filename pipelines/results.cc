@@ -221,7 +221,8 @@ void write_torsion(const path& directory, const kinetics::LoadHistory& loads, co
 }  // namespace
 
 Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::Index instant) {
-  const double angle = std::remainder(loads.phi_rad[instant] - M_PI, 2 * M_PI) + M_PI;  // within [0, 2 pi]
+  double angle = std::remainder(loads.phi_rad[instant] - M_PI, 2 * M_PI) + M_PI;
+  if (angle > 2 * M_PI - 1e-9) angle = 0;  // a whole turn that rounding leaves short of itself
   return {int(instant / scene.sampling.instants_per_turn) + 1, angle};
 }
 

@@ -19,11 +19,10 @@ void write_load_results(const std::filesystem::path& directory, const kinetics::
 void write_shaft_results(const std::filesystem::path& directory, const Scene& scene,
                          const kinetics::LoadHistory& loads, const ShaftAnalysis& analysis);
 
-/// Whole turns of the drive before the instant, and the drive angle within the turn [rad], for messages and
-/// tables.
+/// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
 struct Moment {
   int turn = 1;  ///< 1-based
-  double angle_rad = 0;
+  double angle_rad = 0;  ///< within [0, 2 pi)
 };
 Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::Index instant);
 

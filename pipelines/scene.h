@@ -73,7 +73,8 @@ struct Scene {
   kinetics::TimeGrid sampling;
   std::optional<ShaftScene> shaft;  ///< empty: the load stage only
   ZoneRule zones;
-  int snapshots = 24;  ///< over the turn that contains the peak; 0: none
+  int snapshots = 24;    ///< over the turn that contains the peak; 0: none
+  bool pictures = true;  ///< of the envelope, as PNG
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;  ///< sentences for the user: legal, but worth a look
 

@@ -103,10 +103,10 @@ ZoneRule read_zones(SceneTable zones) {
   return rule;
 }
 
-int read_snapshots(SceneTable results) {
-  const int n = results.count_or("snapshots", 0, 3600, 24, "over the turn that contains the peak");
+void read_results(SceneTable results, Scene& scene) {
+  scene.snapshots = results.count_or("snapshots", 0, 3600, 24, "over the turn that contains the peak");
+  scene.pictures = results.flag_or("pictures", true, "of the envelope, as PNG");
   results.finish();
-  return n;
 }
 
 /// The published formulas leave out terms that a body would feel as a resultant without a counterpart.
@@ -175,7 +175,7 @@ Scene read_scene(const std::filesystem::path& file) {
       findings.warnings.push_back("without [shaft] there is no body: [zones] and [results] have no use");
   }
   scene.zones = read_zones(root.table_or_empty("zones"));
-  scene.snapshots = read_snapshots(root.table_or_empty("results"));
+  read_results(root.table_or_empty("results"), scene);
   root.finish();
 
   if (findings.errors.empty()) rehearse(scene, machine, shaft ? &*shaft : nullptr);

@@ -168,6 +168,17 @@ int SceneTable::count_or(const std::string& name, int least, int most, int value
   return static_cast<int>(node.integer);
 }
 
+bool SceneTable::flag_or(const std::string& name, bool value, const std::string& reason) {
+  const TomlEntry* const entry = find(name);
+  if (entry == nullptr) {
+    record_default(name, value ? "true" : "false", reason);
+    return value;
+  }
+  if (entry->value.kind != TomlNode::Kind::boolean)
+    refuse_node(entry->value, name, describe(entry->value.kind) + " where true or false is wanted");
+  return entry->value.boolean;
+}
+
 std::string SceneTable::text(const std::string& name, const std::string& remedy) {
   const TomlEntry* const entry = require(name, remedy);
   if (entry == nullptr) return {};

@@ -50,6 +50,7 @@ public:
   double quantity_or(const std::string& name, const std::string& si_unit, const Range& range, double value,
                      const std::string& reason);
   int count_or(const std::string& name, int least, int most, int value, const std::string& reason);
+  bool flag_or(const std::string& name, bool value, const std::string& reason);
   std::string text_or(const std::string& name, const std::string& value, const std::string& reason);
 
   /// Makes a key known without reading it.
