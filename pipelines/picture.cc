@@ -213,7 +213,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const auto faces = boundary_faces(vtu, field, options.scale);
   const auto surface = smooth_surface(faces.get(), options.subdivisions);
   const auto edge_lines = curved_edges(faces.get());
-  const Peak peak = peak_of(surface.get());
+  const SurfacePeak peak = peak_of(faces.get(), surface.get());
   const View view = view_of(surface->GetBounds(), peak.normal);
   const double lowest = surface->GetPointData()->GetScalars()->GetRange()[0];
   const double from = std::min(0., lowest);

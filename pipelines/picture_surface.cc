@@ -109,16 +109,20 @@ std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces) {
   return shared(result);
 }
 
-Peak peak_of(vtkPolyData* surface) {
-  auto* values = surface->GetPointData()->GetScalars();
-  auto* normals = surface->GetPointData()->GetNormals();
-  vtkIdType largest = 0;
-  for (vtkIdType i = 1; i < values->GetNumberOfTuples(); ++i)
-    if (values->GetComponent(i, 0) > values->GetComponent(largest, 0)) largest = i;
-  Peak peak;
-  peak.value = values->GetComponent(largest, 0);
-  surface->GetPoint(largest, peak.at.data());
-  normals->GetTuple(largest, peak.normal.data());
+SurfacePeak peak_of(vtkUnstructuredGrid* faces, vtkPolyData* surface) {
+  auto* values = faces->GetPointData()->GetScalars();
+  SurfacePeak peak;
+  peak.value = -std::numeric_limits<double>::infinity();
+  for (vtkIdType f = 0; f < faces->GetNumberOfCells(); ++f) {
+    vtkIdList* nodes = faces->GetCell(f)->GetPointIds();
+    for (vtkIdType i = 0; i < nodes->GetNumberOfIds(); ++i)
+      if (const double value = values->GetComponent(nodes->GetId(i), 0); value > peak.value) {
+        peak.value = value;
+        faces->GetPoint(nodes->GetId(i), peak.at.data());
+      }
+  }
+  const vtkIdType nearest = surface->FindPoint(peak.at.data());
+  surface->GetPointData()->GetNormals()->GetTuple(nearest, peak.normal.data());
   return peak;
 }
 

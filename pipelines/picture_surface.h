@@ -25,13 +25,15 @@ std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subd
 /// The edges of the faces, each once, as polylines along their quadratic shape.
 std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces);
 
-/// Where the field is largest on the surface, and the direction from which that place is seen.
-struct Peak {
+/// The node on the surface where the field is largest, and the direction from which that place is seen.
+struct SurfacePeak {
   double value = 0;
   Vector at{}, normal{};
 };
 
-Peak peak_of(vtkPolyData* surface);
+/// @param faces    of boundary_faces: the nodes at which the field is known, not what lies between them
+/// @param surface  the same faces from smooth_surface, for the normal
+SurfacePeak peak_of(vtkUnstructuredGrid* faces, vtkPolyData* surface);
 
 /// The eye's frame: the body's longest extent runs to the right, the peak is on the near side.
 struct View {

@@ -21,7 +21,7 @@ void write_shaft_results(const std::filesystem::path& directory, const Scene& sc
 
 /// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
 struct Moment {
-  int turn = 1;  ///< 1-based
+  int turn = 1;          ///< 1-based
   double angle_rad = 0;  ///< within [0, 2 pi)
 };
 Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::Index instant);

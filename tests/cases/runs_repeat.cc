@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <fstream>
+
+#include "tests/cases/program.h"
+
+using namespace cases;
+
+TEST(Runs, RepeatBitByBitFreshAndReused) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse()));
+  for (const char* out : {"first", "second"})
+    ASSERT_EQ(millstress(directory.path, std::string("run mill.toml --threads 2 -o ") + out).exit_code, 0);
+  const auto first = contents(directory / "first");
+  const auto second = contents(directory / "second");
+  const std::set<std::string> wanted{"loads.h5",
+                                     "loads.csv",
+                                     "summary.json",
+                                     "shaft/mesh.msh",
+                                     "shaft/unit_responses.h5",
+                                     "shaft/envelope.vtu",
+                                     "shaft/cycle.pvd",
+                                     "shaft/cycle_000.vtu",
+                                     "shaft/cycle_001.vtu",
+                                     "shaft/zones.csv",
+                                     "shaft/diagrams.csv",
+                                     "shaft/torsion.csv",
+                                     "shaft/torsion_cycle.csv"};
+  std::set<std::string> found;
+  for (const auto& [name, bytes] : first) {
+    if (name != "shaft/envelope.png") found.insert(name);  // a machine without EGL draws none
+    ASSERT_TRUE(second.count(name)) << name;
+    EXPECT_TRUE(bytes == second.at(name)) << name << " differs between two fresh runs";
+  }
+  EXPECT_EQ(found, wanted);
+
+  // A third run into the first directory takes the unit responses that are there.
+  const auto before = fs::last_write_time(directory / "first/shaft/unit_responses.h5");
+  ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
+  EXPECT_EQ(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
+  const auto reused = contents(directory / "first");
+  for (const auto& [name, bytes] : first)
+    EXPECT_TRUE(bytes == reused.at(name)) << name << " differs when the unit responses are reused";
+
+  // Another operating point needs no new solve; another material does.
+  write(directory / "mill.toml",
+        edited("vibratory_mill.toml", coarse() + Edits{{"151.844 rad/s", "140 rad/s"}}));
+  ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
+  EXPECT_EQ(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
+  EXPECT_NE(summary(directory / "first")["loads"]["R_E"], summary(directory / "second")["loads"]["R_E"]);
+  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse() + Edits{{"206 GPa", "205 GPa"}}));
+  ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
+  EXPECT_NE(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
+}
+
+TEST(Runs, BrokenUnitResponsesAreSolvedAgain) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse()));
+  ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
+  const auto whole = contents(directory / "out");
+  const auto file = directory / "out/shaft/unit_responses.h5";
+  fs::resize_file(file, fs::file_size(file) / 2);
+  const auto again = millstress(directory.path, "run mill.toml -o out");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const auto& [name, bytes] : contents(directory / "out")) EXPECT_TRUE(bytes == whole.at(name)) << name;
+}

@@ -1,0 +1,59 @@
+#include "tests/cases/program.h"
+
+using namespace cases;
+
+// A wrong scene: exit code 2, one line per error with file:line:column, nothing of an earlier run touched,
+// and no directory made for a run that never was.
+TEST(WrongInput, LeavesEarlierResultsUntouched) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse()));
+  ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
+  std::map<std::string, fs::file_time_type> times;
+  for (const auto& entry : fs::recursive_directory_iterator(directory / "out"))
+    times[entry.path().string()] = fs::last_write_time(entry.path());
+  const auto before = contents(directory / "out");
+
+  const std::vector<Edits> wrong{{{"mass = \"20 kg\"", "mass = \"-20 kg\""}},
+                                 {{"\"springs\", \"spring_damping\"", "\"spring\", \"spring_damping\""}},
+                                 {{"{ fillet = \"1 mm\" },\n  { port = \"debalance_1\"",
+                                   "{ fillet = \"9 mm\" },\n  { port = \"debalance_1\""}},
+                                 {{"convention = \"consistent\"", "convention = \"published\""}},
+                                 {{"speed = \"151.844 rad/s\"", "speed = nan"}}};
+  for (const auto& edits : wrong) {
+    write(directory / "mill.toml", edited("vibratory_mill.toml", coarse() + edits));
+    for (const char* out : {"out", "other"}) {
+      const auto run = millstress(directory.path, std::string("run mill.toml -o ") + out);
+      EXPECT_EQ(run.exit_code, 2);
+      EXPECT_EQ(run.out, "");
+      EXPECT_EQ(run.err.rfind("mill.toml:", 0), 0u) << run.err;
+      EXPECT_EQ(run.err.find("terminate"), std::string::npos) << run.err;
+    }
+  }
+  EXPECT_FALSE(fs::exists(directory / "other"));
+  EXPECT_EQ(contents(directory / "out"), before);
+  for (const auto& [file, time] : times) EXPECT_EQ(fs::last_write_time(file), time) << file;
+}
+
+TEST(WrongInput, IsNamedBeforeAnythingRuns) {
+  const results_test::Directory directory;
+  write(directory / "empty.toml", "");
+  fs::create_directory(directory / "folder.toml");
+  for (const char* arguments :
+       {"run missing.toml", "run empty.toml", "run folder.toml", "check folder.toml", "loads missing.toml",
+        "run", "walk mill.toml", "run --threads 0 empty.toml"}) {
+    const auto outcome = millstress(directory.path, arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_FALSE(outcome.err.empty()) << arguments;
+  }
+  EXPECT_FALSE(fs::exists(directory / "results"));
+}
+
+TEST(WrongInput, OutputThatCannotBeWrittenIsNamed) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse()));
+  write(directory / "file", "not a directory");
+  const auto outcome = millstress(directory.path, "run mill.toml -o file/out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("file/out"), std::string::npos) << outcome.err;
+  EXPECT_EQ(results_test::bytes(directory / "file"), "not a directory");
+}
