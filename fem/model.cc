@@ -25,8 +25,9 @@ struct Model::Impl {
   NodeIntegrals integrals;
 };
 
-Model::Model(const Body& body, const Progress& progress) : impl_(std::make_unique<Impl>()) {
-  refuse_several_ranks(n_ranks());
+Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
+    : impl_(std::make_unique<Impl>()) {
+  refuse_several_ranks(n_ranks(communicator));
   refuse_impossible(body.material);
   if (progress) progress(0, "read mesh");
   impl_->body = body;

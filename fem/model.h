@@ -2,6 +2,8 @@
 /// block.
 #pragma once
 
+#include <mpi.h>
+
 #include <functional>
 #include <memory>
 #include <string>
@@ -40,11 +42,12 @@ enum class Recovery {
 class Model {
 public:
   /// Reads the mesh, attaches the charts, numbers the unknowns.
+  /// @param communicator  whose ranks share the work: one rank so far
   /// @param progress told that reading starts; may be empty
-  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells, or the program runs on
-  /// several MPI ranks
+  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells, or the communicator has
+  /// several ranks
   /// @throws std::invalid_argument for impossible material values
-  explicit Model(const Body& body, const Progress& progress = {});
+  explicit Model(const Body& body, MPI_Comm communicator = MPI_COMM_WORLD, const Progress& progress = {});
   ~Model();
   Model(Model&&) noexcept;
 

@@ -15,8 +15,8 @@ void refuse_several_ranks(int n_ranks) {
         "one machine (--threads)");
 }
 
-int n_ranks() {
-  return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+int n_ranks(MPI_Comm communicator) {
+  return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(communicator));
 }
 
 }  // namespace fem
