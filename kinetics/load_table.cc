@@ -1,0 +1,219 @@
+#include "kinetics/load_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "kinetics/table/periodic_cubic.h"
+#include "kinetics/wrong_input.h"
+
+namespace kinetics {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr double turn_rad = 2 * M_PI;
+constexpr double worth_a_warning = 0.01;
+
+std::string name_of(const TableLoad& load) {
+  return load.port + "." + load.component;
+}
+
+void check_samples(const std::string& name, const Samples& samples, double period_rad) {
+  const Index n = samples.angle_rad.size();
+  if (n < 4)
+    throw std::invalid_argument(name + " has " + std::to_string(n) +
+                                " samples; give at least four over the period");
+  if (samples.values.size() != n)
+    throw std::invalid_argument(name + " has " + std::to_string(n) + " angles and " +
+                                std::to_string(samples.values.size()) + " values; give one for each");
+  for (Index i = 0; i < n; ++i) {
+    require_finite(name + " at sample " + std::to_string(i + 1), samples.values[i]);
+    require_finite(name + ".angle at sample " + std::to_string(i + 1), samples.angle_rad[i]);
+    if (i > 0 && samples.angle_rad[i] <= samples.angle_rad[i - 1])
+      refuse(name + ".angle at sample " + std::to_string(i + 1), samples.angle_rad[i],
+             "does not ascend: the sample before is at " + number(samples.angle_rad[i - 1]) +
+                 "; sort the samples and remove repetitions");
+  }
+  const double span_rad = samples.angle_rad[n - 1] - samples.angle_rad[0];
+  if (span_rad > period_rad * (1 + 1e-9))
+    refuse(name + ".angle span", span_rad,
+           "exceeds the period of " + number(period_rad / turn_rad) +
+               " turns; raise the number of turns, or cut the samples");
+  const ArrayXd steps = samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1);
+  const double gap_rad = std::max(steps.maxCoeff(), period_rad - span_rad);
+  if (gap_rad > turn_rad / 2 * (1 + 1e-9))
+    refuse(name + " gap in the angle", gap_rad,
+           "leaves more than half a turn without a sample; the samples must cover the period of " +
+               number(period_rad / turn_rad) + " turns");
+}
+
+void check_harmonic(const std::string& name, const Harmonic& harmonic, int turns) {
+  require_finite(name + ".mean", harmonic.mean);
+  require_finite(name + ".amplitude", harmonic.amplitude);
+  require_finite(name + ".phase", harmonic.phase_rad);
+  require_finite(name + ".order", harmonic.order);
+  const double periods = harmonic.order * turns;
+  if (harmonic.order < 0 || std::abs(periods - std::round(periods)) > 1e-9 * std::max(1.0, periods))
+    refuse(name + ".order", harmonic.order,
+           "must not be negative, and a whole number of its periods must fit the " + std::to_string(turns) +
+               " turns; change one of the two");
+}
+
+void check_effects(const std::vector<std::string>& effects, const LoadTable& table) {
+  std::vector<std::string> known;
+  for (const auto& effect : load_table_effects(table)) known.push_back(effect.name);
+  for (const auto& effect : effects)
+    if (std::find(known.begin(), known.end(), effect) == known.end())
+      throw std::invalid_argument("effect \"" + effect + "\" is unknown; did you mean \"" +
+                                  nearest(effect, known) + "\"? The table has: " + listed(known));
+}
+
+void check(const LoadTable& table, const TimeGrid& grid) {
+  require_finite("speed_rad_s", table.speed_rad_s);
+  if (table.speed_rad_s <= 0)
+    refuse("speed_rad_s", table.speed_rad_s, "must be positive: it ties time and angle together");
+  if (grid.turns < 1) refuse("turns", grid.turns, "must be at least 1");
+  if (grid.instants_per_turn < 4) refuse("instants_per_turn", grid.instants_per_turn, "must be at least 4");
+  if (table.loads.empty()) throw std::invalid_argument("the load table is empty; give at least one load");
+  for (std::size_t i = 0; i < table.loads.size(); ++i) {
+    const TableLoad& load = table.loads[i];
+    for (std::size_t j = 0; j < i; ++j)
+      if (table.loads[j].effect == load.effect && name_of(table.loads[j]) == name_of(load))
+        throw std::invalid_argument(name_of(load) + " is given twice for the effect \"" + load.effect +
+                                    "\"; remove one, or name another effect for it");
+    if (const auto* samples = std::get_if<Samples>(&load.course))
+      check_samples(name_of(load), *samples, grid.turns * turn_rad);
+    else
+      check_harmonic(name_of(load), std::get<Harmonic>(load.course), grid.turns);
+  }
+}
+
+/// Samples over one period as a curve; a last sample that stands where the next period begins gives way to the
+/// first.
+table::PeriodicCubic curve_of(const Samples& samples, double period_rad) {
+  Index n = samples.angle_rad.size();
+  if (samples.angle_rad[n - 1] - samples.angle_rad[0] > period_rad * (1 - 1e-9)) --n;
+  return {samples.angle_rad.head(n), samples.values.head(n), period_rad};
+}
+
+ArrayXd evaluate(const TableLoad& load, const ArrayXd& phi_rad, double period_rad) {
+  if (const auto* harmonic = std::get_if<Harmonic>(&load.course))
+    return harmonic->mean + harmonic->amplitude * (harmonic->order * phi_rad - harmonic->phase_rad).cos();
+  const auto curve = curve_of(std::get<Samples>(load.course), period_rad);
+  return phi_rad.unaryExpr([&](double phi) { return curve(phi); });
+}
+
+ResamplingError error_of(const TableLoad& load, const Samples& samples, double period_rad) {
+  const Index n = samples.angle_rad.size();
+  ResamplingError error{load.effect, load.port, load.component};
+  error.largest = samples.values.abs().maxCoeff();
+  const bool closes = samples.angle_rad[n - 1] - samples.angle_rad[0] > period_rad * (1 - 1e-9);
+  const double usual =
+      closes ? 0 : (samples.values.tail(n - 1) - samples.values.head(n - 1)).abs().maxCoeff();
+  error.jump = std::max(0.0, std::abs(samples.values[n - 1] - samples.values[0]) - usual);
+  Samples every_second;
+  const Index n_half = (n - (closes ? 1 : 0) + 1) / 2;
+  every_second.angle_rad.resize(n_half);
+  every_second.values.resize(n_half);
+  for (Index i = 0; i < n_half; ++i) {
+    every_second.angle_rad[i] = samples.angle_rad[2 * i];
+    every_second.values[i] = samples.values[2 * i];
+  }
+  const auto coarse = curve_of(every_second, period_rad);
+  for (Index i = 1; i < n; i += 2)
+    error.between = std::max(error.between, std::abs(coarse(samples.angle_rad[i]) - samples.values[i]));
+  return error;
+}
+
+void warn(const ResamplingError& error, LoadHistory& history) {
+  const std::string name = error.effect + "/" + error.port + "." + error.component;
+  const auto percent = [&](double part) { return number(std::round(1000 * part / error.largest) / 10) + " %"; };
+  if (error.jump > worth_a_warning * error.largest)
+    history.warnings.push_back(name + " jumps by " + percent(error.jump) +
+                               " of its largest value where the period closes: check the number of turns");
+  if (error.between > worth_a_warning * error.largest)
+    history.warnings.push_back(name + " changes by up to " + percent(error.between) +
+                               " of its largest value between every second sample: interpolation adds up to "
+                               "that much where the samples are that coarse");
+}
+
+void post(const TableLoad& load, const ArrayXd& values, LoadHistory& history) {
+  const std::vector<std::string> planar{"fx", "fy", "torque"};
+  const auto row = std::find(planar.begin(), planar.end(), load.component) - planar.begin();
+  if (row == 3) {
+    const std::string name = name_of(load);
+    auto quantity = std::find_if(history.quantities.begin(), history.quantities.end(),
+                                 [&](const auto& q) { return q.name == name; });
+    if (quantity == history.quantities.end())
+      history.quantities.push_back({name, load.unit, "from the load table", values});
+    else
+      quantity->values += values;
+    return;
+  }
+  if (!history.has_resultant(load.port))
+    history.resultants.push_back(
+        {load.port, "from the load table, at that port", Eigen::Array3Xd::Zero(3, values.size()), {}});
+  auto& resultant = *std::find_if(history.resultants.begin(), history.resultants.end(),
+                                  [&](const auto& r) { return r.role == load.port; });
+  auto part = std::find_if(resultant.contributions.begin(), resultant.contributions.end(),
+                           [&](const auto& c) { return c.effect == load.effect; });
+  if (part == resultant.contributions.end()) {
+    resultant.contributions.push_back({load.effect, Eigen::Array3Xd::Zero(3, values.size())});
+    part = resultant.contributions.end() - 1;
+  }
+  part->load.row(row) = values.transpose();
+  resultant.total.row(row) += values.transpose();
+}
+
+}  // namespace
+
+std::vector<EffectInfo> load_table_effects(const LoadTable& table) {
+  std::vector<EffectInfo> effects;
+  for (const auto& load : table.loads) {
+    const auto known = std::find_if(effects.begin(), effects.end(),
+                                    [&](const EffectInfo& e) { return e.name == load.effect; });
+    if (known == effects.end())
+      effects.push_back({load.effect, "loads of the table: " + name_of(load), "the user's"});
+    else
+      known->description += ", " + name_of(load);
+  }
+  return effects;
+}
+
+std::vector<ResamplingError> resampling_errors(const LoadTable& table, const TimeGrid& grid) {
+  check(table, grid);
+  std::vector<ResamplingError> errors;
+  for (const auto& load : table.loads)
+    if (const auto* samples = std::get_if<Samples>(&load.course))
+      errors.push_back(error_of(load, *samples, grid.turns * turn_rad));
+  return errors;
+}
+
+LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>& effects,
+                          const TimeGrid& grid) {
+  check(table, grid);
+  check_effects(effects, table);
+  const Index n = Index(grid.turns) * grid.instants_per_turn;
+  LoadHistory history;
+  history.machine = "load_table";
+  history.convention = "given";
+  history.phi_rad = ArrayXd::LinSpaced(n, 0, n - 1) * (turn_rad / grid.instants_per_turn);
+  history.time_s = history.phi_rad / table.speed_rad_s;
+  history.speed_rad_s = ArrayXd::Constant(n, table.speed_rad_s);
+  history.acceleration_rad_s2 = ArrayXd::Zero(n);
+  for (const auto& effect : load_table_effects(table)) {
+    if (std::find(effects.begin(), effects.end(), effect.name) == effects.end()) continue;
+    history.effects.push_back(effect.name);
+    for (const auto& load : table.loads) {
+      if (load.effect != effect.name) continue;
+      post(load, evaluate(load, history.phi_rad, grid.turns * turn_rad), history);
+      if (const auto* samples = std::get_if<Samples>(&load.course))
+        warn(error_of(load, *samples, grid.turns * turn_rad), history);
+    }
+  }
+  return history;
+}
+
+}  // namespace kinetics

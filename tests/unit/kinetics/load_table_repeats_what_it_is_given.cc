@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "kinetics/load_table.h"
+#include "kinetics/table/periodic_cubic.h"
+
+using namespace kinetics;
+
+namespace {
+
+constexpr double turn = 2 * M_PI;
+
+TableLoad sampled(int n, double (*value)(double), double span = turn, bool closed = false) {
+  Samples samples;
+  samples.angle_rad = Eigen::ArrayXd::LinSpaced(closed ? n + 1 : n, 0, closed ? span : span * (n - 1) / n);
+  samples.values = samples.angle_rad.unaryExpr(value);
+  return {"measured", "pulley_seat", "fx", "N", samples};
+}
+
+double wave(double phi) {
+  return 3 + 2 * std::cos(phi) - std::sin(3 * phi);
+}
+
+LoadHistory loads_of(const TableLoad& load, int per_turn, int turns = 1) {
+  return compute_loads({100, {load}}, {load.effect}, {turns, per_turn});
+}
+
+std::string message(const LoadTable& table, const std::vector<std::string>& effects,
+                    const TimeGrid& grid = {1, 8}) {
+  try {
+    compute_loads(table, effects, grid);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(LoadTable, GivesSamplesBackWhereTheyStand) {
+  for (const bool closed : {false, true}) {
+    const auto history = loads_of(sampled(24, wave, turn, closed), 24);
+    const auto& fx = history.resultant("pulley_seat").total.row(0);
+    for (int i = 0; i < 24; ++i) EXPECT_NEAR(fx[i], wave(turn * i / 24), 1e-14 * 6) << closed;
+    EXPECT_TRUE((history.resultant("pulley_seat").total.bottomRows<2>() == 0).all());
+    EXPECT_NEAR(history.time_s[6], turn / 4 / 100, 1e-16);
+  }
+}
+
+// Between samples: at least second order everywhere (extremes are flattened), no value beyond the neighbours.
+TEST(LoadTable, InterpolatesToSecondOrderAndNeverBeyondTheNeighbours) {
+  for (const int n : {32, 64, 128, 256, 512}) {
+    const auto history = loads_of(sampled(n, wave), 1021);
+    double miss = 0;
+    for (int i = 0; i < 1021; ++i)
+      miss = std::max(miss, std::abs(history.resultant("pulley_seat").total(0, i) - wave(turn * i / 1021)));
+    // A parabola whose slope is set to zero half a step from its extreme is missed by less than h^2 f''/8.
+    const double step = turn / n, most_curvature = 2 + 9;
+    EXPECT_LT(miss, step * step * most_curvature / 8) << n;
+  }
+
+  const auto step = loads_of(sampled(16, [](double phi) { return phi < 3 ? 1.0 : -1.0; }), 999);
+  EXPECT_LE(step.resultant("pulley_seat").total.row(0).maxCoeff(), 1 + 1e-15);
+  EXPECT_GE(step.resultant("pulley_seat").total.row(0).minCoeff(), -1 - 1e-15);
+}
+
+TEST(LoadTable, TakesSamplesThatAreNotEquidistantAndBeginAnywhere) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shake(-0.3, 0.3);
+  Samples samples{Eigen::ArrayXd(400), Eigen::ArrayXd(400)};
+  for (int i = 0; i < 400; ++i) {
+    samples.angle_rad[i] = 5 * turn + 1 + turn * (i + shake(random)) / 400;
+    samples.values[i] = wave(samples.angle_rad[i]);
+  }
+  const auto history = loads_of({"measured", "pulley_seat", "torque", "N m", samples}, 60);
+  for (int i = 0; i < 60; ++i)
+    EXPECT_NEAR(history.resultant("pulley_seat").total(2, i), wave(turn * i / 60), 1e-3);
+}
+
+TEST(LoadTable, HarmonicsAndConstantsAreExactAndEffectsAddUp) {
+  const LoadTable table{50,
+                        {{"weight", "disc", "fy", "N", Harmonic{-30}},
+                         {"imbalance", "disc", "fy", "N", Harmonic{0, 12, 1, 0.5}},
+                         {"mesh", "disc", "torque", "N m", Harmonic{1, 2, 23.5, 0}},
+                         {"mesh", "disc", "fz", "N", Harmonic{7}}}};
+  const TimeGrid grid{2, 100};
+  const auto all = compute_loads(table, {"weight", "imbalance", "mesh"}, grid);
+  const auto& disc = all.resultant("disc");
+  ASSERT_EQ(disc.contributions.size(), 3u);
+  for (int i = 0; i < 200; ++i) {
+    const double phi = turn * i / 100;
+    EXPECT_NEAR(disc.total(1, i), -30 + 12 * std::cos(phi - 0.5), 1e-12);
+    EXPECT_NEAR(disc.total(2, i), 1 + 2 * std::cos(23.5 * phi), 1e-11);
+  }
+  EXPECT_EQ(all.quantity("disc.fz").values[17], 7);
+  EXPECT_EQ(all.quantity("disc.fz").unit, "N");
+  const auto without = compute_loads(table, {"weight", "imbalance"}, grid);
+  EXPECT_EQ(without.resultant("disc").contributions.size(), 2u);
+  EXPECT_TRUE((without.resultant("disc").total.row(2) == 0).all());
+  EXPECT_THROW(without.quantity("disc.fz"), std::out_of_range);
+}
+
+// A ramp does not close; a wave sampled eight times per turn is coarse. Both are stated with their size.
+TEST(LoadTable, StatesWhatMakingItPeriodicChanges) {
+  const auto ramp = sampled(20, [](double phi) { return phi; });
+  const auto errors = resampling_errors({100, {ramp}}, {1, 20});
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NEAR(errors[0].jump, turn * 18 / 20, 1e-12);  // the whole fall less one usual step
+  EXPECT_NEAR(errors[0].largest, turn * 19 / 20, 1e-12);
+  ASSERT_FALSE(loads_of(ramp, 20).warnings.empty());
+  EXPECT_NE(loads_of(ramp, 20).warnings[0].find("where the period closes"), std::string::npos);
+
+  const auto fine = sampled(720, wave), coarse = sampled(8, wave);
+  EXPECT_TRUE(loads_of(fine, 20).warnings.empty());
+  EXPECT_LT(resampling_errors({100, {fine}}, {1, 20})[0].between, 1e-3);
+  ASSERT_EQ(loads_of(coarse, 20).warnings.size(), 1u);
+  // An upper estimate: what interpolation truly adds is less.
+  const auto stated = resampling_errors({100, {coarse}}, {1, 20})[0].between;
+  const auto history = loads_of(coarse, 500);
+  double miss = 0;
+  for (int i = 0; i < 500; ++i)
+    miss = std::max(miss, std::abs(history.resultant("pulley_seat").total(0, i) - wave(turn * i / 500)));
+  EXPECT_LT(miss, stated);
+}
+
+TEST(LoadTable, RefusesWhatItCannotUse) {
+  auto bad = sampled(10, wave);
+  EXPECT_NE(message({100, {}}, {}).find("empty"), std::string::npos);
+  EXPECT_NE(message({-1, {bad}}, {"measured"}).find("speed_rad_s = -1"), std::string::npos);
+  EXPECT_NE(message({100, {bad}}, {"mesured"}).find("did you mean \"measured\""), std::string::npos);
+  EXPECT_NE(message({100, {bad, bad}}, {"measured"}).find("twice"), std::string::npos);
+  auto& samples = std::get<Samples>(bad.course);
+  std::swap(samples.angle_rad[3], samples.angle_rad[4]);
+  EXPECT_NE(message({100, {bad}}, {"measured"}).find("sample 5"), std::string::npos);
+  bad = sampled(10, wave);
+  std::get<Samples>(bad.course).values[2] = NAN;
+  EXPECT_NE(message({100, {bad}}, {"measured"}).find("sample 3"), std::string::npos);
+  EXPECT_NE(message({100, {sampled(3, wave)}}, {"measured"}).find("at least four"), std::string::npos);
+  EXPECT_NE(message({100, {sampled(10, wave, 2 * turn)}}, {"measured"}).find("exceeds the period"),
+            std::string::npos);
+  EXPECT_NE(message({100, {sampled(10, wave, 0.4 * turn)}}, {"measured"}).find("half a turn"),
+            std::string::npos);
+  const TableLoad mesh{"mesh", "disc", "torque", "N m", Harmonic{0, 1, 0.3}};
+  EXPECT_NE(message({100, {mesh}}, {"mesh"}).find("disc.torque.order = 0.3"), std::string::npos);
+  EXPECT_EQ(message({100, {mesh}}, {"mesh"}, {10, 8}), "");
+}
