@@ -109,6 +109,23 @@ TEST(Superposition, NoLoadIsNoStressAndNoNaN) {
   }
 }
 
+// One unit displacement per channel and direction tells which entry went where.
+TEST(Superposition, DisplacementIsTheSumOverTheChannels) {
+  auto p = random_problem(5, 4, 9);
+  p.responses.displacement_m.resize(5 * 4 * 3);
+  for (std::size_t i = 0; i < p.responses.displacement_m.size(); ++i)
+    p.responses.displacement_m[i] = std::sqrt(2.0 + double(i));
+  const auto displacement = pipelines::displacement_at(p.responses, p.loads, 6);
+  ASSERT_EQ(displacement.size(), 15u);
+  for (std::size_t node = 0; node < 5; ++node)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double wanted = 0;
+      for (std::size_t k = 0; k < 4; ++k)
+        wanted += p.loads.values(Eigen::Index(k), 6) * std::sqrt(2.0 + double((node * 4 + k) * 3 + c));
+      EXPECT_NEAR(displacement[3 * node + c], wanted, 1e-14 * 100);
+    }
+}
+
 TEST(Superposition, ForeignChannelsAreRefused) {
   auto p = random_problem(2, 3, 4);
   p.responses.channels[1] = "other.c1";
