@@ -90,8 +90,8 @@ void check(const LoadTable& table, const TimeGrid& grid) {
   }
 }
 
-/// Samples over one period as a curve; a last sample that stands where the next period begins gives way to the
-/// first.
+/// Samples over one period as a curve; a last sample that stands where the next period begins gives way to
+/// the first.
 table::PeriodicCubic curve_of(const Samples& samples, double period_rad) {
   Index n = samples.angle_rad.size();
   if (samples.angle_rad[n - 1] - samples.angle_rad[0] > period_rad * (1 - 1e-9)) --n;
@@ -129,7 +129,9 @@ ResamplingError error_of(const TableLoad& load, const Samples& samples, double p
 
 void warn(const ResamplingError& error, LoadHistory& history) {
   const std::string name = error.effect + "/" + error.port + "." + error.component;
-  const auto percent = [&](double part) { return number(std::round(1000 * part / error.largest) / 10) + " %"; };
+  const auto percent = [&](double part) {
+    return number(std::round(1000 * part / error.largest) / 10) + " %";
+  };
   if (error.jump > worth_a_warning * error.largest)
     history.warnings.push_back(name + " jumps by " + percent(error.jump) +
                                " of its largest value where the period closes: check the number of turns");

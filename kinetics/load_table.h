@@ -45,9 +45,9 @@ struct LoadTable {
 struct ResamplingError {
   std::string effect, port, component;
   double largest = 0;  ///< largest value of the samples, for comparison
-  double jump = 0;     ///< between the end of the period and its beginning, beyond the usual step of the samples
-  double between = 0;  ///< largest miss where every second sample is interpolated from its neighbours: an upper
-                       ///< estimate of what interpolation adds
+  double jump = 0;  ///< between the end of the period and its beginning, beyond the usual step of the samples
+  double between = 0;  ///< largest miss where every second sample is interpolated from its neighbours: an
+                       ///< upper estimate of what interpolation adds
 };
 
 /// One per effect of the table, in the order in which they first occur.
@@ -58,8 +58,8 @@ std::vector<ResamplingError> resampling_errors(const LoadTable& table, const Tim
 
 /// Evaluates the loads of the named effects over the grid; grid.turns is the period of the samples.
 ///
-/// Between samples a cubic of Fritsch and Carlson (1980): smooth, and never beyond the samples on either side.
-/// One resultant per port, one contribution per effect; other components become quantities
+/// Between samples a cubic of Fritsch and Carlson (1980): smooth, and never beyond the samples on either
+/// side. One resultant per port, one contribution per effect; other components become quantities
 /// "<port>.<component>". Samples are not turned: they mean the frame that their port means. A jump at the
 /// seam above 1 % of the largest value, and interpolation above 1 %, are warned of.
 /// @throws std::invalid_argument naming parameter, value and remedy: no load, an unknown effect, NaN or

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iostream>
 
-#include "kinetics/vibratory_mill.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/load_files.h"
 #include "pipelines/picture.h"
@@ -18,7 +17,7 @@ namespace pipelines {
 namespace {
 
 kinetics::LoadHistory load_stage(const Scene& scene) {
-  return kinetics::compute_loads(scene.machine, scene.kinetics_effects(), scene.sampling);
+  return compute_loads(scene.machine, scene.kinetics_effects(), scene.sampling);
 }
 
 /// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
@@ -99,12 +98,13 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
 void check_command(const CommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   out << scene.file.string() << ": the scene is valid\n\neffects\n";
-  for (const auto& effect : kinetics::vibratory_mill_effects(scene.machine.convention))
+  for (const auto& effect : effects_of(scene.machine))
     out << fmt::format("  {:<4}{:<24}{} ({})\n", scene.has_effect(effect.name) ? "on" : "off", effect.name,
                        effect.description, effect.source);
   for (const char* own : {"gravity_shaft", "shaft_inertia"})
-    out << fmt::format("  {:<4}{:<24}of the shaft's own mass, from its mesh\n",
-                       scene.has_effect(own) ? "on" : "off", own);
+    if (scene.shaft)
+      out << fmt::format("  {:<4}{:<24}of the shaft's own mass, from its mesh\n",
+                         scene.has_effect(own) ? "on" : "off", own);
   out << "\ndefaults used\n";
   for (const auto& d : scene.defaults) out << fmt::format("  {} = {}  ({})\n", d.key, d.value, d.reason);
   if (scene.defaults.empty()) out << "  none\n";

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fem/body.h"
-#include "kinetics/vibratory_mill.h"
 #include "meshes/shaft.h"
+#include "pipelines/machine.h"
 
 namespace pipelines {
 
@@ -67,7 +67,7 @@ struct DefaultUsed {
 struct Scene {
   std::filesystem::path file;
   std::string title;
-  kinetics::VibratoryMill machine;
+  Machine machine;
   std::optional<MillingSpace> milling_space;  ///< empty if the scene does not give it
   std::vector<std::string> effects;           ///< as named in the scene; each known, none twice
   kinetics::TimeGrid sampling;
@@ -82,6 +82,8 @@ struct Scene {
   /// body.
   std::vector<std::string> kinetics_effects() const;
   bool has_effect(const std::string& name) const;
+  /// @throws std::bad_variant_access if the machine is another
+  const kinetics::VibratoryMill& vibratory_mill() const { return std::get<kinetics::VibratoryMill>(machine); }
 };
 
 /// Reads and checks a scene. scenes/vibratory_mill.toml shows every key with its meaning.

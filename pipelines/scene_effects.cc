@@ -11,29 +11,19 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// An effect that makes no sense without another one.
-struct Need {
-  const char* effect;
-  const char* needed;
-  const char* reason;
-};
+std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& effects) {
+  std::vector<std::string> names;
+  for (const auto& effect : effects) names.push_back(effect.name);
+  return names;
+}
 
-constexpr Need needs[] = {
-    {"charge_follows_pitch", "pitch", "the charge can follow the pitch only of a chamber that pitches"},
-    {"charge_lag", "charge_translation", "the lag delays the force of charge_translation"},
-    {"pitch", "springs", "nothing but the springs holds the attitude of a chamber that pitches"},
-};
+const EffectRefusal* find_refusal(const EffectRules& rules, const std::string& effect) {
+  const auto refusal = std::find_if(rules.refused.begin(), rules.refused.end(),
+                                    [&](const auto& r) { return r.effect == effect; });
+  return refusal == rules.refused.end() ? nullptr : &*refusal;
+}
 
-/// What to write instead of an unknown effect.
-std::string remedy_for_unknown(const std::string& name, kinetics::Convention convention) {
-  using kinetics::Convention;
-  const bool is_published = convention == Convention::published;
-  const Convention other = is_published ? Convention::consistent : Convention::published;
-  const std::string here = is_published ? "published" : "consistent";
-  if (contains(known_effects(other), name))
-    return "unknown under convention \"" + here + "\", only under the other one; remove it, or change " +
-           "machine.convention";
-  const std::vector<std::string> known = known_effects(convention);
+std::string remedy_for_unknown(const std::string& name, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(name, known);
   return nearest.empty() ? "unknown effect; known are: " + listed(known)
                          : "unknown effect; did you mean \"" + nearest + "\"?";
@@ -41,21 +31,40 @@ std::string remedy_for_unknown(const std::string& name, kinetics::Convention con
 
 }  // namespace
 
-std::vector<std::string> known_effects(kinetics::Convention convention) {
-  std::vector<std::string> names;
-  for (const auto& effect : kinetics::vibratory_mill_effects(convention)) names.push_back(effect.name);
-  for (const char* from_the_mesh : {"gravity_shaft", "shaft_inertia"})
-    if (!contains(names, from_the_mesh)) names.push_back(from_the_mesh);
-  return names;
+EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft) {
+  using kinetics::Convention;
+  const bool is_published = convention == Convention::published;
+  EffectRules rules = plain_rules(kinetics::vibratory_mill_effects(convention));
+  for (const char* from_the_mesh : {"gravity_shaft", "shaft_inertia"}) {
+    if (!contains(rules.known, from_the_mesh)) rules.known.push_back(from_the_mesh);
+    if (!has_shaft)
+      rules.refused.push_back(
+          {from_the_mesh, "needs a [shaft], whose mesh gives its mass; add the table or remove the effect"});
+  }
+  const Convention other = is_published ? Convention::consistent : Convention::published;
+  for (const auto& name : names_of(kinetics::vibratory_mill_effects(other)))
+    if (!contains(rules.known, name))
+      rules.refused.push_back({name, "unknown under convention \"" +
+                                         std::string(is_published ? "published" : "consistent") +
+                                         "\", only under the other one; remove it, or change "
+                                         "machine.convention"});
+  rules.needs = {
+      {"charge_follows_pitch", "pitch", "the charge can follow the pitch only of a chamber that pitches"},
+      {"charge_lag", "charge_translation", "the lag delays the force of charge_translation"},
+      {"pitch", "springs", "nothing but the springs holds the attitude of a chamber that pitches"},
+  };
+  return rules;
 }
 
-std::vector<std::string> read_effects(SceneTable& root, kinetics::Convention convention, bool has_shaft,
-                                      SceneFindings& findings) {
-  const std::vector<std::string> known = known_effects(convention);
+EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects) {
+  return {names_of(effects), {}, {}};
+}
+
+std::vector<std::string> read_effects(SceneTable& root, const EffectRules& rules, SceneFindings& findings) {
   const std::vector<TextAt> listed_effects = root.texts("effects");
   if (root.has("effects") && listed_effects.empty())
     root.refuse("effects",
-                "no effect is named, so there is nothing to compute; name some of: " + listed(known));
+                "no effect is named, so there is nothing to compute; name some of: " + listed(rules.known));
 
   const auto refuse = [&](const TextAt& effect, const std::string& remedy) {
     findings.errors.push_back(
@@ -63,22 +72,21 @@ std::vector<std::string> read_effects(SceneTable& root, kinetics::Convention con
   };
   std::vector<std::string> names;
   for (const TextAt& effect : listed_effects) {
-    if (!contains(known, effect.text))
-      refuse(effect, remedy_for_unknown(effect.text, convention));
+    const EffectRefusal* const refusal = find_refusal(rules, effect.text);
+    const bool is_known = contains(rules.known, effect.text);
+    if (refusal != nullptr)
+      refuse(effect, refusal->remedy);
+    else if (!is_known)
+      refuse(effect, remedy_for_unknown(effect.text, rules.known));
     else if (contains(names, effect.text))
       refuse(effect, "is named twice; remove one of the two");
-    else
-      names.push_back(effect.text);
+    if (is_known && !contains(names, effect.text)) names.push_back(effect.text);
   }
-  for (const TextAt& effect : listed_effects) {
-    for (const Need& need : needs)
+  for (const TextAt& effect : listed_effects)
+    for (const EffectNeed& need : rules.needs)
       if (effect.text == need.effect && !contains(names, need.needed))
-        refuse(effect, "needs the effect \"" + std::string(need.needed) + "\": " + need.reason +
+        refuse(effect, "needs the effect \"" + need.needed + "\": " + need.reason +
                            "; add that one or remove this one");
-    const bool is_of_the_shaft = effect.text == "gravity_shaft" || effect.text == "shaft_inertia";
-    if (is_of_the_shaft && !has_shaft)
-      refuse(effect, "needs a [shaft], whose mesh gives its mass; add the table or remove the effect");
-  }
   return names;
 }
 

@@ -1,6 +1,7 @@
 /// The list `effects` of a scene: known names, none twice, none without what it needs.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,14 +9,32 @@
 
 namespace pipelines {
 
-/// The effects that a vibratory mill's scene may name: those of kinetics, then those that come from the
-/// body's mesh.
-std::vector<std::string> known_effects(kinetics::Convention convention);
+/// An effect that makes no sense without another one.
+struct EffectNeed {
+  std::string effect, needed, reason;
+};
+
+/// An effect that is known, but not in this scene.
+struct EffectRefusal {
+  std::string effect, remedy;
+};
+
+/// What a machine's scene may name.
+struct EffectRules {
+  std::vector<std::string> known;
+  std::vector<EffectNeed> needs;
+  std::vector<EffectRefusal> refused;
+};
+
+/// Effects of kinetics under the convention, then those that come from the shaft's mesh; what is known under
+/// the other convention only, or needs a shaft that the scene lacks, is refused with that reason.
+EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft);
+
+/// Any of the names, each by itself.
+EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects);
 
 /// Reads `effects` of the root table.
-/// @param has_shaft  whether the scene has a [shaft]; the effects of its own mass need it
 /// @return the names as written, each known, none twice; errors go to the findings
-std::vector<std::string> read_effects(SceneTable& root, kinetics::Convention convention, bool has_shaft,
-                                      SceneFindings& findings);
+std::vector<std::string> read_effects(SceneTable& root, const EffectRules& rules, SceneFindings& findings);
 
 }  // namespace pipelines

@@ -203,12 +203,7 @@ double largest_filling(double offset_m, double radius_m) {
   return (high - std::sin(high)) / (2 * pi);
 }
 
-std::optional<kinetics::Convention> read_convention(SceneTable& machine) {
-  const std::string type = machine.text("type");
-  if (!type.empty() && type != "vibratory_mill") {
-    machine.refuse("type", "unknown machine; write \"vibratory_mill\"");
-    return std::nullopt;
-  }
+kinetics::Convention read_convention(SceneTable& machine) {
   const std::string convention = machine.text_or(
       "convention", "consistent", "mechanics that closes; \"published\" is the paper to the letter");
   if (convention == "published") return kinetics::Convention::published;

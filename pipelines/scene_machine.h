@@ -9,9 +9,8 @@
 
 namespace pipelines {
 
-/// Reads `type` and `convention`: what must be known before anything else can be judged.
-/// @return empty if the machine is of another type: then its other keys mean nothing
-std::optional<kinetics::Convention> read_convention(SceneTable& machine);
+/// Reads `convention`: what must be known before anything else can be judged.
+kinetics::Convention read_convention(SceneTable& machine);
 
 /// Reads the rest of the table and closes it.
 /// @param effects  those that are on; they decide what is needed

@@ -9,6 +9,7 @@
 #include "meshes/shaft_checks.h"
 #include "pipelines/scene.h"
 #include "pipelines/scene_effects.h"
+#include "pipelines/scene_load_table.h"
 #include "pipelines/scene_machine.h"
 #include "pipelines/scene_shaft.h"
 #include "pipelines/scene_table.h"
@@ -52,17 +53,32 @@ TomlNode parse(const std::filesystem::path& file) {
   return root;
 }
 
-kinetics::TimeGrid read_sampling(SceneTable sampling, const kinetics::VibratoryMill& mill,
-                                 SceneFindings& findings) {
-  constexpr int most_turns = 1000;
+const std::string machine_types = "\"vibratory_mill\", \"load_table\"";
+
+constexpr int most_turns = 1000;
+
+/// The turns after which a machine's loads repeat.
+struct Period {
+  bool is_known = true;  ///< false: a speed could not be read
+  int turns = 1;         ///< 0: never, or not within most_turns
+};
+
+struct PeriodOf {
+  Period operator()(const kinetics::VibratoryMill& mill) const {
+    if (!std::isfinite(mill.speed_rad_s) || !std::isfinite(mill.charge_relative_speed_rad_s))
+      return {false, 0};
+    return {true, kinetics::period_in_turns(mill, most_turns).value_or(0)};
+  }
+  /// Samples repeat after as many turns as the user says.
+  Period operator()(const kinetics::LoadTable&) const { return {}; }
+};
+
+kinetics::TimeGrid read_sampling(SceneTable sampling, const Machine& machine, SceneFindings& findings) {
   constexpr int most_instants = 2'000'000;
   kinetics::TimeGrid grid;
   grid.instants_per_turn =
       sampling.count_or("instants_per_turn", 8, 100'000, 120, "one instant every 3 degrees of the drive");
-  const bool speeds_are_known =
-      std::isfinite(mill.speed_rad_s) && std::isfinite(mill.charge_relative_speed_rad_s);
-  const int period =  // 0: none
-      speeds_are_known ? kinetics::period_in_turns(mill, most_turns).value_or(0) : 0;
+  const auto [speeds_are_known, period] = std::visit(PeriodOf{}, machine);
   if (sampling.has("turns") || period > 0)
     grid.turns = sampling.count_or("turns", 1, most_turns, period, "the period of the motion");
   else if (sampling.know("turns"); speeds_are_known)
@@ -123,12 +139,17 @@ void refuse_open_balance(SceneTable& machine, const kinetics::VibratoryMill& mil
                      "the load stage alone");
 }
 
+/// A table's samples need all their turns; what a mill refuses shows in one.
+int rehearsal_turns(const Scene& scene) {
+  return std::holds_alternative<kinetics::LoadTable>(scene.machine) ? scene.sampling.turns : 1;
+}
+
 /// What the stages themselves refuse (resonances, springs that cannot carry the weights, shafts that cannot
 /// be meshed) is better said now, with a line, than after the first stage: a few instants cost next to
 /// nothing.
 void rehearse(const Scene& scene, SceneTable& machine, SceneTable* shaft) {
   try {
-    kinetics::compute_loads(scene.machine, scene.kinetics_effects(), {1, 8});
+    compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8});
   } catch (const std::invalid_argument& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
@@ -137,6 +158,20 @@ void rehearse(const Scene& scene, SceneTable& machine, SceneTable* shaft) {
   } catch (const std::invalid_argument& error) {
     shaft->refuse("contour", "the mesher refuses it: " + std::string(error.what()));
   }
+}
+
+void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
+  const auto convention = read_convention(machine);
+  scene.effects = read_effects(root, vibratory_mill_rules(convention, root.has("shaft")), findings);
+  scene.machine = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space);
+}
+
+void read_load_table_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
+  auto table = read_load_table(machine, scene.file.parent_path(), findings);
+  root.know("effects");
+  if (!table.loads.empty())
+    scene.effects = read_effects(root, plain_rules(kinetics::load_table_effects(table)), findings);
+  scene.machine = std::move(table);
 }
 
 [[noreturn]] void throw_sorted(std::vector<SceneError> errors) {
@@ -158,17 +193,32 @@ Scene read_scene(const std::filesystem::path& file) {
   scene.file = file;
   scene.title = root.text_or("title", file.stem().string(), "the name of the file");
   SceneTable machine = root.table("machine");
-  const auto convention = read_convention(machine);
-  if (!convention) throw_sorted(findings.errors);
-  scene.effects = read_effects(root, *convention, root.has("shaft"), findings);
-  scene.machine = read_vibratory_mill(machine, *convention, scene.effects, scene.milling_space);
+  const std::string type = machine.has("type") ? machine.text("type") : "";
+  if (type == "vibratory_mill")
+    read_vibratory_mill_scene(root, machine, scene, findings);
+  else if (type == "load_table")
+    read_load_table_scene(root, machine, scene, findings);
+  else {
+    if (!machine.has("type"))
+      machine.refuse_missing("type", "is missing; add it: one of " + machine_types);
+    else if (!type.empty())
+      machine.refuse("type", "unknown machine; write one of " + machine_types);
+    for (const char* key : {"effects", "sampling", "shaft", "zones", "results"}) root.know(key);
+    root.finish();  // there may be no [machine] at all
+    throw_sorted(findings.errors);
+  }
   scene.sampling = read_sampling(root.table_or_empty("sampling"), scene.machine, findings);
 
   std::optional<SceneTable> shaft;
-  if (root.has("shaft")) {
-    if (*convention == kinetics::Convention::published) refuse_open_balance(machine, scene.machine);
+  if (root.has("shaft") && type == "vibratory_mill") {
     shaft = root.table("shaft");
-    scene.shaft = read_shaft(*shaft, scene.machine, findings);
+    if (scene.vibratory_mill().convention == kinetics::Convention::published)
+      refuse_open_balance(machine, scene.vibratory_mill());
+    scene.shaft = read_shaft(*shaft, scene.vibratory_mill(), findings);
+  } else if (root.has("shaft")) {
+    root.know("shaft");
+    root.refuse("shaft",
+                "this machine has no shaft to be analysed so far; remove the table for the load stage alone");
   } else {
     root.know("shaft");
     if (root.has("zones") || root.has("results"))

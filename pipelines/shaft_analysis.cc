@@ -25,7 +25,7 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
 
 ShaftDistribution distribution_of(const Scene& scene) {
   ShaftDistribution options;
-  options.gravity_m_s2 = scene.machine.gravity_m_s2;
+  options.gravity_m_s2 = scene.vibratory_mill().gravity_m_s2;
   options.own_weight = scene.has_effect("gravity_shaft");
   options.own_inertia = scene.has_effect("shaft_inertia");
   options.debalance_shares = {scene.shaft->debalance_shares.at(0), scene.shaft->debalance_shares.at(1)};

@@ -6,8 +6,8 @@
 namespace kinetics::table {
 
 /// The piecewise cubic of Fritsch and Carlson (1980) with Brodlie's weighted harmonic mean as slope, closed
-/// over one period. Between two samples it stays between them; third order where the samples are smooth, second
-/// at their extremes.
+/// over one period. Between two samples it stays between them; third order where the samples are smooth,
+/// second at their extremes.
 class PeriodicCubic {
 public:
   /// @param at      strictly ascending, at least two; at.last < at.first + period

@@ -4,6 +4,7 @@
 ///   the scene # REPLACE: old -> new        `old` occurs exactly once; \n in `new` begins a line # EXPECT:
 ///   9:9: fragment      one error, at line:column of the edited scene (0:0: the file as a whole), whose text
 ///                                holds the fragment; there are as many errors as EXPECT lines
+/// @SOURCE@ in a scene stands for the source tree.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -59,6 +60,7 @@ RefusedScene load(const fs::path& file) {
       result.expectations.push_back(expectation);
     }
   }
+  replace_all(result.scene, "@SOURCE@", SOURCE_DIR);
   return result;
 }
 
@@ -104,7 +106,7 @@ TEST_P(Refused, with_the_expected_errors) {
   std::string report;
   for (const auto& error : errors) {
     report += without_file(error) + "\n";
-    EXPECT_EQ(error.file, file.string());
+    EXPECT_TRUE(error.file == file.string() || fs::path(error.file).extension() == ".csv") << error.file;
     EXPECT_FALSE(error.remedy.empty());
     const bool is_of_the_file = error.line == 0 || error.remedy.rfind("is not TOML", 0) == 0;
     EXPECT_TRUE(is_of_the_file || !error.key.empty()) << error.text();

@@ -173,7 +173,7 @@ TEST(Distribute, WhatNoEffectFeedsDoesNotExist) {
       names(pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), options));
   EXPECT_EQ(plain.size(), full.size() - 3 - 3 * 4);
 
-  auto machine = laboratory::scene().machine;
+  auto machine = laboratory::scene().vibratory_mill();
   const auto only_debalance = kinetics::compute_loads(machine, {"debalance_inertia"}, {20, 24});
   const auto loads =
       pipelines::distribute_shaft(only_debalance, laboratory::ports(), laboratory::masses(), {});
@@ -186,7 +186,7 @@ TEST(Distribute, WhatNoEffectFeedsDoesNotExist) {
 }
 
 TEST(Distribute, PublishedConventionIsRefused) {
-  auto machine = laboratory::scene().machine;
+  auto machine = laboratory::scene().vibratory_mill();
   machine.convention = kinetics::Convention::published;
   std::vector<std::string> effects;
   for (const auto& effect : kinetics::vibratory_mill_effects(machine.convention))

@@ -18,7 +18,7 @@ inline pipelines::Scene scene() {
 /// The spec's laboratory mill to the letter: no charge lag (the shipped scene adds it), the pitch without the
 /// charge.
 inline kinetics::LoadHistory spec_loads(int instants_per_turn = 72) {
-  auto machine = scene().machine;
+  auto machine = scene().vibratory_mill();
   std::vector<std::string> effects;
   for (const auto& effect : scene().kinetics_effects())
     if (effect != "charge_lag" && effect != "charge_follows_pitch") effects.push_back(effect);

@@ -52,7 +52,7 @@ bool has_default(const Scene& scene, const std::string& key, const std::string& 
 }
 
 TEST(default_scene, has_the_laboratory_mill) {
-  const auto mill = pipelines::read_scene(default_scene).machine;
+  const auto mill = pipelines::read_scene(default_scene).vibratory_mill();
   EXPECT_EQ(mill.convention, kinetics::Convention::consistent);
   expect_same(mill.gravity_m_s2, 9.81);
   expect_same(mill.eccentricity_m, 0.004);
@@ -94,7 +94,7 @@ TEST(default_scene, has_every_effect_of_the_convention_and_the_shafts_own) {
   EXPECT_TRUE(scene.has_effect("shaft_inertia"));
   EXPECT_FALSE(scene.has_effect("magnetism"));
   EXPECT_EQ(scene.kinetics_effects().size(), scene.effects.size() - 2);
-  EXPECT_NO_THROW(kinetics::compute_loads(scene.machine, scene.kinetics_effects(), {1, 24}));
+  EXPECT_NO_THROW(pipelines::compute_loads(scene.machine, scene.kinetics_effects(), {1, 24}));
 }
 
 TEST(default_scene, has_the_laboratory_shaft) {
@@ -169,7 +169,7 @@ TEST(scene, records_the_defaults_that_it_takes) {
   EXPECT_TRUE(has_default(scene, "results.snapshots", "24"));
   EXPECT_TRUE(has_default(scene, "shaft.mesh.sectors", "16"));
   EXPECT_EQ(scene.sampling.turns, 20);
-  EXPECT_EQ(scene.machine.charge_initial_angle_rad, 0);
+  EXPECT_EQ(scene.vibratory_mill().charge_initial_angle_rad, 0);
 }
 
 TEST(scene, of_the_paper_to_the_letter_is_for_the_load_stage) {
@@ -182,7 +182,7 @@ TEST(scene, of_the_paper_to_the_letter_is_for_the_load_stage) {
   std::ofstream(file) << "effects = [\"gravity_structure\", \"charge_coriolis\", \"springs\"]\n" << text;
   const Scene scene = pipelines::read_scene(file);
   fs::remove_all(file.parent_path());
-  EXPECT_EQ(scene.machine.convention, kinetics::Convention::published);
+  EXPECT_EQ(scene.vibratory_mill().convention, kinetics::Convention::published);
   EXPECT_FALSE(scene.shaft);
   EXPECT_FALSE(has_default(scene, "machine.springs.preload", "static balance")) << "the paper has no preload";
 }

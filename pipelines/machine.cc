@@ -1,0 +1,26 @@
+#include "pipelines/machine.h"
+
+namespace pipelines {
+namespace {
+
+struct EffectsOf {
+  std::vector<kinetics::EffectInfo> operator()(const kinetics::VibratoryMill& mill) const {
+    return kinetics::vibratory_mill_effects(mill.convention);
+  }
+  std::vector<kinetics::EffectInfo> operator()(const kinetics::LoadTable& table) const {
+    return kinetics::load_table_effects(table);
+  }
+};
+
+}  // namespace
+
+std::vector<kinetics::EffectInfo> effects_of(const Machine& machine) {
+  return std::visit(EffectsOf{}, machine);
+}
+
+kinetics::LoadHistory compute_loads(const Machine& machine, const std::vector<std::string>& effects,
+                                    const kinetics::TimeGrid& grid) {
+  return std::visit([&](const auto& m) { return kinetics::compute_loads(m, effects, grid); }, machine);
+}
+
+}  // namespace pipelines

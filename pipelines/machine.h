@@ -1,0 +1,24 @@
+/// The machine of a scene: one of those that kinetics knows.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "kinetics/effect_info.h"
+#include "kinetics/load_history.h"
+#include "kinetics/load_table.h"
+#include "kinetics/vibratory_mill.h"
+
+namespace pipelines {
+
+using Machine = std::variant<kinetics::VibratoryMill, kinetics::LoadTable>;
+
+/// The effects that the machine knows under its convention, in the order of summation.
+std::vector<kinetics::EffectInfo> effects_of(const Machine& machine);
+
+/// The load stage. @throws what the machine's own compute_loads throws
+kinetics::LoadHistory compute_loads(const Machine& machine, const std::vector<std::string>& effects,
+                                    const kinetics::TimeGrid& grid);
+
+}  // namespace pipelines
