@@ -6,12 +6,14 @@
 #include <iostream>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/effect_report.h"
 #include "pipelines/load_files.h"
 #include "pipelines/picture.h"
 #include "pipelines/results.h"
 #include "pipelines/scene.h"
 #include "pipelines/shaft_analysis.h"
 #include "pipelines/summary.h"
+#include "pipelines/units.h"
 
 namespace pipelines {
 namespace {
@@ -93,6 +95,21 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
   if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, loads); });
   if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, loads); });
   report(out, options, {scene, loads, nullptr, clock.costs()});
+}
+
+void effects_command(const CommandOptions& options, std::ostream& out) {
+  double threshold = 0;
+  try {
+    threshold = to_si(options.threshold, "1");
+  } catch (const UnitError& error) {
+    throw std::invalid_argument("--threshold " + options.threshold + ": " + error.what());
+  }
+  const Scene scene = read_scene(options.scene);
+  const EffectReport worth = report_effects(scene, threshold);
+  if (options.json)
+    out << effects_json(scene, worth);
+  else
+    print_effects(out, scene, worth);
 }
 
 void check_command(const CommandOptions& options, std::ostream& out) {

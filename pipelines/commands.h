@@ -14,7 +14,8 @@ struct CommandOptions {
   std::filesystem::path
       output;                 ///< run: directory; loads: .h5 file; empty: the default (run) or none (loads)
   std::filesystem::path csv;  ///< loads only; empty: none
-  int n_threads = 0;          ///< 0: all cores
+  std::string threshold = "1 %";  ///< effects only: what may change when effects are left out
+  int n_threads = 0;              ///< 0: all cores
   bool fresh = false;
   bool json = false;  ///< the summary as JSON instead of the table
   Verbosity verbosity = Verbosity::normal;
@@ -25,6 +26,9 @@ void run_command(const CommandOptions& options, std::ostream& out);
 
 /// `millstress loads`: the load stage alone.
 void loads_command(const CommandOptions& options, std::ostream& out);
+
+/// `millstress effects`: what each effect of the scene is worth in the loads, and what it costs.
+void effects_command(const CommandOptions& options, std::ostream& out);
 
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.

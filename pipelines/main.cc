@@ -60,6 +60,11 @@ int main(int argc, char** argv) {
   loads->add_option("-o,--output", options.output, "write the load history to this HDF5 file");
   loads->add_option("--csv", options.csv, "write the load history to this CSV file");
   loads->add_flag("--json", options.json, "print the summary as JSON instead of the table");
+  auto* effects =
+      add("effects", "each effect's share of the loads, what leaving it out changes, what it costs");
+  effects->add_option("--threshold", options.threshold,
+                      "what may change when effects are left out (default: \"1 %\")");
+  effects->add_flag("--json", options.json, "print JSON instead of the table");
   auto* check =
       add("check",
           "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing");
@@ -78,6 +83,8 @@ int main(int argc, char** argv) {
       pipelines::run_command(options, std::cout);
     } else if (loads->parsed()) {
       pipelines::loads_command(options, std::cout);
+    } else if (effects->parsed()) {
+      pipelines::effects_command(options, std::cout);
     } else if (check->parsed()) {
       pipelines::check_command(options, std::cout);
     }

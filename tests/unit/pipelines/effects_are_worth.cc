@@ -1,0 +1,91 @@
+/// What effects are worth, on machines whose loads are known by heart.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipelines/effect_report.h"
+#include "tests/unit/pipelines/laboratory.h"
+
+using pipelines::EffectWorth;
+using pipelines::report_effects;
+
+namespace {
+
+/// One port, forces along x: value = mean + amplitude cos(phi), an effect each.
+pipelines::Scene table_scene(const std::vector<std::pair<std::string, kinetics::Harmonic>>& effects) {
+  kinetics::LoadTable table;
+  table.speed_rad_s = 50;
+  pipelines::Scene scene;
+  for (const auto& [name, harmonic] : effects) {
+    table.loads.push_back({name, "seat", "fx", "N", harmonic});
+    scene.effects.push_back(name);
+  }
+  scene.machine = table;
+  scene.sampling = {1, 64};
+  return scene;
+}
+
+const EffectWorth& worth_of(const pipelines::EffectReport& report, const std::string& name) {
+  for (const auto& worth : report.effects)
+    if (worth.effect.name == name) return worth;
+  throw std::out_of_range(name);
+}
+
+}  // namespace
+
+TEST(EffectWorth, SharesAreThoseOfTheLoad) {
+  const auto report = report_effects(table_scene({{"weight", {100, 0}}, {"wave", {0, 25}}}), 0.01, false);
+  const auto& wave = worth_of(report, "wave");
+  ASSERT_EQ(wave.shares.size(), 1u);
+  EXPECT_EQ(wave.shares[0].load, "seat.force");
+  EXPECT_NEAR(wave.shares[0].largest, 25.0 / 125, 1e-14);
+  EXPECT_NEAR(wave.shares[0].rms, 25 / std::sqrt(2) / std::sqrt(100 * 100 + 25 * 25 / 2.), 1e-14);
+  EXPECT_NEAR(wave.if_off, 25.0 / 125, 1e-14);
+  EXPECT_EQ(wave.worst_load, "seat.force");
+  EXPECT_NEAR(worth_of(report, "weight").if_off, 100.0 / 125, 1e-14);
+  EXPECT_TRUE(report.dispensable.empty());
+}
+
+// Two of 0.6 % each: one may go below a threshold of 1 %, both together not. Two that cancel: either alone
+// would change 50 %, none is offered, although both together would change nothing.
+TEST(EffectWorth, WhatCanGoIsJudgedTogether) {
+  const auto small =
+      report_effects(table_scene({{"big", {1000, 0}}, {"a", {6, 0}}, {"b", {6.1, 0}}}), 0.01, false);
+  EXPECT_EQ(small.dispensable, std::vector<std::string>{"a"});
+  EXPECT_NEAR(small.if_all_off, 6 / 1012.1, 1e-14);
+  const auto both =
+      report_effects(table_scene({{"big", {1000, 0}}, {"a", {6, 0}}, {"b", {6.1, 0}}}), 0.02, false);
+  EXPECT_EQ(both.dispensable, (std::vector<std::string>{"a", "b"}));
+  EXPECT_NEAR(both.if_all_off, 12.1 / 1012.1, 1e-14);
+  const auto cancel =
+      report_effects(table_scene({{"big", {10, 0}}, {"push", {5, 0}}, {"pull", {-5, 0}}}), 0.01, false);
+  EXPECT_TRUE(cancel.dispensable.empty());
+  EXPECT_NEAR(worth_of(cancel, "push").if_off, 0.5, 1e-14);
+}
+
+TEST(EffectWorth, TheOnlyEffectCannotGo) {
+  const auto report = report_effects(table_scene({{"weight", {1, 0}}}), 0.01, false);
+  EXPECT_FALSE(worth_of(report, "weight").indispensable.empty());
+  EXPECT_TRUE(std::isnan(worth_of(report, "weight").if_off));
+}
+
+// In the mill the springs carry the weights at rest: a weight less is a preload less, so the shaft does not
+// feel it, while the springs do. And the pitch cannot lose its springs.
+TEST(EffectWorth, OfTheLaboratoryMill) {
+  auto scene = laboratory::scene();
+  scene.sampling.instants_per_turn = 24;
+  const auto report = report_effects(scene, 0.01, false);
+  EXPECT_EQ(report.effects.size(), scene.kinetics_effects().size());
+  for (const auto& share : worth_of(report, "gravity_structure").shares) {
+    if (share.load == "eccentric.force") {
+      EXPECT_LT(share.if_off, 1e-12);
+    }
+    if (share.load == "spring_foot_1.force") {
+      EXPECT_GT(share.if_off, 0.1);
+    }
+  }
+  EXPECT_NE(worth_of(report, "springs").indispensable, "");
+  EXPECT_NE(worth_of(report, "pitch").indispensable, "");  // charge_follows_pitch builds on it
+  EXPECT_THROW(report_effects(scene, 0), std::invalid_argument);
+  EXPECT_THROW(report_effects(scene, NAN), std::invalid_argument);
+}
