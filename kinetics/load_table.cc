@@ -20,7 +20,7 @@ std::string name_of(const TableLoad& load) {
   return load.port + "." + load.component;
 }
 
-void check_samples(const std::string& name, const Samples& samples, double period_rad) {
+void check_samples(const std::string& name, const SampledCourse& samples, double period_rad) {
   const Index n = samples.angle_rad.size();
   if (n < 4)
     throw std::invalid_argument(name + " has " + std::to_string(n) +
@@ -49,7 +49,7 @@ void check_samples(const std::string& name, const Samples& samples, double perio
                number(period_rad / turn_rad) + " turns");
 }
 
-void check_harmonic(const std::string& name, const Harmonic& harmonic, int turns) {
+void check_harmonic(const std::string& name, const HarmonicCourse& harmonic, int turns) {
   require_finite(name + ".mean", harmonic.mean);
   require_finite(name + ".amplitude", harmonic.amplitude);
   require_finite(name + ".phase", harmonic.phase_rad);
@@ -83,29 +83,29 @@ void check(const LoadTable& table, const TimeGrid& grid) {
       if (table.loads[j].effect == load.effect && name_of(table.loads[j]) == name_of(load))
         throw std::invalid_argument(name_of(load) + " is given twice for the effect \"" + load.effect +
                                     "\"; remove one, or name another effect for it");
-    if (const auto* samples = std::get_if<Samples>(&load.course))
+    if (const auto* samples = std::get_if<SampledCourse>(&load.course))
       check_samples(name_of(load), *samples, grid.turns * turn_rad);
     else
-      check_harmonic(name_of(load), std::get<Harmonic>(load.course), grid.turns);
+      check_harmonic(name_of(load), std::get<HarmonicCourse>(load.course), grid.turns);
   }
 }
 
 /// Samples over one period as a curve; a last sample that stands where the next period begins gives way to
 /// the first.
-table::PeriodicCubic curve_of(const Samples& samples, double period_rad) {
+table::PeriodicCubic curve_of(const SampledCourse& samples, double period_rad) {
   Index n = samples.angle_rad.size();
   if (samples.angle_rad[n - 1] - samples.angle_rad[0] > period_rad * (1 - 1e-9)) --n;
   return {samples.angle_rad.head(n), samples.values.head(n), period_rad};
 }
 
 ArrayXd evaluate(const TableLoad& load, const ArrayXd& phi_rad, double period_rad) {
-  if (const auto* harmonic = std::get_if<Harmonic>(&load.course))
+  if (const auto* harmonic = std::get_if<HarmonicCourse>(&load.course))
     return harmonic->mean + harmonic->amplitude * (harmonic->order * phi_rad - harmonic->phase_rad).cos();
-  const auto curve = curve_of(std::get<Samples>(load.course), period_rad);
+  const auto curve = curve_of(std::get<SampledCourse>(load.course), period_rad);
   return phi_rad.unaryExpr([&](double phi) { return curve(phi); });
 }
 
-ResamplingError error_of(const TableLoad& load, const Samples& samples, double period_rad) {
+ResamplingError error_of(const TableLoad& load, const SampledCourse& samples, double period_rad) {
   const Index n = samples.angle_rad.size();
   ResamplingError error{load.effect, load.port, load.component};
   error.largest = samples.values.abs().maxCoeff();
@@ -113,7 +113,7 @@ ResamplingError error_of(const TableLoad& load, const Samples& samples, double p
   const double usual =
       closes ? 0 : (samples.values.tail(n - 1) - samples.values.head(n - 1)).abs().maxCoeff();
   error.jump = std::max(0.0, std::abs(samples.values[n - 1] - samples.values[0]) - usual);
-  Samples every_second;
+  SampledCourse every_second;
   const Index n_half = (n - (closes ? 1 : 0) + 1) / 2;
   every_second.angle_rad.resize(n_half);
   every_second.values.resize(n_half);
@@ -188,7 +188,7 @@ std::vector<ResamplingError> resampling_errors(const LoadTable& table, const Tim
   check(table, grid);
   std::vector<ResamplingError> errors;
   for (const auto& load : table.loads)
-    if (const auto* samples = std::get_if<Samples>(&load.course))
+    if (const auto* samples = std::get_if<SampledCourse>(&load.course))
       errors.push_back(error_of(load, *samples, grid.turns * turn_rad));
   return errors;
 }
@@ -211,7 +211,7 @@ LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>
     for (const auto& load : table.loads) {
       if (load.effect != effect.name) continue;
       post(load, evaluate(load, history.phi_rad, grid.turns * turn_rad), history);
-      if (const auto* samples = std::get_if<Samples>(&load.course))
+      if (const auto* samples = std::get_if<SampledCourse>(&load.course))
         warn(error_of(load, *samples, grid.turns * turn_rad), history);
     }
   }

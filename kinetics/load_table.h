@@ -16,13 +16,13 @@
 namespace kinetics {
 
 /// Samples over the period; they need not be equidistant.
-struct Samples {
+struct SampledCourse {
   Eigen::ArrayXd angle_rad;  ///< of the drive, strictly ascending, at least four; spans at most the period
   Eigen::ArrayXd values;     ///< SI unit of the component
 };
 
 /// value(phi) = mean + amplitude cos(order phi - phase), phi from the first instant
-struct Harmonic {
+struct HarmonicCourse {
   double mean = 0, amplitude = 0;  ///< SI unit of the component
   double order = 1;                ///< periods per turn of the drive, >= 0; order x turns must be whole
   double phase_rad = 0;
@@ -33,7 +33,7 @@ struct TableLoad {
   std::string port;       ///< where it enters a body: the role of the resultant
   std::string component;  ///< "fx", "fy" [N], "torque" [N m]: part of a resultant; any other: a quantity
   std::string unit;       ///< SI unit of any other component
-  std::variant<Samples, Harmonic> course;
+  std::variant<SampledCourse, HarmonicCourse> course;
 };
 
 struct LoadTable {

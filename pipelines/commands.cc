@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/calculix_cards.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/load_files.h"
 #include "pipelines/picture.h"
@@ -94,6 +95,7 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
   const auto loads = clock.run("loads", [&] { return load_stage(scene); });
   if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, loads); });
   if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, loads); });
+  if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, loads); });
   report(out, options, {scene, loads, nullptr, clock.costs()});
 }
 

@@ -14,8 +14,9 @@ struct CommandOptions {
   std::filesystem::path
       output;                 ///< run: directory; loads: .h5 file; empty: the default (run) or none (loads)
   std::filesystem::path csv;  ///< loads only; empty: none
-  std::string threshold = "1 %";  ///< effects only: what may change when effects are left out
-  int n_threads = 0;              ///< 0: all cores
+  std::filesystem::path calculix;  ///< loads only: prefix of the files of cards; empty: none
+  std::string threshold = "1 %";   ///< effects only: what may change when effects are left out
+  int n_threads = 0;               ///< 0: all cores
   bool fresh = false;
   bool json = false;  ///< the summary as JSON instead of the table
   Verbosity verbosity = Verbosity::normal;

@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
   auto* loads = add("loads", "the load stage alone");
   loads->add_option("-o,--output", options.output, "write the load history to this HDF5 file");
   loads->add_option("--csv", options.csv, "write the load history to this CSV file");
+  loads->add_option("--calculix", options.calculix,
+                    "write PREFIX_amplitudes.inp and PREFIX_loads.inp for CalculiX");
   loads->add_flag("--json", options.json, "print the summary as JSON instead of the table");
   auto* effects =
       add("effects", "each effect's share of the loads, what leaving it out changes, what it costs");

@@ -108,7 +108,7 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
       continue;
     }
     loads.loads.push_back({effect, load->port, load->component, load->unit,
-                           kinetics::Samples{*angle_rad, in_si(table, column, load->unit, findings)}});
+                           kinetics::SampledCourse{*angle_rad, in_si(table, column, load->unit, findings)}});
   }
 }
 
@@ -123,7 +123,7 @@ void read_harmonic(SceneTable& entry, kinetics::LoadTable& loads) {
   const std::string effect = entry.text("effect");
   const auto load = read_load_name(entry);
   const std::string unit = load ? load->unit : "N";
-  kinetics::Harmonic harmonic;
+  kinetics::HarmonicCourse harmonic;
   harmonic.mean = entry.quantity_or("mean", unit, {}, 0, "the harmonic alone");
   harmonic.amplitude = entry.quantity("amplitude", unit, {});
   harmonic.order = entry.quantity_or("order", "1", not_negative(1e4), 1, "once per turn of the drive");
@@ -138,7 +138,7 @@ void read_constant(SceneTable& entry, kinetics::LoadTable& loads) {
   const double value = entry.quantity("value", load ? load->unit : "N", {});
   entry.finish();
   if (load)
-    loads.loads.push_back({effect, load->port, load->component, load->unit, kinetics::Harmonic{value}});
+    loads.loads.push_back({effect, load->port, load->component, load->unit, kinetics::HarmonicCourse{value}});
 }
 
 template <typename Read>

@@ -14,7 +14,7 @@ namespace {
 constexpr double turn = 2 * M_PI;
 
 TableLoad sampled(int n, double (*value)(double), double span = turn, bool closed = false) {
-  Samples samples;
+  SampledCourse samples;
   samples.angle_rad = Eigen::ArrayXd::LinSpaced(closed ? n + 1 : n, 0, closed ? span : span * (n - 1) / n);
   samples.values = samples.angle_rad.unaryExpr(value);
   return {"measured", "pulley_seat", "fx", "N", samples};
@@ -70,7 +70,7 @@ TEST(LoadTable, InterpolatesToSecondOrderAndNeverBeyondTheNeighbours) {
 TEST(LoadTable, TakesSamplesThatAreNotEquidistantAndBeginAnywhere) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> shake(-0.3, 0.3);
-  Samples samples{Eigen::ArrayXd(400), Eigen::ArrayXd(400)};
+  SampledCourse samples{Eigen::ArrayXd(400), Eigen::ArrayXd(400)};
   for (int i = 0; i < 400; ++i) {
     samples.angle_rad[i] = 5 * turn + 1 + turn * (i + shake(random)) / 400;
     samples.values[i] = wave(samples.angle_rad[i]);
@@ -82,10 +82,10 @@ TEST(LoadTable, TakesSamplesThatAreNotEquidistantAndBeginAnywhere) {
 
 TEST(LoadTable, HarmonicsAndConstantsAreExactAndEffectsAddUp) {
   const LoadTable table{50,
-                        {{"weight", "disc", "fy", "N", Harmonic{-30}},
-                         {"imbalance", "disc", "fy", "N", Harmonic{0, 12, 1, 0.5}},
-                         {"mesh", "disc", "torque", "N m", Harmonic{1, 2, 23.5, 0}},
-                         {"mesh", "disc", "fz", "N", Harmonic{7}}}};
+                        {{"weight", "disc", "fy", "N", HarmonicCourse{-30}},
+                         {"imbalance", "disc", "fy", "N", HarmonicCourse{0, 12, 1, 0.5}},
+                         {"mesh", "disc", "torque", "N m", HarmonicCourse{1, 2, 23.5, 0}},
+                         {"mesh", "disc", "fz", "N", HarmonicCourse{7}}}};
   const TimeGrid grid{2, 100};
   const auto all = compute_loads(table, {"weight", "imbalance", "mesh"}, grid);
   const auto& disc = all.resultant("disc");
@@ -132,18 +132,18 @@ TEST(LoadTable, RefusesWhatItCannotUse) {
   EXPECT_NE(message({-1, {bad}}, {"measured"}).find("speed_rad_s = -1"), std::string::npos);
   EXPECT_NE(message({100, {bad}}, {"mesured"}).find("did you mean \"measured\""), std::string::npos);
   EXPECT_NE(message({100, {bad, bad}}, {"measured"}).find("twice"), std::string::npos);
-  auto& samples = std::get<Samples>(bad.course);
+  auto& samples = std::get<SampledCourse>(bad.course);
   std::swap(samples.angle_rad[3], samples.angle_rad[4]);
   EXPECT_NE(message({100, {bad}}, {"measured"}).find("sample 5"), std::string::npos);
   bad = sampled(10, wave);
-  std::get<Samples>(bad.course).values[2] = NAN;
+  std::get<SampledCourse>(bad.course).values[2] = NAN;
   EXPECT_NE(message({100, {bad}}, {"measured"}).find("sample 3"), std::string::npos);
   EXPECT_NE(message({100, {sampled(3, wave)}}, {"measured"}).find("at least four"), std::string::npos);
   EXPECT_NE(message({100, {sampled(10, wave, 2 * turn)}}, {"measured"}).find("exceeds the period"),
             std::string::npos);
   EXPECT_NE(message({100, {sampled(10, wave, 0.4 * turn)}}, {"measured"}).find("half a turn"),
             std::string::npos);
-  const TableLoad mesh{"mesh", "disc", "torque", "N m", Harmonic{0, 1, 0.3}};
+  const TableLoad mesh{"mesh", "disc", "torque", "N m", HarmonicCourse{0, 1, 0.3}};
   EXPECT_NE(message({100, {mesh}}, {"mesh"}).find("disc.torque.order = 0.3"), std::string::npos);
   EXPECT_EQ(message({100, {mesh}}, {"mesh"}, {10, 8}), "");
 }

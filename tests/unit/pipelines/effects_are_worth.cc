@@ -12,7 +12,7 @@ using pipelines::report_effects;
 namespace {
 
 /// One port, forces along x: value = mean + amplitude cos(phi), an effect each.
-pipelines::Scene table_scene(const std::vector<std::pair<std::string, kinetics::Harmonic>>& effects) {
+pipelines::Scene table_scene(const std::vector<std::pair<std::string, kinetics::HarmonicCourse>>& effects) {
   kinetics::LoadTable table;
   table.speed_rad_s = 50;
   pipelines::Scene scene;
