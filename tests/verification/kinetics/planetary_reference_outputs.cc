@@ -157,14 +157,15 @@ TEST(PlanetaryReferenceOutputs, sweeps) {
   }
 }
 
-// Section 6 of the specification, printed to 1e-9 N.
+// The specification's table, printed to 1e-9 N. Its first R_A has a wrong digit (...708651): the root of its
+// own X_A and Y_A, and the reference file, say ...708751.
 TEST(PlanetaryReferenceOutputs, printed_table) {
   struct Row {
     const char *set, *convention;
     double phi_deg, X_A, Y_A, R_A, T2;
   };
   const Row rows[] = {
-      {"B", "consistent", 0, 78096.011161054, 5011.019543647, 78256.611708651, 15736.387414346},
+      {"B", "consistent", 0, 78096.011161054, 5011.019543647, 78256.611708751, 15736.387414346},
       {"B", "consistent", 90, 76497.019963389, 3526.701358303, 76578.271629423, 15773.468000116},
       {"B", "consistent", 330, 78459.909498071, 4825.780348982, 78608.177401732, 15863.950884696},
       {"B", "as_published", 330, 77704.675034519, 1272.312003503, 77715.090555531, 16117.264224614},
