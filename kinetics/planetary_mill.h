@@ -125,8 +125,9 @@ const std::vector<EffectInfo>& planetary_mill_effects(PlanetaryConvention conven
 ///   "pulley"      pull of both strands on the drum's pulley, and their torque -(T1 - T2) r_A. With the
 ///                 effect `belt` off: a contribution "drive_couple", the external couple -M_A in its place
 /// "axle" and "trunnions" are always there; the others only if an effect that is on loads them. The charge
-/// and the drum are loaded by true forces under every convention; under as_published (and where c > 1 under
-/// as_plotted) the axle's load is the paper's, which does not balance them: closure_force tells by how much.
+/// and the drum are loaded by their forces' true lines under every convention; under as_published (and where
+/// c > 1 under as_plotted) the axle's load is the paper's and does not balance them: closure_force tells by
+/// how much.
 ///
 /// Quantities: X_A, Y_A, R_A, M_A, psi, drum_speed, drum_relative_speed, carrier_power, gravity_power,
 /// closure_force and closure_moment (relative, the worse of A and O; true lines of action, the strands at

@@ -64,6 +64,18 @@ void write_power(const Machine& machine, const ArrayXd& moment_Nm, bool belt_on,
     q.push_back({"charge_power", "W", "friction power of the charge, M_A Omega / c", relative_W});
 }
 
+/// What closure cannot see: the paper's speed in (11) gives another force along the same line.
+void warn_of_offset_speed(const Machine& machine, LoadHistory& history) {
+  const double w = machine.offset_speed_rad_s, omega = machine.mill.speed_rad_s;
+  if (!contains(history.effects, "charge_relative") ||
+      std::abs(w * w - omega * omega) <= 1e-12 * omega * omega)
+    return;
+  history.warnings.push_back("under " + history.convention + " charge_relative takes the drum's spin of " +
+                             number(w) + " rad/s for the carrier's " + number(omega) + ": " +
+                             number(w * w / (omega * omega)) +
+                             " times the force that it is; use it for the paper's figures only");
+}
+
 void warn_of_closure(const Machine& machine, LoadHistory& history) {
   const double force = history.quantity("closure_force").values.maxCoeff();
   const double moment = history.quantity("closure_moment").values.maxCoeff();
@@ -101,6 +113,7 @@ void write_results(const Machine& machine, const ArrayXd& moment_Nm, LoadHistory
   if (belt)
     for (const std::string& warning : belt_warnings(machine, *belt)) history.warnings.push_back(warning);
   warn_of_closure(machine, history);
+  warn_of_offset_speed(machine, history);
 }
 
 }  // namespace kinetics::planetary

@@ -194,7 +194,18 @@ TEST(PlanetaryWrongInput, the_papers_machines_are_warned_of) {
   mill.belt_beyond_geometry = true;
   EXPECT_TRUE(warned(mill, "cos beta is taken as zero"));
   mill.belt = kinetics::EytelweinBelt{0.3};
-  EXPECT_NE(refusal(mill, {}).find("given ratio"), std::string::npos) << refusal(mill, {});
+  EXPECT_NE(refusal(mill, {}).find("no wrap"), std::string::npos) << refusal(mill, {});
+}
+
+// Where w differs from Omega the forces still close, so closure alone would let it pass.
+TEST(PlanetaryWrongInput, the_papers_offset_speed_is_warned_of) {
+  auto mill = machines::printed_planetary();
+  as_plotted(mill);
+  EXPECT_TRUE(compute_loads(mill, {"charge_relative"}, {1, 12}).warnings.empty());
+  ratios(mill).c = 0.8;
+  const auto loads = compute_loads(mill, {"charge_relative"}, {1, 12});
+  ASSERT_EQ(loads.warnings.size(), 1u);
+  EXPECT_NE(loads.warnings[0].find("0.0625 times"), std::string::npos) << loads.warnings[0];
 }
 
 TEST(PlanetaryWrongInput, grid) {
