@@ -7,6 +7,13 @@
 
 namespace kinetics {
 
+void check_grid(const TimeGrid& grid) {
+  if (grid.turns < 1) refuse("turns", grid.turns, "must be at least 1");
+  if (grid.instants_per_turn < 4)
+    refuse("instants_per_turn", grid.instants_per_turn,
+           "must be at least 4; the loads carry the first and second harmonic");
+}
+
 const Quantity& LoadHistory::quantity(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& candidate : quantities) {

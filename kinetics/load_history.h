@@ -1,7 +1,8 @@
 /// Load history: what the kinetics stage hands on, and the only thing that leaves it.
 ///
 /// Conventions of all machines: x to the right, y up, z along the shaft towards the reader; forces in the
-/// fixed frame; a torque is the moment about +z, counter-clockwise positive. SI units; a column per instant.
+/// fixed frame, but the planetary mill's in the frame of its carrier; a torque is the moment about +z,
+/// counter-clockwise positive. SI units; a column per instant.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +16,9 @@ struct TimeGrid {
   int turns = 1;                ///< turns of the drive covered, >= 1
   int instants_per_turn = 120;  ///< n, >= 4
 };
+
+/// @throws std::invalid_argument if turns < 1 or instants_per_turn < 4
+void check_grid(const TimeGrid& grid);
 
 /// One scalar of the machine over time: no load by itself, or a derived load figure (theta, T, R_E ...).
 struct Quantity {
@@ -44,11 +48,11 @@ struct Resultant {
 struct LoadHistory {
   std::string machine;
   std::string convention;
-  std::vector<std::string> effects;    ///< the effects that were evaluated, in the order of summation
-  std::vector<std::string> warnings;   ///< sentences for the user (large pitch, reversed torque ...)
-  Eigen::ArrayXd time_s;               ///< n_instants
-  Eigen::ArrayXd phi_rad;              ///< drive angle, clockwise positive for the vibratory mill
-  Eigen::ArrayXd speed_rad_s;          ///< d phi / dt
+  std::vector<std::string> effects;   ///< the effects that were evaluated, in the order of summation
+  std::vector<std::string> warnings;  ///< sentences for the user (large pitch, reversed torque ...)
+  Eigen::ArrayXd time_s;              ///< n_instants
+  Eigen::ArrayXd phi_rad;      ///< drive angle: clockwise (vibratory mill), counter-clockwise (planetary)
+  Eigen::ArrayXd speed_rad_s;  ///< d phi / dt
   Eigen::ArrayXd acceleration_rad_s2;  ///< d2 phi / dt2
   std::vector<Quantity> quantities;
   std::vector<Resultant> resultants;

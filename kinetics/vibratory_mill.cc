@@ -13,7 +13,7 @@ LoadHistory compute_loads(const VibratoryMill& mill, const std::vector<std::stri
                           const TimeGrid& grid) {
   vibratory::check_effects(mill.convention, effects);
   vibratory::check_parameters(mill, effects);
-  vibratory::check_grid(grid);
+  check_grid(grid);
   const auto made = vibratory::make_effects(mill, effects);
   LoadHistory history = mill.convention == Convention::published
                             ? vibratory::published_loads(mill, made, grid)

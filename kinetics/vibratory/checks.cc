@@ -163,11 +163,4 @@ void check_parameters(const VibratoryMill& mill, const std::vector<std::string>&
   }
 }
 
-void check_grid(const TimeGrid& grid) {
-  if (grid.turns < 1) refuse("turns", grid.turns, "must be at least 1");
-  if (grid.instants_per_turn < 4)
-    refuse("instants_per_turn", grid.instants_per_turn,
-           "must be at least 4; the loads carry the first and second harmonic");
-}
-
 }  // namespace kinetics::vibratory

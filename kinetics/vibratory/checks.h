@@ -16,7 +16,4 @@ void check_parameters(const VibratoryMill& mill, const std::vector<std::string>&
 ///         the other convention or to the pipeline, one that is named twice, one that lacks its base effect
 void check_effects(Convention convention, const std::vector<std::string>& effects);
 
-/// @throws std::invalid_argument if turns < 1 or instants_per_turn < 4
-void check_grid(const TimeGrid& grid);
-
 }  // namespace kinetics::vibratory

@@ -1,0 +1,21 @@
+/// Does the drum close? Forces along their true lines of action against the axle's reaction.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kinetics/load_history.h"
+#include "kinetics/planetary/belt.h"
+
+namespace kinetics::planetary {
+
+struct Closure {
+  Eigen::ArrayXd force;   ///< |sum of forces| / sum of |forces|
+  Eigen::ArrayXd moment;  ///< |sum of moments| / sum of |parts|, the worse of those about A and about O
+};
+
+/// The charge acts at its centroid, the strands at their tangent points, the trunnions at A; without a belt
+/// the drive couple is in its place.
+/// @param history  with its resultants
+Closure closure(const Machine& machine, const LoadHistory& history, const Tensions* belt);
+
+}  // namespace kinetics::planetary
