@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "kinetics/effect_info.h"
 #include "kinetics/load_history.h"
 
 namespace kinetics {
@@ -53,13 +54,6 @@ struct VibratoryMill {
   double pitch_inertia_kg_m2 = 0;  ///< I_E about E', structure and exciter housing, not the charge
   std::vector<Spring> springs;     ///< `published` needs two; the x of their positions are [QE], [HE]
   ChargeLag charge_lag;
-};
-
-/// One named physical effect of the machine.
-struct EffectInfo {
-  std::string name;
-  std::string description;  ///< one sentence
-  std::string source;       ///< equation number, or "ours"
 };
 
 /// The effects that the machine knows under a convention, in the order of summation.
