@@ -23,8 +23,8 @@ TEST(TrainResonance, undamped_excitation_at_a_natural_frequency_is_refused_by_bo
   const double w = natural_modes(train).frequency_rad_s[2];
   train.excitations = {trains::harmonic("J0", 1, w)};
   const auto message = refusal(train);
-  EXPECT_NE(message.find("torque_on_J0 at 202.658348597 rad/s"), std::string::npos) << message;
-  EXPECT_NE(message.find("natural frequency 202.658348597 rad/s"), std::string::npos) << message;
+  EXPECT_NE(message.find("torque_on_J0 at 202.65834859 rad/s"), std::string::npos) << message;
+  EXPECT_NE(message.find("natural frequency 202.65834859 rad/s"), std::string::npos) << message;
   EXPECT_NE(message.find("mode 2"), std::string::npos) << message;
   EXPECT_THROW(compute_loads(train, {"torque_on_J0"}, {1, 12}), std::invalid_argument);
   train.modal_damping_ratio = 0.01;
@@ -49,7 +49,7 @@ TEST(TrainResonance, a_billionth_beside_it_the_mode_stands_alone) {
     const Eigen::ArrayXd got = response.harmonics[0].angle_rad.real();
     EXPECT_LT((got - wanted).abs().maxCoeff() / wanted.abs().maxCoeff(), 1e-6);
     ASSERT_EQ(response.warnings.size(), 1u);
-    EXPECT_NE(response.warnings[0].find("amplified up to 5000000"), std::string::npos)
+    EXPECT_NE(response.warnings[0].find("amplified up to 49999995"), std::string::npos)
         << response.warnings[0];
   }
 }

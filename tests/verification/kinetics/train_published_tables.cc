@@ -70,5 +70,5 @@ TEST(TrainPublished, printed_table_3_gives_other_frequencies) {
   train.inertias[3].inertia_kg_m2 = 9.91e-6 / 0.140625;
   const auto table = published_table_4(train);
   EXPECT_NEAR(table.frequency_rad_s[0], 233525, 1);
-  EXPECT_NEAR(table.frequency_rad_s[2], 6658, 1);
+  EXPECT_NEAR(table.frequency_rad_s[2], 6658, 3);  // the pulley's and the disc's rounding move it by 2
 }
