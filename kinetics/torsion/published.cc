@@ -1,0 +1,101 @@
+/// The paper's own tables, errata included (kinetics/README.md, errata 1-6).
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <stdexcept>
+
+#include "kinetics/drive_train.h"
+#include "kinetics/torsion/checks.h"
+#include "kinetics/torsion/reduced.h"
+#include "kinetics/wrong_input.h"
+
+namespace kinetics {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double two_pi = 2 * 3.14159265358979323846;
+
+/// A chain as the tables hold it: J and C in their order, M and w.
+struct Chain {
+  ArrayXd inertia, stiffness, torque;
+  double frequency = 0;
+};
+
+/// The one frequency of all harmonics [rad/s], and their amplitudes per inertia.
+std::pair<double, ArrayXd> harmonic_torques(const DriveTrain& train) {
+  torsion::check_excitations(train);
+  ArrayXd torque_Nm = ArrayXd::Zero(static_cast<Index>(train.inertias.size()));
+  std::optional<double> frequency_rad_s;
+  for (const TrainExcitation& x : train.excitations)
+    for (const TorqueHarmonic& h : x.harmonics) {
+      if (!h.frequency_rad_s || (frequency_rad_s && *frequency_rad_s != *h.frequency_rad_s))
+        throw std::invalid_argument("excitation " + x.name +
+                                    ": the published tables know one frequency; give every harmonic the same "
+                                    "frequency_rad_s");
+      frequency_rad_s = h.frequency_rad_s;
+      torque_Nm[torsion::inertia_at(train, x.inertia, x.name + ".inertia")] += h.amplitude_Nm;
+    }
+  if (!frequency_rad_s)
+    throw std::invalid_argument(
+        "excitations: the published tables need one harmonic at least; give the mains' one");
+  return {*frequency_rad_s, torque_Nm};
+}
+
+/// Reduced to the shaft line of one inertia; belts keep their number (erratum 5), torques stay real (erratum
+/// 6).
+Chain reduced_to(const DriveTrain& train, std::size_t inertia) {
+  DriveTrain to_shaft = train;
+  to_shaft.reference_shaft = train.inertias.at(inertia).shaft;
+  const auto reduced = torsion::reduce(to_shaft);
+  const auto [frequency_rad_s, torque_Nm] = harmonic_torques(train);
+  const Index n = reduced.ratio.size();
+  if (reduced.n_nodes() != n || reduced.held)
+    throw std::invalid_argument(
+        "the published tables hold a free chain without rigid elements; take them out");
+  Chain chain{reduced.inertia, reduced.stiffness, torque_Nm,
+              frequency_rad_s / two_pi / std::abs(reduced.ratio[0])};
+  for (Index e = 0; e < reduced.n_edges(); ++e) {
+    const TrainElement& element = train.elements[e];
+    if (reduced.edges[e].first != e || reduced.edges[e].second != e + 1)
+      throw std::invalid_argument(
+          "element " + element.name +
+          ": the published tables hold a chain; let each element join an inertia with the next");
+    if (element.kind != ElementKind::shaft) chain.stiffness[e] = *element.stiffness_N_m_rad;
+  }
+  return chain;
+}
+
+/// @param sign  of w^2 J in the forced system, and of a: -1 as Table 7, +1 the slip of Table 4
+PublishedTable solve(const Chain& chain, double sign) {
+  const Index n = chain.inertia.size();
+  MatrixXd K = MatrixXd::Zero(n, n);
+  for (Index e = 0; e + 1 < n; ++e)
+    K.block<2, 2>(e, e) += chain.stiffness[e] * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+  const MatrixXd J = chain.inertia.matrix().asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(K, J);
+  PublishedTable table;
+  table.frequency_rad_s = modes.eigenvalues().tail(n - 1).reverse().array().sqrt();
+  table.mode = modes.eigenvectors().rightCols(n - 1).rowwise().reverse().colwise().normalized().array();
+  const MatrixXd dynamic = K + sign * chain.frequency * chain.frequency * J;
+  table.forced_angle_rad = -sign * dynamic.fullPivLu().solve(chain.torque.matrix()).array();
+  return table;
+}
+
+}  // namespace
+
+PublishedTable published_table_4(const DriveTrain& train) {
+  return solve(reduced_to(train, 0), 1);
+}
+
+PublishedTable published_table_7(const DriveTrain& train) {
+  Chain chain = reduced_to(train, train.inertias.size() - 1);
+  chain.inertia = chain.inertia.reverse().eval();
+  chain.stiffness = chain.stiffness.reverse().eval();
+  chain.torque = -chain.torque.reverse().eval();
+  return solve(chain, -1);
+}
+
+}  // namespace kinetics

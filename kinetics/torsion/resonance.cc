@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "kinetics/torsion/forced.h"
+#include "kinetics/wrong_input.h"
+
+namespace kinetics {
+namespace torsion {
+namespace {
+
+constexpr double two_pi = 2 * 3.14159265358979323846;
+
+std::string both_units(double frequency_rad_s) {
+  return number(frequency_rad_s) + " rad/s (" + number(frequency_rad_s / two_pi) + " Hz)";
+}
+
+/// Column of the natural frequency nearest to w, on a scale of ratios.
+Index nearest_mode(const Eigen::ArrayXd& frequency_rad_s, double w) {
+  Index nearest = 0;
+  (frequency_rad_s / w).log().abs().minCoeff(&nearest);
+  return nearest;
+}
+
+}  // namespace
+
+double damping_ratio(const PreparedTrain& prepared, Index mode) {
+  const double local =
+      prepared.reduced.damped() ? mode_damping(prepared.reduced, prepared.spectrum, mode) : 0;
+  return local + prepared.train.modal_damping_ratio;
+}
+
+std::vector<std::string> resonance_warnings(const PreparedTrain& prepared,
+                                            const std::vector<TorqueLine>& lines) {
+  std::vector<std::string> warnings;
+  if (prepared.reduced.n_edges() == 0) return warnings;
+  const Index shift = prepared.reduced.held ? 0 : 1;
+  for (const TorqueLine& line : lines) {
+    const Index k = nearest_mode(prepared.spectrum.frequency_rad_s, line.frequency_rad_s);
+    const double w_k = prepared.spectrum.frequency_rad_s[k], r = line.frequency_rad_s / w_k;
+    if (std::abs(r - 1) > 0.1 || line.amplitude_Nm == 0.0) continue;
+    const double zeta = damping_ratio(prepared, k);
+    if (std::abs(r - 1) <= 1e-12 && zeta < 1e-14)
+      throw std::invalid_argument(
+          "excitation " + line.excitation + " at " + both_units(line.frequency_rad_s) +
+          ": meets the natural frequency " + both_units(w_k) + " of mode " + std::to_string(k + shift) +
+          ", which nothing damps; there is no steady state: give damping, or change the "
+          "frequency");
+    const double amplification = 1 / std::hypot((1 - r) * (1 + r), 2 * zeta * r);
+    warnings.push_back("excitation " + line.excitation + " at " + both_units(line.frequency_rad_s) + " is " +
+                       number(100 * std::abs(r - 1)) + " % from the natural frequency " + both_units(w_k) +
+                       " of mode " + std::to_string(k + shift) + ": it is amplified up to " +
+                       number(std::round(100 * amplification) / 100) + " times");
+  }
+  return warnings;
+}
+
+}  // namespace torsion
+
+std::vector<ResonanceMargin> resonance_margins(const DriveTrain& train) {
+  const torsion::ReducedTrain reduced = torsion::reduce(train);
+  const Eigen::ArrayXd natural = torsion::spectrum(reduced, false).frequency_rad_s;
+  std::vector<ResonanceMargin> margins;
+  if (natural.size() == 0) return margins;
+  for (const auto& line : torsion::spectral(train, reduced).lines) {
+    const Eigen::Index k = torsion::nearest_mode(natural, line.frequency_rad_s);
+    const double margin = line.frequency_rad_s / natural[k] - 1;
+    margins.push_back({{line.excitation, line.order, line.frequency_rad_s},
+                       k + (reduced.held ? 0 : 1),
+                       natural[k],
+                       margin,
+                       1 / std::abs(margin * (2 + margin))});
+  }
+  std::stable_sort(margins.begin(), margins.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a.margin) < std::abs(b.margin); });
+  return margins;
+}
+
+}  // namespace kinetics

@@ -1,0 +1,117 @@
+// Trains whose answers are known in closed form; tolerances are round-off of a few operations per mass.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "trains.h"
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+}  // namespace
+
+TEST(TrainClosedForms, two_masses) {
+  const double J1 = 0.02, J2 = 3, C = 1.7e4;
+  const auto modes = natural_modes(trains::chain({J1, J2}, {C}));
+  ASSERT_EQ(modes.frequency_rad_s.size(), 2);
+  EXPECT_EQ(modes.frequency_rad_s[0], 0);
+  EXPECT_DOUBLE_EQ(modes.frequency_rad_s[1], std::sqrt(C * (1 / J1 + 1 / J2)));
+  EXPECT_NEAR(modes.reduced_shape(0, 1) / modes.reduced_shape(1, 1), -J2 / J1, 1e-12 * J2 / J1);
+  EXPECT_NEAR(modes.kinetic_share(0, 1), J2 / (J1 + J2), 1e-15);
+  EXPECT_NEAR(modes.kinetic_share(0, 0), J1 / (J1 + J2), 1e-15);
+  EXPECT_NEAR(modes.potential_share(0, 1), 1, 1e-15);
+}
+
+TEST(TrainClosedForms, uniform_chain_free_and_held) {
+  const int n = 40;
+  const double J = 0.3, C = 5e3;
+  auto train = trains::chain(std::vector<double>(n, J), std::vector<double>(n - 1, C));
+  const auto free = natural_modes(train);
+  for (int k = 0; k < n; ++k) {
+    const double wanted = 2 * std::sqrt(C / J) * std::sin(k * pi / (2 * n));
+    EXPECT_NEAR(free.frequency_rad_s[k], wanted, 1e-13 * wanted);
+    double scale = 0;
+    for (int i = 0; i < n; ++i) scale += std::pow(std::cos(k * pi * (i + 0.5) / n), 2);
+    const double sign = free.reduced_shape(0, k) > 0 ? 1 : -1;
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(sign * free.reduced_shape(i, k), std::cos(k * pi * (i + 0.5) / n) / std::sqrt(scale),
+                  1e-12);
+  }
+  train.inertias[0].held = true;
+  const auto held = natural_modes(train);
+  ASSERT_EQ(held.frequency_rad_s.size(), n - 1);
+  for (int k = 1; k < n; ++k) {
+    const double wanted = 2 * std::sqrt(C / J) * std::sin((2 * k - 1) * pi / (2 * (2 * n - 1)));
+    EXPECT_NEAR(held.frequency_rad_s[k - 1], wanted, 1e-13 * wanted);
+  }
+  EXPECT_EQ(held.reduced_shape.row(0).abs().maxCoeff(), 0);
+}
+
+// p equal branches on a hub: sqrt(C / J) p - 1 times, and once with the hub against them.
+TEST(TrainClosedForms, star_has_repeated_frequencies) {
+  const int p = 7;
+  const double hub = 0.5, J = 0.02, C = 300;
+  auto train = trains::chain(std::vector<double>(p + 1, J), std::vector<double>(p, C));
+  train.inertias[0].inertia_kg_m2 = hub;
+  for (auto& element : train.elements) element.first = "J0";
+  const auto modes = natural_modes(train);
+  for (int k = 1; k < p; ++k) EXPECT_NEAR(modes.frequency_rad_s[k] / std::sqrt(C / J), 1, 1e-14);
+  EXPECT_NEAR(modes.frequency_rad_s[p] / std::sqrt(C / J + p * C / hub), 1, 1e-14);
+  Eigen::ArrayXd inertia = Eigen::ArrayXd::Constant(p + 1, J);
+  inertia[0] = hub;
+  const Eigen::MatrixXd shape = modes.reduced_shape.matrix();
+  Eigen::MatrixXd gram = shape.transpose() * inertia.matrix().asDiagonal() * shape;
+  const Eigen::VectorXd size = gram.diagonal().cwiseSqrt();
+  gram = size.cwiseInverse().asDiagonal() * gram * size.cwiseInverse().asDiagonal();
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(p + 1, p + 1)).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((modes.kinetic_share.colwise().sum() - 1).abs().maxCoeff(), 1e-13);
+  EXPECT_LT((modes.potential_share.colwise().sum().tail(p) - 1).abs().maxCoeff(), 1e-13);
+}
+
+TEST(TrainClosedForms, hollow_shaft_stiffness_and_stress) {
+  auto train = trains::chain({1, 2}, {1});
+  auto& shaft = train.elements[0];
+  shaft.stiffness_N_m_rad.reset();
+  shaft.shear_modulus_Pa = 80e9;
+  shaft.length_m = 0.5;
+  shaft.diameter_m = 0.04;
+  shaft.bore_m = 0.02;
+  shaft.stress_concentration = 1.6;
+  const double I_p = pi / 32 * (std::pow(0.04, 4) - std::pow(0.02, 4));
+  EXPECT_DOUBLE_EQ(natural_modes(train).frequency_rad_s[1], std::sqrt(80e9 * I_p / 0.5 * 1.5));
+  train.excitations = {trains::harmonic("J0", 3, 50, 0.3)};
+  const auto history = compute_loads(train, {"torque_on_J0"}, {1, 12});
+  const Eigen::ArrayXd wanted = 1.6 * 0.02 / I_p * history.quantity("C0.torque").values;
+  EXPECT_LT((history.quantity("C0.shear_stress").values - wanted).abs().maxCoeff(),
+            1e-12 * wanted.abs().maxCoeff());
+}
+
+// Harmonic of a two-mass train: twist = -(M / J1) / (C (1/J1 + 1/J2) - w^2) seen from the driven mass.
+TEST(TrainClosedForms, forced_two_masses) {
+  const double J1 = 0.02, J2 = 3, C = 1.7e4, w = 600, M = 5;
+  auto train = trains::chain({J1, J2}, {C});
+  train.excitations = {trains::harmonic("J0", M, w, 0.4)};
+  const auto h = forced_response(train).harmonics.at(0);
+  const double torque_Nm = C * M / J1 / (C * (1 / J1 + 1 / J2) - w * w);
+  EXPECT_NEAR(std::abs(h.torque_Nm[0] - std::polar(torque_Nm, 0.4)), 0, 1e-13 * torque_Nm);
+}
+
+// A mean torque on a free train: each section carries the share that accelerates what lies behind it.
+TEST(TrainClosedForms, mean_torque_of_a_free_train) {
+  auto train = trains::chain({1, 2, 3, 4}, {1e3, 1e9, 1e2});
+  kinetics::TrainExcitation drive;
+  drive.name = "drive", drive.inertia = "J0", drive.constant_Nm = 20;
+  train.excitations = {drive};
+  auto response = forced_response(train);
+  EXPECT_DOUBLE_EQ(response.rigid_acceleration_rad_s2, 2);
+  const double torque_Nm[] = {18, 14, 8};
+  for (int e = 0; e < 3; ++e) EXPECT_NEAR(response.mean_torque_Nm[e], torque_Nm[e], 1e-14);
+  EXPECT_NEAR(response.mean_angle_rad[1] - response.mean_angle_rad[2], 14e-9, 1e-16);
+  ASSERT_EQ(response.warnings.size(), 1u);
+  train.inertias[3].damping_N_m_s = 5;
+  response = forced_response(train);
+  EXPECT_EQ(response.rigid_acceleration_rad_s2, 0);
+  EXPECT_DOUBLE_EQ(response.speed_offset_rad_s, 4);
+  for (int e = 0; e < 3; ++e) EXPECT_NEAR(response.mean_torque_Nm[e], 20, 1e-14);
+}

@@ -1,0 +1,174 @@
+// Loads of a train: what each effect brings, and what is left when it is off.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "trains.h"
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+double largest(const Eigen::ArrayXXd& values) {
+  return values.abs().maxCoeff();
+}
+
+/// MOK-150 with every kind of excitation and damping.
+kinetics::DriveTrain full() {
+  auto train = trains::mok150("working");
+  train.modal_damping_ratio = 0.01;
+  train.elements[1].damping_N_m_s = 0.5;
+  train.elements[1].loss_factor = 0.05;
+  train.inertias[3].damping_N_m_s = 0.02;
+  kinetics::TrainExcitation roots;
+  roots.name = "roots", roots.inertia = "disc";
+  roots.constant_Nm = -2;
+  roots.table.torque_Nm = {0, -1, -4, -1, 0.5, 0};
+  roots.table.order = 1;
+  roots.table.order_of = "working";
+  train.excitations.push_back(roots);
+  return train;
+}
+
+std::vector<std::string> all_effects(const kinetics::DriveTrain& train) {
+  std::vector<std::string> names;
+  for (const auto& info : drive_train_effects(train)) names.push_back(info.name);
+  return names;
+}
+
+}  // namespace
+
+TEST(TrainEffects, are_the_excitations_and_the_damping_that_there_is) {
+  const std::vector<std::string> wanted{"torque_on_rotor", "torque_on_disc",  "roots",
+                                        "inertia_damping", "element_damping", "structural_damping",
+                                        "modal_damping"};
+  EXPECT_EQ(all_effects(full()), wanted);
+  EXPECT_EQ(all_effects(trains::mok150("motor")).size(), 2u);
+}
+
+TEST(TrainEffects, contributions_add_up_and_every_inertia_is_in_balance) {
+  const auto train = full();
+  const auto history = compute_loads(train, all_effects(train), {8, 60});
+  EXPECT_LT(largest(history.quantity("closure").values), 1e-12);
+  for (const auto& resultant : history.resultants) {
+    Eigen::Array3Xd sum = Eigen::Array3Xd::Zero(3, history.n_instants());
+    for (const auto& part : resultant.contributions) sum += part.load;
+    EXPECT_LT(largest(sum - resultant.total), 1e-13 * largest(resultant.total)) << resultant.role;
+    EXPECT_EQ(largest(resultant.total.topRows(2)), 0);
+  }
+  // T_34 - T_45 - D_4 phi_4' = J_4 phi_4''
+  const auto on = [&](const char* role) -> Eigen::ArrayXd {
+    return history.resultant(role).total.row(2).transpose();
+  };
+  const Eigen::ArrayXd sum = on("upper_half_on_working_shaft") + on("lower_half_on_working_shaft") +
+                             on("damping_on_working_shaft") -
+                             7.05e-5 * history.quantity("working_shaft.acceleration").values;
+  EXPECT_LT(largest(sum), 1e-12 * largest(on("upper_half_on_working_shaft")));
+  EXPECT_LT(largest(on("upper_half_on_working_shaft") - history.quantity("upper_half.torque").values), 1e-12);
+  EXPECT_LT(largest(history.quantity("upper_half.torque").values * 0.375 -
+                    history.quantity("upper_half.reduced_torque").values),
+            1e-12);
+  EXPECT_LT(largest(on("belt_on_driven_pulley") * 0.375 + on("belt_on_driving_pulley")), 1e-12);
+}
+
+// One excitation alone brings what it contributes among all; damping that is off is not there.
+TEST(TrainEffects, are_independent) {
+  const auto train = full();
+  const auto names = all_effects(train);
+  const auto all = compute_loads(train, names, {8, 60});
+  auto without = names;
+  without.erase(without.begin(), without.begin() + 2);
+  const auto alone = compute_loads(train, without, {8, 60});
+  const auto& contribution = all.resultant("belt_on_driven_pulley").contributions.at(2);
+  EXPECT_EQ(contribution.effect, "roots");
+  EXPECT_LT(largest(contribution.load - alone.resultant("belt_on_driven_pulley").total), 1e-12);
+  auto undamped = train;
+  undamped.modal_damping_ratio = 0;
+  const auto off = compute_loads(train, {names.begin(), names.end() - 1}, {8, 60});
+  const auto gone = compute_loads(undamped, all_effects(undamped), {8, 60});
+  EXPECT_EQ(largest(off.quantity("belt.torque").values - gone.quantity("belt.torque").values), 0);
+  EXPECT_GT(largest(off.quantity("belt.torque").values - all.quantity("belt.torque").values), 1e-3);
+  EXPECT_TRUE(compute_loads(train, {}, {1, 12}).resultant("belt_on_driven_pulley").contributions.empty());
+}
+
+// Both ways of solving, modal coordinates and dynamic stiffnesses: a loss factor in every element is, mode by
+// mode, a damping ratio of loss w_k / (2 w); for one frequency and one elastic mode they agree exactly.
+TEST(TrainEffects, modal_damping_is_what_its_name_says) {
+  auto train = trains::chain({1, 3}, {400});
+  const double w = 31, w_k = natural_modes(train).frequency_rad_s[1];
+  train.excitations = {trains::harmonic("J0", 2, w)};
+  auto modal = train, structural = train;
+  modal.modal_damping_ratio = 0.04;
+  structural.elements[0].loss_factor = 2 * 0.04 * w / w_k;
+  const auto a = forced_response(modal).harmonics[0], b = forced_response(structural).harmonics[0];
+  EXPECT_LT((a.angle_rad - b.angle_rad).abs().maxCoeff(), 1e-14 * b.angle_rad.abs().maxCoeff());
+  EXPECT_LT(std::abs(a.torque_Nm[0] - b.torque_Nm[0]), 1e-14 * std::abs(b.torque_Nm[0]));
+  // A ratio that rounds away leaves the undamped response, of all modes.
+  auto mok = trains::mok150("working");
+  const auto without = forced_response(mok).harmonics[0];
+  mok.modal_damping_ratio = 1e-18;
+  const auto with = forced_response(mok).harmonics[0];
+  EXPECT_LT((with.torque_Nm - without.torque_Nm).abs().maxCoeff(),
+            1e-10 * without.torque_Nm.abs().maxCoeff());
+}
+
+TEST(TrainEffects, tables_pass_through_their_entries) {
+  for (const int n : {1, 2, 5, 8}) {
+    auto train = trains::chain({1, 2}, {1e6});
+    kinetics::TrainExcitation x;
+    x.name = "table", x.inertia = "J0";
+    for (int j = 0; j < n; ++j) x.table.torque_Nm.push_back(3 + std::sin(j * j));
+    x.table.order = 1;
+    train.excitations = {x};
+    const auto history = compute_loads(train, {"table"}, {1, 40});
+    const auto row = history.resultant("excitation_on_J0").total.row(2);
+    for (int j = 0; j < n; ++j) EXPECT_NEAR(row[j * 40 / n], x.table.torque_Nm[j], 1e-13) << n << ' ' << j;
+  }
+}
+
+// A rigid gear is the limit of a stiff one.
+TEST(TrainEffects, rigid_gear_is_the_limit_of_stiff_gears) {
+  auto train = trains::mok150("working");
+  auto& gear = train.elements[1];
+  gear.kind = kinetics::ElementKind::gear;
+  gear.ratio = -0.375;
+  gear.stiffness_N_m_rad = 1e13;
+  const auto stiff = compute_loads(train, {"torque_on_rotor", "torque_on_disc"}, {1, 30});
+  gear.stiffness_N_m_rad.reset();
+  gear.rigid = true;
+  const auto rigid = compute_loads(train, {"torque_on_rotor", "torque_on_disc"}, {1, 30});
+  for (const char* name : {"motor_shaft.torque", "belt.torque", "belt.reduced_torque", "lower_half.torque"}) {
+    const auto& wanted = stiff.quantity(name).values;
+    EXPECT_LT(largest(rigid.quantity(name).values - wanted), 1e-7 * largest(wanted)) << name;
+  }
+  EXPECT_LT(largest(rigid.quantity("closure").values), 1e-12);
+  EXPECT_EQ(natural_modes(train).frequency_rad_s.size(), 4);
+}
+
+// Held end inside a rigid pair, and a rigid pair beyond it: the reaction belongs to the held inertia alone.
+TEST(TrainEffects, held_end_takes_the_torque) {
+  auto train = trains::chain({1, 2, 3}, {1, 500});
+  train.elements[0].stiffness_N_m_rad.reset();
+  train.elements[0].rigid = true;
+  train.inertias[1].held = true;
+  train.excitations = {trains::harmonic("J2", 4, 5)};
+  train.excitations[0].constant_Nm = 7;
+  const auto response = forced_response(train);
+  EXPECT_EQ(response.rigid_acceleration_rad_s2, 0);
+  EXPECT_NEAR(response.mean_torque_Nm[1], -7, 1e-14);
+  EXPECT_EQ(response.mean_torque_Nm[0], 0) << "nothing acts on J0";
+  EXPECT_NEAR(response.mean_angle_rad[2], 7.0 / 500, 1e-16);
+  EXPECT_NEAR(response.harmonics[0].angle_rad[2].real(), 4 / (500 - 3 * 25.0), 1e-16);
+}
+
+TEST(TrainEffects, windows_and_samplings_that_mislead_are_said) {
+  auto train = trains::mok150("working");
+  const auto says = [&](const kinetics::TimeGrid& grid, const std::string& part) {
+    for (const auto& warning : compute_loads(train, {"torque_on_rotor"}, grid).warnings)
+      if (warning.find(part) != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_TRUE(says({1, 30}, "the vibration repeats after 0.02 s"));
+  EXPECT_FALSE(says({34, 30}, "repeats"));  // 34 turns at 1360 rpm are 75 mains periods
+  EXPECT_TRUE(says({34, 6}, "instants per period"));
+}
