@@ -104,29 +104,29 @@ void book_joints(const VibratoryMill& mill, Books& books) {
 }  // namespace
 
 LoadHistory empty_history(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
-                          const TimeGrid& grid) {
+                          const ArrayXd& time_s, const Instants& motion) {
   LoadHistory history;
   history.machine = "vibratory_mill";
   history.convention = mill.convention == Convention::published ? "published" : "consistent";
   for (const NamedEffect& effect : effects) history.effects.push_back(effect.name);
-  const Instants all = steady_instants(mill, grid, 0, Index(grid.turns) * grid.instants_per_turn);
-  history.time_s = (all.phi_rad - mill.initial_angle_rad) / mill.speed_rad_s;
-  history.phi_rad = all.phi_rad;
-  history.speed_rad_s = all.speed_rad_s;
-  history.acceleration_rad_s2 = all.acceleration_rad_s2;
+  history.time_s = time_s;
+  history.phi_rad = motion.phi_rad;
+  history.speed_rad_s = motion.speed_rad_s;
+  history.acceleration_rad_s2 = motion.acceleration_rad_s2;
   return history;
 }
 
-LoadHistory balance(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
-                    const TimeGrid& grid) {
-  LoadHistory history = empty_history(mill, effects, grid);
-  const PitchMotion pitch_motion = contains(effects, "pitch") ? solve_pitch(mill, effects) : PitchMotion{};
-  const Index n_instants = history.n_instants();
+ArrayXd times_s(const VibratoryMill& mill, const Instants& steady) {
+  return (steady.phi_rad - mill.initial_angle_rad) / mill.speed_rad_s;
+}
+
+void balance_over(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Instants& motion,
+                  LoadHistory& history) {
+  const Index n_instants = motion.size();
   Books books(n_instants);
   open_roles(books, mill);
   for (Index first = 0; first < n_instants; first += block_size) {
-    Instants at = steady_instants(mill, grid, first, std::min(block_size, n_instants - first));
-    pitch_motion.apply(at);
+    const Instants at = part_of(motion, first, std::min(block_size, n_instants - first));
     for (const NamedEffect& effect : effects)
       for (const PlacedForce& placed : effect.evaluate(at)) {
         if (placed.place == Place::debalance)
@@ -135,10 +135,17 @@ LoadHistory balance(const VibratoryMill& mill, const std::vector<NamedEffect>& e
           book_on_chamber(mill, effect.name, placed, at, first, books);
       }
   }
-  books.motion = steady_instants(mill, grid, 0, n_instants);
-  pitch_motion.apply(books.motion);
+  books.motion = motion;
   book_joints(mill, books);
   write_results(mill, effects, books, history);
+}
+
+LoadHistory balance(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
+                    const TimeGrid& grid) {
+  Instants motion = steady_instants(mill, grid, 0, Index(grid.turns) * grid.instants_per_turn);
+  if (contains(effects, "pitch")) solve_pitch(mill, effects).apply(motion);
+  LoadHistory history = empty_history(mill, effects, times_s(mill, motion), motion);
+  balance_over(mill, effects, motion, history);
   return history;
 }
 

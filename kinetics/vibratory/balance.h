@@ -19,8 +19,16 @@ namespace kinetics::vibratory {
 /// contains `pitch`, once more on the (phi, chi) torus.
 LoadHistory balance(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const TimeGrid& grid);
 
-/// A history with its instants and nothing else.
+/// The same over any motion, pitch included: fills resultants, quantities and warnings of a history that has
+/// its instants. Each effect is evaluated once per block of instants.
+void balance_over(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Instants& motion,
+                  LoadHistory& history);
+
+/// A history with the instants of a motion and nothing else.
 LoadHistory empty_history(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
-                          const TimeGrid& grid);
+                          const Eigen::ArrayXd& time_s, const Instants& motion);
+
+/// Times of the grid's instants in steady running [s].
+Eigen::ArrayXd times_s(const VibratoryMill& mill, const Instants& steady);
 
 }  // namespace kinetics::vibratory

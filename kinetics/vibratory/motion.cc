@@ -7,6 +7,12 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
+/// chi when the drive has turned by an angle since its start.
+Eigen::ArrayXd charge_direction_rad(const VibratoryMill& mill, const Eigen::ArrayXd& turned_rad) {
+  const double start_rad = mill.initial_angle_rad + pi - mill.charge_initial_angle_rad;
+  return start_rad + charge_speed_ratio(mill) * turned_rad;
+}
+
 }  // namespace
 
 double charge_speed_ratio(const VibratoryMill& mill) {
@@ -25,9 +31,35 @@ Instants steady_instants(const VibratoryMill& mill, const TimeGrid& grid, Eigen:
                          Eigen::Index count) {
   const Eigen::ArrayXd steps = Eigen::ArrayXd::LinSpaced(count, double(first), double(first + count - 1));
   const Eigen::ArrayXd turned_rad = steps * (2 * pi / grid.instants_per_turn);
-  const double chi_start_rad = mill.initial_angle_rad + pi - mill.charge_initial_angle_rad;
-  return steady_at(mill, mill.initial_angle_rad + turned_rad,
-                   chi_start_rad + charge_speed_ratio(mill) * turned_rad);
+  return steady_at(mill, mill.initial_angle_rad + turned_rad, charge_direction_rad(mill, turned_rad));
+}
+
+Instants driven_at(const VibratoryMill& mill, const Eigen::ArrayXd& phi_rad,
+                   const Eigen::ArrayXd& speed_rad_s, const Eigen::ArrayXd& acceleration_rad_s2) {
+  const double relative = mill.charge_relative_speed_rad_s / mill.speed_rad_s;
+  const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(phi_rad.size());
+  return {phi_rad,
+          charge_direction_rad(mill, phi_rad - mill.initial_angle_rad),
+          speed_rad_s,
+          acceleration_rad_s2,
+          relative * speed_rad_s,
+          relative * acceleration_rad_s2,
+          zero,
+          zero,
+          zero};
+}
+
+Instants part_of(const Instants& all, Eigen::Index first, Eigen::Index count) {
+  const auto part = [&](const Eigen::ArrayXd& values) { return values.segment(first, count); };
+  return {part(all.phi_rad),
+          part(all.chi_rad),
+          part(all.speed_rad_s),
+          part(all.acceleration_rad_s2),
+          part(all.relative_speed_rad_s),
+          part(all.relative_acceleration_rad_s2),
+          part(all.theta_rad),
+          part(all.theta_rad_s),
+          part(all.theta_rad_s2)};
 }
 
 Eigen::Array2Xd direction(const Eigen::ArrayXd& angle_rad) {

@@ -36,6 +36,14 @@ Instants steady_instants(const VibratoryMill& mill, const TimeGrid& grid, Eigen:
 /// Steady running at given angles, without pitch: phi and chi need not belong to one time.
 Instants steady_at(const VibratoryMill& mill, const Eigen::ArrayXd& phi_rad, const Eigen::ArrayXd& chi_rad);
 
+/// Unsteady running at a given motion of the drive, without pitch. The charge circulates in proportion to the
+/// drive: omega_r / omega_e is that of the mill at all times, and chi follows phi at that ratio.
+Instants driven_at(const VibratoryMill& mill, const Eigen::ArrayXd& phi_rad,
+                   const Eigen::ArrayXd& speed_rad_s, const Eigen::ArrayXd& acceleration_rad_s2);
+
+/// Instants first .. first + count - 1 of a longer block.
+Instants part_of(const Instants& all, Eigen::Index first, Eigen::Index count);
+
 /// e(a) = (cos a, -sin a): the direction at clockwise angle a.
 Eigen::Array2Xd direction(const Eigen::ArrayXd& angle_rad);
 /// n(a) = (-sin a, -cos a): its clockwise tangent, e' = n, n' = -e.

@@ -44,25 +44,18 @@ std::string name_of(int p, int q, double w) {
          " (omega_e + omega_r)|";
 }
 
-struct Oscillator {
-  double inertia_kg_m2 = 0, damping_Nm_s = 0, stiffness_Nm = 0;
-
-  /// Amplitude under a moment that turns at w, a component (p, q).
-  Complex response(Complex moment_Nm, int p, int q, double w, double omega_e) const {
-    if (stiffness_Nm == 0 && std::abs(w) <= 1e-12 * omega_e)
-      refuse("k_theta", stiffness_Nm,
-             "the chamber's moment about the eccentric has a mean of " + number(std::abs(moment_Nm)) +
-                 " N m that nothing resists; switch `springs` on and give them stiffness off the "
-                 "eccentric's axis, or take `pitch` out of the effects");
-    const double inertial = inertia_kg_m2 * w * w;
-    const Complex denominator(stiffness_Nm - inertial, w * damping_Nm_s);
-    if (std::abs(denominator) <= 1e-9 * (std::abs(stiffness_Nm) + inertial))
-      refuse("natural frequency of pitch [rad/s]", std::sqrt(stiffness_Nm / inertia_kg_m2),
-             "is excited exactly and undamped by the moment at " + name_of(p, q, w) +
-                 ": resonance; change the springs or the speed, or give the springs damping");
-    return moment_Nm / denominator;
-  }
-};
+/// Amplitude of theta under a component of the moment.
+Complex response(const PitchOscillator& chamber, const MomentHarmonic& forcing, double omega_e) {
+  const double w = forcing.frequency_rad_s;
+  if (std::abs(w) <= 1e-12 * omega_e) require_support(chamber, std::abs(forcing.moment_Nm));
+  const double inertial = chamber.inertia_kg_m2 * w * w;
+  const Complex denominator(chamber.stiffness_Nm - inertial, w * chamber.damping_Nm_s);
+  if (std::abs(denominator) <= 1e-9 * (std::abs(chamber.stiffness_Nm) + inertial))
+    refuse("natural frequency of pitch [rad/s]", std::sqrt(chamber.stiffness_Nm / chamber.inertia_kg_m2),
+           "is excited exactly and undamped by the moment at " + name_of(forcing.p, forcing.q, w) +
+               ": resonance; change the springs or the speed, or give the springs damping");
+  return forcing.moment_Nm / denominator;
+}
 
 }  // namespace
 
@@ -96,19 +89,30 @@ MomentSum chamber_moment(const VibratoryMill& mill, const std::vector<NamedEffec
   return sum;
 }
 
-PitchMotion solve_pitch(const VibratoryMill& mill, const std::vector<NamedEffect>& effects) {
-  Oscillator chamber;
+void require_support(const PitchOscillator& chamber, double mean_moment_Nm) {
+  if (chamber.stiffness_Nm == 0)
+    refuse("k_theta", chamber.stiffness_Nm,
+           "the chamber's moment about the eccentric has a mean of " + number(mean_moment_Nm) +
+               " N m that nothing resists; switch `springs` on and give them stiffness off the "
+               "eccentric's axis, or take `pitch` out of the effects");
+}
+
+PitchOscillator pitch_oscillator(const VibratoryMill& mill, const std::vector<NamedEffect>& effects) {
+  PitchOscillator chamber;
   chamber.inertia_kg_m2 = mill.pitch_inertia_kg_m2;
   if (contains(effects, "charge_follows_pitch"))
     chamber.inertia_kg_m2 += mill.charge_mass_kg * mill.chamber_centre_m.squaredNorm();
   if (contains(effects, "springs")) chamber.stiffness_Nm = pitch_stiffness_Nm(mill.springs);
   if (contains(effects, "spring_damping")) chamber.damping_Nm_s = pitch_damping_Nm_s(mill.springs);
+  return chamber;
+}
 
+std::vector<MomentHarmonic> moment_harmonics(const VibratoryMill& mill,
+                                             const std::vector<NamedEffect>& effects) {
   const Instants at = torus(mill);  // theta = 0: the pitch effects themselves are silent here
   const MomentSum forcing = chamber_moment(mill, effects, at);
   const double round_off_Nm = 1e-13 * forcing.scale_Nm.maxCoeff();
-
-  PitchMotion motion;
+  std::vector<MomentHarmonic> harmonics;
   for (int p = -highest; p <= highest; ++p)
     for (int q = -highest; q <= highest; ++q) {
       if (!is_kept(p, q)) continue;
@@ -116,8 +120,17 @@ PitchMotion solve_pitch(const VibratoryMill& mill, const std::vector<NamedEffect
       const Complex moment_Nm = (mean ? 1.0 : 2.0) * component(forcing.moment_Nm, at, p, q);
       if (std::abs(moment_Nm) <= round_off_Nm) continue;
       const double w = p * mill.speed_rad_s + q * mill.speed_rad_s * charge_speed_ratio(mill);
-      motion.harmonics.push_back({p, q, w, chamber.response(moment_Nm, p, q, w, mill.speed_rad_s)});
+      harmonics.push_back({p, q, w, moment_Nm});
     }
+  return harmonics;
+}
+
+PitchMotion solve_pitch(const VibratoryMill& mill, const std::vector<NamedEffect>& effects) {
+  const PitchOscillator chamber = pitch_oscillator(mill, effects);
+  PitchMotion motion;
+  for (const MomentHarmonic& forcing : moment_harmonics(mill, effects))
+    motion.harmonics.push_back(
+        {forcing.p, forcing.q, forcing.frequency_rad_s, response(chamber, forcing, mill.speed_rad_s)});
   return motion;
 }
 

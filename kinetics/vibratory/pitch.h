@@ -27,6 +27,27 @@ struct PitchMotion {
   void apply(Instants& at) const;
 };
 
+/// The chamber as an oscillator about E': what resists a small pitch.
+struct PitchOscillator {
+  double inertia_kg_m2 = 0;  ///< I_E, with m |c|^2 if the charge follows
+  double damping_Nm_s = 0;   ///< c_theta
+  double stiffness_Nm = 0;   ///< k_theta
+};
+PitchOscillator pitch_oscillator(const VibratoryMill& mill, const std::vector<NamedEffect>& effects);
+
+/// @throws std::invalid_argument if k_theta is zero: then nothing resists the mean moment
+void require_support(const PitchOscillator& chamber, double mean_moment_Nm);
+
+/// A component of the moment about E' at theta = 0: Re[moment exp(i (p phi + q chi))].
+struct MomentHarmonic {
+  int p = 0, q = 0;
+  double frequency_rad_s = 0;  ///< w, signed
+  std::complex<double> moment_Nm;
+};
+/// Components in steady running that are more than round-off.
+std::vector<MomentHarmonic> moment_harmonics(const VibratoryMill& mill,
+                                             const std::vector<NamedEffect>& effects);
+
 /// Solves the equation of pitch for the moments of `effects`. The inertia is I_E, with m |c|^2 if
 /// charge_follows_pitch is among them; stiffness and damping are those of `springs` and `spring_damping`, as
 /// far as they are. Components of the moment that are zero to round-off are skipped.

@@ -87,10 +87,9 @@ void write_accelerations(const VibratoryMill& mill, const Instants& at, LoadHist
 
 }  // namespace
 
-LoadHistory published_loads(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
-                            const TimeGrid& grid) {
-  LoadHistory history = empty_history(mill, effects, grid);
-  const Index n = history.n_instants();
+void published_over(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Instants& all,
+                    LoadHistory& history) {
+  const Index n = all.size();
   Resultant frame{"frame_bearings",
                   "reaction R_E of the bearing supports on the machine, (42), (43)",
                   Array3Xd::Zero(3, n),
@@ -98,7 +97,7 @@ LoadHistory published_loads(const VibratoryMill& mill, const std::vector<NamedEf
   for (const NamedEffect& effect : effects) {
     Contribution part{effect.name, Array3Xd::Zero(3, n)};
     for (Index first = 0; first < n; first += block_size) {
-      const Instants at = steady_instants(mill, grid, first, std::min(block_size, n - first));
+      const Instants at = part_of(all, first, std::min(block_size, n - first));
       for (const PlacedForce& placed : effect.evaluate(at))
         part.load.topRows<2>().middleCols(first, at.size()) -= placed.force_N;
     }
@@ -112,7 +111,6 @@ LoadHistory published_loads(const VibratoryMill& mill, const std::vector<NamedEf
   q.push_back({"R_E", "N", "reaction of the bearing supports, magnitude, (44)",
                R_N.matrix().colwise().norm().transpose()});
 
-  const Instants all = steady_instants(mill, grid, 0, n);
   if (contains(effects, "springs")) {
     const auto& springs =
         std::find_if(frame.contributions.begin(), frame.contributions.end(), [](const Contribution& c) {
@@ -132,6 +130,13 @@ LoadHistory published_loads(const VibratoryMill& mill, const std::vector<NamedEf
   }
   write_accelerations(mill, all, history);
   history.resultants.push_back(std::move(frame));
+}
+
+LoadHistory published_loads(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
+                            const TimeGrid& grid) {
+  const Instants all = steady_instants(mill, grid, 0, Index(grid.turns) * grid.instants_per_turn);
+  LoadHistory history = empty_history(mill, effects, times_s(mill, all), all);
+  published_over(mill, effects, all, history);
   return history;
 }
 

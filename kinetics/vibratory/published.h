@@ -19,4 +19,8 @@ namespace kinetics::vibratory {
 LoadHistory published_loads(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
                             const TimeGrid& grid);
 
+/// The same at any instants of steady running: fills a history that has its instants.
+void published_over(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Instants& all,
+                    LoadHistory& history);
+
 }  // namespace kinetics::vibratory

@@ -31,7 +31,7 @@ void write_motion(const VibratoryMill& mill, const Instants& at, bool pitching, 
                  mill.structure_mass_kg * mill.structure_centre_m.norm() * at.theta_rad_s.square()});
 }
 
-void write_reactions(const VibratoryMill& mill, const Books& books, LoadHistory& history) {
+void write_reactions(const Books& books, LoadHistory& history) {
   const Array2Xd B = history.resultant("housing_bore").total.topRows<2>();
   const Array2Xd R = history.resultant("frame_bearings").total.topRows<2>();
   const ArrayXd T = -history.resultant("drive").total.row(2).transpose();
@@ -46,7 +46,7 @@ void write_reactions(const VibratoryMill& mill, const Books& books, LoadHistory&
   q.push_back(
       {"R_E", "N", "reaction of the frame's bearings on the shaft, magnitude; replaces (44)", magnitude(R)});
   q.push_back({"T", "N m", "drive torque on the shaft, clockwise positive (the sense of rotation)", T});
-  q.push_back({"drive_power", "W", "T phi'", T * mill.speed_rad_s});
+  q.push_back({"drive_power", "W", "T phi'", T * history.speed_rad_s});
   q.push_back({"couple", "N m", "pitch inertia beyond m1 at l: -(I_E - m1 |l|^2) theta''", books.couple_Nm});
 }
 
@@ -148,7 +148,7 @@ void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& ef
   }
   const bool pitching = contains(effects, "pitch");
   write_motion(mill, books.motion, pitching, history);
-  write_reactions(mill, books, history);
+  write_reactions(books, history);
   write_springs(mill, effects, books, history);
   write_charge(mill, books, history);
   write_closure(books, history);

@@ -1,0 +1,102 @@
+#include "kinetics/bearing_life.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "kinetics/wrong_input.h"
+
+namespace kinetics {
+namespace {
+
+const double pi = std::acos(-1.0);
+
+void require_positive(const std::string& parameter, double value) {
+  require_finite(parameter, value);
+  if (value <= 0) refuse(parameter, value, "must be positive");
+}
+
+void require_not_negative(const std::string& parameter, double value) {
+  require_finite(parameter, value);
+  if (value < 0) refuse(parameter, value, "must not be negative");
+}
+
+void check_law(const WeibullLife& law) {
+  require_not_negative("weibull.guaranteed", law.guaranteed);
+  require_positive("weibull.scale", law.scale);
+  require_positive("weibull.shape", law.shape);
+  require_positive("weibull.life_exponent", law.life_exponent);
+}
+
+}  // namespace
+
+double life_exponent(RollingElement element) {
+  return element == RollingElement::ball ? 3.0 : 10.0 / 3.0;
+}
+
+double equivalent_load_N(const Eigen::ArrayXd& force_N, RollingElement element) {
+  return equivalent_load_N(force_N, Eigen::ArrayXd::Ones(force_N.size()), element);
+}
+
+double equivalent_load_N(const Eigen::ArrayXd& force_N, const Eigen::ArrayXd& revolutions,
+                         RollingElement element) {
+  if (force_N.size() == 0) throw std::invalid_argument("force_N: holds no values; give at least one instant");
+  if (revolutions.size() != force_N.size())
+    refuse("number of revolutions", double(revolutions.size()),
+           "must be one for each of the " + number(double(force_N.size())) + " forces");
+  for (Eigen::Index i = 0; i < force_N.size(); ++i) {
+    require_finite("force_N[" + std::to_string(i) + "]", force_N[i]);
+    require_not_negative("revolutions[" + std::to_string(i) + "]", revolutions[i]);
+  }
+  require_positive("sum of revolutions", revolutions.sum());
+  const double largest_N = force_N.abs().maxCoeff();  // taken out, so that no power overflows
+  if (largest_N == 0) return 0;
+  const double p = life_exponent(element);
+  const double mean = ((force_N / largest_N).abs().pow(p) * revolutions).sum() / revolutions.sum();
+  return largest_N * std::pow(mean, 1 / p);
+}
+
+std::optional<RatingLife> rating_life(double dynamic_rating_N, double equivalent_load_N,
+                                      RollingElement element, double speed_rad_s) {
+  require_positive("dynamic_rating_N", dynamic_rating_N);
+  require_not_negative("equivalent_load_N", equivalent_load_N);
+  require_positive("speed_rad_s", speed_rad_s);
+  if (equivalent_load_N == 0) return std::nullopt;
+  const double L10 = std::pow(dynamic_rating_N / equivalent_load_N, life_exponent(element));
+  const double hours = L10 * 1e6 * 2 * pi / (speed_rad_s * 3600);
+  if (!std::isfinite(L10) || !std::isfinite(hours)) return std::nullopt;
+  return RatingLife{L10, hours};
+}
+
+double required_million_revolutions(double hours, double speed_rad_s) {
+  require_positive("hours", hours);
+  require_positive("speed_rad_s", speed_rad_s);
+  return hours * 3600 * speed_rad_s / (2 * pi) / 1e6;
+}
+
+double required_rating_N(double load_N, double million_revolutions, double reliability,
+                         const WeibullLife& law) {
+  check_law(law);
+  require_not_negative("load_N", load_N);
+  require_positive("million_revolutions", million_revolutions);
+  require_finite("reliability", reliability);
+  if (reliability <= 0 || reliability > 1)
+    refuse("reliability", reliability, "must lie above 0 and not above 1; 0.9 is the catalogues' own");
+  const double reached = law.guaranteed + law.scale * std::pow(-std::log(reliability), 1 / law.shape);
+  if (reached <= 0)
+    refuse("reliability", reliability,
+           "no bearing is certain to last where weibull.guaranteed = 0; ask for less than 1");
+  return load_N * std::pow(million_revolutions / reached, 1 / law.life_exponent);
+}
+
+double reliability(double load_N, double million_revolutions, double rating_N, const WeibullLife& law) {
+  check_law(law);
+  require_not_negative("load_N", load_N);
+  require_positive("million_revolutions", million_revolutions);
+  require_positive("rating_N", rating_N);
+  const double x = million_revolutions * std::pow(load_N / rating_N, law.life_exponent);
+  if (x <= law.guaranteed) return 1;
+  return std::exp(-std::pow((x - law.guaranteed) / law.scale, law.shape));
+}
+
+}  // namespace kinetics

@@ -1,0 +1,129 @@
+#include "kinetics/load_spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "kinetics/wrong_input.h"
+
+namespace kinetics {
+namespace {
+
+LoadCycle cycle_between(double a, double b, double count) {
+  return {std::abs(b - a), a / 2 + b / 2, count};
+}
+
+enum class StartingPoint { counts_half, counts_full };
+
+/// The three-point rule: counts each range, as soon as the next one is as large, and discards its points.
+/// @param start  what a range counts that holds the starting point
+/// @return the points that are left in the end
+std::vector<double> count_ranges(const Eigen::ArrayXd& points, StartingPoint start,
+                                 std::vector<LoadCycle>& cycles) {
+  std::vector<double> open;
+  for (const double point : points) {
+    open.push_back(point);
+    while (open.size() >= 3) {
+      const auto end = open.end();
+      const double a = end[-3], b = end[-2], c = end[-1];
+      if (std::abs(c - b) < std::abs(b - a)) break;
+      const bool half = open.size() == 3 && start == StartingPoint::counts_half;
+      cycles.push_back(cycle_between(a, b, half ? 0.5 : 1));
+      open.erase(end - 3, half ? end - 2 : end - 1);
+    }
+  }
+  return open;
+}
+
+void require_series(const Eigen::ArrayXd& series) {
+  if (series.size() == 0)
+    throw std::invalid_argument("load series: holds no values; give at least one instant");
+  for (Eigen::Index i = 0; i < series.size(); ++i)
+    require_finite("load series[" + std::to_string(i) + "]", series[i]);
+}
+
+}  // namespace
+
+Eigen::ArrayXd turning_points(const Eigen::ArrayXd& series) {
+  require_series(series);
+  std::vector<double> points;
+  for (const double value : series) {
+    const std::size_t n = points.size();
+    if (n > 0 && points[n - 1] == value) continue;
+    const bool goes_on = n > 1 && (points[n - 1] > points[n - 2]) == (value > points[n - 1]);
+    if (goes_on)
+      points.back() = value;
+    else
+      points.push_back(value);
+  }
+  return Eigen::Map<Eigen::ArrayXd>(points.data(), Eigen::Index(points.size()));
+}
+
+std::vector<LoadCycle> rainflow(const Eigen::ArrayXd& series) {
+  std::vector<LoadCycle> cycles;
+  const auto left = count_ranges(turning_points(series), StartingPoint::counts_half, cycles);
+  for (std::size_t i = 1; i < left.size(); ++i) cycles.push_back(cycle_between(left[i - 1], left[i], 0.5));
+  return cycles;
+}
+
+std::vector<LoadCycle> rainflow_repeating(const Eigen::ArrayXd& period) {
+  require_series(period);
+  Eigen::Index top = 0;
+  period.maxCoeff(&top);
+  const Eigen::Index n = period.size();
+  Eigen::ArrayXd from_top(n + 1);
+  from_top << period.tail(n - top), period.head(top), period[top];
+  std::vector<LoadCycle> cycles;
+  count_ranges(turning_points(from_top), StartingPoint::counts_full, cycles);  // closes all: the top is left
+  return cycles;
+}
+
+std::vector<LoadCycle> spectrum(std::vector<LoadCycle> cycles) {
+  std::sort(cycles.begin(), cycles.end(), [](const LoadCycle& a, const LoadCycle& b) {
+    return std::make_tuple(-a.range, a.mean) < std::make_tuple(-b.range, b.mean);
+  });
+  std::vector<LoadCycle> merged;
+  for (const LoadCycle& cycle : cycles)
+    if (!merged.empty() && merged.back().range == cycle.range && merged.back().mean == cycle.mean)
+      merged.back().count += cycle.count;
+    else
+      merged.push_back(cycle);
+  return merged;
+}
+
+std::vector<RangeBin> binned(const std::vector<LoadCycle>& cycles, int n_bins) {
+  if (n_bins < 1) refuse("n_bins", n_bins, "must be at least 1; it is the number of classes of range");
+  if (cycles.empty()) return {};
+  double largest = 0;
+  for (const LoadCycle& cycle : cycles) largest = std::max(largest, cycle.range);
+  std::vector<RangeBin> bins;
+  for (int i = 0; i < n_bins; ++i) bins.push_back({largest * i / n_bins, largest * (i + 1) / n_bins, 0});
+  for (const LoadCycle& cycle : cycles)
+    std::find_if(bins.begin(), bins.end() - 1, [&](const RangeBin& bin) {
+      return cycle.range <= bin.range_to;
+    })->count += cycle.count;
+  return bins;
+}
+
+double equivalent_amplitude(const std::vector<LoadCycle>& cycles, double exponent,
+                            double n_reference_cycles) {
+  require_finite("exponent", exponent);
+  require_finite("n_reference_cycles", n_reference_cycles);
+  if (exponent <= 0) refuse("exponent", exponent, "must be positive: life falls as amplitude^-m rises");
+  if (n_reference_cycles < 0)
+    refuse("n_reference_cycles", n_reference_cycles,
+           "must be positive; leave it at zero for the number of counted cycles");
+  double largest = 0, n = n_reference_cycles;
+  for (const LoadCycle& cycle : cycles) {
+    largest = std::max(largest, cycle.range);
+    if (n_reference_cycles == 0) n += cycle.count;
+  }
+  if (largest == 0) return 0;
+  double damage = 0;  // relative to the largest range, so that no power overflows
+  for (const LoadCycle& cycle : cycles) damage += cycle.count * std::pow(cycle.range / largest, exponent);
+  return largest / 2 * std::pow(damage / n, 1 / exponent);
+}
+
+}  // namespace kinetics

@@ -1,0 +1,213 @@
+#include "kinetics/load_spectrum.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+namespace {
+
+using Eigen::ArrayXd;
+using kinetics::LoadCycle;
+using Counts = std::map<std::pair<double, double>, double>;  // (range, mean) -> count
+
+ArrayXd series(std::initializer_list<double> values) {
+  ArrayXd array(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), array.data());
+  return array;
+}
+
+Counts counts(const std::vector<LoadCycle>& cycles) {
+  Counts sums;
+  for (const auto& cycle : cycles) sums[{cycle.range, cycle.mean}] += cycle.count;
+  return sums;
+}
+
+/// Whole numbers in a narrow band tie often; ties are what countings disagree on first.
+ArrayXd random_series(std::mt19937& generator, int n, int band) {
+  std::uniform_int_distribution<> draw(-band, band);
+  return ArrayXd::NullaryExpr(n, [&] { return double(draw(generator)); });
+}
+
+std::vector<double> peaks_and_valleys(const ArrayXd& values) {
+  std::vector<double> v;
+  for (const double x : values)
+    if (v.empty() || x != v.back()) v.push_back(x);
+  for (std::size_t i = 1; i + 1 < v.size();)
+    if ((v[i] - v[i - 1]) * (v[i + 1] - v[i]) > 0)
+      v.erase(v.begin() + long(i));
+    else
+      ++i;
+  return v;
+}
+
+/// Four-point counting: an inner range no larger than both its neighbours is a cycle, wherever it is found;
+/// every range of the residue counts half. Another algorithm with the same outcome.
+Counts four_points(const ArrayXd& values) {
+  auto v = peaks_and_valleys(values);
+  Counts sums;
+  for (std::size_t i = 0; i + 3 < v.size();) {
+    const double inner = std::abs(v[i + 2] - v[i + 1]);
+    if (inner <= std::abs(v[i + 1] - v[i]) && inner <= std::abs(v[i + 3] - v[i + 2])) {
+      sums[{inner, (v[i + 1] + v[i + 2]) / 2}] += 1;
+      v.erase(v.begin() + long(i) + 1, v.begin() + long(i) + 3);
+      i = 0;
+    } else {
+      ++i;
+    }
+  }
+  for (std::size_t i = 1; i < v.size(); ++i) sums[{std::abs(v[i] - v[i - 1]), (v[i] + v[i - 1]) / 2}] += 0.5;
+  return sums;
+}
+
+/// Repeating history: round the circle, the smallest range of all is a cycle and goes; until nothing is left.
+Counts smallest_first(const ArrayXd& values) {
+  std::vector<double> v(values.begin(), values.end());
+  bool changed = true;
+  while (changed && v.size() > 1) {  // peaks and valleys of the circle
+    changed = false;
+    for (std::size_t i = 0; i < v.size() && v.size() > 1; ++i) {
+      const double before = v[(i + v.size() - 1) % v.size()], after = v[(i + 1) % v.size()];
+      if (v[i] == after || (v[i] - before) * (after - v[i]) > 0) {
+        v.erase(v.begin() + long(i));
+        changed = true;
+        break;
+      }
+    }
+  }
+  Counts sums;
+  while (v.size() > 1) {
+    std::size_t best = 0;
+    const auto range = [&](std::size_t i) { return std::abs(v[(i + 1) % v.size()] - v[i]); };
+    for (std::size_t i = 0; i < v.size(); ++i)
+      if (range(i) < range(best)) best = i;
+    sums[{range(best), (v[best] + v[(best + 1) % v.size()]) / 2}] += 1;
+    const std::size_t next = (best + 1) % v.size();
+    v.erase(v.begin() + long(std::max(best, next)));
+    v.erase(v.begin() + long(std::min(best, next)));
+  }
+  return sums;
+}
+
+}  // namespace
+
+TEST(LoadSpectrum, turning_points) {
+  const auto found = [](std::initializer_list<double> values) {
+    const ArrayXd points = kinetics::turning_points(series(values));
+    return std::vector<double>(points.begin(), points.end());
+  };
+  using V = std::vector<double>;
+  EXPECT_EQ(found({0, 1, 2, 2, 2, 1, 1, 3}), (V{0, 2, 1, 3}));
+  EXPECT_EQ(found({0, 1, 1, 2}), (V{0, 2})) << "a landing on the way up is no turning point";
+  EXPECT_EQ(found({5, 5, 5}), (V{5}));
+  EXPECT_EQ(found({5}), (V{5}));
+  EXPECT_EQ(found({1, 2}), (V{1, 2}));
+}
+
+TEST(LoadSpectrum, agrees_with_another_algorithm) {
+  std::mt19937 generator(7);
+  for (const int band : {2, 5, 1000})
+    for (int n = 1; n < 200; ++n) {
+      const ArrayXd values = random_series(generator, n, band);
+      EXPECT_EQ(counts(kinetics::rainflow(values)), four_points(values)) << "n " << n << ", band " << band;
+      EXPECT_EQ(counts(kinetics::rainflow_repeating(values)), smallest_first(values))
+          << "n " << n << ", band " << band;
+    }
+}
+
+TEST(LoadSpectrum, repeating_history_has_no_direction_and_no_beginning) {
+  std::mt19937 generator(8);
+  for (int n = 2; n < 100; ++n) {
+    const ArrayXd values = random_series(generator, n, 6);
+    const Counts expected = counts(kinetics::rainflow_repeating(values));
+    EXPECT_EQ(counts(kinetics::rainflow_repeating(values.reverse())), expected);
+    ArrayXd shifted(n + 1);  // cut elsewhere, and closed by its own first value
+    shifted << values.tail(n - n / 3), values.head(n / 3), values[n / 3];
+    EXPECT_EQ(counts(kinetics::rainflow_repeating(shifted)), expected);
+    Counts mirrored;
+    for (const auto& [key, count] : counts(kinetics::rainflow_repeating(-values)))
+      mirrored[{key.first, -key.second + 0.0}] += count;
+    EXPECT_EQ(mirrored, expected);
+    Counts scaled;  // by a power of two, which rounds nothing
+    for (const auto& [key, count] : counts(kinetics::rainflow_repeating(4 * values + 8)))
+      scaled[{key.first / 4, (key.second - 8) / 4}] += count;
+    EXPECT_EQ(scaled, expected);
+  }
+}
+
+// Every excursion is closed: twice the sum of the full cycles is the way up and down round the period.
+TEST(LoadSpectrum, repeating_history_counts_the_whole_way) {
+  std::mt19937 generator(9);
+  const ArrayXd values = random_series(generator, 500, 50);
+  double way = std::abs(values[0] - values[499]), counted = 0;
+  for (Eigen::Index i = 1; i < 500; ++i) way += std::abs(values[i] - values[i - 1]);
+  for (const auto& cycle : kinetics::rainflow_repeating(values)) {
+    EXPECT_EQ(cycle.count, 1);
+    counted += 2 * cycle.range;
+  }
+  EXPECT_EQ(counted, way);
+}
+
+TEST(LoadSpectrum, constant_series_has_no_cycles) {
+  const ArrayXd constant = ArrayXd::Constant(50, 3.5);
+  EXPECT_TRUE(kinetics::rainflow(constant).empty());
+  EXPECT_TRUE(kinetics::rainflow_repeating(constant).empty());
+  EXPECT_TRUE(kinetics::binned({}, 4).empty());
+  EXPECT_EQ(kinetics::equivalent_amplitude({}, 3), 0);
+}
+
+TEST(LoadSpectrum, merges_equal_cycles_by_falling_range) {
+  const auto merged = kinetics::spectrum({{2, 0, 0.5}, {4, 1, 1}, {2, 0, 0.5}, {2, -1, 1}});
+  ASSERT_EQ(merged.size(), 3u);
+  EXPECT_EQ(merged[0].range, 4);
+  EXPECT_EQ(merged[1].mean, -1);
+  EXPECT_EQ(merged[2].count, 1);
+}
+
+TEST(LoadSpectrum, every_cycle_falls_in_one_class) {
+  std::mt19937 generator(10);
+  const auto cycles = kinetics::rainflow(random_series(generator, 300, 20));
+  double all = 0;
+  for (const auto& cycle : cycles) all += cycle.count;
+  for (const int n_bins : {1, 7, 40}) {
+    double sum = 0;
+    for (const auto& bin : kinetics::binned(cycles, n_bins)) sum += bin.count;
+    EXPECT_EQ(sum, all);
+  }
+  const auto bins = kinetics::binned({{1, 0, 1}, {2, 0, 0.5}, {4, 0, 1}}, 4);
+  EXPECT_EQ(bins[0].count, 1) << "a range on the border belongs to the lower class";
+  EXPECT_EQ(bins[1].count, 0.5);
+  EXPECT_EQ(bins[2].count, 0);
+  EXPECT_EQ(bins[3].count, 1);
+}
+
+TEST(LoadSpectrum, equivalent_amplitude) {
+  // One size only: its own amplitude, whatever the exponent. Tolerances: a few roundings of pow.
+  EXPECT_NEAR(kinetics::equivalent_amplitude({{6, 1, 2}, {6, -1, 0.5}}, 5), 3, 1e-14);
+  // Half the cycles do nothing: 2^(-1/m) of the rest.
+  EXPECT_NEAR(kinetics::equivalent_amplitude({{6, 0, 1}, {0, 0, 1}}, 3), 3 * std::pow(0.5, 1 / 3.), 1e-14);
+  EXPECT_NEAR(kinetics::equivalent_amplitude({{2, 0, 1}, {4, 0, 1}}, 2), std::sqrt(2.5), 1e-14);
+  EXPECT_NEAR(kinetics::equivalent_amplitude({{2, 0, 8}}, 3, 1), 2, 1e-14) << "8 cycles in one: 8^(1/3)";
+  EXPECT_NEAR(kinetics::equivalent_amplitude({{2e300, 0, 1}}, 15) / 1e300, 1, 1e-14) << "no overflow";
+}
+
+TEST(LoadSpectrum, wrong_input_is_refused) {
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(kinetics::turning_points(ArrayXd()), std::invalid_argument);
+  EXPECT_THROW(kinetics::rainflow_repeating(ArrayXd()), std::invalid_argument);
+  for (const double bad : {not_a_number, std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(kinetics::rainflow(series({1, 2, bad})), std::invalid_argument);
+    EXPECT_THROW(kinetics::rainflow_repeating(series({1, bad, 2})), std::invalid_argument);
+    EXPECT_THROW(kinetics::equivalent_amplitude({{1, 0, 1}}, bad), std::invalid_argument);
+  }
+  EXPECT_THROW(kinetics::equivalent_amplitude({{1, 0, 1}}, 0), std::invalid_argument);
+  EXPECT_THROW(kinetics::equivalent_amplitude({{1, 0, 1}}, 3, -1), std::invalid_argument);
+  EXPECT_THROW(kinetics::binned({{1, 0, 1}}, 0), std::invalid_argument);
+  try {
+    kinetics::rainflow(series({1, not_a_number}));
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("load series[1] = nan"), std::string::npos) << error.what();
+  }
+}
