@@ -22,7 +22,7 @@ double check(const VibratoryMill& mill, const std::vector<std::string>& effects,
              const SpringSearch& search) {
   vibratory::check_effects(mill.convention, effects);
   vibratory::check_parameters(mill, effects);
-  vibratory::check_grid(grid);
+  check_grid(grid);
   if (!vibratory::contains(effects, "springs"))
     throw std::invalid_argument("springs: the effect is off, so there are none to choose; add it");
   if (mill.eccentricity_m == 0)

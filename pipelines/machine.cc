@@ -7,6 +7,12 @@ struct EffectsOf {
   std::vector<kinetics::EffectInfo> operator()(const kinetics::VibratoryMill& mill) const {
     return kinetics::vibratory_mill_effects(mill.convention);
   }
+  std::vector<kinetics::EffectInfo> operator()(const kinetics::PlanetaryMill& mill) const {
+    return kinetics::planetary_mill_effects(mill.convention);
+  }
+  std::vector<kinetics::EffectInfo> operator()(const kinetics::DriveTrain& train) const {
+    return kinetics::drive_train_effects(train);
+  }
   std::vector<kinetics::EffectInfo> operator()(const kinetics::LoadTable& table) const {
     return kinetics::load_table_effects(table);
   }

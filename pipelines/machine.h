@@ -5,14 +5,17 @@
 #include <variant>
 #include <vector>
 
+#include "kinetics/drive_train.h"
 #include "kinetics/effect_info.h"
 #include "kinetics/load_history.h"
 #include "kinetics/load_table.h"
+#include "kinetics/planetary_mill.h"
 #include "kinetics/vibratory_mill.h"
 
 namespace pipelines {
 
-using Machine = std::variant<kinetics::VibratoryMill, kinetics::LoadTable>;
+using Machine =
+    std::variant<kinetics::VibratoryMill, kinetics::PlanetaryMill, kinetics::DriveTrain, kinetics::LoadTable>;
 
 /// The effects that the machine knows under its convention, in the order of summation.
 std::vector<kinetics::EffectInfo> effects_of(const Machine& machine);

@@ -59,6 +59,14 @@ struct MillingSpace {
   double inner_length_m = 0;
 };
 
+/// What `millstress torsion` looks at beside the operating point.
+struct TorsionScene {
+  double slowest_rad_s = 0, fastest_rad_s = 0;  ///< speeds of the reference shaft in the Campbell table
+  int n_speeds = 16;
+  std::vector<double> orders;     ///< of the reference shaft, beside those of the excitations
+  bool published_tables = false;  ///< the paper's own tables, errata included, beside the mechanics
+};
+
 /// A value the user did not give; printed by `check`.
 struct DefaultUsed {
   std::string key, value, reason;
@@ -72,6 +80,7 @@ struct Scene {
   std::vector<std::string> effects;           ///< as named in the scene; each known, none twice
   kinetics::TimeGrid sampling;
   std::optional<ShaftScene> shaft;  ///< empty: the load stage only
+  TorsionScene torsion;             ///< for a drive train
   ZoneRule zones;
   int snapshots = 24;    ///< over the turn that contains the peak; 0: none
   bool pictures = true;  ///< of the envelope, as PNG

@@ -11,8 +11,10 @@
 #include "pipelines/scene_effects.h"
 #include "pipelines/scene_load_table.h"
 #include "pipelines/scene_machine.h"
+#include "pipelines/scene_planetary.h"
 #include "pipelines/scene_shaft.h"
 #include "pipelines/scene_table.h"
+#include "pipelines/scene_train.h"
 #include "pipelines/toml_tree.h"
 #include "pipelines/units.h"
 
@@ -53,7 +55,7 @@ TomlNode parse(const std::filesystem::path& file) {
   return root;
 }
 
-const std::string machine_types = "\"vibratory_mill\", \"load_table\"";
+const std::string machine_types = "\"vibratory_mill\", \"planetary_mill\", \"drive_train\", \"load_table\"";
 
 constexpr int most_turns = 1000;
 
@@ -69,6 +71,10 @@ struct PeriodOf {
       return {false, 0};
     return {true, kinetics::period_in_turns(mill, most_turns).value_or(0)};
   }
+  /// In the carrier's frame every turn; seen from the drum after a few.
+  Period operator()(const kinetics::PlanetaryMill&) const { return {}; }
+  /// Of the reference shaft; excitations that do not fit are warned of by the load stage.
+  Period operator()(const kinetics::DriveTrain&) const { return {}; }
   /// Samples repeat after as many turns as the user says.
   Period operator()(const kinetics::LoadTable&) const { return {}; }
 };
@@ -166,6 +172,20 @@ void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& sce
   scene.machine = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space);
 }
 
+void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
+  const auto convention = read_planetary_convention(machine);
+  scene.effects = read_effects(root, plain_rules(kinetics::planetary_mill_effects(convention)), findings);
+  scene.machine = read_planetary_mill(machine, convention, scene.effects);
+}
+
+void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
+  auto train = read_drive_train(machine, scene.torsion);
+  root.know("effects");
+  if (findings.errors.empty())
+    scene.effects = read_effects(root, plain_rules(kinetics::drive_train_effects(train)), findings);
+  scene.machine = std::move(train);
+}
+
 void read_load_table_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   auto table = read_load_table(machine, scene.file.parent_path(), findings);
   root.know("effects");
@@ -196,6 +216,10 @@ Scene read_scene(const std::filesystem::path& file) {
   const std::string type = machine.has("type") ? machine.text("type") : "";
   if (type == "vibratory_mill")
     read_vibratory_mill_scene(root, machine, scene, findings);
+  else if (type == "planetary_mill")
+    read_planetary_mill_scene(root, machine, scene, findings);
+  else if (type == "drive_train")
+    read_drive_train_scene(root, machine, scene, findings);
   else if (type == "load_table")
     read_load_table_scene(root, machine, scene, findings);
   else {

@@ -134,6 +134,15 @@ std::vector<double> SceneTable::quantities(const std::string& name, const std::s
   return values;
 }
 
+std::vector<double> SceneTable::list(const std::string& name, const std::string& si_unit,
+                                     const Range& range) {
+  const TomlEntry* const entry = require(name, "is missing; add an array of quantities");
+  if (entry == nullptr) return {};
+  const bool is_list = entry->value.kind == TomlNode::Kind::array && !entry->value.items.empty();
+  if (!is_list) refuse_node(entry->value, name, "is no array with at least one quantity; write [..., ...]");
+  return is_list ? quantities(name, si_unit, range, entry->value.items.size()) : std::vector<double>{};
+}
+
 double SceneTable::ratio(const std::string& name) {
   const std::string wanted = "a number, or a fraction such as \"-1/20\"";
   const TomlEntry* const entry = require(name, "is missing; add " + wanted);

@@ -37,6 +37,8 @@ public:
   double quantity(const std::string& name, const std::string& si_unit, const Range& range);
   std::vector<double> quantities(const std::string& name, const std::string& si_unit, const Range& range,
                                  std::size_t count);
+  /// As many as are written, at least one.
+  std::vector<double> list(const std::string& name, const std::string& si_unit, const Range& range);
   std::string text(const std::string& name, const std::string& remedy = "is missing; add it");
   std::vector<TextAt> texts(const std::string& name);
   SceneTable table(const std::string& name);

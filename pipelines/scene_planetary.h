@@ -1,0 +1,18 @@
+/// The tables [machine...] of a scene: a planetary mill with a belt drive.
+#pragma once
+
+#include "kinetics/planetary_mill.h"
+#include "pipelines/scene_table.h"
+
+namespace pipelines {
+
+/// Reads `convention`.
+kinetics::PlanetaryConvention read_planetary_convention(SceneTable& machine);
+
+/// Reads the rest of the table and closes it.
+/// @param effects  those that are on; they decide what is needed
+/// @return values in SI; NaN where one could not be read, with an error in the findings
+kinetics::PlanetaryMill read_planetary_mill(SceneTable& machine, kinetics::PlanetaryConvention convention,
+                                            const std::vector<std::string>& effects);
+
+}  // namespace pipelines

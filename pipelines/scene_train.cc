@@ -1,0 +1,162 @@
+#include "pipelines/scene_train.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace pipelines {
+namespace {
+
+using kinetics::DriveTrain;
+using kinetics::ElementKind;
+
+constexpr double most_stiffness_N_m_rad = 1e15;
+
+std::optional<double> optional_quantity(SceneTable& table, const std::string& name, const std::string& unit,
+                                        const Range& range) {
+  table.know(name);
+  if (!table.has(name)) return std::nullopt;
+  return table.quantity(name, unit, range);
+}
+
+/// A value that is zero, silently, where the scene does not give it.
+double quantity_if_given(SceneTable& table, const std::string& name, const std::string& unit,
+                         const Range& range, double otherwise = 0) {
+  return optional_quantity(table, name, unit, range).value_or(otherwise);
+}
+
+std::string text_if_given(SceneTable& table, const std::string& name) {
+  table.know(name);
+  return table.has(name) ? table.text(name) : "";
+}
+
+bool flag_if_given(SceneTable& table, const std::string& name) {
+  table.know(name);
+  return table.has(name) && table.flag_or(name, false, "");
+}
+
+kinetics::TrainInertia read_inertia(SceneTable& table) {
+  kinetics::TrainInertia inertia;
+  inertia.name = table.text("name");
+  inertia.shaft = table.text("shaft");
+  inertia.inertia_kg_m2 = table.quantity("inertia", "kg m2", positive(1e12));
+  inertia.damping_N_m_s = quantity_if_given(table, "damping", "N m s/rad", not_negative(1e12));
+  inertia.held = flag_if_given(table, "held");
+  table.finish();
+  return inertia;
+}
+
+kinetics::TrainElement read_element(SceneTable& table) {
+  kinetics::TrainElement element;
+  element.name = table.text("name");
+  const std::string kind = table.text("kind");
+  if (kind == "belt")
+    element.kind = ElementKind::belt;
+  else if (kind == "gear")
+    element.kind = ElementKind::gear;
+  else if (!kind.empty() && kind != "shaft")
+    table.refuse("kind", "unknown element; write \"shaft\", \"belt\" or \"gear\"");
+  const auto between_names = table.texts("between");
+  if (table.has("between") && between_names.size() != 2)
+    table.refuse("between", "joins " + std::to_string(between_names.size()) +
+                                " inertias; name two, the driving one first");
+  if (between_names.size() == 2) {
+    element.first = between_names[0].text;
+    element.second = between_names[1].text;
+  }
+  table.know("ratio");
+  if (kind != "shaft" || table.has("ratio")) element.ratio = table.ratio("ratio");
+  element.rigid = flag_if_given(table, "rigid");
+  element.stiffness_N_m_rad =
+      optional_quantity(table, "stiffness", "N m/rad", positive(most_stiffness_N_m_rad));
+  element.stiffness_on = text_if_given(table, "stiffness_on");
+  element.damping_N_m_s = quantity_if_given(table, "damping", "N m s/rad", not_negative(1e12));
+  element.loss_factor = quantity_if_given(table, "loss_factor", "1", not_negative(10));
+  element.shear_modulus_Pa = quantity_if_given(table, "shear_modulus", "Pa", positive(1e13));
+  element.length_m = quantity_if_given(table, "length", "m", positive(1e4));
+  element.diameter_m = quantity_if_given(table, "diameter", "m", positive(100));
+  element.bore_m = quantity_if_given(table, "bore", "m", not_negative(100));
+  element.stress_concentration = quantity_if_given(table, "stress_concentration", "1", between(1, 100), 1);
+  table.finish();
+  return element;
+}
+
+/// "frequency" or "order" with "order_of".
+template <typename Course>
+void read_rate(SceneTable& table, Course& course) {
+  course.frequency_rad_s = optional_quantity(table, "frequency", "rad/s", positive(1e9));
+  course.order = optional_quantity(table, "order", "1", positive(1e6));
+  course.order_of = text_if_given(table, "order_of");
+  if (course.frequency_rad_s && course.order)
+    table.refuse("order", "says the same as frequency; keep one of the two");
+  else if (!course.frequency_rad_s && !course.order)
+    table.refuse_missing(
+        "frequency",
+        "is missing, and so is order; add one of them: a frequency (\"50 Hz\"), or periods per "
+        "turn of a shaft");
+}
+
+kinetics::TrainExcitation read_excitation(SceneTable& table) {
+  kinetics::TrainExcitation excitation;
+  excitation.name = table.text("name");
+  excitation.inertia = table.text("inertia");
+  excitation.constant_Nm = quantity_if_given(table, "constant", "N m", {});
+  table.know("harmonics");
+  if (table.has("harmonics"))
+    for (SceneTable& entry : table.tables("harmonics")) {
+      kinetics::TorqueHarmonic harmonic;
+      harmonic.amplitude_Nm = entry.quantity("amplitude", "N m", {});
+      harmonic.phase_rad = quantity_if_given(entry, "phase", "rad", {});
+      read_rate(entry, harmonic);
+      entry.finish();
+      excitation.harmonics.push_back(harmonic);
+    }
+  table.know("table");
+  if (table.has("table")) {
+    SceneTable entry = table.table("table");
+    excitation.table.torque_Nm = entry.list("torques", "N m", {});
+    read_rate(entry, excitation.table);
+    entry.finish();
+  }
+  table.finish();
+  return excitation;
+}
+
+void read_campbell(SceneTable campbell, double speed_rad_s, TorsionScene& torsion) {
+  torsion.slowest_rad_s = campbell.quantity_or("slowest", "rad/s", not_negative(1e6), 0, "from standstill");
+  torsion.fastest_rad_s = campbell.quantity_or("fastest", "rad/s", positive(1e6), 1.5 * speed_rad_s,
+                                               "half as fast again as the operating speed");
+  torsion.n_speeds = campbell.count_or("speeds", 2, 10'000, 16, "rows of the table");
+  campbell.know("orders");
+  if (campbell.has("orders")) torsion.orders = campbell.list("orders", "1", positive(1e6));
+  if (torsion.fastest_rad_s <= torsion.slowest_rad_s)
+    campbell.refuse("fastest", "must exceed the slowest speed; raise it");
+  campbell.finish();
+}
+
+}  // namespace
+
+kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion) {
+  DriveTrain train;
+  const std::string convention = machine.text_or(
+      "convention", "consistent", "mechanics that closes; \"published\" adds the paper's own tables");
+  torsion.published_tables = convention == "published";
+  if (!convention.empty() && convention != "consistent" && convention != "published")
+    machine.refuse(
+        "convention",
+        "unknown convention; write \"consistent\" (mechanics that closes) or \"published\" (the same, "
+        "and the paper's Tables 4 and 7 to the letter beside it)");
+  SceneTable reference = machine.table("reference");
+  train.reference_shaft = reference.text("shaft");
+  train.reference_speed_rad_s = reference.quantity("speed", "rad/s", positive(1e6));
+  reference.finish();
+  train.modal_damping_ratio = quantity_if_given(machine, "modal_damping", "1", between(0, 0.999));
+  for (SceneTable& table : machine.tables("inertias")) train.inertias.push_back(read_inertia(table));
+  for (SceneTable& table : machine.tables("elements")) train.elements.push_back(read_element(table));
+  for (SceneTable& table : machine.tables("excitations")) train.excitations.push_back(read_excitation(table));
+  read_campbell(machine.table_or_empty("campbell"), train.reference_speed_rad_s, torsion);
+  machine.finish();
+  return train;
+}
+
+}  // namespace pipelines
