@@ -130,9 +130,9 @@ const std::vector<EffectInfo>& planetary_mill_effects(PlanetaryConvention conven
 /// how much.
 ///
 /// Quantities: X_A, Y_A, R_A, M_A, psi, drum_speed, drum_relative_speed, carrier_power, gravity_power,
-/// closure_force and closure_moment (relative, the worse of A and O; true lines of action, the strands at
-/// their tangent points); with `belt` T1, T2, belt_difference, belt_power; without it drive_couple; with the
-/// charge charge_power. Under `consistent` with all effects on, carrier_power + gravity_power = belt_power =
+/// closure_force and closure_moment (relative, the moment about A; true lines of action, the strands at their
+/// tangent points); with `belt` T1, T2, belt_difference, belt_power; without it drive_couple; with the charge
+/// charge_power. Under `consistent` with all effects on, carrier_power + gravity_power = belt_power =
 /// charge_power at every instant.
 /// @param effects  names in any order; they are summed in the order of planetary_mill_effects. All but `belt`
 ///                 are independent of each other; the belt balances the M_A of those that are on

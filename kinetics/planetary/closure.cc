@@ -10,18 +10,16 @@ using Eigen::Array2Xd;
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-/// Sums about one point, with the sums of magnitudes.
+/// Sums of forces and of moments about A, with the sums of magnitudes.
 class Sums {
 public:
-  Sums(const Array2d& about_m, Index n)
-      : about_m_(about_m),
-        force_N_(Array2Xd::Zero(2, n)),
+  explicit Sums(Index n)
+      : force_N_(Array2Xd::Zero(2, n)),
         force_scale_N_(ArrayXd::Zero(n)),
         moment_Nm_(ArrayXd::Zero(n)),
         moment_scale_Nm_(ArrayXd::Zero(n)) {}
 
-  void add(const Array2d& at_m, const Array2Xd& force_N) {
-    const Array2d arm_m = at_m - about_m_;
+  void add(const Array2d& arm_m, const Array2Xd& force_N) {
     force_N_ += force_N;
     force_scale_N_ += force_N.matrix().colwise().norm().transpose().array();
     const ArrayXd first = arm_m.x() * force_N.row(1).transpose();
@@ -40,10 +38,7 @@ public:
 
 private:
   /// a / b, zero where b is.
-  static ArrayXd relative(const ArrayXd& a, const ArrayXd& b) {
-    return (b > 0).select(a / b.max(1e-300), 0.0);
-  }
-  Array2d about_m_;
+  static ArrayXd relative(const ArrayXd& a, const ArrayXd& b) { return (b == 0).select(0.0, a / b); }
   Array2Xd force_N_;
   ArrayXd force_scale_N_, moment_Nm_, moment_scale_Nm_;
 };
@@ -59,9 +54,10 @@ void add_belt(const Machine& machine, const Tensions& belt, Sums& sums) {
   sums.add({r_m * s, r_m * cosine}, along({-cosine, s}, belt.T2_N));
 }
 
-Sums sums_about(const Array2d& about_m, const Machine& machine, const LoadHistory& history,
-                const Tensions* belt) {
-  Sums sums(about_m, history.n_instants());
+}  // namespace
+
+Closure closure(const Machine& machine, const LoadHistory& history, const Tensions* belt) {
+  Sums sums(history.n_instants());
   const double alpha = machine.mill.charge.segment_angle_rad;
   const Array2d axis_m = Array2d::Zero();
   const Array2d centroid_m = machine.charge.centroid_m * Array2d(std::sin(alpha), -std::cos(alpha));
@@ -75,15 +71,7 @@ Sums sums_about(const Array2d& about_m, const Machine& machine, const LoadHistor
       sums.add_couple(resultant.total.row(2).transpose());
     }
   if (belt) add_belt(machine, *belt, sums);
-  return sums;
-}
-
-}  // namespace
-
-Closure closure(const Machine& machine, const LoadHistory& history, const Tensions* belt) {
-  const Sums about_A = sums_about({0, 0}, machine, history, belt);
-  const Sums about_O = sums_about({-machine.geometry.carrier_m, 0}, machine, history, belt);
-  return {about_A.force(), about_A.moment().max(about_O.moment())};
+  return {sums.force(), sums.moment()};
 }
 
 }  // namespace kinetics::planetary

@@ -10,7 +10,7 @@ namespace kinetics::planetary {
 
 struct Closure {
   Eigen::ArrayXd force;   ///< |sum of forces| / sum of |forces|
-  Eigen::ArrayXd moment;  ///< |sum of moments| / sum of |parts|, the worse of those about A and about O
+  Eigen::ArrayXd moment;  ///< |sum of moments about A| / sum of |parts|
 };
 
 /// The charge acts at its centroid, the strands at their tangent points, the trunnions at A; without a belt

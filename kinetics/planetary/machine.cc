@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "kinetics/planetary/segment.h"
@@ -20,10 +19,10 @@ void require_positive(const std::string& parameter, double value) {
 
 /// @param difference_m  r_O - r_A, given apart because it is exact only before rounding r_O
 void add_belt(double difference_m, PlanetaryGeometry& g) {
-  constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
+  constexpr double touching = 1e-12;  // pulleys that touch from within by design are not refused for rounding
   g.belt_sine = difference_m / g.carrier_m;
   const double excess = std::abs(g.belt_sine) - 1;
-  if (std::abs(excess) <= roundings) g.belt_sine = std::copysign(1, g.belt_sine);  // pulleys just touch
+  if (excess > 0 && excess <= touching) g.belt_sine = std::copysign(1, g.belt_sine);
   g.belt_cosine = std::sqrt(std::max(0.0, (1 - g.belt_sine) * (1 + g.belt_sine)));
   g.wrap_rad = pi - 2 * std::asin(std::min(1.0, std::abs(g.belt_sine)));
 }

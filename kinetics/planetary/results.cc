@@ -107,8 +107,7 @@ void write_results(const Machine& machine, const ArrayXd& moment_Nm, LoadHistory
   write_power(machine, moment_Nm, belt_on, history);
   const Closure closed = closure(machine, history, belt ? &*belt : nullptr);
   q.push_back({"closure_force", "1", "|sum of forces on the drum| / sum of |forces|", closed.force});
-  q.push_back({"closure_moment", "1",
-               "|sum of moments on the drum| / sum of |parts of moments|, the worse of A and O",
+  q.push_back({"closure_moment", "1", "|sum of moments about A on the drum| / sum of |parts of moments|",
                closed.moment});
   if (belt)
     for (const std::string& warning : belt_warnings(machine, *belt)) history.warnings.push_back(warning);

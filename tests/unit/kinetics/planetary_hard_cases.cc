@@ -153,6 +153,12 @@ TEST(PlanetaryHardCases, pulleys_that_just_touch) {
     EXPECT_LE(planetary_geometry(mill).belt_cosine, c < 1 ? 0.0 : 1.0) << c;
     expect_finite(all_effects(mill));
   }
+  // 0.4 - 0.3 is 0.1 and a rounding.
+  auto mill = machines::printed_planetary();
+  mill.convention = PlanetaryConvention::as_plotted;
+  mill.geometry = kinetics::PlanetaryLengths{0.1, 0.4, 0.3};
+  EXPECT_EQ(planetary_geometry(mill).belt_sine, 1);
+  expect_finite(all_effects(mill));
 }
 
 // Both descriptions of one machine give one result.

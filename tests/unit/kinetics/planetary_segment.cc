@@ -109,6 +109,9 @@ TEST(PlanetarySegment, limits) {
   EXPECT_EQ(empty.half_angle_rad, 0);
   EXPECT_EQ(empty.sine, 0);
   EXPECT_EQ(centroid_distance(empty), 1);
+  const Segment trace = kinetics::planetary::segment_of_half_angle(1e-120);  // its area underflows
+  EXPECT_EQ(trace.filling, 0);
+  EXPECT_EQ(centroid_distance(trace), 1);
   const Segment full = kinetics::planetary::segment_of_filling(1);
   EXPECT_EQ(full.filling, 1);
   EXPECT_EQ(full.sine, 0);

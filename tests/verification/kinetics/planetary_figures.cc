@@ -34,6 +34,22 @@ double degrees(double angle_rad) {
 
 }  // namespace
 
+// The other tests go past the question whether the machine can be built. A user cannot: same loads, with
+// warnings.
+TEST(PlanetaryFigures, the_public_way_gives_the_same_and_warns) {
+  auto mill = at_abscissa(set_A(), "fig8", 0.2);
+  mill.belt_beyond_geometry = true;
+  std::vector<std::string> names;
+  for (const auto& info : kinetics::planetary_mill_effects(mill.convention)) names.push_back(info.name);
+  const auto loads = kinetics::compute_loads(mill, names, {1, 36});
+  EXPECT_TRUE(
+      (loads.quantity("R_A").values == planetary_sets::loads_of(mill, 36).quantity("R_A").values).all());
+  for (const auto& quantity : loads.quantities) EXPECT_TRUE(quantity.values.allFinite()) << quantity.name;
+  ASSERT_GE(loads.warnings.size(), 2u);
+  EXPECT_NE(loads.warnings[0].find("no belt exists"), std::string::npos) << loads.warnings[0];
+  EXPECT_NE(loads.warnings[1].find("pulleys overlap"), std::string::npos) << loads.warnings[1];
+}
+
 TEST(PlanetaryFigures, figure_3_range_and_maximum) {
   const auto h = ellipse(set_A());
   EXPECT_NEAR(h.R_min_N, 73e3, 0.5e3);  // printed 73 and 82 kN, read off a plot
