@@ -14,6 +14,7 @@
 #include "pipelines/scene.h"
 #include "pipelines/shaft_analysis.h"
 #include "pipelines/summary.h"
+#include "pipelines/torsion_report.h"
 #include "pipelines/units.h"
 
 namespace pipelines {
@@ -112,6 +113,16 @@ void effects_command(const CommandOptions& options, std::ostream& out) {
     out << effects_json(scene, worth);
   else
     print_effects(out, scene, worth);
+}
+
+void torsion_command(const CommandOptions& options, std::ostream& out) {
+  const Scene scene = read_scene(options.scene);
+  const TorsionReport torsion = report_torsion(scene);
+  if (!options.output.empty()) write_torsion_files(options.output, scene, torsion);
+  if (options.json)
+    out << torsion_json(scene, torsion);
+  else
+    print_torsion(out, scene, torsion);
 }
 
 void check_command(const CommandOptions& options, std::ostream& out) {

@@ -31,6 +31,10 @@ void loads_command(const CommandOptions& options, std::ostream& out);
 /// `millstress effects`: what each effect of the scene is worth in the loads, and what it costs.
 void effects_command(const CommandOptions& options, std::ostream& out);
 
+/// `millstress torsion`: a drive train's natural frequencies, forced response and resonances. -o: a directory
+/// of CSV files.
+void torsion_command(const CommandOptions& options, std::ostream& out);
+
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.
 void check_command(const CommandOptions& options, std::ostream& out);

@@ -67,6 +67,10 @@ int main(int argc, char** argv) {
   effects->add_option("--threshold", options.threshold,
                       "what may change when effects are left out (default: \"1 %\")");
   effects->add_flag("--json", options.json, "print JSON instead of the table");
+  auto* torsion = add("torsion", "natural frequencies, forced response and resonances of a drive train");
+  torsion->add_option("-o,--output", options.output,
+                      "write modes, response, Campbell table to this directory");
+  torsion->add_flag("--json", options.json, "print JSON instead of the tables");
   auto* check =
       add("check",
           "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing");
@@ -87,6 +91,8 @@ int main(int argc, char** argv) {
       pipelines::loads_command(options, std::cout);
     } else if (effects->parsed()) {
       pipelines::effects_command(options, std::cout);
+    } else if (torsion->parsed()) {
+      pipelines::torsion_command(options, std::cout);
     } else if (check->parsed()) {
       pipelines::check_command(options, std::cout);
     }

@@ -1,0 +1,42 @@
+#include "pipelines/torsion_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace pipelines {
+
+TorsionReport report_torsion(const Scene& scene) {
+  const auto* train = std::get_if<kinetics::DriveTrain>(&scene.machine);
+  if (!train)
+    throw std::invalid_argument(scene.file.string() +
+                                ": torsion needs a scene whose machine.type is \"drive_train\"; see "
+                                "pipelines/scenes/drive_train.toml");
+  kinetics::DriveTrain on = *train;
+  const auto is_off = [&](const auto& excitation) { return !scene.has_effect(excitation.name); };
+  on.excitations.erase(std::remove_if(on.excitations.begin(), on.excitations.end(), is_off),
+                       on.excitations.end());
+  TorsionReport report;
+  report.modes = kinetics::natural_modes(on);
+  report.forced = kinetics::forced_response(on);
+  report.margins = kinetics::resonance_margins(on);
+  report.campbell = kinetics::campbell_table(on, scene.torsion.slowest_rad_s, scene.torsion.fastest_rad_s,
+                                             scene.torsion.n_speeds, scene.torsion.orders);
+  const auto history = compute_loads(scene.machine, scene.effects, scene.sampling);
+  for (std::size_t e = 0; e < on.elements.size(); ++e) {
+    const auto& name = on.elements[e].name;
+    const auto largest = [&](const std::string& quantity) {
+      return history.quantity(name + quantity).values.abs().maxCoeff();
+    };
+    report.torques.push_back({name, report.forced.mean_torque_Nm[Eigen::Index(e)], largest(".torque"),
+                              largest(".reduced_torque"),
+                              on.elements[e].diameter_m > 0 ? largest(".shear_stress") : 0});
+  }
+  if (scene.torsion.published_tables) {
+    report.table_4 = kinetics::published_table_4(on);
+    report.table_7 = kinetics::published_table_7(on);
+  }
+  return report;
+}
+
+}  // namespace pipelines
