@@ -77,7 +77,7 @@ void check_element(const DriveTrain& train, const TrainElement& e) {
   e.kind == ElementKind::shaft ? check_shaft_data(e) : check_transmission(train, e);
 }
 
-/// A frequency, or an order of a shaft line; `n` counts which of both are given.
+/// A frequency, or an order of a shaft line: exactly one of both.
 void check_rhythm(const DriveTrain& train, const std::string& name,
                   const std::optional<double>& frequency_rad_s, const std::optional<double>& order,
                   const std::string& order_of) {

@@ -1,6 +1,8 @@
 #include "kinetics/torsion/spectrum.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "kinetics/torsion/bidiagonal.h"
@@ -73,12 +75,18 @@ Spectrum spectrum(const ReducedTrain& reduced, bool with_vectors) {
 
 double mode_damping(const ReducedTrain& reduced, const Spectrum& spectrum, Index mode) {
   const double w = spectrum.frequency_rad_s[mode];
+  const auto together = [&](Index k) { return std::abs(spectrum.frequency_rad_s[k] / w - 1) <= 1e-9; };
+  Index first = mode, last = mode;
+  while (first > 0 && together(first - 1)) --first;
+  while (last + 1 < reduced.n_edges() && together(last + 1)) ++last;
   Eigen::ArrayXd drag = reduced.damping / reduced.inertia;
   if (reduced.held) drag[*reduced.held] = 0;
-  const Eigen::ArrayXd node = spectrum.node_vectors.col(mode).array().square();
-  const Eigen::ArrayXd edge = spectrum.edge_vectors.col(mode).array().square();
   const Eigen::ArrayXd loss = reduced.loss_factor + reduced.edge_damping * w / reduced.stiffness;
-  return ((drag * node).sum() / w + (loss * edge).sum()) / 2;
+  const auto node = spectrum.node_vectors.middleCols(first, last - first + 1);
+  const auto edge = spectrum.edge_vectors.middleCols(first, last - first + 1);
+  const Eigen::MatrixXd form = node.transpose() * (drag / (2 * w)).matrix().asDiagonal() * node +
+                               edge.transpose() * (loss / 2).matrix().asDiagonal() * edge;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(form, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 }  // namespace kinetics::torsion

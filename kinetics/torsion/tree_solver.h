@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinetics/torsion/reduced.h"
 
@@ -52,12 +53,18 @@ public:
       const Scalar Z = edge_[step.edge], G = seen_[step.child];
       const Scalar above = s.angle[step.parent], m = carried[step.child];
       s.torque[step.edge] = step.sense * passed_[step.edge] * (G * above - m);
-      s.angle[step.child] = (Z * above + m) / (Z + G);
+      s.angle[step.child] = (Z * above + m) / pivot(Z, G);
     }
     return s;
   }
 
 private:
+  /// Z + G, moved by the last digit where it vanishes: a subtree that stands still at its own resonance.
+  static Scalar pivot(Scalar Z, Scalar G) {
+    const Scalar sum = Z + G;
+    return sum == Scalar(0) ? Z * std::numeric_limits<double>::epsilon() : sum;
+  }
+
   void root_at(const ReducedTrain& reduced, Index root) {
     root_ = root;
     steps_ = walk(reduced.n_nodes(), reduced.edges, root);
@@ -67,7 +74,7 @@ private:
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
       const Scalar Z = edge_[step->edge], G = seen_[step->child];
       worst_pivot_ = std::min(worst_pivot_, double(std::abs(Z + G) / (std::abs(Z) + std::abs(G))));
-      passed_[step->edge] = Z / (Z + G);
+      passed_[step->edge] = Z / pivot(Z, G);
       seen_[step->parent] += passed_[step->edge] * G;
     }
   }

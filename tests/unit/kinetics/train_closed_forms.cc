@@ -108,10 +108,37 @@ TEST(TrainClosedForms, mean_torque_of_a_free_train) {
   const double torque_Nm[] = {18, 14, 8};
   for (int e = 0; e < 3; ++e) EXPECT_NEAR(response.mean_torque_Nm[e], torque_Nm[e], 1e-14);
   EXPECT_NEAR(response.mean_angle_rad[1] - response.mean_angle_rad[2], 14e-9, 1e-16);
+  EXPECT_NEAR((response.mean_angle_rad * Eigen::Array4d(1, 2, 3, 4)).sum(), 0, 1e-15)
+      << "about the weighted mean";
   ASSERT_EQ(response.warnings.size(), 1u);
   train.inertias[3].damping_N_m_s = 5;
   response = forced_response(train);
   EXPECT_EQ(response.rigid_acceleration_rad_s2, 0);
   EXPECT_DOUBLE_EQ(response.speed_offset_rad_s, 4);
   for (int e = 0; e < 3; ++e) EXPECT_NEAR(response.mean_torque_Nm[e], 20, 1e-14);
+}
+
+// Frahm's absorber, tuned exactly: the driven mass stands still, wherever it is listed. The tree is then
+// solved from a root from which a subtree is at its own resonance; several at once leave no other root.
+TEST(TrainClosedForms, tuned_absorber) {
+  auto train = trains::chain({3, 4}, {400});
+  for (const char* driven : {"J0", "J1"}) {
+    const bool first = driven[1] == '0';
+    const double w = std::sqrt(400.0 / (first ? 4 : 3)), M = 5;
+    train.excitations = {trains::harmonic(driven, M, w)};
+    const auto h = forced_response(train).harmonics.at(0);
+    EXPECT_NEAR(std::abs(h.angle_rad[first ? 0 : 1]), 0, 1e-15);
+    EXPECT_NEAR(h.angle_rad[first ? 1 : 0].real(), -M / 400, 1e-15);
+    EXPECT_NEAR(h.torque_Nm[0].real(), first ? M : -M, 1e-14);
+  }
+}
+
+// A chain whose ends both are tuned to the excitation: every root has an end behind it that is at resonance.
+TEST(TrainClosedForms, absorbers_at_both_ends) {
+  auto train = trains::chain({4, 3, 2, 1}, {400, 70, 100});
+  train.excitations = {trains::harmonic("J1", 5, 10)};
+  const auto h = forced_response(train).harmonics.at(0);
+  // Both inner masses stand still, J0 takes the torque of the excitation, J3 none.
+  EXPECT_NEAR(h.angle_rad[0].real(), -5.0 / 400, 1e-14);
+  for (const int i : {1, 2, 3}) EXPECT_NEAR(std::abs(h.angle_rad[i]), 0, 1e-14) << i;
 }

@@ -153,9 +153,8 @@ TEST(TrainRandom, excitation_work_is_dissipated) {
       for (std::size_t e = 0; e < train.elements.size(); ++e) {
         const auto& element = train.elements[e];
         if (element.rigid) continue;
-        std::size_t second = 0, first = 0;
+        std::size_t second = 0;
         for (std::size_t i = 0; i < train.inertias.size(); ++i) {
-          if (train.inertias[i].name == element.first) first = i;
           if (train.inertias[i].name == element.second) second = i;
         }
         const bool on_second = element.kind != kinetics::ElementKind::shaft &&
@@ -166,7 +165,6 @@ TEST(TrainRandom, excitation_work_is_dissipated) {
             *element.stiffness_N_m_rad * element.loss_factor + w * element.damping_N_m_s);
         const auto twist = h.torque_Nm[e] / (to_first * Z);
         out_W += 0.5 * w * to_first * Z.imag() * std::norm(twist);
-        (void)first;
       }
       worst = std::max(worst, std::abs(in_W - out_W) / std::max(size_W, out_W));
       least_dissipated = std::min(least_dissipated, out_W / size_W);

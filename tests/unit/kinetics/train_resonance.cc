@@ -73,6 +73,19 @@ TEST(TrainResonance, damper_at_a_node_of_the_mode_does_not_help) {
   EXPECT_NE(refusal(train).find("nothing damps"), std::string::npos) << refusal(train);
 }
 
+// Three equal branches, one damped: at their common frequency the other two swing against each other for
+// ever.
+TEST(TrainResonance, repeated_frequency_needs_damping_in_every_combination) {
+  auto train = trains::chain({1, 2, 2, 2}, {200, 200, 200});
+  for (auto& element : train.elements) element.first = "J0";
+  train.inertias[1].damping_N_m_s = 1;
+  train.excitations = {trains::harmonic("J2", 1, 10)};
+  EXPECT_NE(refusal(train).find("nothing damps"), std::string::npos) << refusal(train);
+  train.inertias[2].damping_N_m_s = 1;
+  EXPECT_EQ(refusal(train), "accepted");
+  EXPECT_TRUE(forced_response(train).harmonics.at(0).angle_rad.isFinite().all());
+}
+
 TEST(TrainResonance, margins_and_campbell_name_order_and_mode) {
   auto train = trains::mok150("working");
   train.excitations = {trains::harmonic("rotor", 1, 2 * std::acos(-1.0) * 100)};
