@@ -152,11 +152,15 @@ RunUp ramp(double from_rad_s, double to_rad_s, double duration_s, double hold_s)
   return run;
 }
 
-LoadHistory compute_run_up(const VibratoryMill& mill, const std::vector<std::string>& effects,
-                           const RunUp& run) {
+void check_run_up(const VibratoryMill& mill, const std::vector<std::string>& effects, const RunUp& run) {
   vibratory::check_effects(mill.convention, effects);
   vibratory::check_parameters(mill, effects);
   check_run(mill, run);
+}
+
+LoadHistory compute_run_up(const VibratoryMill& mill, const std::vector<std::string>& effects,
+                           const RunUp& run) {
+  check_run_up(mill, effects, run);
   const auto made = vibratory::make_effects(mill, effects);
   const Course course = follow(mill, made, run);
   LoadHistory history = vibratory::empty_history(mill, made, course.time_s, course.motion);

@@ -49,4 +49,8 @@ RunUp ramp(double from_rad_s, double to_rad_s, double duration_s, double hold_s 
 LoadHistory compute_run_up(const VibratoryMill& mill, const std::vector<std::string>& effects,
                            const RunUp& run);
 
+/// Refuses what compute_run_up would refuse before it integrates.
+/// @throws std::invalid_argument as compute_run_up does for effects, parameters and the run's table
+void check_run_up(const VibratoryMill& mill, const std::vector<std::string>& effects, const RunUp& run);
+
 }  // namespace kinetics

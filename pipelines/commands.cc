@@ -9,6 +9,8 @@
 #include "pipelines/calculix_cards.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/load_files.h"
+#include "pipelines/load_statistics.h"
+#include "pipelines/mill_reports.h"
 #include "pipelines/picture.h"
 #include "pipelines/results.h"
 #include "pipelines/scene.h"
@@ -21,6 +23,8 @@ namespace pipelines {
 namespace {
 
 kinetics::LoadHistory load_stage(const Scene& scene) {
+  if (scene.run_up)
+    return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
   return compute_loads(scene.machine, scene.kinetics_effects(), scene.sampling);
 }
 
@@ -69,8 +73,9 @@ void run_command(const CommandOptions& options, std::ostream& out) {
   auto loads = clock.run("loads", [&] { return load_stage(scene); });
   std::filesystem::create_directories(directory);
   if (!scene.shaft) {
+    const auto lives = bearing_lives(scene.bearings, loads, nullptr);
     clock.run("write", [&] { write_load_results(directory, loads, nullptr); });
-    const RunReport content{scene, loads, nullptr, clock.costs()};
+    const RunReport content{scene, loads, nullptr, clock.costs(), lives};
     write_text_file(directory / "summary.json", summary_json(content));
     report(out, options, content);
     return;
@@ -79,12 +84,13 @@ void run_command(const CommandOptions& options, std::ostream& out) {
   const auto analysis =
       analyse_shaft(scene, loads, {directory / "shaft", options.n_threads, options.fresh}, clock);
   add_shaft_quantities(loads, analysis.loads);
+  const auto lives = bearing_lives(scene.bearings, loads, &analysis.loads.history);
   clock.run("write", [&] {
     write_load_results(directory, loads, &analysis.loads.history);
     write_shaft_results(directory / "shaft", scene, loads, analysis);
   });
   if (scene.pictures) clock.run("pictures", [&] { draw(directory / "shaft", scene.title); });
-  const RunReport content{scene, loads, &analysis, clock.costs()};
+  const RunReport content{scene, loads, &analysis, clock.costs(), lives};
   write_text_file(directory / "summary.json", summary_json(content));
   report(out, options, content);
   if (!options.json) out << "\n  results in " << directory.string() << '\n';
@@ -94,10 +100,14 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   StageClock clock(progress_on_stderr(options.verbosity));
   const auto loads = clock.run("loads", [&] { return load_stage(scene); });
+  const auto lives = bearing_lives(scene.bearings, loads, nullptr);
   if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, loads); });
   if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, loads); });
+  if (!options.statistics.empty())
+    clock.run("write",
+              [&] { write_statistics(options.statistics, loads, scene.run_up ? 0 : scene.sampling.turns); });
   if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, loads); });
-  report(out, options, {scene, loads, nullptr, clock.costs()});
+  report(out, options, {scene, loads, nullptr, clock.costs(), lives});
 }
 
 void effects_command(const CommandOptions& options, std::ostream& out) {
@@ -123,6 +133,14 @@ void torsion_command(const CommandOptions& options, std::ostream& out) {
     out << torsion_json(scene, torsion);
   else
     print_torsion(out, scene, torsion);
+}
+
+void springs_command(const CommandOptions& options, std::ostream& out) {
+  print_spring_choice(out, read_scene(options.scene), options.json);
+}
+
+void extremes_command(const CommandOptions& options, std::ostream& out) {
+  print_torus_extremes(out, read_scene(options.scene), options.json);
 }
 
 void check_command(const CommandOptions& options, std::ostream& out) {

@@ -14,9 +14,10 @@ struct CommandOptions {
   std::filesystem::path
       output;                 ///< run: directory; loads: .h5 file; empty: the default (run) or none (loads)
   std::filesystem::path csv;  ///< loads only; empty: none
-  std::filesystem::path calculix;  ///< loads only: prefix of the files of cards; empty: none
-  std::string threshold = "1 %";   ///< effects only: what may change when effects are left out
-  int n_threads = 0;               ///< 0: all cores
+  std::filesystem::path calculix;    ///< loads only: prefix of the files of cards; empty: none
+  std::filesystem::path statistics;  ///< loads only: directory of statistics; empty: none
+  std::string threshold = "1 %";     ///< effects only: what may change when effects are left out
+  int n_threads = 0;                 ///< 0: all cores
   bool fresh = false;
   bool json = false;  ///< the summary as JSON instead of the table
   Verbosity verbosity = Verbosity::normal;
@@ -34,6 +35,12 @@ void effects_command(const CommandOptions& options, std::ostream& out);
 /// `millstress torsion`: a drive train's natural frequencies, forced response and resonances. -o: a directory
 /// of CSV files.
 void torsion_command(const CommandOptions& options, std::ostream& out);
+
+/// `millstress springs`: the stiffness that loads a vibratory mill's bearings least.
+void springs_command(const CommandOptions& options, std::ostream& out);
+
+/// `millstress extremes`: a vibratory mill's loads over all angles of drive and charge.
+void extremes_command(const CommandOptions& options, std::ostream& out);
 
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.

@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
   auto* loads = add("loads", "the load stage alone");
   loads->add_option("-o,--output", options.output, "write the load history to this HDF5 file");
   loads->add_option("--csv", options.csv, "write the load history to this CSV file");
+  loads->add_option("--statistics", options.statistics,
+                    "write extremes, harmonics, polar plots and load spectra to this directory");
   loads->add_option("--calculix", options.calculix,
                     "write PREFIX_amplitudes.inp and PREFIX_loads.inp for CalculiX");
   loads->add_flag("--json", options.json, "print the summary as JSON instead of the table");
@@ -71,6 +73,10 @@ int main(int argc, char** argv) {
   torsion->add_option("-o,--output", options.output,
                       "write modes, response, Campbell table to this directory");
   torsion->add_flag("--json", options.json, "print JSON instead of the tables");
+  auto* springs = add("springs", "the stiffness that loads a vibratory mill's bearings least");
+  springs->add_flag("--json", options.json, "print JSON instead of the table");
+  auto* extremes = add("extremes", "a vibratory mill's loads over all angles of drive and charge");
+  extremes->add_flag("--json", options.json, "print JSON instead of the table");
   auto* check =
       add("check",
           "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing");
@@ -93,6 +99,10 @@ int main(int argc, char** argv) {
       pipelines::effects_command(options, std::cout);
     } else if (torsion->parsed()) {
       pipelines::torsion_command(options, std::cout);
+    } else if (springs->parsed()) {
+      pipelines::springs_command(options, std::cout);
+    } else if (extremes->parsed()) {
+      pipelines::extremes_command(options, std::cout);
     } else if (check->parsed()) {
       pipelines::check_command(options, std::cout);
     }

@@ -92,6 +92,17 @@ void print_shaft(std::ostream& out, const RunReport& report, const ShaftAnalysis
                        seat.max_slope_rad * 1e3);
 }
 
+void print_bearings(std::ostream& out, const RunReport& report) {
+  if (report.bearings.empty()) return;
+  out << fmt::format("\n  {:<28}{:>18}{:>14}{:>14}{:>12}\n", "bearing", "equivalent load N", "largest N",
+                     "revolutions", "L10h hours");
+  for (const auto& b : report.bearings)
+    out << fmt::format("  {:<28}{:>18.5g}{:>14.5g}{:>14}{:>12}\n", b.name, b.equivalent_load_N,
+                       b.largest_load_N,
+                       b.life ? fmt::format("{:.3g}", 1e6 * b.life->million_revolutions) : "unloaded",
+                       b.life ? fmt::format("{:.5g}", b.life->hours) : "-");
+}
+
 }  // namespace
 
 void print_report(std::ostream& out, const RunReport& report) {
@@ -100,6 +111,7 @@ void print_report(std::ostream& out, const RunReport& report) {
                      report.scene.sampling.instants_per_turn);
   print_loads(out, report);
   if (report.analysis) print_shaft(out, report, *report.analysis);
+  print_bearings(out, report);
   double total = 0;
   out << fmt::format("\n  {:<28}{:>12}\n", "stage", "seconds");
   for (const auto& cost : report.costs) {

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "fem/body.h"
+#include "kinetics/run_up.h"
 #include "meshes/shaft.h"
+#include "pipelines/bearings.h"
 #include "pipelines/machine.h"
 
 namespace pipelines {
@@ -79,8 +81,10 @@ struct Scene {
   std::optional<MillingSpace> milling_space;  ///< empty if the scene does not give it
   std::vector<std::string> effects;           ///< as named in the scene; each known, none twice
   kinetics::TimeGrid sampling;
-  std::optional<ShaftScene> shaft;  ///< empty: the load stage only
-  TorsionScene torsion;             ///< for a drive train
+  std::optional<ShaftScene> shaft;        ///< empty: the load stage only
+  TorsionScene torsion;                   ///< for a drive train
+  std::optional<kinetics::RunUp> run_up;  ///< of a vibratory mill, instead of steady running
+  std::vector<BearingScene> bearings;
   ZoneRule zones;
   int snapshots = 24;    ///< over the turn that contains the peak; 0: none
   bool pictures = true;  ///< of the envelope, as PNG

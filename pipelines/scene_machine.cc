@@ -214,6 +214,34 @@ kinetics::Convention read_convention(SceneTable& machine) {
   return kinetics::Convention::consistent;
 }
 
+std::optional<kinetics::RunUp> read_run_up(SceneTable& machine) {
+  machine.know("run_up");
+  if (!machine.has("run_up")) return std::nullopt;
+  SceneTable table = machine.table("run_up");
+  kinetics::RunUp run;
+  for (const char* name : {"from", "to", "duration", "hold", "times", "speeds"}) table.know(name);
+  const bool is_table = table.has("times") || table.has("speeds");
+  const Range speeds = not_negative(most_speed_rad_s), times = not_negative(1e5);
+  if (is_table && (table.has("from") || table.has("to") || table.has("duration"))) {
+    table.refuse_missing("", "mixes a ramp (from, to, duration) with a table (times, speeds); keep one");
+  } else if (is_table) {
+    run.time_s = table.list("times", "s", times);
+    run.speed_rad_s = table.list("speeds", "rad/s", speeds);
+    if (run.time_s.size() != run.speed_rad_s.size())
+      table.refuse("speeds", "has " + std::to_string(run.speed_rad_s.size()) + " entries where times has " +
+                                 std::to_string(run.time_s.size()) + "; give one speed for each time");
+  } else {
+    const double from = table.quantity("from", "rad/s", speeds), to = table.quantity("to", "rad/s", speeds),
+                 duration = table.quantity("duration", "s", positive(1e5));
+    const double hold = table.quantity_or("hold", "s", times, 0, "the run ends with the ramp");
+    if (std::isfinite(from + to + duration + hold)) run = kinetics::ramp(from, to, duration, hold);
+  }
+  run.steps_per_instant =
+      table.count_or("steps_per_instant", 1, 1000, 1, "every step of integration is an instant");
+  table.finish();
+  return run;
+}
+
 kinetics::VibratoryMill read_vibratory_mill(SceneTable& machine, kinetics::Convention convention,
                                             const std::vector<std::string>& effects,
                                             std::optional<MillingSpace>& milling_space) {

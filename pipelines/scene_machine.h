@@ -19,6 +19,9 @@ kinetics::VibratoryMill read_vibratory_mill(SceneTable& machine, kinetics::Conve
                                             const std::vector<std::string>& effects,
                                             std::optional<MillingSpace>& milling_space);
 
+/// Reads [machine.run_up] if it is there: from, to, duration and hold, or times and speeds.
+std::optional<kinetics::RunUp> read_run_up(SceneTable& machine);
+
 /// Share of a round chamber's cross-section that a charge fills at most, if its centre of mass lies at
 /// `offset_m` from the axis: that of the circular segment with this centroid, no set of larger area has its
 /// centroid so far out.

@@ -125,6 +125,29 @@ ZoneRule read_zones(SceneTable zones) {
   return rule;
 }
 
+std::vector<BearingScene> read_bearings(SceneTable& root) {
+  std::vector<BearingScene> bearings;
+  root.know("bearings");
+  if (!root.has("bearings")) return bearings;
+  for (SceneTable& table : root.tables("bearings")) {
+    BearingScene bearing;
+    bearing.name = table.text("name");
+    bearing.load = table.text("load");
+    bearing.share = table.quantity_or("share", "1", {0, 1, true}, 1, "the bearing carries the whole load");
+    bearing.dynamic_rating_N = table.quantity("dynamic_rating", "N", positive(1e9));
+    const std::string element = table.text("element");
+    if (element == "roller")
+      bearing.element = kinetics::RollingElement::roller;
+    else if (!element.empty() && element != "ball")
+      table.refuse("element", "unknown rolling element; write \"ball\" or \"roller\"");
+    table.know("speed");
+    if (table.has("speed")) bearing.speed_rad_s = table.quantity("speed", "rad/s", positive(1e6));
+    table.finish();
+    bearings.push_back(std::move(bearing));
+  }
+  return bearings;
+}
+
 void read_results(SceneTable results, Scene& scene) {
   scene.snapshots = results.count_or("snapshots", 0, 3600, 24, "over the turn that contains the peak");
   scene.pictures = results.flag_or("pictures", true, "of the envelope, as PNG");
@@ -155,7 +178,10 @@ int rehearsal_turns(const Scene& scene) {
 /// nothing.
 void rehearse(const Scene& scene, SceneTable& machine, SceneTable* shaft) {
   try {
-    compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8});
+    if (scene.run_up)
+      kinetics::check_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
+    else
+      compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8});
   } catch (const std::invalid_argument& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
@@ -169,7 +195,10 @@ void rehearse(const Scene& scene, SceneTable& machine, SceneTable* shaft) {
 void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   const auto convention = read_convention(machine);
   scene.effects = read_effects(root, vibratory_mill_rules(convention, root.has("shaft")), findings);
+  scene.run_up = read_run_up(machine);
   scene.machine = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space);
+  if (scene.run_up && root.has("shaft"))
+    machine.refuse("run_up", "a run-up belongs to the load stage; remove it, or the [shaft], so far");
 }
 
 void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
@@ -248,6 +277,7 @@ Scene read_scene(const std::filesystem::path& file) {
     if (root.has("zones") || root.has("results"))
       findings.warnings.push_back("without [shaft] there is no body: [zones] and [results] have no use");
   }
+  scene.bearings = read_bearings(root);
   scene.zones = read_zones(root.table_or_empty("zones"));
   read_results(root.table_or_empty("results"), scene);
   root.finish();

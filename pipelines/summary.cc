@@ -168,6 +168,15 @@ std::string summary_json(const RunReport& report) {
                                 {"moment_scale_Nm", closure.moment_scale_Nm},
                                 {"channel_resultant", number(closure.channel_resultant)}};
   }
+  for (const auto& bearing : report.bearings) {
+    Json& entry = json["bearings"][bearing.name];
+    entry = {{"load", bearing.load},
+             {"equivalent_load", figure(bearing.equivalent_load_N, "N")},
+             {"largest_load", figure(bearing.largest_load_N, "N")},
+             {"speed", figure(bearing.speed_rad_s, "rad/s")}};
+    entry["L10"] = bearing.life ? Json(bearing.life->million_revolutions * 1e6) : Json(nullptr);
+    entry["L10h"] = bearing.life ? figure(bearing.life->hours, "h") : Json(nullptr);
+  }
   for (const auto& cost : report.costs)
     json["timing"][cost.stage] = {{"seconds", cost.seconds}, {"peak_memory_gigabytes", cost.peak_gigabytes}};
   return json.dump(2) + "\n";

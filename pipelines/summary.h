@@ -19,6 +19,7 @@ struct RunReport {
   const kinetics::LoadHistory& loads;
   const ShaftAnalysis* analysis = nullptr;
   const std::vector<StageCost>& costs;
+  std::vector<BearingResult> bearings = {};
 };
 
 /// The text of summary.json. Everything but `timing` is the same from run to run.

@@ -64,8 +64,8 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
   out << fmt::format("\n  {:<24}{:>12}{:>14}{:>20}{:>14}\n", "element", "mean N m", "largest N m",
                      "on reference N m", "shear MPa");
   for (const auto& t : report.torques)
-    out << fmt::format("  {:<24}{:>12.4g}{:>14.4g}{:>20.4g}{:>14}\n", t.element, t.mean_Nm + 0.0, t.largest_Nm,
-                       t.largest_reduced_Nm,
+    out << fmt::format("  {:<24}{:>12.4g}{:>14.4g}{:>20.4g}{:>14}\n", t.element, t.mean_Nm + 0.0,
+                       t.largest_Nm, t.largest_reduced_Nm,
                        t.largest_shear_Pa > 0 ? fmt::format("{:.4g}", t.largest_shear_Pa / 1e6) : "-");
   if (report.forced.rigid_acceleration_rad_s2 != 0)
     out << fmt::format("  unbalanced mean torque: the reference shaft gains {:.4g} rad/s2\n",

@@ -1,0 +1,69 @@
+#include "pipelines/bearings.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "pipelines/nearest.h"
+
+namespace pipelines {
+namespace {
+
+/// Of a channel "<port>.<component>"; empty if there is none.
+std::optional<Eigen::ArrayXd> channel(const ChannelHistory& channels, const std::string& name) {
+  for (std::size_t k = 0; k < channels.channels.size(); ++k)
+    if (channels.channels[k].name == name) return channels.values.row(Eigen::Index(k)).transpose();
+  return std::nullopt;
+}
+
+double speed_of(const BearingScene& bearing, const kinetics::LoadHistory& loads) {
+  if (bearing.speed_rad_s) return *bearing.speed_rad_s;
+  for (const auto& quantity : loads.quantities)
+    if (quantity.name == "drum_relative_speed") return quantity.values.abs().mean();
+  return loads.speed_rad_s.abs().mean();
+}
+
+std::vector<std::string> known_loads(const kinetics::LoadHistory& loads) {
+  std::vector<std::string> names;
+  for (const auto& resultant : loads.resultants) names.push_back(resultant.role);
+  for (const auto& quantity : loads.quantities)
+    if (quantity.unit == "N") names.push_back(quantity.name);
+  return names;
+}
+
+}  // namespace
+
+std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::LoadHistory& loads,
+                                       const ChannelHistory* channels) {
+  if (channels) {
+    const auto fx = channel(*channels, load + ".fx"), fy = channel(*channels, load + ".fy");
+    if (fx && fy) return (fx->square() + fy->square()).sqrt();
+  }
+  if (loads.has_resultant(load))
+    return loads.resultant(load).total.topRows<2>().matrix().colwise().norm().transpose();
+  for (const auto& quantity : loads.quantities)
+    if (quantity.name == load && quantity.unit == "N") return quantity.values.abs();
+  return std::nullopt;
+}
+
+std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearings,
+                                         const kinetics::LoadHistory& loads, const ChannelHistory* channels) {
+  std::vector<BearingResult> results;
+  for (const auto& bearing : bearings) {
+    const auto force = force_of(bearing.load, loads, channels);
+    if (!force)
+      throw std::invalid_argument("bearing \"" + bearing.name + "\": there is no force \"" + bearing.load +
+                                  "\"; known here: " + listed(known_loads(loads)) +
+                                  (channels ? "" : ", and with `run` the ports of the shaft"));
+    BearingResult result{bearing.name, bearing.load};
+    const Eigen::ArrayXd part = bearing.share * *force;
+    result.largest_load_N = part.maxCoeff();
+    result.equivalent_load_N = kinetics::equivalent_load_N(part, bearing.element);
+    result.speed_rad_s = speed_of(bearing, loads);
+    result.life = kinetics::rating_life(bearing.dynamic_rating_N, result.equivalent_load_N, bearing.element,
+                                        result.speed_rad_s);
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+}  // namespace pipelines
