@@ -45,14 +45,13 @@ struct TrainElement {
   double ratio = 1;           ///< speed of second / speed of first; 1 for a shaft, negative: reverses
   bool rigid = false;         ///< a constraint phi_second = ratio phi_first, without stiffness and damping
   std::optional<double> stiffness_N_m_rad;  ///< C, > 0; a shaft may give modulus, length, diameter instead
-  std::string stiffness_on;     ///< belts and gears: the shaft line that stiffness and damping refer to
-  double damping_N_m_s = 0;     ///< viscous, on the relative speed on that same shaft, >= 0
-  double loss_factor = 0;       ///< structural: C (1 + i loss_factor), >= 0
-  double shear_modulus_Pa = 0;  ///< shafts without given stiffness: C = G I_p / length_m
-  double length_m = 0;
-  double diameter_m = 0;            ///< shafts: outer diameter; zero: no shear stress is computed
-  double bore_m = 0;                ///< shafts: inner diameter
-  double stress_concentration = 1;  ///< K_t on the nominal shear stress, >= 1
+  std::string stiffness_on;  ///< belts and gears: the shaft line that stiffness and damping refer to
+  double damping_N_m_s = 0;  ///< viscous, on the relative speed on that same shaft, >= 0
+  double loss_factor = 0;    ///< structural: C (1 + i loss_factor), >= 0
+  double shear_modulus_Pa = 0, length_m = 0;  ///< shafts without given stiffness: C = G I_p / length_m
+  double diameter_m = 0;                      ///< shafts: outer diameter; zero: no shear stress is computed
+  double bore_m = 0;                          ///< shafts: inner diameter
+  double stress_concentration = 1;            ///< K_t on the nominal shear stress, >= 1
 };
 
 /// One harmonic of torque: amplitude cos(w t + phase). Exactly one of frequency and order is given.
@@ -113,9 +112,8 @@ NaturalModes natural_modes(const DriveTrain& train, Shapes shapes = Shapes::all)
 /// Response to one frequency; a quantity is Re(entry e^(i w t)).
 struct HarmonicResponse {
   double frequency_rad_s = 0;
-  Eigen::ArrayXcd angle_rad;          ///< per inertia
-  Eigen::ArrayXcd torque_Nm;          ///< per element, on the shaft of its first inertia
-  Eigen::ArrayXcd reduced_torque_Nm;  ///< per element
+  Eigen::ArrayXcd angle_rad;                     ///< per inertia
+  Eigen::ArrayXcd torque_Nm, reduced_torque_Nm;  ///< per element; real: on the shaft of its first inertia
 };
 
 /// Steady state under all excitations: constant part, and one response per frequency.
@@ -146,7 +144,7 @@ struct TrainMotion {
 /// acceleration out; accelerations hold it, so that they balance the torques.
 TrainMotion over_time(const DriveTrain& train, const ForcedResponse& response, const Eigen::ArrayXd& time_s);
 
-/// A torque on one inertia over time.
+/// A torque over time.
 struct TransientLoad {
   std::string inertia;
   std::function<double(double time_s)> torque_Nm;
@@ -161,12 +159,11 @@ std::function<double(double)> torque_table(std::vector<double> time_s, std::vect
 struct TransientRun {
   double time_step_s = 0;
   long n_steps = 0;
-  long store_every = 1;              ///< every so many steps a column of the result
-  bool with_excitations = true;      ///< the train's excitations, from t = 0
-  std::vector<TransientLoad> loads;  ///< added to them
-  Eigen::ArrayXd angle_rad;          ///< per inertia at t = 0; empty: zero
-  Eigen::ArrayXd speed_rad_s;        ///< per inertia at t = 0; empty: zero
-  double loss_frequency_rad_s = 0;   ///< loss factors act as viscous damping loss_factor C / this; > 0 if any
+  long store_every = 1;                   ///< every so many steps a column of the result
+  bool with_excitations = true;           ///< the train's excitations, from t = 0
+  std::vector<TransientLoad> loads;       ///< added to them
+  Eigen::ArrayXd angle_rad, speed_rad_s;  ///< per inertia at t = 0; empty: zero
+  double loss_frequency_rad_s = 0;  ///< loss factors act as viscous damping loss_factor C / this; > 0 if any
 };
 
 /// Energies belong to the columns of motion; kinetic + potential + dissipated - work is constant.
@@ -218,10 +215,10 @@ struct ResonanceMargin {
   double amplification = 0;  ///< undamped, 1 / |1 - (frequency / natural frequency)^2|
 };
 
-/// One margin per excitation frequency at the mean speed, the closest first.
+/// One margin per excitation frequency at the mean speed, closest first.
 std::vector<ResonanceMargin> resonance_margins(const DriveTrain& train);
 
-/// The effects of a train: its excitations by name, then the kinds of damping that it has.
+/// Effects of a train: its excitations by name, then the kinds of damping that it has.
 std::vector<EffectInfo> drive_train_effects(const DriveTrain& train);
 
 /// Steady state over the grid (turns of the reference shaft) under the named effects, and only those.

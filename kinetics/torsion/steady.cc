@@ -13,12 +13,21 @@ using Eigen::ArrayXd;
 using Complex = std::complex<double>;
 const Complex i_unit(0, 1);
 
+/// Each load from its own place.
 HarmonicState along_tree(const ReducedTrain& r, double w, const ArrayXcd& load) {
   const ArrayXcd node = -w * w * r.inertia.cast<Complex>() + i_unit * w * r.damping.cast<Complex>();
   const ArrayXcd edge = r.stiffness * (1.0 + i_unit * r.loss_factor.cast<Complex>()) +
                         i_unit * w * r.edge_damping.cast<Complex>();
-  const auto solution = TreeSolver<Complex>(r, node, edge).solve(load);
-  return {solution.angle, solution.torque};
+  HarmonicState state{ArrayXcd::Zero(r.n_nodes()), ArrayXcd::Zero(r.n_edges())};
+  for (Index root = 0; root < r.n_nodes(); ++root) {
+    if (load[root] == 0.0) continue;
+    ArrayXcd alone = ArrayXcd::Zero(r.n_nodes());
+    alone[root] = load[root];
+    const auto solution = TreeSolver<Complex>(r, node, edge, root).solve(alone);
+    state.angle += solution.angle;
+    state.torque += solution.torque;
+  }
+  return state;
 }
 
 /// Modal damping is a torque in the elements, 2 zeta (i w / w_k) times the elastic one of each mode.

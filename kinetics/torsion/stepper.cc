@@ -13,7 +13,7 @@ Stepper::Stepper(const ReducedTrain& reduced, const Spectrum& spectrum, double m
       node_(2 / time_step_s * reduced.inertia + reduced.damping),
       edge_(time_step_s / 2 * reduced.stiffness + viscous_) {
   if (modal_damping_ratio == 0) {
-    tree_.emplace(reduced, node_, edge_);
+    tree_.emplace(reduced, node_, edge_, reduced.held.value_or(0));
     return;
   }
   const Index m = reduced.n_edges();

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "kinetics/torsion/reduced.h"
 
@@ -20,23 +20,24 @@ class TreeSolver {
 public:
   using Array = Eigen::Array<Scalar, Eigen::Dynamic, 1>;
 
-  /// The root is the held node, or else the one from which no subtree is near a resonance of its own.
-  TreeSolver(const ReducedTrain& reduced, Array node, Array edge)
-      : node_(std::move(node)), edge_(std::move(edge)), held_(reduced.held.has_value()) {
-    root_at(reduced, reduced.held.value_or(0));
-    if (held_) return;
-    const Index stride = std::max<Index>(1, reduced.n_nodes() / 50);
-    Index best = 0;
-    double best_pivot = worst_pivot_;
-    for (Index root = stride; root < reduced.n_nodes() && best_pivot < 1e-2; root += stride) {
-      root_at(reduced, root);
-      if (worst_pivot_ > best_pivot) best = root, best_pivot = worst_pivot_;
+  /// @param root  where the loads are, if they are at one node: then no torque is a difference of large ones,
+  /// even where
+  ///              a subtree is at a resonance of its own. Any node will do for stiffnesses that are all
+  ///              positive.
+  TreeSolver(const ReducedTrain& reduced, const Array& node, Array edge, Index root)
+      : edge_(std::move(edge)),
+        held_(reduced.held.value_or(-1)),
+        root_(root),
+        steps_(walk(reduced.n_nodes(), reduced.edges, root)),
+        seen_(node),
+        passed_(edge_.size()) {
+    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+      const Scalar Z = edge_[step->edge], G = seen_[step->child];
+      const bool wall = step->child == held_;
+      passed_[step->edge] = wall ? Scalar(0) : Z / pivot(Z, G);
+      seen_[step->parent] += wall ? Z : passed_[step->edge] * G;
     }
-    if (root_ != best) root_at(reduced, best);
   }
-
-  /// Smallest |Z + G| / (|Z| + |G|): how much the solution may amplify round-off.
-  double worst_pivot() const { return worst_pivot_; }
 
   struct Solution {
     Array angle;   ///< per node
@@ -48,12 +49,13 @@ public:
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step)
       carried[step->parent] += passed_[step->edge] * carried[step->child];
     Solution s{Array::Zero(load.size()), Array::Zero(edge_.size())};
-    if (!held_) s.angle[root_] = carried[root_] / seen_[root_];
+    if (root_ != held_) s.angle[root_] = carried[root_] / seen_[root_];
     for (const Step& step : steps_) {
       const Scalar Z = edge_[step.edge], G = seen_[step.child];
       const Scalar above = s.angle[step.parent], m = carried[step.child];
-      s.torque[step.edge] = step.sense * passed_[step.edge] * (G * above - m);
-      s.angle[step.child] = (Z * above + m) / pivot(Z, G);
+      const bool wall = step.child == held_;
+      s.torque[step.edge] = step.sense * (wall ? Z * above : passed_[step.edge] * (G * above - m));
+      s.angle[step.child] = wall ? Scalar(0) : (Z * above + m) / pivot(Z, G);
     }
     return s;
   }
@@ -65,27 +67,11 @@ private:
     return sum == Scalar(0) ? Z * std::numeric_limits<double>::epsilon() : sum;
   }
 
-  void root_at(const ReducedTrain& reduced, Index root) {
-    root_ = root;
-    steps_ = walk(reduced.n_nodes(), reduced.edges, root);
-    seen_ = node_;
-    passed_.resize(edge_.size());
-    worst_pivot_ = 1;
-    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
-      const Scalar Z = edge_[step->edge], G = seen_[step->child];
-      worst_pivot_ = std::min(worst_pivot_, double(std::abs(Z + G) / (std::abs(Z) + std::abs(G))));
-      passed_[step->edge] = Z / pivot(Z, G);
-      seen_[step->parent] += passed_[step->edge] * G;
-    }
-  }
-
-  Array node_, edge_;
-  bool held_;
-  Index root_ = 0;
+  Array edge_;
+  Index held_, root_;  ///< held_: -1 if none is
   std::vector<Step> steps_;
   Array seen_;    ///< G per node, its subtree included
   Array passed_;  ///< Z / (Z + G) per edge
-  double worst_pivot_ = 1;
 };
 
 }  // namespace kinetics::torsion
