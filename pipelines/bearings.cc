@@ -54,7 +54,9 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
       throw std::invalid_argument("bearing \"" + bearing.name + "\": there is no force \"" + bearing.load +
                                   "\"; known here: " + listed(known_loads(loads)) +
                                   (channels ? "" : ", and with `run` the ports of the shaft"));
-    BearingResult result{bearing.name, bearing.load};
+    BearingResult result;
+    result.name = bearing.name;
+    result.load = bearing.load;
     const Eigen::ArrayXd part = bearing.share * *force;
     result.largest_load_N = part.maxCoeff();
     result.equivalent_load_N = kinetics::equivalent_load_N(part, bearing.element);

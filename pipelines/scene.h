@@ -65,7 +65,14 @@ struct MillingSpace {
 struct TorsionScene {
   double slowest_rad_s = 0, fastest_rad_s = 0;  ///< speeds of the reference shaft in the Campbell table
   int n_speeds = 16;
-  std::vector<double> orders;     ///< of the reference shaft, beside those of the excitations
+  std::vector<double> orders;  ///< of the reference shaft, beside those of the excitations
+  /// Torques over time on single inertias, and how long they are followed; empty: no transient is computed.
+  struct Torque {
+    std::string inertia;
+    std::vector<double> time_s, torque_Nm;  ///< straight lines in between, constant outside
+  };
+  std::optional<kinetics::TransientRun> transient;  ///< its loads are made from `torques`
+  std::vector<Torque> torques;
   bool published_tables = false;  ///< the paper's own tables, errata included, beside the mechanics
 };
 

@@ -1,5 +1,6 @@
 #include "pipelines/scene_train.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -134,6 +135,40 @@ void read_campbell(SceneTable campbell, double speed_rad_s, TorsionScene& torsio
   campbell.finish();
 }
 
+void read_transient(SceneTable& machine, TorsionScene& torsion) {
+  machine.know("transient");
+  if (!machine.has("transient")) return;
+  SceneTable table = machine.table("transient");
+  kinetics::TransientRun run;
+  const double duration_s = table.quantity("duration", "s", positive(1e6));
+  run.time_step_s = table.quantity("step", "s", positive(1e3));
+  run.store_every = table.count_or("store_every", 1, 1'000'000, 1, "every step is written");
+  run.with_excitations = table.flag_or("excitations", true, "the train's excitations act from t = 0");
+  run.loss_frequency_rad_s = quantity_if_given(table, "loss_frequency", "rad/s", positive(1e9));
+  const double n_steps = duration_s / run.time_step_s;
+  if (n_steps > 1e8)
+    table.refuse("step",
+                 "makes " + shown(n_steps, 3) + " steps; at most 1e8 are followed, take a longer one");
+  else if (std::isfinite(n_steps))
+    run.n_steps = std::max(1L, std::lround(n_steps));
+  table.know("torques");
+  if (table.has("torques"))
+    for (SceneTable& entry : table.tables("torques")) {
+      TorsionScene::Torque torque;
+      torque.inertia = entry.text("inertia");
+      torque.time_s = entry.list("times", "s", {});
+      torque.torque_Nm = entry.list("torques", "N m", {});
+      if (torque.time_s.size() != torque.torque_Nm.size())
+        entry.refuse("torques", "has " + std::to_string(torque.torque_Nm.size()) +
+                                    " entries where times has " + std::to_string(torque.time_s.size()) +
+                                    "; give one torque for each time");
+      entry.finish();
+      torsion.torques.push_back(std::move(torque));
+    }
+  table.finish();
+  torsion.transient = run;
+}
+
 }  // namespace
 
 kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion) {
@@ -155,6 +190,7 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
   for (SceneTable& table : machine.tables("elements")) train.elements.push_back(read_element(table));
   for (SceneTable& table : machine.tables("excitations")) train.excitations.push_back(read_excitation(table));
   read_campbell(machine.table_or_empty("campbell"), train.reference_speed_rad_s, torsion);
+  read_transient(machine, torsion);
   machine.finish();
   return train;
 }

@@ -32,6 +32,12 @@ TorsionReport report_torsion(const Scene& scene) {
                               largest(".reduced_torque"),
                               on.elements[e].diameter_m > 0 ? largest(".shear_stress") : 0});
   }
+  if (scene.torsion.transient) {
+    auto run = *scene.torsion.transient;
+    for (const auto& torque : scene.torsion.torques)
+      run.loads.push_back({torque.inertia, kinetics::torque_table(torque.time_s, torque.torque_Nm)});
+    report.transient = kinetics::transient(on, run);
+  }
   if (scene.torsion.published_tables) {
     report.table_4 = kinetics::published_table_4(on);
     report.table_7 = kinetics::published_table_7(on);

@@ -27,6 +27,7 @@ struct TorsionReport {
   std::vector<ElementTorque> torques;
   std::vector<kinetics::ResonanceMargin> margins;
   kinetics::CampbellTable campbell;
+  std::optional<kinetics::Transient> transient;              ///< where the scene asks for it
   std::optional<kinetics::PublishedTable> table_4, table_7;  ///< where the scene asks for them
 };
 
@@ -37,7 +38,8 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
 std::string torsion_json(const Scene& scene, const TorsionReport& report);
 
 /// In `directory`: modes.csv (frequencies, shapes, energy shares), forced.csv (amplitude and phase of every
-/// harmonic at every inertia and element), campbell.csv, margins.csv.
+/// harmonic at every inertia and element), campbell.csv, margins.csv; transient.csv
+/// (torque and angle over time, energies) where there is one.
 void write_torsion_files(const std::filesystem::path& directory, const Scene& scene,
                          const TorsionReport& report);
 

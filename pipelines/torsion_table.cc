@@ -42,6 +42,28 @@ void print_published(std::ostream& out, const char* name, const kinetics::Publis
   out << '\n';
 }
 
+/// kinetic + potential + dissipated - work, against its start, over the largest energy.
+double energy_miss(const kinetics::Transient& t) {
+  const Eigen::ArrayXd sum = t.kinetic_J + t.potential_J + t.dissipated_J - t.work_J;
+  const double scale =
+      std::max({t.kinetic_J.maxCoeff(), t.potential_J.maxCoeff(), t.work_J.abs().maxCoeff()});
+  return scale > 0 ? (sum - sum[0]).abs().maxCoeff() / scale : 0;
+}
+
+void print_transient(std::ostream& out, const kinetics::DriveTrain& train, const kinetics::Transient& t) {
+  const auto n = t.motion.time_s.size();
+  out << fmt::format("\n  transient of {:.6g} s; energy balance {:.1e}\n  {:<24}{:>16}{:>14}{:>16}\n",
+                     t.motion.time_s[n - 1], energy_miss(t), "element", "largest N m", "at s",
+                     "at the end N m");
+  for (std::size_t e = 0; e < train.elements.size(); ++e) {
+    const Eigen::ArrayXd torque = t.motion.torque_Nm.row(Index(e)).transpose();
+    Index at = 0;
+    torque.abs().maxCoeff(&at);
+    out << fmt::format("  {:<24}{:>16.5g}{:>14.5g}{:>16.5g}\n", train.elements[e].name, torque[at],
+                       t.motion.time_s[at], torque[n - 1]);
+  }
+}
+
 CsvColumn numbers(std::string name, std::string unit, const Eigen::ArrayXd& values) {
   return {std::move(name), std::move(unit),
           std::vector<double>(values.data(), values.data() + values.size())};
@@ -85,6 +107,7 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
   for (const auto& c : report.campbell.crossings)
     out << fmt::format("    {:<34} meets mode {} at {:.6g} rpm\n", line_name(c.line), c.mode,
                        c.speed_rad_s / rpm);
+  if (report.transient) print_transient(out, train, *report.transient);
   if (report.table_4) print_published(out, "Table 4", *report.table_4);
   if (report.table_7) print_published(out, "Table 7", *report.table_7);
   for (const auto& warning : report.forced.warnings) out << "  warning: " << warning << '\n';
@@ -109,6 +132,12 @@ std::string torsion_json(const Scene& scene, const TorsionReport& report) {
          {"natural_frequency_rad_s", m.natural_frequency_rad_s},
          {"margin", m.margin},
          {"amplification", std::isfinite(m.amplification) ? Json(m.amplification) : Json(nullptr)}});
+  if (report.transient) {
+    torsion["transient"]["energy_balance"] = energy_miss(*report.transient);
+    for (std::size_t e = 0; e < train_of(scene).elements.size(); ++e)
+      torsion["transient"]["largest_torque_Nm"][train_of(scene).elements[e].name] =
+          report.transient->motion.torque_Nm.row(Index(e)).abs().maxCoeff();
+  }
   torsion["rigid_acceleration_rad_s2"] = report.forced.rigid_acceleration_rad_s2;
   json["warnings"] = report.forced.warnings;
   return json.dump(2) + "\n";
@@ -161,6 +190,22 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
         numbers("mode " + std::to_string(k + 1), "rad/s",
                 Eigen::ArrayXd::Constant(campbell.speed_rad_s.size(), campbell.natural_frequency_rad_s[k])));
   write_csv(directory / "campbell.csv", table);
+
+  if (report.transient) {
+    const auto& t = *report.transient;
+    std::vector<CsvColumn> columns{numbers("time", "s", t.motion.time_s)};
+    for (std::size_t e = 0; e < train.elements.size(); ++e)
+      columns.push_back(
+          numbers(train.elements[e].name + ".torque", "N m", t.motion.torque_Nm.row(Index(e)).transpose()));
+    for (std::size_t i = 0; i < train.inertias.size(); ++i)
+      columns.push_back(
+          numbers(train.inertias[i].name + ".angle", "rad", t.motion.angle_rad.row(Index(i)).transpose()));
+    columns.push_back(numbers("kinetic_energy", "J", t.kinetic_J));
+    columns.push_back(numbers("potential_energy", "J", t.potential_J));
+    columns.push_back(numbers("work", "J", t.work_J));
+    columns.push_back(numbers("dissipated", "J", t.dissipated_J));
+    write_csv(directory / "transient.csv", columns);
+  }
 
   std::vector<std::string> excitation;
   std::vector<std::int64_t> mode;
