@@ -1,0 +1,193 @@
+/// The load stage as a product by itself: every machine through a scene, against the specifications' numbers.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/cases/program.h"
+
+using namespace cases;
+
+namespace {
+
+nlohmann::json json_of(const fs::path& directory, const std::string& arguments) {
+  const auto run = millstress(directory, arguments);
+  EXPECT_EQ(run.exit_code, 0) << arguments << "\n" << run.err;
+  return nlohmann::json::parse(run.out);
+}
+
+/// Rows of a table whose first columns are text: those of one name, as numbers from the third column on.
+std::vector<std::vector<double>> rows_of(const fs::path& file, const std::string& name) {
+  std::ifstream in(file);
+  std::vector<std::vector<double>> rows;
+  for (std::string line, cell; std::getline(in, line);) {
+    if (line.rfind(name + ",", 0) != 0) continue;
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (int column = 0; std::getline(cells, cell, ','); ++column)
+      if (column > 1) rows.back().push_back(std::strtod(cell.c_str(), nullptr));
+  }
+  return rows;
+}
+
+}  // namespace
+
+// planetary_mill.md section 6, set B, consistent: twelve digits printed.
+TEST(LoadStage, PlanetaryMillGivesTheSpecsTable) {
+  const results_test::Directory directory;
+  const auto run = millstress(directory.path, "loads '" + shipped("planetary_mill.toml").string() +
+                                                  "' --csv loads.csv --statistics s");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto loads = csv(directory / "loads.csv");
+  struct Row {
+    std::size_t degrees;
+    double X_A, Y_A, T2;
+  };
+  for (const auto& row : {Row{0, 78096.011161054, 5011.019543647, 15736.387414346},
+                          Row{90, 76497.019963389, 3526.701358303, 15773.468000116},
+                          Row{330, 78459.909498071, 4825.780348982, 15863.950884696}}) {
+    EXPECT_NEAR(loads.at("X_A")[row.degrees], row.X_A, 1e-8 * row.X_A);
+    EXPECT_NEAR(loads.at("Y_A")[row.degrees], row.Y_A, 1e-8 * row.X_A);
+    EXPECT_NEAR(loads.at("T2")[row.degrees], row.T2, 1e-8 * row.X_A);
+    EXPECT_NEAR(loads.at("axle.fx")[row.degrees], row.X_A, 1e-8 * row.X_A);
+    EXPECT_NEAR(loads.at("axle.fy")[row.degrees], -row.Y_A, 1e-8 * row.X_A);
+  }
+  // The load is mean + one harmonic: nothing else may appear; amplitude and phase give the series back.
+  const auto lines = rows_of(directory / "s/harmonics.csv", "X_A");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[1][0], 1);
+  for (const std::size_t degrees : {0, 77, 200})
+    EXPECT_NEAR(lines[0][1] + lines[1][1] * std::cos(double(degrees) * M_PI / 180 - lines[1][2]),
+                loads.at("X_A")[degrees], 1e-9 * lines[0][1]);
+  const auto extremes = rows_of(directory / "s/statistics.csv", "X_A");
+  ASSERT_EQ(extremes.size(), 1u);
+  EXPECT_EQ(extremes[0][0], *std::max_element(loads.at("X_A").begin(), loads.at("X_A").end()));
+  // One cycle per turn, from valley to peak.
+  const auto cycles = rows_of(directory / "s/spectrum.csv", "X_A");
+  ASSERT_EQ(cycles.size(), 1u);
+  EXPECT_EQ(cycles[0][2], 1);
+  EXPECT_NEAR(cycles[0][0], extremes[0][0] - extremes[0][1], 1e-9 * extremes[0][0]);
+}
+
+// drive_train.md: erratum 7 and the consistent reference, belt stiffness on the working shaft.
+TEST(LoadStage, DriveTrainGivesTheSpecsFrequenciesAndTorques) {
+  const results_test::Directory directory;
+  const auto json = json_of(directory.path,
+                            "torsion '" + shipped("drive_train.toml").string() + "' -o t --json")["torsion"];
+  const std::vector<double> Hz{0, 94.142, 741.50, 1286.74};
+  for (std::size_t k = 0; k < Hz.size(); ++k)
+    EXPECT_NEAR(json["natural_frequencies"][k]["value"].get<double>() / (2 * M_PI), Hz[k], 5.1e-3);
+  const std::vector<std::pair<std::string, double>> torques{
+      {"motor_shaft", 4.885}, {"belt", 5.214}, {"working_shaft_1", 5.068}, {"working_shaft_2", 5.067}};
+  for (const auto& [element, Nm] : torques)
+    EXPECT_NEAR(json["elements"][element]["largest_reduced_torque_Nm"].get<double>(), Nm, 1e-3) << element;
+  // T r / I_p of the real torque, K_t 1.5.
+  const double real = json["elements"]["working_shaft_1"]["largest_torque_Nm"];
+  EXPECT_NEAR(real, 5.068 / 0.375, 3e-3);
+  EXPECT_NEAR(json["elements"]["working_shaft_1"]["largest_shear_stress_Pa"].get<double>(),
+              1.5 * 16 * real / (M_PI * std::pow(0.03, 3)), 1);
+  EXPECT_NEAR(json["margins"][0]["margin"].get<double>(), 50 / 94.142 - 1, 1e-4);
+  EXPECT_LT(json["transient"]["energy_balance"].get<double>(), 1e-10);
+  for (const char* file : {"modes.csv", "forced.csv", "campbell.csv", "margins.csv", "transient.csv"})
+    EXPECT_FALSE(csv(directory / "t" / file).empty()) << file;
+  // A mode's energies are shares.
+  const auto modes = csv(directory / "t/modes.csv");
+  double sum = 0;
+  for (const auto& [name, column] : modes)
+    if (name.find("potential_share") != std::string::npos) sum += column[1];
+  EXPECT_NEAR(sum, 1, 1e-9);
+}
+
+TEST(LoadStage, DriveTrainReproducesThePapersTables) {
+  const results_test::Directory directory;
+  write(directory / "mok.toml",
+        edited("drive_train.toml", {{"convention = \"consistent\"", "convention = \"published\""}}));
+  const auto run = millstress(directory.path, "torsion mok.toml");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* printed : {"0.0663366", "0.0665436", "0.0675259", "0.0675604", "0.0675949", "-0.0674786",
+                              "-0.0674834", "-0.0674883", "-0.0684727", "-0.0685019", "8536.14", "1466.18"})
+    EXPECT_NE(run.out.find(printed), std::string::npos) << printed;
+}
+
+// L10h from the equivalent load of the series that the program wrote: P = (mean F^p)^(1/p), L = (C/P)^p.
+TEST(LoadStage, BearingsGetALife) {
+  const results_test::Directory directory;
+  // The last two tables need a [shaft].
+  std::string text = edited("vibratory_mill.toml", {{"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}});
+  text = text.substr(0, text.find("# Without [shaft]")) +
+         "[[bearings]]\nname = \"frame\"\nload = \"R_E\"\nshare = \"50 %\"\ndynamic_rating = \"40 kN\"\n"
+         "element = \"roller\"\n";
+  write(directory / "mill.toml", text);
+  const auto json = json_of(directory.path, "loads mill.toml --csv loads.csv --json")["bearings"]["frame"];
+  const double p = 10.0 / 3;
+  double mean = 0;
+  const auto reaction = csv(directory / "loads.csv").at("R_E");
+  for (const double R : reaction) mean += std::pow(R / 2, p) / double(reaction.size());
+  const double P = std::pow(mean, 1 / p);
+  EXPECT_NEAR(json["equivalent_load"]["value"].get<double>(), P, 1e-10 * P);
+  const double L10 = 1e6 * std::pow(40e3 / P, p);
+  EXPECT_NEAR(json["L10"].get<double>(), L10, 1e-9 * L10);
+  EXPECT_NEAR(json["L10h"]["value"].get<double>(), L10 / (151.844 / (2 * M_PI)) / 3600, 1e-9 * L10);
+
+  write(directory / "mill.toml", std::string(text).replace(text.find("\"R_E\""), 5, "\"R_F\""));
+  const auto wrong = millstress(directory.path, "loads mill.toml");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("\"R_F\""), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("frame_bearings"), std::string::npos) << wrong.err;
+}
+
+// A start in two seconds passes the pitch's resonance and ends where the steady load stage begins.
+TEST(LoadStage, StartUpEndsInSteadyRunning) {
+  const results_test::Directory directory;
+  std::string text = edited("vibratory_mill.toml", {{"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}});
+  text = text.substr(0, text.find("# Without [shaft]"));
+  write(directory / "steady.toml", text);
+  write(directory / "start.toml",
+        text +
+            "[machine.run_up]\nfrom = 0\nto = \"151.844 rad/s\"\nduration = \"2 s\"\n"
+            "hold = \"4 s\"\nsteps_per_instant = 4\n");
+  const auto steady = json_of(directory.path, "loads steady.toml --json")["loads"];
+  const auto start = json_of(directory.path, "loads start.toml --csv start.csv --json")["loads"];
+  EXPECT_GT(start["theta"]["max"].get<double>(), 1.5 * steady["theta"]["max"].get<double>());
+  EXPECT_LT(start["pitch_energy_residual"]["max"].get<double>(),
+            1e-9 * start["pitch_energy"]["max"].get<double>());
+  const auto history = csv(directory / "start.csv");
+  EXPECT_EQ(history.at("speed")[0], 0);
+  double last = 0;  // of the last half second, when the start has died out
+  for (std::size_t i = 0; i < history.at("time").size(); ++i)
+    if (history.at("time")[i] > 5.5) last = std::max(last, history.at("R_E")[i]);
+  EXPECT_NEAR(last, steady["R_E"]["max"].get<double>(), 0.02 * last);
+}
+
+TEST(LoadStage, SpringsAndExtremesAnswerForTheWholeTorus) {
+  const results_test::Directory directory;
+  const std::string scene = "'" + shipped("vibratory_mill.toml").string() + "'";
+  const auto extremes = json_of(directory.path, "extremes " + scene + " --json");
+  for (const char* load : {"R_E", "B", "T", "theta"}) {
+    EXPECT_GE(extremes[load]["largest"].get<double>(), extremes[load]["largest_in_window"].get<double>());
+    EXPECT_LE(extremes[load]["least"].get<double>(), extremes[load]["least_in_window"].get<double>());
+  }
+  // The optimum is better than the given springs, and the load stage agrees with what it promises.
+  const auto springs = json_of(directory.path, "springs " + scene + " --json");
+  const double scale = springs["rms"]["scale"];
+  EXPECT_LT(springs["rms"]["reaction_N"].get<double>(), springs["rms"]["reaction_given_N"].get<double>());
+  const auto loads = json_of(directory.path, "loads " + scene + " --json")["loads"];
+  EXPECT_NEAR(loads["R_E"]["rms"].get<double>(), springs["rms"]["reaction_given_N"].get<double>(), 1e-6);
+  EXPECT_GT(scale, 1);
+
+  const auto wrong = millstress(directory.path, "springs '" + shipped("planetary_mill.toml").string() + "'");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("vibratory_mill"), std::string::npos);
+}
+
+TEST(LoadStage, EffectsTellWhatCanGo) {
+  const results_test::Directory directory;
+  const auto json = json_of(
+      directory.path, "effects '" + shipped("planetary_mill.toml").string() + "' --threshold '5 %' --json");
+  EXPECT_EQ(json["effects"].size(), 6u);
+  EXPECT_NEAR(json["effects"]["charge_transport"]["loads"]["axle.force"]["largest_share"].get<double>(),
+              72.26 * 900 * 0.9 / 78678, 1e-3);
+  EXPECT_LT(json["change_if_all_off"].get<double>(), 0.05);
+  EXPECT_EQ(millstress(directory.path,
+                       "effects '" + shipped("planetary_mill.toml").string() + "' --threshold '5 kg'")
+                .exit_code,
+            2);
+}
