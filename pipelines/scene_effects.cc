@@ -56,6 +56,17 @@ EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft
   return rules;
 }
 
+EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention) {
+  const bool is_consistent = convention == kinetics::PlanetaryConvention::consistent;
+  EffectRules rules = plain_rules(kinetics::planetary_mill_effects(convention));
+  rules.refused.push_back(
+      {is_consistent ? "charge_relative" : "charge_offset",
+       is_consistent ? "is called \"charge_offset\" under the convention \"consistent\", where it is the "
+                       "transport inertia of the centroid; write that"
+                     : "is called \"charge_relative\" under the paper's conventions; write that"});
+  return rules;
+}
+
 EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects) {
   return {names_of(effects), {}, {}};
 }

@@ -30,6 +30,9 @@ struct EffectRules {
 /// the other convention only, or needs a shaft that the scene lacks, is refused with that reason.
 EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft);
 
+/// The one effect that has two names under the planetary mill's conventions is refused under the wrong one.
+EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention);
+
 /// Any of the names, each by itself.
 EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects);
 
