@@ -22,10 +22,20 @@
 namespace pipelines {
 namespace {
 
+/// What a trunnion that turns with the drum feels: constant loads of the carrier's frame reverse fully.
+void add_turning_trunnions(kinetics::LoadHistory& loads) {
+  auto turning = kinetics::turned_with_drum(loads, loads.resultant("trunnions"));
+  turning.role = "trunnions_turning";
+  turning.description = "the same load in axes that turn with the drum";
+  loads.resultants.push_back(std::move(turning));
+}
+
 kinetics::LoadHistory load_stage(const Scene& scene) {
   if (scene.run_up)
     return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
-  return compute_loads(scene.machine, scene.kinetics_effects(), scene.sampling);
+  auto loads = compute_loads(scene.machine, scene.kinetics_effects(), scene.sampling);
+  if (scene.drum_axes) add_turning_trunnions(loads);
+  return loads;
 }
 
 /// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless

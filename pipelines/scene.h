@@ -91,6 +91,7 @@ struct Scene {
   std::optional<ShaftScene> shaft;        ///< empty: the load stage only
   TorsionScene torsion;                   ///< for a drive train
   std::optional<kinetics::RunUp> run_up;  ///< of a vibratory mill, instead of steady running
+  bool drum_axes = false;  ///< of a planetary mill: the trunnions' load also in axes that turn with the drum
   std::vector<BearingScene> bearings;
   ZoneRule zones;
   int snapshots = 24;    ///< over the turn that contains the peak; 0: none

@@ -104,7 +104,7 @@ PlanetaryConvention read_planetary_convention(SceneTable& machine) {
 }
 
 PlanetaryMill read_planetary_mill(SceneTable& machine, PlanetaryConvention convention,
-                                  const std::vector<std::string>& effects) {
+                                  const std::vector<std::string>& effects, bool& drum_axes) {
   PlanetaryMill mill;
   mill.convention = convention;
   mill.gravity_m_s2 =
@@ -119,6 +119,7 @@ PlanetaryMill read_planetary_mill(SceneTable& machine, PlanetaryConvention conve
   mill.drum_mass_kg = drum.quantity("mass", "kg", not_negative(1e6));
   mill.initial_drum_angle_rad =
       drum.quantity_or("initial_angle", "rad", {}, 0, "the drum's axes are the carrier's at first");
+  drum_axes = drum.flag_or("turning_axes", false, "loads in the carrier's frame only");
   drum.finish();
   read_geometry(machine.table("geometry"), mill);
   for (const char* name : {"charge", "belt"}) machine.know(name);

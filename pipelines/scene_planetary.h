@@ -10,9 +10,10 @@ namespace pipelines {
 kinetics::PlanetaryConvention read_planetary_convention(SceneTable& machine);
 
 /// Reads the rest of the table and closes it.
-/// @param effects  those that are on; they decide what is needed
+/// @param effects    those that are on; they decide what is needed
+/// @param drum_axes  whether the trunnions' load is wanted in axes that turn with the drum too
 /// @return values in SI; NaN where one could not be read, with an error in the findings
 kinetics::PlanetaryMill read_planetary_mill(SceneTable& machine, kinetics::PlanetaryConvention convention,
-                                            const std::vector<std::string>& effects);
+                                            const std::vector<std::string>& effects, bool& drum_axes);
 
 }  // namespace pipelines

@@ -204,7 +204,7 @@ void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& sce
 void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   const auto convention = read_planetary_convention(machine);
   scene.effects = read_effects(root, planetary_mill_rules(convention), findings);
-  scene.machine = read_planetary_mill(machine, convention, scene.effects);
+  scene.machine = read_planetary_mill(machine, convention, scene.effects, scene.drum_axes);
 }
 
 void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
