@@ -42,8 +42,8 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
     EXPECT_TRUE(bytes == reused.at(name)) << name << " differs when the unit responses are reused";
 
   // Another operating point needs no new solve; another material does.
-  write(directory / "mill.toml",
-        edited("vibratory_mill.toml", coarse() + Edits{{"151.844 rad/s", "140 rad/s"}}));
+  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse() + Edits{{"speed = \"151.844 rad/s\"",
+                                                                                 "speed = \"140 rad/s\""}}));
   ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
   EXPECT_EQ(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
   EXPECT_NE(summary(directory / "first")["loads"]["R_E"], summary(directory / "second")["loads"]["R_E"]);
