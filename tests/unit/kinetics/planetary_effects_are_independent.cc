@@ -6,6 +6,7 @@
 
 #include "kinetics/planetary/balance.h"
 #include "planetary_machines.h"
+#include "whole_history.h"
 
 namespace {
 
@@ -59,15 +60,7 @@ TEST(PlanetaryEffects, each_alone_contributes_alone_and_is_finite) {
       auto expected = std::set<std::string>{info.name};
       if (info.name.rfind("charge_", 0) == 0) expected.insert("drive_couple");
       EXPECT_EQ(contributing(loads), expected);
-      for (const auto& resultant : loads.resultants) {
-        EXPECT_EQ(resultant.total.cols(), 36);
-        EXPECT_TRUE(resultant.total.allFinite()) << resultant.role;
-      }
-      for (const auto& quantity : loads.quantities) {
-        EXPECT_EQ(quantity.values.size(), 36) << quantity.name;
-        EXPECT_TRUE(quantity.values.allFinite()) << quantity.name;
-        EXPECT_FALSE(quantity.unit.empty() || quantity.description.empty()) << quantity.name;
-      }
+      machines::expect_whole(loads, 36);
       EXPECT_FALSE(info.description.empty() || info.source.empty());
     }
 }

@@ -7,39 +7,19 @@
 
 #include "kinetics/load_history.h"
 #include "machines.h"
+#include "moment_sum.h"
 
 namespace {
 
 using Eigen::Vector2d;
 using kinetics::LoadHistory;
 using kinetics::VibratoryMill;
+using machines::cross;
+using machines::Sum;
 
 // Every term carries a few roundings (1e-16 of itself), the sums some ten terms; the harmonics of the pitch
 // are exact to some 1e-14 of the moments' scale because their sum cancels.
 constexpr double tolerance = 1e-12;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Sum of forces and of moments about one point, each with the sum of magnitudes.
-class Sum {
-public:
-  explicit Sum(const Vector2d& about) : about_(about) {}
-  void add(const Vector2d& at, const Vector2d& force, double couple = 0) {
-    const Vector2d arm = at - about_;
-    force_ += force;
-    force_scale_ += force.norm();
-    moment_ += cross(arm, force) + couple;
-    moment_scale_ += std::abs(arm.x() * force.y()) + std::abs(arm.y() * force.x()) + std::abs(couple);
-  }
-  double force() const { return force_.norm() / force_scale_; }
-  double moment() const { return std::abs(moment_) / moment_scale_; }
-
-private:
-  Vector2d about_, force_ = Vector2d::Zero();
-  double moment_ = 0, force_scale_ = 0, moment_scale_ = 0;
-};
 
 Vector2d force_of(const LoadHistory& loads, const std::string& role, Eigen::Index i) {
   return loads.resultant(role).total.col(i).head<2>().matrix();

@@ -8,6 +8,7 @@
 #include "kinetics/vibratory/published.h"
 #include "kinetics/vibratory/table.h"
 #include "machines.h"
+#include "whole_history.h"
 
 namespace {
 
@@ -84,15 +85,7 @@ TEST(VibratoryEffects, each_alone_contributes_alone_and_is_finite) {
       const auto loads = compute_loads(m, with_base(info.name), one_turn);
       const auto names = with_base(info.name);
       EXPECT_EQ(contributing(loads), std::set<std::string>(names.begin(), names.end()));
-      for (const auto& resultant : loads.resultants) {
-        EXPECT_EQ(resultant.total.cols(), 36);
-        EXPECT_TRUE(resultant.total.allFinite()) << resultant.role;
-      }
-      for (const auto& quantity : loads.quantities) {
-        EXPECT_EQ(quantity.values.size(), 36) << quantity.name;
-        EXPECT_TRUE(quantity.values.allFinite()) << quantity.name;
-        EXPECT_FALSE(quantity.unit.empty() || quantity.description.empty()) << quantity.name;
-      }
+      machines::expect_whole(loads, 36);
       EXPECT_FALSE(info.description.empty() || info.source.empty());
     }
 }
