@@ -29,4 +29,10 @@ kinetics::LoadHistory compute_loads(const Machine& machine, const std::vector<st
   return std::visit([&](const auto& m) { return kinetics::compute_loads(m, effects, grid); }, machine);
 }
 
+std::vector<kinetics::ResamplingError> resampling_errors(const Machine& machine,
+                                                         const kinetics::TimeGrid& grid) {
+  const auto* table = std::get_if<kinetics::LoadTable>(&machine);
+  return table ? kinetics::resampling_errors(*table, grid) : std::vector<kinetics::ResamplingError>{};
+}
+
 }  // namespace pipelines

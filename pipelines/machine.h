@@ -24,4 +24,8 @@ std::vector<kinetics::EffectInfo> effects_of(const Machine& machine);
 kinetics::LoadHistory compute_loads(const Machine& machine, const std::vector<std::string>& effects,
                                     const kinetics::TimeGrid& grid);
 
+/// What resampling has changed in a load table's samples; none for other machines.
+std::vector<kinetics::ResamplingError> resampling_errors(const Machine& machine,
+                                                         const kinetics::TimeGrid& grid);
+
 }  // namespace pipelines

@@ -92,6 +92,16 @@ void print_shaft(std::ostream& out, const RunReport& report, const ShaftAnalysis
                        seat.max_slope_rad * 1e3);
 }
 
+void print_resampling(std::ostream& out, const RunReport& report) {
+  const auto errors = resampling_errors(report.scene.machine, report.scene.sampling);
+  if (errors.empty()) return;
+  out << fmt::format("\n  {:<36}{:>14}{:>14}{:>18}\n", "samples", "largest", "jump at seam",
+                     "between samples");
+  for (const auto& e : errors)
+    out << fmt::format("  {:<36}{:>14.5g}{:>14.3g}{:>18.3g}\n", e.effect + "/" + e.port + "." + e.component,
+                       e.largest, e.jump, e.between);
+}
+
 void print_bearings(std::ostream& out, const RunReport& report) {
   if (report.bearings.empty()) return;
   out << fmt::format("\n  {:<28}{:>18}{:>14}{:>14}{:>12}\n", "bearing", "equivalent load N", "largest N",
@@ -111,6 +121,7 @@ void print_report(std::ostream& out, const RunReport& report) {
                      report.scene.sampling.instants_per_turn);
   print_loads(out, report);
   if (report.analysis) print_shaft(out, report, *report.analysis);
+  print_resampling(out, report);
   print_bearings(out, report);
   double total = 0;
   out << fmt::format("\n  {:<28}{:>12}\n", "stage", "seconds");

@@ -168,6 +168,9 @@ std::string summary_json(const RunReport& report) {
                                 {"moment_scale_Nm", closure.moment_scale_Nm},
                                 {"channel_resultant", number(closure.channel_resultant)}};
   }
+  for (const auto& e : resampling_errors(report.scene.machine, report.scene.sampling))
+    json["resampling"][e.effect + "/" + e.port + "." + e.component] = {
+        {"largest", e.largest}, {"jump", e.jump}, {"between_samples", e.between}};
   for (const auto& bearing : report.bearings) {
     Json& entry = json["bearings"][bearing.name];
     entry = {{"load", bearing.load},

@@ -20,7 +20,8 @@ struct NodeMaximum {
 
 /// For each of up to `batch` nodes: sigma = sum_k S_k a_k over n_blocks blocks of instants; the largest
 /// squared von Mises stress and its first instant, and per block an upper bound of the largest principal
-/// stress, mean + 2/3 sigma_v cos(theta) with the Lode angle's cosine bounded from above. The nodes of a batch share each block of factors while it is in the cache.
+/// stress, mean + 2/3 sigma_v cos(theta) with the Lode angle's cosine bounded from above. The nodes of a
+/// batch share each block of factors while it is in the cache.
 /// @param unit_stress  n_nodes x n_channels x 6 (xx, yy, zz, xy, yz, xz)
 /// @param factors      n_blocks x n_channels x block
 /// @param maximum      n_nodes, to be written

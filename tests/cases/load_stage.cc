@@ -165,6 +165,18 @@ TEST(LoadStage, StartUpEndsInSteadyRunning) {
   EXPECT_NEAR(last, steady["R_E"]["max"].get<double>(), 0.02 * last);
 }
 
+// What resampling adds is stated whether or not it is worth a warning.
+TEST(LoadStage, LoadTableStatesItsResampling) {
+  const results_test::Directory directory;
+  const auto json = json_of(directory.path, "loads '" + shipped("load_table.toml").string() + "' --json");
+  ASSERT_EQ(json["resampling"].size(), 3u);
+  const auto& fx = json["resampling"]["belt/pulley_seat.fx"];
+  EXPECT_NEAR(fx["largest"].get<double>(), 240.34, 0.05);
+  EXPECT_EQ(fx["jump"].get<double>(), 0);
+  EXPECT_GT(fx["between_samples"].get<double>(), 0);
+  EXPECT_LT(fx["between_samples"].get<double>(), 0.01 * fx["largest"].get<double>());
+}
+
 TEST(LoadStage, SpringsAndExtremesAnswerForTheWholeTorus) {
   const results_test::Directory directory;
   const std::string scene = "'" + shipped("vibratory_mill.toml").string() + "'";
