@@ -44,7 +44,7 @@ std::optional<RatingLife> rating_life(double dynamic_rating_N, double equivalent
                                       RollingElement element, double speed_rad_s);
 
 /// Life of a bearing in units of L10 at the rating load: R = exp(-((x - x0) / (theta - x0))^b).
-/// The defaults are those of many catalogues; they give R = 0.9 at x = 1.0067 rather than at 1 because they
+/// The defaults are those of many catalogues; they give R = 0.9 at x = 0.9933 rather than at 1 because they
 /// are rounded.
 struct WeibullLife {
   double guaranteed = 0.02;    ///< [x0] >= 0: no bearing fails earlier

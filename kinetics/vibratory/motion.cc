@@ -7,6 +7,16 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
+constexpr Eigen::ArrayXd Instants::*members[] = {&Instants::phi_rad,
+                                                 &Instants::chi_rad,
+                                                 &Instants::speed_rad_s,
+                                                 &Instants::acceleration_rad_s2,
+                                                 &Instants::relative_speed_rad_s,
+                                                 &Instants::relative_acceleration_rad_s2,
+                                                 &Instants::theta_rad,
+                                                 &Instants::theta_rad_s,
+                                                 &Instants::theta_rad_s2};
+
 /// chi when the drive has turned by an angle since its start.
 Eigen::ArrayXd charge_direction_rad(const VibratoryMill& mill, const Eigen::ArrayXd& turned_rad) {
   const double start_rad = mill.initial_angle_rad + pi - mill.charge_initial_angle_rad;
@@ -50,16 +60,23 @@ Instants driven_at(const VibratoryMill& mill, const Eigen::ArrayXd& phi_rad,
 }
 
 Instants part_of(const Instants& all, Eigen::Index first, Eigen::Index count) {
-  const auto part = [&](const Eigen::ArrayXd& values) { return values.segment(first, count); };
-  return {part(all.phi_rad),
-          part(all.chi_rad),
-          part(all.speed_rad_s),
-          part(all.acceleration_rad_s2),
-          part(all.relative_speed_rad_s),
-          part(all.relative_acceleration_rad_s2),
-          part(all.theta_rad),
-          part(all.theta_rad_s),
-          part(all.theta_rad_s2)};
+  Instants part;
+  for (const auto member : members) part.*member = (all.*member).segment(first, count);
+  return part;
+}
+
+Instants every_nth(const Instants& all, Eigen::Index n, Eigen::Index count) {
+  Instants some;
+  for (const auto member : members) some.*member = (all.*member)(Eigen::seqN(Eigen::Index(0), count, n));
+  return some;
+}
+
+void append(Instants& all, const Instants& more) {
+  for (const auto member : members) {
+    Eigen::ArrayXd joined((all.*member).size() + (more.*member).size());
+    joined << all.*member, more.*member;
+    all.*member = std::move(joined);
+  }
 }
 
 Eigen::Array2Xd direction(const Eigen::ArrayXd& angle_rad) {

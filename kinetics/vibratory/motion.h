@@ -44,6 +44,11 @@ Instants driven_at(const VibratoryMill& mill, const Eigen::ArrayXd& phi_rad,
 /// Instants first .. first + count - 1 of a longer block.
 Instants part_of(const Instants& all, Eigen::Index first, Eigen::Index count);
 
+/// Instants 0, n, 2 n, ... of a longer block, `count` of them.
+Instants every_nth(const Instants& all, Eigen::Index n, Eigen::Index count);
+/// Puts more instants behind those that there are.
+void append(Instants& all, const Instants& more);
+
 /// e(a) = (cos a, -sin a): the direction at clockwise angle a.
 Eigen::Array2Xd direction(const Eigen::ArrayXd& angle_rad);
 /// n(a) = (-sin a, -cos a): its clockwise tangent, e' = n, n' = -e.

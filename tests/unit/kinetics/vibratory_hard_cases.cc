@@ -84,6 +84,61 @@ TEST(VibratoryHardCases, no_springs_and_pitch_held) {
   EXPECT_NEAR(residual.mean(), -131, 0.6);
 }
 
+// Statics of two supports divide by their distance; one alone must lie below the weights, 131.454 N m /
+// 549.36 N.
+TEST(VibratoryHardCases, one_spring) {
+  auto mill = machines::laboratory();
+  mill.springs.pop_back();
+  mill.springs[0].position_m.x() = 131.454 / 549.36;
+  const auto loads = all_effects(mill);
+  EXPECT_TRUE(loads.has_resultant("spring_foot_1"));
+  EXPECT_FALSE(loads.has_resultant("spring_foot_2"));
+  EXPECT_LE(largest(loads.quantity("spring_force").values - loads.quantity("spring_1.fy").values), 0);
+}
+
+// All else is then small beside the springs: the chamber pitches so that their moments cancel, whatever their
+// stiffness, k_theta theta = -sum p x (k s).
+TEST(VibratoryHardCases, springs_1e12_times_stiffer) {
+  auto mill = machines::laboratory();
+  for (auto& spring : mill.springs) spring.stiffness_N_m *= 1e12;
+  const auto loads = all_effects(mill);
+  const double kx = 2 * 14000, ky = 2 * 27500, x_m = 0.28, y_m = -0.18,
+               k_theta = 7001.2;  // means: equal springs
+  const Eigen::ArrayXd sx = 0.004 * loads.phi_rad.cos(), sy = -0.004 * loads.phi_rad.sin();
+  const Eigen::ArrayXd theta = -(x_m * ky * sy - y_m * kx * sx) / k_theta;
+  // What else there is, damping and inertia, is 1e-12 and 1e-11 of the springs' moment.
+  EXPECT_LE(largest(loads.quantity("theta").values - theta), 1e-10 * largest(theta));
+}
+
+// Beside the pitch's resonance by relative 1e-9 in frequency lies the border between what is refused and what
+// is computed (2e-9 of the stiffness). On the outer side the answer is finite, large and still an
+// equilibrium.
+TEST(VibratoryHardCases, beside_the_resonance_of_pitch) {
+  const auto beside = [](double relative) {
+    auto mill = machines::laboratory();
+    const double w = mill.speed_rad_s * (1 + relative);
+    for (auto& spring : mill.springs) {
+      spring.stiffness_N_m *= 2.85 * w * w / 7001.2;
+      spring.damping_N_s_m.setZero();
+    }
+    return mill;
+  };
+  const auto effects = effects_without(beside(0), {"charge_lag", "charge_follows_pitch", "spring_damping"});
+  for (const double relative : {0.0, 0.9e-9, -0.9e-9})
+    EXPECT_THROW(compute_loads(beside(relative), effects, grid), std::invalid_argument) << relative;
+  for (const double relative : {1.1e-9, -1.1e-9}) {
+    const auto loads = compute_loads(beside(relative), effects, grid);
+    for (const auto& quantity : loads.quantities) EXPECT_TRUE(quantity.values.allFinite()) << quantity.name;
+    EXPECT_LE(largest(loads.quantity("closure_force").values), 1e-12);
+    EXPECT_LE(largest(loads.quantity("closure_moment").values), 1e-12);
+    // Ten times as far, a tenth as large; the divisor is a difference that keeps seven digits.
+    const auto farther = compute_loads(beside(10 * relative), effects, grid);
+    EXPECT_GT(largest(loads.quantity("theta").values), 1e4);
+    EXPECT_NEAR(largest(loads.quantity("theta").values) / largest(farther.quantity("theta").values), 10,
+                1e-5);
+  }
+}
+
 TEST(VibratoryHardCases, no_effects_no_loads) {
   const auto loads = compute_loads(machines::laboratory(), {}, grid);
   for (const char* name : {"B", "R_E", "T", "closure_force", "closure_moment", "theta"})
