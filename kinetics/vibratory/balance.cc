@@ -9,7 +9,6 @@ namespace kinetics::vibratory {
 namespace {
 
 using Eigen::Array2Xd;
-using Eigen::Array3d;
 using Eigen::ArrayXd;
 using Eigen::Index;
 
@@ -22,95 +21,121 @@ public:
       : mill_(mill),
         at_(part_of(books.motion, first, count)),
         first_(first),
+        n_(count),
         translation_m_(translation(mill, at_)),
         velocity_m_s_(translation_velocity(mill, at_)),
+        chamber_N_(2, count),
+        shaft_N_(2, count),
+        shaft_Nm_(count),
         books_(books) {}
 
   void book(std::size_t index, const NamedEffect& effect) {
+    bool on_chamber = false, on_shaft = false;
+    chamber_N_.setZero(), shaft_N_.setZero(), shaft_Nm_.setZero();
     for (const PlacedForce& placed : effect.evaluate(at_)) {
       const Array2Xd arm_m = position(mill_, placed, at_);
       if (placed.place == Place::debalance) {
-        book_on_shaft(index, placed, arm_m);
+        on_shaft = true;
+        shaft_N_ += placed.force_N;
+        shaft_Nm_ += cross(arm_m, placed.force_N);
+        books_.shaft.add(first_, arm_m, placed.force_N);
       } else {
-        book_on_chamber(index, placed, arm_m);
-        const bool charge = placed.place == Place::charge_centre || placed.place == Place::chamber_centre;
-        if (charge) books_.charge_power_W.segment(first_, at_.size()) += taken_W(placed, arm_m);
-        if (effect.name == "spring_damping")
-          books_.damping_power_W.segment(first_, at_.size()) += taken_W(placed, arm_m);
+        on_chamber = true;
+        chamber_N_ += placed.force_N;
+        book_on_chamber(index, effect.name, placed, arm_m);
       }
     }
-    books_.close(index, first_, at_.size());
+    if (on_chamber) fill_eccentric(index);
+    if (on_shaft) fill_debalance(index);
+    if (on_chamber || on_shaft) fill_supports(index);
   }
 
-  /// The joints' own forces, so that what is left of the sums is what does not close.
-  void book_joints() {
-    const auto total = [&](RoleIndex role) {
-      return books_.roles[role].total.middleCols(first_, at_.size());
-    };
-    const Array2Xd at_pivot_m = Array2Xd::Zero(2, at_.size());
-    books_.chamber.add(first_, at_pivot_m, total(housing_bore).topRows<2>());
-    books_.shaft.add(first_, translation_m_, total(eccentric).topRows<2>());
-    books_.shaft.add(first_, at_pivot_m, total(frame_bearings).topRows<2>());
-    books_.shaft.add_couple(first_, total(drive).row(2).transpose());
+  /// The joints' loads by the equations above, and what the sums of both bodies then leave.
+  void close() {
+    const auto total = [&](RoleIndex role) { return books_.roles[role].total.middleCols(first_, n_); };
+    const Array2Xd chamber_N = books_.chamber.force_N.middleCols(first_, n_);
+    const Array2Xd frame_N = -chamber_N - books_.shaft.force_N.middleCols(first_, n_);
+    const ArrayXd drive_Nm = -cross(translation_m_, chamber_N) - books_.shaft.moment_Nm.segment(first_, n_);
+    total(eccentric).topRows<2>() = chamber_N;
+    total(housing_bore).topRows<2>() = -chamber_N;
+    total(frame_bearings).topRows<2>() = frame_N;
+    total(drive).row(2) = drive_Nm.transpose();
+
+    const Array2Xd at_pivot_m = Array2Xd::Zero(2, n_);
+    books_.chamber.add(first_, at_pivot_m, -chamber_N);
+    books_.shaft.add(first_, translation_m_, chamber_N);
+    books_.shaft.add(first_, at_pivot_m, frame_N);
+    books_.shaft.add_couple(first_, drive_Nm);
   }
 
 private:
-  template <class Load>
-  void post(std::size_t role, std::size_t effect, const Load& load) {
-    books_.post(role, effect, first_, at_.size(), load);
+  Columns share_of(std::size_t effect, std::size_t role) { return books_.to_fill(role, effect, first_, n_); }
+
+  void fill_eccentric(std::size_t effect) {
+    Columns on_shaft = share_of(effect, eccentric), on_chamber = share_of(effect, housing_bore);
+    for (Index i = 0; i < n_; ++i) {
+      const double fx = chamber_N_(0, i), fy = chamber_N_(1, i);
+      on_shaft(0, i) = fx, on_shaft(1, i) = fy, on_shaft(2, i) = 0;
+      on_chamber(0, i) = -fx, on_chamber(1, i) = -fy, on_chamber(2, i) = 0;
+    }
   }
 
-  /// +- the force, without torque.
-  void post_force(std::size_t role, std::size_t effect, double sign, const Array2Xd& force_N) {
-    post(role, effect, [&](Index i) { return Array3d(sign * force_N(0, i), sign * force_N(1, i), 0); });
+  void fill_debalance(std::size_t effect) {
+    Columns own = share_of(effect, debalance);
+    own.topRows<2>() = shaft_N_;
+    own.row(2) = shaft_Nm_.transpose();
+    books_.roles[debalance].total.middleCols(first_, n_) += own;
   }
 
-  void book_on_shaft(std::size_t effect, const PlacedForce& placed, const Array2Xd& arm_m) {
-    const Array2Xd& F_N = placed.force_N;
-    const ArrayXd moment_Nm = cross(arm_m, F_N);
-    post(debalance, effect, [&](Index i) { return Array3d(F_N(0, i), F_N(1, i), moment_Nm[i]); });
-    post_force(frame_bearings, effect, -1, F_N);
-    post(drive, effect, [&](Index i) { return Array3d(0, 0, -moment_Nm[i]); });
-    books_.shaft.add(first_, arm_m, F_N);
+  void fill_supports(std::size_t effect) {
+    Columns frame = share_of(effect, frame_bearings), torque = share_of(effect, drive);
+    for (Index i = 0; i < n_; ++i) {
+      const double fx = chamber_N_(0, i), fy = chamber_N_(1, i);
+      frame(0, i) = -fx - shaft_N_(0, i), frame(1, i) = -fy - shaft_N_(1, i), frame(2, i) = 0;
+      torque(0, i) = torque(1, i) = 0;
+      torque(2, i) = translation_m_(1, i) * fx - translation_m_(0, i) * fy - shaft_Nm_[i];
+    }
   }
 
-  void book_on_chamber(std::size_t effect, const PlacedForce& placed, const Array2Xd& arm_m) {
-    const Array2Xd& F_N = placed.force_N;
-    const ArrayXd moment_Nm = cross(translation_m_, F_N);  // of the force -B = F on the shaft, about E
-    post_force(eccentric, effect, 1, F_N);
-    post_force(housing_bore, effect, -1, F_N);
-    post_force(frame_bearings, effect, -1, F_N);
-    post(drive, effect, [&](Index i) { return Array3d(0, 0, -moment_Nm[i]); });
-    book_at_port(effect, placed);
-    books_.chamber.add(first_, arm_m, F_N);
+  void book_on_chamber(std::size_t index, const std::string& effect, const PlacedForce& placed,
+                       const Array2Xd& arm_m) {
+    books_.chamber.add(first_, arm_m, placed.force_N);
     if (placed.couple_Nm.size() > 0) {
       books_.chamber.add_couple(first_, placed.couple_Nm);
-      books_.couple_Nm.segment(first_, at_.size()) += placed.couple_Nm;
+      books_.couple_Nm.segment(first_, n_) += placed.couple_Nm;
     }
+    const bool charge = placed.place == Place::charge_centre || placed.place == Place::chamber_centre;
+    if (charge) book_at_port(index, inner_wall, placed);
+    if (charge) add_taken(placed.force_N, arm_m, books_.charge_power_W);
+    if (placed.place == Place::spring_foot) book_at_port(index, first_spring_foot + placed.foot, placed);
+    if (effect == "spring_damping") add_taken(placed.force_N, arm_m, books_.damping_power_W);
   }
 
   /// The load that reaches the chamber itself, at its own port.
-  void book_at_port(std::size_t effect, const PlacedForce& placed) {
-    const Array2Xd& F_N = placed.force_N;
-    if (placed.place == Place::charge_centre) {
-      const ArrayXd moment_Nm = mill_.charge_offset_m * cross(at_.along_chi, F_N);
-      post(inner_wall, effect, [&](Index i) { return Array3d(F_N(0, i), F_N(1, i), moment_Nm[i]); });
-    } else if (placed.place == Place::chamber_centre) {
-      post_force(inner_wall, effect, 1, F_N);
-    } else if (placed.place == Place::spring_foot) {
-      post_force(first_spring_foot + placed.foot, effect, 1, F_N);
-    }
+  void book_at_port(std::size_t effect, std::size_t role, const PlacedForce& placed) {
+    Columns share = books_.to_add(role, effect, first_, n_);
+    auto total = books_.roles[role].total.middleCols(first_, n_);
+    share.topRows<2>() += placed.force_N;
+    total.topRows<2>() += placed.force_N;
+    if (placed.place != Place::charge_centre) return;
+    const ArrayXd about_centre_Nm = mill_.charge_offset_m * cross(at_.along_chi, placed.force_N);
+    share.row(2) += about_centre_Nm.transpose();
+    total.row(2) += about_centre_Nm.transpose();
   }
 
-  /// Power that a force takes from the chamber.
-  ArrayXd taken_W(const PlacedForce& placed, const Array2Xd& arm_m) const {
-    return -dot(placed.force_N, velocity_m_s_ + scaled(at_.theta_rad_s, turned(arm_m)));
+  /// Adds the power that a force takes from the chamber.
+  void add_taken(const Array2Xd& force_N, const Array2Xd& arm_m, ArrayXd& power_W) const {
+    for (Index i = 0; i < n_; ++i)
+      power_W[first_ + i] -= force_N(0, i) * (velocity_m_s_(0, i) - at_.theta_rad_s[i] * arm_m(1, i)) +
+                             force_N(1, i) * (velocity_m_s_(1, i) + at_.theta_rad_s[i] * arm_m(0, i));
   }
 
   const VibratoryMill& mill_;
   const Instants at_;
-  const Index first_;
+  const Index first_, n_;
   const Array2Xd translation_m_, velocity_m_s_;
+  Array2Xd chamber_N_, shaft_N_;  ///< of the effect that is being booked
+  ArrayXd shaft_Nm_;
   Books& books_;
 };
 
@@ -139,7 +164,7 @@ void balance_over(const VibratoryMill& mill, const std::vector<NamedEffect>& eff
   for (Index first = 0; first < motion.size(); first += block_size) {
     BlockBooking block(mill, first, std::min(block_size, motion.size() - first), books);
     for (std::size_t i = 0; i < effects.size(); ++i) block.book(i, effects[i]);
-    block.book_joints();
+    block.close();
   }
   write_results(mill, effects, books, history);
 }

@@ -16,13 +16,17 @@ BodySums::BodySums(Index n)
       moment_scale_Nm(ArrayXd::Zero(n)) {}
 
 void BodySums::add(Index first, const Array2Xd& arm_m, const Array2Xd& force) {
-  for (Index i = 0; i < force.cols(); ++i) {
+  const Index count = force.cols();
+  force_N.middleCols(first, count) += force;
+  double* scale_N = force_scale_N.data() + first;
+  double* sum_Nm = moment_Nm.data() + first;
+  double* scale_Nm = moment_scale_Nm.data() + first;
+  for (Index i = 0; i < count; ++i) {
     const double fx = force(0, i), fy = force(1, i);
     const double counter_clockwise = arm_m(0, i) * fy, clockwise = arm_m(1, i) * fx;
-    force_N.col(first + i) += force.col(i);
-    force_scale_N[first + i] += std::sqrt(fx * fx + fy * fy);
-    moment_Nm[first + i] += counter_clockwise - clockwise;
-    moment_scale_Nm[first + i] += std::abs(counter_clockwise) + std::abs(clockwise);
+    scale_N[i] += std::sqrt(fx * fx + fy * fy);
+    sum_Nm[i] += counter_clockwise - clockwise;
+    scale_Nm[i] += std::abs(counter_clockwise) + std::abs(clockwise);
   }
 }
 
@@ -52,14 +56,19 @@ Books::Books(const VibratoryMill& mill, std::size_t n_effects, const Instants& m
     open("spring_foot_" + std::to_string(i + 1), "force of the spring on the chamber at its foot");
 }
 
-void Books::close(std::size_t effect, Index first, Index count) {
-  for (Role& role : roles) {
-    Share& share = role.shares[effect];
-    if (share.load.size() == 0) continue;
-    if (share.n_filled <= first) share.load.middleCols(first, count).setZero();
-    share.n_filled = first + count;
-    role.total.middleCols(first, count) += share.load.middleCols(first, count);
-  }
+Columns Books::to_fill(std::size_t role, std::size_t effect, Index first, Index count) {
+  Share& share = roles[role].shares[effect];
+  if (share.load.size() == 0) share.load.resize(3, motion.size());
+  if (share.n_filled < first) share.load.middleCols(share.n_filled, first - share.n_filled).setZero();
+  share.n_filled = first + count;
+  return share.load.middleCols(first, count);
+}
+
+Columns Books::to_add(std::size_t role, std::size_t effect, Index first, Index count) {
+  const bool filled = roles[role].shares[effect].n_filled > first;
+  Columns columns = to_fill(role, effect, first, count);
+  if (!filled) columns.setZero();
+  return columns;
 }
 
 std::vector<Resultant> Books::take_resultants(const std::vector<NamedEffect>& effects) {
@@ -68,8 +77,10 @@ std::vector<Resultant> Books::take_resultants(const std::vector<NamedEffect>& ef
     Role& role = roles[index];
     Resultant resultant{role.name, role.description, std::move(role.total), {}};
     for (std::size_t effect = 0; effect < effects.size(); ++effect)
-      if (Share& share = role.shares[effect]; share.load.size() > 0)
+      if (Share& share = role.shares[effect]; share.load.size() > 0) {
+        share.load.rightCols(motion.size() - share.n_filled).setZero();
         resultant.contributions.push_back({effects[effect].name, std::move(share.load)});
+      }
     const bool own_load = index == debalance || index >= inner_wall;
     if (!own_load || !resultant.contributions.empty()) resultants.push_back(std::move(resultant));
   }

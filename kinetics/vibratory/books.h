@@ -39,6 +39,9 @@ struct Share {
   Eigen::Index n_filled = 0;  ///< columns from the left that are written
 };
 
+/// Some columns of a load.
+using Columns = Eigen::Block<Eigen::Array3Xd, 3, Eigen::Dynamic, true>;
+
 struct Role {
   std::string name, description;
   Eigen::Array3Xd total;
@@ -54,12 +57,10 @@ struct Books {
   BodySums chamber, shaft;
   Eigen::ArrayXd charge_power_W, damping_power_W, couple_Nm;
 
-  /// Adds an effect's load on a role to the instants first .. first + count - 1.
-  /// @param load  Array3d(fx, fy, torque) at the i-th of them
-  template <class Load>
-  void post(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count, const Load& load);
-  /// An effect has posted all it has for these instants: adds its shares to the totals.
-  void close(std::size_t effect, Eigen::Index first, Eigen::Index count);
+  /// An effect's share of a role at the instants first .. first + count - 1, to be filled completely.
+  Columns to_fill(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count);
+  /// The same, to be added to: zero at first.
+  Columns to_add(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count);
   /// The roles as resultants, which takes them out of the books. Those that only carry an effect's own load
   /// are left out if nothing was posted to them.
   std::vector<Resultant> take_resultants(const std::vector<NamedEffect>& effects);
@@ -68,23 +69,5 @@ struct Books {
 /// Turns the collected sums into the history's resultants and quantities, with warnings.
 void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, Books& books,
                    LoadHistory& history);
-
-template <class Load>
-void Books::post(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count,
-                 const Load& load) {
-  Share& share = roles[role].shares[effect];
-  if (share.load.size() == 0) {
-    share.load.resize(3, motion.size());
-    share.load.leftCols(first).setZero();
-  }
-  const bool fresh = share.n_filled <= first;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    if (fresh)
-      share.load.col(first + i) = load(i);
-    else
-      share.load.col(first + i) += load(i);
-  }
-  share.n_filled = first + count;
-}
 
 }  // namespace kinetics::vibratory

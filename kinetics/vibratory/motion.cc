@@ -92,16 +92,20 @@ void append(Instants& all, const Instants& more) {
 
 Eigen::Array2Xd direction(const Eigen::ArrayXd& angle_rad) {
   Eigen::Array2Xd e(2, angle_rad.size());
-  for (Eigen::Index i = 0; i < angle_rad.size(); ++i)
-    e.col(i) << std::cos(angle_rad[i]), -std::sin(angle_rad[i]);
+  for (Eigen::Index i = 0; i < angle_rad.size(); ++i) {
+    const double a = angle_rad[i], cosine = std::cos(a), sine = std::sin(a);  // one call of sincos
+    e.col(i) << cosine, -sine;
+  }
   return e;
 }
 
 Eigen::Array2Xd composed(const Eigen::ArrayXd& along, const Eigen::ArrayXd& across,
                          const Eigen::Array2Xd& e) {
   Eigen::Array2Xd vectors(2, e.cols());
-  for (Eigen::Index i = 0; i < e.cols(); ++i)
-    vectors.col(i) << along[i] * e(0, i) + across[i] * e(1, i), along[i] * e(1, i) - across[i] * e(0, i);
+  for (Eigen::Index i = 0; i < e.cols(); ++i) {
+    vectors(0, i) = along[i] * e(0, i) + across[i] * e(1, i);
+    vectors(1, i) = along[i] * e(1, i) - across[i] * e(0, i);
+  }
   return vectors;
 }
 
