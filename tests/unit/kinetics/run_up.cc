@@ -82,14 +82,20 @@ TEST(RunUp, constant_speed_becomes_steady) {
   EXPECT_NEAR(error[0] / error[1], 4, 0.1) << "second order";
 }
 
-// The default start is steady: nothing happens at constant speed.
+// The default start is steady, at the run's own first speed rather than the nominal one: nothing happens at
+// constant speed.
 TEST(RunUp, starts_steadily) {
-  const auto mill = undamped();
-  const double turn_s = 2 * std::acos(-1.0) / mill.speed_rad_s;
-  RunUp run = kinetics::ramp(mill.speed_rad_s, mill.speed_rad_s, 4 * turn_s);
-  run.step_s = turn_s / 2000;
-  run.steps_per_instant = 20;
-  EXPECT_LE(deviation(compute_run_up(mill, all_effects(mill), run), mill, "theta", 100, 4), 1e-5);
+  const auto nominal = undamped();
+  auto slower = nominal;
+  slower.speed_rad_s *= 0.625;
+  slower.charge_relative_speed_rad_s *= 0.625;
+  for (const auto& mill : {nominal, slower}) {
+    const double turn_s = 2 * std::acos(-1.0) / mill.speed_rad_s;
+    RunUp run = kinetics::ramp(mill.speed_rad_s, mill.speed_rad_s, 4 * turn_s);
+    run.step_s = turn_s / 2000 * (1 + 1e-12);
+    run.steps_per_instant = 20;
+    EXPECT_LE(deviation(compute_run_up(nominal, all_effects(nominal), run), mill, "theta", 100, 4), 1e-5);
+  }
 }
 
 TEST(RunUp, at_rest_it_hangs_in_its_springs) {
