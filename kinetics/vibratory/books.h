@@ -48,7 +48,7 @@ struct Role {
   std::vector<Share> shares;  ///< by effect
 };
 
-/// Books over all instants of a motion, which must outlive them. Blocks are posted in the order of time.
+/// Books over all instants of a motion, which must outlive them. Blocks are booked in the order of time.
 struct Books {
   Books(const VibratoryMill& mill, std::size_t n_effects, const Instants& motion);
 
