@@ -9,97 +9,135 @@ namespace kinetics::vibratory {
 namespace {
 
 using Eigen::Array2Xd;
-using Eigen::Array3Xd;
 using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr Index block_size = 256;
 
-Array3Xd load_of(const Array2Xd& force_N, const ArrayXd& torque_Nm) {
-  Array3Xd load(3, force_N.cols());
-  load.topRows<2>() = force_N;
-  load.row(2) = torque_Nm.transpose();
-  return load;
-}
+/// Books the placed forces of the effects over one block of instants.
+class BlockBooking {
+public:
+  BlockBooking(const VibratoryMill& mill, Index first, Index count, Books& books)
+      : mill_(mill),
+        at_(part_of(books.motion, first, count)),
+        first_(first),
+        n_(count),
+        translation_m_(translation(mill, at_)),
+        velocity_m_s_(translation_velocity(mill, at_)),
+        chamber_N_(2, count),
+        shaft_N_(2, count),
+        shaft_Nm_(count),
+        books_(books) {}
 
-Array3Xd pure_force(const Array2Xd& force_N) {
-  return load_of(force_N, ArrayXd::Zero(force_N.cols()));
-}
-
-Array3Xd pure_torque(const ArrayXd& torque_Nm) {
-  return load_of(Array2Xd::Zero(2, torque_Nm.size()), torque_Nm);
-}
-
-/// Roles in the order of the documentation. Those that only carry an effect's own load are dropped later if
-/// nothing was posted to them.
-void open_roles(Books& books, const VibratoryMill& mill) {
-  books.open("eccentric", "force -B of the chamber on the shaft, through E' = ecc e(phi)");
-  books.open("debalance", "force on the debalances, at KE e(phi) of the shaft; torque: its moment about E");
-  books.open("frame_bearings",
-             "reaction R_E of the frame's bearings on the shaft, through E (massless shaft)");
-  books.open("drive", "torque -T of the coupling on the shaft");
-  books.open("housing_bore", "force B of the eccentric on the chamber, through E'");
-  books.open("inner_wall",
-             "force F_w of the charge on the chamber's wall, through its axis C; torque r e(chi) x F_w");
-  for (std::size_t i = 0; i < mill.springs.size(); ++i)
-    books.open("spring_foot_" + std::to_string(i + 1), "force of the spring on the chamber at its foot");
-}
-
-void book_on_shaft(const VibratoryMill& mill, const std::string& effect, const PlacedForce& placed,
-                   const Instants& at, Index first, Books& books) {
-  const Array2Xd arm_m = position(mill, placed, at);
-  const ArrayXd moment_Nm = cross(arm_m, placed.force_N);
-  books.post("debalance", effect, first, load_of(placed.force_N, moment_Nm));
-  books.post("frame_bearings", effect, first, pure_force(-placed.force_N));
-  books.post("drive", effect, first, pure_torque(-moment_Nm));
-  books.shaft.add(first, arm_m, placed.force_N);
-}
-
-/// The load that reaches the chamber itself, at its own port.
-void book_at_port(const VibratoryMill& mill, const std::string& effect, const PlacedForce& placed,
-                  const Instants& at, Index first, Books& books) {
-  if (placed.place == Place::charge_centre) {
-    const Array2Xd from_centre_m = mill.charge_offset_m * direction(at.chi_rad);
-    books.post("inner_wall", effect, first, load_of(placed.force_N, cross(from_centre_m, placed.force_N)));
-  } else if (placed.place == Place::chamber_centre) {
-    books.post("inner_wall", effect, first, pure_force(placed.force_N));
-  } else if (placed.place == Place::spring_foot) {
-    books.post("spring_foot_" + std::to_string(placed.foot + 1), effect, first, pure_force(placed.force_N));
+  void book(std::size_t index, const NamedEffect& effect) {
+    bool on_chamber = false, on_shaft = false;
+    chamber_N_.setZero(), shaft_N_.setZero(), shaft_Nm_.setZero();
+    for (const PlacedForce& placed : effect.evaluate(at_)) {
+      const Array2Xd arm_m = position(mill_, placed, at_);
+      if (placed.place == Place::debalance) {
+        on_shaft = true;
+        shaft_N_ += placed.force_N;
+        shaft_Nm_ += cross(arm_m, placed.force_N);
+        books_.shaft.add(first_, arm_m, placed.force_N);
+      } else {
+        on_chamber = true;
+        chamber_N_ += placed.force_N;
+        book_on_chamber(index, effect.name, placed, arm_m);
+      }
+    }
+    if (on_chamber) fill_eccentric(index);
+    if (on_shaft) fill_debalance(index);
+    if (on_chamber || on_shaft) fill_supports(index);
   }
-}
 
-void book_on_chamber(const VibratoryMill& mill, const std::string& effect, const PlacedForce& placed,
-                     const Instants& at, Index first, Books& books) {
-  const Array2Xd& force_N = placed.force_N;
-  books.post("eccentric", effect, first, pure_force(force_N));
-  books.post("housing_bore", effect, first, pure_force(-force_N));
-  books.post("frame_bearings", effect, first, pure_force(-force_N));
-  books.post("drive", effect, first, pure_torque(-cross(translation(mill, at), force_N)));
-  book_at_port(mill, effect, placed, at, first, books);
+  /// The joints' loads by the equations above, and what the sums of both bodies then leave.
+  void close() {
+    const auto total = [&](RoleIndex role) { return books_.roles[role].total.middleCols(first_, n_); };
+    const Array2Xd chamber_N = books_.chamber.force_N.middleCols(first_, n_);
+    const Array2Xd frame_N = -chamber_N - books_.shaft.force_N.middleCols(first_, n_);
+    const ArrayXd drive_Nm = -cross(translation_m_, chamber_N) - books_.shaft.moment_Nm.segment(first_, n_);
+    total(eccentric).topRows<2>() = chamber_N;
+    total(housing_bore).topRows<2>() = -chamber_N;
+    total(frame_bearings).topRows<2>() = frame_N;
+    total(drive).row(2) = drive_Nm.transpose();
 
-  const Array2Xd arm_m = position(mill, placed, at);
-  books.chamber.add(first, arm_m, force_N);
-  if (placed.couple_Nm.size() > 0) {
-    books.chamber.add_couple(first, placed.couple_Nm);
-    books.couple_Nm.segment(first, at.size()) += placed.couple_Nm;
+    const Array2Xd at_pivot_m = Array2Xd::Zero(2, n_);
+    books_.chamber.add(first_, at_pivot_m, -chamber_N);
+    books_.shaft.add(first_, translation_m_, chamber_N);
+    books_.shaft.add(first_, at_pivot_m, frame_N);
+    books_.shaft.add_couple(first_, drive_Nm);
   }
-  const Array2Xd velocity_m_s = translation_velocity(mill, at) + scaled(at.theta_rad_s, turned(arm_m));
-  const ArrayXd taken_W = -dot(force_N, velocity_m_s);
-  if (placed.place == Place::charge_centre || placed.place == Place::chamber_centre)
-    books.charge_power_W.segment(first, at.size()) += taken_W;
-  if (effect == "spring_damping") books.damping_power_W.segment(first, at.size()) += taken_W;
-}
 
-/// The joints' own forces, so that what is left of the sums is what does not close.
-void book_joints(const VibratoryMill& mill, Books& books) {
-  const auto total = [&](std::size_t index) -> const Array3Xd& { return books.resultants[index].total; };
-  const Array3Xd &eccentric = total(0), &frame = total(2), &drive = total(3), &bore = total(4);
-  const Array2Xd at_pivot_m = Array2Xd::Zero(2, bore.cols());
-  books.chamber.add(0, at_pivot_m, bore.topRows<2>());
-  books.shaft.add(0, translation(mill, books.motion), eccentric.topRows<2>());
-  books.shaft.add(0, at_pivot_m, frame.topRows<2>());
-  books.shaft.add_couple(0, drive.row(2).transpose());
-}
+private:
+  Columns share_of(std::size_t effect, std::size_t role) { return books_.to_fill(role, effect, first_, n_); }
+
+  void fill_eccentric(std::size_t effect) {
+    Columns on_shaft = share_of(effect, eccentric), on_chamber = share_of(effect, housing_bore);
+    for (Index i = 0; i < n_; ++i) {
+      const double fx = chamber_N_(0, i), fy = chamber_N_(1, i);
+      on_shaft(0, i) = fx, on_shaft(1, i) = fy, on_shaft(2, i) = 0;
+      on_chamber(0, i) = -fx, on_chamber(1, i) = -fy, on_chamber(2, i) = 0;
+    }
+  }
+
+  void fill_debalance(std::size_t effect) {
+    Columns own = share_of(effect, debalance);
+    own.topRows<2>() = shaft_N_;
+    own.row(2) = shaft_Nm_.transpose();
+    books_.roles[debalance].total.middleCols(first_, n_) += own;
+  }
+
+  void fill_supports(std::size_t effect) {
+    Columns frame = share_of(effect, frame_bearings), torque = share_of(effect, drive);
+    for (Index i = 0; i < n_; ++i) {
+      const double fx = chamber_N_(0, i), fy = chamber_N_(1, i);
+      frame(0, i) = -fx - shaft_N_(0, i), frame(1, i) = -fy - shaft_N_(1, i), frame(2, i) = 0;
+      torque(0, i) = torque(1, i) = 0;
+      torque(2, i) = translation_m_(1, i) * fx - translation_m_(0, i) * fy - shaft_Nm_[i];
+    }
+  }
+
+  void book_on_chamber(std::size_t index, const std::string& effect, const PlacedForce& placed,
+                       const Array2Xd& arm_m) {
+    books_.chamber.add(first_, arm_m, placed.force_N);
+    if (placed.couple_Nm.size() > 0) {
+      books_.chamber.add_couple(first_, placed.couple_Nm);
+      books_.couple_Nm.segment(first_, n_) += placed.couple_Nm;
+    }
+    const bool charge = placed.place == Place::charge_centre || placed.place == Place::chamber_centre;
+    if (charge) book_at_port(index, inner_wall, placed);
+    if (charge) add_taken(placed.force_N, arm_m, books_.charge_power_W);
+    if (placed.place == Place::spring_foot) book_at_port(index, first_spring_foot + placed.foot, placed);
+    if (effect == "spring_damping") add_taken(placed.force_N, arm_m, books_.damping_power_W);
+  }
+
+  /// The load that reaches the chamber itself, at its own port.
+  void book_at_port(std::size_t effect, std::size_t role, const PlacedForce& placed) {
+    Columns share = books_.to_add(role, effect, first_, n_);
+    auto total = books_.roles[role].total.middleCols(first_, n_);
+    share.topRows<2>() += placed.force_N;
+    total.topRows<2>() += placed.force_N;
+    if (placed.place != Place::charge_centre) return;
+    const ArrayXd about_centre_Nm = mill_.charge_offset_m * cross(at_.along_chi, placed.force_N);
+    share.row(2) += about_centre_Nm.transpose();
+    total.row(2) += about_centre_Nm.transpose();
+  }
+
+  /// Adds the power that a force takes from the chamber.
+  void add_taken(const Array2Xd& force_N, const Array2Xd& arm_m, ArrayXd& power_W) const {
+    for (Index i = 0; i < n_; ++i)
+      power_W[first_ + i] -= force_N(0, i) * (velocity_m_s_(0, i) - at_.theta_rad_s[i] * arm_m(1, i)) +
+                             force_N(1, i) * (velocity_m_s_(1, i) + at_.theta_rad_s[i] * arm_m(0, i));
+  }
+
+  const VibratoryMill& mill_;
+  const Instants at_;
+  const Index first_, n_;
+  const Array2Xd translation_m_, velocity_m_s_;
+  Array2Xd chamber_N_, shaft_N_;  ///< of the effect that is being booked
+  ArrayXd shaft_Nm_;
+  Books& books_;
+};
 
 }  // namespace
 
@@ -122,21 +160,12 @@ ArrayXd times_s(const VibratoryMill& mill, const Instants& steady) {
 
 void balance_over(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Instants& motion,
                   LoadHistory& history) {
-  const Index n_instants = motion.size();
-  Books books(n_instants);
-  open_roles(books, mill);
-  for (Index first = 0; first < n_instants; first += block_size) {
-    const Instants at = part_of(motion, first, std::min(block_size, n_instants - first));
-    for (const NamedEffect& effect : effects)
-      for (const PlacedForce& placed : effect.evaluate(at)) {
-        if (placed.place == Place::debalance)
-          book_on_shaft(mill, effect.name, placed, at, first, books);
-        else
-          book_on_chamber(mill, effect.name, placed, at, first, books);
-      }
+  Books books(mill, effects.size(), motion);
+  for (Index first = 0; first < motion.size(); first += block_size) {
+    BlockBooking block(mill, first, std::min(block_size, motion.size() - first), books);
+    for (std::size_t i = 0; i < effects.size(); ++i) block.book(i, effects[i]);
+    block.close();
   }
-  books.motion = motion;
-  book_joints(mill, books);
   write_results(mill, effects, books, history);
 }
 

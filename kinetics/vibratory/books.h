@@ -21,24 +21,53 @@ struct BodySums {
   void add_couple(Eigen::Index first, const Eigen::ArrayXd& couple_Nm);
 };
 
-struct Books {
-  explicit Books(Eigen::Index n);
+/// Roles of the books in the order of the documentation; the feet of the springs are the last.
+enum RoleIndex : std::size_t {
+  eccentric,
+  debalance,
+  frame_bearings,
+  drive,
+  housing_bore,
+  inner_wall,
+  first_spring_foot
+};
 
-  std::vector<Resultant> resultants;
+/// What one effect brings to one role. Columns are written once, block by block: storing them is most of the
+/// work of an instant.
+struct Share {
+  Eigen::Array3Xd load;       ///< rows fx, fy, torque; empty: the effect does not load the role
+  Eigen::Index n_filled = 0;  ///< columns from the left that are written
+};
+
+/// Some columns of a load.
+using Columns = Eigen::Block<Eigen::Array3Xd, 3, Eigen::Dynamic, true>;
+
+struct Role {
+  std::string name, description;
+  Eigen::Array3Xd total;
+  std::vector<Share> shares;  ///< by effect
+};
+
+/// Books over all instants of a motion, which must outlive them. Blocks are booked in the order of time.
+struct Books {
+  Books(const VibratoryMill& mill, std::size_t n_effects, const Instants& motion);
+
+  const Instants& motion;
+  std::vector<Role> roles;  ///< by RoleIndex
   BodySums chamber, shaft;
-  Instants motion;  ///< of all instants
   Eigen::ArrayXd charge_power_W, damping_power_W, couple_Nm;
 
-  /// Adds a block's load to a role's contribution and total; makes the contribution at its first mention.
-  /// @param load  rows fx, fy, torque
-  void post(const std::string& role, const std::string& effect, Eigen::Index first,
-            const Eigen::Array3Xd& load);
-  /// Makes an empty resultant, so that it is there even if no effect loads it.
-  void open(const std::string& role, const std::string& description);
+  /// An effect's share of a role at the instants first .. first + count - 1, to be filled completely.
+  Columns to_fill(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count);
+  /// The same, to be added to: zero at first.
+  Columns to_add(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count);
+  /// The roles as resultants, which takes them out of the books. Those that only carry an effect's own load
+  /// are left out if nothing was posted to them.
+  std::vector<Resultant> take_resultants(const std::vector<NamedEffect>& effects);
 };
 
 /// Turns the collected sums into the history's resultants and quantities, with warnings.
-void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Books& books,
+void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, Books& books,
                    LoadHistory& history);
 
 }  // namespace kinetics::vibratory

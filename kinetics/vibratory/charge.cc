@@ -33,25 +33,23 @@ Effect charge_translation(const VibratoryMill& mill) {
 Effect charge_centripetal(const VibratoryMill& mill) {
   const double mr = first_moment_kg_m(mill);
   return [mr](const Instants& at) {
-    return on_charge(
-        scaled(mr * at.speed_rad_s.square(), direction(at.chi_rad)) -  // the term that (15) drops
-        scaled(mr * at.acceleration_rad_s2, tangent(at.chi_rad)));
+    return on_charge(composed(mr * at.speed_rad_s.square(),  // the term that (15) drops
+                              -mr * at.acceleration_rad_s2, at.along_chi));
   };
 }
 
 Effect charge_coriolis(const VibratoryMill& mill) {
   const double mr = first_moment_kg_m(mill);
   return [mr](const Instants& at) {
-    return on_charge(
-        scaled(2 * mr * at.speed_rad_s * at.relative_speed_rad_s, direction(at.chi_rad)));  // (39)
+    return on_charge(scaled(2 * mr * at.speed_rad_s * at.relative_speed_rad_s, at.along_chi));  // (39)
   };
 }
 
 Effect charge_relative(const VibratoryMill& mill) {
   const double mr = first_moment_kg_m(mill);
   return [mr](const Instants& at) {
-    return on_charge(scaled(mr * at.relative_speed_rad_s.square(), direction(at.chi_rad)) -  // (37)
-                     scaled(mr * at.relative_acceleration_rad_s2, tangent(at.chi_rad)));
+    return on_charge(composed(mr * at.relative_speed_rad_s.square(),  // (37)
+                              -mr * at.relative_acceleration_rad_s2, at.along_chi));
   };
 }
 

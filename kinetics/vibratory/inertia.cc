@@ -23,9 +23,8 @@ Effect exciter_inertia(const VibratoryMill& mill) {
 Effect debalance_inertia(const VibratoryMill& mill) {
   const double first_moment_kg_m = mill.debalance_mass_kg * mill.debalance_offset_m;
   return [=](const Instants& at) {
-    const Eigen::Array2Xd force_N =
-        scaled(first_moment_kg_m * at.speed_rad_s.square(), direction(at.phi_rad)) -  // (33)
-        scaled(first_moment_kg_m * at.acceleration_rad_s2, tangent(at.phi_rad));
+    const Eigen::Array2Xd force_N = composed(first_moment_kg_m * at.speed_rad_s.square(),  // (33)
+                                             -first_moment_kg_m * at.acceleration_rad_s2, at.along_phi);
     return std::vector<PlacedForce>{{Place::debalance, 0, force_N, {}}};
   };
 }

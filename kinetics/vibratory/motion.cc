@@ -1,5 +1,6 @@
 #include "kinetics/vibratory/motion.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace kinetics::vibratory {
@@ -16,6 +17,8 @@ constexpr Eigen::ArrayXd Instants::*members[] = {&Instants::phi_rad,
                                                  &Instants::theta_rad,
                                                  &Instants::theta_rad_s,
                                                  &Instants::theta_rad_s2};
+
+constexpr Eigen::Array2Xd Instants::*directions[] = {&Instants::along_phi, &Instants::along_chi};
 
 /// chi when the drive has turned by an angle since its start.
 Eigen::ArrayXd charge_direction_rad(const VibratoryMill& mill, const Eigen::ArrayXd& turned_rad) {
@@ -62,12 +65,15 @@ Instants driven_at(const VibratoryMill& mill, const Eigen::ArrayXd& phi_rad,
 Instants part_of(const Instants& all, Eigen::Index first, Eigen::Index count) {
   Instants part;
   for (const auto member : members) part.*member = (all.*member).segment(first, count);
+  for (const auto e : directions) part.*e = (all.*e).middleCols(first, count);
   return part;
 }
 
 Instants every_nth(const Instants& all, Eigen::Index n, Eigen::Index count) {
   Instants some;
-  for (const auto member : members) some.*member = (all.*member)(Eigen::seqN(Eigen::Index(0), count, n));
+  const auto every = Eigen::seqN(Eigen::Index(0), count, n);
+  for (const auto member : members) some.*member = (all.*member)(every);
+  for (const auto e : directions) some.*e = (all.*e)(Eigen::all, every);
   return some;
 }
 
@@ -77,20 +83,30 @@ void append(Instants& all, const Instants& more) {
     joined << all.*member, more.*member;
     all.*member = std::move(joined);
   }
+  for (const auto e : directions) {
+    Eigen::Array2Xd joined(2, (all.*e).cols() + (more.*e).cols());
+    joined << all.*e, more.*e;
+    all.*e = std::move(joined);
+  }
 }
 
 Eigen::Array2Xd direction(const Eigen::ArrayXd& angle_rad) {
   Eigen::Array2Xd e(2, angle_rad.size());
-  e.row(0) = angle_rad.cos().transpose();
-  e.row(1) = -angle_rad.sin().transpose();
+  for (Eigen::Index i = 0; i < angle_rad.size(); ++i) {
+    const double a = angle_rad[i], cosine = std::cos(a), sine = std::sin(a);  // one call of sincos
+    e.col(i) << cosine, -sine;
+  }
   return e;
 }
 
-Eigen::Array2Xd tangent(const Eigen::ArrayXd& angle_rad) {
-  Eigen::Array2Xd n(2, angle_rad.size());
-  n.row(0) = -angle_rad.sin().transpose();
-  n.row(1) = -angle_rad.cos().transpose();
-  return n;
+Eigen::Array2Xd composed(const Eigen::ArrayXd& along, const Eigen::ArrayXd& across,
+                         const Eigen::Array2Xd& e) {
+  Eigen::Array2Xd vectors(2, e.cols());
+  for (Eigen::Index i = 0; i < e.cols(); ++i) {
+    vectors(0, i) = along[i] * e(0, i) + across[i] * e(1, i);
+    vectors(1, i) = along[i] * e(1, i) - across[i] * e(0, i);
+  }
+  return vectors;
 }
 
 Eigen::Array2Xd scaled(const Eigen::ArrayXd& factor, const Eigen::Array2Xd& vectors) {
@@ -121,17 +137,19 @@ Eigen::ArrayXd dot(const Eigen::Array2Xd& a, const Eigen::Array2Xd& b) {
 }
 
 Eigen::Array2Xd translation(const VibratoryMill& mill, const Instants& at) {
-  return mill.eccentricity_m * direction(at.phi_rad);
+  return mill.eccentricity_m * at.along_phi;
 }
 
 Eigen::Array2Xd translation_velocity(const VibratoryMill& mill, const Instants& at) {
-  return scaled(mill.eccentricity_m * at.speed_rad_s, tangent(at.phi_rad));
+  return composed(Eigen::ArrayXd::Zero(at.size()), mill.eccentricity_m * at.speed_rad_s, at.along_phi);
 }
 
 Eigen::Array2Xd translation_acceleration(const VibratoryMill& mill, const Instants& at, double shift_rad) {
-  const Eigen::ArrayXd angle_rad = at.phi_rad + shift_rad;
-  return scaled(mill.eccentricity_m * at.acceleration_rad_s2, tangent(angle_rad)) -
-         scaled(mill.eccentricity_m * at.speed_rad_s.square(), direction(angle_rad));
+  const Eigen::Array2Xd acceleration_m_s2 =
+      composed(-mill.eccentricity_m * at.speed_rad_s.square(), mill.eccentricity_m * at.acceleration_rad_s2,
+               at.along_phi);
+  if (shift_rad == 0) return acceleration_m_s2;
+  return (Eigen::Rotation2Dd(-shift_rad).toRotationMatrix() * acceleration_m_s2.matrix()).array();
 }
 
 }  // namespace kinetics::vibratory

@@ -11,17 +11,22 @@
 
 namespace kinetics::vibratory {
 
+/// e(a) = (cos a, -sin a): the direction at clockwise angle a.
+Eigen::Array2Xd direction(const Eigen::ArrayXd& angle_rad);
+
 /// A block of instants. In steady running both accelerations are zero; the effects do not rely on it.
 struct Instants {
-  Eigen::ArrayXd phi_rad;                       ///< [phi] drive angle
-  Eigen::ArrayXd chi_rad;                       ///< direction of CO, chi = phi + pi - delta
-  Eigen::ArrayXd speed_rad_s;                   ///< [omega_e] d phi / dt
-  Eigen::ArrayXd acceleration_rad_s2;           ///< d2 phi / dt2
-  Eigen::ArrayXd relative_speed_rad_s;          ///< [omega_r] d chi / dt - d phi / dt
-  Eigen::ArrayXd relative_acceleration_rad_s2;  ///< d omega_r / dt
-  Eigen::ArrayXd theta_rad;                     ///< pitch of the chamber about E'
-  Eigen::ArrayXd theta_rad_s;                   ///< d theta / dt
-  Eigen::ArrayXd theta_rad_s2;                  ///< d2 theta / dt2
+  Eigen::ArrayXd phi_rad;                          ///< [phi] drive angle
+  Eigen::ArrayXd chi_rad;                          ///< direction of CO, chi = phi + pi - delta
+  Eigen::ArrayXd speed_rad_s;                      ///< [omega_e] d phi / dt
+  Eigen::ArrayXd acceleration_rad_s2;              ///< d2 phi / dt2
+  Eigen::ArrayXd relative_speed_rad_s;             ///< [omega_r] d chi / dt - d phi / dt
+  Eigen::ArrayXd relative_acceleration_rad_s2;     ///< d omega_r / dt
+  Eigen::ArrayXd theta_rad;                        ///< pitch of the chamber about E'
+  Eigen::ArrayXd theta_rad_s;                      ///< d theta / dt
+  Eigen::ArrayXd theta_rad_s2;                     ///< d2 theta / dt2
+  Eigen::Array2Xd along_phi = direction(phi_rad);  ///< e(phi), once for all effects
+  Eigen::Array2Xd along_chi = direction(chi_rad);  ///< e(chi)
 
   Eigen::Index size() const { return phi_rad.size(); }
 };
@@ -49,10 +54,8 @@ Instants every_nth(const Instants& all, Eigen::Index n, Eigen::Index count);
 /// Puts more instants behind those that there are.
 void append(Instants& all, const Instants& more);
 
-/// e(a) = (cos a, -sin a): the direction at clockwise angle a.
-Eigen::Array2Xd direction(const Eigen::ArrayXd& angle_rad);
-/// n(a) = (-sin a, -cos a): its clockwise tangent, e' = n, n' = -e.
-Eigen::Array2Xd tangent(const Eigen::ArrayXd& angle_rad);
+/// a e + b n, where n(a) = (-sin a, -cos a) is the clockwise tangent of e: e' = n, n' = -e.
+Eigen::Array2Xd composed(const Eigen::ArrayXd& along, const Eigen::ArrayXd& across, const Eigen::Array2Xd& e);
 /// Columns scaled by one factor each.
 Eigen::Array2Xd scaled(const Eigen::ArrayXd& factor, const Eigen::Array2Xd& vectors);
 /// The same vector at every instant.

@@ -1,5 +1,6 @@
 #include "kinetics/vibratory/pitch.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -28,10 +29,33 @@ Instants torus(const VibratoryMill& mill) {
   return steady_at(mill, phi_rad, chi_rad);
 }
 
+/// exp(i p a) for p = -highest .. highest, from e(a).
+class Powers {
+public:
+  explicit Powers(const Eigen::Array2d& e) {
+    const Complex z(e.x(), -e.y());
+    powers_[highest] = 1;
+    for (int p = 1; p <= highest; ++p) powers_[highest + p] = powers_[highest + p - 1] * z;
+    for (int p = 1; p <= highest; ++p) powers_[highest - p] = std::conj(powers_[highest + p]);
+  }
+  Complex operator[](int p) const { return powers_[highest + p]; }
+
+private:
+  std::array<Complex, 2 * highest + 1> powers_{};
+};
+
+std::vector<Powers> powers_of(const Eigen::Array2Xd& directions) {
+  std::vector<Powers> powers;
+  for (Eigen::Index i = 0; i < directions.cols(); ++i) powers.emplace_back(directions.col(i));
+  return powers;
+}
+
 /// Component (p, q) of the two-dimensional discrete Fourier transform of values on the torus.
-Complex component(const Eigen::ArrayXd& values, const Instants& at, int p, int q) {
-  const Eigen::ArrayXd angle = p * at.phi_rad + q * at.chi_rad;
-  return {(values * angle.cos()).mean(), -(values * angle.sin()).mean()};
+Complex component(const Eigen::ArrayXd& values, const std::vector<Powers>& phi,
+                  const std::vector<Powers>& chi, int p, int q) {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < phi.size(); ++i) sum += values[Eigen::Index(i)] * (phi[i][-p] * chi[i][-q]);
+  return sum / double(phi.size());
 }
 
 /// Of each pair (p, q), (-p, -q), which are conjugate, the one that is kept.
@@ -61,13 +85,15 @@ Complex response(const PitchOscillator& chamber, const MomentHarmonic& forcing, 
 
 void PitchMotion::apply(Instants& at) const {
   at.theta_rad = at.theta_rad_s = at.theta_rad_s2 = Eigen::ArrayXd::Zero(at.size());
-  for (const Harmonic& h : harmonics) {
-    const Eigen::ArrayXd angle = h.p * at.phi_rad + h.q * at.chi_rad;
-    const double a = h.amplitude_rad.real(), b = h.amplitude_rad.imag(), w = h.frequency_rad_s;
-    const Eigen::ArrayXd value = a * angle.cos() - b * angle.sin();
-    at.theta_rad += value;
-    at.theta_rad_s -= w * (a * angle.sin() + b * angle.cos());
-    at.theta_rad_s2 -= w * w * value;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const Powers phi(at.along_phi.col(i)), chi(at.along_chi.col(i));
+    for (const Harmonic& h : harmonics) {
+      const double w = h.frequency_rad_s;
+      const Complex value = h.amplitude_rad * (phi[h.p] * chi[h.q]);
+      at.theta_rad[i] += value.real();
+      at.theta_rad_s[i] -= w * value.imag();
+      at.theta_rad_s2[i] -= w * w * value.real();
+    }
   }
 }
 
@@ -112,12 +138,13 @@ std::vector<MomentHarmonic> moment_harmonics(const VibratoryMill& mill,
   const Instants at = torus(mill);  // theta = 0: the pitch effects themselves are silent here
   const MomentSum forcing = chamber_moment(mill, effects, at);
   const double round_off_Nm = 1e-13 * forcing.scale_Nm.maxCoeff();
+  const std::vector<Powers> phi = powers_of(at.along_phi), chi = powers_of(at.along_chi);
   std::vector<MomentHarmonic> harmonics;
   for (int p = -highest; p <= highest; ++p)
     for (int q = -highest; q <= highest; ++q) {
       if (!is_kept(p, q)) continue;
       const bool mean = p == 0 && q == 0;
-      const Complex moment_Nm = (mean ? 1.0 : 2.0) * component(forcing.moment_Nm, at, p, q);
+      const Complex moment_Nm = (mean ? 1.0 : 2.0) * component(forcing.moment_Nm, phi, chi, p, q);
       if (std::abs(moment_Nm) <= round_off_Nm) continue;
       const double w = p * mill.speed_rad_s + q * mill.speed_rad_s * charge_speed_ratio(mill);
       harmonics.push_back({p, q, w, moment_Nm});

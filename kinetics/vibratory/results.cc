@@ -139,13 +139,9 @@ void write_warnings(const VibratoryMill& mill, const LoadHistory& history, bool 
 
 }  // namespace
 
-void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Books& books,
+void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, Books& books,
                    LoadHistory& history) {
-  for (const Resultant& resultant : books.resultants) {
-    const bool own_load = resultant.role == "debalance" || resultant.role == "inner_wall" ||
-                          resultant.role.rfind("spring_foot_", 0) == 0;
-    if (!own_load || !resultant.contributions.empty()) history.resultants.push_back(resultant);
-  }
+  history.resultants = books.take_resultants(effects);
   const bool pitching = contains(effects, "pitch");
   write_motion(mill, books.motion, pitching, history);
   write_reactions(books, history);

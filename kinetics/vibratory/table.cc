@@ -117,12 +117,11 @@ Eigen::Array2Xd position(const VibratoryMill& mill, const PlacedForce& force, co
     case Place::chamber_centre:
       return constant(mill.chamber_centre_m, n);
     case Place::charge_centre:
-      return constant(mill.chamber_centre_m, n) +
-             mill.charge_offset_m * direction(at.chi_rad);  // (4), from E'
+      return constant(mill.chamber_centre_m, n) + mill.charge_offset_m * at.along_chi;  // (4), from E'
     case Place::spring_foot:
       return constant(mill.springs[force.foot].position_m, n);
     case Place::debalance:
-      return mill.debalance_offset_m * direction(at.phi_rad);
+      return mill.debalance_offset_m * at.along_phi;
     case Place::pivot:
       break;
   }
