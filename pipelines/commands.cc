@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "pipelines/atomic_file.h"
 #include "pipelines/calculix_cards.h"
@@ -85,9 +86,16 @@ void run_command(const CommandOptions& options, std::ostream& out) {
   if (!scene.shaft) {
     const auto lives = bearing_lives(scene.bearings, loads, nullptr);
     clock.run("write", [&] { write_load_results(directory, loads, nullptr); });
+    const bool is_train = std::holds_alternative<kinetics::DriveTrain>(scene.machine);
+    std::optional<TorsionReport> torsion;
+    if (is_train) torsion = clock.run("torsion", [&] { return report_torsion(scene); });
+    if (torsion) clock.run("write", [&] { write_torsion_files(directory / "torsion", scene, *torsion); });
     const RunReport content{scene, loads, nullptr, clock.costs(), lives};
     write_text_file(directory / "summary.json", summary_json(content));
     report(out, options, content);
+    if (options.json) return;
+    if (torsion) print_torsion(out, scene, *torsion);
+    out << "\n  results in " << directory.string() << '\n';
     return;
   }
   std::filesystem::create_directories(directory / "shaft");

@@ -158,6 +158,9 @@ std::string summary_json(const RunReport& report) {
                                     {"rms", number(s.rms)},
                                     {"unit", quantity.unit}};
   }
+  if (const auto* train = std::get_if<kinetics::DriveTrain>(&report.scene.machine))
+    for (const double w : kinetics::natural_modes(*train, kinetics::Shapes::none).frequency_rad_s)
+      json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
   if (report.analysis) {
     json["bodies"]["shaft"] = shaft_json(report, *report.analysis);
     const Closure& closure = report.analysis->closure;

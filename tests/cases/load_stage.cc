@@ -96,6 +96,12 @@ TEST(LoadStage, DriveTrainGivesTheSpecsFrequenciesAndTorques) {
   EXPECT_LT(json["transient"]["energy_balance"].get<double>(), 1e-10);
   for (const char* file : {"modes.csv", "forced.csv", "campbell.csv", "margins.csv", "transient.csv"})
     EXPECT_FALSE(csv(directory / "t" / file).empty()) << file;
+  // `run` leaves the same beside the loads, under the summary's stable key.
+  const auto run = millstress(directory.path, "run '" + shipped("drive_train.toml").string() + "' -o all");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(summary(directory / "all")["torsion"]["natural_frequencies"], json["natural_frequencies"]);
+  for (const char* file : {"loads.h5", "loads.csv", "torsion/modes.csv", "torsion/transient.csv"})
+    EXPECT_TRUE(fs::exists(directory / "all" / file)) << file;
   // A mode's energies are shares.
   const auto modes = csv(directory / "t/modes.csv");
   double sum = 0;
