@@ -65,6 +65,10 @@ TEST(LoadStage, PlanetaryMillGivesTheSpecsTable) {
   EXPECT_NEAR(turning[1][1], 1233, 1);
   EXPECT_NEAR(turning[2][1], 77490, 5);
   EXPECT_NEAR(turning[3][1], 449, 2);
+  // The drum's axes are the carrier's at first; half a drum's turn later they point the other way.
+  EXPECT_NEAR(loads.at("trunnions_turning.fx")[0], loads.at("trunnions.fx")[0], 1e-9);
+  EXPECT_NEAR(loads.at("trunnions_turning.fx")[90], -loads.at("trunnions.fx")[90], 1e-7);
+  EXPECT_NEAR(loads.at("trunnions.fx")[0], -loads.at("X_A")[0], 1e-9);
   const auto extremes = rows_of(directory / "s/statistics.csv", "X_A");
   ASSERT_EQ(extremes.size(), 1u);
   EXPECT_EQ(extremes[0][0], *std::max_element(loads.at("X_A").begin(), loads.at("X_A").end()));
