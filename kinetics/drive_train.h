@@ -221,6 +221,9 @@ std::vector<ResonanceMargin> resonance_margins(const DriveTrain& train);
 /// Effects of a train: its excitations by name, then the kinds of damping that it has.
 std::vector<EffectInfo> drive_train_effects(const DriveTrain& train);
 
+/// The train with the named effects only: other excitations are left out, other damping is zero.
+DriveTrain with_effects(const DriveTrain& train, const std::vector<std::string>& effects);
+
 /// Steady state over the grid (turns of the reference shaft) under the named effects, and only those.
 /// Excitations superpose and bring the contributions; a damping effect changes what they bring and has none
 /// of its own.

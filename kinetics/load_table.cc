@@ -74,8 +74,7 @@ void check(const LoadTable& table, const TimeGrid& grid) {
   require_finite("speed_rad_s", table.speed_rad_s);
   if (table.speed_rad_s <= 0)
     refuse("speed_rad_s", table.speed_rad_s, "must be positive: it ties time and angle together");
-  if (grid.turns < 1) refuse("turns", grid.turns, "must be at least 1");
-  if (grid.instants_per_turn < 4) refuse("instants_per_turn", grid.instants_per_turn, "must be at least 4");
+  check_grid(grid);
   if (table.loads.empty()) throw std::invalid_argument("the load table is empty; give at least one load");
   for (std::size_t i = 0; i < table.loads.size(); ++i) {
     const TableLoad& load = table.loads[i];

@@ -11,32 +11,46 @@ namespace {
 
 using kinetics::LoadHistory;
 
-/// A load as rows: the two of a force, or the one of a torque.
+/// A load over the cycle: two rows of a force, or one of a torque or of what a load table brings besides.
 struct Load {
   std::string name;
-  const kinetics::Resultant* resultant;
-  Eigen::Index first_row, n_rows;
+  Eigen::ArrayXXd values;
 };
 
-std::vector<Load> loads_of(const LoadHistory& history) {
+/// The loads of a history, or the parts that one effect has in them.
+/// @param effect  empty: the whole loads. A load table's quantities have no parts
+std::vector<Load> loads_of(const LoadHistory& history, const std::string& effect = "") {
   std::vector<Load> loads;
   for (const auto& resultant : history.resultants) {
-    loads.push_back({resultant.role + ".force", &resultant, 0, 2});
-    loads.push_back({resultant.role + ".torque", &resultant, 2, 1});
+    const Eigen::Array3Xd* values = effect.empty() ? &resultant.total : nullptr;
+    for (const auto& part : resultant.contributions)
+      if (part.effect == effect) values = &part.load;
+    if (values == nullptr) continue;
+    loads.push_back({resultant.role + ".force", values->topRows<2>()});
+    loads.push_back({resultant.role + ".torque", values->row(2)});
   }
+  if (history.machine == "load_table" && effect.empty())
+    for (const auto& quantity : history.quantities)
+      loads.push_back({quantity.name, quantity.values.transpose()});
   return loads;
 }
 
-Eigen::ArrayXd magnitude(const Load& load, const Eigen::Array3Xd& values) {
-  return values.middleRows(load.first_row, load.n_rows).matrix().colwise().norm().transpose();
+Eigen::ArrayXd magnitude(const Eigen::ArrayXXd& values) {
+  return values.matrix().colwise().norm().transpose();
 }
 
-double largest(const Load& load, const Eigen::Array3Xd& values) {
-  return magnitude(load, values).maxCoeff();
+double largest(const Eigen::ArrayXXd& values) {
+  return magnitude(values).maxCoeff();
 }
 
-double rms(const Load& load, const Eigen::Array3Xd& values) {
-  return std::sqrt(magnitude(load, values).square().mean());
+double rms(const Eigen::ArrayXXd& values) {
+  return std::sqrt(magnitude(values).square().mean());
+}
+
+const Load* find(const std::vector<Load>& loads, const std::string& name) {
+  const auto found =
+      std::find_if(loads.begin(), loads.end(), [&](const Load& load) { return load.name == name; });
+  return found == loads.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> without(const std::vector<std::string>& names, const std::vector<std::string>& off) {
@@ -46,11 +60,10 @@ std::vector<std::string> without(const std::vector<std::string>& names, const st
   return left;
 }
 
-/// Largest change of a load between two histories; a role that is gone carries nothing.
-double change(const Load& load, const LoadHistory& other) {
-  const Eigen::Array3Xd& before = load.resultant->total;
-  if (!other.has_resultant(load.resultant->role)) return largest(load, before);
-  return largest(load, before - other.resultant(load.resultant->role).total);
+/// Largest change of a load between two histories; one that is gone carries nothing.
+double change(const Load& load, const std::vector<Load>& others) {
+  const Load* const other = find(others, load.name);
+  return other ? largest(load.values - other->values) : largest(load.values);
 }
 
 struct Change {
@@ -61,13 +74,14 @@ struct Change {
 /// The load that changes most. A load that is nothing but round-off (the torque of a joint that carries none)
 /// does not count.
 Change worst_change(const LoadHistory& all, const LoadHistory& other) {
+  const auto loads = loads_of(all), others = loads_of(other);
   Change worst;
   double scale = 0;
-  for (const auto& load : loads_of(all)) scale = std::max(scale, largest(load, load.resultant->total));
-  for (const auto& load : loads_of(all)) {
-    const double size = largest(load, load.resultant->total);
+  for (const auto& load : loads) scale = std::max(scale, largest(load.values));
+  for (const auto& load : loads) {
+    const double size = largest(load.values);
     if (size <= 1e-12 * scale) continue;
-    const double share = change(load, other) / size;
+    const double share = change(load, others) / size;
     if (share > worst.share || worst.load.empty()) worst = {share, load.name};
   }
   return worst;
@@ -75,18 +89,19 @@ Change worst_change(const LoadHistory& all, const LoadHistory& other) {
 
 std::vector<LoadShare> shares_of(const std::string& effect, const LoadHistory& all,
                                  const LoadHistory* other) {
+  const auto parts = loads_of(all, effect);
+  const auto others = other ? loads_of(*other) : std::vector<Load>{};
   std::vector<LoadShare> shares;
   for (const auto& load : loads_of(all)) {
-    const double size = largest(load, load.resultant->total), mean = rms(load, load.resultant->total);
+    const double size = largest(load.values);
     if (size == 0) continue;
     LoadShare share;
     share.load = load.name;
-    for (const auto& part : load.resultant->contributions)
-      if (part.effect == effect) {
-        share.largest = largest(load, part.load) / size;
-        share.rms = rms(load, part.load) / mean;
-      }
-    share.if_off = other ? change(load, *other) / size : std::numeric_limits<double>::quiet_NaN();
+    if (const Load* const part = find(parts, load.name)) {
+      share.largest = largest(part->values) / size;
+      share.rms = rms(part->values) / rms(load.values);
+    }
+    share.if_off = other ? change(load, others) / size : std::numeric_limits<double>::quiet_NaN();
     if (share.largest > 0 || share.if_off > 1e-12) shares.push_back(share);
   }
   return shares;

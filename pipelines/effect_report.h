@@ -11,9 +11,10 @@
 
 namespace pipelines {
 
-/// Part of one effect in one load. A load is the force of a resultant (the length of fx, fy) or its torque.
+/// Part of one effect in one load. A load is the force of a resultant (the length of fx, fy), its torque, or
+/// what a load table brings besides.
 struct LoadShare {
-  std::string load;    ///< "<role>.force" or "<role>.torque"
+  std::string load;    ///< "<role>.force", "<role>.torque", or the quantity's name
   double largest = 0;  ///< largest magnitude of the effect's part over the largest magnitude of the load
   double rms = 0;      ///< the same of the root mean squares
   double if_off = 0;   ///< largest change of the load over the cycle when the effect is left out, over the

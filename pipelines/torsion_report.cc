@@ -12,10 +12,7 @@ TorsionReport report_torsion(const Scene& scene) {
     throw std::invalid_argument(scene.file.string() +
                                 ": torsion needs a scene whose machine.type is \"drive_train\"; see "
                                 "pipelines/scenes/drive_train.toml");
-  kinetics::DriveTrain on = *train;
-  const auto is_off = [&](const auto& excitation) { return !scene.has_effect(excitation.name); };
-  on.excitations.erase(std::remove_if(on.excitations.begin(), on.excitations.end(), is_off),
-                       on.excitations.end());
+  const kinetics::DriveTrain on = kinetics::with_effects(*train, scene.effects);
   TorsionReport report;
   report.modes = kinetics::natural_modes(on);
   report.forced = kinetics::forced_response(on);

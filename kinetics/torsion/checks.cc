@@ -164,12 +164,4 @@ void check_effects(const DriveTrain& train, const std::vector<std::string>& effe
   }
 }
 
-void check_grid(const TimeGrid& grid) {
-  if (grid.turns < 1)
-    refuse("turns", grid.turns, "must be at least 1; give whole turns of the reference shaft");
-  if (grid.instants_per_turn < 4)
-    refuse("instants_per_turn", grid.instants_per_turn,
-           "must be at least 4; 120 resolves orders up to 12 well");
-}
-
 }  // namespace kinetics::torsion

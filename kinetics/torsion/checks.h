@@ -24,7 +24,4 @@ void check_excitations(const DriveTrain& train);
 /// @throws std::invalid_argument for a name that drive_train_effects does not list or that is given twice
 void check_effects(const DriveTrain& train, const std::vector<std::string>& effects);
 
-/// @throws std::invalid_argument unless the grid has a turn and four instants in each
-void check_grid(const TimeGrid& grid);
-
 }  // namespace kinetics::torsion

@@ -58,16 +58,6 @@ const std::vector<EffectInfo>& damping_effects() {
   return infos;
 }
 
-DriveTrain with_effects(const DriveTrain& train, const std::vector<std::string>& effects) {
-  DriveTrain left = train;
-  left.excitations.clear();
-  for (const TrainExcitation& excitation : train.excitations)
-    if (contains(effects, excitation.name)) left.excitations.push_back(excitation);
-  for (const DampingKind& kind : kinds())
-    if (!contains(effects, kind.info.name)) kind.take_out(left);
-  return left;
-}
-
 }  // namespace kinetics::torsion
 
 namespace kinetics {
@@ -80,6 +70,16 @@ std::vector<EffectInfo> drive_train_effects(const DriveTrain& train) {
   for (const torsion::DampingKind& kind : torsion::kinds())
     if (kind.present(train)) infos.push_back(kind.info);
   return infos;
+}
+
+DriveTrain with_effects(const DriveTrain& train, const std::vector<std::string>& effects) {
+  DriveTrain left = train;
+  left.excitations.clear();
+  for (const TrainExcitation& excitation : train.excitations)
+    if (torsion::contains(effects, excitation.name)) left.excitations.push_back(excitation);
+  for (const torsion::DampingKind& kind : torsion::kinds())
+    if (!torsion::contains(effects, kind.info.name)) kind.take_out(left);
+  return left;
 }
 
 }  // namespace kinetics

@@ -158,8 +158,8 @@ void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, 
 LoadHistory compute_loads(const DriveTrain& train, const std::vector<std::string>& effects,
                           const TimeGrid& grid) {
   torsion::check_effects(train, effects);
-  torsion::check_grid(grid);
-  const torsion::PreparedTrain prepared(torsion::with_effects(train, effects));
+  check_grid(grid);
+  const torsion::PreparedTrain prepared(with_effects(train, effects));
   const auto excitation = torsion::spectral(prepared.train, prepared.reduced);
   LoadHistory history;
   history.machine = "drive_train";

@@ -114,6 +114,26 @@ TEST(LoadStage, DriveTrainGivesTheSpecsFrequenciesAndTorques) {
   EXPECT_NEAR(sum, 1, 1e-9);
 }
 
+// Damping is an effect: what the scene does not name is not in the forced response either.
+TEST(LoadStage, DampingThatIsOffDoesNotDamp) {
+  const results_test::Directory directory;
+  const Edits damped{{"# damping = \"0.1 N m s/rad\"", "damping = \"50 N m s/rad\""}};
+  write(directory / "off.toml", edited("drive_train.toml", damped));
+  write(directory / "on.toml",
+        edited("drive_train.toml", damped + Edits{{"effects = [\"motor_torque\",",
+                                                   "effects = [\"inertia_damping\", \"motor_torque\","}}));
+  for (const char* name : {"off", "on"})
+    ASSERT_EQ(millstress(directory.path, std::string("torsion ") + name + ".toml -o " + name).exit_code, 0);
+  ASSERT_EQ(millstress(directory.path, "torsion '" + shipped("drive_train.toml").string() + "' -o undamped")
+                .exit_code,
+            0);
+  const auto torque = [&](const char* name) {
+    return csv(directory / name / "forced.csv").at("belt.torque")[0];
+  };
+  EXPECT_EQ(torque("off"), torque("undamped"));
+  EXPECT_GT(std::abs(torque("on") - torque("undamped")), 0.01);
+}
+
 TEST(LoadStage, DriveTrainReproducesThePapersTables) {
   const results_test::Directory directory;
   write(directory / "mok.toml",

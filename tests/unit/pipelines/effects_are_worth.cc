@@ -63,6 +63,16 @@ TEST(EffectWorth, WhatCanGoIsJudgedTogether) {
   EXPECT_NEAR(worth_of(cancel, "push").if_off, 0.5, 1e-14);
 }
 
+// An axial force is no planar resultant, but a load all the same.
+TEST(EffectWorth, LoadsBesideTheResultantsCount) {
+  auto scene = table_scene({{"weight", {100, 0}}, {"thrust", {40, 0}}});
+  std::get<kinetics::LoadTable>(scene.machine).loads[1].component = "fz";
+  const auto report = report_effects(scene, 0.3, false);
+  EXPECT_EQ(worth_of(report, "thrust").worst_load, "seat.fz");
+  EXPECT_EQ(worth_of(report, "thrust").if_off, 1);
+  EXPECT_TRUE(report.dispensable.empty());
+}
+
 TEST(EffectWorth, TheOnlyEffectCannotGo) {
   const auto report = report_effects(table_scene({{"weight", {1, 0}}}), 0.01, false);
   EXPECT_FALSE(worth_of(report, "weight").indispensable.empty());
