@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 
+#include "fem/model.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/calculix_cards.h"
 #include "pipelines/effect_report.h"
@@ -98,6 +99,10 @@ void run_command(const CommandOptions& options, std::ostream& out) {
     out << "\n  results in " << directory.string() << '\n';
     return;
   }
+  // Only now: a wrong scene and loads alone need no MPI, which takes half a second and may talk.
+  char name[] = "millstress", *arguments[] = {name, nullptr}, **argv = arguments;
+  int argc = 1;
+  const fem::Environment environment(argc, argv, options.n_threads);
   std::filesystem::create_directories(directory / "shaft");
   const auto analysis =
       analyse_shaft(scene, loads, {directory / "shaft", options.n_threads, options.fresh}, clock);

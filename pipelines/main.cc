@@ -3,7 +3,6 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "fem/model.h"
 #include "pipelines/commands.h"
 #include "pipelines/scene.h"
 #include "pipelines/version.h"
@@ -91,7 +90,6 @@ int main(int argc, char** argv) {
 
   return guarded([&] {
     if (run->parsed()) {
-      const fem::Environment environment(argc, argv, options.n_threads);
       pipelines::run_command(options, std::cout);
     } else if (loads->parsed()) {
       pipelines::loads_command(options, std::cout);
