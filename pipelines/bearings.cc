@@ -22,15 +22,15 @@ double speed_of(const BearingScene& bearing, const kinetics::LoadHistory& loads)
   return loads.speed_rad_s.abs().mean();
 }
 
-std::vector<std::string> known_loads(const kinetics::LoadHistory& loads) {
+}  // namespace
+
+std::vector<std::string> known_forces(const kinetics::LoadHistory& loads) {
   std::vector<std::string> names;
   for (const auto& resultant : loads.resultants) names.push_back(resultant.role);
   for (const auto& quantity : loads.quantities)
     if (quantity.unit == "N") names.push_back(quantity.name);
   return names;
 }
-
-}  // namespace
 
 std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::LoadHistory& loads,
                                        const ChannelHistory* channels) {
@@ -52,7 +52,7 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
     const auto force = force_of(bearing.load, loads, channels);
     if (!force)
       throw std::invalid_argument("bearing \"" + bearing.name + "\": there is no force \"" + bearing.load +
-                                  "\"; known here: " + listed(known_loads(loads)) +
+                                  "\"; known here: " + listed(known_forces(loads)) +
                                   (channels ? "" : ", and with `run` the ports of the shaft"));
     BearingResult result;
     result.name = bearing.name;

@@ -34,6 +34,9 @@ struct BearingResult {
 std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::LoadHistory& loads,
                                        const ChannelHistory* channels);
 
+/// The names that force_of knows without a shaft.
+std::vector<std::string> known_forces(const kinetics::LoadHistory& loads);
+
 /// @throws std::invalid_argument naming bearing, load and remedy if a load is not there
 std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearings,
                                          const kinetics::LoadHistory& loads, const ChannelHistory* channels);

@@ -83,9 +83,9 @@ void run_command(const CommandOptions& options, std::ostream& out) {
   StageClock clock(progress_on_stderr(options.verbosity));
 
   auto loads = clock.run("loads", [&] { return load_stage(scene); });
-  std::filesystem::create_directories(directory);
   if (!scene.shaft) {
     const auto lives = bearing_lives(scene.bearings, loads, nullptr);
+    std::filesystem::create_directories(directory);
     clock.run("write", [&] { write_load_results(directory, loads, nullptr); });
     const bool is_train = std::holds_alternative<kinetics::DriveTrain>(scene.machine);
     std::optional<TorsionReport> torsion;
@@ -123,7 +123,10 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   StageClock clock(progress_on_stderr(options.verbosity));
   const auto loads = clock.run("loads", [&] { return load_stage(scene); });
-  const auto lives = bearing_lives(scene.bearings, loads, nullptr);
+  std::vector<BearingScene> bearings;  // those at a port of the shaft need `run`
+  for (const auto& bearing : scene.bearings)
+    if (!scene.shaft || force_of(bearing.load, loads, nullptr)) bearings.push_back(bearing);
+  const auto lives = bearing_lives(bearings, loads, nullptr);
   if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, loads); });
   if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, loads); });
   if (!options.statistics.empty())

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "meshes/shaft_checks.h"
+#include "pipelines/nearest.h"
 #include "pipelines/scene.h"
 #include "pipelines/scene_effects.h"
 #include "pipelines/scene_load_table.h"
@@ -173,15 +174,32 @@ int rehearsal_turns(const Scene& scene) {
   return std::holds_alternative<kinetics::LoadTable>(scene.machine) ? scene.sampling.turns : 1;
 }
 
+/// A bearing's load must be one that the load stage gives, or that the shaft adds.
+void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, SceneTable& root) {
+  for (const auto& bearing : scene.bearings) {
+    bool known = force_of(bearing.load, loads, nullptr).has_value() ||
+                 (scene.drum_axes && bearing.load == "trunnions_turning") ||
+                 (scene.shaft && bearing.load == "R_E_shaft");
+    if (scene.shaft)
+      for (const auto& segment : scene.shaft->geometry.segments)
+        known = known || segment.name == bearing.load;
+    if (!known)
+      root.refuse("bearings", "the load \"" + bearing.load + "\" of \"" + bearing.name +
+                                  "\" is no force here; known are: " + listed(known_forces(loads)) +
+                                  (scene.shaft ? ", and the ports of the shaft" : ""));
+  }
+}
+
 /// What the stages themselves refuse (resonances, springs that cannot carry the weights, shafts that cannot
 /// be meshed) is better said now, with a line, than after the first stage: a few instants cost next to
 /// nothing.
-void rehearse(const Scene& scene, SceneTable& machine, SceneTable* shaft) {
+void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, SceneTable* shaft) {
   try {
     if (scene.run_up)
       kinetics::check_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
     else
-      compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8});
+      check_bearings(
+          scene, compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8}), root);
   } catch (const std::invalid_argument& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
@@ -282,7 +300,7 @@ Scene read_scene(const std::filesystem::path& file) {
   read_results(root.table_or_empty("results"), scene);
   root.finish();
 
-  if (findings.errors.empty()) rehearse(scene, machine, shaft ? &*shaft : nullptr);
+  if (findings.errors.empty()) rehearse(scene, root, machine, shaft ? &*shaft : nullptr);
   if (!findings.errors.empty()) throw_sorted(std::move(findings.errors));
   scene.defaults = std::move(findings.defaults);
   scene.warnings = std::move(findings.warnings);
