@@ -67,25 +67,29 @@ struct Period {
 };
 
 struct PeriodOf {
+  bool drum_axes;  ///< the loads in the drum's axes have to repeat too
   Period operator()(const kinetics::VibratoryMill& mill) const {
     if (!std::isfinite(mill.speed_rad_s) || !std::isfinite(mill.charge_relative_speed_rad_s))
       return {false, 0};
     return {true, kinetics::period_in_turns(mill, most_turns).value_or(0)};
   }
   /// In the carrier's frame every turn; seen from the drum after a few.
-  Period operator()(const kinetics::PlanetaryMill&) const { return {}; }
+  Period operator()(const kinetics::PlanetaryMill& mill) const {
+    return {true, drum_axes ? kinetics::period_in_turns(mill, most_turns).value_or(0) : 1};
+  }
   /// Of the reference shaft; excitations that do not fit are warned of by the load stage.
   Period operator()(const kinetics::DriveTrain&) const { return {}; }
   /// Samples repeat after as many turns as the user says.
   Period operator()(const kinetics::LoadTable&) const { return {}; }
 };
 
-kinetics::TimeGrid read_sampling(SceneTable sampling, const Machine& machine, SceneFindings& findings) {
+kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneFindings& findings) {
   constexpr int most_instants = 2'000'000;
   kinetics::TimeGrid grid;
   grid.instants_per_turn =
       sampling.count_or("instants_per_turn", 8, 100'000, 120, "one instant every 3 degrees of the drive");
-  const auto [speeds_are_known, period] = std::visit(PeriodOf{}, machine);
+  const auto [speeds_are_known, period] =
+      std::visit(PeriodOf{scene.drum_axes && findings.errors.empty()}, scene.machine);
   if (sampling.has("turns") || period > 0)
     grid.turns = sampling.count_or("turns", 1, most_turns, period, "the period of the motion");
   else if (sampling.know("turns"); speeds_are_known)
@@ -178,15 +182,14 @@ int rehearsal_turns(const Scene& scene) {
 void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, SceneTable& root) {
   for (const auto& bearing : scene.bearings) {
     bool known = force_of(bearing.load, loads, nullptr).has_value() ||
-                 (scene.drum_axes && bearing.load == "trunnions_turning") ||
-                 (scene.shaft && bearing.load == "R_E_shaft");
-    if (scene.shaft)
-      for (const auto& segment : scene.shaft->geometry.segments)
-        known = known || segment.name == bearing.load;
+                 (scene.drum_axes && bearing.load == "trunnions_turning");
+    for (const char* of_the_shaft : {"R_E_shaft", "main_bearing_1", "main_bearing_2", "eccentric_seat"})
+      known = known || (scene.shaft && bearing.load == of_the_shaft);
     if (!known)
-      root.refuse("bearings", "the load \"" + bearing.load + "\" of \"" + bearing.name +
-                                  "\" is no force here; known are: " + listed(known_forces(loads)) +
-                                  (scene.shaft ? ", and the ports of the shaft" : ""));
+      root.refuse("bearings",
+                  "the load \"" + bearing.load + "\" of \"" + bearing.name +
+                      "\" is no force here; known are: " + listed(known_forces(loads)) +
+                      (scene.shaft ? ", R_E_shaft, main_bearing_1, main_bearing_2, eccentric_seat" : ""));
   }
 }
 
@@ -274,11 +277,11 @@ Scene read_scene(const std::filesystem::path& file) {
       machine.refuse_missing("type", "is missing; add it: one of " + machine_types);
     else if (!type.empty())
       machine.refuse("type", "unknown machine; write one of " + machine_types);
-    for (const char* key : {"effects", "sampling", "shaft", "zones", "results"}) root.know(key);
+    for (const char* key : {"effects", "sampling", "shaft", "bearings", "zones", "results"}) root.know(key);
     root.finish();  // there may be no [machine] at all
     throw_sorted(findings.errors);
   }
-  scene.sampling = read_sampling(root.table_or_empty("sampling"), scene.machine, findings);
+  scene.sampling = read_sampling(root.table_or_empty("sampling"), scene, findings);
 
   std::optional<SceneTable> shaft;
   if (root.has("shaft") && type == "vibratory_mill") {
