@@ -16,12 +16,14 @@ struct Material {
   double density_kg_m3 = 0;
 };
 
-/// Cells of the volume group: cylinder coordinates about z, composed with the eccentric shift
+/// Cells of the volume group: cylinder coordinates about the axis through (axis_x, axis_y) parallel to z,
+/// composed with the eccentric shift
 /// (x, y) += clamp((r - inner_radius) / (outer_radius - inner_radius), 0, 1) (shift_x, shift_y).
 struct CylinderChart {
   int volume_id = 0;
   double shift_x_m = 0, shift_y_m = 0;
   double inner_radius_m = 0, outer_radius_m = 0;
+  double axis_x_m = 0, axis_y_m = 0;
 };
 
 /// Faces of the boundary group: torus about z, a circle of `radius` about (z, r) = (centre_z, centre_radius).
@@ -31,7 +33,9 @@ struct TorusChart {
 };
 
 struct Body {
-  std::filesystem::path mesh;  ///< .msh 4.1 of linear hexahedra with physical groups
+  /// .msh 4.1 with physical groups: linear hexahedra, or quadratic tetrahedra (10 nodes, curved as they are;
+  /// no charts, degree 2)
+  std::filesystem::path mesh;
   std::vector<CylinderChart> cylinders;
   std::vector<TorusChart> tori;
   Material material;

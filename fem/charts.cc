@@ -22,7 +22,7 @@ double positive_angle(double angle) {
 // the quadratic a t^2 + 2 b t - c = 0; a > 0 since |e| < L, c >= 0 outside the inner radius: one positive
 // root.
 Coordinates pull_back(const CylinderChart& chart, const Coordinates& point) {
-  double x = point[0], y = point[1];
+  double x = point[0] - chart.axis_x_m, y = point[1] - chart.axis_y_m;
   const double ex = chart.shift_x_m, ey = chart.shift_y_m, r_inner = chart.inner_radius_m;
   const double c = x * x + y * y - r_inner * r_inner;
   if (ex * ex + ey * ey > 0 && c > 0) {
@@ -40,7 +40,7 @@ Coordinates pull_back(const CylinderChart& chart, const Coordinates& point) {
 
 Coordinates push_forward(const CylinderChart& chart, const Coordinates& chart_point) {
   const double r = chart_point[0];
-  double x = r * std::cos(chart_point[1]), y = r * std::sin(chart_point[1]);
+  double x = chart.axis_x_m + r * std::cos(chart_point[1]), y = chart.axis_y_m + r * std::sin(chart_point[1]);
   if (chart.shift_x_m != 0 || chart.shift_y_m != 0) {
     const double length = chart.outer_radius_m - chart.inner_radius_m;
     const double share = std::clamp((r - chart.inner_radius_m) / length, 0.0, 1.0);

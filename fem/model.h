@@ -34,8 +34,8 @@ using Progress = std::function<void(double, const std::string&)>;
 
 /// How nodal stresses are made from the finite-element stress.
 enum class Recovery {
-  patch,  ///< superconvergent patch recovery (Zienkiewicz and Zhu 1992); surfaces that no load of the call
-          ///< acts on also give their strains along the surface, with no traction across it
+  patch,    ///< superconvergent patch recovery (Zienkiewicz and Zhu 1992); surfaces that no load of the call
+            ///< acts on also give their strains along the surface, with no traction across it
   average,  ///< mean of the cells' values at each node: a baseline for tests
 };
 

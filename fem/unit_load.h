@@ -10,45 +10,56 @@
 
 namespace fem {
 
-/// A surface where load enters. Seats are cylinders parallel to z with their own axis; end faces are flat
-/// discs.
+/// A surface where load enters. Seats are cylinders parallel to z with their own axis, loaded from outside
+/// or, as bores, from inside; faces are any other surfaces, in one piece or several.
 struct LoadSurface {
-  enum class Kind { seat, end_face };
+  enum class Kind { seat, face };
   Kind kind = Kind::seat;
   int boundary_id = 0;
-  std::array<double, 3> centre_m{};  ///< on the axis, in the middle of the surface
-  double radius_m = 0;
-  double length_m = 0;  ///< along z; 0 for end faces
+  std::array<double, 3> centre_m{};  ///< seat: on the axis, in the middle; face: the point of its moments
+  double radius_m = 0;               ///< 0 for faces
+  double length_m = 0;               ///< along z; 0 for faces
+  /// Seats: normal pressure along the axis, relative, at equidistant places from the end of smaller z to the
+  /// other one, straight lines in between. One value: uniform.
+  std::vector<double> axial_profile{1.0};
 };
 
-/// Six resultants of a surface. Seats: fx, fy normal pressure cos/sin of the angle; fz axial and torque
-/// tangential traction tapered by 1 - (2 z/b)^2; mx, my normal pressure times z. End faces: fx, fy uniform
-/// shear, fz uniform tension, mx, my linear bending traction, torque Saint-Venant traction. The resultant on
-/// the mesh is exact: the six raw load vectors of the surface are combined so that each has its own component
-/// 1 and the five others 0.
+/// Six resultants of a surface. Seats: fx, fy normal pressure cos/sin of the angle times the axial profile;
+/// fz axial and torque tangential traction tapered by 1 - (2 z/b)^2; mx, my normal pressure times z. Faces:
+/// fx, fy, fz uniform traction, mx, my, torque the traction e x r about the centre. The resultant on the mesh
+/// is exact: the six raw load vectors of the surface are combined so that each has its own component 1 and
+/// the five others 0.
 struct SurfaceResultant {
   enum class Component { fx, fy, fz, mx, my, torque };
   LoadSurface surface;
   Component component = Component::fx;
 };
 
-/// Normal pressure  p = value c_n cos(n theta) / (pi R b)  (or sin), c_n the half-cosine's coefficient
-/// against n = 1: c_0 = 2/pi, c_n = (4/pi) (-1)^(n/2+1) / (n^2-1) for n = 2, 4, ... theta from +x about the
-/// seat's axis. A positive p pushes against the surface (inwards). Its discrete resultants are removed on the
-/// mesh. With |F| cos(n beta), |F| sin(n beta) as values the harmonics add up, with n = 1, to the half-cosine
-/// of resultant |F| centred at beta.
+/// Normal pressure  p = value c cos(n theta) / (pi R b)  (or sin) times the axial profile (of mean 1), theta
+/// from +x about the seat's axis. A positive p pushes against the surface, into the material. Its discrete
+/// resultants are removed on the mesh: n = 1 is the resultant fx, fy.
 struct SeatPressure {
   enum class Phase { cosine, sine };
   LoadSurface surface;
-  int harmonic = 0;  ///< 0 or even
+  int harmonic = 0;        ///< 0, 2, 3, 4 ...
+  double coefficient = 1;  ///< c, of the pressure pattern, against its harmonic n = 1
   Phase phase = Phase::cosine;
 };
 
 /// Body force rho (acceleration field): `translation` along x, y, z: rho; `rotation`: rho z x p = rho (-y, x,
-/// 0); `spin`: rho (x, y, 0), the centrifugal field of unit squared speed.
+/// 0); `spin`: rho (x, y, 0), the centrifugal field of unit squared speed. On the cells of the volume groups
+/// named, or on all if none is.
 struct BodyForce {
   enum class Field { translation_x, translation_y, translation_z, rotation, spin };
   Field field = Field::translation_x;
+  std::vector<int> volume_ids{};
+};
+
+/// Springs from a surface to the ground, on its mean displacement along x, y, z (conjugate to the surface's
+/// unit resultants fx, fy, fz). They act on the elastic deformation only: loads close without them.
+struct ElasticSupport {
+  LoadSurface surface;
+  std::array<double, 3> stiffness_N_m{};  ///< each >= 0; 0: no spring in that direction
 };
 
 struct UnitLoad {

@@ -3,26 +3,29 @@
 /// each used once over boundaries and volumes together.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace meshes {
 
-/// A named place where load enters: a cylindrical seat, or a flat end face.
+/// A named place where load enters: the outside of a cylinder parallel to z (seat), the inside of one (bore,
+/// wall of a chamber), or any other surface (face: end faces, pads), which may consist of several pieces.
 struct Port {
-  enum class Kind { seat, end_face };
+  enum class Kind { seat, bore, face };
   std::string name;
   Kind kind = Kind::seat;
   int boundary_id = 0;
   double begin_m = 0, end_m = 0;  ///< range in z of the loaded surface; equal for an end face
-  double radius_m = 0;
-  double axis_x_m = 0, axis_y_m = 0;  ///< the seat's own axis (eccentric seats lie off the z axis)
+  double radius_m = 0;            ///< of the cylinder; of a round end face; 0 for other faces
+  double axis_x_m = 0,
+         axis_y_m = 0;  ///< the cylinder's own axis; the point of a face about which it is loaded
 };
 
 /// A named piece of surface (every boundary face belongs to exactly one).
 struct Feature {
-  enum class Kind { seat, surface, fillet, shoulder, end_face };
+  enum class Kind { seat, surface, fillet, shoulder, end_face, bore };
   /// "main_bearing_1" (loaded zone of the port), "main_bearing_1 rim 2" (unloaded rest of its cylinder),
   /// "body_1", "fillet main_bearing_1/body_1", "shoulder main_bearing_1/body_1", "end_1"
   std::string name;
@@ -31,15 +34,16 @@ struct Feature {
   double begin_m = 0, end_m = 0;  ///< range in z
 };
 
-/// All cells of the volume group "ring_<segment>": cylinder coordinates (r, angle, z) about the z axis,
+/// All cells of a volume group: cylinder coordinates (r, angle, z) about the axis through (axis_x, axis_y),
 /// composed with the eccentric shift  (x, y) += s(r) (shift_x, shift_y),
 ///   s(r) = clamp((r - inner_radius)/(outer_radius - inner_radius), 0, 1).
-/// No cell reaches across r = inner_radius. The group "core" has straight cells and no chart.
+/// No cell reaches across r = inner_radius. A group without a chart (the core of a shaft) has straight cells.
 struct CylinderChart {
   int volume_id = 0;
   double shift_x_m = 0, shift_y_m = 0;
   double inner_radius_m = 0;  ///< r_a: inside it nothing is shifted; the radius of the core if concentric
   double outer_radius_m = 0;  ///< R: the surface of the segment, fully shifted
+  double axis_x_m = 0, axis_y_m = 0;
 };
 
 /// The faces of a fillet: part of a torus about the z axis.
@@ -59,19 +63,49 @@ struct SectionPlane {
   bool plain = false;  ///< at least one half diameter away from both ends of its segment
 };
 
+/// Cells whose mass is counted together, where a body has several such parts (the chamber: "structure",
+/// "exciter").
+struct Region {
+  std::string name;
+  std::vector<int> volume_ids;
+};
+
+/// A re-entrant edge of the model that is sharp where the part is not: stress has no converged value there,
+/// and none is reported within `distance`, which the geometry (never the mesh) fixes.
+struct SharpEdge {
+  std::string name;
+  double distance_m = 0;
+  std::vector<std::array<std::array<double, 3>, 2>> pieces;  ///< straight pieces, ends in m
+};
+
+/// Where the structural hot-spot stress of a weld toe is read: vertices of the mesh on the plate's surface,
+/// at 0.4 and 1.0 plate thicknesses from the toe; the stress at the toe is 1.67 s(0.4 t) - 0.67 s(1.0 t).
+struct HotSpot {
+  std::string name;
+  double thickness_m = 0;
+  std::array<double, 3> toe_m{}, near_m{}, far_m{};
+};
+
+enum class CellKind { hexahedra, tetrahedra };
+
 struct MeshQuality {
   std::size_t n_cells = 0, n_vertices = 0;
   double min_scaled_jacobian = 0, median_scaled_jacobian = 0;
   double worst_x_m = 0, worst_y_m = 0, worst_z_m = 0;  ///< centre of the worst cell
+  double max_aspect = 0;                               ///< longest edge of a cell over its shortest
 };
 
 struct BodyMesh {
-  std::filesystem::path file;  ///< .msh, format 4.1, linear hexahedra, named physical groups
+  std::filesystem::path file;            ///< .msh, format 4.1, named physical groups
+  CellKind cells = CellKind::hexahedra;  ///< linear hexahedra, or quadratic tetrahedra (10 nodes)
   std::vector<Port> ports;
   std::vector<Feature> features;
   std::vector<CylinderChart> cylinders;
   std::vector<TorusChart> tori;
-  std::vector<SectionPlane> sections;  ///< ascending in z
+  std::vector<SectionPlane> sections;  ///< ascending in z; shafts only
+  std::vector<Region> regions;         ///< empty: the whole body is one
+  std::vector<SharpEdge> sharp_edges;
+  std::vector<HotSpot> hot_spots;
   MeshQuality quality;
 };
 

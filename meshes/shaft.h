@@ -1,4 +1,5 @@
-/// Stepped solid shaft with shoulder fillets and eccentric seats, meshed with structured hexahedra.
+/// Stepped shaft, solid or bored, with shoulder fillets and eccentric seats, meshed with structured
+/// hexahedra; so are drums: shafts with a wide bore in the middle.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +16,12 @@ struct ShaftSegment {
   double begin_m = 0;  ///< z; end_m > begin_m
   double end_m = 0;
   double diameter_m = 0;
-  double eccentricity_m = 0;  ///< offset of this segment's axis along +x (the body's xi axis)
+  double eccentricity_m = 0;  ///< offset of this segment's axis
   bool is_port = false;       ///< its surface takes load; see Shaft
+  double eccentricity_angle_rad =
+      0;                    ///< direction of the offset, counter-clockwise from +x (the body's xi axis)
+  double bore_m = 0;        ///< diameter of the hole along z, concentric with the z axis; 0: solid
+  std::string bore_port{};  ///< name of the port that the whole inside of the bore is; empty: none
 };
 
 /// Segments from left to right without gaps. fillets_m[i] is the radius at the shoulder between segments i

@@ -81,8 +81,8 @@ std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const 
   const SegmentLayout& first = layout.segments.front();
   const SegmentLayout& last = layout.segments.back();
   std::vector<Port> ports;
-  ports.push_back({"end_1", Port::Kind::end_face, surfaces.end_1_id, first.begin_m, first.begin_m,
-                   first.radius_m, first.shift_m, 0});
+  ports.push_back({"end_1", Port::Kind::face, surfaces.end_1_id, first.begin_m, first.begin_m, first.radius_m,
+                   first.shift_m, 0});
   for (std::size_t i = 0; i < layout.segments.size(); ++i) {
     const SegmentLayout& segment = layout.segments[i];
     if (!segment.is_port) continue;
@@ -91,8 +91,8 @@ std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const 
     ports.push_back({shaft.segments[i].name, Port::Kind::seat, id, segment.zone_begin_m, segment.zone_end_m,
                      segment.radius_m, segment.shift_m, 0});
   }
-  ports.push_back({"end_2", Port::Kind::end_face, surfaces.end_2_id, last.end_m, last.end_m, last.radius_m,
-                   last.shift_m, 0});
+  ports.push_back(
+      {"end_2", Port::Kind::face, surfaces.end_2_id, last.end_m, last.end_m, last.radius_m, last.shift_m, 0});
   return ports;
 }
 
@@ -100,7 +100,8 @@ std::vector<CylinderChart> cylinders_of(const ShaftLayout& layout, const Surface
   std::vector<CylinderChart> charts;
   for (std::size_t i = 0; i < layout.segments.size(); ++i) {
     const SegmentLayout& segment = layout.segments[i];
-    charts.push_back({surfaces.ring_ids[i], segment.shift_m, 0, segment.inner_radius_m, segment.radius_m});
+    charts.push_back(
+        {surfaces.ring_ids[i], segment.shift_m, 0, segment.inner_radius_m, segment.radius_m, 0, 0});
   }
   return charts;
 }

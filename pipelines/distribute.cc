@@ -25,7 +25,7 @@ const meshes::Port& find_port(const std::vector<meshes::Port>& ports, const std:
 fem::LoadSurface surface_of(const meshes::Port& port) {
   fem::LoadSurface surface;
   surface.kind =
-      port.kind == meshes::Port::Kind::seat ? fem::LoadSurface::Kind::seat : fem::LoadSurface::Kind::end_face;
+      port.kind == meshes::Port::Kind::seat ? fem::LoadSurface::Kind::seat : fem::LoadSurface::Kind::face;
   surface.boundary_id = port.boundary_id;
   surface.centre_m = {port.axis_x_m, port.axis_y_m, 0.5 * (port.begin_m + port.end_m)};
   surface.radius_m = port.radius_m;

@@ -49,7 +49,7 @@ ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& cont
     result.body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
   for (const auto& p : mesh.ports) {
     const bool seat = p.kind == meshes::Port::Kind::seat;
-    result.ports[p.name] = {seat ? fem::LoadSurface::Kind::seat : fem::LoadSurface::Kind::end_face,
+    result.ports[p.name] = {seat ? fem::LoadSurface::Kind::seat : fem::LoadSurface::Kind::face,
                             p.boundary_id,
                             {p.axis_x_m, p.axis_y_m, (p.begin_m + p.end_m) / 2},
                             p.radius_m,
