@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "fem/unit_load.h"
+
 namespace fem {
 
 /// Isotropic linear elasticity.
@@ -39,6 +41,7 @@ struct Body {
   std::vector<CylinderChart> cylinders;
   std::vector<TorusChart> tori;
   Material material;
+  std::vector<ElasticSupport> elastic_supports;
   int degree = 2;  ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
 };
 

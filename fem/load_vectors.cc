@@ -1,3 +1,4 @@
+#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -46,10 +47,10 @@ public:
   }
   void fill(const SeatPressure& load, Eigen::Ref<Eigen::VectorXd> column) {
     const auto& surface = find(load.surface);
-    scatter(surface, surface.pressure(load.harmonic, load.phase), column);
+    scatter(surface, surface.pressure(load), column);
   }
   void fill(const BodyForce& load, Eigen::Ref<Eigen::VectorXd> column) {
-    column = body_force(integrals_, density_kg_m3_, load.field);
+    column = body_force(integrals_over(load.volume_ids), density_kg_m3_, load.field);
   }
 
 private:
@@ -58,6 +59,12 @@ private:
       if (same_surface(known->surface(), wanted)) return *known;
     surfaces_.push_back(std::make_unique<LoadedSurface>(grid_, wanted));
     return *surfaces_.back();
+  }
+  const NodeIntegrals& integrals_over(const std::vector<int>& volume_ids) {
+    if (volume_ids.empty()) return integrals_;
+    auto [known, is_new] = regions_.try_emplace(volume_ids);
+    if (is_new) known->second = integrate_nodes(grid_, volume_ids);
+    return known->second;
   }
   static void scatter(const LoadedSurface& surface, const Eigen::VectorXd& force,
                       Eigen::Ref<Eigen::VectorXd> column) {
@@ -69,6 +76,7 @@ private:
   const NodeIntegrals& integrals_;
   double density_kg_m3_;
   std::vector<std::unique_ptr<LoadedSurface>> surfaces_;
+  std::map<std::vector<int>, NodeIntegrals> regions_;
 };
 
 }  // namespace
@@ -90,6 +98,18 @@ Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, d
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("channel " + loads[k].channel + ": " + error.what());
     }
+  }
+  return force;
+}
+
+Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface) {
+  using Component = SurfaceResultant::Component;
+  const LoadedSurface loaded(grid, surface);
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * grid.n_nodes, 3);
+  for (const auto component : {Component::fx, Component::fy, Component::fz}) {
+    const Eigen::VectorXd own = loaded.resultant(component);
+    for (std::size_t i = 0; i < loaded.nodes().size(); ++i)
+      force.block<3, 1>(3 * std::size_t(loaded.nodes()[i]), int(component)) = own.segment<3>(3 * i);
   }
   return force;
 }

@@ -4,6 +4,7 @@
 #include <future>
 
 #include "fem/cholmod_factor.h"
+#include "fem/elastic_supports.h"
 #include "fem/grid.h"
 #include "fem/mesh_reader.h"
 #include "fem/nodes_export.h"
@@ -46,6 +47,11 @@ std::size_t Model::n_dofs() const {
 
 MassProperties Model::mass_properties() const {
   return fem::mass_properties(impl_->grid, impl_->integrals, impl_->body.material.density_kg_m3);
+}
+
+MassProperties Model::mass_properties(const std::vector<int>& volume_ids) const {
+  return fem::mass_properties(impl_->grid, integrate_nodes(impl_->grid, volume_ids),
+                              impl_->body.material.density_kg_m3);
 }
 
 namespace {
@@ -101,9 +107,11 @@ Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
   return displacement;
 }
 
-/// Boundary groups that any of the loads acts on.
-std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads) {
+/// Boundary groups that any of the loads or springs acts on.
+std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads,
+                               const std::vector<ElasticSupport>& springs) {
   std::vector<int> groups;
+  for (const auto& spring : springs) groups.push_back(spring.surface.boundary_id);
   for (const auto& load : loads) {
     if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
       groups.push_back(resultant->surface.boundary_id);
@@ -133,12 +141,16 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     for (int c = 0; c < 6; ++c) responses.resultants[k][c] = applied(c, k);
 
   {
+    const ElasticSupports springs(grid, impl_->body.elastic_supports);
+    force.conservativeResize(Eigen::NoChange, n_loads + springs.unit_forces().cols());
+    force.rightCols(springs.unit_forces().cols()) = springs.unit_forces();
     const Scales scales = scales_of(force);
     const RigidBalance rigid(grid, impl_->integrals);
     rigid.balance(force);
     Eigen::MatrixXd displacement = solve_balanced(grid, impl_->cells, impl_->colours, impl_->body.material,
                                                   force, scales, responses, report);
     rigid.remove_motion(displacement);
+    displacement = springs.apply(displacement);
     responses.displacement_m.resize(displacement.size());
     for (std::size_t i = 0; i < grid.n_nodes; ++i)
       for (Eigen::Index k = 0; k < n_loads; ++k)
@@ -155,7 +167,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   if (recovery == Recovery::average) {
     average_stress(grid, impl_->cells, elastic, displacement, stress);
   } else {
-    const auto free = free_faces(grid, loaded_groups(loads));
+    const auto free = free_faces(grid, loaded_groups(loads, impl_->body.elastic_supports));
     recover_by_patches(grid, impl_->cells, impl_->body.cylinders, make_samples(grid, free),
                        stress_at_samples(grid, free, elastic, displacement), stress);
   }

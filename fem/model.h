@@ -53,10 +53,14 @@ public:
 
   std::size_t n_dofs() const;
   MassProperties mass_properties() const;
+  /// Of the cells of some volume groups.
+  /// @throws std::invalid_argument if one of the groups has no cells
+  MassProperties mass_properties(const std::vector<int>& volume_ids) const;
 
   /// The unit loads' responses. One factorisation (CHOLMOD), all loads as one block. Every load vector is
   /// balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the statically determinate support
-  /// carries nothing; displacements have no rigid part in the mass norm.
+  /// carries nothing; displacements have no rigid part in the mass norm. The body's elastic supports act on
+  /// these displacements, and their forces close among themselves.
   /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
   /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces
   /// @throws std::runtime_error if the factorisation fails

@@ -1,28 +1,54 @@
 #include "fem/rigid_modes.h"
 
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
 #include "fem/cell_geometry.h"
 #include "fem/parallel.h"
 #include "fem/reference_cell.h"
 
 namespace fem {
 
+namespace {
+
+/// N, x and det J have degree k, k and 3 k - 1 in each direction; second moments take two x: 5 k - 1 in all.
+Tabulation exact_points(const Grid& grid) {
+  return gauss_in_cell(grid.degree, (5 * grid.degree + 1) / 2);
+}
+
+void add_cell(const Grid& grid, const Tabulation& at, std::size_t cell, NodeIntegrals& integrals) {
+  const auto* nodes = grid.nodes_of(cell);
+  for (int q = 0; q < at.n_points; ++q) {
+    const double volume = jacobian(grid, cell, at, q).determinant() * at.weight[q];
+    const Eigen::Vector3d x = position(grid, cell, at, q);
+    const Eigen::RowVector4d moments = volume * Eigen::RowVector4d(1, x[0], x[1], x[2]);
+    for (int i = 0; i < at.n_shapes; ++i)
+      integrals.row(nodes[i]) += at.value[std::size_t(q) * at.n_shapes + i] * moments;
+  }
+}
+
+}  // namespace
+
 NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours) {
-  // N, x and det J have degree k, k and 3 k - 1 in each direction; second moments take two x: 5 k - 1 in all.
-  const Tabulation at = gauss_in_cell(grid.degree, (5 * grid.degree + 1) / 2);
+  const Tabulation at = exact_points(grid);
   NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) {
-        const auto* nodes = grid.nodes_of(cells[c]);
-        for (int q = 0; q < at.n_points; ++q) {
-          const double volume = jacobian(grid, cells[c], at, q).determinant() * at.weight[q];
-          const Eigen::Vector3d x = position(grid, cells[c], at, q);
-          const Eigen::RowVector4d moments = volume * Eigen::RowVector4d(1, x[0], x[1], x[2]);
-          for (int i = 0; i < at.n_shapes; ++i)
-            integrals.row(nodes[i]) += at.value[std::size_t(q) * at.n_shapes + i] * moments;
-        }
-      }
+      for (std::size_t c = begin; c < end; ++c) add_cell(grid, at, cells[c], integrals);
     });
+  return integrals;
+}
+
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids) {
+  for (const int id : volume_ids)
+    if (std::find(grid.volume_id.begin(), grid.volume_id.end(), id) == grid.volume_id.end())
+      throw std::invalid_argument("the mesh has no cells in the volume group " + std::to_string(id));
+  const Tabulation at = exact_points(grid);
+  NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    if (std::find(volume_ids.begin(), volume_ids.end(), grid.volume_id[c]) != volume_ids.end())
+      add_cell(grid, at, c, integrals);
   return integrals;
 }
 

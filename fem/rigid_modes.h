@@ -15,6 +15,10 @@ namespace fem {
 using NodeIntegrals = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours);
 
+/// The same over the cells of some volume groups only; zero at the other nodes.
+/// @throws std::invalid_argument if one of the groups has no cells
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids);
+
 MassProperties mass_properties(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3);
 
 /// Displacements of unit translations along and unit rotations about x, y, z through `centre` (3 n x 6).

@@ -16,16 +16,43 @@ constexpr double pi = 3.14159265358979323846;
 
 void refuse_impossible(const LoadSurface& surface) {
   const bool seat = surface.kind == LoadSurface::Kind::seat;
-  if (!(surface.radius_m > 0) || (seat && !(surface.length_m > 0)))
+  if (seat && !(surface.radius_m > 0 && surface.length_m > 0))
     throw std::invalid_argument("loaded surface with boundary group " + std::to_string(surface.boundary_id) +
-                                ": radius" + (seat ? " and length" : "") + " must be positive");
+                                ": radius and length must be positive");
 }
 
-/// Coefficient of the half-cosine's harmonic n against n = 1 (unit_load.h).
-double half_cosine_coefficient(int n) {
-  if (n == 0) return 2 / pi;
-  return (n / 2 % 2 == 1 ? 1 : -1) * 4 / (pi * (double(n) * n - 1));
-}
+/// The seat's axial profile at z from its middle, scaled to the mean 1.
+class AxialProfile {
+public:
+  explicit AxialProfile(const LoadSurface& surface)
+      : values_(surface.axial_profile), half_length_(surface.length_m / 2) {
+    const bool sensible =
+        std::all_of(values_.begin(), values_.end(), [](double v) { return std::isfinite(v) && v >= 0; });
+    double mean = 0;  // trapezoidal rule, exact for straight lines
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      mean += values_[i] * (i == 0 || i + 1 == values_.size() ? 0.5 : 1.0);
+    if (values_.size() == 1)
+      mean = values_.front();
+    else
+      mean /= double(values_.size()) - 1;
+    if (values_.empty() || !sensible || !(mean > 0))
+      throw std::invalid_argument("axial profile of the surface with boundary group " +
+                                  std::to_string(surface.boundary_id) +
+                                  ": needs values that are not negative, some of them positive");
+    for (double& value : values_) value /= mean;
+  }
+  double operator()(double z) const {
+    if (values_.size() == 1) return values_.front();
+    const double place = std::clamp((z / half_length_ + 1) / 2, 0.0, 1.0) * double(values_.size() - 1);
+    const auto i = std::min(std::size_t(place), values_.size() - 2);
+    const double t = place - double(i);
+    return (1 - t) * values_[i] + t * values_[i + 1];
+  }
+
+private:
+  std::vector<double> values_;
+  double half_length_;
+};
 
 }  // namespace
 
@@ -51,8 +78,9 @@ LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : gri
       return std::max(0.0, 1 - z * z / (half * half));
     };
     const auto ring = [](const V& p) { return std::hypot(p[0], p[1]); };
-    raw = {[=](const V& p, const V& n) -> V { return p[0] / ring(p) * n; },
-           [=](const V& p, const V& n) -> V { return p[1] / ring(p) * n; },
+    const AxialProfile profile(surface);
+    raw = {[=](const V& p, const V& n) -> V { return profile(p[2]) * p[0] / ring(p) * n; },
+           [=](const V& p, const V& n) -> V { return profile(p[2]) * p[1] / ring(p) * n; },
            [=](const V& p, const V&) -> V { return taper(p[2]) * V::UnitZ(); },
            [=](const V& p, const V& n) -> V { return p[2] * p[1] / ring(p) * n; },
            [=](const V& p, const V& n) -> V { return p[2] * p[0] / ring(p) * n; },
@@ -61,9 +89,9 @@ LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : gri
     raw = {[](const V&, const V&) -> V { return V::UnitX(); },
            [](const V&, const V&) -> V { return V::UnitY(); },
            [](const V&, const V&) -> V { return V::UnitZ(); },
-           [](const V& p, const V&) -> V { return V(0, 0, p[1]); },
-           [](const V& p, const V&) -> V { return V(0, 0, p[0]); },
-           [](const V& p, const V&) -> V { return V(-p[1], p[0], 0); }};
+           [](const V& p, const V&) -> V { return V::UnitX().cross(p); },
+           [](const V& p, const V&) -> V { return V::UnitY().cross(p); },
+           [](const V& p, const V&) -> V { return V::UnitZ().cross(p); }};
   }
   basis_.resize(3 * nodes_.size(), 6);
   for (int k = 0; k < 6; ++k) basis_.col(k) = integrate(raw[k]);
@@ -116,19 +144,21 @@ Eigen::VectorXd LoadedSurface::resultant(SurfaceResultant::Component component) 
   return basis_.col(static_cast<int>(component));
 }
 
-Eigen::VectorXd LoadedSurface::pressure(int harmonic, SeatPressure::Phase phase) const {
+Eigen::VectorXd LoadedSurface::pressure(const SeatPressure& load) const {
   if (surface_.kind != LoadSurface::Kind::seat)
-    throw std::invalid_argument("pressure harmonics need a seat; an end face has none");
-  if (harmonic < 0 || harmonic % 2 != 0)
-    throw std::invalid_argument("pressure harmonic " + std::to_string(harmonic) +
-                                ": must be 0 or even (harmonic 1 is the resultant fx, fy)");
-  const bool sine = phase == SeatPressure::Phase::sine;
-  if (sine && harmonic == 0) throw std::invalid_argument("pressure harmonic 0 has no sine phase");
-  const double scale = half_cosine_coefficient(harmonic) / (pi * surface_.radius_m * surface_.length_m);
+    throw std::invalid_argument("pressure harmonics need a seat; a face has none");
+  const int n = load.harmonic;
+  if (n < 0 || n == 1)
+    throw std::invalid_argument("pressure harmonic " + std::to_string(n) +
+                                ": must be 0, 2, 3 ... (harmonic 1 is the resultant fx, fy)");
+  const bool sine = load.phase == SeatPressure::Phase::sine;
+  if (sine && n == 0) throw std::invalid_argument("pressure harmonic 0 has no sine phase");
+  const AxialProfile profile(surface_);
+  const double scale = load.coefficient / (pi * surface_.radius_m * surface_.length_m);
   Eigen::VectorXd force =
-      integrate([=](const Eigen::Vector3d& p, const Eigen::Vector3d& n) -> Eigen::Vector3d {
+      integrate([&](const Eigen::Vector3d& p, const Eigen::Vector3d& normal) -> Eigen::Vector3d {
         const double theta = std::atan2(p[1], p[0]);
-        return -scale * (sine ? std::sin(harmonic * theta) : std::cos(harmonic * theta)) * n;
+        return -scale * profile(p[2]) * (sine ? std::sin(n * theta) : std::cos(n * theta)) * normal;
       });
   for (int pass = 0; pass < 2; ++pass) force -= basis_ * about_centre(force);
   return force;
@@ -136,7 +166,7 @@ Eigen::VectorXd LoadedSurface::pressure(int harmonic, SeatPressure::Phase phase)
 
 bool same_surface(const LoadSurface& a, const LoadSurface& b) {
   return a.kind == b.kind && a.boundary_id == b.boundary_id && a.centre_m == b.centre_m &&
-         a.radius_m == b.radius_m && a.length_m == b.length_m;
+         a.radius_m == b.radius_m && a.length_m == b.length_m && a.axial_profile == b.axial_profile;
 }
 
 }  // namespace fem

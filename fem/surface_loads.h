@@ -32,9 +32,9 @@ public:
   /// Unit resultant: force on the surface's nodes.
   Eigen::VectorXd resultant(SurfaceResultant::Component component) const;
 
-  /// Harmonic of the seat pressure without its discrete resultants.
-  /// @throws std::invalid_argument for an odd or negative harmonic, the sine of harmonic 0, or an end face
-  Eigen::VectorXd pressure(int harmonic, SeatPressure::Phase phase) const;
+  /// Harmonic of the seat pressure without its discrete resultants; `load.surface` is this one.
+  /// @throws std::invalid_argument for harmonic 1 or a negative one, the sine of harmonic 0, or a face
+  Eigen::VectorXd pressure(const SeatPressure& load) const;
 
 private:
   using Traction =
@@ -52,13 +52,16 @@ private:
 /// Whether two loads act on the same surface, so that one LoadedSurface serves both.
 bool same_surface(const LoadSurface& a, const LoadSurface& b);
 
-/// Body force on all nodes (3 n_nodes).
+/// Body force on all nodes (3 n_nodes); `integrals` over the cells it acts on.
 Eigen::VectorXd body_force(const NodeIntegrals& integrals, double density_kg_m3, BodyForce::Field field);
 
 /// All load vectors as applied, one column per load.
-/// @throws std::invalid_argument for an empty list, an empty or repeated channel, and as LoadedSurface,
-/// naming the channel
+/// @throws std::invalid_argument for an empty list, an empty or repeated channel, a body force on a volume
+/// group without cells, and as LoadedSurface, naming the channel
 Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
                              const std::vector<UnitLoad>& loads);
+
+/// Unit resultants of a surface as columns (3 n_nodes x 3): fx, fy, fz.
+Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface);
 
 }  // namespace fem

@@ -35,6 +35,7 @@ private:
 void describe(KeyText& key, const fem::LoadSurface& surface) {
   key.line("surface", int(surface.kind), surface.boundary_id, surface.centre_m[0], surface.centre_m[1],
            surface.centre_m[2], surface.radius_m, surface.length_m);
+  for (const double value : surface.axial_profile) key.line("profile", value);
 }
 
 struct Describe {
@@ -44,10 +45,13 @@ struct Describe {
     describe(key, load.surface);
   }
   void operator()(const fem::SeatPressure& load) const {
-    key.line("pressure", load.harmonic, int(load.phase));
+    key.line("pressure", load.harmonic, int(load.phase), load.coefficient);
     describe(key, load.surface);
   }
-  void operator()(const fem::BodyForce& load) const { key.line("body_force", int(load.field)); }
+  void operator()(const fem::BodyForce& load) const {
+    key.line("body_force", int(load.field));
+    for (const int id : load.volume_ids) key.line("in", id);
+  }
 };
 
 }  // namespace
@@ -82,9 +86,14 @@ std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>
   key.line("material", body.material.youngs_modulus_Pa, body.material.poisson_ratio,
            body.material.density_kg_m3);
   for (const auto& c : body.cylinders)
-    key.line("cylinder", c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m);
+    key.line("cylinder", c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m,
+             c.axis_x_m, c.axis_y_m);
   for (const auto& t : body.tori)
     key.line("torus", t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m);
+  for (const auto& support : body.elastic_supports) {
+    key.line("springs", support.stiffness_N_m[0], support.stiffness_N_m[1], support.stiffness_N_m[2]);
+    describe(key, support.surface);
+  }
   for (const auto& load : loads) {
     key.line("load", load.channel);
     std::visit(Describe{key}, load.shape);

@@ -47,10 +47,17 @@ TEST_F(Refusals, loads) {
   nowhere.surface.boundary_id = 987;
   expect_words(refused({{"hub.fz", nowhere}}), {"hub.fz", "no faces", "987"});
   const auto& seat = rod->ports.at("rod");
-  expect_words(refused({{"rod.p3", fem::SeatPressure{seat, 3}}}), {"rod.p3", "harmonic 3", "even"});
-  expect_words(refused({{"rod.p0", fem::SeatPressure{seat, 0, fem::SeatPressure::Phase::sine}}}),
-               {"no sine phase"});
-  expect_words(refused({{"end.p2", fem::SeatPressure{rod->ports.at("end_1"), 2}}}), {"need a seat"});
+  const auto sine = fem::SeatPressure::Phase::sine, cosine = fem::SeatPressure::Phase::cosine;
+  expect_words(refused({{"rod.p1", fem::SeatPressure{seat, 1, 1, cosine}}}),
+               {"rod.p1", "harmonic 1", "resultant"});
+  expect_words(refused({{"rod.p0", fem::SeatPressure{seat, 0, 1, sine}}}), {"no sine phase"});
+  expect_words(refused({{"end.p2", fem::SeatPressure{rod->ports.at("end_1"), 2, 1, cosine}}}),
+               {"need a seat"});
+  auto flat = seat;
+  flat.axial_profile = {0, 0};
+  expect_words(refused({{"rod.p2", fem::SeatPressure{flat, 2, 1, cosine}}}), {"rod.p2", "axial profile"});
+  expect_words(refused({{"core.ax", fem::BodyForce{fem::BodyForce::Field::translation_x, {987}}}}),
+               {"core.ax", "volume group 987"});
 }
 
 TEST_F(Refusals, materials_and_degrees) {

@@ -18,7 +18,8 @@ std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
   for (const auto* port : {"bearing_1", "seat", "bearing_2"})
     for (const auto c : {Component::fx, Component::fy, Component::fz, Component::mx, Component::torque})
       loads.push_back(fem_tests::resultant(shaft, port, c));
-  loads.push_back({"seat.p2", fem::SeatPressure{shaft.ports.at("seat"), 2, fem::SeatPressure::Phase::sine}});
+  loads.push_back(
+      {"seat.p2", fem::SeatPressure{shaft.ports.at("seat"), 2, 1, fem::SeatPressure::Phase::sine}});
   loads.push_back({"end_2.torque", fem::SurfaceResultant{shaft.ports.at("end_2"), Component::torque}});
   loads.push_back({"volume.ax", fem::BodyForce{fem::BodyForce::Field::translation_x}});
   loads.push_back({"volume.omega2", fem::BodyForce{fem::BodyForce::Field::spin}});
