@@ -2,15 +2,23 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "pipelines/distribute.h"
+#include "pipelines/closure.h"
 
 namespace pipelines {
 namespace {
 
 using Resultant6 = std::array<double, 6>;
 
+/// Masses of the cells that a body force acts on.
+const fem::MassProperties& masses_of(const std::vector<RegionMass>& regions,
+                                     const std::vector<int>& volume_ids) {
+  for (const auto& region : regions)
+    if (region.volume_ids == volume_ids) return region.masses;
+  throw std::invalid_argument("check_closure: a body force acts on cells whose mass is not known");
+}
+
 struct WantedResultant {
-  const fem::MassProperties& masses;
+  const std::vector<RegionMass>& regions;
 
   Resultant6 operator()(const fem::SurfaceResultant& load) const {
     Resultant6 r{};
@@ -25,6 +33,7 @@ struct WantedResultant {
   }
   Resultant6 operator()(const fem::SeatPressure&) const { return {}; }
   Resultant6 operator()(const fem::BodyForce& load) const {
+    const auto& masses = masses_of(regions, load.volume_ids);
     const double m = masses.mass_kg;
     const auto& s = masses.first_moment_kg_m;
     const auto& [xx, yy, zz, xy, yz, xz] = masses.second_moments_kg_m2;
@@ -52,18 +61,24 @@ struct Scale {
 };
 
 struct ScaleOf {
-  const fem::MassProperties& masses;
+  const std::vector<RegionMass>& regions;
 
+  /// The largest arm of the surface about the origin; of a face without a radius its own place stands for
+  /// that.
+  static double arm(const fem::LoadSurface& surface) {
+    const auto& c = surface.centre_m;
+    return std::hypot(surface.radius_m, std::hypot(c[0], c[1], c[2]));
+  }
   Scale operator()(const fem::SurfaceResultant& load) const {
     using Component = fem::SurfaceResultant::Component;
-    const double arm = std::hypot(load.surface.radius_m, load.surface.centre_m[2]);
     const bool is_force = load.component <= Component::fz;
-    return is_force ? Scale{1, arm} : Scale{1 / load.surface.radius_m, 1};
+    const double radius = load.surface.radius_m > 0 ? load.surface.radius_m : arm(load.surface);
+    return is_force ? Scale{1, arm(load.surface)}
+                    : Scale{1 / radius, std::max(1.0, arm(load.surface) / radius)};
   }
-  Scale operator()(const fem::SeatPressure& load) const {
-    return {1, std::hypot(load.surface.radius_m, load.surface.centre_m[2])};
-  }
+  Scale operator()(const fem::SeatPressure& load) const { return {1, arm(load.surface)}; }
   Scale operator()(const fem::BodyForce& load) const {
+    const auto& masses = masses_of(regions, load.volume_ids);
     const auto& m = masses.second_moments_kg_m2;
     const double second = m[0] + m[1] + m[2], first = std::sqrt(masses.mass_kg * second);
     const bool uniform = load.field <= fem::BodyForce::Field::translation_z;
@@ -73,8 +88,8 @@ struct ScaleOf {
 
 }  // namespace
 
-std::array<double, 6> wanted_resultant(const fem::UnitLoad& load, const fem::MassProperties& masses) {
-  return std::visit(WantedResultant{masses}, load.shape);
+std::array<double, 6> wanted_resultant(const fem::UnitLoad& load, const std::vector<RegionMass>& regions) {
+  return std::visit(WantedResultant{regions}, load.shape);
 }
 
 double Closure::worst_force() const {
@@ -85,7 +100,7 @@ double Closure::worst_moment() const {
 }
 
 Closure check_closure(const BodyLoads& loads, const std::vector<std::array<double, 6>>& mesh_resultants,
-                      const fem::MassProperties& masses) {
+                      const std::vector<RegionMass>& regions) {
   if (mesh_resultants.size() != loads.unit_loads.size())
     throw std::invalid_argument("check_closure: " + std::to_string(mesh_resultants.size()) +
                                 " mesh resultants for " + std::to_string(loads.unit_loads.size()) +
@@ -95,9 +110,9 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
   std::array<Eigen::ArrayXd, 6> sums, sizes;
   for (std::size_t c = 0; c < 6; ++c) sums[c] = sizes[c] = Eigen::ArrayXd::Zero(values.cols());
   for (std::size_t k = 0; k < mesh_resultants.size(); ++k) {
-    const auto wanted = wanted_resultant(loads.unit_loads[k], masses);
+    const auto wanted = wanted_resultant(loads.unit_loads[k], regions);
     const Eigen::ArrayXd a = values.row(Eigen::Index(k)).transpose();
-    const Scale scale = std::visit(ScaleOf{masses}, loads.unit_loads[k].shape);
+    const Scale scale = std::visit(ScaleOf{regions}, loads.unit_loads[k].shape);
     for (std::size_t c = 0; c < 6; ++c) {
       sums[c] += a * mesh_resultants[k][c];
       sizes[c] += (a * mesh_resultants[k][c]).abs();

@@ -44,7 +44,7 @@ double largest(const ArrayXXd& values) {
   return values.size() == 0 ? 0.0 : values.abs().maxCoeff();
 }
 
-const meshes::Port& bearing(const meshes::BodyMesh& mesh, const std::string& name) {
+const meshes::Port& find_port(const meshes::BodyMesh& mesh, const std::string& name) {
   for (const auto& port : mesh.ports)
     if (port.name == name) return port;
   throw std::invalid_argument("section diagrams: port \"" + name + "\" is missing");
@@ -54,10 +54,13 @@ double centre_z(const meshes::Port& port) {
   return 0.5 * (port.begin_m + port.end_m);
 }
 
-/// Subtracts the straight line through the axes at the two bearings.
-void refer_to_bearings(ElasticLine& line, double z_a, double z_b) {
-  const Array2Xd u_a = line.at(z_a).first, u_b = line.at(z_b).first;
-  const Array2Xd incline = (u_b - u_a) / (z_b - z_a);
+/// Subtracts the straight line through the axis at two places, or its tangent at one.
+void refer_to(ElasticLine& line, const std::vector<double>& z_m) {
+  if (z_m.empty()) return;
+  const double z_a = z_m.front();
+  const auto [u_a, slope_a] = line.at(z_a);
+  const Array2Xd incline =
+      z_m.size() < 2 ? slope_a : Array2Xd((line.at(z_m[1]).first - u_a) / (z_m[1] - z_a));
   for (std::size_t i = 0; i < line.z_m.size(); ++i) {
     line.displacement_m[i] -= u_a + incline * (line.z_m[i] - z_a);
     line.slope_rad[i] -= incline;
@@ -88,7 +91,8 @@ std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitRe
 }  // namespace
 
 Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& responses,
-                          const meshes::BodyMesh& mesh, const meshes::Shaft& geometry, double density_kg_m3) {
+                          const meshes::BodyMesh& mesh, const meshes::Shaft& geometry, double density_kg_m3,
+                          const std::vector<std::string>& references) {
   const std::size_t n_channels = responses.channels.size();
   if (mesh.sections.size() != responses.planes.size() || mesh.sections.size() < 2)
     throw std::invalid_argument(
@@ -116,11 +120,11 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
     section.by_stress = over_the_cycle(by_stress, loads.history);
     section.by_statics = over_the_cycle(by_statics, loads.history);
     section.torsion_Pa = over_the_cycle(rim, loads.history).row(0).transpose();
-    const double r = plane.radius_m;
+    const double r = plane.radius_m, r_i = plane.inner_radius_m;
     const ArrayXd own_torque = (section.by_statics.row(5) - (plane.axis_x_m * section.by_statics.row(1) -
                                                              plane.axis_y_m * section.by_statics.row(0)))
                                    .transpose();
-    section.beam_torsion_Pa = own_torque * (2 / (M_PI * r * r * r));
+    section.beam_torsion_Pa = own_torque * (2 * r / (M_PI * (std::pow(r, 4) - std::pow(r_i, 4))));
 
     const ArrayXXd moved = over_the_cycle(motion, loads.history);
     line.z_m.push_back(plane.z_m);
@@ -144,8 +148,9 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
   diagrams.bending_mismatch = share(bending_error, bending_scale);
   diagrams.torque_mismatch = share(torque_error, torque_scale);
 
-  refer_to_bearings(line, centre_z(bearing(mesh, "main_bearing_1")),
-                    centre_z(bearing(mesh, "main_bearing_2")));
+  std::vector<double> references_m;
+  for (const auto& name : references) references_m.push_back(centre_z(find_port(mesh, name)));
+  refer_to(line, references_m);
   for (std::size_t p = 0; p < diagrams.sections.size(); ++p) {
     diagrams.sections[p].deflection_m = line.displacement_m[p];
     diagrams.sections[p].slope_rad = line.slope_rad[p];

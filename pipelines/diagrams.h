@@ -29,7 +29,7 @@ struct SectionResult {
   Eigen::ArrayXd
       beam_torsion_Pa;  ///< T r / I_p with the statics' torque about the section's own axis; n_instants
   Eigen::Array2Xd
-      deflection_m;  ///< x, y of the section's axis point against the line through the bearings' axes
+      deflection_m;  ///< x, y of the section's axis point against the line through the references' axes
   Eigen::Array2Xd slope_rad;  ///< d(deflection x)/dz, d(deflection y)/dz from the section's rotation
 };
 
@@ -57,9 +57,13 @@ struct Diagrams {
   double force_mismatch = 0, bending_mismatch = 0, torque_mismatch = 0;
 };
 
-/// @param geometry  cylinders of the shaft, for its weight by statics
+/// @param geometry    cylinders of the shaft, for its weight by statics
+/// @param references  ports that deflection and slope refer to: two bearings, one clamp, or none (the body's own
+/// mean rigid motion)
+/// @throws std::invalid_argument if a port is missing, or mesh and responses do not belong together
 Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& responses,
-                          const meshes::BodyMesh& mesh, const meshes::Shaft& geometry, double density_kg_m3);
+                          const meshes::BodyMesh& mesh, const meshes::Shaft& geometry, double density_kg_m3,
+                          const std::vector<std::string>& references);
 
 /// The ring with the largest torsional stress; null if there is none.
 const TorsionRing* largest_torsion_ring(const Diagrams& diagrams);

@@ -13,10 +13,6 @@ std::string all_texts(const std::vector<SceneError>& errors) {
   return text;
 }
 
-bool needs_the_body(const std::string& effect) {
-  return effect == "gravity_shaft" || effect == "shaft_inertia";
-}
-
 }  // namespace
 
 std::string SceneError::text() const {
@@ -30,9 +26,39 @@ SceneErrors::SceneErrors(std::vector<SceneError> errors)
     : std::runtime_error(all_texts(errors)), errors_(std::move(errors)) {}
 
 std::vector<std::string> Scene::kinetics_effects() const {
+  std::vector<std::string> of_bodies;
+  for (const auto& body : bodies) {
+    const auto own = own_effects(body.role);
+    of_bodies.insert(of_bodies.end(), own.begin(), own.end());
+    for (const auto& force : body.train.forces) of_bodies.push_back(force.effect);
+  }
   std::vector<std::string> names;
-  std::remove_copy_if(effects.begin(), effects.end(), std::back_inserter(names), needs_the_body);
+  std::remove_copy_if(effects.begin(), effects.end(), std::back_inserter(names), [&](const auto& effect) {
+    return std::find(of_bodies.begin(), of_bodies.end(), effect) != of_bodies.end();
+  });
   return names;
+}
+
+std::vector<std::string> own_effects(BodyRole role) {
+  switch (role) {
+    case BodyRole::vibratory_shaft:
+      return {"gravity_shaft", "shaft_inertia"};
+    case BodyRole::drum:
+      return {"drum_spin"};
+    case BodyRole::stub_axle:
+      return {"axle_gravity", "axle_transport"};
+    case BodyRole::train_shaft:
+      return {"shaft_inertia"};
+    case BodyRole::chamber:
+    case BodyRole::table_body:
+      return {};
+  }
+  return {};
+}
+
+const BodyScene* Scene::body(const std::string& name) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == name; });
+  return found == bodies.end() ? nullptr : &*found;
 }
 
 bool Scene::has_effect(const std::string& name) const {

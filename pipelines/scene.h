@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "fem/body.h"
 #include "kinetics/run_up.h"
-#include "meshes/shaft.h"
 #include "pipelines/bearings.h"
+#include "pipelines/body_scene.h"
 #include "pipelines/machine.h"
 
 namespace pipelines {
@@ -43,16 +42,6 @@ struct ZoneRule {
   enum class Reference { peak, yield };
   Reference reference = Reference::peak;
   double share = 0.5;  ///< in (0, 1]
-};
-
-struct ShaftScene {
-  meshes::Shaft geometry;
-  meshes::ShaftMeshControl mesh;
-  fem::Material material;
-  std::string material_name;
-  double yield_strength_Pa = 0;
-  int pressure_harmonics = 4;  ///< highest harmonic of the seat pressure, even, 0 to 16
-  std::vector<double> debalance_shares = {0.5, 0.5};  ///< of debalance_1, debalance_2; sum 1
 };
 
 /// The room that the charge has. Mass and offset of the charge are checked against it; no load depends on it.
@@ -88,7 +77,7 @@ struct Scene {
   std::optional<MillingSpace> milling_space;  ///< empty if the scene does not give it
   std::vector<std::string> effects;           ///< as named in the scene; each known, none twice
   kinetics::TimeGrid sampling;
-  std::optional<ShaftScene> shaft;        ///< empty: the load stage only
+  std::vector<BodyScene> bodies;          ///< none: the load stage only
   TorsionScene torsion;                   ///< for a drive train
   std::optional<kinetics::RunUp> run_up;  ///< of a vibratory mill, instead of steady running
   bool drum_axes = false;  ///< of a planetary mill: the trunnions' load also in axes that turn with the drum
@@ -99,10 +88,14 @@ struct Scene {
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;  ///< sentences for the user: legal, but worth a look
 
-  /// The scene's effects that kinetics evaluates: all but `gravity_shaft` and `shaft_inertia`, which need the
-  /// body.
+  /// Masses that the scene leaves to the mesh: "structure", "exciter", "drum", or the name of a train's inertia.
+  std::vector<std::string> masses_from_mesh;
+
+  /// The scene's effects that kinetics evaluates: all but those that the bodies add.
   std::vector<std::string> kinetics_effects() const;
   bool has_effect(const std::string& name) const;
+  /// Null if the scene has no body of that name.
+  const BodyScene* body(const std::string& name) const;
   /// @throws std::bad_variant_access if the machine is another
   const kinetics::VibratoryMill& vibratory_mill() const { return std::get<kinetics::VibratoryMill>(machine); }
 };

@@ -38,6 +38,7 @@ int precedence(meshes::Feature::Kind kind) {
     case Kind::fillet:
       return 0;
     case Kind::seat:
+    case Kind::bore:
       return 1;
     case Kind::shoulder:
       return 2;
@@ -53,6 +54,41 @@ double distance_squared(const double* a, const double* b) {
   double sum = 0;
   for (int c = 0; c < 3; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
   return sum;
+}
+
+double distance_to_piece(const double* p, const std::array<std::array<double, 3>, 2>& piece) {
+  double along = 0, length_squared = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double d = piece[1][c] - piece[0][c];
+    along += (p[c] - piece[0][c]) * d;
+    length_squared += d * d;
+  }
+  const double t = length_squared > 0 ? std::clamp(along / length_squared, 0.0, 1.0) : 0.0;
+  std::array<double, 3> foot;
+  for (std::size_t c = 0; c < 3; ++c) foot[c] = piece[0][c] + t * (piece[1][c] - piece[0][c]);
+  return std::sqrt(distance_squared(p, foot.data()));
+}
+
+/// Marks the nodes within the edge's distance.
+void exclude_around(const fem::Nodes& nodes, const meshes::SharpEdge& edge, NodePlaces& places) {
+  std::array<double, 3> low, high;  // box around the whole edge: most nodes are far from it
+  low.fill(std::numeric_limits<double>::max());
+  high.fill(std::numeric_limits<double>::lowest());
+  for (const auto& piece : edge.pieces)
+    for (const auto& end : piece)
+      for (std::size_t c = 0; c < 3; ++c) {
+        low[c] = std::min(low[c], end[c] - edge.distance_m);
+        high[c] = std::max(high[c], end[c] + edge.distance_m);
+      }
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    const double* p = &nodes.xyz_m[3 * i];
+    bool near = !places.excluded[i];
+    for (std::size_t c = 0; c < 3 && near; ++c) near = p[c] >= low[c] && p[c] <= high[c];
+    if (near && std::any_of(edge.pieces.begin(), edge.pieces.end(), [&](const auto& piece) {
+          return distance_to_piece(p, piece) <= edge.distance_m * (1 + 1e-9);
+        }))
+      places.excluded[i] = 1;
+  }
 }
 
 /// The feature of the boundary node nearest to an interior point; ties go to the lower index.
@@ -85,7 +121,7 @@ std::string to_string(Place place) {
 }
 
 NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Feature>& features,
-                        const std::vector<meshes::Port>& ports, const std::vector<SharpCorner>& corners) {
+                        const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges) {
   NodePlaces places;
   places.feature.assign(nodes.n, -1);
   places.place.assign(nodes.n, Place::interior);
@@ -107,16 +143,11 @@ NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Featu
     if (places.feature[i] < 0) continue;
     const int id = features[std::size_t(places.feature[i])].boundary_id;
     const bool loaded = std::any_of(ports.begin(), ports.end(), [&](const auto& port) {
-      return port.kind == meshes::Port::Kind::seat && port.boundary_id == id;
+      return port.kind != meshes::Port::Kind::face && port.boundary_id == id;
     });
     places.place[i] = loaded ? Place::loaded_seat : Place::free_surface;
   }
-  for (const auto& corner : corners)
-    for (std::size_t i = 0; i < nodes.n; ++i) {
-      const double* p = &nodes.xyz_m[3 * i];
-      if (std::hypot(std::hypot(p[0], p[1]) - corner.radius_m, p[2] - corner.z_m) <= corner.distance_m)
-        places.excluded[i] = 1;
-    }
+  for (const auto& edge : edges) exclude_around(nodes, edge, places);
   return places;
 }
 

@@ -22,18 +22,11 @@ struct NodePlaces {
   std::vector<std::int32_t>
       feature;  ///< per node: the feature it lies on (fillets before seats before others), -1 inside
   std::vector<Place> place;    ///< per node
-  std::vector<char> excluded;  ///< per node: within the exclusion distance of a sharp re-entrant corner
-};
-
-/// A circle where the model is sharp and stress has no converged value: z, radius, and the distance that the
-/// geometry (never the mesh) fixes.
-struct SharpCorner {
-  std::string name;
-  double z_m = 0, radius_m = 0, distance_m = 0;
+  std::vector<char> excluded;  ///< per node: within the exclusion distance of a sharp re-entrant edge
 };
 
 NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Feature>& features,
-                        const std::vector<meshes::Port>& ports, const std::vector<SharpCorner>& corners);
+                        const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges);
 
 /// One zone.
 struct Zone {

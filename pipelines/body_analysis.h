@@ -1,16 +1,19 @@
-/// From a load history to stress zones in the shaft: the stages tied together.
+/// From a load history to stress zones in a body: the stages tied together.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "fem/body.h"
 #include "fem/unit_responses.h"
 #include "kinetics/load_history.h"
 #include "meshes/body_mesh.h"
 #include "pipelines/diagrams.h"
-#include "pipelines/distribute.h"
+#include "pipelines/body_mesh.h"
+#include "pipelines/closure.h"
+#include "pipelines/hot_spots.h"
+#include "pipelines/machine_masses.h"
 #include "pipelines/scene.h"
 #include "pipelines/stage_clock.h"
 #include "pipelines/superposition.h"
@@ -41,7 +44,8 @@ struct Peak {
   StressErrors errors;
 };
 
-struct ShaftAnalysis {
+struct BodyAnalysis {
+  BodyScene scene;
   meshes::BodyMesh mesh;
   fem::MassProperties masses;
   BodyLoads loads;
@@ -49,37 +53,33 @@ struct ShaftAnalysis {
   bool responses_reused = false;  ///< taken from an earlier run
   Closure closure;
   NodePlaces places;
-  std::vector<SharpCorner> sharp_corners;
   Envelope envelope;
   Zones zones;
   Peak peak;                       ///< largest von Mises stress outside the exclusion distances
   std::size_t principal_node = 0;  ///< largest principal stress, likewise
-  Diagrams diagrams;
+  std::vector<HotSpotStress> hot_spots;  ///< descending
+  std::optional<Diagrams> diagrams;      ///< parametric shafts and drums only
 };
 
 /// Where a run keeps its files and what it may use.
 struct RunOptions {
-  std::filesystem::path directory;
-  int n_threads = 0;   ///< 0: all cores
-  bool fresh = false;  ///< do not reuse unit responses of an earlier run
+  std::filesystem::path directory;  ///< of this body
+  int n_threads = 0;                ///< 0: all cores
+  bool fresh = false;               ///< do not reuse unit responses of an earlier run
 };
 
-/// Meshes, distributes, solves, superposes. Writes mesh.msh and unit_responses.h5 into `directory`, nothing
-/// else.
-/// @throws std::runtime_error if mesh or solve fails, or if the loads do not close to 1e-9 on the mesh
-ShaftAnalysis analyse_shaft(const Scene& scene, const kinetics::LoadHistory& history,
-                            const RunOptions& options, StageClock& clock);
+/// The loads of one body of a scene, by its role.
+/// @param history  of the load stage with the machine of `masses`
+BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
+                          const LoadedBody& loaded, const MassAgreement& masses);
 
-/// The channels that the scene's effects feed, without a finite-element model: the mass is estimated from the
-/// cylinders.
-std::vector<Channel> planned_channels(const Scene& scene, const kinetics::LoadHistory& history,
-                                      const meshes::BodyMesh& mesh);
+/// Distributes, solves, superposes. Writes unit_responses.h5 into the body's directory, nothing else.
+/// @throws std::runtime_error if the solve fails, or if the loads do not close to 1e-9 on the mesh
+BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                          const MassAgreement& masses, const kinetics::LoadHistory& history,
+                          const RunOptions& options, StageClock& clock);
 
-/// The re-entrant corners that the geometry leaves sharp, with an exclusion distance of a tenth of the
-/// thinner diameter.
-std::vector<SharpCorner> sharp_corners(const meshes::Shaft& shaft);
-
-/// What fem needs of a mesh.
-fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& material);
+/// What distribution needs to know of a meshed body.
+LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);
 
 }  // namespace pipelines

@@ -1,4 +1,4 @@
-#include "pipelines/shaft_analysis.h"
+#include "pipelines/body_analysis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,16 +23,6 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
   return result;
 }
 
-ShaftDistribution distribution_of(const Scene& scene) {
-  ShaftDistribution options;
-  options.gravity_m_s2 = scene.vibratory_mill().gravity_m_s2;
-  options.own_weight = scene.has_effect("gravity_shaft");
-  options.own_inertia = scene.has_effect("shaft_inertia");
-  options.debalance_shares = {scene.shaft->debalance_shares.at(0), scene.shaft->debalance_shares.at(1)};
-  options.pressure_harmonics = scene.shaft->pressure_harmonics;
-  return options;
-}
-
 /// The seconds of factorising depend on what a run before has left; results do not.
 fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body, const BodyLoads& loads,
                                   const std::vector<fem::SectionPlane>& planes, const RunOptions& options,
@@ -55,15 +45,15 @@ fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body
   return responses;
 }
 
-void require_closure(const Closure& closure) {
+void require_closure(const std::string& body, const Closure& closure) {
   if (closure.worst_force() <= closure_limit && closure.worst_moment() <= closure_limit &&
       closure.channel_resultant <= closure_limit)
     return;
   std::ostringstream text;
-  text << "the loads on the shaft do not close on the mesh: forces to " << closure.worst_force()
+  text << "the loads on the " << body << " do not close on the mesh: forces to " << closure.worst_force()
        << ", moments to " << closure.worst_moment() << ", channels to " << closure.channel_resultant
        << " of their scale; " << closure_limit
-       << " is required. The scene's effects leave a resultant that no bearing carries";
+       << " is required. The scene's effects leave a resultant that nothing carries";
   throw std::runtime_error(text.str());
 }
 
@@ -89,7 +79,7 @@ std::vector<bool> highest_harmonic(const std::vector<fem::UnitLoad>& loads) {
   return belongs;
 }
 
-StressErrors estimate_errors(const Peak& peak, const ShaftAnalysis& analysis, const fem::Material& material) {
+StressErrors estimate_errors(const Peak& peak, const BodyAnalysis& analysis, const fem::Material& material) {
   const auto& history = analysis.loads.history;
   const auto n_instants = history.values.cols();
   const Eigen::ArrayXd factors = history.values.col(peak.instant);
@@ -118,7 +108,7 @@ StressErrors estimate_errors(const Peak& peak, const ShaftAnalysis& analysis, co
   return errors;
 }
 
-Peak headline(const ShaftAnalysis& analysis, const ShaftScene& shaft) {
+Peak headline(const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;
   peak.node = peak_node(maximum.value_Pa, analysis.places);
@@ -129,11 +119,11 @@ Peak headline(const ShaftAnalysis& analysis, const ShaftScene& shaft) {
   peak.place = analysis.places.place[peak.node];
   if (const auto feature = analysis.places.feature[peak.node]; feature >= 0)
     peak.feature = analysis.places.feature_names[std::size_t(feature)];
-  peak.safety = shaft.yield_strength_Pa / peak.value_Pa;
+  peak.safety = analysis.scene.yield_strength_Pa / peak.value_Pa;
   const std::size_t n_effects = analysis.loads.history.effects.size();
   const auto shares = analysis.envelope.effect_share.begin() + std::ptrdiff_t(peak.node * n_effects);
   peak.effect_share.assign(shares, shares + std::ptrdiff_t(n_effects));
-  peak.errors = estimate_errors(peak, analysis, shaft.material);
+  peak.errors = estimate_errors(peak, analysis, analysis.scene.material);
   return peak;
 }
 
@@ -141,82 +131,116 @@ double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
   return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
 }
 
+/// Where deflection is measured from.
+std::vector<std::string> references(const BodyScene& body) {
+  switch (body.role) {
+    case BodyRole::vibratory_shaft:
+      return {"main_bearing_1", "main_bearing_2"};
+    case BodyRole::drum:
+      return {"trunnion_1", "trunnion_2"};
+    case BodyRole::stub_axle:
+      return {"clamp"};
+    case BodyRole::train_shaft:
+      return {body.train.bearings[0], body.train.bearings[1]};
+    case BodyRole::table_body:
+      return body.table.bearings;
+    case BodyRole::chamber:
+      break;
+  }
+  return {};
+}
+
 }  // namespace
 
-fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& material) {
-  fem::Body body;
-  body.mesh = mesh.file;
-  body.material = material;
-  for (const auto& c : mesh.cylinders)
-    body.cylinders.push_back({c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m});
-  for (const auto& t : mesh.tori)
-    body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
-  return body;
-}
-
-std::vector<Channel> planned_channels(const Scene& scene, const kinetics::LoadHistory& history,
-                                      const meshes::BodyMesh& mesh) {
-  fem::MassProperties masses;
-  for (const auto& segment : scene.shaft->geometry.segments) {
-    const double radius = segment.diameter_m / 2, length = segment.end_m - segment.begin_m;
-    const double mass = scene.shaft->material.density_kg_m3 * M_PI * radius * radius * length;
-    masses.mass_kg += mass;
-    masses.first_moment_kg_m[0] += mass * segment.eccentricity_m;
-    masses.first_moment_kg_m[2] += mass * (segment.begin_m + segment.end_m) / 2;
+LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed) {
+  LoadedBody loaded{scene.name, meshed.mesh.ports, meshed.regions, scene.pressures};
+  for (const auto& port : meshed.mesh.ports) {
+    PressureModel usual;
+    usual.highest_harmonic = scene.pressure_harmonics;
+    loaded.pressures.try_emplace(port.name, usual);
   }
-  return distribute_shaft(history, mesh.ports, masses, distribution_of(scene)).history.channels;
+  return loaded;
 }
 
-std::vector<SharpCorner> sharp_corners(const meshes::Shaft& shaft) {
-  std::vector<SharpCorner> corners;
-  for (std::size_t i = 0; i + 1 < shaft.segments.size(); ++i) {
-    const auto &left = shaft.segments[i], &right = shaft.segments[i + 1];
-    if (shaft.fillets_m[i] > 0 || left.diameter_m == right.diameter_m) continue;
-    const double thinner = std::min(left.diameter_m, right.diameter_m);
-    corners.push_back({left.name + "/" + right.name, left.end_m, thinner / 2, 0.1 * thinner});
+BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
+                          const LoadedBody& loaded, const MassAgreement& masses) {
+  const auto& attached = masses.attached.at(body.name);
+  switch (body.role) {
+    case BodyRole::vibratory_shaft: {
+      VibratoryShaftOptions options;
+      options.gravity_m_s2 = scene.vibratory_mill().gravity_m_s2;
+      options.own_weight = scene.has_effect("gravity_shaft");
+      options.own_inertia = scene.has_effect("shaft_inertia");
+      options.debalance_shares = {body.debalance_shares.at(0), body.debalance_shares.at(1)};
+      return distribute_vibratory_shaft(history, loaded, options);
+    }
+    case BodyRole::chamber:
+      return distribute_chamber(history, std::get<kinetics::VibratoryMill>(masses.machine), loaded,
+                                {scene.effects, attached.structure, attached.exciter, body.pitch_guide});
+    case BodyRole::drum:
+      return distribute_drum(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded,
+                             {scene.effects, attached.structure});
+    case BodyRole::stub_axle: {
+      auto options = body.stub_axle;
+      options.effects = scene.effects;
+      return distribute_stub_axle(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded, options);
+    }
+    case BodyRole::train_shaft: {
+      const auto& train = std::get<kinetics::DriveTrain>(masses.machine);
+      auto options = body.train;
+      options.effects = scene.effects;
+      options.attached = attached.structure;
+      options.forces.erase(std::remove_if(options.forces.begin(), options.forces.end(),
+                                          [&](const auto& force) { return !scene.has_effect(force.effect); }),
+                           options.forces.end());
+      return distribute_train_shaft(history, kinetics::mean_speed_rad_s(train, options.inertia), loaded, options);
+    }
+    case BodyRole::table_body:
+      return distribute_table(std::get<kinetics::LoadTable>(scene.machine), scene.effects, scene.sampling, loaded,
+                              body.table);
   }
-  return corners;
+  throw std::logic_error("unknown role of a body");
 }
 
-ShaftAnalysis analyse_shaft(const Scene& scene, const kinetics::LoadHistory& history,
-                            const RunOptions& options, StageClock& clock) {
-  if (!scene.shaft) throw std::invalid_argument("analyse_shaft: the scene has no shaft");
-  const ShaftScene& shaft = *scene.shaft;
+BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                          const MassAgreement& masses, const kinetics::LoadHistory& history,
+                          const RunOptions& options, StageClock& clock) {
   const int n_threads =
       options.n_threads > 0 ? options.n_threads : int(std::max(1u, std::thread::hardware_concurrency()));
-
-  ShaftAnalysis analysis;
-  analysis.mesh = clock.run("mesh", [&] {
-    return meshes::build_shaft(shaft.geometry, shaft.mesh, options.directory / "mesh.msh");
-  });
-  const auto body = to_fem_body(analysis.mesh, shaft.material);
-  const auto planes = to_fem_planes(analysis.mesh.sections);
-  const auto model = clock.run("model", [&] { return fem::Model(body); });
-  analysis.masses = clock.run("model", [&] { return model.mass_properties(); });
+  const ShaftShape* shaft = body.shaft();
+  BodyAnalysis analysis;
+  analysis.scene = body;
+  analysis.mesh = meshed.mesh;
+  analysis.masses = meshed.masses;
+  const auto planes = to_fem_planes(meshed.mesh.sections);
   analysis.loads = clock.run("distribute", [&] {
-    return distribute_shaft(history, analysis.mesh.ports, analysis.masses, distribution_of(scene));
+    return distribute_body(scene, body, history, loaded_body(body, meshed), masses);
   });
-  analysis.responses = solve_or_reuse(model, body, analysis.loads, planes, options, n_threads,
+  if (analysis.loads.unit_loads.empty())
+    throw std::invalid_argument("no effect of the scene loads the " + body.name + "; name one that does, or remove [" +
+                                body.name + "]");
+  analysis.responses = solve_or_reuse(*meshed.model, meshed.body, analysis.loads, planes, options, n_threads,
                                       analysis.responses_reused, clock);
-  analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, analysis.masses);
-  require_closure(analysis.closure);
+  analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
+  require_closure(body.name, analysis.closure);
 
   analysis.envelope =
       clock.run("superpose", [&] { return envelope(analysis.loads.history, analysis.responses, n_threads); });
   clock.run("zones", [&] {
-    analysis.sharp_corners = sharp_corners(shaft.geometry);
     analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
-                                   analysis.sharp_corners);
-    analysis.peak = headline(analysis, shaft);
+                                   analysis.mesh.sharp_edges);
+    analysis.peak = headline(analysis);
     analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
     analysis.zones = find_zones(analysis.responses.nodes, analysis.envelope.von_mises, analysis.places,
-                                zone_level(scene.zones, analysis.peak.value_Pa, shaft.yield_strength_Pa),
-                                shaft.yield_strength_Pa);
+                                zone_level(scene.zones, analysis.peak.value_Pa, body.yield_strength_Pa),
+                                body.yield_strength_Pa);
+    analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
   });
-  analysis.diagrams = clock.run("sections", [&] {
-    return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft.geometry,
-                            shaft.material.density_kg_m3);
-  });
+  if (shaft != nullptr && meshed.mesh.sections.size() > 1)
+    analysis.diagrams = clock.run("sections", [&] {
+      return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
+                              body.material.density_kg_m3, references(body));
+    });
   return analysis;
 }
 

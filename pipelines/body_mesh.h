@@ -1,0 +1,34 @@
+/// A body of the scene, meshed, with what it weighs.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "fem/model.h"
+#include "meshes/body_mesh.h"
+#include "pipelines/body_scene.h"
+#include "pipelines/load_book.h"
+
+namespace pipelines {
+
+struct MeshedBody {
+  meshes::BodyMesh mesh;
+  fem::Body body;  ///< what the model was made of
+  std::shared_ptr<const fem::Model> model;
+  fem::MassProperties masses;       ///< of the whole mesh
+  std::vector<RegionMass> regions;  ///< "structure" and "exciter" of a chamber; otherwise the whole body
+};
+
+/// The mesh alone, written to `file`.
+/// @throws std::invalid_argument or std::runtime_error as the mesher
+meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file);
+
+/// Mesh, model and masses.
+/// @param springs  of the machine, for elastic feet; empty otherwise
+MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
+                     const std::vector<kinetics::Spring>& springs);
+
+/// What fem needs of a mesh.
+fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& material);
+
+}  // namespace pipelines

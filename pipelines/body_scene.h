@@ -1,0 +1,64 @@
+/// A body as a scene describes it: shape, material, how loads meet it. Values in SI units.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fem/body.h"
+#include "meshes/chamber.h"
+#include "meshes/shaft.h"
+#include "pipelines/distribute.h"
+#include "pipelines/pressure_pattern.h"
+
+namespace pipelines {
+
+/// What a body is in its machine: decides which loads enter where.
+enum class BodyRole { vibratory_shaft, chamber, drum, stub_axle, train_shaft, table_body };
+
+struct ShaftShape {
+  meshes::Shaft geometry;
+  meshes::ShaftMeshControl mesh;
+};
+
+struct ChamberShape {
+  meshes::Chamber geometry;
+  meshes::ChamberMeshControl mesh;
+};
+
+/// Mass beside the mesh, as the scene gives it.
+struct AddedMass {
+  std::string name, port, region;  ///< region of the chamber: "structure" or "exciter"
+  double mass_kg = 0;
+  std::array<double, 2> centre_m{};  ///< from the port's own point
+  double polar_inertia_kg_m2 = 0;    ///< about its own centre
+};
+
+struct BodyScene {
+  std::string name;  ///< "shaft", "chamber", "drum", "axle", "part": table and directory
+  BodyRole role = BodyRole::vibratory_shaft;
+  std::variant<ShaftShape, ChamberShape> shape;
+  fem::Material material;
+  std::string material_name;
+  double yield_strength_Pa = 0;
+  int pressure_harmonics = 4;                      ///< where `pressures` has no entry
+  std::map<std::string, PressureModel> pressures;  ///< by port
+  std::vector<AddedMass> added_masses;
+  std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
+
+  std::vector<double> debalance_shares = {0.5, 0.5};  ///< vibratory shaft
+  PitchGuide pitch_guide = PitchGuide::body;          ///< chamber
+  bool elastic_feet = false;                          ///< chamber
+  StubAxleOptions stub_axle;
+  TrainShaftOptions train;
+  TableBodyOptions table;
+
+  const ShaftShape* shaft() const { return std::get_if<ShaftShape>(&shape); }
+};
+
+/// Effects that a body adds to those of its machine: they need its mesh.
+std::vector<std::string> own_effects(BodyRole role);
+
+}  // namespace pipelines
