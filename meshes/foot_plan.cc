@@ -44,9 +44,12 @@ PlanePoint contact_point(const PadContact& contact, double offset_m) {
           a[1] == b[1] ? a[1] : a[1] + share * (b[1] - a[1])};
 }
 
-/// Grid lines of the pad: its ends, the lug's columns, and the rest no wider than `size_m`.
+/// Grid lines of the pad: its ends and the lug's columns, which have to meet cells one to one; outside them
+/// no gap is wider than `size_m`.
 std::vector<double> grid_lines(double begin_m, double end_m, std::vector<double> columns_m, double size_m) {
   const double tiny = 1e-9 * (end_m - begin_m);
+  const auto [first, last] = std::minmax_element(columns_m.begin(), columns_m.end());
+  const double lug_begin_m = *first, lug_end_m = *last;
   columns_m.push_back(begin_m);
   columns_m.push_back(end_m);
   std::sort(columns_m.begin(), columns_m.end());
@@ -54,8 +57,9 @@ std::vector<double> grid_lines(double begin_m, double end_m, std::vector<double>
   for (const double column_m : columns_m) {
     const double gap_m = column_m - lines.back();
     if (gap_m <= tiny) continue;
-    const int n = std::max(1, static_cast<int>(std::ceil(gap_m / size_m - 1e-6)));
     const double from_m = lines.back();
+    const bool is_outside = column_m <= lug_begin_m + tiny || from_m >= lug_end_m - tiny;
+    const int n = is_outside ? std::max(1, static_cast<int>(std::ceil(gap_m / size_m - 1e-6))) : 1;
     for (int i = 1; i < n; ++i) lines.push_back(from_m + gap_m * i / n);
     lines.push_back(column_m);
   }
