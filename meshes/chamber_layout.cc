@@ -11,7 +11,6 @@ namespace {
 
 const double largest_share_of_housing = 0.8;  // half the web's height there, of the housing's radius
 const double chosen_size_share = 0.15;        // of the tube's outer radius
-const double coarsest_turn_rad = 0.25;        // of one cell around the tube
 const double toe_walls = 0.6, closest_walls = 0.05;
 
 WebLayout lay_out_webs(const Chamber& chamber, double tube_outer_m) {

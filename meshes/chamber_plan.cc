@@ -12,7 +12,6 @@ namespace meshes {
 namespace {
 
 const double pi = 3.14159265358979323846;
-const double coarsest_turn_rad = 0.25;  // of one cell around the housing
 
 std::vector<double> equal_steps(double begin_m, double end_m, int n) {
   std::vector<double> result;

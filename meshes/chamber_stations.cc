@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "meshes/break_points.h"
 #include "meshes/chamber_hot_spots.h"
@@ -41,13 +43,29 @@ BreakPoints edges_around(const ChamberLayout& layout) {
   return arcs;
 }
 
-std::vector<double> subdivide(const std::vector<double>& breaks, const AxialSize& size) {
+/// @param limit largest cell at a place, where it is below that of `size`
+std::vector<double> subdivide(const std::vector<double>& breaks, const AxialSize& size,
+                              const std::function<double(double)>& limit) {
   std::vector<double> result = {breaks.front()};
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const auto part = axial_stations(breaks[i], breaks[i + 1], size, 1);
+    AxialSize here = size;
+    here.largest_m = std::min(size.largest_m, limit(0.5 * (breaks[i] + breaks[i + 1])));
+    const auto part = axial_stations(breaks[i], breaks[i + 1], here, 1);
     result.insert(result.end(), part.begin() + 1, part.end());
   }
   return result;
+}
+
+/// Around the tube, where the webs' cells fan out to the housing: they shall not turn more there than others.
+double limit_at_web(const ChamberLayout& layout, double arc_m) {
+  const WebLayout& web = layout.web;
+  const double half_rad = 0.5 * (web.last_rad - web.first_rad);
+  const double housing_half_rad = 0.5 * (web.housing_first_rad - web.housing_last_rad);
+  const double from_middle_rad =
+      std::remainder(arc_m / layout.tube_outer_m - 0.5 * (web.first_rad + web.last_rad), 2 * pi);
+  return std::abs(from_middle_rad) < half_rad
+             ? coarsest_turn_rad * layout.tube_outer_m * half_rad / housing_half_rad
+             : std::numeric_limits<double>::infinity();
 }
 
 /// A chamber that is symmetrical in z gets stations that are so to the last bit.
@@ -85,12 +103,14 @@ ChamberStations place_stations(const Chamber& chamber, const ChamberLayout& layo
       for (const int turn : {-1, 0, 1, 2})
         around.sources.push_back({angle_rad * layout.tube_outer_m + turn * period_m, toe_m});
   }
-  result.z_m = subdivide(z_breaks.sorted(), along);
+  const auto unlimited = [](double) { return std::numeric_limits<double>::infinity(); };
+  result.z_m = subdivide(z_breaks.sorted(), along, unlimited);
   make_symmetrical(result.z_m, 0.01 * layout.closest_m);
 
   std::vector<double> closed = arcs.sorted();
   closed.push_back(closed.front() + period_m);
-  for (double arc_m : subdivide(closed, around)) {
+  const auto limit = [&](double arc_m) { return limit_at_web(layout, arc_m); };
+  for (double arc_m : subdivide(closed, around, limit)) {
     if (arc_m >= period_m) arc_m -= period_m;
     result.angles_rad.push_back(arc_m / layout.tube_outer_m);
   }

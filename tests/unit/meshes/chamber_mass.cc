@@ -115,24 +115,60 @@ MassProperties laboratory_masses(const std::map<std::string, PlaneSums>& sums) {
   return masses;
 }
 
-/// m1, l, I_E and m2 of the laboratory chamber in section 7.2 of the coupling spec, with the webs' taper,
-/// which the drawing behind these numbers may not have, and chords for circles (0.2 %).
+/// Webs and lugs as section 7.2 of the coupling spec weighs them: webs of full height up to the housing's
+/// middle, though they stand out beside it there; lugs as strips to the foot's middle, though a pad is there.
+std::map<std::string, PlaneSums> as_specified(const meshes::Chamber& chamber) {
+  const auto angles = equal_angles(100000);
+  auto sums = solid_sums(chamber, angles);
+  const auto outlines = outlines_of(chamber, angles);
+  const auto strip = [](const Corners& arc, double x_m, double y_m) {
+    const auto &first = arc.front(), &last = arc.back();
+    const double mid_x = 0.5 * (first[0] + last[0]), mid_y = 0.5 * (first[1] + last[1]);
+    Corners corners(arc.rbegin(), arc.rend());
+    corners.push_back({first[0] + x_m - mid_x, first[1] + y_m - mid_y});
+    corners.push_back({last[0] + x_m - mid_x, last[1] + y_m - mid_y});
+    return polygon_sums(corners);
+  };
+  Corners half_housing;
+  const double to_tube = std::atan2(chamber.tube.axis_y_m, chamber.tube.axis_x_m), pi = std::acos(-1.0);
+  for (int i = 0; i <= 100000; ++i)
+    half_housing.push_back({chamber.housing.outer_radius_m * std::cos(to_tube + pi * (i / 1e5 - 0.5)),
+                            chamber.housing.outer_radius_m * std::sin(to_tube + pi * (i / 1e5 - 0.5))});
+  const auto web = strip(outlines.web_tube_arc, 0, 0), housing = polygon_sums(half_housing);
+  PlaneSums lugs{};
+  for (std::size_t foot = 0; foot < chamber.feet.size(); ++foot) {
+    const auto lug = strip(outlines.lug_tube_arcs[foot], chamber.feet[foot].x_m, chamber.feet[foot].y_m);
+    for (int i = 0; i < 4; ++i) lugs[i] += 2 * chamber.lugs.thickness_m * lug[i];
+  }
+  for (int i = 0; i < 4; ++i) sums["webs"][i] = 2 * chamber.webs.thickness_m * (web[i] - housing[i]);
+  sums["lugs"] = lugs;
+  return sums;
+}
+
+/// m1, l, I_E and m2 of the laboratory chamber. Section 7.2 of the coupling spec gives two columns: what the
+/// machine was specified with, which the mesh has to meet within 2 %, and the figures of the drawing, met
+/// to the last printed digit when webs and lugs are weighed as there. Without what cannot be welded (webs
+/// beside the housing, 0.66 kg; lugs inside the pads, 0.17 kg) the chamber is 2.7 % lighter than the latter.
 TEST(ChamberSolids, weigh_what_the_specification_says) {
+  const auto drawn = laboratory_masses(as_specified(laboratory_chamber()));
+  EXPECT_NEAR(drawn.m1_kg, 30.40, 0.005);
+  EXPECT_NEAR(drawn.l_x_m, 0.2605, 0.00005);
+  EXPECT_NEAR(drawn.l_y_m, 0.0190, 0.00005);
+  EXPECT_NEAR(drawn.inertia_kg_m2, 2.835, 0.0005);
+  EXPECT_NEAR(drawn.m2_kg, 6.00, 0.005);
+
   const auto of_mesh = laboratory_masses(mesh_sums(meshed(laboratory_chamber(), {}, "masses")));
   const auto of_round = laboratory_masses(solid_sums(laboratory_chamber(), equal_angles(100000)));
   for (const auto& masses : {of_mesh, of_round}) {
     std::printf("m1 %.3f kg, l (%.4f, %.4f) m, I_E %.4f kg m2, m2 %.3f kg\n", masses.m1_kg, masses.l_x_m,
                 masses.l_y_m, masses.inertia_kg_m2, masses.m2_kg);
-    const double share = 0.02;
-    EXPECT_NEAR(masses.m1_kg, 30.40, share * 30.40);
+    const double share = 0.02, l_m = std::hypot(0.26, 0.02);
     EXPECT_NEAR(masses.m1_kg, 30, share * 30);
-    EXPECT_NEAR(masses.l_x_m, 0.2605, share * 0.2612);
-    EXPECT_NEAR(masses.l_y_m, 0.0190, share * 0.2612);
-    EXPECT_NEAR(masses.l_x_m, 0.26, share * 0.2608);
-    EXPECT_NEAR(masses.l_y_m, 0.02, share * 0.2608);
-    EXPECT_NEAR(masses.inertia_kg_m2, 2.835, share * 2.835);
+    EXPECT_NEAR(masses.l_x_m, 0.26, share * l_m);
+    EXPECT_NEAR(masses.l_y_m, 0.02, share * l_m);
     EXPECT_NEAR(masses.inertia_kg_m2, 2.85, share * 2.85);
     EXPECT_NEAR(masses.m2_kg, 6, share * 6);
+    EXPECT_NEAR(masses.m1_kg, 30.40 - 0.66 - 0.17, 0.05);  // chords for circles take 0.04
   }
 }
 

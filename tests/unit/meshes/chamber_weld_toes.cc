@@ -149,14 +149,14 @@ TEST(SharpEdges, of_the_chamber_are_its_weld_toes) {
   }
 }
 
-/// An L-shaped bar: one re-entrant edge, and five convex ones that must not count. With the corner closed to
-/// 45 degrees of turn it counts or not as the limit says.
+/// An L-shaped bar: one re-entrant edge, and five convex ones that must not count. With the leg tilted away
+/// the edge turns by 45 degrees only and counts or not as the limit says.
 TEST(SharpEdges, are_found_on_any_mesh) {
   const double half = std::sqrt(0.5);
   for (const bool right_angle : {true, false}) {
     meshes::Plan plan;
-    const Point tip = right_angle ? Point{1, 2, 0} : Point{1 + half, 1 + half, 0};
-    plan.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 2}, {tip[0], tip[1]}, {2, 0}, {2, 1}};
+    const Point tip = right_angle ? Point{1, 2, 0} : Point{1 - half, 1 + half, 0};
+    plan.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {-0.5, 2}, {tip[0], tip[1]}, {2, 0}, {2, 1}};
     meshes::PlanBlock block;
     block.quads = {{{0, 1, 2, 3}, {}}, {{3, 2, 5, 4}, {11, 12, 11, 11}}, {{1, 6, 7, 2}, {}}};
     block.slabs = {{0, 1, 1, 10, 13, 13}};

@@ -75,11 +75,10 @@ std::vector<Refusal> clearance_refusals() {
        {"web 1 and web 2", "5 mm in z"}},
       {"lug in a web",
        [](auto& c, auto&) {
-         c.feet[0] = {0, 0.3};
          c.feet[0] = {0.05, -0.12};
          c.lugs.z_m = 45 * mm;
        },
-       {"web 2 and lug 1"}},
+       {"web 1 and lug 1"}},
       {"feet together",
        [](auto& c, auto&) {
          c.feet[1] = {0.14, -0.2};
