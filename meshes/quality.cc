@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meshes {
 
@@ -33,12 +34,27 @@ double scaled_jacobian(const HexMesh& mesh, const Hex& hex) {
   return smallest;
 }
 
+double aspect(const HexMesh& mesh, const Hex& hex) {
+  static const int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                   {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (const auto& edge : edges) {
+    const Point &a = mesh.points[hex.nodes[edge[0]]], &b = mesh.points[hex.nodes[edge[1]]];
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  return longest / shortest;
+}
+
 MeshQuality measure_quality(const HexMesh& mesh) {
   MeshQuality quality;
   quality.n_cells = mesh.hexes.size();
   quality.n_vertices = mesh.points.size();
   std::vector<double> values;
   for (const Hex& hex : mesh.hexes) values.push_back(scaled_jacobian(mesh, hex));
+
+  for (const Hex& hex : mesh.hexes) quality.max_aspect = std::max(quality.max_aspect, aspect(mesh, hex));
 
   const auto worst = std::min_element(values.begin(), values.end());
   quality.min_scaled_jacobian = *worst;

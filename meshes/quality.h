@@ -11,7 +11,10 @@ namespace meshes {
 /// out or flat.
 double scaled_jacobian(const HexMesh& mesh, const Hex& hex);
 
-/// Counts, the smallest and the median scaled Jacobian, and where the worst cell lies.
+/// Longest of the 12 edges over the shortest.
+double aspect(const HexMesh& mesh, const Hex& hex);
+
+/// Counts, the largest aspect, the smallest and the median scaled Jacobian, and where the worst cell lies.
 MeshQuality measure_quality(const HexMesh& mesh);
 
 }  // namespace meshes

@@ -1,0 +1,98 @@
+/// The chamber of a vibratory mill, meshed with structured hexahedra: planar blocks in the cross-section
+/// (x, y) times stations in z.
+/// Frame: origin E' on the exciter housing's axis, z = 0 in the middle of the chamber, front is +z.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "meshes/body_mesh.h"
+
+namespace meshes {
+
+/// The tube that holds the charge; its axis is parallel to z and passes through C = (axis_x, axis_y).
+struct ChamberTube {
+  double inner_radius_m = 0;
+  double wall_m = 0;  ///< 0.01 to 0.3 of the inner radius
+  double length_m = 0;
+  double axis_x_m = 0, axis_y_m = 0;
+};
+
+/// Two rings around the tube, flush with its ends.
+struct ChamberFlanges {
+  double outer_radius_m = 0;  ///< at least one wall above the tube's outside, at most twice the tube's
+  double thickness_m = 0;     ///< at most a quarter of the tube's length
+};
+
+/// The ring about E' that holds the exciter's bearings, middle at z = 0.
+struct ChamberHousing {
+  double outer_radius_m = 0;  ///< bore below 0.95 of it
+  double bore_radius_m = 0;
+  double length_m = 0;
+};
+
+/// Plates between tube and housing, symmetrical about the line E'C. Towards the housing they taper to a
+/// height of 1.6 housing radii where `height_m` is more; the taper of an edge is at most 1 in 2.
+struct ChamberWebs {
+  double thickness_m = 0;
+  double height_m = 0;  ///< across E'C at the tube: at least 3 walls, at most 1.2 of the tube's outer radius
+  std::vector<double> z_m;  ///< mid-planes, 1 to 8; within the housing's length
+};
+
+/// Plates that carry the pads, at z = +-z_m for every foot: straight strips from the tube towards the foot.
+/// An edge of a strip ends where it meets the pad, but: where the strip is wider than what it sees of the
+/// pad, it tapers to the pad's corner; no edge ends on a side that it would meet at less than 27 degrees, nor
+/// within `foot_snap_share` of a side from its corner: it runs to the corner instead.
+struct ChamberLugs {
+  double thickness_m = 0;
+  double width_m = 0;  ///< at least 3 walls, at most the tube's outer radius
+  double z_m = 0;
+};
+
+/// Blocks with faces along the axes, centred at the feet, at z = +-ChamberLugs::z_m.
+struct ChamberPads {
+  double size_x_m = 0, size_y_m = 0;
+  double size_z_m = 0;  ///< at least the lug's thickness
+};
+
+struct ChamberFoot {
+  double x_m = 0, y_m = 0;
+};
+
+/// 1 to 4 feet. Parts that share a range of z keep clear of each other in the cross-section by at least one
+/// wall, and plates that overlap around the tube keep clear in z by as much.
+struct Chamber {
+  ChamberTube tube;
+  ChamberFlanges flanges;
+  ChamberHousing housing;
+  ChamberWebs webs;
+  ChamberLugs lugs;
+  ChamberPads pads;
+  std::vector<ChamberFoot> feet;
+};
+
+struct ChamberMeshControl {
+  int cells_through_wall = 2;
+  double size_m = 0;    ///< of cells away from weld toes; 0: 0.15 of the tube's outer radius
+  double growth = 0.7;  ///< slope of the cell size away from the weld toes, where it is 0.6 walls
+  double min_scaled_jacobian = 0.3;  ///< refused below
+};
+
+/// Meshes the chamber and writes `file` (through a temporary name).
+/// Ports: "housing_bore", "inner_wall" (the tube's whole inside), "spring_foot_1".. (the undersides of the
+/// foot's two pads; their topsides if the foot lies above the tube's axis) and "covers" (the flanges' outer
+/// faces, both ends).
+/// Regions: "structure", "exciter" (the housing). Sharp edges: the weld toes.
+/// Hot spots, on the tube's outside: around the tube from both edges of each plate at its mid-plane, and
+/// along it from both faces of each plate at its middle and one wall inside its edges. A path that another
+/// plate or flange covers or approaches within 0.4 walls is left out, and so is one whose points would come
+/// closer than 0.05 walls to another edge, station or point without meeting it.
+/// One call at a time in a process: gmsh is global.
+/// @throws std::invalid_argument with the offending numbers: sizes outside the ranges above, parts too close
+///         to each other, edges or faces closer than 0.05 walls that do not coincide, bad controls
+/// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian (place and value named),
+///         or the file cannot be written
+BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control,
+                       const std::filesystem::path& file);
+
+}  // namespace meshes

@@ -1,0 +1,82 @@
+#include "meshes/chamber_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshes/pad_contact.h"
+
+namespace meshes {
+
+namespace {
+
+const double largest_share_of_housing = 0.8;  // half the web's height there, of the housing's radius
+const double chosen_size_share = 0.15;        // of the tube's outer radius
+const double toe_walls = 0.6, closest_walls = 0.05;
+
+WebLayout lay_out_webs(const Chamber& chamber, double tube_outer_m) {
+  const double to_tube_rad = std::atan2(chamber.tube.axis_y_m, chamber.tube.axis_x_m);
+  const double to_housing_rad = std::atan2(-chamber.tube.axis_y_m, -chamber.tube.axis_x_m);
+  const double half_m = 0.5 * chamber.webs.height_m, housing_m = chamber.housing.outer_radius_m;
+  const double half_rad = std::asin(half_m / tube_outer_m);
+  const double at_housing_m = std::min(half_m, largest_share_of_housing * housing_m);
+  const double housing_half_rad = std::asin(at_housing_m / housing_m);
+  return {to_housing_rad - half_rad, to_housing_rad + half_rad, to_tube_rad + housing_half_rad,
+          to_tube_rad - housing_half_rad};
+}
+
+FootLayout lay_out_foot(const Chamber& chamber, std::size_t index, double tube_outer_m) {
+  const ChamberFoot& foot = chamber.feet[index];
+  const double dx = foot.x_m - chamber.tube.axis_x_m, dy = foot.y_m - chamber.tube.axis_y_m;
+  const double half_m = 0.5 * chamber.lugs.width_m;
+  const double half_rad = std::asin(half_m / tube_outer_m);
+  FootLayout layout;
+  layout.direction_rad = std::atan2(dy, dx);
+  layout.first_rad = layout.direction_rad - half_rad;
+  layout.last_rad = layout.direction_rad + half_rad;
+  layout.contact = pad_contact(chamber, foot, layout.direction_rad);
+  layout.sole_sign = dy > 0 ? 1 : -1;
+  return layout;
+}
+
+std::vector<Plate> plates_of(const Chamber& chamber, const ChamberLayout& layout) {
+  std::vector<Plate> plates;
+  const double half_web_m = 0.5 * chamber.webs.thickness_m, half_lug_m = 0.5 * chamber.lugs.thickness_m;
+  for (std::size_t i = 0; i < chamber.webs.z_m.size(); ++i)
+    plates.push_back({"web " + std::to_string(i + 1), layout.web.first_rad, layout.web.last_rad,
+                      chamber.webs.z_m[i] - half_web_m, chamber.webs.z_m[i] + half_web_m});
+  const double z_m = chamber.lugs.z_m;
+  for (std::size_t i = 0; i < layout.feet.size(); ++i) {
+    const FootLayout& foot = layout.feet[i];
+    const std::string name = "lug " + std::to_string(i + 1);
+    plates.push_back({name + " front", foot.first_rad, foot.last_rad, z_m - half_lug_m, z_m + half_lug_m});
+    plates.push_back({name + " back", foot.first_rad, foot.last_rad, -z_m - half_lug_m, -z_m + half_lug_m});
+  }
+  return plates;
+}
+
+}  // namespace
+
+ChamberLayout lay_out(const Chamber& chamber, const ChamberMeshControl& control) {
+  ChamberLayout layout;
+  layout.tube_outer_m = chamber.tube.inner_radius_m + chamber.tube.wall_m;
+  const double wanted_m = control.size_m > 0 ? control.size_m : chosen_size_share * layout.tube_outer_m;
+  layout.size_m = std::min(wanted_m, coarsest_turn_rad * layout.tube_outer_m);
+  layout.toe_size_m = std::min(toe_walls * chamber.tube.wall_m, layout.size_m);
+  layout.closest_m = closest_walls * chamber.tube.wall_m;
+  layout.flange_begin_m = 0.5 * chamber.tube.length_m - chamber.flanges.thickness_m;
+  layout.web = lay_out_webs(chamber, layout.tube_outer_m);
+  for (std::size_t i = 0; i < chamber.feet.size(); ++i)
+    layout.feet.push_back(lay_out_foot(chamber, i, layout.tube_outer_m));
+  layout.plates = plates_of(chamber, layout);
+  return layout;
+}
+
+PlanePoint on_circle(double centre_x_m, double centre_y_m, double radius_m, double angle_rad) {
+  return {centre_x_m + radius_m * std::cos(angle_rad), centre_y_m + radius_m * std::sin(angle_rad)};
+}
+
+PlanePoint on_tube(const Chamber& chamber, const ChamberLayout& layout, double angle_rad) {
+  return on_circle(chamber.tube.axis_x_m, chamber.tube.axis_y_m, layout.tube_outer_m, angle_rad);
+}
+
+}  // namespace meshes
