@@ -185,7 +185,7 @@ void match_fans_of_grooves(ShaftLayout& layout) {
   }
 }
 
-void set_columns_and_shifts(ShaftLayout& layout) {
+void set_columns_and_shifts(ShaftLayout& layout, const Shaft& shaft) {
   for (SegmentLayout& segment : layout.segments) {
     segment.column_begin_m = segment.begin_m;
     segment.column_end_m = segment.end_m;
@@ -203,12 +203,16 @@ void set_columns_and_shifts(ShaftLayout& layout) {
     }
     if (big.is_eccentric()) big.inner_radius_m = std::max(big.inner_radius_m, junction.top_radius_m);
   }
-  SegmentLayout& first = layout.segments.front();
-  if (layout.junctions.empty() && first.is_eccentric())
-    first.inner_radius_m += lone_inner_share * first.wall_m();
+  if (layout.junctions.empty() && layout.segments.front().is_eccentric())
+    layout.segments.front().inner_radius_m = lone_inner_radius(shaft.segments.front());
 }
 
 }  // namespace
+
+double lone_inner_radius(const ShaftSegment& segment) {
+  const double base_m = segment.bore_m > 0 ? segment.bore_m : core_share * segment.diameter_m;
+  return 0.5 * (base_m + 0.3 * (segment.diameter_m - base_m));
+}
 
 ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
   ShaftLayout layout;
@@ -221,7 +225,7 @@ ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
     if (layout.junctions[i].has_fan()) set_fan(layout.junctions[i], layout, radius_below_fan(layout, i));
   match_fans_of_grooves(layout);
   for (Junction& junction : layout.junctions) set_bore_border(junction, layout);
-  set_columns_and_shifts(layout);
+  set_columns_and_shifts(layout, shaft);
   set_lines(layout);
   set_rows(layout, control.n_sectors);
   return layout;

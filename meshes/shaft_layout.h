@@ -76,8 +76,8 @@ struct ShaftLayout {
   }
 };
 
-/// Share of the wall of a lone eccentric segment inside which nothing is shifted.
-inline constexpr double lone_inner_share = 0.3;
+/// Radius inside which nothing is shifted where the eccentric segment is the whole shaft.
+double lone_inner_radius(const ShaftSegment& segment);
 
 /// @param shaft, control have passed check_shaft
 /// @throws std::invalid_argument if a bore step lies so close to a shoulder that no row can reach from one to
