@@ -11,7 +11,7 @@ namespace meshes {
 namespace {
 
 const double tiny = 1e-9;
-const double smallest_bore_share = 0.02;   // of the diameter
+const double smallest_bore_share = 0.01;   // of the diameter
 const double smallest_wall_share = 0.01;   // of the diameter
 const double smallest_wall_fillets = 0.5;  // wall under a fillet, in fillets
 
@@ -50,7 +50,7 @@ void check_size(const ShaftSegment& segment) {
     refuse(who + " leaves a wall of " + mm(0.5 * (segment.diameter_m - segment.bore_m)) + " in diameter " +
            mm(segment.diameter_m) + "; at least 1 % of the diameter must be left: make the bore smaller");
   if (segment.bore_m < smallest_bore_share * segment.diameter_m)
-    refuse(who + " is less than 2 % of diameter " + mm(segment.diameter_m) +
+    refuse(who + " is less than 1 % of diameter " + mm(segment.diameter_m) +
            "; leave so small a bore out (0), or make it larger");
 }
 
@@ -83,13 +83,13 @@ void check_step(const Shaft& shaft, std::size_t left, const std::string& where) 
            mm(shaft.fillets_m[left]) +
            "; divide a segment so that the step lies beside the fillet, or make the shoulder sharp");
   if (a.diameter_m == b.diameter_m) return;
-  for (const std::size_t segment : {left, left + 1}) {
-    const std::size_t other = segment == left ? left - 1 : left + 1;  // junction at its other end
-    if (other < shaft.fillets_m.size() && shaft.segments[other].bore_m != shaft.segments[other + 1].bore_m)
-      refuse("bore step between " + bores + " in the plane of a shoulder " + where + ": segment " +
-             shaft.segments[segment].name +
-             " has a bore step at its other end as well; divide it between the two");
-  }
+  const std::size_t big = a.diameter_m > b.diameter_m ? left : left + 1;
+  const std::size_t other = big == left ? left - 1 : left + 1;  // junction at its other end
+  if (other >= shaft.fillets_m.size()) return;
+  const ShaftSegment &thick = shaft.segments[big], &beyond = shaft.segments[other + (other > left)];
+  if (beyond.bore_m > thick.bore_m && beyond.bore_m != wide.bore_m)
+    refuse("bore step between " + bores + " in the plane of a shoulder " + where + ": segment " + thick.name +
+           " has another bore step at its other end, to " + bored(beyond) + "; divide it between the two");
 }
 
 /// Bore of the segment beyond, if it is wider than the segment's own; else the segment's own.

@@ -37,6 +37,16 @@ Radii between(const Break& from, const Break& to, const Radii& guide, int shift)
   return spread(from.radius_m, to.radius_m, fractions);
 }
 
+/// Adds a break in its place unless one with this row is there or it would cross another.
+void insert(std::vector<Break>& breaks, const Break& wanted) {
+  auto at = breaks.begin();
+  while (at != breaks.end() && at->row < wanted.row) ++at;
+  const bool above_last = at == breaks.begin() || (at - 1)->radius_m < wanted.radius_m * (1 - tiny);
+  const bool below_next =
+      at == breaks.end() || (at->row > wanted.row && wanted.radius_m < at->radius_m * (1 - tiny));
+  if (above_last && below_next) breaks.insert(at, wanted);
+}
+
 Radii stack(const std::vector<Break>& breaks, const Radii& guide, int shift = 0) {
   Radii radii = {breaks.front().radius_m};
   for (std::size_t i = 1; i < breaks.size(); ++i) {
@@ -55,17 +65,17 @@ public:
 
   RadiiPlan run() {
     const int n = static_cast<int>(layout_.junctions.size());
+    // From those that leave the rows least freedom to those that leave them most.
     for (int i = 0; i < n; ++i)
       if (layout_.junctions[i].has_fan()) plan_fan(i);
-    for (int i = 0; i < n; ++i) {
-      if (layout_.junctions[i].has_fan()) continue;
-      if (layout_.junctions[i].is_bore_step)
-        plan_bore_step(i);
-      else if (layout_.junctions[i].kind == Junction::Kind::flush)
-        plan_flush(i);
-      else
+    for (int i = 0; i < n; ++i)
+      if (layout_.junctions[i].kind == Junction::Kind::sharp && !layout_.junctions[i].is_bore_step)
         plan_sharp(i);
-    }
+    for (int i = 0; i < n; ++i)
+      if (layout_.junctions[i].is_bore_step) plan_bore_step(i);
+    for (int i = 0; i < n; ++i)
+      if (layout_.junctions[i].kind == Junction::Kind::flush && !layout_.junctions[i].is_bore_step)
+        plan_flush(i);
     plan_.first = plain(0, layout_.segments.front().line_begin_m, guide_of(0));
     const int last = n;
     plan_.last = plain(last, layout_.segments.back().line_end_m, guide_of(last));
@@ -99,15 +109,19 @@ private:
     const Junction& junction = layout_.junctions[index];
     const double base_m = layout_.segments[junction.small].base_radius_m;
     std::vector<Break> breaks = {{0, base_m}};
-    for (const int i : {junction.small, junction.big}) {
-      const double line_m = layout_.line_at(index, i);
-      const int row = layout_.segments[i].n_inner_rows;
-      if (line_m > 0 && row > 0 && row < n && line_m < top_m * (1 - tiny)) breaks.push_back({row, line_m});
+    const auto add_line = [&](int at, int segment) {
+      const double line_m = layout_.line_at(at, segment);
+      const int row = layout_.segments[segment].n_inner_rows;
+      if (line_m > 0 && row < n && line_m < top_m * (1 - tiny)) insert(breaks, {row, line_m});
+    };
+    for (const int i : {junction.small, junction.big}) add_line(index, i);
+    for (const int i : {junction.small, junction.big}) {  // lines at the other end of a short segment
+      const int other = i == index ? index - 1 : index + 1;
+      const bool passes = layout_.segments[i].is_short() && other >= 0 &&
+                          other < static_cast<int>(layout_.junctions.size()) &&
+                          !layout_.junctions[other].is_bore_step;
+      if (passes) add_line(other, i == index ? i - 1 : i + 1);
     }
-    std::sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.row < b.row; });
-    breaks.erase(std::unique(breaks.begin(), breaks.end(),
-                             [](const Break& a, const Break& b) { return a.row == b.row; }),
-                 breaks.end());
     const Radii& small_guide = guide_of(junction.small);
     const Radii& guide = small_guide.empty() ? guide_of(junction.big) : small_guide;
     if (!guide.empty()) {

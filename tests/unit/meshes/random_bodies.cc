@@ -93,6 +93,7 @@ void shift_thick_segments(Shaft& shaft, std::mt19937& random) {
 void divide(Shaft& shaft, std::size_t index, double share) {
   ShaftSegment second = shaft.segments[index];
   second.name += "b";
+  second.is_port = shaft.segments[index].is_port = false;
   second.begin_m += share * length_of(second);
   shaft.segments[index].end_m = second.begin_m;
   shaft.segments.insert(shaft.segments.begin() + index + 1, second);
@@ -160,7 +161,7 @@ Shaft random_shaft(std::mt19937& random) {
 }
 
 Shaft random_drum(std::mt19937& random) {
-  const double radius_m = between(random, 0.05, 0.6), wall_m = radius_m * between(random, 0.02, 0.15);
+  const double radius_m = between(random, 0.05, 0.6), wall_m = radius_m * between(random, 0.025, 0.15);
   const double inside_m = 2 * (radius_m - wall_m);
   const auto left = trunnion("left", inside_m * between(random, 0.25, 0.8), random);
   const auto right = trunnion("right", inside_m * between(random, 0.25, 0.8), random);
@@ -178,7 +179,7 @@ Shaft random_drum(std::mt19937& random) {
   add_cover("cover_1");
   const int n_pieces = 1 + 2 * static_cast<int>(between(random, 0, 2));
   for (int i = 0; i < n_pieces; ++i) {
-    const double thinner = i == 1 ? between(random, 0, 0.6) : 0;
+    const double thinner = i == 1 ? between(random, 0, 1 - 0.02 * radius_m / wall_m) : 0;
     drum.segments.push_back(cylinder("shell_" + std::to_string(i),
                                      radius_m * between(random, 0.5, 8) / n_pieces,
                                      2 * (radius_m - thinner * wall_m), inside_m));
@@ -200,7 +201,8 @@ Shaft random_drum(std::mt19937& random) {
     const auto &a = drum.segments[i], &b = drum.segments[i + 1];
     const double step_m = 0.5 * std::abs(a.diameter_m - b.diameter_m);
     const double fillet_m =
-        std::min(between(random, 0.1, 0.8) * step_m, 0.35 * std::min(length_of(a), length_of(b)));
+        std::min({between(random, 0.1, 0.8) * step_m, 0.35 * std::min(length_of(a), length_of(b)),
+                  0.5 * (std::min(a.diameter_m, b.diameter_m) - a.bore_m)});
     drum.fillets_m.push_back(a.bore_m != b.bore_m || happens(random, 0.15) ? 0 : fillet_m);
   }
   return drum;
