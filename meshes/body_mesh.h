@@ -27,7 +27,8 @@ struct Port {
 struct Feature {
   enum class Kind { seat, surface, fillet, shoulder, end_face, bore };
   /// "main_bearing_1" (loaded zone of the port), "main_bearing_1 rim 2" (unloaded rest of its cylinder),
-  /// "body_1", "fillet main_bearing_1/body_1", "shoulder main_bearing_1/body_1", "end_1"
+  /// "body_1", "fillet main_bearing_1/body_1", "shoulder main_bearing_1/body_1", "end_1",
+  /// "bore shell", "shoulder bore cover_1/shell" (the face of a step between bores)
   std::string name;
   Kind kind = Kind::surface;
   int boundary_id = 0;
@@ -41,7 +42,8 @@ struct Feature {
 struct CylinderChart {
   int volume_id = 0;
   double shift_x_m = 0, shift_y_m = 0;
-  double inner_radius_m = 0;  ///< r_a: inside it nothing is shifted; the radius of the core if concentric
+  double inner_radius_m = 0;  ///< r_a: inside it nothing is shifted; that of the core or of
+                              ///< the bore if concentric
   double outer_radius_m = 0;  ///< R: the surface of the segment, fully shifted
   double axis_x_m = 0, axis_y_m = 0;
 };
@@ -60,7 +62,8 @@ struct SectionPlane {
   double radius_m = 0;
   double axis_x_m = 0, axis_y_m = 0;
   std::string segment;
-  bool plain = false;  ///< at least one half diameter away from both ends of its segment
+  bool plain = false;         ///< at least one half diameter away from both ends of its segment
+  double inner_radius_m = 0;  ///< of the bore, concentric with the z axis; 0: solid
 };
 
 /// Cells whose mass is counted together, where a body has several such parts (the chamber: "structure",

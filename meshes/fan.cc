@@ -3,8 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "meshes/grading.h"
-
 namespace meshes {
 
 namespace {
@@ -12,33 +10,6 @@ namespace {
 const double pi = std::acos(-1.0);
 
 using Grid = std::vector<std::vector<int>>;
-
-/// Radii of the big segment's rows from the top of the fillet (or of the small segment) to its surface.
-std::vector<double> radii_above(const Junction& junction, const SegmentLayout& big) {
-  const int n_used = junction.n_below + (junction.kind == Junction::Kind::fillet ? junction.n_half_arc : 0);
-  const int n_inner = big.n_inner_rows - n_used;
-  const double inner_top_m = big.is_eccentric() ? big.inner_radius_m : big.radius_m;
-  const double first_m = 4 * junction.first_cell_m;
-  std::vector<double> radii = {junction.top_radius_m};
-  if (n_inner > 0)
-    radii = spread(junction.top_radius_m, inner_top_m,
-                   geometric_fractions(n_inner, first_m / (inner_top_m - junction.top_radius_m)));
-  if (big.n_outer_rows > 0) {
-    const auto outer = spread(inner_top_m, big.radius_m,
-                              geometric_fractions(big.n_outer_rows, first_m / (big.radius_m - inner_top_m)));
-    radii.insert(radii.end(), outer.begin() + 1, outer.end());
-  }
-  return radii;
-}
-
-/// Rows from the core up to `top`, finest at the top.
-std::vector<double> radii_below(double core_m, double top_m, int n, double last_m) {
-  const auto from_top = geometric_fractions(n, last_m / (top_m - core_m));
-  std::vector<double> radii(n + 1);
-  for (int k = 0; k <= n; ++k) radii[n - k] = top_m + (core_m - top_m) * from_top[k];
-  radii.front() = core_m;
-  return radii;
-}
 
 /// Ruled block from the line `arc` to the line `outer`; the first and last rays may exist already.
 Grid ruled_block(BlockMesh& mesh, const std::vector<int>& arc, const std::vector<int>& outer,
@@ -70,23 +41,28 @@ void add_edges(BlockMesh& mesh, const std::vector<int>& line, int boundary_id) {
     mesh.edges.push_back({{line[i], line[i + 1]}, boundary_id});
 }
 
-JunctionFaces build_sharp(BlockMesh& mesh, const ShaftLayout& layout, const Junction& junction,
-                          const JunctionSurfaces& ids) {
-  const auto below =
-      radii_below(layout.core_radius_m, junction.small_radius_m, junction.n_below, junction.first_cell_m);
-  const auto above = radii_above(junction, layout.segments[junction.big]);
-  JunctionFaces faces;
-  faces.small = mesh.add_line(junction.z_m, below);
-  std::vector<int> shoulder = {faces.small.back()};
-  for (std::size_t k = 1; k < above.size(); ++k) shoulder.push_back(mesh.add_point(junction.z_m, above[k]));
+/// One plane: the rows that both segments share, the shoulder above them, the face of a bore step below.
+JunctionFaces build_plane(BlockMesh& mesh, const ShaftLayout& layout, const Junction& junction,
+                          const JunctionSurfaces& ids, const PlaneRadii& radii) {
+  const std::vector<int> below = mesh.add_line(junction.z_m, radii.below);
+  std::vector<int> shoulder = {below.back()};
+  for (std::size_t k = 1; k < radii.above.size(); ++k)
+    shoulder.push_back(mesh.add_point(junction.z_m, radii.above[k]));
   add_edges(mesh, shoulder, ids.shoulder_id);
-  faces.big = faces.small;
-  faces.big.insert(faces.big.end(), shoulder.begin() + 1, shoulder.end());
-  return faces;
+
+  std::vector<int> small = below, big = below;
+  big.insert(big.end(), shoulder.begin() + 1, shoulder.end());
+  if (junction.is_bore_step) {
+    const int n_low = rows_below_step(layout, junction);
+    add_edges(mesh, {below.begin(), below.begin() + n_low + 1}, ids.step_id);
+    std::vector<int>& wide = junction.wide == junction.small ? small : big;
+    wide.erase(wide.begin(), wide.begin() + n_low);
+  }
+  return junction.direction > 0 ? JunctionFaces{small, big} : JunctionFaces{big, small};
 }
 
 JunctionFaces build_fan(BlockMesh& mesh, const ShaftLayout& layout, const Junction& junction,
-                        const JunctionSurfaces& ids, const SurfaceTable& surfaces) {
+                        const JunctionSurfaces& ids, const PlaneRadii& radii, const SurfaceTable& surfaces) {
   const int n = junction.n_half_arc;
   const double f = junction.fillet_m, d = junction.depth_m;
   const double foot_m = junction.small_radius_m, top_m = junction.top_radius_m, floor_m = foot_m - d;
@@ -101,7 +77,13 @@ JunctionFaces build_fan(BlockMesh& mesh, const ShaftLayout& layout, const Juncti
     arc.push_back(at(t, i == 2 * n ? top_m : foot_m + f * (1 - std::cos(angle))));
   }
   std::vector<int> floor, wall;
-  for (int i = 0; i <= n; ++i) floor.push_back(at(-f + (f + d) * i / n, floor_m));
+  const int n_before = junction.n_floor_before_plane;
+  for (int i = 0; i <= n; ++i) {
+    const double t = n_before == 0  ? -f + (f + d) * i / n
+                     : i < n_before ? -f + f * i / n_before
+                                    : d * (i - n_before) / (n - n_before);
+    floor.push_back(at(t, floor_m));
+  }
   wall.push_back(floor.back());
   for (int i = 1; i <= n; ++i) wall.push_back(at(d, i == n ? top_m : floor_m + (top_m - floor_m) * i / n));
 
@@ -109,20 +91,17 @@ JunctionFaces build_fan(BlockMesh& mesh, const ShaftLayout& layout, const Juncti
   const Grid lower = ruled_block(mesh, lower_arc, floor, junction.depth_fractions, {});
   const Grid right = ruled_block(mesh, upper_arc, wall, junction.depth_fractions, lower.back());
 
-  const double last_m = d * (1 - *(junction.depth_fractions.end() - 2));
-  const auto below_radii = radii_below(layout.core_radius_m, floor_m, junction.n_below, last_m);
   Grid below;
   for (const int top : floor) {
     const double z_m = mesh.points[top].z_m;
-    below.push_back(mesh.add_line(z_m, std::vector<double>(below_radii.begin(), below_radii.end() - 1)));
+    below.push_back(mesh.add_line(z_m, Radii(radii.below.begin(), radii.below.end() - 1)));
     below.back().push_back(top);
   }
-  const auto above_radii = radii_above(junction, layout.segments[junction.big]);
   Grid above;
   for (const int bottom : right.back()) {
     above.push_back({bottom});
-    for (std::size_t k = 1; k < above_radii.size(); ++k)
-      above.back().push_back(mesh.add_point(mesh.points[bottom].z_m, above_radii[k]));
+    for (std::size_t k = 1; k < radii.above.size(); ++k)
+      above.back().push_back(mesh.add_point(mesh.points[bottom].z_m, radii.above[k]));
   }
 
   add_quads(mesh, lower, junction.small);
@@ -131,19 +110,23 @@ JunctionFaces build_fan(BlockMesh& mesh, const ShaftLayout& layout, const Juncti
   add_quads(mesh, above, junction.big);
   add_edges(mesh, arc, ids.fillet_id);
   add_edges(mesh, above.front(), ids.shoulder_id);
+  const auto middle_m = [&](int a, int b) { return 0.5 * (mesh.points[a].z_m + mesh.points[b].z_m); };
   for (std::size_t j = 0; j + 1 < above.size(); ++j) {
     const int a = above[j].back(), b = above[j + 1].back();
-    const double middle_m = 0.5 * (mesh.points[a].z_m + mesh.points[b].z_m);
-    mesh.edges.push_back({{a, b}, surfaces.cylinder_at(junction.big, middle_m)});
+    mesh.edges.push_back({{a, b}, surfaces.cylinder_at(junction.big, middle_m(a, b))});
   }
+  if (layout.segments[junction.small].is_bored())
+    for (std::size_t j = 0; j + 1 < below.size(); ++j) {
+      const int a = below[j].front(), b = below[j + 1].front();
+      const bool in_big = junction.direction * (middle_m(a, b) - junction.bore_border_m) > 0;
+      mesh.edges.push_back({{a, b}, surfaces.bore_ids[in_big ? junction.big : junction.small]});
+    }
 
-  JunctionFaces faces;
-  faces.small = below.front();
-  faces.small.insert(faces.small.end(), lower.front().rbegin() + 1, lower.front().rend());
-  faces.big = below.back();
-  faces.big.insert(faces.big.end(), wall.begin() + 1, wall.end());
-  faces.big.insert(faces.big.end(), above.back().begin() + 1, above.back().end());
-  return faces;
+  std::vector<int> small = below.front(), big = below.back();
+  small.insert(small.end(), lower.front().rbegin() + 1, lower.front().rend());
+  big.insert(big.end(), wall.begin() + 1, wall.end());
+  big.insert(big.end(), above.back().begin() + 1, above.back().end());
+  return junction.direction > 0 ? JunctionFaces{small, big} : JunctionFaces{big, small};
 }
 
 }  // namespace
@@ -170,20 +153,12 @@ void BlockMesh::add_quad(std::array<int, 4> corners, int segment) {
   quads.push_back({corners, segment});
 }
 
-std::vector<double> spread(double from, double to, const std::vector<double>& fractions) {
-  std::vector<double> values;
-  for (const double x : fractions) values.push_back(from + (to - from) * x);
-  values.front() = from;
-  values.back() = to;
-  return values;
-}
-
-JunctionFaces build_junction(BlockMesh& mesh, const ShaftLayout& layout, int left,
+JunctionFaces build_junction(BlockMesh& mesh, const ShaftLayout& layout, const RadiiPlan& plan, int left,
                              const SurfaceTable& surfaces) {
   const Junction& junction = layout.junctions[left];
-  return junction.kind == Junction::Kind::sharp
-             ? build_sharp(mesh, layout, junction, surfaces.junctions[left])
-             : build_fan(mesh, layout, junction, surfaces.junctions[left], surfaces);
+  const JunctionSurfaces& ids = surfaces.junctions[left];
+  return junction.has_fan() ? build_fan(mesh, layout, junction, ids, plan.planes[left], surfaces)
+                            : build_plane(mesh, layout, junction, ids, plan.planes[left]);
 }
 
 }  // namespace meshes

@@ -1,4 +1,4 @@
-/// The blocks around one shoulder: five at a fillet, none but matched rows at a sharp corner.
+/// The blocks around one junction: five at a fillet, none but matched rows at a sharp corner or a bore step.
 ///
 ///            |  above  |            local axes: t along z, positive into the big segment; r
 ///   arc  ___/|_________|  r_top
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "meshes/meridian.h"
+#include "meshes/radii.h"
 
 namespace meshes {
 
@@ -27,16 +28,13 @@ struct BlockMesh {
   void add_quad(std::array<int, 4> corners, int segment);
 };
 
-/// from + (to - from) * fractions, exact at the ends
-std::vector<double> spread(double from, double to, const std::vector<double>& fractions);
-
-/// Where the columns of the two segments begin: points from the core outwards.
+/// Where the columns of the two segments begin: points from the base outwards.
 struct JunctionFaces {
-  std::vector<int> small, big;
+  std::vector<int> left, right;
 };
 
-/// @param left index of the junction (not flush): the segment on the side of smaller z
-JunctionFaces build_junction(BlockMesh& mesh, const ShaftLayout& layout, int left,
+/// @param left index of the junction: the segment on the side of smaller z
+JunctionFaces build_junction(BlockMesh& mesh, const ShaftLayout& layout, const RadiiPlan& plan, int left,
                              const SurfaceTable& surfaces);
 
 }  // namespace meshes

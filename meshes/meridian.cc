@@ -7,6 +7,7 @@
 
 #include "meshes/fan.h"
 #include "meshes/grading.h"
+#include "meshes/radii.h"
 
 namespace meshes {
 
@@ -16,32 +17,33 @@ const double pi = std::acos(-1.0);
 // First cell beside the foot of a fillet, in cells of the arc: at 3 the stress recovered at the foot of a
 // small fillet suffers from the jump in size, below 2.5 nothing is gained.
 const double cell_at_foot = 2.5;
+// A thin shell bends within sqrt(radius times wall) of its end: cells grow half as fast there.
+const double growth_in_shells = 0.5;
 
-/// Rows of a segment where nothing else prescribes them: equal, with one boundary at the inner radius if
-/// eccentric.
-std::vector<double> plain_radii(const SegmentLayout& segment, double core_radius_m) {
-  const double top_m = segment.is_eccentric() ? segment.inner_radius_m : segment.radius_m;
-  std::vector<double> radii = spread(core_radius_m, top_m, geometric_fractions(segment.n_inner_rows, 1));
-  if (segment.is_eccentric()) {
-    const auto outer = spread(top_m, segment.radius_m, geometric_fractions(segment.n_outer_rows, 1));
-    radii.insert(radii.end(), outer.begin() + 1, outer.end());
-  }
-  return radii;
-}
-
-/// The two faces of each segment's column, from the core outwards.
+/// The two faces of each segment's column, from the base outwards.
 struct Faces {
   std::vector<int> begin, end;
 };
+
+/// Three times the size around; where the wall is thin, four walls at 16 sectors, but no less than the size
+/// around.
+double usual_cell(const SegmentLayout& segment, int n_sectors) {
+  const double size_m = 6 * pi * segment.radius_m / n_sectors;
+  if (!segment.is_bored()) return size_m;
+  return std::min(size_m, std::max(2 * pi * segment.radius_m, 64 * segment.wall_m()) / n_sectors);
+}
 
 /// Wanted axial cell sizes in a segment's column.
 AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshControl& control) {
   const SegmentLayout& segment = layout.segments[index];
   AxialSize size;
-  size.growth = control.growth;
-  size.largest_m =
-      control.largest_cell_m > 0 ? control.largest_cell_m : 6 * pi * segment.radius_m / control.n_sectors;
+  const double usual_m = usual_cell(segment, control.n_sectors);
+  const bool is_thin = usual_m < 6 * pi * segment.radius_m / control.n_sectors;
+  size.growth = is_thin ? growth_in_shells * control.growth : control.growth;
+  size.largest_m = control.largest_cell_m > 0 ? control.largest_cell_m : usual_m;
   for (const Junction& junction : layout.junctions) {
+    if (junction.is_bore_step && (junction.small == index || junction.big == index))
+      size.sources.push_back({junction.z_m, junction.step_cell_m});
     if (junction.kind == Junction::Kind::flush) continue;
     const bool towards_end = junction.z_m > 0.5 * (segment.begin_m + segment.end_m);
     const double z_m = towards_end ? segment.column_end_m : segment.column_begin_m;
@@ -75,11 +77,13 @@ std::vector<double> breaks_of(const SegmentLayout& segment, double largest_m) {
 
 std::vector<double> column_stations(const ShaftLayout& layout, int index, const ShaftMeshControl& control) {
   const AxialSize size = axial_size(layout, index, control);
-  const std::vector<double> breaks = breaks_of(layout.segments[index], size.largest_m);
+  const SegmentLayout& segment = layout.segments[index];
+  const std::vector<double> breaks = breaks_of(segment, size.largest_m);
   const double column_m = breaks.back() - breaks.front();
   std::vector<double> stations = {breaks.front()};
   for (std::size_t i = 1; i < breaks.size(); ++i) {
-    const int n_min = static_cast<int>(std::ceil(4 * (breaks[i] - breaks[i - 1]) / column_m - 0.5));
+    const int n_wanted = segment.is_short() && !segment.is_port ? 1 : 4;
+    const int n_min = static_cast<int>(std::ceil(n_wanted * (breaks[i] - breaks[i - 1]) / column_m - 0.5));
     const auto piece = axial_stations(breaks[i - 1], breaks[i], size, std::max(1, n_min));
     stations.insert(stations.end(), piece.begin() + 1, piece.end());
   }
@@ -104,6 +108,8 @@ void fill_column(BlockMesh& mesh, const Faces& faces, const std::vector<double>&
       mesh.add_quad({previous[k], next[k], next[k + 1], previous[k + 1]}, segment);
     const double middle_m = 0.5 * (stations[i - 1] + stations[i]);
     mesh.edges.push_back({{previous.back(), next.back()}, surfaces.cylinder_at(segment, middle_m)});
+    if (surfaces.bore_ids[segment] != 0)
+      mesh.edges.push_back({{previous.front(), next.front()}, surfaces.bore_ids[segment]});
     previous = std::move(next);
   }
 }
@@ -122,38 +128,59 @@ void orient_edges(BlockMesh& mesh) {
     if (sides.count(edge.ends) == 0) std::swap(edge.ends[0], edge.ends[1]);
 }
 
+/// A core line for every run of solid segments.
+std::vector<CoreLine> core_lines(const BlockMesh& mesh, const ShaftLayout& layout,
+                                 const SurfaceTable& surfaces) {
+  const auto n = static_cast<int>(layout.segments.size());
+  std::vector<int> run_of(n, -1);
+  std::vector<CoreLine> cores;
+  for (int i = 0; i < n; ++i) {
+    const SegmentLayout& segment = layout.segments[i];
+    if (segment.is_bored()) continue;
+    if (i == 0 || run_of[i - 1] < 0)
+      cores.push_back(
+          {{}, segment.base_radius_m, i == 0 ? surfaces.end_1_id : surfaces.junctions[i - 1].step_id, 0});
+    cores.back().end_id = i + 1 == n ? surfaces.end_2_id : surfaces.junctions[i].step_id;
+    run_of[i] = static_cast<int>(cores.size()) - 1;
+  }
+  std::vector<std::set<int>> points(cores.size());
+  for (const MeridianQuad& quad : mesh.quads)
+    if (run_of[quad.segment] >= 0)
+      for (const int i : quad.corners)
+        if (mesh.points[i].r_m == cores[run_of[quad.segment]].radius_m)
+          points[run_of[quad.segment]].insert(i);
+  for (std::size_t k = 0; k < cores.size(); ++k) {
+    cores[k].points.assign(points[k].begin(), points[k].end());
+    std::sort(cores[k].points.begin(), cores[k].points.end(),
+              [&](int a, int b) { return mesh.points[a].z_m < mesh.points[b].z_m; });
+  }
+  return cores;
+}
+
 }  // namespace
 
 Meridian build_meridian(const ShaftLayout& layout, const SurfaceTable& surfaces,
                         const ShaftMeshControl& control) {
   const auto n = static_cast<int>(layout.segments.size());
+  const RadiiPlan plan = plan_radii(layout);
   BlockMesh mesh;
   std::vector<Faces> faces(n);
-  const auto plain_face = [&](int segment, double z_m) {
-    return mesh.add_line(z_m, plain_radii(layout.segments[segment], layout.core_radius_m));
-  };
-
-  faces.front().begin = plain_face(0, layout.segments.front().begin_m);
+  faces.front().begin = mesh.add_line(layout.segments.front().begin_m, plan.first);
   for (int i = 0; i + 1 < n; ++i) {
-    const Junction& junction = layout.junctions[i];
-    if (junction.kind == Junction::Kind::flush) {
-      faces[i].end = plain_face(i, junction.z_m);
-      faces[i + 1].begin = faces[i].end;
-      continue;
-    }
-    JunctionFaces built = build_junction(mesh, layout, i, surfaces);
-    faces[i].end = junction.direction > 0 ? built.small : built.big;
-    faces[i + 1].begin = junction.direction > 0 ? built.big : built.small;
+    JunctionFaces built = build_junction(mesh, layout, plan, i, surfaces);
+    faces[i].end = std::move(built.left);
+    faces[i + 1].begin = std::move(built.right);
   }
-  faces.back().end = plain_face(n - 1, layout.segments.back().end_m);
+  faces.back().end = mesh.add_line(layout.segments.back().end_m, plan.last);
 
   Meridian meridian;
   for (int i = 0; i < n; ++i) {
     const std::vector<double> stations = column_stations(layout, i, control);
     fill_column(mesh, faces[i], stations, i, surfaces);
-    const bool begins_flush = i > 0 && layout.junctions[i - 1].kind == Junction::Kind::flush;
-    const bool begins_in_fan = i > 0 && layout.junctions[i - 1].kind == Junction::Kind::fillet;
-    const bool ends_in_fan = i + 1 < n && layout.junctions[i].kind == Junction::Kind::fillet;
+    const bool begins_flush = i > 0 && layout.junctions[i - 1].kind == Junction::Kind::flush &&
+                              !layout.junctions[i - 1].is_bore_step;
+    const bool begins_in_fan = i > 0 && layout.junctions[i - 1].has_fan();
+    const bool ends_in_fan = i + 1 < n && layout.junctions[i].has_fan();
     const std::size_t from = begins_flush || begins_in_fan ? 0 : 1;
     const std::size_t to = stations.size() - (ends_in_fan ? 0 : 1);
     for (std::size_t k = from; k < to; ++k) meridian.stations.push_back({stations[k], i});
@@ -162,13 +189,10 @@ Meridian build_meridian(const ShaftLayout& layout, const SurfaceTable& surfaces,
   add_end_edges(mesh, faces.back().end, surfaces.end_2_id);
   orient_edges(mesh);
 
+  meridian.cores = core_lines(mesh, layout, surfaces);
   meridian.points = std::move(mesh.points);
   meridian.quads = std::move(mesh.quads);
   meridian.edges = std::move(mesh.edges);
-  for (std::size_t i = 0; i < meridian.points.size(); ++i)
-    if (meridian.points[i].r_m == layout.core_radius_m) meridian.core_line.push_back(static_cast<int>(i));
-  std::sort(meridian.core_line.begin(), meridian.core_line.end(),
-            [&](int a, int b) { return meridian.points[a].z_m < meridian.points[b].z_m; });
   return meridian;
 }
 

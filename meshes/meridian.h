@@ -1,4 +1,5 @@
-/// The meridian of the shaft: quadrilaterals in the half plane (z, r) from the core's radius to the surface.
+/// The meridian of the shaft: quadrilaterals in the half plane (z, r) from the core or the bore to the
+/// surface.
 /// Lengths in m; r is the distance from the z axis before any eccentric shift.
 #pragma once
 
@@ -26,17 +27,24 @@ struct MeridianEdge {
   int boundary_id = 0;
 };
 
-/// A straight line of cell edges z = const from the core to the surface of one segment.
+/// A straight line of cell edges z = const from the core or the bore to the surface of one segment.
 struct MeridianStation {
   double z_m = 0;
   int segment = 0;
+};
+
+/// Where a core of solid segments side by side is to be filled in.
+struct CoreLine {
+  std::vector<int> points;  ///< at the core's radius, ascending in z
+  double radius_m = 0;
+  int begin_id = 0, end_id = 0;  ///< boundaries that its two ends belong to
 };
 
 struct Meridian {
   std::vector<MeridianPoint> points;
   std::vector<MeridianQuad> quads;
   std::vector<MeridianEdge> edges;
-  std::vector<int> core_line;             ///< points at the core's radius, ascending in z
+  std::vector<CoreLine> cores;            ///< ascending in z
   std::vector<MeridianStation> stations;  ///< ascending in z, without the end faces
 };
 

@@ -7,51 +7,52 @@ namespace meshes {
 namespace {
 
 /// Eccentric shift of each meridian point. Neighbours of an eccentric segment stay inside its inner radius.
-std::vector<double> shifts_of(const Meridian& meridian, const ShaftLayout& layout) {
-  std::vector<double> shifts(meridian.points.size(), 0);
+std::vector<std::array<double, 2>> shifts_of(const Meridian& meridian, const ShaftLayout& layout) {
+  std::vector<std::array<double, 2>> shifts(meridian.points.size(), {0, 0});
   for (const MeridianQuad& quad : meridian.quads) {
     const SegmentLayout& segment = layout.segments[quad.segment];
     if (!segment.is_eccentric()) continue;
     for (const int i : quad.corners) {
       const double beyond_m = meridian.points[i].r_m - segment.inner_radius_m;
-      if (beyond_m > 0)
-        shifts[i] = segment.shift_m * (beyond_m / (segment.radius_m - segment.inner_radius_m));
+      if (beyond_m <= 0) continue;
+      const double share = beyond_m / (segment.radius_m - segment.inner_radius_m);
+      shifts[i] = {segment.shift_x_m * share, segment.shift_y_m * share};
     }
   }
   return shifts;
 }
 
-/// Nodes of the core: the disc at each station of the core line. Those on the circle belong to the meridian's
+/// Nodes of one core: the disc at each station of its line. Those on the circle belong to the meridian's
 /// point.
 class CoreNodes {
 public:
-  CoreNodes(const Disc& disc, const Meridian& meridian, double core_radius_m, int n_sectors, HexMesh& mesh)
-      : core_line_(meridian.core_line), n_sectors_(n_sectors) {
-    for (const int point : core_line_) {
+  CoreNodes(const Disc& disc, const Meridian& meridian, const CoreLine& core, int n_sectors, HexMesh& mesh)
+      : core_(core), n_sectors_(n_sectors) {
+    for (const int point : core.points) {
       first_inner_.push_back(static_cast<int>(mesh.points.size()));
       for (std::size_t i = n_sectors; i < disc.points.size(); ++i)
-        mesh.points.push_back({core_radius_m * disc.points[i][0], core_radius_m * disc.points[i][1],
+        mesh.points.push_back({core.radius_m * disc.points[i][0], core.radius_m * disc.points[i][1],
                                meridian.points[point].z_m});
     }
   }
 
-  int n_stations() const { return static_cast<int>(core_line_.size()); }
+  int n_stations() const { return static_cast<int>(core_.points.size()); }
   int node(int station, int disc_point) const {
-    return disc_point < n_sectors_ ? core_line_[station] * n_sectors_ + disc_point
+    return disc_point < n_sectors_ ? core_.points[station] * n_sectors_ + disc_point
                                    : first_inner_[station] + disc_point - n_sectors_;
   }
 
 private:
-  const std::vector<int>& core_line_;
+  const CoreLine& core_;
   int n_sectors_;
   std::vector<int> first_inner_;
 };
 
-void add_core(const Disc& disc, const CoreNodes& nodes, const SurfaceTable& surfaces, HexMesh& mesh) {
+void add_core(const Disc& disc, const CoreNodes& nodes, const CoreLine& core, int core_id, HexMesh& mesh) {
   for (int s = 0; s + 1 < nodes.n_stations(); ++s)
     for (const auto& quad : disc.quads) {
       Hex hex;
-      hex.volume_id = surfaces.core_id;
+      hex.volume_id = core_id;
       for (int i = 0; i < 4; ++i) {
         hex.nodes[i] = nodes.node(s, quad[i]);
         hex.nodes[i + 4] = nodes.node(s + 1, quad[i]);
@@ -62,10 +63,10 @@ void add_core(const Disc& disc, const CoreNodes& nodes, const SurfaceTable& surf
   for (const auto& quad : disc.quads) {  // outward normals
     mesh.quads.push_back(
         {{nodes.node(0, quad[0]), nodes.node(0, quad[3]), nodes.node(0, quad[2]), nodes.node(0, quad[1])},
-         surfaces.end_1_id});
+         core.begin_id});
     mesh.quads.push_back({{nodes.node(last, quad[0]), nodes.node(last, quad[1]), nodes.node(last, quad[2]),
                            nodes.node(last, quad[3])},
-                          surfaces.end_2_id});
+                          core.end_id});
   }
 }
 
@@ -74,16 +75,19 @@ void add_core(const Disc& disc, const CoreNodes& nodes, const SurfaceTable& surf
 HexMesh revolve(const Meridian& meridian, const ShaftLayout& layout, const SurfaceTable& surfaces,
                 int n_sectors) {
   const Disc disc = build_disc(n_sectors);
-  const std::vector<double> shifts = shifts_of(meridian, layout);
+  const std::vector<std::array<double, 2>> shifts = shifts_of(meridian, layout);
   HexMesh mesh;
   for (std::size_t i = 0; i < meridian.points.size(); ++i) {
     const MeridianPoint& point = meridian.points[i];
-    for (int j = 0; j < n_sectors; ++j)
-      mesh.points.push_back(
-          {point.r_m * disc.points[j][0] + shifts[i], point.r_m * disc.points[j][1], point.z_m});
+    for (int j = 0; j < n_sectors; ++j) {
+      const double y_m = point.r_m * disc.points[j][1];
+      // Nothing is added where nothing is shifted: that would turn -0 into 0, and the file with it.
+      mesh.points.push_back({point.r_m * disc.points[j][0] + shifts[i][0],
+                             shifts[i][1] == 0 ? y_m : y_m + shifts[i][1], point.z_m});
+    }
   }
-  const CoreNodes core(disc, meridian, layout.core_radius_m, n_sectors, mesh);
-  add_core(disc, core, surfaces, mesh);
+  for (const CoreLine& core : meridian.cores)
+    add_core(disc, CoreNodes(disc, meridian, core, n_sectors, mesh), core, surfaces.core_id, mesh);
 
   const auto node = [&](int point, int j) { return point * n_sectors + j % n_sectors; };
   for (const MeridianQuad& quad : meridian.quads)

@@ -1,4 +1,4 @@
-/// From the meridian to the solid: revolved about z, core filled, eccentric segments shifted.
+/// From the meridian to the solid: revolved about z, cores filled, eccentric segments shifted.
 #pragma once
 
 #include "meshes/hex_mesh.h"
@@ -7,7 +7,7 @@
 namespace meshes {
 
 /// Node j of n_sectors on each circle lies at the angle 2 pi j / n_sectors from +x.
-/// Eccentric segments: x += shift (r - r_a) / (R - r_a) beyond their inner radius r_a.
+/// Eccentric segments: (x, y) += shift (r - r_a) / (R - r_a) beyond their inner radius r_a.
 HexMesh revolve(const Meridian& meridian, const ShaftLayout& layout, const SurfaceTable& surfaces,
                 int n_sectors);
 

@@ -18,7 +18,9 @@ namespace {
 
 GroupNames group_names(const Shaft& shaft, const SurfaceTable& surfaces) {
   GroupNames names;
-  names.volumes[surfaces.core_id] = "core";
+  const auto is_solid = [](const ShaftSegment& segment) { return segment.bore_m == 0; };
+  if (std::any_of(shaft.segments.begin(), shaft.segments.end(), is_solid))
+    names.volumes[surfaces.core_id] = "core";
   for (std::size_t i = 0; i < shaft.segments.size(); ++i)
     names.volumes[surfaces.ring_ids[i]] = "ring_" + shaft.segments[i].name;
   for (const Feature& feature : surfaces.features) names.boundaries[feature.boundary_id] = feature.name;
@@ -32,8 +34,8 @@ std::vector<SectionPlane> sections_of(const Shaft& shaft, const ShaftLayout& lay
     const SegmentLayout& segment = layout.segments[station.segment];
     const double margin_m = std::min(station.z_m - segment.begin_m, segment.end_m - station.z_m);
     const bool plain = margin_m >= segment.radius_m * (1 - 1e-9);
-    planes.push_back(
-        {station.z_m, segment.radius_m, segment.shift_m, 0, shaft.segments[station.segment].name, plain});
+    planes.push_back({station.z_m, segment.radius_m, segment.shift_x_m, segment.shift_y_m,
+                      shaft.segments[station.segment].name, plain, segment.bore_radius_m});
   }
   return planes;
 }
@@ -65,6 +67,7 @@ BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const 
   body.cylinders = cylinders_of(layout, surfaces);
   body.tori = tori_of(layout, surfaces);
   body.sections = sections_of(shaft, layout, meridian);
+  body.sharp_edges = sharp_edges_of(shaft, layout, control.n_sectors);
   body.quality = measure_quality(mesh);
   require_quality(body.quality, control.min_scaled_jacobian);
   write_msh(mesh, group_names(shaft, surfaces), file);

@@ -3,30 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 #include <string>
+
+#include "meshes/bore_checks.h"
+#include "meshes/refusal.h"
+#include "meshes/shaft_layout.h"
 
 namespace meshes {
 
 namespace {
 
-const double tiny = 1e-9;                  // of a length, for comparisons that rounding may blur
-const double largest_fillet_share = 0.6;   // of the length of the segment that carries it
-const double largest_fillets_share = 0.9;  // of both fillets together
-const double smallest_zone_share = 0.1;    // loaded zone of a port, of its segment
-const double largest_shift_slope = 0.9;    // eccentricity over the thickness of the ring that is shifted
-
-std::string mm(double length_m) {
-  std::ostringstream text;
-  text.precision(12);
-  text << length_m * 1e3 << " mm";
-  return text.str();
-}
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("shaft: " + what);
-}
+const double tiny = 1e-9;  // of a length, for comparisons that rounding may blur
+// Of the length of the segment that carries fillets: one beside a shoulder down at the other end (whose fan
+// takes up to 30 %), one of a groove or beside a free end, both of a groove together.
+const double largest_fillet_share = 0.6;
+const double largest_groove_share = 0.9;
+const double largest_fillets_share = 0.95;
+const double smallest_zone_share = 0.1;  // loaded zone of a port, of its segment
+const double largest_shift_slope = 0.9;  // eccentricity over the thickness of the ring that is shifted
 
 void check_names(const Shaft& shaft) {
   std::set<std::string> names;
@@ -51,6 +45,9 @@ void check_sizes(const ShaftSegment& segment) {
     refuse(who + "diameter " + mm(segment.diameter_m) + " must be positive");
   if (!std::isfinite(segment.eccentricity_m))
     refuse(who + "eccentricity " + mm(segment.eccentricity_m) + " must be a number");
+  if (!std::isfinite(segment.eccentricity_angle_rad))
+    refuse(who + "eccentricity_angle_rad = " + std::to_string(segment.eccentricity_angle_rad) +
+           " must be a number");
 }
 
 void check_chain(const Shaft& shaft) {
@@ -108,16 +105,18 @@ double own_fillet(const ShaftSegment& segment, const ShaftSegment& neighbour, do
   return neighbour.diameter_m > segment.diameter_m ? fillet_m : 0;
 }
 
-void check_lengths(const ShaftSegment& segment, double fillet_begin_m, double fillet_end_m) {
+/// @param falls whether a neighbour is thinner: the fan of that shoulder needs room as well
+void check_lengths(const ShaftSegment& segment, double fillet_begin_m, double fillet_end_m, bool falls) {
   const double length_m = segment.end_m - segment.begin_m;
   const double larger_m = std::max(fillet_begin_m, fillet_end_m), both_m = fillet_begin_m + fillet_end_m;
   const std::string who = "segment " + segment.name + ", " + mm(length_m) + " long, ";
-  if (larger_m > largest_fillet_share * length_m || both_m > largest_fillets_share * length_m)
+  const double share = falls ? largest_fillet_share : largest_groove_share;
+  const auto percent = [](double part) { return std::to_string(std::lround(100 * part)) + " %"; };
+  if (larger_m > share * length_m * (1 + tiny) || both_m > largest_fillets_share * length_m * (1 + tiny))
     refuse(who + "carries fillets of " + mm(fillet_begin_m) + " and " + mm(fillet_end_m) +
-           " at its ends; one may take " + std::to_string(static_cast<int>(100 * largest_fillet_share)) +
-           " % of the length, both together " +
-           std::to_string(static_cast<int>(100 * largest_fillets_share)) +
-           " %: make them smaller or the segment longer");
+           " at its ends; one may take " + percent(share) + " of the length" +
+           (falls ? ", since a neighbour is thinner" : ", both together " + percent(largest_fillets_share)) +
+           ": make them smaller or the segment longer");
   if (segment.is_port && length_m - 2 * larger_m < smallest_zone_share * length_m)
     refuse(who + "is a port, but its fillet of " + mm(larger_m) +
            " taken off both ends leaves a loaded zone of " + mm(length_m - 2 * larger_m) +
@@ -165,22 +164,23 @@ void check_shaft(const Shaft& shaft) {
   const auto n = shaft.segments.size();
   for (std::size_t i = 0; i + 1 < n; ++i)
     check_shoulder(shaft.segments[i], shaft.segments[i + 1], shaft.fillets_m[i]);
-  double smallest_m = shaft.segments.front().diameter_m;
-  for (const ShaftSegment& segment : shaft.segments) smallest_m = std::min(smallest_m, segment.diameter_m);
+  check_bores(shaft);
   for (std::size_t i = 0; i < n; ++i) {
     const ShaftSegment& segment = shaft.segments[i];
-    double inner_radius_m = 0.25 * smallest_m;
+    double inner_radius_m = n == 1 ? lone_inner_radius(segment) : 0;
     double fillet_begin_m = 0, fillet_end_m = 0;
+    bool falls = false;
     if (i > 0) {
       fillet_begin_m = own_fillet(segment, shaft.segments[i - 1], shaft.fillets_m[i - 1]);
-      inner_radius_m =
-          std::max(inner_radius_m, 0.5 * shaft.segments[i - 1].diameter_m + shaft.fillets_m[i - 1]);
+      inner_radius_m = 0.5 * shaft.segments[i - 1].diameter_m + shaft.fillets_m[i - 1];
+      falls = shaft.segments[i - 1].diameter_m < segment.diameter_m;
     }
     if (i + 1 < n) {
       fillet_end_m = own_fillet(segment, shaft.segments[i + 1], shaft.fillets_m[i]);
       inner_radius_m = std::max(inner_radius_m, 0.5 * shaft.segments[i + 1].diameter_m + shaft.fillets_m[i]);
+      falls = falls || shaft.segments[i + 1].diameter_m < segment.diameter_m;
     }
-    check_lengths(segment, fillet_begin_m, fillet_end_m);
+    check_lengths(segment, fillet_begin_m, fillet_end_m, falls);
     if (segment.eccentricity_m != 0) check_shift(segment, inner_radius_m);
   }
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "meshes/grading.h"
+#include "meshes/lines.h"
+#include "meshes/rows.h"
 
 namespace meshes {
 
@@ -11,14 +13,10 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-const double core_share = 0.6;  // of the smallest radius
-const double fan_depth = 3;     // in fillets, where there is room
-const double fan_ratio = 1.6;   // growth of the cells from the arc into the fan
-// Away from the arc stress varies slowly, and every row runs on into the thicker segments: few rows, growing
-// fast.
-const double rows_ratio = 3;
-const double first_above = 13;  // of the rows above a fan, in cells of the arc
-const double first_below = 7;   // of the rows below a fan, in the fan's last cell
+const double core_share = 0.6;        // of the smallest radius of the solid segments side by side
+const double core_share_limit = 0.7;  // up to this the core is as wide as the bore it closes
+const double fan_depth = 3;           // in fillets, where there is room
+const double fan_ratio = 1.6;         // growth of the cells from the arc into the fan
 
 /// Cell boundaries of the fan from the arc outwards; a boundary at `must` (a fraction, 0: none) is forced.
 std::vector<double> fan_fractions(double first, double must) {
@@ -43,7 +41,9 @@ std::vector<SegmentLayout> segments_of(const Shaft& shaft) {
     segment.begin_m = i > 0 ? shaft.segments[i - 1].end_m : from.begin_m;  // one number for the common plane
     segment.end_m = from.end_m;
     segment.radius_m = 0.5 * from.diameter_m;
-    segment.shift_m = from.eccentricity_m;
+    segment.bore_radius_m = 0.5 * from.bore_m;
+    segment.shift_x_m = from.eccentricity_m * std::cos(from.eccentricity_angle_rad);
+    segment.shift_y_m = from.eccentricity_m * std::sin(from.eccentricity_angle_rad);
     segment.is_port = from.is_port;
     if (i > 0 && shaft.segments[i - 1].diameter_m > from.diameter_m)
       segment.own_fillet_begin_m = shaft.fillets_m[i - 1];
@@ -57,15 +57,69 @@ std::vector<SegmentLayout> segments_of(const Shaft& shaft) {
   return segments;
 }
 
-/// Depth of the fan: twice the fillet where the small segment's ring and the big segment's length leave room;
-/// moved onto the big segment's loaded zone where that begins close by.
-double depth_of(const Junction& junction, const SegmentLayout& big, double core_radius_m,
+/// One core for solid segments side by side; it closes the narrowest bore beside them if it can.
+void set_base_radii(std::vector<SegmentLayout>& segments) {
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    segments[i].base_radius_m = segments[i].bore_radius_m;
+    if (segments[i].is_bored()) continue;
+    std::size_t end = i;
+    double smallest_m = segments[i].radius_m;
+    for (; end < segments.size() && !segments[end].is_bored(); ++end)
+      smallest_m = std::min(smallest_m, segments[end].radius_m);
+    double core_m = core_share * smallest_m;
+    double bore_m = core_share_limit * smallest_m;
+    bool closes = false;
+    for (const SegmentLayout* side :
+         {i > 0 ? &segments[i - 1] : nullptr, end < segments.size() ? &segments[end] : nullptr})
+      if (side && side->bore_radius_m <= bore_m) {
+        bore_m = side->bore_radius_m;
+        closes = true;
+      }
+    if (closes) core_m = bore_m;
+    for (std::size_t k = i; k < end; ++k) segments[k].base_radius_m = core_m;
+    i = end - 1;
+  }
+}
+
+/// Depth of the fan: three fillets where the small segment's ring (above a line that runs below the fan) and
+/// the big segment's length leave room; moved onto the big segment's loaded zone where that begins close by.
+double depth_of(const Junction& junction, const SegmentLayout& big, double base_radius_m,
                 double zone_offset_m) {
   const double depth_m =
-      std::min({fan_depth * junction.fillet_m, 0.5 * (junction.small_radius_m - core_radius_m),
+      std::min({fan_depth * junction.fillet_m, 0.5 * (junction.small_radius_m - base_radius_m),
                 0.3 * (big.end_m - big.begin_m)});
   const bool close_by = zone_offset_m >= 0.6 * depth_m && zone_offset_m <= 1.3 * depth_m;
   return close_by ? zone_offset_m : depth_m;
+}
+
+double zone_offset_of(const Junction& junction, const SegmentLayout& big) {
+  if (!big.is_port) return 0;
+  return junction.direction > 0 ? big.zone_begin_m - big.begin_m : big.end_m - big.zone_end_m;
+}
+
+/// Cells on both halves of the fan's floor, so that the bores of both segments can meet in the plane.
+int floor_cells_before_plane(const Junction& junction) {
+  const int n = junction.n_half_arc;
+  if (n < 2) return 0;
+  const double share = junction.fillet_m / (junction.fillet_m + junction.depth_m);
+  return std::clamp(static_cast<int>(std::lround(n * share)), 1, n - 1);
+}
+
+void set_fan(Junction& junction, const ShaftLayout& layout, double base_m) {
+  const SegmentLayout& big = layout.segments[junction.big];
+  const double zone_offset_m = zone_offset_of(junction, big);
+  junction.depth_m = depth_of(junction, big, base_m, zone_offset_m);
+  junction.depth_fractions =
+      fan_fractions(junction.first_cell_m / junction.depth_m, zone_offset_m / junction.depth_m);
+}
+
+void set_bore_border(Junction& junction, const ShaftLayout& layout) {
+  junction.bore_border_m = junction.z_m;
+  if (!junction.has_fan() || !layout.segments[junction.small].is_bored()) return;
+  junction.n_floor_before_plane = floor_cells_before_plane(junction);
+  if (junction.n_floor_before_plane == 0)  // one cell below the whole fan: the nearer end of it
+    junction.bore_border_m +=
+        junction.direction * (junction.fillet_m < junction.depth_m ? -junction.fillet_m : junction.depth_m);
 }
 
 Junction junction_of(const ShaftLayout& layout, const Shaft& shaft, int left, int n_half_arc) {
@@ -79,10 +133,19 @@ Junction junction_of(const ShaftLayout& layout, const Shaft& shaft, int left, in
   junction.z_m = a.end_m;
   junction.small_radius_m = layout.segments[junction.small].radius_m;
   junction.top_radius_m = junction.small_radius_m;
+  junction.n_half_arc = n_half_arc;
+  junction.is_bore_step = a.bore_radius_m != b.bore_radius_m;
+  if (junction.is_bore_step) {
+    junction.narrow = a.bore_radius_m < b.bore_radius_m ? left : left + 1;
+    junction.wide = 2 * left + 1 - junction.narrow;
+    junction.step_radius_m = std::max(a.bore_radius_m, b.bore_radius_m);
+    const double height_m = junction.step_radius_m - std::min(a.bore_radius_m, b.bore_radius_m);
+    junction.step_cell_m =
+        std::min(height_m, 0.5 * (junction.small_radius_m - junction.step_radius_m)) / n_half_arc;
+  }
   if (a.radius_m == b.radius_m) return junction;
 
   const double step_m = big.radius_m - junction.small_radius_m;
-  junction.n_half_arc = n_half_arc;
   junction.fillet_m = shaft.fillets_m[left];
   junction.has_shoulder_face = step_m - junction.fillet_m > 1e-9 * big.radius_m;
   if (junction.fillet_m == 0) {
@@ -94,20 +157,39 @@ Junction junction_of(const ShaftLayout& layout, const Shaft& shaft, int left, in
   junction.top_radius_m =
       junction.has_shoulder_face ? junction.small_radius_m + junction.fillet_m : big.radius_m;
   junction.first_cell_m = 0.25 * pi * junction.fillet_m / n_half_arc;
-  const double zone_offset_m = !big.is_port             ? 0
-                               : junction.direction > 0 ? big.zone_begin_m - big.begin_m
-                                                        : big.end_m - big.zone_end_m;
-  junction.depth_m = depth_of(junction, big, layout.core_radius_m, zone_offset_m);
-  junction.depth_fractions =
-      fan_fractions(junction.first_cell_m / junction.depth_m, zone_offset_m / junction.depth_m);
   return junction;
 }
 
-void set_columns_and_shifts(ShaftLayout& layout) {
+/// In a short groove the rows must lie alike at both ends: the fans get one depth and one division.
+void match_fans_of_grooves(ShaftLayout& layout) {
+  for (std::size_t i = 1; i + 1 < layout.segments.size(); ++i) {
+    const SegmentLayout& groove = layout.segments[i];
+    Junction& left = layout.junctions[i - 1];
+    Junction& right = layout.junctions[i];
+    const auto is_small = [&](const Junction& j) { return j.has_fan() && j.small == static_cast<int>(i); };
+    if (!is_small(left) || !is_small(right)) continue;
+    const double bare_m = groove.end_m - groove.begin_m - groove.own_fillet_begin_m - groove.own_fillet_end_m;
+    if (bare_m > groove.wall_m()) continue;
+    const auto must_of = [&](const Junction& j, double depth_m) {
+      const double must = zone_offset_of(j, layout.segments[j.big]) / depth_m;
+      return must > 0 && must < 1 - 1e-9 ? must : 0;
+    };
+    const double depth_m = std::min(left.depth_m, right.depth_m);
+    const double must = std::max(must_of(left, depth_m), must_of(right, depth_m));
+    const double first = std::min(left.first_cell_m, right.first_cell_m) / depth_m;
+    for (Junction* junction : {&left, &right}) {
+      junction->depth_m = depth_m;
+      const double own = must_of(*junction, depth_m);
+      junction->depth_fractions = fan_fractions(first, own > 0 ? own : must);
+    }
+  }
+}
+
+void set_columns_and_shifts(ShaftLayout& layout, const Shaft& shaft) {
   for (SegmentLayout& segment : layout.segments) {
     segment.column_begin_m = segment.begin_m;
     segment.column_end_m = segment.end_m;
-    segment.inner_radius_m = layout.core_radius_m;
+    segment.inner_radius_m = segment.base_radius_m;
   }
   for (const Junction& junction : layout.junctions) {
     SegmentLayout& small = layout.segments[junction.small];
@@ -121,74 +203,30 @@ void set_columns_and_shifts(ShaftLayout& layout) {
     }
     if (big.is_eccentric()) big.inner_radius_m = std::max(big.inner_radius_m, junction.top_radius_m);
   }
-}
-
-/// How the row counts of the two segments at a junction depend on each other: big >= small + more, or equal.
-struct RowRule {
-  int more = 0;
-  bool equal = false;
-};
-
-RowRule row_rule(const Junction& junction, const SegmentLayout& big) {
-  if (junction.kind == Junction::Kind::flush) return {0, true};
-  const double inner_top_m = big.is_eccentric() ? big.inner_radius_m : big.radius_m;
-  const double above_m = inner_top_m - junction.top_radius_m;
-  const int through = junction.kind == Junction::Kind::fillet ? junction.n_half_arc - junction.n_depth() : 0;
-  if (above_m <= 1e-9 * big.radius_m) return {through, true};
-  return {through + geometric_count(above_m, first_above * junction.first_cell_m, rows_ratio), false};
-}
-
-/// Row counts only ever rise, and the junctions form a chain, so this ends.
-void set_rows(ShaftLayout& layout, int n_sectors) {
-  for (SegmentLayout& segment : layout.segments) {
-    segment.n_inner_rows = std::max(2, n_sectors / 8);
-    if (segment.is_eccentric()) segment.n_outer_rows = std::max(2, n_sectors / 8);
-  }
-  for (const Junction& junction : layout.junctions) {
-    SegmentLayout& small = layout.segments[junction.small];
-    SegmentLayout& big = layout.segments[junction.big];
-    if (junction.kind == Junction::Kind::fillet) {
-      const double below_m = junction.small_radius_m - junction.depth_m - layout.core_radius_m;
-      const double last_m = junction.depth_m * (1 - *(junction.depth_fractions.end() - 2));
-      small.n_inner_rows =
-          std::max(small.n_inner_rows,
-                   junction.n_depth() + geometric_count(below_m, first_below * last_m, rows_ratio));
-    }
-    if (big.is_eccentric() && junction.kind != Junction::Kind::flush)
-      big.n_outer_rows =
-          std::max(big.n_outer_rows, geometric_count(big.radius_m - big.inner_radius_m,
-                                                     first_above * junction.first_cell_m, rows_ratio));
-  }
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Junction& junction : layout.junctions) {
-      int& small = layout.segments[junction.small].n_inner_rows;
-      int& big = layout.segments[junction.big].n_inner_rows;
-      const RowRule rule = row_rule(junction, layout.segments[junction.big]);
-      const int big_wanted = std::max(big, small + rule.more);
-      const int small_wanted = rule.equal ? big_wanted - rule.more : small;
-      changed = changed || big_wanted != big || small_wanted != small;
-      big = big_wanted;
-      small = small_wanted;
-    }
-  }
-  for (Junction& junction : layout.junctions)
-    junction.n_below = layout.segments[junction.small].n_inner_rows -
-                       (junction.kind == Junction::Kind::fillet ? junction.n_depth() : 0);
+  if (layout.junctions.empty() && layout.segments.front().is_eccentric())
+    layout.segments.front().inner_radius_m = lone_inner_radius(shaft.segments.front());
 }
 
 }  // namespace
 
+double lone_inner_radius(const ShaftSegment& segment) {
+  const double base_m = segment.bore_m > 0 ? segment.bore_m : core_share * segment.diameter_m;
+  return 0.5 * (base_m + 0.3 * (segment.diameter_m - base_m));
+}
+
 ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
   ShaftLayout layout;
   layout.segments = segments_of(shaft);
-  double smallest_m = layout.segments.front().radius_m;
-  for (const SegmentLayout& segment : layout.segments) smallest_m = std::min(smallest_m, segment.radius_m);
-  layout.core_radius_m = core_share * smallest_m;
-  for (std::size_t i = 0; i + 1 < layout.segments.size(); ++i)
-    layout.junctions.push_back(
-        junction_of(layout, shaft, static_cast<int>(i), control.cells_per_fillet_quarter / 2));
-  set_columns_and_shifts(layout);
+  set_base_radii(layout.segments);
+  const int n_junctions = static_cast<int>(layout.segments.size()) - 1;
+  for (int i = 0; i < n_junctions; ++i)
+    layout.junctions.push_back(junction_of(layout, shaft, i, control.cells_per_fillet_quarter / 2));
+  for (int i = 0; i < n_junctions; ++i)
+    if (layout.junctions[i].has_fan()) set_fan(layout.junctions[i], layout, radius_below_fan(layout, i));
+  match_fans_of_grooves(layout);
+  for (Junction& junction : layout.junctions) set_bore_border(junction, layout);
+  set_columns_and_shifts(layout, shaft);
+  set_lines(layout);
   set_rows(layout, control.n_sectors);
   return layout;
 }

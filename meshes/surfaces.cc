@@ -1,6 +1,9 @@
 #include "meshes/surfaces.h"
 
 #include <algorithm>
+#include <string>
+
+#include "meshes/disc.h"
 
 namespace meshes {
 
@@ -40,6 +43,8 @@ std::vector<CylinderPiece> name_cylinder(const std::string& name, const SegmentL
 
 JunctionSurfaces name_junction(const std::string& pair, const Junction& junction, FeatureList& features) {
   JunctionSurfaces ids;
+  if (junction.is_bore_step)
+    ids.step_id = features.add("shoulder bore " + pair, Feature::Kind::shoulder, junction.z_m, junction.z_m);
   if (junction.kind == Junction::Kind::flush) return ids;
   if (junction.kind == Junction::Kind::fillet) {
     const double foot_m = junction.z_m - junction.direction * junction.fillet_m;
@@ -49,6 +54,17 @@ JunctionSurfaces name_junction(const std::string& pair, const Junction& junction
   if (junction.has_shoulder_face)
     ids.shoulder_id = features.add("shoulder " + pair, Feature::Kind::shoulder, junction.z_m, junction.z_m);
   return ids;
+}
+
+/// Range in z of the inside of a segment.
+struct BoreRange {
+  double begin_m = 0, end_m = 0;
+};
+
+BoreRange bore_range(const ShaftLayout& layout, int segment) {
+  const auto n = static_cast<int>(layout.segments.size());
+  return {segment > 0 ? layout.junctions[segment - 1].bore_border_m : layout.segments.front().begin_m,
+          segment + 1 < n ? layout.junctions[segment].bore_border_m : layout.segments.back().end_m};
 }
 
 }  // namespace
@@ -69,6 +85,12 @@ SurfaceTable name_surfaces(const Shaft& shaft, const ShaftLayout& layout) {
   table.end_1_id = features.add("end_1", Feature::Kind::end_face, begin_m, begin_m);
   for (int i = 0; i < n; ++i) {
     table.cylinders.push_back(name_cylinder(shaft.segments[i].name, layout.segments[i], features));
+    table.bore_ids.push_back(0);
+    if (layout.segments[i].is_bored()) {
+      const BoreRange range = bore_range(layout, i);
+      table.bore_ids.back() =
+          features.add("bore " + shaft.segments[i].name, Feature::Kind::bore, range.begin_m, range.end_m);
+    }
     if (i + 1 < n)
       table.junctions.push_back(name_junction(shaft.segments[i].name + "/" + shaft.segments[i + 1].name,
                                               layout.junctions[i], features));
@@ -82,26 +104,56 @@ std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const 
   const SegmentLayout& last = layout.segments.back();
   std::vector<Port> ports;
   ports.push_back({"end_1", Port::Kind::face, surfaces.end_1_id, first.begin_m, first.begin_m, first.radius_m,
-                   first.shift_m, 0});
+                   first.shift_x_m, first.shift_y_m});
   for (std::size_t i = 0; i < layout.segments.size(); ++i) {
     const SegmentLayout& segment = layout.segments[i];
-    if (!segment.is_port) continue;
-    const double middle_m = 0.5 * (segment.zone_begin_m + segment.zone_end_m);
-    const int id = surfaces.cylinder_at(static_cast<int>(i), middle_m);
-    ports.push_back({shaft.segments[i].name, Port::Kind::seat, id, segment.zone_begin_m, segment.zone_end_m,
-                     segment.radius_m, segment.shift_m, 0});
+    if (segment.is_port) {
+      const double middle_m = 0.5 * (segment.zone_begin_m + segment.zone_end_m);
+      const int id = surfaces.cylinder_at(static_cast<int>(i), middle_m);
+      ports.push_back({shaft.segments[i].name, Port::Kind::seat, id, segment.zone_begin_m, segment.zone_end_m,
+                       segment.radius_m, segment.shift_x_m, segment.shift_y_m});
+    }
+    if (!shaft.segments[i].bore_port.empty()) {
+      const BoreRange range = bore_range(layout, static_cast<int>(i));
+      ports.push_back({shaft.segments[i].bore_port, Port::Kind::bore, surfaces.bore_ids[i], range.begin_m,
+                       range.end_m, segment.bore_radius_m, 0, 0});
+    }
   }
-  ports.push_back(
-      {"end_2", Port::Kind::face, surfaces.end_2_id, last.end_m, last.end_m, last.radius_m, last.shift_m, 0});
+  ports.push_back({"end_2", Port::Kind::face, surfaces.end_2_id, last.end_m, last.end_m, last.radius_m,
+                   last.shift_x_m, last.shift_y_m});
   return ports;
+}
+
+std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout, int n_sectors) {
+  const Disc disc = build_disc(n_sectors);  // its circle has the nodes of the mesh
+  const auto circle = [&](const std::string& name, double z_m, double radius_m, double distance_m) {
+    SharpEdge edge{name, distance_m, {}};
+    const auto at = [&](int j) -> std::array<double, 3> {
+      const auto& p = disc.points[j % n_sectors];
+      return {radius_m * p[0], radius_m * p[1], z_m};
+    };
+    for (int j = 0; j < n_sectors; ++j) edge.pieces.push_back({at(j), at(j + 1)});
+    return edge;
+  };
+  std::vector<SharpEdge> edges;
+  for (std::size_t i = 0; i < layout.junctions.size(); ++i) {
+    const Junction& junction = layout.junctions[i];
+    const std::string pair = shaft.segments[i].name + "/" + shaft.segments[i + 1].name;
+    if (junction.kind == Junction::Kind::sharp)
+      edges.push_back(circle(pair, junction.z_m, junction.small_radius_m, 0.2 * junction.small_radius_m));
+    if (junction.is_bore_step)
+      edges.push_back(circle("bore " + pair, junction.z_m, junction.step_radius_m,
+                             layout.segments[junction.wide].radius_m - junction.step_radius_m));
+  }
+  return edges;
 }
 
 std::vector<CylinderChart> cylinders_of(const ShaftLayout& layout, const SurfaceTable& surfaces) {
   std::vector<CylinderChart> charts;
   for (std::size_t i = 0; i < layout.segments.size(); ++i) {
     const SegmentLayout& segment = layout.segments[i];
-    charts.push_back(
-        {surfaces.ring_ids[i], segment.shift_m, 0, segment.inner_radius_m, segment.radius_m, 0, 0});
+    charts.push_back({surfaces.ring_ids[i], segment.shift_x_m, segment.shift_y_m, segment.inner_radius_m,
+                      segment.radius_m, 0, 0});
   }
   return charts;
 }

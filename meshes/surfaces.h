@@ -16,6 +16,7 @@ struct CylinderPiece {
 /// Ids of the surface around one junction; 0 where there is none.
 struct JunctionSurfaces {
   int fillet_id = 0, shoulder_id = 0;
+  int step_id = 0;  ///< face of a bore step
 };
 
 /// Ids are unique over volumes and boundaries: core, ring groups, then features.
@@ -24,6 +25,7 @@ struct SurfaceTable {
   std::vector<int> ring_ids;  ///< one per segment
   std::vector<Feature> features;
   std::vector<std::vector<CylinderPiece>> cylinders;  ///< per segment, ascending in z
+  std::vector<int> bore_ids;                          ///< per segment; 0: solid
   std::vector<JunctionSurfaces> junctions;
   int end_1_id = 0, end_2_id = 0;
 
@@ -34,6 +36,11 @@ struct SurfaceTable {
 SurfaceTable name_surfaces(const Shaft& shaft, const ShaftLayout& layout);
 
 std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const SurfaceTable& surfaces);
+/// Circles in which the model has a sharp re-entrant corner, as polygons of n_sectors pieces: outer shoulders
+/// without a fillet, within 0.1 of the smaller diameter, and bore steps, within the thickness of the wall of
+/// the wider bore.
+std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout, int n_sectors);
+
 std::vector<CylinderChart> cylinders_of(const ShaftLayout& layout, const SurfaceTable& surfaces);
 std::vector<TorusChart> tori_of(const ShaftLayout& layout, const SurfaceTable& surfaces);
 

@@ -21,7 +21,8 @@ double sum_of_parts(const meshes::Shaft& shaft, Cylinder cylinder, Fillet fillet
     };
     if (i > 0) take_fillet(segments[i - 1], shaft.fillets_m[i - 1]);
     if (i + 1 < segments.size()) take_fillet(segments[i + 1], shaft.fillets_m[i]);
-    volume += cylinder(radius_m, length_m);
+    volume += cylinder(radius_m, length_m) -
+              cylinder(0.5 * segments[i].bore_m, segments[i].end_m - segments[i].begin_m);
   }
   return volume;
 }

@@ -1,4 +1,4 @@
-/// Volumes of shafts from their drawing alone: no mesh, none of the mesher's own code.
+/// Volumes of shafts, less their bores, from their drawing alone: no mesh, none of the mesher's own code.
 #pragma once
 
 #include "meshes/shaft.h"

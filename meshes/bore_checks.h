@@ -1,0 +1,12 @@
+/// Refusals of bores that cannot be meshed.
+#pragma once
+
+#include "meshes/shaft.h"
+
+namespace meshes {
+
+/// Names, sizes and the chain of segments have been checked before.
+/// @throws std::invalid_argument with the offending numbers (mm) and what to change
+void check_bores(const Shaft& shaft);
+
+}  // namespace meshes

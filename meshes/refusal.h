@@ -1,0 +1,21 @@
+/// Words for refusing a shaft.
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace meshes {
+
+inline std::string mm(double length_m) {
+  std::ostringstream text;
+  text.precision(12);
+  text << length_m * 1e3 << " mm";
+  return text.str();
+}
+
+[[noreturn]] inline void refuse(const std::string& what) {
+  throw std::invalid_argument("shaft: " + what);
+}
+
+}  // namespace meshes
