@@ -8,7 +8,8 @@ namespace fem {
 
 NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours) {
   // N, x and det J have degree k, k and 3 k - 1 in each direction; second moments take two x: 5 k - 1 in all.
-  const Tabulation at = gauss_in_cell(grid.degree, (5 * grid.degree + 1) / 2);
+  // Tetrahedra: 2, 2 and 3, so 9 in all.
+  const Tabulation at = gauss_in_cell(grid.shape(), (5 * grid.degree + 1) / 2);
   NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
