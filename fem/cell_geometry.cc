@@ -54,12 +54,12 @@ FacePoint face_point(const Grid& grid, const std::vector<std::int32_t>& nodes, c
 
 std::vector<std::int32_t> nodes_of_face(const Grid& grid, std::size_t cell, int face) {
   std::vector<std::int32_t> nodes;
-  for (const int i : face_nodes(grid.degree, face)) nodes.push_back(grid.nodes_of(cell)[i]);
+  for (const int i : face_nodes(grid.shape(), face)) nodes.push_back(grid.nodes_of(cell)[i]);
   return nodes;
 }
 
 void refuse_inverted_cells(const Grid& grid) {
-  const Tabulation tables[] = {nodes_in_cell(grid.degree), gauss_in_cell(grid.degree, grid.degree + 1)};
+  const Tabulation tables[] = {nodes_in_cell(grid.shape()), gauss_in_cell(grid.shape(), grid.degree + 1)};
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     for (const auto& at : tables)
       for (int q = 0; q < at.n_points; ++q)
@@ -68,7 +68,7 @@ void refuse_inverted_cells(const Grid& grid) {
           std::ostringstream message;
           message << "the mesh has an inverted or degenerate cell in volume " << grid.volume_id[c]
                   << " near (" << x[0] << ", " << x[1] << ", " << x[2]
-                  << ") m: refine the mesh there or check its charts";
+                  << ") m: refine the mesh there or check its geometry";
           throw std::runtime_error(message.str());
         }
 }

@@ -4,8 +4,13 @@
 
 namespace fem {
 
-std::vector<int> face_nodes(int degree, int face) {
-  const int n = degree + 1;
+std::vector<int> face_nodes(CellShape shape, int face) {
+  if (shape.is_tetrahedron()) {
+    static const std::vector<int> nodes[4] = {
+        {1, 2, 3, 5, 9, 8}, {0, 3, 2, 7, 9, 6}, {0, 1, 3, 4, 8, 7}, {0, 2, 1, 6, 5, 4}};
+    return nodes[face];
+  }
+  const int degree = shape.degree, n = degree + 1;
   const std::array<int, 3> stride = {{1, n, n * n}};
   const int axis = face / 2;
   const bool high = face % 2 == 1;
@@ -19,11 +24,23 @@ std::vector<int> face_nodes(int degree, int face) {
   return nodes;
 }
 
-std::array<int, 8> corner_nodes(int degree) {
-  const int n = degree + 1;
-  std::array<int, 8> nodes{};
+std::vector<int> face_corners(CellShape shape) {
+  if (shape.is_tetrahedron()) return {0, 1, 2};
+  const int k = shape.degree;
+  return {0, k, k * (k + 1), k * (k + 2)};
+}
+
+std::vector<int> corner_nodes(CellShape shape) {
+  if (shape.is_tetrahedron()) return {0, 1, 2, 3};
+  const int degree = shape.degree, n = degree + 1;
+  std::vector<int> nodes(8);
   for (int c = 0; c < 8; ++c) nodes[c] = degree * ((c & 1) + n * ((c >> 1) & 1) + n * n * (c >> 2));
   return nodes;
+}
+
+bool joined_by_edge(CellShape shape, int corner, int other) {
+  const int difference = corner ^ other;
+  return shape.is_tetrahedron() ? difference != 0 : difference == 1 || difference == 2 || difference == 4;
 }
 
 CellsOfNodes cells_of_nodes(const Grid& grid) {
@@ -43,7 +60,7 @@ std::vector<std::vector<std::int32_t>> colour_cells(const Grid& grid, const Cell
   std::vector<std::vector<std::int32_t>> groups;
   std::vector<int> colour(grid.n_cells(), -1);
   std::vector<char> taken;
-  const auto corners = corner_nodes(grid.degree);  // cells that share any node share a corner
+  const auto corners = corner_nodes(grid.shape());  // cells that share any node share a corner
   for (std::size_t c = 0; c < grid.n_cells(); ++c) {
     taken.assign(groups.size() + 1, 0);
     for (const int corner : corners) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "fem/simplex.h"
 #include "fem/vtk_order.h"
 
 namespace fem {
@@ -29,17 +30,42 @@ Matrix3 inverse(const Matrix3& m) {
   return result;
 }
 
-/// Gradient in unit-cell coordinates, at lexicographic node (a, b, c), of a field given at the 27
-/// lexicographic nodes.
-template <typename Field>
-std::array<double, 3> unit_gradient(const Field& field, const std::array<int, 3>& at) {
-  std::array<double, 3> gradient{};
-  for (int direction = 0; direction < 3; ++direction)
-    for (int j = 0; j < 3; ++j) {
+/// Nodes of a cell in the order of grid.h.
+std::vector<std::size_t> local_nodes(CellKind kind, const NodeList& cell) {
+  std::vector<std::size_t> nodes(cell.size());
+  for (std::size_t v = 0; v < cell.size(); ++v)
+    nodes[kind == CellKind::tetrahedra ? v : std::size_t(vtk_hexahedron_from_lexicographic[v])] =
+        std::size_t(cell[v]);
+  return nodes;
+}
+
+/// Gradients of all shape functions in reference coordinates, at one node.
+std::vector<std::array<double, 3>> reference_gradients(CellKind kind, std::size_t node) {
+  std::vector<std::array<double, 3>> gradients;
+  if (kind == CellKind::tetrahedra) {
+    for (const auto& shape : quadratic_tetrahedron(tetrahedron_nodes()[node]))
+      gradients.push_back(shape.gradient);
+    return gradients;
+  }
+  gradients.resize(27);
+  const std::array<std::size_t, 3> at{node % 3, node / 3 % 3, node / 9};
+  for (std::size_t direction = 0; direction < 3; ++direction)
+    for (std::size_t j = 0; j < 3; ++j) {
       auto index = at;
       index[direction] = j;
-      gradient[direction] += derivative[at[direction]][j] * field(index[0] + 3 * index[1] + 9 * index[2]);
+      gradients[index[0] + 3 * index[1] + 9 * index[2]][direction] += derivative[at[direction]][j];
     }
+  return gradients;
+}
+
+/// Gradient in reference coordinates of a field given at the nodes of the cell.
+template <typename Field>
+std::array<double, 3> gradient_of(const Field& field,
+                                  const std::vector<std::array<double, 3>>& shape_gradients) {
+  std::array<double, 3> gradient{};
+  for (std::size_t n = 0; n < shape_gradients.size(); ++n)
+    for (std::size_t d = 0; d < 3; ++d)
+      if (shape_gradients[n][d] != 0) gradient[d] += shape_gradients[n][d] * field(n);
   return gradient;
 }
 
@@ -53,30 +79,26 @@ std::vector<std::array<double, 6>> mean_cell_stress_Pa(const UnitResponses& resp
   const double mu = material.youngs_modulus_Pa / (2 * (1 + nu));
   std::vector<std::array<double, 6>> mean(n_channels);
   int n_cells = 0;
-  for (const auto& cell : responses.nodes.cells) {
-    std::array<std::size_t, 27> lexicographic;
-    for (std::size_t v = 0; v < 27; ++v)
-      lexicographic[std::size_t(vtk_hexahedron_from_lexicographic[v])] = std::size_t(cell[v]);
-    const auto found = std::find(lexicographic.begin(), lexicographic.end(), node);
-    if (found == lexicographic.end()) continue;
+  const auto& nodes = responses.nodes;
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto local = local_nodes(nodes.kind, nodes.cell(c));
+    const auto found = std::find(local.begin(), local.end(), node);
+    if (found == local.end()) continue;
     ++n_cells;
-    const int position = int(found - lexicographic.begin());
-    const std::array<int, 3> at{position % 3, position / 3 % 3, position / 9};
-    Matrix3 jacobian;  // d x_i / d unit_j
+    const auto shape_gradients = reference_gradients(nodes.kind, std::size_t(found - local.begin()));
+    Matrix3 jacobian;  // d x_i / d reference_j
     for (int i = 0; i < 3; ++i)
-      jacobian[i] = unit_gradient(
-          [&](int n) { return responses.nodes.xyz_m[3 * lexicographic[std::size_t(n)] + std::size_t(i)]; },
-          at);
+      jacobian[i] = gradient_of([&](std::size_t n) { return nodes.xyz_m[3 * local[n] + std::size_t(i)]; },
+                                shape_gradients);
     const Matrix3 to_unit = inverse(jacobian);
     for (std::size_t k = 0; k < n_channels; ++k) {
       Matrix3 gradient{};  // d u_i / d x_j
       for (int i = 0; i < 3; ++i) {
-        const auto unit = unit_gradient(
-            [&](int n) {
-              return responses
-                  .displacement_m[(lexicographic[std::size_t(n)] * n_channels + k) * 3 + std::size_t(i)];
+        const auto unit = gradient_of(
+            [&](std::size_t n) {
+              return responses.displacement_m[(local[n] * n_channels + k) * 3 + std::size_t(i)];
             },
-            at);
+            shape_gradients);
         for (int j = 0; j < 3; ++j)
           for (int d = 0; d < 3; ++d) gradient[i][j] += unit[d] * to_unit[d][j];
       }

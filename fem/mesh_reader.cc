@@ -16,6 +16,8 @@
 
 #include "fem/cell_geometry.h"
 #include "fem/manifolds.h"
+#include "fem/msh_file.h"
+#include "fem/tetrahedra_reader.h"
 
 namespace fem {
 
@@ -31,8 +33,9 @@ std::string read_whole(const std::filesystem::path& path) {
   return text;
 }
 
-void read_mesh(const std::filesystem::path& path, dealii::Triangulation<3>& mesh) {
-  std::istringstream text(read_whole(path));
+void read_mesh(const std::filesystem::path& path, const std::string& content,
+               dealii::Triangulation<3>& mesh) {
+  std::istringstream text(content);
   dealii::GridIn<3> reader(mesh);
   try {
     reader.read_msh(text);  // the overload for file names would end the program's own gmsh session
@@ -44,13 +47,27 @@ void read_mesh(const std::filesystem::path& path, dealii::Triangulation<3>& mesh
     throw std::runtime_error("the mesh file " + path.string() + " has cells that are no hexahedra");
 }
 
+Grid read_tetrahedra(const Body& body, const std::string& text) {
+  if (!body.cylinders.empty() || !body.tori.empty())
+    throw std::invalid_argument("the mesh file " + body.mesh.string() +
+                                " has quadratic tetrahedra, curved as they are: charts are for hexahedra");
+  if (body.degree != 2)
+    throw std::invalid_argument("degree = " + std::to_string(body.degree) +
+                                ": must be 2 for the quadratic tetrahedra of " + body.mesh.string());
+  Grid grid = tetrahedra_grid(parse_msh(text, body.mesh.string()), body.mesh.string());
+  refuse_inverted_cells(grid);
+  return grid;
+}
+
 }  // namespace
 
 Grid read_grid(const Body& body) {
   if (body.degree < 1 || body.degree > 3)
     throw std::invalid_argument("degree = " + std::to_string(body.degree) + ": must be 1, 2 or 3");
+  const std::string text = read_whole(body.mesh);
+  if (has_tetrahedra(element_types(text))) return read_tetrahedra(body, text);
   dealii::Triangulation<3> mesh;
-  read_mesh(body.mesh, mesh);
+  read_mesh(body.mesh, text, mesh);
   attach_charts(mesh, body.cylinders, body.tori);
 
   // One scalar space numbers the nodes: the unknowns of node i are 3 i, 3 i + 1, 3 i + 2. The mapping has the

@@ -13,14 +13,17 @@ Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals) {
   for (std::size_t i = 0; i < grid.n_nodes; ++i) nodes.volume_m3[i] = integrals(i, 0);
   if (grid.degree != 2) return nodes;
 
-  nodes.cells.resize(grid.n_cells());
+  nodes.kind = grid.kind;
+  const bool as_they_are = grid.kind == CellKind::tetrahedra;
+  nodes.cells.reserve(grid.cell_nodes.size());
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (std::size_t v = 0; v < 27; ++v)
-      nodes.cells[c][v] = grid.nodes_of(c)[vtk_hexahedron_from_lexicographic[v]];
+    for (std::size_t v = 0; v < nodes.nodes_per_cell(); ++v)
+      nodes.cells.push_back(grid.nodes_of(c)[as_they_are ? v : vtk_hexahedron_from_lexicographic[v]]);
+  nodes.faces.reserve(grid.boundary.size() * nodes.nodes_per_face());
   for (const auto& face : grid.boundary) {
-    const auto lexicographic = nodes_of_face(grid, face.cell, face.face);
-    auto& quad = nodes.faces.emplace_back();
-    for (std::size_t v = 0; v < 9; ++v) quad[v] = lexicographic[vtk_quad_from_lexicographic[v]];
+    const auto local = nodes_of_face(grid, face.cell, face.face);
+    for (std::size_t v = 0; v < nodes.nodes_per_face(); ++v)
+      nodes.faces.push_back(local[as_they_are ? v : vtk_quad_from_lexicographic[v]]);
     nodes.face_boundary_id.push_back(face.boundary_id);
   }
   return nodes;

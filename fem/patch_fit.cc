@@ -64,10 +64,13 @@ Eigen::MatrixXd fit_in(const Exponents& space, const Scaled& samples, const Scal
   return at_targets * gram.solve(scaled.transpose());
 }
 
-}  // namespace
+struct ScaledPatch {
+  Scaled samples, targets;
+};
 
-Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& points) {
-  Scaled s{points.samples, points.samples}, t{points.targets, points.targets};
+ScaledPatch scale(const PatchPoints& points) {
+  ScaledPatch patch{{points.samples, points.samples}, {points.targets, points.targets}};
+  auto &s = patch.samples, &t = patch.targets;
   for (int d = 0; d < 3; ++d) {
     const double low = std::min(points.samples.row(d).minCoeff(), points.targets.row(d).minCoeff());
     const double high = std::max(points.samples.row(d).maxCoeff(), points.targets.row(d).maxCoeff());
@@ -86,6 +89,13 @@ Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& poi
       }
     }
   }
+  return patch;
+}
+
+}  // namespace
+
+Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& points) {
+  const auto [s, t] = scale(points);
   // Trilinear fits of one sample per cell would be interpolations that amplify the samples' errors: degree 1
   // goes straight to the complete space.
   if (full_patch && degree > 1)
@@ -93,6 +103,11 @@ Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& poi
   for (int p = degree; p > 0; --p)
     if (auto fit = fit_in(complete_space(p), s, t); fit.size() > 0) return fit;
   return Eigen::MatrixXd::Constant(t.first.cols(), s.first.cols(), 1.0 / double(s.first.cols()));
+}
+
+Eigen::MatrixXd complete_fit(int degree, const PatchPoints& points) {
+  const auto [samples, targets] = scale(points);
+  return fit_in(complete_space(degree), samples, targets);
 }
 
 }  // namespace fem

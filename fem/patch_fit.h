@@ -21,4 +21,7 @@ struct PatchPoints {
 /// 1 are in the space exactly.
 Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& points);
 
+/// The same in the complete space of `degree` alone; an empty matrix if the samples do not determine it well.
+Eigen::MatrixXd complete_fit(int degree, const PatchPoints& points);
+
 }  // namespace fem

@@ -70,7 +70,8 @@ Eigen::Vector3d PatchGeometry::offset(const Eigen::Vector3d& position, std::int3
 /// others lie in the meridian.
 Eigen::Matrix3d PatchGeometry::directions(std::int32_t corner, bool round) const {
   constexpr double nearly_coplanar = 0.05;
-  const auto corners = corner_nodes(grid_.degree);
+  if (grid_.shape().is_tetrahedron()) return Eigen::Matrix3d::Identity();
+  const auto corners = corner_nodes(grid_.shape());
   std::vector<Eigen::Vector3d> edges;  // the first three belong to the first cell
   for (auto k = cells_.begin[corner]; k < cells_.begin[corner + 1]; ++k) {
     const auto* nodes = grid_.nodes_of(cells_.cell[k]);
@@ -105,10 +106,24 @@ Eigen::Matrix3d PatchGeometry::directions(std::int32_t corner, bool round) const
   return directions;
 }
 
-std::vector<std::int32_t> PatchGeometry::samples_around(std::int32_t corner) const {
+std::vector<std::int32_t> PatchGeometry::samples_around(std::int32_t corner, int n_layers) const {
+  std::vector<std::int32_t> chosen(cells_.cell.begin() + cells_.begin[corner],
+                                   cells_.cell.begin() + cells_.begin[corner + 1]);
+  for (int layer = 1; layer < n_layers; ++layer) {
+    auto larger = chosen;
+    for (const auto cell : chosen)
+      for (const int i : corner_nodes(grid_.shape())) {
+        const auto node = grid_.nodes_of(cell)[i];
+        larger.insert(larger.end(), cells_.cell.begin() + cells_.begin[node],
+                      cells_.cell.begin() + cells_.begin[node + 1]);
+      }
+    std::sort(larger.begin(), larger.end());
+    larger.erase(std::unique(larger.begin(), larger.end()), larger.end());
+    chosen = larger;
+  }
   std::vector<std::int32_t> around;
-  for (auto k = cells_.begin[corner]; k < cells_.begin[corner + 1]; ++k) {
-    const auto& of_cell = samples_.of_cell[cells_.cell[k]];
+  for (const auto cell : chosen) {
+    const auto& of_cell = samples_.of_cell[cell];
     around.insert(around.end(), of_cell.begin(), of_cell.end());
   }
   return around;

@@ -23,8 +23,9 @@ public:
   /// no straight line.
   bool is_round(std::int32_t corner) const;
 
-  /// Samples in the cells around the corner and on their free faces.
-  std::vector<std::int32_t> samples_around(std::int32_t corner) const;
+  /// Samples in the cells around the corner and on their free faces; with more layers, also in the cells that
+  /// touch those, and so on.
+  std::vector<std::int32_t> samples_around(std::int32_t corner, int n_layers = 1) const;
 
   PatchPoints points(std::int32_t corner, const std::vector<std::int32_t>& samples,
                      const std::vector<std::int32_t>& nodes) const;

@@ -23,7 +23,7 @@ enum class Centre : char { none, interior, boundary };
 
 /// Which corners carry a patch: the interior ones, and all of a cell that has no interior corner.
 std::vector<Centre> choose_centres(const Grid& grid) {
-  const auto corners = corner_nodes(grid.degree);
+  const auto corners = corner_nodes(grid.shape());
   std::vector<char> on_boundary(grid.n_nodes, 0);
   for (const auto& face : grid.boundary)
     for (const auto node : nodes_of_face(grid, face.cell, face.face)) on_boundary[node] = 1;
@@ -48,17 +48,17 @@ using Shares = std::vector<std::pair<std::int32_t, double>>;  // corner with a p
 /// none, those of its cells.
 Shares stand_ins(const Grid& grid, const CellsOfNodes& cells, const std::vector<Centre>& centre,
                  std::int32_t corner) {
-  const auto corners = corner_nodes(grid.degree);
+  const auto corners = corner_nodes(grid.shape());
+  const int n_corners = static_cast<int>(corners.size());
   std::vector<std::int32_t> joined, in_cells;
   for (auto k = cells.begin[corner]; k < cells.begin[corner + 1]; ++k) {
     const auto* nodes = grid.nodes_of(cells.cell[k]);
     int own = 0;
     while (nodes[corners[own]] != corner) ++own;
-    for (int c = 0; c < 8; ++c) {
+    for (int c = 0; c < n_corners; ++c) {
       if (centre[nodes[corners[c]]] != Centre::interior) continue;
       in_cells.push_back(nodes[corners[c]]);
-      const int difference = own ^ c;
-      if (difference == 1 || difference == 2 || difference == 4) joined.push_back(nodes[corners[c]]);
+      if (joined_by_edge(grid.shape(), own, c)) joined.push_back(nodes[corners[c]]);
     }
   }
   auto& chosen = joined.empty() ? in_cells : joined;
@@ -72,11 +72,12 @@ Shares stand_ins(const Grid& grid, const CellsOfNodes& cells, const std::vector<
 /// Shares of one node in the fits of corners, by the rule of recover_by_patches; not normalised.
 Shares shares_of(const Grid& grid, const CellsOfNodes& cells, const std::vector<Centre>& centre,
                  const Tabulation& table, std::int32_t node) {
-  const auto corners = corner_nodes(grid.degree);
+  const auto corners = corner_nodes(grid.shape());
   const auto* nodes = grid.nodes_of(cells.cell[cells.begin[node]]);
-  const auto hats = corner_hats(table.point[std::find(nodes, nodes + grid.nodes_per_cell(), node) - nodes]);
+  const auto hats =
+      corner_hats(grid.shape(), table.point[std::find(nodes, nodes + grid.nodes_per_cell(), node) - nodes]);
   Shares interior, substitutes, boundary;
-  for (int c = 0; c < 8; ++c) {
+  for (std::size_t c = 0; c < corners.size(); ++c) {
     if (hats[c] < 1e-12) continue;
     const auto corner = nodes[corners[c]];
     if (centre[corner] == Centre::interior) {
@@ -93,7 +94,7 @@ Shares shares_of(const Grid& grid, const CellsOfNodes& cells, const std::vector<
 /// The patches and their nodes; every node's weights sum to 1.
 std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
   const auto centre = choose_centres(grid);
-  const auto table = nodes_in_cell(grid.degree);
+  const auto table = nodes_in_cell(grid.shape());
   std::vector<Patch> patches;
   std::vector<std::int32_t> patch_of(grid.n_nodes, -1);
   for (std::size_t i = 0; i < grid.n_nodes; ++i)
@@ -114,6 +115,9 @@ std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
       patch.weights.back() += weight / sum;
     }
   }
+  // A boundary corner for whose nodes all others stand in.
+  patches.erase(std::remove_if(patches.begin(), patches.end(), [](const auto& p) { return p.nodes.empty(); }),
+                patches.end());
   return patches;
 }
 
@@ -128,6 +132,16 @@ PatchOperator patch_operator(const Grid& grid, const CellsOfNodes& cells, const 
   const auto n_cells = cells.begin[patch.corner + 1] - cells.begin[patch.corner];
   const Eigen::Map<const Eigen::VectorXd> weights(patch.weights.data(), patch.weights.size());
   PatchOperator result;
+  if (grid.kind ==
+      CellKind::tetrahedra)  // their patches are of any shape: larger ones where one is too small
+    for (int n_layers = 1; n_layers <= 3; ++n_layers) {
+      result.samples = geometry.samples_around(patch.corner, n_layers);
+      const auto fit = complete_fit(grid.degree, geometry.points(patch.corner, result.samples, patch.nodes));
+      if (fit.size() > 0) {
+        result.fit = weights.asDiagonal() * fit;
+        return result;
+      }
+    }
   result.samples = geometry.samples_around(patch.corner);
   result.fit =
       weights.asDiagonal() *

@@ -1,13 +1,15 @@
-/// Shape functions of Q_k tabulated at points of the reference cell or face. Internal to fem.
+/// Shape functions tabulated at points of the reference cell or face (grid.h). Internal to fem.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "fem/cell_shape.h"
+
 namespace fem {
 
-/// value[q][i], gradient[q][i][axis], weight[q] flattened; shape functions lexicographic. Faces use axes 0
-/// and 1 only.
+/// value[q][i], gradient[q][i][axis], weight[q] flattened; shape functions in the order
+/// of the nodes. Faces use axes 0 and 1 only.
 struct Tabulation {
   int n_points = 0, n_shapes = 0;
   std::vector<double> value;
@@ -16,14 +18,20 @@ struct Tabulation {
   std::vector<std::array<double, 3>> point;  ///< in the reference cell
 };
 
-/// Gauss points, n in each direction.
-Tabulation gauss_in_cell(int degree, int n);
-Tabulation gauss_on_face(int degree, int n);
+/// Gauss points, n in each direction; on tetrahedra and triangles symmetric rules that are exact to the same
+/// degree 2 n - 1 (in all directions together), n <= 5.
+Tabulation gauss_in_cell(CellShape shape, int n);
+Tabulation gauss_on_face(CellShape shape, int n);
+
+/// Where stress is sampled: the Gauss points of k in each direction; 4 in a tetrahedron, 3 on a triangle.
+Tabulation stress_points_in_cell(CellShape shape);
+Tabulation stress_points_on_face(CellShape shape);
 
 /// The nodes of the cell themselves.
-Tabulation nodes_in_cell(int degree);
+Tabulation nodes_in_cell(CellShape shape);
 
-/// Values of the 8 trilinear hat functions of the corners (lexicographic) at a point of the reference cell.
-std::array<double, 8> corner_hats(const std::array<double, 3>& point);
+/// Values of the corners' hat functions (trilinear, or linear on a tetrahedron) at a point of the reference
+/// cell.
+std::vector<double> corner_hats(CellShape shape, const std::array<double, 3>& point);
 
 }  // namespace fem

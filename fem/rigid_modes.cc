@@ -13,8 +13,9 @@ namespace fem {
 namespace {
 
 /// N, x and det J have degree k, k and 3 k - 1 in each direction; second moments take two x: 5 k - 1 in all.
+/// Tetrahedra: 2, 2 and 3, so 9 in all.
 Tabulation exact_points(const Grid& grid) {
-  return gauss_in_cell(grid.degree, (5 * grid.degree + 1) / 2);
+  return gauss_in_cell(grid.shape(), (5 * grid.degree + 1) / 2);
 }
 
 void add_cell(const Grid& grid, const Tabulation& at, std::size_t cell, NodeIntegrals& integrals) {

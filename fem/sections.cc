@@ -23,24 +23,26 @@ struct FlatFace {
 
 /// All faces normal to z, each once, ascending in z.
 std::vector<FlatFace> flat_faces(const Grid& grid) {
-  std::vector<char> at_boundary(6 * grid.n_cells(), 0);
-  for (const auto& face : grid.boundary) at_boundary[6 * std::size_t(face.cell) + face.face] = 1;
-  const int k = grid.degree;
+  const int n_faces = grid.shape().n_faces();
+  std::vector<char> at_boundary(n_faces * grid.n_cells(), 0);
+  for (const auto& face : grid.boundary) at_boundary[n_faces * std::size_t(face.cell) + face.face] = 1;
+  const auto corners = face_corners(grid.shape());
   std::vector<FlatFace> faces;
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (int f = 0; f < 6; ++f) {
+    for (int f = 0; f < n_faces; ++f) {
       const auto nodes = nodes_of_face(grid, c, f);
-      const auto opposite = nodes_of_face(grid, c, f ^ 1);
+      const auto opposite =  // a corner on the other side
+          grid.shape().is_tetrahedron() ? grid.nodes_of(c)[f] : nodes_of_face(grid, c, f ^ 1)[0];
       double low = grid.position(nodes[0])[2], high = low, size = 0;
-      for (const int corner : {k, k * (k + 1), k * (k + 2)}) {
+      for (const int corner : corners) {
         const double* x = grid.position(nodes[corner]);
         low = std::min(low, x[2]);
         high = std::max(high, x[2]);
         size =
             std::max(size, std::hypot(x[0] - grid.position(nodes[0])[0], x[1] - grid.position(nodes[0])[1]));
       }
-      const bool cell_is_below = grid.position(opposite[0])[2] < low;
-      if (high - low <= relative_tolerance * size && (cell_is_below || at_boundary[6 * c + f]))
+      const bool cell_is_below = grid.position(opposite)[2] < low;
+      if (high - low <= relative_tolerance * size && (cell_is_below || at_boundary[n_faces * c + f]))
         faces.push_back({(low + high) / 2, nodes});
     }
   std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.z_m < b.z_m; });
@@ -72,7 +74,7 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
     const double* x = grid.position(node);
     return std::hypot(x[0] - plane.axis_x_m, x[1] - plane.axis_y_m);
   };
-  const Tabulation at = gauss_on_face(grid.degree, grid.degree + 3);
+  const Tabulation at = gauss_on_face(grid.shape(), grid.degree + 3);
   Section section;
   auto face = std::lower_bound(faces.begin(), faces.end(), plane.z_m - tolerance,
                                [](const FlatFace& f, double z) { return f.z_m < z; });

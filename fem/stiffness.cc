@@ -73,7 +73,7 @@ void refuse_impossible(const Material& material) {
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
                         const NodeGraph& graph, const Material& material, SymmetricMatrix& matrix) {
   const Lame elastic = lame(material);
-  const Tabulation at = gauss_in_cell(grid.degree, grid.degree + 1);
+  const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
   const int n_local = grid.nodes_per_cell();
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {

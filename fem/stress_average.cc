@@ -5,7 +5,7 @@ namespace fem {
 
 void average_stress(const Grid& grid, const CellsOfNodes& cells, const Lame& elastic,
                     const ConstBlock& displacement, Eigen::Ref<RowMajor> stress) {
-  const Tabulation at = nodes_in_cell(grid.degree);
+  const Tabulation at = nodes_in_cell(grid.shape());
   stress.setZero();
   for (const auto& group : colour_cells(grid, cells))
     parallel_for(group.size(), 16, [&](std::size_t begin, std::size_t end) {

@@ -16,8 +16,8 @@ std::vector<BoundaryFace> free_faces(const Grid& grid, const std::vector<int>& l
 }
 
 StressSamples make_samples(const Grid& grid, const std::vector<BoundaryFace>& free) {
-  const Tabulation inside = gauss_in_cell(grid.degree, grid.degree),
-                   on_face = gauss_on_face(grid.degree, grid.degree);
+  const Tabulation inside = stress_points_in_cell(grid.shape()),
+                   on_face = stress_points_on_face(grid.shape());
   const auto n_inside = static_cast<Eigen::Index>(grid.n_cells()) * inside.n_points;
   StressSamples samples;
   samples.position.resize(3, n_inside + static_cast<Eigen::Index>(free.size()) * on_face.n_points);
@@ -39,8 +39,8 @@ StressSamples make_samples(const Grid& grid, const std::vector<BoundaryFace>& fr
 
 RowMajor stress_at_samples(const Grid& grid, const std::vector<BoundaryFace>& free, const Lame& elastic,
                            const ConstBlock& displacement) {
-  const Tabulation inside = gauss_in_cell(grid.degree, grid.degree),
-                   on_face = gauss_on_face(grid.degree, grid.degree);
+  const Tabulation inside = stress_points_in_cell(grid.shape()),
+                   on_face = stress_points_on_face(grid.shape());
   const auto n_inside = static_cast<Eigen::Index>(grid.n_cells()) * inside.n_points;
   RowMajor stress(n_inside + static_cast<Eigen::Index>(free.size()) * on_face.n_points,
                   2 * displacement.cols());

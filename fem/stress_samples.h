@@ -9,8 +9,8 @@
 
 namespace fem {
 
-/// The k^3 Gauss points of every cell, cell after cell, then the k x k Gauss points of every free face: there
-/// stress is of a higher order than elsewhere.
+/// The stress points of every cell, cell after cell, then those of every free face: k^3 and k x k Gauss
+/// points, where stress is of a higher order than elsewhere; 4 and 3 on tetrahedra.
 struct StressSamples {
   Points position;                                 ///< 3 x samples
   std::vector<std::int32_t> cell;                  ///< of each sample

@@ -8,7 +8,7 @@ namespace fem {
 std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
   std::vector<std::int32_t> corners;
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (const int i : corner_nodes(grid.degree)) corners.push_back(grid.nodes_of(c)[i]);
+    for (const int i : corner_nodes(grid.shape())) corners.push_back(grid.nodes_of(c)[i]);
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
 

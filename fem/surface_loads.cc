@@ -107,7 +107,7 @@ LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : gri
 }
 
 Eigen::VectorXd LoadedSurface::integrate(const Traction& traction) const {
-  const Tabulation at = gauss_on_face(grid_->degree, grid_->degree + 3);
+  const Tabulation at = gauss_on_face(grid_->shape(), grid_->degree + 3);
   const Eigen::Map<const Eigen::Vector3d> centre(surface_.centre_m.data());
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * nodes_.size());
   for (const auto& face : faces_) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "fem/cell_shape.h"
+
 namespace fem {
 
 /// A plane z = const made of cell faces through a whole circular cross-section.
@@ -16,14 +18,34 @@ struct SectionPlane {
   double axis_x_m = 0, axis_y_m = 0;
 };
 
+/// The nodes of one cell or face, looked at in place.
+struct NodeList {
+  const std::int32_t* first = nullptr;
+  std::size_t n = 0;
+  const std::int32_t* begin() const noexcept { return first; }
+  const std::int32_t* end() const noexcept { return first + n; }
+  std::size_t size() const noexcept { return n; }
+  std::int32_t operator[](std::size_t i) const { return first[i]; }
+};
+
 /// The nodes of the solution on the body: every support point of the displacement space once.
 struct Nodes {
   std::size_t n = 0;
   std::vector<double> xyz_m;      ///< n x 3
   std::vector<double> volume_m3;  ///< n; integral of the node's shape function, sums to the body's volume
-  std::vector<std::array<std::int32_t, 27>> cells;  ///< VTK_TRIQUADRATIC_HEXAHEDRON order (degree 2 only)
-  std::vector<std::array<std::int32_t, 9>> faces;   ///< boundary faces, VTK_BIQUADRATIC_QUAD order
-  std::vector<std::int32_t> face_boundary_id;       ///< one per face
+  CellKind kind = CellKind::hexahedra;
+  /// Cell after cell, in the order of VTK_TRIQUADRATIC_HEXAHEDRON or VTK_QUADRATIC_TETRA (degree 2 only).
+  std::vector<std::int32_t> cells;
+  /// Boundary faces, in the order of VTK_BIQUADRATIC_QUAD or VTK_QUADRATIC_TRIANGLE.
+  std::vector<std::int32_t> faces;
+  std::vector<std::int32_t> face_boundary_id;  ///< one per face
+
+  std::size_t nodes_per_cell() const noexcept { return std::size_t(CellShape{kind, 2}.nodes_per_cell()); }
+  std::size_t nodes_per_face() const noexcept { return std::size_t(CellShape{kind, 2}.nodes_per_face()); }
+  std::size_t n_cells() const noexcept { return cells.size() / nodes_per_cell(); }
+  std::size_t n_faces() const noexcept { return faces.size() / nodes_per_face(); }
+  NodeList cell(std::size_t i) const { return {cells.data() + i * nodes_per_cell(), nodes_per_cell()}; }
+  NodeList face(std::size_t i) const { return {faces.data() + i * nodes_per_face(), nodes_per_face()}; }
 };
 
 /// What one unit load does to one section plane. Resultants of the traction sigma e_z: the action of the part

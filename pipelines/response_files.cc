@@ -13,7 +13,7 @@ namespace pipelines {
 namespace {
 
 /// Of the arrangement of the file: files of another one count as missing.
-constexpr double arrangement = 1;
+constexpr double arrangement = 2;
 
 struct Counts {
   std::size_t nodes, cells, faces, channels, planes, rings;
@@ -33,10 +33,6 @@ template <std::size_t n>
 double* entries(std::vector<std::array<double, n>>& v) {
   return v.empty() ? nullptr : v.front().data();
 }
-template <std::size_t n>
-std::int32_t* entries(std::vector<std::array<std::int32_t, n>>& v) {
-  return v.empty() ? nullptr : v.front().data();
-}
 double* entries(std::vector<fem::SectionPlane>& v) {
   return reinterpret_cast<double*>(v.data());
 }
@@ -52,8 +48,11 @@ void visit_arrays(fem::UnitResponses& r, const Counts& n, Visit visit) {
   visit("/nodes/xyz", r.nodes.xyz_m, Extents{n.nodes, 3}, Hdf5Label{"m", ""});
   visit("/nodes/volume", r.nodes.volume_m3, Extents{n.nodes},
         Hdf5Label{"m3", "integral of the shape function"});
-  visit("/nodes/cells", r.nodes.cells, Extents{n.cells, 27}, Hdf5Label{"", "VTK_TRIQUADRATIC_HEXAHEDRON"});
-  visit("/nodes/faces", r.nodes.faces, Extents{n.faces, 9}, Hdf5Label{"", "VTK_BIQUADRATIC_QUAD"});
+  const bool tetrahedra = r.nodes.kind == fem::CellKind::tetrahedra;
+  visit("/nodes/cells", r.nodes.cells, Extents{n.cells, r.nodes.nodes_per_cell()},
+        Hdf5Label{"", tetrahedra ? "VTK_QUADRATIC_TETRA" : "VTK_TRIQUADRATIC_HEXAHEDRON"});
+  visit("/nodes/faces", r.nodes.faces, Extents{n.faces, r.nodes.nodes_per_face()},
+        Hdf5Label{"", tetrahedra ? "VTK_QUADRATIC_TRIANGLE" : "VTK_BIQUADRATIC_QUAD"});
   visit("/nodes/face_boundary_id", r.nodes.face_boundary_id, Extents{n.faces}, Hdf5Label{});
   visit("/displacement", r.displacement_m, Extents{n.nodes, n.channels, 3}, Hdf5Label{"m", "x y z"});
   visit("/stress", r.stress_Pa, Extents{n.nodes, n.channels, 6}, Hdf5Label{"Pa", "xx yy zz xy yz xz"});
@@ -84,6 +83,8 @@ fem::UnitResponses read(const Hdf5Reader& in) {
   fem::UnitResponses r;
   r.channels = in.texts("/channels");
   r.nodes.n = in.shape("/nodes/xyz").at(0);
+  if (in.shape("/nodes/cells").at(1) == fem::CellShape{fem::CellKind::tetrahedra, 2}.nodes_per_cell())
+    r.nodes.kind = fem::CellKind::tetrahedra;
   const Counts n = {r.nodes.n,         in.shape("/nodes/cells").at(0), in.shape("/nodes/faces").at(0),
                     r.channels.size(), in.shape("/planes").at(0),      in.shape("/rings").at(0)};
   visit_arrays(r, n, [&](const char* name, auto& values, const auto& extents, const Hdf5Label&) {
@@ -119,8 +120,8 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
     rings.insert(rings.end(), {ring.z_m, ring.radius_m, static_cast<double>(ring.boundary_id)});
   out.write("/rings", rings.data(), {responses.rings.size(), 3}, {"", "z [m], radius [m], boundary id"});
 
-  const Counts n = {responses.nodes.n,         responses.nodes.cells.size(), responses.nodes.faces.size(),
-                    responses.channels.size(), responses.planes.size(),      responses.rings.size()};
+  const Counts n = {responses.nodes.n,         responses.nodes.n_cells(), responses.nodes.n_faces(),
+                    responses.channels.size(), responses.planes.size(),   responses.rings.size()};
   // The list is shared with the reader, which fills the arrays; here they are only looked at.
   visit_arrays(
       const_cast<fem::UnitResponses&>(responses), n,

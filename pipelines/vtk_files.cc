@@ -68,25 +68,29 @@ void add_ids(vtkDataSetAttributes& data, const std::string& name, const std::vec
   data.AddArray(array);
 }
 
-template <std::size_t n>
-void set_cells(vtkUnstructuredGrid& grid, int type, const std::vector<std::array<std::int32_t, n>>& cells) {
+/// Cells of one type, the nodes of each together.
+struct Cells {
+  int type = 0;
+  std::size_t n_nodes = 0;
+  const std::vector<std::int32_t>& nodes;
+  std::size_t size() const { return nodes.size() / n_nodes; }
+};
+
+void set_cells(vtkUnstructuredGrid& grid, const Cells& cells) {
   vtkNew<vtkTypeInt32Array> offsets, connectivity;
   offsets->SetNumberOfValues(static_cast<vtkIdType>(cells.size() + 1));
-  connectivity->SetNumberOfValues(static_cast<vtkIdType>(cells.size() * n));
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(cells.nodes.size()));
   for (std::size_t i = 0; i <= cells.size(); ++i)
-    offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * n));
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    std::copy(cells[i].begin(), cells[i].end(), connectivity->GetPointer(static_cast<vtkIdType>(i * n)));
+    offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * cells.n_nodes));
+  std::copy(cells.nodes.begin(), cells.nodes.end(), connectivity->GetPointer(0));
   vtkNew<vtkCellArray> array;
   array->SetData(offsets.Get(), connectivity.Get());
-  grid.SetCells(type, array);
+  grid.SetCells(cells.type, array);
 }
 
 /// A grid of the cells given, over the chosen nodes of the body (the cells name nodes by their place among
 /// the chosen).
-template <std::size_t n>
-void write_grid(const std::filesystem::path& path, int type,
-                const std::vector<std::array<std::int32_t, n>>& cells, const fem::Nodes& nodes,
+void write_grid(const std::filesystem::path& path, const Cells& cells, const fem::Nodes& nodes,
                 const std::vector<std::int32_t>& chosen, const std::vector<NodalField>& fields,
                 const std::vector<IdField>& ids, VtuCompression compression) {
   if (nodes.xyz_m.size() != 3 * nodes.n)
@@ -97,7 +101,7 @@ void write_grid(const std::filesystem::path& path, int type,
   points->SetDataTypeToDouble();
   points->SetData(array_of<vtkDoubleArray>(nodes.xyz_m.data(), 3, chosen));
   grid->SetPoints(points);
-  set_cells(*grid, type, cells);
+  set_cells(*grid, cells);
   for (const auto& field : fields) add_field(*grid, field, nodes.n, chosen);
   for (const auto& id : ids) {
     const bool at_nodes = id.at == IdField::At::nodes;
@@ -167,26 +171,30 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
                         VtuCompression compression) {
   std::vector<std::int32_t> all(nodes.n);
   std::iota(all.begin(), all.end(), 0);
-  write_grid(path, VTK_TRIQUADRATIC_HEXAHEDRON, nodes.cells, nodes, all, fields, ids, compression);
+  const bool tetrahedra = nodes.kind == fem::CellKind::tetrahedra;
+  const Cells cells = {tetrahedra ? VTK_QUADRATIC_TETRA : VTK_TRIQUADRATIC_HEXAHEDRON, nodes.nodes_per_cell(),
+                       nodes.cells};
+  write_grid(path, cells, nodes, all, fields, ids, compression);
 }
 
 void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                                 const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
                                 VtuCompression compression) {
   std::vector<std::int32_t> place(nodes.n, -1), chosen;
-  for (const auto& face : nodes.faces)
-    for (const std::int32_t node : face) place[static_cast<std::size_t>(node)] = 0;
+  for (const std::int32_t node : nodes.faces) place[static_cast<std::size_t>(node)] = 0;
   for (std::size_t node = 0; node < nodes.n; ++node)
     if (place[node] == 0) {
       place[node] = static_cast<std::int32_t>(chosen.size());
       chosen.push_back(static_cast<std::int32_t>(node));
     }
   auto faces = nodes.faces;
-  for (auto& face : faces)
-    for (std::int32_t& node : face) node = place[static_cast<std::size_t>(node)];
+  for (std::int32_t& node : faces) node = place[static_cast<std::size_t>(node)];
   auto with_boundary = ids;
   with_boundary.push_back({"boundary_id", nodes.face_boundary_id, IdField::At::cells});
-  write_grid(path, VTK_BIQUADRATIC_QUAD, faces, nodes, chosen, fields, with_boundary, compression);
+  const bool tetrahedra = nodes.kind == fem::CellKind::tetrahedra;
+  const Cells cells = {tetrahedra ? VTK_QUADRATIC_TRIANGLE : VTK_BIQUADRATIC_QUAD, nodes.nodes_per_face(),
+                       faces};
+  write_grid(path, cells, nodes, chosen, fields, with_boundary, compression);
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {

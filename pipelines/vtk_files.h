@@ -1,5 +1,6 @@
-/// Fields on a body as VTK XML files that ParaView opens: 27-node hexahedra, or the 9-node faces of the
-/// surface. Points in m as 64-bit floats; data appended; no date, so the same input gives the same bytes.
+/// Fields on a body as VTK XML files that ParaView opens: 27-node hexahedra or 10-node tetrahedra, or the
+/// 9-node or 6-node faces of the surface. Points in m as 64-bit floats; data appended; no date, so the same
+/// input gives the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -40,15 +41,15 @@ struct IdField {
 
 enum class VtuCompression { none, zlib };
 
-/// The whole body: VTK_TRIQUADRATIC_HEXAHEDRON, all nodes in their order.
+/// The whole body: VTK_TRIQUADRATIC_HEXAHEDRON or VTK_QUADRATIC_TETRA, all nodes in their order.
 /// @throws std::invalid_argument naming the field if its size does not fit the nodes or cells;
 ///         std::runtime_error naming the file if it cannot be written
 void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                         const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
                         VtuCompression compression = VtuCompression::zlib);
 
-/// The surface alone: VTK_BIQUADRATIC_QUAD over the nodes that lie on a boundary face, in ascending order of
-/// their numbers; the cell field `boundary_id` is added.
+/// The surface alone: VTK_BIQUADRATIC_QUAD or VTK_QUADRATIC_TRIANGLE over the nodes that lie on a boundary
+/// face, in ascending order of their numbers; the cell field `boundary_id` is added.
 /// @param fields, ids  at all nodes of the body, as for write_envelope_vtu; ids at cells: one per boundary
 /// face
 /// @throws as write_envelope_vtu

@@ -131,9 +131,9 @@ NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Featu
     places.feature_names.push_back(features[f].name);
     by_id[features[f].boundary_id] = f;
   }
-  for (std::size_t face = 0; face < nodes.faces.size(); ++face) {
+  for (std::size_t face = 0; face < nodes.n_faces(); ++face) {
     const std::size_t f = by_id.at(nodes.face_boundary_id[face]);
-    for (const auto node : nodes.faces[face]) {
+    for (const auto node : nodes.face(face)) {
       auto& current = places.feature[std::size_t(node)];
       if (current < 0 || precedence(features[f].kind) < precedence(features[std::size_t(current)].kind))
         current = std::int32_t(f);
@@ -170,9 +170,9 @@ Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const No
     return envelope.value_Pa[i] > 0 && envelope.value_Pa[i] >= level_Pa && !places.excluded[i];
   };
   DisjointSets sets(nodes.n);
-  for (const auto& cell : nodes.cells) {
+  for (std::size_t cell = 0; cell < nodes.n_cells(); ++cell) {
     std::int32_t first = -1;
-    for (const auto node : cell) {
+    for (const auto node : nodes.cell(cell)) {
       if (!inside(std::size_t(node))) continue;
       if (first < 0)
         first = node;

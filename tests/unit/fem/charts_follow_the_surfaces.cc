@@ -61,7 +61,7 @@ struct Distances {
 /// between.
 template <typename Distance>
 Distances distances(const fem::Grid& grid, int boundary_id, const Distance& distance) {
-  const auto at = fem::gauss_on_face(grid.degree, 5);
+  const auto at = fem::gauss_on_face(grid.shape(), 5);
   Distances d;
   for (const auto& face : grid.boundary) {
     if (face.boundary_id != boundary_id) continue;
@@ -102,7 +102,7 @@ TEST(Charts, nodes_lie_on_seats_and_fillets) {
 // boundary vanishes only for a closed surface, and every cell's positions agree with the shared ones.
 TEST(Charts, boundary_is_closed) {
   const auto grid = fem::read_grid(fem_tests::eccentric_shaft().body);
-  const auto at = fem::gauss_on_face(grid.degree, 4);
+  const auto at = fem::gauss_on_face(grid.shape(), 4);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0, flux = 0;
   for (const auto& face : grid.boundary) {

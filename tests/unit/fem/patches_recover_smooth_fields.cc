@@ -16,7 +16,7 @@ using Point = Eigen::Vector3d;
 fem::Grid cube(int n, int degree, const std::function<Point(const Point&)>& bend) {
   fem::Grid grid;
   grid.degree = degree;
-  const auto table = fem::nodes_in_cell(degree);
+  const auto table = fem::nodes_in_cell(grid.shape());
   const int m = n * degree + 1;
   grid.n_nodes = std::size_t(m) * m * m;
   grid.xyz_m.resize(3 * grid.n_nodes);

@@ -120,20 +120,21 @@ TEST_F(Responses, mirror_image) {
 TEST_F(Responses, nodes_are_in_vtk_order) {
   const auto& nodes = responses.nodes;
   const auto x = [&](std::int32_t i) { return Eigen::Map<const Eigen::Vector3d>(&nodes.xyz_m[3 * i]); };
-  for (const auto& cell : nodes.cells) {
+  for (std::size_t k = 0; k < nodes.n_cells(); ++k) {
+    const auto cell = nodes.cell(k);
     const Eigen::Vector3d a = x(cell[1]) - x(cell[0]), b = x(cell[3]) - x(cell[0]),
                           c = x(cell[4]) - x(cell[0]);
     EXPECT_GT(a.cross(b).dot(c), 0);
     EXPECT_LT((x(cell[8]) - (x(cell[0]) + x(cell[1])) / 2).norm(),
               0.2 * a.norm());  // middle of the first edge
   }
-  ASSERT_EQ(nodes.faces.size(), nodes.face_boundary_id.size());
+  ASSERT_EQ(nodes.n_faces(), nodes.face_boundary_id.size());
   const auto& end = shaft->ports.at("end_2");
   int n_end = 0;
-  for (std::size_t f = 0; f < nodes.faces.size(); ++f) {
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
     if (nodes.face_boundary_id[f] != end.boundary_id) continue;
     ++n_end;
-    const auto& q = nodes.faces[f];
+    const auto q = nodes.face(f);
     EXPECT_GT((x(q[1]) - x(q[0])).cross(x(q[3]) - x(q[0]))[2], 0);  // corners counter-clockwise from outside
     for (const auto node : q) EXPECT_NEAR(x(node)[2], end.centre_m[2], 1e-12);
   }

@@ -2,11 +2,14 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <cmath>
 #include <cstdlib>
 
 #include "pipelines/picture.h"
+#include "pipelines/picture_surface.h"
 #include "pipelines/vtk_files.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
@@ -107,6 +110,21 @@ TEST(PictureDeathTest, without_egl_nothing_is_drawn_and_nothing_ends) {
       },
       testing::ExitedWithCode(0), "");
   EXPECT_FALSE(std::filesystem::exists(at / "bar.png"));
+}
+
+// VTK's own filters find the faces of quadratic tetrahedra, and keep them curved.
+TEST(Picture, shows_quadratic_tetrahedra) {
+  const Directory at;
+  const auto nodes = results_test::mapped_tetrahedra([](results_test::Point p) -> results_test::Point {
+    return {p[0] + 0.2 * p[1] * p[1], p[1], p[2] + 0.1 * p[0] * p[1]};
+  });
+  std::vector<double> value(nodes.n, 1);
+  value[26] = 7;
+  write_envelope_vtu(at / "t.vtu", nodes, {nodal_field("value", value)});
+  const auto faces = boundary_faces(at / "t.vtu", "value", 2);
+  ASSERT_EQ(faces->GetNumberOfCells(), 12);
+  for (vtkIdType f = 0; f < 12; ++f) EXPECT_EQ(faces->GetCellType(f), VTK_QUADRATIC_TRIANGLE);
+  EXPECT_EQ(peak_of(faces.get(), smooth_surface(faces.get(), 1).get()).value, 14);
 }
 
 }  // namespace

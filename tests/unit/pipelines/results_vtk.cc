@@ -125,7 +125,7 @@ TEST(EnvelopeVtu, fields_come_back_in_the_precision_asked_for) {
   const Directory at;
   const auto nodes = mapped_cube(2, 2, 1, quadratic_map);
   std::vector<double> stress(nodes.n * 6), peak(nodes.n);
-  std::vector<std::int32_t> zone(nodes.n), cell(nodes.cells.size());
+  std::vector<std::int32_t> zone(nodes.n), cell(nodes.n_cells());
   for (std::size_t i = 0; i < stress.size(); ++i) stress[i] = 1e8 * std::sin(double(i));
   for (std::size_t i = 0; i < nodes.n; ++i) peak[i] = std::cos(double(i)), zone[i] = int(i) % 3 - 1;
   for (std::size_t i = 0; i < cell.size(); ++i) cell[i] = 100 + int(i);

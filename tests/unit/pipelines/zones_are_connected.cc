@@ -21,12 +21,8 @@ struct Row {
       nodes.volume_m3.push_back(1);
     }
     for (int c = 0; c < n_cells; ++c) {
-      std::array<std::int32_t, 27> cell;
-      for (int v = 0; v < 27; ++v) cell[std::size_t(v)] = 18 * c + v;
-      nodes.cells.push_back(cell);
-      std::array<std::int32_t, 9> face;
-      for (int v = 0; v < 9; ++v) face[std::size_t(v)] = 18 * c + 3 * v;  // x = 0
-      nodes.faces.push_back(face);
+      for (int v = 0; v < 27; ++v) nodes.cells.push_back(18 * c + v);
+      for (int v = 0; v < 9; ++v) nodes.faces.push_back(18 * c + 3 * v);  // x = 0
       nodes.face_boundary_id.push_back(std::min(c, 2) + 1);
     }
     envelope.value_Pa.assign(nodes.n, 0);

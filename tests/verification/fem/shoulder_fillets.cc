@@ -66,9 +66,9 @@ Factors concentration(const fem_tests::ShaftBody& shaft, fem::Recovery recovery)
   Factors factors;
   factors.n_dofs = r.n_dofs;
   std::vector<char> on_fillet(r.nodes.n, 0);
-  for (std::size_t f = 0; f < r.nodes.faces.size(); ++f)
+  for (std::size_t f = 0; f < r.nodes.n_faces(); ++f)
     if (r.nodes.face_boundary_id[f] == shaft.body.tori.at(0).boundary_id)
-      for (const auto node : r.nodes.faces[f]) on_fillet[node] = 1;
+      for (const auto node : r.nodes.face(f)) on_fillet[node] = 1;
   for (std::size_t i = 0; i < r.nodes.n; ++i) {
     if (!on_fillet[i]) continue;
     const auto p = [&](const char* component) {

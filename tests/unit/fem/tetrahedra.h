@@ -1,0 +1,25 @@
+/// Grids of quadratic tetrahedra without a file: what the tests of tetrahedra share.
+#pragma once
+
+#include <Eigen/Dense>
+#include <functional>
+#include <string>
+
+#include "fem/grid.h"
+
+namespace fem_tests {
+
+using Point = Eigen::Vector3d;
+
+/// n^3 boxes of the unit cube in six tetrahedra each, all nodes moved by `bend`: edges become curved.
+/// Boundary ids 1 to 6 are x = 0, x = 1, y = 0, y = 1, z = 0, z = 1; the volume is 7.
+fem::Grid tetrahedra_cube(int n, const std::function<Point(const Point&)>& bend);
+
+/// The same with straight edges and corners inside the cube moved at random by up to a fifth of a box.
+fem::Grid irregular_cube(int n);
+
+/// The grid as a .msh 4.1 file, as gmsh would write it: type 11 and 9, one entity per group, node tags that
+/// are neither consecutive nor ascending.
+std::string as_msh(const fem::Grid& grid);
+
+}  // namespace fem_tests
