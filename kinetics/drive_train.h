@@ -90,6 +90,10 @@ struct DriveTrain {
   double modal_damping_ratio = 0;    ///< of every elastic mode of the undamped train, >= 0
 };
 
+/// Mean speed of an inertia's shaft: that of the reference shaft times its ratio.
+/// @throws std::invalid_argument if the train has no such inertia, and as natural_modes
+double mean_speed_rad_s(const DriveTrain& train, const std::string& inertia);
+
 enum class Shapes { none, all };
 
 /// Natural modes; mode 0 of a free train is the rigid rotation, its frequency exactly zero. Columns of the

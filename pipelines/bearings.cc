@@ -33,10 +33,11 @@ std::vector<std::string> known_forces(const kinetics::LoadHistory& loads) {
 }
 
 std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::LoadHistory& loads,
-                                       const ChannelHistory* channels) {
-  if (channels) {
-    const auto fx = channel(*channels, load + ".fx"), fy = channel(*channels, load + ".fy");
+                                       const std::vector<const ChannelHistory*>& channels) {
+  for (const auto* body : channels) {
+    const auto fx = channel(*body, load + ".fx"), fy = channel(*body, load + ".fy");
     if (fx && fy) return (fx->square() + fy->square()).sqrt();
+    if (fx || fy) return (fx ? *fx : *fy).abs();  // the other one is never fed
   }
   if (loads.has_resultant(load))
     return loads.resultant(load).total.topRows<2>().matrix().colwise().norm().transpose();
@@ -46,14 +47,15 @@ std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::
 }
 
 std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearings,
-                                         const kinetics::LoadHistory& loads, const ChannelHistory* channels) {
+                                         const kinetics::LoadHistory& loads,
+                                         const std::vector<const ChannelHistory*>& channels) {
   std::vector<BearingResult> results;
   for (const auto& bearing : bearings) {
     const auto force = force_of(bearing.load, loads, channels);
     if (!force)
       throw std::invalid_argument("bearing \"" + bearing.name + "\": there is no force \"" + bearing.load +
                                   "\"; known here: " + listed(known_forces(loads)) +
-                                  (channels ? "" : ", and with `run` the ports of the shaft"));
+                                  (channels.empty() ? ", and with `run` the ports of the bodies" : ""));
     BearingResult result;
     result.name = bearing.name;
     result.load = bearing.load;

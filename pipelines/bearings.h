@@ -14,7 +14,7 @@ namespace pipelines {
 /// One entry [[bearings]] of a scene.
 struct BearingScene {
   std::string name;
-  std::string load;  ///< a quantity ("R_E"), the role of a resultant, or a port of the shaft
+  std::string load;  ///< a quantity ("R_E"), the role of a resultant, or a port of a body
   double share = 1;  ///< of that load, in (0, 1]
   double dynamic_rating_N = 0;
   kinetics::RollingElement element = kinetics::RollingElement::ball;
@@ -30,15 +30,16 @@ struct BearingResult {
 };
 
 /// Force of a load over the cycle [N]; empty if there is none of that name.
-/// @param channels  of the shaft; null: the load stage alone
+/// @param channels  of the bodies, in the order in which they are asked; none: the load stage alone
 std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::LoadHistory& loads,
-                                       const ChannelHistory* channels);
+                                       const std::vector<const ChannelHistory*>& channels);
 
-/// The names that force_of knows without a shaft.
+/// The names that force_of knows without a body.
 std::vector<std::string> known_forces(const kinetics::LoadHistory& loads);
 
 /// @throws std::invalid_argument naming bearing, load and remedy if a load is not there
 std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearings,
-                                         const kinetics::LoadHistory& loads, const ChannelHistory* channels);
+                                         const kinetics::LoadHistory& loads,
+                                         const std::vector<const ChannelHistory*>& channels);
 
 }  // namespace pipelines

@@ -183,7 +183,8 @@ BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinet
     case BodyRole::stub_axle: {
       auto options = body.stub_axle;
       options.effects = scene.effects;
-      return distribute_stub_axle(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded, options);
+      return distribute_stub_axle(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded,
+                                  options);
     }
     case BodyRole::train_shaft: {
       const auto& train = std::get<kinetics::DriveTrain>(masses.machine);
@@ -193,18 +194,27 @@ BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinet
       options.forces.erase(std::remove_if(options.forces.begin(), options.forces.end(),
                                           [&](const auto& force) { return !scene.has_effect(force.effect); }),
                            options.forces.end());
-      return distribute_train_shaft(history, kinetics::mean_speed_rad_s(train, options.inertia), loaded, options);
+      return distribute_train_shaft(history, kinetics::mean_speed_rad_s(train, options.inertia), loaded,
+                                    options);
     }
     case BodyRole::table_body:
-      return distribute_table(std::get<kinetics::LoadTable>(scene.machine), scene.effects, scene.sampling, loaded,
-                              body.table);
+      return distribute_table(std::get<kinetics::LoadTable>(scene.machine), scene.effects, scene.sampling,
+                              loaded, body.table);
   }
   throw std::logic_error("unknown role of a body");
 }
 
+void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions) {
+  if (loads.unit_loads.empty())
+    throw std::invalid_argument("no effect of the scene loads the " + loads.history.body +
+                                "; name one that does, or remove [" + loads.history.body + "]");
+  std::vector<std::array<double, 6>> wanted;
+  for (const auto& load : loads.unit_loads) wanted.push_back(wanted_resultant(load, regions));
+  require_closure(loads.history.body, check_closure(loads, wanted, regions));
+}
+
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          const MassAgreement& masses, const kinetics::LoadHistory& history,
-                          const RunOptions& options, StageClock& clock) {
+                          BodyLoads loads, const RunOptions& options, StageClock& clock) {
   const int n_threads =
       options.n_threads > 0 ? options.n_threads : int(std::max(1u, std::thread::hardware_concurrency()));
   const ShaftShape* shaft = body.shaft();
@@ -213,12 +223,7 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
   analysis.mesh = meshed.mesh;
   analysis.masses = meshed.masses;
   const auto planes = to_fem_planes(meshed.mesh.sections);
-  analysis.loads = clock.run("distribute", [&] {
-    return distribute_body(scene, body, history, loaded_body(body, meshed), masses);
-  });
-  if (analysis.loads.unit_loads.empty())
-    throw std::invalid_argument("no effect of the scene loads the " + body.name + "; name one that does, or remove [" +
-                                body.name + "]");
+  analysis.loads = std::move(loads);
   analysis.responses = solve_or_reuse(*meshed.model, meshed.body, analysis.loads, planes, options, n_threads,
                                       analysis.responses_reused, clock);
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);

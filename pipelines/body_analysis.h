@@ -9,9 +9,9 @@
 #include "fem/unit_responses.h"
 #include "kinetics/load_history.h"
 #include "meshes/body_mesh.h"
-#include "pipelines/diagrams.h"
 #include "pipelines/body_mesh.h"
 #include "pipelines/closure.h"
+#include "pipelines/diagrams.h"
 #include "pipelines/hot_spots.h"
 #include "pipelines/machine_masses.h"
 #include "pipelines/scene.h"
@@ -55,8 +55,8 @@ struct BodyAnalysis {
   NodePlaces places;
   Envelope envelope;
   Zones zones;
-  Peak peak;                       ///< largest von Mises stress outside the exclusion distances
-  std::size_t principal_node = 0;  ///< largest principal stress, likewise
+  Peak peak;                             ///< largest von Mises stress outside the exclusion distances
+  std::size_t principal_node = 0;        ///< largest principal stress, likewise
   std::vector<HotSpotStress> hot_spots;  ///< descending
   std::optional<Diagrams> diagrams;      ///< parametric shafts and drums only
 };
@@ -73,11 +73,14 @@ struct RunOptions {
 BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                           const LoadedBody& loaded, const MassAgreement& masses);
 
-/// Distributes, solves, superposes. Writes unit_responses.h5 into the body's directory, nothing else.
+/// Whether channels and ports close, before anything is solved: by the resultants that they must have.
+/// @throws std::runtime_error if forces or moments miss 1e-9 of their scale
+void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions);
+
+/// Solves and superposes. Writes unit_responses.h5 into the body's directory, nothing else.
 /// @throws std::runtime_error if the solve fails, or if the loads do not close to 1e-9 on the mesh
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          const MassAgreement& masses, const kinetics::LoadHistory& history,
-                          const RunOptions& options, StageClock& clock);
+                          BodyLoads loads, const RunOptions& options, StageClock& clock);
 
 /// What distribution needs to know of a meshed body.
 LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);

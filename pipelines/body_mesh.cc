@@ -41,8 +41,8 @@ fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& materia
   body.mesh = mesh.file;
   body.material = material;
   for (const auto& c : mesh.cylinders)
-    body.cylinders.push_back({c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m,
-                              c.axis_x_m, c.axis_y_m});
+    body.cylinders.push_back(
+        {c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m, c.axis_x_m, c.axis_y_m});
   for (const auto& t : mesh.tori)
     body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
   return body;

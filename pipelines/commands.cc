@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include "fem/model.h"
 #include "pipelines/atomic_file.h"
+#include "pipelines/body_analysis.h"
 #include "pipelines/calculix_cards.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/load_files.h"
@@ -16,7 +18,6 @@
 #include "pipelines/picture.h"
 #include "pipelines/results.h"
 #include "pipelines/scene.h"
-#include "pipelines/shaft_analysis.h"
 #include "pipelines/summary.h"
 #include "pipelines/torsion_report.h"
 #include "pipelines/units.h"
@@ -32,10 +33,10 @@ void add_turning_trunnions(kinetics::LoadHistory& loads) {
   loads.resultants.push_back(std::move(turning));
 }
 
-kinetics::LoadHistory load_stage(const Scene& scene) {
+kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
   if (scene.run_up)
     return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
-  auto loads = compute_loads(scene.machine, scene.kinetics_effects(), scene.sampling);
+  auto loads = compute_loads(machine, scene.kinetics_effects(), scene.sampling);
   if (scene.drum_axes) add_turning_trunnions(loads);
   return loads;
 }
@@ -43,6 +44,7 @@ kinetics::LoadHistory load_stage(const Scene& scene) {
 /// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
 /// figures.
 void add_shaft_quantities(kinetics::LoadHistory& loads, const BodyLoads& body) {
+  if (body.drive_torque_Nm.size() == 0) return;
   loads.quantities.push_back({"R_E_shaft", "N", "bearing reaction with the shaft's own mass, magnitude",
                               body.frame_bearing_force_N.matrix().colwise().norm().transpose()});
   loads.quantities.push_back(
@@ -66,12 +68,113 @@ void report(std::ostream& out, const CommandOptions& options, const RunReport& c
     print_report(out, content);
 }
 
-/// Unknowns and memory of the factor before anything is solved: quadratic hexahedra have eight nodes per
-/// cell, and CHOLMOD's factor was measured at 2.7 GB for 203 k and 13 GB for 634 k unknowns.
-void print_cost(std::ostream& out, std::size_t n_cells) {
-  const double unknowns = 3 * 8.3 * double(n_cells);
-  out << fmt::format("  about {:.0f} k unknowns, factor about {:.1f} GB\n", unknowns / 1e3,
-                     2.7 * std::pow(unknowns / 203e3, 1.38));
+/// Memory of the factor before anything is solved: CHOLMOD's was measured at 2.7 GB for 203 k and 13 GB for
+/// 634 k unknowns of a shaft; thin-walled bodies need less.
+void print_cost(std::ostream& out, std::size_t n_dofs) {
+  out << fmt::format("  {:.0f} k unknowns, factor about {:.1f} GB\n", double(n_dofs) / 1e3,
+                     2.7 * std::pow(double(n_dofs) / 203e3, 1.38));
+}
+
+}  // namespace
+
+namespace {
+
+/// MPI takes half a second and may talk: only where a body is looked at.
+struct Solver {
+  explicit Solver(int n_threads) : environment(argc, argv, n_threads) {}
+  char name[11] = "millstress";
+  char* arguments[2] = {name, nullptr};
+  char** argv = arguments;
+  int argc = 1;
+  fem::Environment environment;
+};
+
+std::vector<kinetics::Spring> springs_of(const Scene& scene) {
+  const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
+  return mill ? mill->springs : std::vector<kinetics::Spring>{};
+}
+
+/// Meshes all bodies, each to a temporary name beside its place.
+std::vector<MeshedBody> mesh_bodies(const Scene& scene,
+                                    const std::vector<std::unique_ptr<AtomicFile>>& files) {
+  std::vector<MeshedBody> bodies;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    bodies.push_back(mesh_body(scene.bodies[i], files[i]->temporary(), springs_of(scene)));
+  return bodies;
+}
+
+/// Masses that only a mesh can tell, for commands that need no more of it; the meshes are thrown away.
+Machine machine_with_masses(const Scene& scene, int n_threads) {
+  if (scene.masses_from_mesh.empty()) return scene.machine;
+  const Solver solver(n_threads);
+  std::vector<std::unique_ptr<AtomicFile>> scratch;
+  for (const auto& body : scene.bodies)
+    scratch.push_back(std::make_unique<AtomicFile>(std::filesystem::temp_directory_path() /
+                                                   ("millstress_" + body.name + ".msh")));
+  return agree_masses(scene, mesh_bodies(scene, scratch)).machine;
+}
+
+void finish_run(const CommandOptions& options, std::ostream& out, const std::filesystem::path& directory,
+                const RunReport& content) {
+  write_text_file(directory / "summary.json", summary_json(content));
+  report(out, options, content);
+}
+
+void run_load_stage(const CommandOptions& options, std::ostream& out, const Scene& scene,
+                    const std::filesystem::path& directory, StageClock& clock) {
+  const auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
+  const auto lives = bearing_lives(scene.bearings, loads, {});
+  std::filesystem::create_directories(directory);
+  clock.run("write", [&] { write_load_results(directory, loads, {}); });
+  std::optional<TorsionReport> torsion;
+  if (std::holds_alternative<kinetics::DriveTrain>(scene.machine))
+    torsion = clock.run("torsion", [&] { return report_torsion(scene); });
+  if (torsion) clock.run("write", [&] { write_torsion_files(directory / "torsion", scene, *torsion); });
+  finish_run(options, out, directory, {scene, loads, {}, {}, clock.costs(), lives});
+  if (options.json) return;
+  if (torsion) print_torsion(out, scene, *torsion);
+  out << "\n  results in " << directory.string() << '\n';
+}
+
+void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& scene,
+                const std::filesystem::path& directory, StageClock& clock) {
+  const Solver solver(options.n_threads);
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  for (const auto& body : scene.bodies) {
+    std::filesystem::create_directories(directory / body.name);
+    files.push_back(std::make_unique<AtomicFile>(directory / body.name / "mesh.msh"));
+  }
+  auto meshed = clock.run("mesh", [&] { return mesh_bodies(scene, files); });
+  const auto masses = agree_masses(scene, meshed);
+  auto loads = clock.run("loads", [&] { return load_stage(scene, masses.machine); });
+  std::vector<BodyLoads> body_loads;
+  for (std::size_t i = 0; i < meshed.size(); ++i) {
+    const auto& body = scene.bodies[i];
+    body_loads.push_back(clock.run("distribute", [&] {
+      return distribute_body(scene, body, loads, loaded_body(body, meshed[i]), masses);
+    }));
+    require_closed_loads(body_loads.back(), meshed[i].regions);
+    add_shaft_quantities(loads, body_loads.back());
+  }
+  BodyChannels channels;
+  for (const auto& body : body_loads) channels.push_back(&body.history);
+  const auto lives = bearing_lives(scene.bearings, loads, channels);
+
+  // From here on nothing of the scene can be wrong any more: results of an earlier run may go.
+  std::vector<BodyAnalysis> analyses;
+  for (std::size_t i = 0; i < meshed.size(); ++i) {
+    files[i]->commit();
+    const auto place = directory / scene.bodies[i].name;
+    meshed[i].mesh.file = meshed[i].body.mesh = place / "mesh.msh";
+    analyses.push_back(analyse_body(scene, scene.bodies[i], meshed[i], body_loads[i],
+                                    {place, options.n_threads, options.fresh}, clock));
+    meshed[i].model.reset();
+    clock.run("write", [&] { write_body_results(place, scene, loads, analyses.back()); });
+    if (scene.pictures) clock.run("pictures", [&] { draw(place, scene.title); });
+  }
+  clock.run("write", [&] { write_load_results(directory, loads, channels); });
+  finish_run(options, out, directory, {scene, loads, analyses, masses.figures, clock.costs(), lives});
+  if (!options.json) out << "\n  results in " << directory.string() << '\n';
 }
 
 }  // namespace
@@ -81,59 +184,25 @@ void run_command(const CommandOptions& options, std::ostream& out) {
   const auto directory =
       options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
   StageClock clock(progress_on_stderr(options.verbosity));
-
-  auto loads = clock.run("loads", [&] { return load_stage(scene); });
-  if (!scene.shaft) {
-    const auto lives = bearing_lives(scene.bearings, loads, nullptr);
-    std::filesystem::create_directories(directory);
-    clock.run("write", [&] { write_load_results(directory, loads, nullptr); });
-    const bool is_train = std::holds_alternative<kinetics::DriveTrain>(scene.machine);
-    std::optional<TorsionReport> torsion;
-    if (is_train) torsion = clock.run("torsion", [&] { return report_torsion(scene); });
-    if (torsion) clock.run("write", [&] { write_torsion_files(directory / "torsion", scene, *torsion); });
-    const RunReport content{scene, loads, nullptr, clock.costs(), lives};
-    write_text_file(directory / "summary.json", summary_json(content));
-    report(out, options, content);
-    if (options.json) return;
-    if (torsion) print_torsion(out, scene, *torsion);
-    out << "\n  results in " << directory.string() << '\n';
-    return;
-  }
-  // Only now: a wrong scene and loads alone need no MPI, which takes half a second and may talk.
-  char name[] = "millstress", *arguments[] = {name, nullptr}, **argv = arguments;
-  int argc = 1;
-  const fem::Environment environment(argc, argv, options.n_threads);
-  std::filesystem::create_directories(directory / "shaft");
-  const auto analysis =
-      analyse_shaft(scene, loads, {directory / "shaft", options.n_threads, options.fresh}, clock);
-  add_shaft_quantities(loads, analysis.loads);
-  const auto lives = bearing_lives(scene.bearings, loads, &analysis.loads.history);
-  clock.run("write", [&] {
-    write_load_results(directory, loads, &analysis.loads.history);
-    write_shaft_results(directory / "shaft", scene, loads, analysis);
-  });
-  if (scene.pictures) clock.run("pictures", [&] { draw(directory / "shaft", scene.title); });
-  const RunReport content{scene, loads, &analysis, clock.costs(), lives};
-  write_text_file(directory / "summary.json", summary_json(content));
-  report(out, options, content);
-  if (!options.json) out << "\n  results in " << directory.string() << '\n';
+  (scene.bodies.empty() ? run_load_stage : run_bodies)(options, out, scene, directory, clock);
 }
 
 void loads_command(const CommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   StageClock clock(progress_on_stderr(options.verbosity));
-  const auto loads = clock.run("loads", [&] { return load_stage(scene); });
-  std::vector<BearingScene> bearings;  // those at a port of the shaft need `run`
+  const Machine machine = clock.run("mesh", [&] { return machine_with_masses(scene, options.n_threads); });
+  const auto loads = clock.run("loads", [&] { return load_stage(scene, machine); });
+  std::vector<BearingScene> bearings;  // those at a port of a body need `run`
   for (const auto& bearing : scene.bearings)
-    if (!scene.shaft || force_of(bearing.load, loads, nullptr)) bearings.push_back(bearing);
-  const auto lives = bearing_lives(bearings, loads, nullptr);
+    if (scene.bodies.empty() || force_of(bearing.load, loads, {})) bearings.push_back(bearing);
+  const auto lives = bearing_lives(bearings, loads, {});
   if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, loads); });
   if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, loads); });
   if (!options.statistics.empty())
     clock.run("write",
               [&] { write_statistics(options.statistics, loads, scene.run_up ? 0 : scene.sampling.turns); });
   if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, loads); });
-  report(out, options, {scene, loads, nullptr, clock.costs(), lives});
+  report(out, options, {scene, loads, {}, {}, clock.costs(), lives});
 }
 
 void effects_command(const CommandOptions& options, std::ostream& out) {
@@ -175,35 +244,54 @@ void check_command(const CommandOptions& options, std::ostream& out) {
   for (const auto& effect : effects_of(scene.machine))
     out << fmt::format("  {:<4}{:<24}{} ({})\n", scene.has_effect(effect.name) ? "on" : "off", effect.name,
                        effect.description, effect.source);
-  for (const char* own : {"gravity_shaft", "shaft_inertia"})
-    if (scene.shaft)
-      out << fmt::format("  {:<4}{:<24}of the shaft's own mass, from its mesh\n",
-                         scene.has_effect(own) ? "on" : "off", own);
+  for (const auto& body : scene.bodies)
+    for (const auto& own : own_effects(body.role))
+      out << fmt::format("  {:<4}{:<24}of the {}'s own mass, from its mesh\n",
+                         scene.has_effect(own) ? "on" : "off", own, body.name);
   out << "\ndefaults used\n";
   for (const auto& d : scene.defaults) out << fmt::format("  {} = {}  ({})\n", d.key, d.value, d.reason);
   if (scene.defaults.empty()) out << "  none\n";
   for (const auto& warning : scene.warnings) out << "warning: " << warning << '\n';
-  if (!scene.shaft) return;
+  if (scene.bodies.empty()) return;
 
   // The mesh is a second's work and the only honest answer to what will be solved; it is made aside and
   // thrown away.
-  const AtomicFile scratch(std::filesystem::temp_directory_path() /
-                           ("millstress_check_" + scene.file.stem().string() + ".msh"));
-  const auto mesh = meshes::build_shaft(scene.shaft->geometry, scene.shaft->mesh, scratch.temporary());
-  out << fmt::format("\nshaft: {} cells, scaled Jacobian at least {:.2f}, median {:.2f}\n",
-                     mesh.quality.n_cells, mesh.quality.min_scaled_jacobian,
-                     mesh.quality.median_scaled_jacobian);
-  print_cost(out, mesh.quality.n_cells);
-  out << "  ports\n";
-  for (const auto& port : mesh.ports)
-    out << fmt::format(
-        "    {:<24}z {:8.2f} .. {:8.2f} mm, diameter {:6.2f} mm, axis at ({:.2f}, {:.2f}) mm\n", port.name,
-        port.begin_m * 1e3, port.end_m * 1e3, port.radius_m * 2e3, port.axis_x_m * 1e3, port.axis_y_m * 1e3);
+  const Solver solver(options.n_threads);
+  std::vector<std::unique_ptr<AtomicFile>> scratch;
+  for (const auto& body : scene.bodies)
+    scratch.push_back(std::make_unique<AtomicFile>(
+        std::filesystem::temp_directory_path() /
+        ("millstress_check_" + scene.file.stem().string() + "_" + body.name + ".msh")));
+  const auto meshed = mesh_bodies(scene, scratch);
+  const auto masses = agree_masses(scene, meshed);
   auto coarse = scene;
-  coarse.sampling.turns = 1;
-  const auto channels = planned_channels(coarse, load_stage(coarse), mesh);
-  out << fmt::format("  {} channels\n", channels.size());
-  for (const auto& channel : channels) out << fmt::format("    shaft/{} [{}]\n", channel.name, channel.unit);
+  if (!std::holds_alternative<kinetics::LoadTable>(scene.machine)) coarse.sampling.turns = 1;
+  const auto loads = load_stage(coarse, masses.machine);
+  for (std::size_t i = 0; i < meshed.size(); ++i) {
+    const auto& body = scene.bodies[i];
+    const auto& quality = meshed[i].mesh.quality;
+    out << fmt::format(
+        "\n{}: {} cells, scaled Jacobian at least {:.2f}, median {:.2f}; aspect at most {:.0f}\n", body.name,
+        quality.n_cells, quality.min_scaled_jacobian, quality.median_scaled_jacobian, quality.max_aspect);
+    print_cost(out, meshed[i].model->n_dofs());
+    out << fmt::format("  mass {:.4g} kg\n", meshed[i].masses.mass_kg);
+    for (const auto& figure : masses.figures)
+      if (figure.body == body.name)
+        out << fmt::format("    {:<28}machine {:.5g} {}, mesh and added masses {:.5g}{}\n", figure.name,
+                           figure.given, figure.unit, figure.mesh,
+                           figure.from_mesh ? " (from the mesh)" : "");
+    out << "  ports\n";
+    for (const auto& port : meshed[i].mesh.ports)
+      out << fmt::format(
+          "    {:<24}z {:8.2f} .. {:8.2f} mm, diameter {:6.2f} mm, axis at ({:.2f}, {:.2f}) mm\n", port.name,
+          port.begin_m * 1e3, port.end_m * 1e3, port.radius_m * 2e3, port.axis_x_m * 1e3,
+          port.axis_y_m * 1e3);
+    const auto channels =
+        distribute_body(coarse, body, loads, loaded_body(body, meshed[i]), masses).history.channels;
+    out << fmt::format("  {} channels\n", channels.size());
+    for (const auto& channel : channels)
+      out << fmt::format("    {}/{} [{}]\n", body.name, channel.name, channel.unit);
+  }
 }
 
 }  // namespace pipelines

@@ -33,7 +33,8 @@ ArrayXXd course(const fem::UnitResponses& responses, const ChannelHistory& loads
 }  // namespace
 
 std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>& spots,
-                                             const fem::UnitResponses& responses, const ChannelHistory& loads) {
+                                             const fem::UnitResponses& responses,
+                                             const ChannelHistory& loads) {
   std::vector<HotSpotStress> results;
   for (const auto& spot : spots) {
     const ArrayXXd stress = 1.67 * course(responses, loads, node_at(responses.nodes, spot.near_m, spot)) -

@@ -1,6 +1,6 @@
-/// Structural hot-spot stress of weld toes: the notch itself has no converged stress, so the stress of the plate
-/// is extrapolated to it from 0.4 and 1.0 plate thicknesses: 1.67 s(0.4 t) - 0.67 s(1.0 t), each component
-/// (IIW, Recommendations for fatigue design of welded joints, type "a" toes, fine mesh).
+/// Structural hot-spot stress of weld toes: the notch itself has no converged stress, so the stress of the
+/// plate is extrapolated to it from 0.4 and 1.0 plate thicknesses: 1.67 s(0.4 t) - 0.67 s(1.0 t), each
+/// component (IIW, Recommendations for fatigue design of welded joints, type "a" toes, fine mesh).
 #pragma once
 
 #include <vector>
@@ -15,14 +15,16 @@ namespace pipelines {
 struct HotSpotStress {
   std::string name;
   std::array<double, 3> toe_m{};
-  double von_mises_Pa = 0;                     ///< largest over the cycle
-  std::int32_t instant = 0;                    ///< of that
-  double max_normal_Pa = 0, min_normal_Pa = 0;  ///< across the toe, over the cycle: their range is what fatigue counts
+  double von_mises_Pa = 0;   ///< largest over the cycle
+  std::int32_t instant = 0;  ///< of that
+  double max_normal_Pa = 0,
+         min_normal_Pa = 0;  ///< across the toe, over the cycle: their range is what fatigue counts
 };
 
 /// @return in descending order of the largest von Mises stress
 /// @throws std::runtime_error if a point of a hot spot is no node of the solution
 std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>& spots,
-                                             const fem::UnitResponses& responses, const ChannelHistory& loads);
+                                             const fem::UnitResponses& responses,
+                                             const ChannelHistory& loads);
 
 }  // namespace pipelines

@@ -60,7 +60,7 @@ void check_channels(const ChannelHistory& channels, Eigen::Index n_instants) {
 }
 
 /// Everything both files hold, in their order.
-std::vector<Series> series_of(const kinetics::LoadHistory& loads, const ChannelHistory* channels) {
+std::vector<Series> series_of(const kinetics::LoadHistory& loads, const BodyChannels& bodies) {
   std::vector<Series> all = {
       {"/time", "time", {"s", "instants"}, to_vector(loads.time_s)},
       {"/phi", "phi", {"rad", "drive angle"}, to_vector(loads.phi_rad)},
@@ -74,27 +74,28 @@ std::vector<Series> series_of(const kinetics::LoadHistory& loads, const ChannelH
   for (const auto& resultant : loads.resultants)
     add_resultant(all, "/resultants/" + checked(resultant.role), resultant.role, resultant.description,
                   resultant.total);
-  if (channels)
-    for (std::size_t k = 0; k < channels->channels.size(); ++k) {
-      const auto& channel = channels->channels[k];
-      all.push_back({"/channels/" + checked(channel.name),
-                     channel.name,
+  for (const auto* body : bodies)
+    for (std::size_t k = 0; k < body->channels.size(); ++k) {
+      const auto& channel = body->channels[k];
+      const std::string name = checked(body->body) + "/" + checked(channel.name);
+      all.push_back({"/channels/" + name,
+                     name,
                      {channel.unit, ""},
-                     to_vector(channels->values.row(static_cast<Eigen::Index>(k)))});
+                     to_vector(body->values.row(static_cast<Eigen::Index>(k)))});
     }
   for (const auto& resultant : loads.resultants)
     for (const auto& part : resultant.contributions)
       add_resultant(all, "/effects/" + checked(part.effect) + "/" + resultant.role,
                     part.effect + "/" + resultant.role, resultant.description, part.load);
-  if (channels)
-    for (std::size_t e = 0; e < channels->effects.size(); ++e)
-      for (std::size_t k = 0; k < channels->channels.size(); ++k) {
-        const auto& channel = channels->channels[k];
-        const std::string name = checked(channels->effects[e]) + "/" + channel.name;
+  for (const auto* body : bodies)
+    for (std::size_t e = 0; e < body->effects.size(); ++e)
+      for (std::size_t k = 0; k < body->channels.size(); ++k) {
+        const auto& channel = body->channels[k];
+        const std::string name = checked(body->effects[e]) + "/" + body->body + "/" + channel.name;
         all.push_back({"/effects/" + name,
                        name,
                        {channel.unit, ""},
-                       to_vector(channels->by_effect[e].row(static_cast<Eigen::Index>(k)))});
+                       to_vector(body->by_effect[e].row(static_cast<Eigen::Index>(k)))});
       }
   for (const auto& series : all)
     if (series.values.size() != all.front().values.size())
@@ -106,9 +107,9 @@ std::vector<Series> series_of(const kinetics::LoadHistory& loads, const ChannelH
 }  // namespace
 
 void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
-                    const ChannelHistory* channels) {
-  if (channels) check_channels(*channels, loads.n_instants());
-  const auto all = series_of(loads, channels);
+                    const BodyChannels& bodies) {
+  for (const auto* body : bodies) check_channels(*body, loads.n_instants());
+  const auto all = series_of(loads, bodies);
   AtomicFile file(path);
   Hdf5Writer out(file.temporary());
   out.attribute("/", "machine", loads.machine);
@@ -117,19 +118,16 @@ void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHisto
   out.write("/effect_names", loads.effects,
             {"", "effects evaluated by the machine, in the order of summation"});
   out.write("/warnings", loads.warnings);
-  if (channels) {
-    out.make_group("/channels");
-    out.attribute("/channels", "body", channels->body);
-  }
+  for (const auto* body : bodies) out.make_group("/channels/" + body->body);
   out.close();
   file.commit();
 }
 
 void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
-                     const ChannelHistory* channels) {
-  if (channels) check_channels(*channels, loads.n_instants());
+                     const BodyChannels& bodies) {
+  for (const auto* body : bodies) check_channels(*body, loads.n_instants());
   std::vector<CsvColumn> columns;
-  for (auto& series : series_of(loads, channels))
+  for (auto& series : series_of(loads, bodies))
     columns.push_back({series.title, series.label.unit, std::move(series.values)});
   write_csv(path, columns);
 }

@@ -1,26 +1,29 @@
 /// The load history as files: loads.h5 for programs, loads.csv for tables.
 ///
 /// HDF5: /time, /phi, /speed, /acceleration; /quantities/<name>; /resultants/<role>/{fx,fy,torque};
-/// /effects/<effect>/<role>/{fx,fy,torque}; with channels also /channels/<port>.<component> (the body is an
-/// attribute of /channels) and /effects/<effect>/<port>.<component>. Each is one number per instant with its
+/// /effects/<effect>/<role>/{fx,fy,torque}; with bodies also /channels/<body>/<port>.<component> and
+/// /effects/<effect>/<body>/<port>.<component>. Each is one number per instant with its
 /// unit as attribute; machine, convention, effects and warnings belong to the file. CSV: one row per instant,
 /// the same series in the same order; a title is the path without its group, so "theta [rad]", "eccentric.fx
-/// [N]", "main_bearing_1.fx [N]", "charge_gravity/eccentric.fx [N]".
+/// [N]", "shaft/main_bearing_1.fx [N]", "charge_gravity/eccentric.fx [N]".
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "kinetics/load_history.h"
 #include "pipelines/channels.h"
 
 namespace pipelines {
 
-/// @param channels  null: the load stage alone
+/// Channels of bodies; none: the load stage alone.
+using BodyChannels = std::vector<const ChannelHistory*>;
+
 /// @throws std::invalid_argument if series differ in their number of instants, or a name is empty
 ///         or has a slash; std::runtime_error naming the file if it cannot be written
 void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
-                    const ChannelHistory* channels = nullptr);
+                    const BodyChannels& bodies = {});
 void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
-                     const ChannelHistory* channels = nullptr);
+                     const BodyChannels& bodies = {});
 
 }  // namespace pipelines

@@ -51,7 +51,10 @@ std::vector<AttachedMass> added_masses(const BodyScene& scene, const meshes::Bod
       throw std::invalid_argument(scene.name + ": the added mass \"" + added.name + "\" sits on the port \"" +
                                   added.port + "\", which the mesh does not have");
     const double x = port->axis_x_m + added.centre_m[0], y = port->axis_y_m + added.centre_m[1];
-    result.push_back({added.name, added.port, added.mass_kg, {added.mass_kg * x, added.mass_kg * y},
+    result.push_back({added.name,
+                      added.port,
+                      added.mass_kg,
+                      {added.mass_kg * x, added.mass_kg * y},
                       added.polar_inertia_kg_m2 + added.mass_kg * (x * x + y * y)});
   }
   return result;
@@ -63,13 +66,15 @@ public:
   Comparison(const std::string& body, std::vector<MassFigure>& figures) : body_(body), figures_(figures) {}
 
   /// @return given - mesh
-  double compare(const std::string& name, const std::string& unit, double given, double mesh, bool from_mesh) {
+  double compare(const std::string& name, const std::string& unit, double given, double mesh,
+                 bool from_mesh) {
     figures_.push_back({body_, name, unit, given, mesh, from_mesh});
     const double share = figures_.back().share();
     if (share > largest_share) {
       std::ostringstream text;
-      text << body_ << ": the machine's " << name << " is " << given << ' ' << unit << ", mesh and added masses give "
-           << mesh << ' ' << unit << ": " << 100 * share << " % apart, at most 20 % can be carried; correct one of "
+      text << body_ << ": the machine's " << name << " is " << given << ' ' << unit
+           << ", mesh and added masses give " << mesh << ' ' << unit << ": " << 100 * share
+           << " % apart, at most 20 % can be carried; correct one of "
            << "them, or leave the machine's out, so that the mesh gives it";
       throw std::invalid_argument(text.str());
     }
@@ -83,10 +88,12 @@ private:
 
 void add_difference(std::vector<AttachedMass>& list, const BodyScene& body, const PlanarMass& d) {
   if (d.mass_kg == 0 && d.x_kg_m == 0 && d.y_kg_m == 0 && d.polar_kg_m2 == 0) return;
-  list.push_back({"difference to the mesh", body.difference_port, d.mass_kg, {d.x_kg_m, d.y_kg_m}, d.polar_kg_m2});
+  list.push_back(
+      {"difference to the mesh", body.difference_port, d.mass_kg, {d.x_kg_m, d.y_kg_m}, d.polar_kg_m2});
 }
 
-void agree_chamber(const Scene& scene, const BodyScene& body, const MeshedBody& meshed, MassAgreement& result) {
+void agree_chamber(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                   MassAgreement& result) {
   auto& mill = std::get<kinetics::VibratoryMill>(result.machine);
   auto& attached = result.attached[body.name];
   attached.structure = added_masses(body, meshed.mesh, "structure");
@@ -118,7 +125,8 @@ void agree_chamber(const Scene& scene, const BodyScene& body, const MeshedBody& 
                                         structure.polar_kg_m2 + exciter.polar_kg_m2, open);
   add_difference(attached.structure, body, rest);
   PlanarMass rest_2;
-  rest_2.mass_kg = comparison.compare("exciter mass", "kg", mill.exciter_mass_kg, exciter.mass_kg, exciter_open);
+  rest_2.mass_kg =
+      comparison.compare("exciter mass", "kg", mill.exciter_mass_kg, exciter.mass_kg, exciter_open);
   rest_2.x_kg_m = -exciter.x_kg_m;  // the load stage has its centre at E'
   rest_2.y_kg_m = -exciter.y_kg_m;
   auto on_bore = body;
@@ -151,13 +159,14 @@ void agree_train(const Scene& scene, const BodyScene& body, const MeshedBody& me
   const auto inertia = std::find_if(train.inertias.begin(), train.inertias.end(),
                                     [&](const auto& i) { return i.name == body.train.inertia; });
   if (inertia == train.inertias.end())
-    throw std::invalid_argument("shaft.inertia = \"" + body.train.inertia + "\": the train has no such inertia");
+    throw std::invalid_argument("shaft.inertia = \"" + body.train.inertia +
+                                "\": the train has no such inertia");
   const bool open = is_open(scene, inertia->name);
   if (open) inertia->inertia_kg_m2 = shaft.polar_kg_m2;
   Comparison comparison(body.name, result.figures);
   PlanarMass rest;
-  rest.polar_kg_m2 =
-      comparison.compare("inertia of " + inertia->name, "kg m2", inertia->inertia_kg_m2, shaft.polar_kg_m2, open);
+  rest.polar_kg_m2 = comparison.compare("inertia of " + inertia->name, "kg m2", inertia->inertia_kg_m2,
+                                        shaft.polar_kg_m2, open);
   // What of the inertia's force field a shaft out of centre leaves is no part of a torsional train.
   rest.x_kg_m = -shaft.x_kg_m;
   rest.y_kg_m = -shaft.y_kg_m;

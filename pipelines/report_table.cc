@@ -54,15 +54,42 @@ std::string where(const std::array<double, 3>& p) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", p[0] * 1e3, p[1] * 1e3, p[2] * 1e3);
 }
 
-void print_shaft(std::ostream& out, const RunReport& report, const ShaftAnalysis& analysis) {
+void print_masses(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  for (const auto& figure : report.masses)
+    if (figure.body == analysis.scene.name)
+      out << fmt::format("  {}: {:.5g} {}{}\n", figure.name, figure.given, figure.unit,
+                         figure.from_mesh
+                             ? " from the mesh"
+                             : fmt::format(", the mesh has {:.5g}: {:.2g} % carried on {}", figure.mesh,
+                                           100 * figure.share(), analysis.scene.difference_port));
+  const auto& carried = analysis.loads.carried_moment_Nm;
+  if (carried.size() > 0)
+    out << fmt::format("  pitch is off: a guide carries a couple of up to {:.4g} N m, rms {:.4g} N m\n",
+                       carried.abs().maxCoeff(), std::sqrt(carried.square().mean()));
+}
+
+void print_hot_spots(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  if (analysis.hot_spots.empty()) return;
+  out << fmt::format("\n  {:<40}{:>14}{:>20}  {}\n", "weld toe, hot-spot stress", "von Mises MPa",
+                     "range across MPa", "moment");
+  constexpr std::size_t shown = 5;
+  for (std::size_t i = 0; i < std::min(shown, analysis.hot_spots.size()); ++i) {
+    const auto& spot = analysis.hot_spots[i];
+    out << fmt::format("  {:<40}{:>14.1f}{:>20.1f}  {}\n", spot.name, spot.von_mises_Pa / 1e6,
+                       (spot.max_normal_Pa - spot.min_normal_Pa) / 1e6, when(report, spot.instant));
+  }
+}
+
+void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   const Peak& peak = analysis.peak;
   const auto& e = peak.errors;
-  out << fmt::format("\n  shaft: {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.responses.n_dofs,
-                     analysis.responses.channels.size(),
+  out << fmt::format("\n  {}: {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.scene.name,
+                     analysis.responses.n_dofs, analysis.responses.channels.size(),
                      analysis.responses_reused ? " (responses of an earlier run)" : "",
                      analysis.masses.mass_kg);
   out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
                      analysis.closure.worst_moment());
+  print_masses(out, report, analysis);
   out << fmt::format(
       "\n  peak von Mises stress   {:.1f} MPa (error about {:.1f} MPa), safety against yield {:.2f}\n",
       peak.value_Pa / 1e6,
@@ -72,7 +99,7 @@ void print_shaft(std::ostream& out, const RunReport& report, const ShaftAnalysis
   const std::size_t p = analysis.principal_node;
   out << fmt::format("  largest principal stress {:.1f} MPa\n",
                      analysis.envelope.principal.value_Pa[p] / 1e6);
-  if (const auto* ring = largest_torsion_ring(analysis.diagrams))
+  if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr)
     out << fmt::format("  largest torsional stress {:.2f} MPa at {}, z = {:.1f} mm\n", ring->max_Pa / 1e6,
                        ring->feature, ring->z_m * 1e3);
 
@@ -86,8 +113,10 @@ void print_shaft(std::ostream& out, const RunReport& report, const ShaftAnalysis
                        "  " + when(report, zones[i].instant), to_string(zones[i].place));
   if (zones.size() > shown) out << fmt::format("       and {} more in zones.csv\n", zones.size() - shown);
 
+  print_hot_spots(out, report, analysis);
+  if (!analysis.diagrams) return;
   out << fmt::format("\n  {:<28}{:>16}{:>16}\n", "seat", "deflection mm", "slope mrad");
-  for (const auto& seat : analysis.diagrams.seats)
+  for (const auto& seat : analysis.diagrams->seats)
     out << fmt::format("  {:<28}{:>16.4f}{:>16.3f}\n", seat.port, seat.max_deflection_m * 1e3,
                        seat.max_slope_rad * 1e3);
 }
@@ -120,7 +149,7 @@ void print_report(std::ostream& out, const RunReport& report) {
                      report.loads.convention, report.scene.sampling.turns,
                      report.scene.sampling.instants_per_turn);
   print_loads(out, report);
-  if (report.analysis) print_shaft(out, report, *report.analysis);
+  for (const auto& analysis : report.bodies) print_body(out, report, analysis);
   print_resampling(out, report);
   print_bearings(out, report);
   double total = 0;

@@ -24,7 +24,7 @@ std::vector<double> flatten(const std::vector<Stress>& tensors) {
 }
 
 void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                    const ShaftAnalysis& analysis) {
+                    const BodyAnalysis& analysis) {
   const auto& nodes = analysis.responses.nodes;
   const auto& envelope = analysis.envelope;
   const auto& effects = analysis.loads.history.effects;
@@ -39,7 +39,7 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
              tensor_1 = flatten(envelope.principal.stress_Pa);
   std::vector<double> safety;
   for (const double stress : envelope.von_mises.value_Pa)
-    safety.push_back(stress > 0 ? std::min(scene.shaft->yield_strength_Pa / stress, 1e6) : 1e6);
+    safety.push_back(stress > 0 ? std::min(analysis.scene.yield_strength_Pa / stress, 1e6) : 1e6);
   std::vector<std::int32_t> turn;
   for (const auto instant : envelope.von_mises.instant) turn.push_back(moment_of(scene, loads, instant).turn);
 
@@ -73,7 +73,7 @@ void remove_other_snapshots(const path& directory, const std::vector<PvdEntry>& 
 }
 
 void write_cycle(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                 const ShaftAnalysis& analysis) {
+                 const BodyAnalysis& analysis) {
   const Eigen::Index per_turn = scene.sampling.instants_per_turn;
   const Eigen::Index first = analysis.peak.instant / per_turn * per_turn;
   std::vector<PvdEntry> entries;
@@ -88,7 +88,7 @@ void write_cycle(const path& directory, const Scene& scene, const kinetics::Load
     write_surface_snapshot_vtu(directory / name, analysis.responses.nodes,
                                {nodal_field("von Mises stress [Pa]", von_mises),
                                 nodal_field("displacement [m]", displacement, 3, {"x", "y", "z"})});
-    entries.push_back({loads.time_s[instant], name, "shaft"});
+    entries.push_back({loads.time_s[instant], name, analysis.scene.name});
   }
   if (!entries.empty()) write_pvd(directory / "cycle.pvd", entries);
   remove_other_snapshots(directory, entries);
@@ -106,7 +106,7 @@ CsvColumn column(std::string name, std::string unit, const List& list, Get&& get
 }
 
 void write_zones(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                 const ShaftAnalysis& analysis) {
+                 const BodyAnalysis& analysis) {
   const auto& zones = analysis.zones.zones;
   std::vector<CsvColumn> columns;
   std::int64_t rank = 0;
@@ -130,13 +130,37 @@ void write_zones(const path& file, const Scene& scene, const kinetics::LoadHisto
   write_csv(file, columns);
 }
 
+void write_hot_spots(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
+                     const BodyAnalysis& analysis) {
+  const auto& spots = analysis.hot_spots;
+  std::vector<CsvColumn> columns;
+  columns.push_back(column("hot_spot", "", spots, [](const HotSpotStress& h) { return h.name; }));
+  columns.push_back(
+      column("von_mises_max", "Pa", spots, [](const HotSpotStress& h) { return h.von_mises_Pa; }));
+  columns.push_back(column("turn", "", spots,
+                           [&](const HotSpotStress& h) { return moment_of(scene, loads, h.instant).turn; }));
+  columns.push_back(column("drive_angle", "rad", spots, [&](const HotSpotStress& h) {
+    return moment_of(scene, loads, h.instant).angle_rad;
+  }));
+  columns.push_back(
+      column("normal_max", "Pa", spots, [](const HotSpotStress& h) { return h.max_normal_Pa; }));
+  columns.push_back(
+      column("normal_min", "Pa", spots, [](const HotSpotStress& h) { return h.min_normal_Pa; }));
+  columns.push_back(column("normal_range", "Pa", spots,
+                           [](const HotSpotStress& h) { return h.max_normal_Pa - h.min_normal_Pa; }));
+  for (std::size_t c = 0; c < 3; ++c)
+    columns.push_back(
+        column(std::string(1, "xyz"[c]), "m", spots, [&](const HotSpotStress& h) { return h.toe_m[c]; }));
+  write_csv(file, columns);
+}
+
 /// Largest over the cycle of the length of rows (r, r + 1).
 double largest_pair(const SectionHistory& history, Eigen::Index row) {
   return history.middleRows<2>(row).matrix().colwise().norm().maxCoeff();
 }
 
-void write_diagrams(const path& file, const ShaftAnalysis& analysis) {
-  const auto& sections = analysis.diagrams.sections;
+void write_diagrams(const path& file, const BodyAnalysis& analysis) {
+  const auto& sections = analysis.diagrams->sections;
   const auto instant = analysis.peak.instant;
   std::vector<CsvColumn> columns;
   columns.push_back(column("z", "m", sections, [](const auto& s) { return s.plane.z_m; }));
@@ -176,8 +200,8 @@ void write_diagrams(const path& file, const ShaftAnalysis& analysis) {
   write_csv(file, columns);
 }
 
-void write_torsion(const path& directory, const kinetics::LoadHistory& loads, const ShaftAnalysis& analysis) {
-  const auto& sections = analysis.diagrams.sections;
+void write_torsion(const path& directory, const kinetics::LoadHistory& loads, const BodyAnalysis& analysis) {
+  const auto& sections = analysis.diagrams->sections;
   std::vector<CsvColumn> columns;
   const auto over = [&](const std::string& name, const std::string& unit,
                         const std::function<const Eigen::ArrayXd(const SectionResult&)>& series) {
@@ -227,16 +251,18 @@ Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::
 }
 
 void write_load_results(const path& directory, const kinetics::LoadHistory& loads,
-                        const ChannelHistory* channels) {
-  write_loads_h5(directory / "loads.h5", loads, channels);
-  write_loads_csv(directory / "loads.csv", loads, channels);
+                        const BodyChannels& bodies) {
+  write_loads_h5(directory / "loads.h5", loads, bodies);
+  write_loads_csv(directory / "loads.csv", loads, bodies);
 }
 
-void write_shaft_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                         const ShaftAnalysis& analysis) {
+void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
+                        const BodyAnalysis& analysis) {
   write_envelope(directory / "envelope.vtu", scene, loads, analysis);
   write_cycle(directory, scene, loads, analysis);
   write_zones(directory / "zones.csv", scene, loads, analysis);
+  if (!analysis.hot_spots.empty()) write_hot_spots(directory / "hot_spots.csv", scene, loads, analysis);
+  if (!analysis.diagrams) return;
   write_diagrams(directory / "diagrams.csv", analysis);
   write_torsion(directory, loads, analysis);
 }

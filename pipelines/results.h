@@ -4,20 +4,21 @@
 #include <filesystem>
 
 #include "kinetics/load_history.h"
+#include "pipelines/body_analysis.h"
+#include "pipelines/load_files.h"
 #include "pipelines/scene.h"
-#include "pipelines/shaft_analysis.h"
 
 namespace pipelines {
 
-/// loads.h5 and loads.csv, with the channels of the body where there is one.
+/// loads.h5 and loads.csv, with the channels of the bodies.
 void write_load_results(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
-                        const ChannelHistory* channels);
+                        const BodyChannels& bodies);
 
-/// In `directory`: envelope.vtu, cycle.pvd with cycle_*.vtu, zones.csv, diagrams.csv, torsion.csv,
-/// torsion_cycle.csv. Snapshots of an earlier run that this one does not write are removed, so that the
-/// folder shows one run.
-void write_shaft_results(const std::filesystem::path& directory, const Scene& scene,
-                         const kinetics::LoadHistory& loads, const ShaftAnalysis& analysis);
+/// In `directory`: envelope.vtu, cycle.pvd with cycle_*.vtu, zones.csv; hot_spots.csv for a body with weld
+/// toes; diagrams.csv, torsion.csv, torsion_cycle.csv for a parametric shaft or drum. Snapshots of an earlier
+/// run that this one does not write are removed, so that the folder shows one run.
+void write_body_results(const std::filesystem::path& directory, const Scene& scene,
+                        const kinetics::LoadHistory& loads, const BodyAnalysis& analysis);
 
 /// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
 struct Moment {

@@ -57,7 +57,8 @@ std::vector<std::string> own_effects(BodyRole role) {
 }
 
 const BodyScene* Scene::body(const std::string& name) const {
-  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == name; });
+  const auto found =
+      std::find_if(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == name; });
   return found == bodies.end() ? nullptr : &*found;
 }
 

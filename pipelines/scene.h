@@ -88,7 +88,8 @@ struct Scene {
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;  ///< sentences for the user: legal, but worth a look
 
-  /// Masses that the scene leaves to the mesh: "structure", "exciter", "drum", or the name of a train's inertia.
+  /// Masses that the scene leaves to the mesh: "structure", "exciter", "drum", or the name of a train's
+  /// inertia.
   std::vector<std::string> masses_from_mesh;
 
   /// The scene's effects that kinetics evaluates: all but those that the bodies add.

@@ -35,12 +35,7 @@ EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft
   using kinetics::Convention;
   const bool is_published = convention == Convention::published;
   EffectRules rules = plain_rules(kinetics::vibratory_mill_effects(convention));
-  for (const char* from_the_mesh : {"gravity_shaft", "shaft_inertia"}) {
-    if (!contains(rules.known, from_the_mesh)) rules.known.push_back(from_the_mesh);
-    if (!has_shaft)
-      rules.refused.push_back(
-          {from_the_mesh, "needs a [shaft], whose mesh gives its mass; add the table or remove the effect"});
-  }
+  add_own_effects(rules, BodyRole::vibratory_shaft, has_shaft, "[shaft]");
   const Convention other = is_published ? Convention::consistent : Convention::published;
   for (const auto& name : names_of(kinetics::vibratory_mill_effects(other)))
     if (!contains(rules.known, name))
@@ -65,6 +60,16 @@ EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention) {
                        "transport inertia of the centroid; write that"
                      : "is called \"charge_relative\" under the paper's conventions; write that"});
   return rules;
+}
+
+void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std::string& table) {
+  for (const auto& effect : own_effects(role)) {
+    if (!contains(rules.known, effect)) rules.known.push_back(effect);
+    if (!has_body)
+      rules.refused.push_back(
+          {effect, "needs " + std::string(table == "[axle]" ? "an " : "a ") + table +
+                       ", whose mesh gives its mass; add the table or remove the effect"});
+  }
 }
 
 EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects) {

@@ -33,6 +33,9 @@ EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft
 /// The one effect that has two names under the planetary mill's conventions is refused under the wrong one.
 EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention);
 
+/// Adds the effects that a body of that role brings; without the body they are refused, naming its table.
+void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std::string& table);
+
 /// Any of the names, each by itself.
 EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects);
 

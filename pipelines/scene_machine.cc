@@ -244,7 +244,8 @@ std::optional<kinetics::RunUp> read_run_up(SceneTable& machine) {
 
 kinetics::VibratoryMill read_vibratory_mill(SceneTable& machine, kinetics::Convention convention,
                                             const std::vector<std::string>& effects,
-                                            std::optional<MillingSpace>& milling_space) {
+                                            std::optional<MillingSpace>& milling_space,
+                                            std::vector<std::string>* masses_from_mesh) {
   kinetics::VibratoryMill mill;
   mill.convention = convention;
   mill.gravity_m_s2 =
@@ -252,12 +253,25 @@ kinetics::VibratoryMill read_vibratory_mill(SceneTable& machine, kinetics::Conve
   read_drive(machine.table("drive"), mill);
   const SceneTable charge = machine.table("charge");
   read_charge(charge, effects, mill);
-  read_structure(machine.table("structure"), effects, mill);
+  // With [chamber] its mesh can tell what is not given here.
+  if (machine.has("structure") || masses_from_mesh == nullptr) {
+    read_structure(machine.table("structure"), effects, mill);
+  } else {
+    machine.know("structure");
+    machine.record_default("structure", "from the mesh", "[chamber] and what is added to it");
+    masses_from_mesh->push_back("structure");
+  }
   milling_space = read_chamber(machine.table("chamber"), charge, mill);
 
-  SceneTable exciter = machine.table("exciter");
-  mill.exciter_mass_kg = read_mass(exciter, {"gravity_exciter", "exciter_inertia"}, effects);
-  exciter.finish();
+  if (machine.has("exciter") || masses_from_mesh == nullptr) {
+    SceneTable exciter = machine.table("exciter");
+    mill.exciter_mass_kg = read_mass(exciter, {"gravity_exciter", "exciter_inertia"}, effects);
+    exciter.finish();
+  } else {
+    machine.know("exciter");
+    machine.record_default("exciter", "from the mesh", "the housing of [chamber] and what is added to it");
+    masses_from_mesh->push_back("exciter");
+  }
   SceneTable debalance = machine.table("debalance");
   mill.debalance_mass_kg = read_mass(debalance, {"gravity_debalance", "debalance_inertia"}, effects);
   mill.debalance_offset_m = debalance.quantity("offset", "m", between(-10, 10));

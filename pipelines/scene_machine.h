@@ -14,10 +14,13 @@ kinetics::Convention read_convention(SceneTable& machine);
 
 /// Reads the rest of the table and closes it.
 /// @param effects  those that are on; they decide what is needed
+/// @param masses_from_mesh  takes "structure" and "exciter" where the scene leaves them to the chamber's
+/// mesh; null: there is none, and they are required
 /// @return values in SI; NaN where one could not be read, with an error in the findings
 kinetics::VibratoryMill read_vibratory_mill(SceneTable& machine, kinetics::Convention convention,
                                             const std::vector<std::string>& effects,
-                                            std::optional<MillingSpace>& milling_space);
+                                            std::optional<MillingSpace>& milling_space,
+                                            std::vector<std::string>* masses_from_mesh);
 
 /// Reads [machine.run_up] if it is there: from, to, duration and hold, or times and speeds.
 std::optional<kinetics::RunUp> read_run_up(SceneTable& machine);

@@ -104,7 +104,8 @@ PlanetaryConvention read_planetary_convention(SceneTable& machine) {
 }
 
 PlanetaryMill read_planetary_mill(SceneTable& machine, PlanetaryConvention convention,
-                                  const std::vector<std::string>& effects, bool& drum_axes) {
+                                  const std::vector<std::string>& effects, bool& drum_axes,
+                                  bool has_drum_body, bool& mass_from_mesh) {
   PlanetaryMill mill;
   mill.convention = convention;
   mill.gravity_m_s2 =
@@ -116,7 +117,13 @@ PlanetaryMill read_planetary_mill(SceneTable& machine, PlanetaryConvention conve
   SceneTable drum = machine.table("drum");
   mill.drum_radius_m = drum.quantity("inner_radius", "m", positive(most_length_m));
   mill.drum_length_m = drum.quantity("length", "m", positive(most_length_m));
-  mill.drum_mass_kg = drum.quantity("mass", "kg", not_negative(1e6));
+  if (drum.has("mass") || !has_drum_body) {
+    mill.drum_mass_kg = drum.quantity("mass", "kg", not_negative(1e6));
+  } else {
+    drum.know("mass");
+    drum.record_default("mass", "from the mesh", "[drum] and what is added to it");
+    mass_from_mesh = true;
+  }
   mill.initial_drum_angle_rad =
       drum.quantity_or("initial_angle", "rad", {}, 0, "the drum's axes are the carrier's at first");
   drum_axes = drum.flag_or("turning_axes", false, "loads in the carrier's frame only");

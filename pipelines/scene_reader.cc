@@ -9,11 +9,11 @@
 #include "meshes/shaft_checks.h"
 #include "pipelines/nearest.h"
 #include "pipelines/scene.h"
+#include "pipelines/scene_body.h"
 #include "pipelines/scene_effects.h"
 #include "pipelines/scene_load_table.h"
 #include "pipelines/scene_machine.h"
 #include "pipelines/scene_planetary.h"
-#include "pipelines/scene_shaft.h"
 #include "pipelines/scene_table.h"
 #include "pipelines/scene_train.h"
 #include "pipelines/toml_tree.h"
@@ -57,6 +57,10 @@ TomlNode parse(const std::filesystem::path& file) {
 }
 
 const std::string machine_types = "\"vibratory_mill\", \"planetary_mill\", \"drive_train\", \"load_table\"";
+
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
 
 constexpr int most_turns = 1000;
 
@@ -168,8 +172,8 @@ void refuse_open_balance(SceneTable& machine, const kinetics::VibratoryMill& mil
                      kN(mill.charge_mass_kg * mill.charge_offset_m * omega2) +
                      " of the charge and (m1 + m2) ecc omega^2 = " +
                      kN((mill.structure_mass_kg + mill.exciter_mass_kg) * mill.eccentricity_m * omega2) +
-                     " of the moving structure, which a shaft in equilibrium needs; write \"consistent\", or "
-                     "remove [shaft] for "
+                     " of the moving structure, which a body in equilibrium needs; write \"consistent\", or "
+                     "remove the bodies for "
                      "the load stage alone");
 }
 
@@ -178,62 +182,123 @@ int rehearsal_turns(const Scene& scene) {
   return std::holds_alternative<kinetics::LoadTable>(scene.machine) ? scene.sampling.turns : 1;
 }
 
-/// A bearing's load must be one that the load stage gives, or that the shaft adds.
+/// A bearing's load must be one that the load stage gives, or that a body adds.
 void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, SceneTable& root) {
-  for (const auto& bearing : scene.bearings) {
-    bool known = force_of(bearing.load, loads, nullptr).has_value() ||
-                 (scene.drum_axes && bearing.load == "trunnions_turning");
-    for (const char* of_the_shaft : {"R_E_shaft", "main_bearing_1", "main_bearing_2", "eccentric_seat"})
-      known = known || (scene.shaft && bearing.load == of_the_shaft);
-    if (!known)
-      root.refuse("bearings",
-                  "the load \"" + bearing.load + "\" of \"" + bearing.name +
-                      "\" is no force here; known are: " + listed(known_forces(loads)) +
-                      (scene.shaft ? ", R_E_shaft, main_bearing_1, main_bearing_2, eccentric_seat" : ""));
+  std::vector<std::string> of_bodies;
+  for (const auto& body : scene.bodies) {
+    const auto ports = force_ports(body);
+    of_bodies.insert(of_bodies.end(), ports.begin(), ports.end());
+    if (body.role == BodyRole::vibratory_shaft) of_bodies.push_back("R_E_shaft");
   }
+  if (scene.drum_axes) of_bodies.push_back("trunnions_turning");
+  for (const auto& bearing : scene.bearings)
+    if (!force_of(bearing.load, loads, {}) && !contains(of_bodies, bearing.load))
+      root.refuse("bearings", "the load \"" + bearing.load + "\" of \"" + bearing.name +
+                                  "\" is no force here; known are: " + listed(known_forces(loads)) +
+                                  (of_bodies.empty() ? "" : ", " + listed(of_bodies)));
 }
 
 /// What the stages themselves refuse (resonances, springs that cannot carry the weights, shafts that cannot
 /// be meshed) is better said now, with a line, than after the first stage: a few instants cost next to
-/// nothing.
-void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, SceneTable* shaft) {
+/// nothing. Masses that only the mesh knows put that off.
+void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::vector<SceneTable>& bodies) {
   try {
     if (scene.run_up)
       kinetics::check_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
-    else
+    else if (scene.masses_from_mesh.empty())
       check_bearings(
           scene, compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8}), root);
   } catch (const std::invalid_argument& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
-  try {
-    if (shaft != nullptr) meshes::check_shaft(scene.shaft->geometry);
-  } catch (const std::invalid_argument& error) {
-    shaft->refuse("contour", "the mesher refuses it: " + std::string(error.what()));
+  for (std::size_t i = 0; i < bodies.size(); ++i) try {
+      if (const auto* shaft = scene.bodies[i].shaft()) meshes::check_shaft(shaft->geometry);
+    } catch (const std::invalid_argument& error) {
+      bodies[i].refuse("contour", "the mesher refuses it: " + std::string(error.what()));
+    }
+}
+
+/// Tables of bodies that a machine has, and what they are there.
+using BodyTables = std::vector<std::pair<std::string, BodyRole>>;
+
+const BodyTables all_bodies{{"shaft", BodyRole::vibratory_shaft},
+                            {"chamber", BodyRole::chamber},
+                            {"drum", BodyRole::drum},
+                            {"axle", BodyRole::stub_axle},
+                            {"part", BodyRole::table_body}};
+
+BodyTables bodies_of(const std::string& machine_type) {
+  if (machine_type == "vibratory_mill")
+    return {{"shaft", BodyRole::vibratory_shaft}, {"chamber", BodyRole::chamber}};
+  if (machine_type == "planetary_mill") return {{"drum", BodyRole::drum}, {"axle", BodyRole::stub_axle}};
+  if (machine_type == "drive_train") return {{"shaft", BodyRole::train_shaft}};
+  return {{"shaft", BodyRole::table_body}, {"part", BodyRole::table_body}};
+}
+
+/// Tables of the scene's bodies, in the order of bodies_of; those of other machines are refused.
+std::vector<SceneTable> read_bodies(SceneTable& root, const std::string& machine_type, Scene& scene,
+                                    SceneFindings& findings) {
+  std::vector<SceneTable> tables;
+  const BodyTables own = bodies_of(machine_type);
+  for (const auto& [name, role] : own) {
+    root.know(name);
+    if (!root.has(name)) continue;
+    tables.push_back(root.table(name));
+    scene.bodies.push_back(read_body(tables.back(), role, scene, findings));
   }
+  for (const auto& [name, role] : all_bodies) {
+    if (std::any_of(own.begin(), own.end(), [n = name](const auto& b) { return b.first == n; })) continue;
+    if (!root.has(name)) continue;
+    std::vector<std::string> names;
+    for (const auto& body : own) names.push_back(body.first);
+    root.know(name);
+    root.refuse(name, "this machine has no " + name + " to be analysed; it has " + listed(names));
+  }
+  if (scene.body("drum") && scene.body("axle"))
+    tables.back().refuse_missing("", "a drum with trunnions needs no stub axle: analyse one of the two");
+  return tables;
 }
 
 void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   const auto convention = read_convention(machine);
   scene.effects = read_effects(root, vibratory_mill_rules(convention, root.has("shaft")), findings);
   scene.run_up = read_run_up(machine);
-  scene.machine = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space);
-  if (scene.run_up && root.has("shaft"))
-    machine.refuse("run_up", "a run-up belongs to the load stage; remove it, or the [shaft], so far");
+  auto mill = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space,
+                                  root.has("chamber") ? &scene.masses_from_mesh : nullptr);
+  if (scene.run_up && (root.has("shaft") || root.has("chamber")))
+    machine.refuse("run_up", "a run-up belongs to the load stage; remove it, or the bodies, so far");
+  if (convention == kinetics::Convention::published && (root.has("shaft") || root.has("chamber")))
+    refuse_open_balance(machine, mill);
+  scene.machine = std::move(mill);
 }
 
 void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   const auto convention = read_planetary_convention(machine);
-  scene.effects = read_effects(root, planetary_mill_rules(convention), findings);
-  scene.machine = read_planetary_mill(machine, convention, scene.effects, scene.drum_axes);
+  EffectRules rules = planetary_mill_rules(convention);
+  add_own_effects(rules, BodyRole::drum, root.has("drum"), "[drum]");
+  add_own_effects(rules, BodyRole::stub_axle, root.has("axle"), "[axle]");
+  scene.effects = read_effects(root, rules, findings);
+  bool from_mesh = false;
+  scene.machine =
+      read_planetary_mill(machine, convention, scene.effects, scene.drum_axes, root.has("drum"), from_mesh);
+  if (from_mesh) scene.masses_from_mesh.push_back("drum");
 }
 
 void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
-  auto train = read_drive_train(machine, scene.torsion);
+  auto train = read_drive_train(machine, scene.torsion, scene.masses_from_mesh);
+  if (!root.has("shaft") && !scene.masses_from_mesh.empty())
+    machine.refuse("inertias",
+                   "from_mesh needs a [shaft] whose mesh gives the inertia; add it, or the inertia");
   root.know("effects");
-  if (findings.errors.empty())
-    scene.effects = read_effects(root, plain_rules(kinetics::drive_train_effects(train)), findings);
-  scene.machine = std::move(train);
+  scene.machine = train;
+  std::vector<SceneTable> tables = read_bodies(root, "drive_train", scene, findings);
+  if (findings.errors.empty()) {
+    EffectRules rules = plain_rules(kinetics::drive_train_effects(train));
+    add_own_effects(rules, BodyRole::train_shaft, root.has("shaft"), "[shaft]");
+    for (const auto& body : scene.bodies)
+      for (const auto& force : body.train.forces) rules.known.push_back(force.effect);
+    scene.effects = read_effects(root, rules, findings);
+  }
 }
 
 void read_load_table_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
@@ -277,33 +342,27 @@ Scene read_scene(const std::filesystem::path& file) {
       machine.refuse_missing("type", "is missing; add it: one of " + machine_types);
     else if (!type.empty())
       machine.refuse("type", "unknown machine; write one of " + machine_types);
-    for (const char* key : {"effects", "sampling", "shaft", "bearings", "zones", "results"}) root.know(key);
+    for (const char* key : {"effects", "sampling", "bearings", "zones", "results"}) root.know(key);
+    for (const auto& body : all_bodies) root.know(body.first);
     root.finish();  // there may be no [machine] at all
     throw_sorted(findings.errors);
   }
   scene.sampling = read_sampling(root.table_or_empty("sampling"), scene, findings);
 
-  std::optional<SceneTable> shaft;
-  if (root.has("shaft") && type == "vibratory_mill") {
-    shaft = root.table("shaft");
-    if (scene.vibratory_mill().convention == kinetics::Convention::published)
-      refuse_open_balance(machine, scene.vibratory_mill());
-    scene.shaft = read_shaft(*shaft, scene.vibratory_mill(), findings);
-  } else if (root.has("shaft")) {
-    root.know("shaft");
-    root.refuse("shaft",
-                "this machine has no shaft to be analysed so far; remove the table for the load stage alone");
+  std::vector<SceneTable> bodies;
+  if (type == "drive_train") {
+    if (!scene.bodies.empty()) bodies.push_back(root.table("shaft"));
   } else {
-    root.know("shaft");
-    if (root.has("zones") || root.has("results"))
-      findings.warnings.push_back("without [shaft] there is no body: [zones] and [results] have no use");
+    bodies = read_bodies(root, type, scene, findings);
   }
+  if (bodies.empty() && (root.has("zones") || root.has("results")))
+    findings.warnings.push_back("without a body ([shaft], [chamber] ...) [zones] and [results] have no use");
   scene.bearings = read_bearings(root);
   scene.zones = read_zones(root.table_or_empty("zones"));
   read_results(root.table_or_empty("results"), scene);
   root.finish();
 
-  if (findings.errors.empty()) rehearse(scene, root, machine, shaft ? &*shaft : nullptr);
+  if (findings.errors.empty()) rehearse(scene, root, machine, bodies);
   if (!findings.errors.empty()) throw_sorted(std::move(findings.errors));
   scene.defaults = std::move(findings.defaults);
   scene.warnings = std::move(findings.warnings);

@@ -1,8 +1,9 @@
-#include "pipelines/scene_shaft.h"
+#include "pipelines/scene_body.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <optional>
 #include <set>
 #include <utility>
@@ -12,17 +13,14 @@
 namespace pipelines {
 namespace {
 
-const std::string eccentric_seat = "eccentric_seat";
-
-/// Where the loads of the vibratory mill enter its shaft.
-const std::vector<std::string>& needed_ports() {
-  static const std::vector<std::string> ports = {eccentric_seat, "main_bearing_1", "main_bearing_2",
-                                                 "debalance_1",  "debalance_2",    "coupling"};
-  return ports;
-}
-
 std::string mm(double length_m) {
   return shown(std::round(length_m * 1e9) / 1e6) + " mm";
+}
+
+/// "eccentric_seat" as one says it.
+std::string spoken(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 /// The contour as written: segments, and for each shoulder the entry of its fillet, if it has one.
@@ -33,7 +31,7 @@ struct Contour {
   std::vector<std::optional<SceneTable>> fillet_tables;
 };
 
-meshes::ShaftSegment read_segment(SceneTable& table, const kinetics::VibratoryMill& mill) {
+meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) {
   meshes::ShaftSegment segment;
   segment.is_port = table.has("port");
   if (segment.is_port && table.has("name"))
@@ -42,8 +40,8 @@ meshes::ShaftSegment read_segment(SceneTable& table, const kinetics::VibratoryMi
   segment.name = table.text(segment.is_port ? "port" : "name",
                             "is missing; give the segment a name, or a port where load enters it");
   table.know("name");
-  if (segment.is_port && !segment.name.empty()) {
-    const auto& known = needed_ports();
+  if (segment.is_port && !segment.name.empty() && !rules.any_port) {
+    const auto& known = rules.ports;
     if (std::find(known.begin(), known.end(), segment.name) == known.end()) {
       const std::string nearest = nearest_name(segment.name, known);
       table.refuse("port", nearest.empty()
@@ -55,20 +53,32 @@ meshes::ShaftSegment read_segment(SceneTable& table, const kinetics::VibratoryMi
   }
   segment.diameter_m = table.quantity("diameter", "m", positive(10));
   segment.end_m = table.quantity("length", "m", positive(100));
-  const bool is_seat = segment.name == eccentric_seat;
+  const bool is_seat = segment.is_port && segment.name == rules.eccentric_seat;
+  const double drive_m = rules.eccentricity_m;
   if (is_seat || table.has("eccentricity"))
     segment.eccentricity_m =
-        table.quantity_or("eccentricity", "m", not_negative(0.1), mill.eccentricity_m, "that of the drive");
+        table.quantity_or("eccentricity", "m", not_negative(0.1), drive_m, "that of the drive");
   else
     table.know("eccentricity");
-  if (is_seat && std::abs(segment.eccentricity_m - mill.eccentricity_m) > 1e-9 * mill.eccentricity_m)
-    table.refuse("eccentricity", "differs from machine.drive.eccentricity, " + mm(mill.eccentricity_m) +
+  if (is_seat && std::abs(segment.eccentricity_m - drive_m) > 1e-9 * drive_m)
+    table.refuse("eccentricity", "differs from machine.drive.eccentricity, " + mm(drive_m) +
                                      ": forces and moments on the shaft would not close; remove it here");
+  table.know("eccentricity_angle");
+  if (table.has("eccentricity_angle")) {
+    segment.eccentricity_angle_rad =
+        table.quantity("eccentricity_angle", "rad", between(-2 * M_PI, 2 * M_PI));
+    if (is_seat && segment.eccentricity_angle_rad != 0)
+      table.refuse("eccentricity_angle", "the drive's eccentric lies along +x of the shaft; remove it here");
+  }
+  table.know("bore");
+  if (table.has("bore")) segment.bore_m = table.quantity("bore", "m", positive(10));
+  table.know("bore_port");
+  if (table.has("bore_port")) segment.bore_port = table.text("bore_port");
   table.finish();
   return segment;
 }
 
-Contour read_contour(std::vector<SceneTable> entries, const kinetics::VibratoryMill& mill) {
+Contour read_contour(std::vector<SceneTable> entries, const ContourRules& rules) {
   Contour contour;
   std::optional<SceneTable> fillet_table;
   double fillet_m = 0;
@@ -78,7 +88,7 @@ Contour read_contour(std::vector<SceneTable> entries, const kinetics::VibratoryM
         contour.fillets_m.push_back(fillet_m);
         contour.fillet_tables.push_back(fillet_table);
       }
-      contour.segments.push_back(read_segment(entry, mill));
+      contour.segments.push_back(read_segment(entry, rules));
       contour.segment_tables.push_back(entry);
       fillet_table.reset();
       fillet_m = 0;
@@ -96,7 +106,7 @@ Contour read_contour(std::vector<SceneTable> entries, const kinetics::VibratoryM
   return contour;
 }
 
-void check_names(Contour& contour, SceneTable& shaft) {
+void check_names(Contour& contour, SceneTable& body, const ContourRules& rules) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < contour.segments.size(); ++i) {
     const auto& segment = contour.segments[i];
@@ -105,15 +115,16 @@ void check_names(Contour& contour, SceneTable& shaft) {
                                        "is the name of two segments; give each its own");
   }
   std::vector<std::string> missing;
-  for (const std::string& port : needed_ports()) {
+  for (const std::string& port : rules.ports) {
     const auto is_meant = [&](const auto& segment) {  // a misspelt port is reported already
-      return segment.is_port && (segment.name == port || nearest_name(segment.name, needed_ports()) == port);
+      return segment.bore_port == port ||
+             (segment.is_port && (segment.name == port || nearest_name(segment.name, rules.ports) == port));
     };
     if (std::none_of(contour.segments.begin(), contour.segments.end(), is_meant)) missing.push_back(port);
   }
-  if (!missing.empty() && shaft.has("contour"))
-    shaft.refuse("contour", "loads have no place to enter: no segment has the port " + listed(missing) +
-                                "; write port = \"" + missing.front() + "\" in place of that segment's name");
+  if (!missing.empty() && body.has("contour"))
+    body.refuse("contour", "loads have no place to enter: no segment has the port " + listed(missing) +
+                               "; write port = \"" + missing.front() + "\" in place of that segment's name");
 }
 
 /// A step needs r < (D - d) / 2 - offset of the axes; coupling specification 7.1.
@@ -121,7 +132,8 @@ void check_shoulder(Contour& contour, std::size_t i, SceneFindings& findings) {
   const auto& left = contour.segments[i];
   const auto& right = contour.segments[i + 1];
   const double height_m = std::abs(left.diameter_m - right.diameter_m) / 2;
-  const double offset_m = std::abs(left.eccentricity_m - right.eccentricity_m);
+  const double offset_m = std::abs(std::polar(left.eccentricity_m, left.eccentricity_angle_rad) -
+                                   std::polar(right.eccentricity_m, right.eccentricity_angle_rad));
   const double room_m = height_m - offset_m;
   const double rounding_m = 1e-9 * (left.diameter_m + right.diameter_m);
   const std::string step = "the step from " + mm(left.diameter_m) + " to " + mm(right.diameter_m) + " is " +
@@ -164,15 +176,17 @@ void check_length(Contour& contour, std::size_t i) {
                                mm(taken_m) + "; make it smaller or the segment longer");
 }
 
-/// Lengths to places: the given begin, or the one that puts z = 0 in the middle of the eccentric seat.
-meshes::Shaft placed(const Contour& contour, SceneTable& shaft) {
+/// Lengths to places: the given begin, or the one that the body's role asks for.
+meshes::Shaft placed(const Contour& contour, SceneTable& body, const ContourRules& rules) {
   double z_m = 0, middle_m = 0;
   for (const auto& segment : contour.segments) {
-    if (segment.name == eccentric_seat) middle_m = z_m + segment.end_m / 2;
+    if (!rules.middle.empty() && (segment.name == rules.middle || segment.bore_port == rules.middle))
+      middle_m = z_m + segment.end_m / 2;
     z_m += segment.end_m;
   }
-  z_m = shaft.quantity_or("begin", "m", between(-100, 100), -middle_m,
-                          "left end; z = 0 in the middle of the eccentric seat");
+  z_m = body.quantity_or(
+      "begin", "m", between(-100, 100), -middle_m,
+      rules.middle.empty() ? "the left end" : "left end; z = 0 in the middle of the " + spoken(rules.middle));
   meshes::Shaft result{contour.segments, contour.fillets_m};
   for (auto& segment : result.segments) {
     segment.begin_m = z_m;
@@ -204,43 +218,17 @@ meshes::ShaftMeshControl read_mesh(SceneTable mesh) {
   return control;
 }
 
-void read_material(SceneTable material, ShaftScene& scene) {
-  scene.material_name = material.text("name");
-  scene.material.youngs_modulus_Pa = material.quantity("youngs_modulus", "Pa", between(1e8, 2e12));
-  scene.material.poisson_ratio = material.quantity("poisson_ratio", "1", between(0, 0.49));
-  scene.material.density_kg_m3 = material.quantity("density", "kg/m3", between(100, 30000));
-  scene.yield_strength_Pa = material.quantity("yield_strength", "Pa", between(1e6, 1e10));
-  material.finish();
-}
-
 }  // namespace
 
-ShaftScene read_shaft(SceneTable& shaft, const kinetics::VibratoryMill& mill, SceneFindings& findings) {
-  ShaftScene scene;
-  Contour contour = read_contour(shaft.tables("contour"), mill);
-  if (shaft.is_present()) check_names(contour, shaft);
+ShaftShape read_shaft_shape(SceneTable& body, const ContourRules& rules, SceneFindings& findings) {
+  ShaftShape shape;
+  Contour contour = read_contour(body.tables("contour"), rules);
+  if (body.is_present()) check_names(contour, body, rules);
   for (std::size_t i = 0; i + 1 < contour.segments.size(); ++i) check_shoulder(contour, i, findings);
   for (std::size_t i = 0; i < contour.segments.size(); ++i) check_length(contour, i);
-  scene.geometry = placed(contour, shaft);
-
-  scene.pressure_harmonics =
-      shaft.count_or("pressure_harmonics", 0, 16, scene.pressure_harmonics, "of the seat pressure");
-  if (scene.pressure_harmonics % 2 != 0)
-    shaft.refuse("pressure_harmonics",
-                 "must be even: a half-cosine has no odd harmonic above the first; write " +
-                     std::to_string(scene.pressure_harmonics + 1));
-  shaft.know("debalance_shares");
-  if (shaft.has("debalance_shares")) {
-    scene.debalance_shares = shaft.quantities("debalance_shares", "1", between(0, 1), 2);
-    if (std::abs(scene.debalance_shares[0] + scene.debalance_shares[1] - 1) > 1e-9)
-      shaft.refuse("debalance_shares", "must add up to 1: they are the shares of one mass");
-  } else {
-    shaft.record_default("debalance_shares", "[0.5, 0.5]", "both debalances alike");
-  }
-  read_material(shaft.table("material"), scene);
-  scene.mesh = read_mesh(shaft.table_or_empty("mesh"));
-  shaft.finish();
-  return scene;
+  shape.geometry = placed(contour, body, rules);
+  shape.mesh = read_mesh(body.table_or_empty("mesh"));
+  return shape;
 }
 
 }  // namespace pipelines

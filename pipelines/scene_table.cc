@@ -34,6 +34,17 @@ bool SceneTable::has(const std::string& name) const {
   return node_->find(name) != nullptr;
 }
 
+bool SceneTable::has_list(const std::string& name) const {
+  const TomlEntry* const entry = node_->find(name);
+  return entry != nullptr && entry->value.kind == TomlNode::Kind::array;
+}
+
+std::vector<std::string> SceneTable::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : node_->entries) names.push_back(entry.key);
+  return names;
+}
+
 const TomlEntry* SceneTable::find(const std::string& name) {
   know(name);
   return node_->find(name);

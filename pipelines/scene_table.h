@@ -31,6 +31,8 @@ public:
   /// silently.
   bool is_present() const noexcept { return is_present_; }
   bool has(const std::string& name) const;
+  bool has_list(const std::string& name) const;  ///< an array stands there
+  std::vector<std::string> names() const;        ///< of all keys, as written
   const std::string& key() const noexcept { return key_; }
 
   // Required values: an error if they are missing.

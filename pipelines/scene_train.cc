@@ -36,11 +36,19 @@ bool flag_if_given(SceneTable& table, const std::string& name) {
   return table.has(name) && table.flag_or(name, false, "");
 }
 
-kinetics::TrainInertia read_inertia(SceneTable& table) {
+kinetics::TrainInertia read_inertia(SceneTable& table, std::vector<std::string>& masses_from_mesh) {
   kinetics::TrainInertia inertia;
   inertia.name = table.text("name");
   inertia.shaft = table.text("shaft");
-  inertia.inertia_kg_m2 = table.quantity("inertia", "kg m2", positive(1e12));
+  if (flag_if_given(table, "from_mesh")) {
+    masses_from_mesh.push_back(inertia.name);
+    table.know("inertia");
+    if (table.has("inertia"))
+      table.refuse("inertia", "is given, and left to the mesh by from_mesh; keep one");
+    inertia.inertia_kg_m2 = 1;  // until the mesh is there
+  } else {
+    inertia.inertia_kg_m2 = table.quantity("inertia", "kg m2", positive(1e12));
+  }
   inertia.damping_N_m_s = quantity_if_given(table, "damping", "N m s/rad", not_negative(1e12));
   inertia.held = flag_if_given(table, "held");
   table.finish();
@@ -171,7 +179,8 @@ void read_transient(SceneTable& machine, TorsionScene& torsion) {
 
 }  // namespace
 
-kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion) {
+kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion,
+                                      std::vector<std::string>& masses_from_mesh) {
   DriveTrain train;
   const std::string convention = machine.text_or(
       "convention", "consistent", "mechanics that closes; \"published\" adds the paper's own tables");
@@ -186,7 +195,8 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
   train.reference_speed_rad_s = reference.quantity("speed", "rad/s", positive(1e6));
   reference.finish();
   train.modal_damping_ratio = quantity_if_given(machine, "modal_damping", "1", between(0, 0.999));
-  for (SceneTable& table : machine.tables("inertias")) train.inertias.push_back(read_inertia(table));
+  for (SceneTable& table : machine.tables("inertias"))
+    train.inertias.push_back(read_inertia(table, masses_from_mesh));
   for (SceneTable& table : machine.tables("elements")) train.elements.push_back(read_element(table));
   for (SceneTable& table : machine.tables("excitations")) train.excitations.push_back(read_excitation(table));
   read_campbell(machine.table_or_empty("campbell"), train.reference_speed_rad_s, torsion);

@@ -10,7 +10,8 @@ namespace {
 using Resultant6 = std::array<double, 6>;
 
 /// Adds a force acting at height z_force and through (x, y) to a resultant about (0, 0, z).
-void add_force(Resultant6& sum, const std::array<double, 3>& f, double x, double y, double z_force, double z) {
+void add_force(Resultant6& sum, const std::array<double, 3>& f, double x, double y, double z_force,
+               double z) {
   const double arm = z_force - z;
   for (std::size_t c = 0; c < 3; ++c) sum[c] += f[c];
   sum[3] += y * f[2] - arm * f[1];
@@ -18,8 +19,8 @@ void add_force(Resultant6& sum, const std::array<double, 3>& f, double x, double
   sum[5] += x * f[1] - y * f[0];
 }
 
-/// Share of a seat's axial profile that lies below zeta in [-1, 1] of its half length, and the first moment of
-/// that share in half lengths. Straight lines: each piece by Simpson's rule, which is exact.
+/// Share of a seat's axial profile that lies below zeta in [-1, 1] of its half length, and the first moment
+/// of that share in half lengths. Straight lines: each piece by Simpson's rule, which is exact.
 std::pair<double, double> profile_below(const std::vector<double>& profile, double zeta) {
   const auto values = profile.size() > 1 ? profile : std::vector<double>{1, 1};
   const double step = 2.0 / double(values.size() - 1);
@@ -69,7 +70,8 @@ struct LoadBelow {
     switch (load.component) {
       case Component::fx:
       case Component::fy: {
-        // A lopsided profile has a couple of its own; the unit resultant takes it out by pressure linear in z.
+        // A lopsided profile has a couple of its own; the unit resultant takes it out by pressure linear in
+        // z.
         const auto [share, moment] = profile_below(surface.axial_profile, zeta);
         const double couple = profile_below(surface.axial_profile, 1).second;
         const double linear_share = -1.5 * couple * (zeta * zeta - 1) / 2;
@@ -90,8 +92,8 @@ struct LoadBelow {
         const double force = 0.75 * (zeta * zeta - 1) / half;
         const double moment = 0.5 * (zeta * zeta * zeta + 1);
         const bool about_y = load.component == Component::my;
-        add_force(sum, {about_y ? force : 0, about_y ? 0 : -force, 0}, surface.centre_m[0], surface.centre_m[1],
-                  surface.centre_m[2], z_m);
+        add_force(sum, {about_y ? force : 0, about_y ? 0 : -force, 0}, surface.centre_m[0],
+                  surface.centre_m[1], surface.centre_m[2], z_m);
         sum[about_y ? 4 : 3] += moment;
         return sum;
       }

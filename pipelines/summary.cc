@@ -33,7 +33,7 @@ Json place_and_moment(const RunReport& report, const std::array<double, 3>& posi
           {"drive_angle_rad", moment.angle_rad}};
 }
 
-Json peak_json(const RunReport& report, const ShaftAnalysis& analysis) {
+Json peak_json(const RunReport& report, const BodyAnalysis& analysis) {
   const Peak& peak = analysis.peak;
   Json json = figure(peak.value_Pa, "Pa");
   const auto& e = peak.errors;
@@ -52,7 +52,7 @@ Json peak_json(const RunReport& report, const ShaftAnalysis& analysis) {
   return json;
 }
 
-Json principal_json(const RunReport& report, const ShaftAnalysis& analysis) {
+Json principal_json(const RunReport& report, const BodyAnalysis& analysis) {
   const std::size_t node = analysis.principal_node;
   const auto& maximum = analysis.envelope.principal;
   std::array<double, 3> position;
@@ -66,7 +66,7 @@ Json principal_json(const RunReport& report, const ShaftAnalysis& analysis) {
   return json;
 }
 
-Json zones_json(const RunReport& report, const ShaftAnalysis& analysis) {
+Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
   Json json = Json::array();
   for (const Zone& zone : analysis.zones.zones) {
     Json entry{{"peak_von_mises_Pa", number(zone.peak_Pa)},
@@ -79,8 +79,8 @@ Json zones_json(const RunReport& report, const ShaftAnalysis& analysis) {
   return json;
 }
 
-Json torsion_json(const ShaftAnalysis& analysis) {
-  const auto& diagrams = analysis.diagrams;
+Json torsion_json(const BodyAnalysis& analysis) {
+  const auto& diagrams = *analysis.diagrams;
   const auto largest_in_section =
       std::max_element(diagrams.sections.begin(), diagrams.sections.end(), [](const auto& a, const auto& b) {
         return a.torsion_Pa.abs().maxCoeff() < b.torsion_Pa.abs().maxCoeff();
@@ -100,34 +100,60 @@ Json torsion_json(const ShaftAnalysis& analysis) {
   return json;
 }
 
-Json shaft_json(const RunReport& report, const ShaftAnalysis& analysis) {
+/// The couple of a named guide: how large, and against what.
+Json carried_json(const BodyLoads& loads) {
+  if (loads.carried_moment_Nm.size() == 0) return 0.0;
+  const double most = loads.carried_moment_Nm.abs().maxCoeff();
+  return {{"effect", "pitch_guide"},
+          {"max_Nm", number(most)},
+          {"rms_Nm", number(std::sqrt(loads.carried_moment_Nm.square().mean()))},
+          {"share", number(most / loads.carried_moment_scale_Nm)}};
+}
+
+Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& quality = analysis.mesh.quality;
   Json json;
   json["dofs"] = analysis.responses.n_dofs;
   json["cells"] = quality.n_cells;
   json["min_scaled_jacobian"] = number(quality.min_scaled_jacobian);
   json["median_scaled_jacobian"] = number(quality.median_scaled_jacobian);
+  json["max_aspect"] = number(quality.max_aspect);
   json["mass"] = figure(analysis.masses.mass_kg, "kg");
   json["unbalance"] =
       figure(std::hypot(analysis.masses.first_moment_kg_m[0], analysis.masses.first_moment_kg_m[1]), "kg m");
   json["channels"] = analysis.responses.channels;
-  json["material"] = report.scene.shaft->material_name;
-  json["yield_strength"] = figure(report.scene.shaft->yield_strength_Pa, "Pa");
+  json["material"] = analysis.scene.material_name;
+  json["yield_strength"] = figure(analysis.scene.yield_strength_Pa, "Pa");
   json["peak_von_mises"] = peak_json(report, analysis);
   json["peak_principal"] = principal_json(report, analysis);
   json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
   json["zones"] = zones_json(report, analysis);
-  json["torsion"] = torsion_json(analysis);
-  for (const auto& seat : analysis.diagrams.seats)
-    json["seats"][seat.port] = {{"z_m", seat.z_m},
-                                {"max_deflection_m", seat.max_deflection_m},
-                                {"max_slope_rad", seat.max_slope_rad}};
-  json["stress_against_statics"] = {{"force", number(analysis.diagrams.force_mismatch)},
-                                    {"bending", number(analysis.diagrams.bending_mismatch)},
-                                    {"torque", number(analysis.diagrams.torque_mismatch)}};
-  for (const auto& corner : analysis.sharp_corners)
-    json["singular"].push_back(
-        {{"corner", corner.name}, {"z_m", corner.z_m}, {"excluded_within_m", corner.distance_m}});
+  if (analysis.diagrams) {
+    json["torsion"] = torsion_json(analysis);
+    for (const auto& seat : analysis.diagrams->seats)
+      json["seats"][seat.port] = {{"z_m", seat.z_m},
+                                  {"max_deflection_m", seat.max_deflection_m},
+                                  {"max_slope_rad", seat.max_slope_rad}};
+    json["stress_against_statics"] = {{"force", number(analysis.diagrams->force_mismatch)},
+                                      {"bending", number(analysis.diagrams->bending_mismatch)},
+                                      {"torque", number(analysis.diagrams->torque_mismatch)}};
+  }
+  for (const auto& spot : analysis.hot_spots)
+    json["hot_spots"].push_back({{"name", spot.name},
+                                 {"von_mises_Pa", number(spot.von_mises_Pa)},
+                                 {"normal_max_Pa", number(spot.max_normal_Pa)},
+                                 {"normal_min_Pa", number(spot.min_normal_Pa)},
+                                 {"position_m", spot.toe_m}});
+  for (const auto& edge : analysis.mesh.sharp_edges)
+    json["singular"].push_back({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}});
+  for (const auto& figure : report.masses)
+    if (figure.body == analysis.scene.name)
+      json["masses"].push_back({{"name", figure.name},
+                                {"unit", figure.unit},
+                                {"machine", figure.given},
+                                {"mesh", figure.mesh},
+                                {"from_mesh", figure.from_mesh},
+                                {"difference", figure.share()}});
   json["solver"] = {{"residual", number(analysis.responses.residual)},
                     {"support_reaction", number(analysis.responses.support_reaction)},
                     {"factor_gigabytes", number(analysis.responses.factor_gigabytes)}};
@@ -161,15 +187,15 @@ std::string summary_json(const RunReport& report) {
   if (const auto* train = std::get_if<kinetics::DriveTrain>(&report.scene.machine))
     for (const double w : kinetics::natural_modes(*train, kinetics::Shapes::none).frequency_rad_s)
       json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
-  if (report.analysis) {
-    json["bodies"]["shaft"] = shaft_json(report, *report.analysis);
-    const Closure& closure = report.analysis->closure;
-    json["closure"]["shaft"] = {{"force", number(closure.worst_force())},
-                                {"moment", number(closure.worst_moment())},
-                                {"carried_moment", 0.0},
-                                {"force_scale_N", closure.force_scale_N},
-                                {"moment_scale_Nm", closure.moment_scale_Nm},
-                                {"channel_resultant", number(closure.channel_resultant)}};
+  for (const auto& analysis : report.bodies) {
+    json["bodies"][analysis.scene.name] = body_json(report, analysis);
+    const Closure& closure = analysis.closure;
+    json["closure"][analysis.scene.name] = {{"force", number(closure.worst_force())},
+                                            {"moment", number(closure.worst_moment())},
+                                            {"carried_moment", carried_json(analysis.loads)},
+                                            {"force_scale_N", closure.force_scale_N},
+                                            {"moment_scale_Nm", closure.moment_scale_Nm},
+                                            {"channel_resultant", number(closure.channel_resultant)}};
   }
   for (const auto& e : resampling_errors(report.scene.machine, report.scene.sampling))
     json["resampling"][e.effect + "/" + e.port + "." + e.component] = {

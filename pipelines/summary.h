@@ -7,17 +7,18 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
+#include "pipelines/body_analysis.h"
 #include "pipelines/scene.h"
-#include "pipelines/shaft_analysis.h"
 #include "pipelines/stage_clock.h"
 
 namespace pipelines {
 
-/// What a run has come to; `analysis` is null for the load stage alone.
+/// What a run has come to; no bodies for the load stage alone.
 struct RunReport {
   const Scene& scene;
   const kinetics::LoadHistory& loads;
-  const ShaftAnalysis* analysis = nullptr;
+  const std::vector<BodyAnalysis>& bodies;
+  const std::vector<MassFigure>& masses;  ///< of the load stage beside those of the meshes
   const std::vector<StageCost>& costs;
   std::vector<BearingResult> bearings = {};
 };

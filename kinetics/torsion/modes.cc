@@ -1,4 +1,5 @@
 #include <cmath>
+#include <stdexcept>
 
 #include "kinetics/drive_train.h"
 #include "kinetics/torsion/reduced.h"
@@ -61,6 +62,14 @@ NaturalModes natural_modes(const DriveTrain& train, Shapes shapes) {
   }
   modes.shape = modes.reduced_shape.colwise() * reduced.ratio;
   return modes;
+}
+
+double mean_speed_rad_s(const DriveTrain& train, const std::string& inertia) {
+  const auto reduced = torsion::reduce(train);
+  for (std::size_t i = 0; i < train.inertias.size(); ++i)
+    if (train.inertias[i].name == inertia)
+      return train.reference_speed_rad_s * reduced.ratio[Eigen::Index(i)];
+  throw std::invalid_argument("the train has no inertia \"" + inertia + "\"");
 }
 
 }  // namespace kinetics
