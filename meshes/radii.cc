@@ -218,13 +218,11 @@ private:
 
     std::vector<Break> breaks = {{0, narrow.base_radius_m}};
     if (low > 0) breaks.push_back({low, junction.step_radius_m});
-    const double wide_line_m = layout_.line_at(index, junction.wide);
-    if (wide.has_line() && low + wide.n_inner_rows < top)
-      breaks.push_back({low + wide.n_inner_rows, wide_line_m});
-    const double narrow_line_m = layout_.line_at(index, junction.narrow);
-    if (low == 0 && narrow.has_line() && narrow.n_inner_rows < top)
-      breaks.push_back({narrow.n_inner_rows, narrow_line_m});
-    std::sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.row < b.row; });
+    const auto add_line = [&](int row, double line_m) {  // of another bore step
+      if (row < top && line_m < junction.small_radius_m * (1 - tiny)) insert(breaks, {row, line_m});
+    };
+    if (wide.has_line()) add_line(low + wide.n_inner_rows, layout_.line_at(index, junction.wide));
+    if (low == 0 && narrow.has_line()) add_line(narrow.n_inner_rows, layout_.line_at(index, junction.narrow));
     breaks.push_back({top, junction.small_radius_m});
     const Radii& narrow_guide = guide_of(junction.narrow);
     PlaneRadii& plane = plan_.planes[index];
