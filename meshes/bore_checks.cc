@@ -63,7 +63,7 @@ void check_wall(const std::string& where, double fillet_m, const ShaftSegment& s
            "; the wall must be at least half the fillet: make the fillet or the bore smaller");
 }
 
-void check_step(const Shaft& shaft, std::size_t left, const std::string& where) {
+void check_step(const Shaft& shaft, std::size_t left) {
   const ShaftSegment &a = shaft.segments[left], &b = shaft.segments[left + 1];
   const ShaftSegment& wide = a.bore_m > b.bore_m ? a : b;
   const std::string bores = bored(a) + " and " + bored(b);
@@ -82,14 +82,6 @@ void check_step(const Shaft& shaft, std::size_t left, const std::string& where) 
     refuse("bore step between " + bores + " in the plane of a shoulder with fillet " +
            mm(shaft.fillets_m[left]) +
            "; divide a segment so that the step lies beside the fillet, or make the shoulder sharp");
-  if (a.diameter_m == b.diameter_m) return;
-  const std::size_t big = a.diameter_m > b.diameter_m ? left : left + 1;
-  const std::size_t other = big == left ? left - 1 : left + 1;  // junction at its other end
-  if (other >= shaft.fillets_m.size()) return;
-  const ShaftSegment &thick = shaft.segments[big], &beyond = shaft.segments[other + (other > left)];
-  if (beyond.bore_m > thick.bore_m && beyond.bore_m != wide.bore_m)
-    refuse("bore step between " + bores + " in the plane of a shoulder " + where + ": segment " + thick.name +
-           " has another bore step at its other end, to " + bored(beyond) + "; divide it between the two");
 }
 
 /// Bore of the segment beyond, if it is wider than the segment's own; else the segment's own.
@@ -109,7 +101,7 @@ void check_bores(const Shaft& shaft) {
     const ShaftSegment &left = shaft.segments[i], &right = shaft.segments[i + 1];
     const std::string where = "between " + left.name + " and " + right.name;
     if (std::abs(left.bore_m - right.bore_m) > tiny * left.diameter_m) {
-      check_step(shaft, i, where);
+      check_step(shaft, i);
     } else if (left.bore_m != right.bore_m) {
       refuse("the bores of " + left.name + " and " + right.name + " differ by " +
              mm(std::abs(left.bore_m - right.bore_m)) + "; give both the same number");

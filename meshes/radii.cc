@@ -71,8 +71,10 @@ public:
     for (int i = 0; i < n; ++i)
       if (layout_.junctions[i].kind == Junction::Kind::sharp && !layout_.junctions[i].is_bore_step)
         plan_sharp(i);
-    for (int i = 0; i < n; ++i)
-      if (layout_.junctions[i].is_bore_step) plan_bore_step(i);
+    for (const bool beside_fan : {true, false})
+      for (int i = 0; i < n; ++i)
+        if (layout_.junctions[i].is_bore_step && (has_fan(i - 1) || has_fan(i + 1)) == beside_fan)
+          plan_bore_step(i);
     for (int i = 0; i < n; ++i)
       if (layout_.junctions[i].kind == Junction::Kind::flush && !layout_.junctions[i].is_bore_step)
         plan_flush(i);
@@ -88,6 +90,11 @@ private:
     static const Radii none;
     if (!layout_.segments[segment].is_short()) return none;
     return begin_[segment].empty() ? end_[segment] : begin_[segment];
+  }
+
+  bool has_fan(int junction) const {
+    return junction >= 0 && junction < static_cast<int>(layout_.junctions.size()) &&
+           layout_.junctions[junction].has_fan();
   }
 
   /// Keeps the segment's own face at a junction as a guide for its other one.
@@ -218,18 +225,19 @@ private:
 
     std::vector<Break> breaks = {{0, narrow.base_radius_m}};
     if (low > 0) breaks.push_back({low, junction.step_radius_m});
-    const double wide_line_m = layout_.line_at(index, junction.wide);
-    if (wide.has_line() && low + wide.n_inner_rows < top)
-      breaks.push_back({low + wide.n_inner_rows, wide_line_m});
-    const double narrow_line_m = layout_.line_at(index, junction.narrow);
-    if (low == 0 && narrow.has_line() && narrow.n_inner_rows < top)
-      breaks.push_back({narrow.n_inner_rows, narrow_line_m});
-    std::sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.row < b.row; });
+    const auto add_line = [&](int row, double line_m) {  // of another bore step
+      if (row < top && line_m < junction.small_radius_m * (1 - tiny)) insert(breaks, {row, line_m});
+    };
+    if (wide.has_line()) add_line(low + wide.n_inner_rows, layout_.line_at(index, junction.wide));
+    const Radii &narrow_guide = guide_of(junction.narrow), &wide_guide = guide_of(junction.wide);
+    const auto at_fan = [&](int segment) { return has_fan(segment == index ? index - 1 : index + 1); };
+    const bool by_wide =
+        !wide_guide.empty() && (narrow_guide.empty() || (at_fan(junction.wide) && !at_fan(junction.narrow)));
+    if (low == 0 && narrow.has_line() && !by_wide)
+      add_line(narrow.n_inner_rows, layout_.line_at(index, junction.narrow));
     breaks.push_back({top, junction.small_radius_m});
-    const Radii& narrow_guide = guide_of(junction.narrow);
     PlaneRadii& plane = plan_.planes[index];
-    plane.below =
-        narrow_guide.empty() ? stack(breaks, guide_of(junction.wide), -low) : stack(breaks, narrow_guide);
+    plane.below = by_wide ? stack(breaks, wide_guide, -low) : stack(breaks, narrow_guide);
     plane.above = {plane.below.back()};
     if (junction.kind != Junction::Kind::flush) plane.above = above(index, wide_is_small ? top : top - low);
 

@@ -107,7 +107,8 @@ bool fit_shoulder(ShaftLayout& layout, int index) {
 }
 
 /// Above the wide bore the rows of both run through; a sharp shoulder outside adds some to the bigger.
-bool fit_bore_step(ShaftLayout& layout, const Junction& junction) {
+bool fit_bore_step(ShaftLayout& layout, int index) {
+  const Junction& junction = layout.junctions[index];
   SegmentLayout& narrow = layout.segments[junction.narrow];
   SegmentLayout& wide = layout.segments[junction.wide];
   const bool has_face = narrow.base_radius_m < junction.step_radius_m * (1 - tiny);
@@ -116,14 +117,28 @@ bool fit_bore_step(ShaftLayout& layout, const Junction& junction) {
     const int n = std::max(n_through, wide.n_rows());
     return raise_rows(wide, n) | raise(topmost(narrow), topmost(narrow) + n - n_through);
   }
-  const int n_above = room_above(junction, layout.segments[junction.big].radius_m, 0).n_min;
-  if (junction.big == junction.wide) return raise_rows(wide, n_through + n_above);
-  return raise(topmost(narrow), topmost(narrow) + wide.n_rows() + n_above - n_through);
+  SegmentLayout& big = layout.segments[junction.big];
+  const bool big_is_wide = junction.big == junction.wide;
+  const int n_above = room_above(junction, big.radius_m, 0).n_min;
+  bool changed = big_is_wide ? raise_rows(wide, n_through + n_above)
+                             : raise(topmost(narrow), topmost(narrow) + wide.n_rows() + n_above - n_through);
+  if (!big.has_line() || (has_face && !big_is_wide)) return changed;
+  // The line of another bore step, at the other end of the big segment, passes above or below the corner.
+  const double line_m = layout.line_at(index, junction.big);
+  const int n_small = big_is_wide ? n_through : wide.n_rows();
+  const bool above = line_m > junction.small_radius_m * (1 + tiny);
+  const bool below = line_m < junction.small_radius_m * (1 - tiny);
+  if (!below) changed |= raise(big.n_inner_rows, n_small + (above ? 1 : 0));
+  if (!above && big.n_inner_rows + (below ? 1 : 0) > n_small) {
+    SegmentLayout& small = layout.segments[junction.small];
+    changed |= raise_rows(small, small.n_rows() + big.n_inner_rows + (below ? 1 : 0) - n_small);
+  }
+  return changed;
 }
 
 bool fit(ShaftLayout& layout, int index) {
   const Junction& junction = layout.junctions[index];
-  if (junction.is_bore_step) return fit_bore_step(layout, junction);
+  if (junction.is_bore_step) return fit_bore_step(layout, index);
   if (junction.kind != Junction::Kind::flush) return fit_shoulder(layout, index);
   SegmentLayout& left = layout.segments[index];
   SegmentLayout& right = layout.segments[index + 1];

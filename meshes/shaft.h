@@ -27,7 +27,25 @@ struct ShaftSegment {
 /// Segments from left to right without gaps. fillets_m[i] is the radius at the shoulder between segments i
 /// and i+1: at its inner corner, on the surface of the smaller diameter; 0: sharp corner. The loaded zone of
 /// a port is centred in its segment: the segment less, at both ends, the larger of the fillets that lie on
-/// its own surface. An eccentric segment is thicker than both neighbours, and these are concentric.
+/// its own surface.
+///
+/// What is meshed:
+/// - Eccentric segments are thicker than both neighbours, and these are concentric; each has its own
+///   direction. The bore stays concentric. Offset at most 0.9 of the ring between the surface and the larger
+///   of the neighbours' radius plus fillet (alone, without neighbours: 0.9 of the outer 70 % of its wall; a
+///   solid one: of 28 % of its radius).
+/// - A fillet takes at most 0.6 of the length of the segment that carries it if the other neighbour is
+///   thinner, else 0.9; two fillets on one segment (a relief groove: thinner than both neighbours) together
+///   0.95; a port keeps a loaded zone of at least 0.1 of its length.
+/// - Bores of 0.01 to 0.98 of the diameter; the wall under a fillet is at least half the fillet, measured
+///   to the widest bore of the segment and its two neighbours.
+/// - Bore steps (neighbours with different bores, or a bore that ends at a solid segment) between concentric
+///   segments, where the outside is flush or has a sharp shoulder; at least 0.01 of the smaller diameter is
+///   left around the wider bore. The segment with the narrow bore is long enough for a row of cells to climb,
+///   at a slope below 0.8, from the bore step to the fan of a fillet at its other end or to the bore step
+///   there.
+/// - Every wall has at least two cells through it. In a thin one cells are at most 64 walls / n_sectors long,
+///   but not shorter than around, and grow half as fast as control.growth.
 struct Shaft {
   std::vector<ShaftSegment> segments;
   std::vector<double> fillets_m;
@@ -37,18 +55,24 @@ struct ShaftMeshControl {
   int cells_per_fillet_quarter = 8;  ///< even, >= 2
   int n_sectors = 16;                ///< around, a multiple of 4, >= 8
   double growth = 1.0;  ///< slope of the axial cell size away from fillets; cells grow by at most e^growth
-  double largest_cell_m = 0;         ///< axial; 0: chosen from the diameters
+  double largest_cell_m = 0;         ///< axial; 0: chosen from diameters and walls
   double min_scaled_jacobian = 0.3;  ///< refused below
 };
 
 /// Meshes the shaft and writes `file` (through a temporary name).
-/// Ports: every segment with is_port, and the end faces "end_1" (smallest z) and "end_2".
-/// One call at a time in a process: gmsh is global.
+/// Ports: every segment with is_port, the bore of every segment with bore_port (all of it), and the end faces
+/// "end_1" (smallest z) and "end_2", which are rings where the segment is bored.
+/// Features: besides those of the outside "bore <segment>", and "shoulder bore <left>/<right>" for the face
+/// of a bore step. Beside a fillet, with 2 cells per quarter, the bores of two segments meet at the end of
+/// the fan nearest to the shoulder's plane instead of in it. Volumes: "core" where the shaft is solid
+/// (without a chart) and "ring_<segment>". Sharp edges: every outer shoulder without a fillet
+/// ("<left>/<right>", within 0.1 of the smaller diameter) and every bore step ("bore <left>/<right>", within
+/// the thickness of the wall around the wider bore). One call at a time in a process: gmsh is global.
 /// @throws std::invalid_argument with the offending numbers: gaps, sizes that are not positive, repeated
 /// names,
 ///         a fillet that does not fit its step (eccentric: r < (D - d)/2 - ecc) or its segment's length,
 ///         a port without room, an eccentricity that leaves the neighbour outside or the shifted ring flat,
-///         bad controls
+///         a bore, bore step or bore_port outside what is said at Shaft, bad controls
 /// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian (place and value named),
 ///         or the file cannot be written
 BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file);

@@ -12,20 +12,24 @@ struct ChartPoint {
   double r = 0, angle = 0, z = 0;
 };
 
-/// Inverse of the chart: (x - g (r - r_a))^2 + y^2 = r^2 with g = shift / (R - r_a) is quadratic in r.
+/// Inverse of the chart: |p - e (r - r_a)| = r with e = shift / (R - r_a) is quadratic in r; solved in a
+/// frame turned so that the shift lies along x.
 ChartPoint chart_point(const meshes::CylinderChart& chart, const std::array<double, 3>& p) {
-  double r = std::hypot(p[0], p[1]), x = p[0];
-  if (chart.shift_x_m != 0 && r > chart.inner_radius_m * (1 + 1e-12)) {
-    const double g = chart.shift_x_m / (chart.outer_radius_m - chart.inner_radius_m);
-    const double a = p[0] + g * chart.inner_radius_m;
-    const double outer =
-        (std::sqrt(g * g * a * a + (1 - g * g) * (a * a + p[1] * p[1])) - g * a) / (1 - g * g);
+  const double shift = std::hypot(chart.shift_x_m, chart.shift_y_m);
+  const double c = shift > 0 ? chart.shift_x_m / shift : 1, s = shift > 0 ? chart.shift_y_m / shift : 0;
+  double x = c * p[0] + s * p[1];
+  const double y = c * p[1] - s * p[0];
+  double r = std::hypot(x, y);
+  if (shift != 0 && r > chart.inner_radius_m * (1 + 1e-12)) {
+    const double g = shift / (chart.outer_radius_m - chart.inner_radius_m);
+    const double a = x + g * chart.inner_radius_m;
+    const double outer = (std::sqrt(g * g * a * a + (1 - g * g) * (a * a + y * y)) - g * a) / (1 - g * g);
     if (outer > chart.inner_radius_m) {
       r = outer;
-      x = p[0] - g * (r - chart.inner_radius_m);
+      x -= g * (r - chart.inner_radius_m);
     }
   }
-  return {r, std::atan2(p[1], x), p[2]};
+  return {r, std::atan2(y, x), p[2]};
 }
 
 /// What fem relies on: in the chart each ring cell is a quadrilateral of the meridian times an interval of
@@ -57,7 +61,7 @@ void expect_product_cells(const meshes::Shaft& shaft, int n_sectors, const std::
       smallest = std::min(smallest, a.r);
       largest = std::max(largest, a.r);
     }
-    if (chart.shift_x_m != 0) {
+    if (chart.shift_x_m != 0 || chart.shift_y_m != 0) {
       ASSERT_TRUE(largest < chart.inner_radius_m + tiny || smallest > chart.inner_radius_m - tiny)
           << "a cell from " << smallest << " to " << largest << " across " << chart.inner_radius_m;
     }
@@ -69,6 +73,8 @@ TEST(Charts, make_each_ring_cell_a_product_of_meridian_and_angle) {
   expect_product_cells(laboratory_shaft(), 12, "product_laboratory_12");
   expect_product_cells(sharp_eccentric_shaft(), 16, "product_sharp_eccentric");
   expect_product_cells(shoulder_shaft(2, 0.1), 16, "product_shoulder");
+  expect_product_cells(two_eccentrics(), 16, "product_two_eccentrics");
+  expect_product_cells(planetary_drum(), 24, "product_drum");
 }
 
 TEST(Charts, begin_the_shift_at_the_top_of_the_fillet) {

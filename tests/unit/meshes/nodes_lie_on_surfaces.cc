@@ -44,7 +44,12 @@ void expect_on_surfaces(const meshes::Shaft& shaft, const std::string& name) {
       double error = 0;
       if (feature.kind == meshes::Feature::Kind::seat || feature.kind == meshes::Feature::Kind::surface) {
         const auto& segment = segment_of(shaft, feature.name);
-        error = std::hypot(mesh.x(node) - segment.eccentricity_m, mesh.y(node)) - 0.5 * segment.diameter_m;
+        const double ecc = segment.eccentricity_m, angle = segment.eccentricity_angle_rad;
+        error = std::hypot(mesh.x(node) - ecc * std::cos(angle), mesh.y(node) - ecc * std::sin(angle)) -
+                0.5 * segment.diameter_m;
+      } else if (feature.kind == meshes::Feature::Kind::bore) {
+        error = std::hypot(mesh.x(node), mesh.y(node)) -
+                0.5 * segment_of(shaft, feature.name.substr(5)).bore_m;  // "bore <segment>"
       } else if (feature.kind == meshes::Feature::Kind::fillet) {
         for (const auto& torus : body.tori)
           if (torus.boundary_id == feature.boundary_id)
@@ -66,6 +71,10 @@ TEST(BoundaryNodes, lie_exactly_on_cylinders_tori_and_planes) {
   expect_on_surfaces(shoulder_shaft(1.1, 0.05), "on_full_step");
   expect_on_surfaces(three_steps(), "on_three_steps");
   expect_on_surfaces(sharp_eccentric_shaft(), "on_sharp_eccentric");
+  expect_on_surfaces(planetary_drum(), "on_drum");
+  expect_on_surfaces(two_eccentrics(), "on_two_eccentrics");
+  expect_on_surfaces(grooved_shaft(), "on_grooved");
+  for (const auto& shaft : stepped_bores()) expect_on_surfaces(shaft, "on_stepped_bore");
 }
 
 /// The tori of the tables against the drawing: centre one fillet away from the shoulder and from the small

@@ -111,12 +111,12 @@ void drill(Shaft& shaft, std::mt19937& random) {
   std::vector<std::size_t> concentric;
   for (std::size_t i = 0; i < shaft.segments.size(); ++i)
     if (shaft.segments[i].eccentricity_m == 0 &&
-        length_of(shaft.segments[i]) > 0.3 * shaft.segments[i].diameter_m)
+        length_of(shaft.segments[i]) > 0.4 * shaft.segments[i].diameter_m)
       concentric.push_back(i);
   const int kind = static_cast<int>(between(random, 0, 4));
   if (kind == 0 || concentric.empty()) return bore(shaft, 0, shaft.segments.size(), first);
   const std::size_t at = concentric[static_cast<std::size_t>(between(random, 0, concentric.size() - 1e-6))];
-  divide(shaft, at, between(random, 0.3, 0.7));
+  divide(shaft, at, between(random, 0.3, 0.6));
   if (kind == 3) divide(shaft, at + 1, 0.5);  // solid between two blind bores
   bore(shaft, 0, at + 1, first);
   if (kind > 1) bore(shaft, at + (kind == 3 ? 2 : 1), shaft.segments.size(), second);

@@ -19,11 +19,11 @@ int n_random_bodies();
 /// segment.
 meshes::Shaft random_shaft(std::mt19937& random);
 
-/// A shell of 50 to 600 mm radius, its wall 2.5 to 15 % of that, 0.5 to 8 radii long, in up to three pieces (of
-/// which the middle one may be thinner, down to 2 %); covers 5 to 40 % of the radius thick, one in four stands out as a
-/// flange by up to 15 %; trunnions of one to four steps that begin at 25 to 80 % of the shell's bore, with
-/// fillets of up to 80 % of their step and 35 % of the lengths beside them; bored by 20 to 60 % of the
-/// smallest diameter, or (one in three) solid.
+/// A shell of 50 to 600 mm radius, its wall 2.5 to 15 % of that, 0.5 to 8 radii long, in up to three pieces
+/// (of which the middle one may be thinner, down to 2 %); covers 5 to 40 % of the radius thick, one in four
+/// stands out as a flange by up to 15 %; trunnions of one to four steps that begin at 25 to 80 % of the
+/// shell's bore, with fillets of up to 80 % of their step and 35 % of the lengths beside them; bored by 20 to
+/// 60 % of the smallest diameter, or (one in three) solid.
 meshes::Shaft random_drum(std::mt19937& random);
 
 /// Dimensions in one line, to find a failure again.

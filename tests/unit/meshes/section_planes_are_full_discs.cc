@@ -30,15 +30,18 @@ void expect_full_discs(const meshes::Shaft& shaft, const std::string& name) {
       const auto face = area_and_moments(mesh, use.nodes);
       for (int i = 0; i < 3; ++i) sums[i] += face[i];
     }
-    // The full polygon about the section's own axis; sums of some hundred faces.
+    // The full polygon about the section's own axis, less the bore about z; sums of some hundred faces.
     const double area = polygon_area(section.radius_m, control.n_sectors);
-    EXPECT_NEAR(sums[0], area, 1e-11 * area);
+    EXPECT_NEAR(sums[0], area - polygon_area(section.inner_radius_m, control.n_sectors), 1e-11 * area);
     EXPECT_NEAR(sums[1], area * section.axis_x_m, 1e-11 * area * section.radius_m);
     EXPECT_NEAR(sums[2], area * section.axis_y_m, 1e-11 * area * section.radius_m);
     for (const auto& segment : shaft.segments) {
       if (segment.name != section.segment) continue;
       EXPECT_EQ(section.radius_m, 0.5 * segment.diameter_m);
-      EXPECT_EQ(section.axis_x_m, segment.eccentricity_m);
+      EXPECT_EQ(section.inner_radius_m, 0.5 * segment.bore_m);
+      const double ecc = segment.eccentricity_m, angle = segment.eccentricity_angle_rad;
+      EXPECT_NEAR(section.axis_x_m, ecc * std::cos(angle), 1e-16);  // rounding of millimetres
+      EXPECT_NEAR(section.axis_y_m, ecc * std::sin(angle), 1e-16);
       const double margin = std::min(section.z_m - segment.begin_m, segment.end_m - section.z_m);
       EXPECT_EQ(section.plain, margin >= section.radius_m * (1 - 1e-9));
     }
@@ -50,6 +53,9 @@ TEST(SectionPlanes, ascend_and_are_full_discs_of_their_segment) {
   expect_full_discs(three_steps(), "sections_three_steps");
   expect_full_discs(sharp_eccentric_shaft(), "sections_sharp_eccentric");
   expect_full_discs(shoulder_shaft(1.1, 0.05), "sections_shoulder");
+  expect_full_discs(planetary_drum(), "sections_drum");
+  expect_full_discs(two_eccentrics(), "sections_two_eccentrics");
+  for (const auto& shaft : stepped_bores()) expect_full_discs(shaft, "sections_stepped_bore");
 }
 
 /// Every segment as long as its diameter has a plain section; so the seat, exactly as long, has one in its

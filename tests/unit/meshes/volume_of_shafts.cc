@@ -32,6 +32,28 @@ TEST(ShaftVolume, is_that_of_the_polygonal_body) {
   }
 }
 
+TEST(ShaftVolume, is_that_of_the_polygonal_body_less_its_bores) {
+  auto shafts = stepped_bores();
+  for (const auto& shaft :
+       {planetary_drum(), working_shaft(), stub_axle(), two_eccentrics(), grooved_shaft()})
+    shafts.push_back(shaft);
+  for (const auto& shaft : shafts)
+    for (const int cells : {2, 6}) {
+      const double expected = polygonal_volume(shaft, cells, 24);
+      EXPECT_NEAR(meshed(shaft, cells, 24)[0], expected, rounding * expected)
+          << shaft.segments.front().name << ", cells " << cells;
+    }
+}
+
+/// Both offsets at once, in different directions: each seat's offset times its own volume. The bore is
+/// concentric and adds nothing.
+TEST(ShaftVolume, has_the_first_moments_of_seats_in_any_direction) {
+  const auto sums = meshed(two_eccentrics(), 6, 16);
+  const double tiny = rounding * sums[0] * 0.03;
+  EXPECT_NEAR(sums[1], -0.005 * polygon_area(0.033, 16) * 0.025, tiny);
+  EXPECT_NEAR(sums[2], 0.004 * polygon_area(0.03, 16) * 0.03, tiny);
+}
+
 /// The eccentric seat alone has a first moment in x: offset times its polygonal volume. A shift of the wrong
 /// segment, or one that is not complete at the surface, would change it.
 TEST(ShaftVolume, has_the_first_moment_of_the_eccentric_seat) {

@@ -21,6 +21,19 @@ TEST(ShaftMesh, is_watertight_with_every_free_face_in_exactly_one_group) {
   expect_watertight(shoulder_shaft(2, 0.2), control, "deep_fillet");
 }
 
+TEST(ShaftMesh, is_watertight_with_bores_grooves_and_several_eccentrics) {
+  for (const int cells : {2, 6})
+    for (const int sectors : {8, 24}) {
+      meshes::ShaftMeshControl control;
+      control.cells_per_fillet_quarter = cells;
+      control.n_sectors = sectors;
+      expect_watertight(planetary_drum(), control, "drum");
+      expect_watertight(two_eccentrics(), control, "two_eccentrics");
+      expect_watertight(grooved_shaft(), control, "grooved");
+      for (const auto& shaft : stepped_bores()) expect_watertight(shaft, control, "stepped_bore");
+    }
+}
+
 TEST(ShaftMesh, is_watertight_at_other_resolutions) {
   for (const int cells : {2, 4, 16})
     for (const int sectors : {8, 12, 20, 32}) {
