@@ -40,9 +40,10 @@ struct ChamberWebs {
 };
 
 /// Plates that carry the pads, at z = +-z_m for every foot: straight strips from the tube towards the foot.
-/// An edge of a strip ends where it meets the pad, but: where the strip is wider than what it sees of the
-/// pad, it tapers to the pad's corner; no edge ends on a side that it would meet at less than 27 degrees, nor
-/// within `foot_snap_share` of a side from its corner: it runs to the corner instead.
+/// They end on the sides of the pad that face the tube, but on none that they would meet at less than 33
+/// degrees. Where a strip is wider than these sides it tapers to their ends; where it would miss one end it
+/// leans; an edge that would end within a fifth of a side from its corner (and a quarter of the width) runs
+/// to the corner. No edge shifts by more than 1 in 2.
 struct ChamberLugs {
   double thickness_m = 0;
   double width_m = 0;  ///< at least 3 walls, at most the tube's outer radius

@@ -43,6 +43,18 @@ BreakPoints edges_around(const ChamberLayout& layout) {
   return arcs;
 }
 
+/// Where a lug covers its pad's corner one column of cells ends at the corner: it is to run along the strip.
+void add_columns_to_corners(const ChamberLayout& layout, BreakPoints& arcs) {
+  for (const FootLayout& foot : layout.feet) {
+    const auto& offsets_m = foot.contact.offsets_m;
+    if (offsets_m.size() < 3) continue;
+    const double share = (offsets_m[1] - offsets_m[0]) / (offsets_m[2] - offsets_m[0]);
+    const double half_m = layout.tube_outer_m * std::sin(0.5 * (foot.last_rad - foot.first_rad));
+    const double angle_rad = foot.direction_rad + std::asin(half_m * (2 * share - 1) / layout.tube_outer_m);
+    arcs.add_or_snap(angle_rad * layout.tube_outer_m);
+  }
+}
+
 /// @param limit largest cell at a place, where it is below that of `size`
 std::vector<double> subdivide(const std::vector<double>& breaks, const AxialSize& size,
                               const std::function<double(double)>& limit) {
@@ -90,6 +102,7 @@ std::vector<double> between_toes(double begin_m, double end_m, const ToeSizes& s
 ChamberStations place_stations(const Chamber& chamber, const ChamberLayout& layout,
                                const ChamberMeshControl& control) {
   BreakPoints z_breaks = faces_along_z(chamber, layout), arcs = edges_around(layout);
+  add_columns_to_corners(layout, arcs);
   ChamberStations result;
   result.hot_spots = place_hot_spots(chamber, layout, arcs, z_breaks);
 

@@ -10,14 +10,15 @@ namespace meshes {
 namespace {
 
 /// Offsets of the lug's columns on the pad: those on the tube, stretched so that the ends are the contact's
-/// and, where the lug covers the pad's corner, the nearest inner column meets it.
+/// and, where the lug covers the pad's corner, the inner column that comes nearest meets it.
 std::vector<double> offsets_on_pad(const std::vector<double>& on_tube_m, const PadContact& contact) {
   const std::size_t last = on_tube_m.size() - 1;
   std::vector<std::size_t> fixed = {0, last};
   if (contact.offsets_m.size() == 3) {
-    const auto closer = [&](double a, double b) {
-      return std::abs(a - contact.offsets_m[1]) < std::abs(b - contact.offsets_m[1]);
-    };
+    const double share =
+        (contact.offsets_m[1] - contact.offsets_m[0]) / (contact.offsets_m[2] - contact.offsets_m[0]);
+    const double wanted_m = on_tube_m[0] + share * (on_tube_m[last] - on_tube_m[0]);
+    const auto closer = [&](double a, double b) { return std::abs(a - wanted_m) < std::abs(b - wanted_m); };
     const auto column = std::min_element(on_tube_m.begin() + 1, on_tube_m.end() - 1, closer);
     fixed.insert(fixed.begin() + 1, static_cast<std::size_t>(column - on_tube_m.begin()));
   }

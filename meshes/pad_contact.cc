@@ -7,7 +7,7 @@ namespace meshes {
 
 namespace {
 
-const double smallest_cosine = 0.45;  // between a side's normal and the lug: 27 degrees to the side
+const double smallest_cosine = 0.55;  // between a side's normal and the lug: 33 degrees to the side
 
 /// A corner or end of what the lug sees of the pad, relative to the foot.
 struct SeenPoint {
@@ -34,12 +34,10 @@ SeenPoint between(const SeenPoint& a, const SeenPoint& b, double offset_m) {
   return {offset_m, {a.at[0] + share * (b.at[0] - a.at[0]), a.at[1] + share * (b.at[1] - a.at[1])}};
 }
 
-/// Where an edge of the lug ends.
+/// Where an edge of the lug ends; the offset lies within what is seen.
 SeenPoint edge_end(const std::vector<SeenPoint>& seen, double offset_m, double width_m) {
-  if (offset_m <= seen.front().offset_m) return seen.front();
-  if (offset_m >= seen.back().offset_m) return seen.back();
   std::size_t i = 0;
-  while (offset_m > seen[i + 1].offset_m) ++i;
+  while (i + 2 < seen.size() && offset_m > seen[i + 1].offset_m) ++i;
   const SeenPoint hit = between(seen[i], seen[i + 1], offset_m);
   const double side_m = std::hypot(seen[i + 1].at[0] - seen[i].at[0], seen[i + 1].at[1] - seen[i].at[1]);
   const double snap_m = std::min(foot_snap_share * side_m, lug_snap_share * width_m);
@@ -54,9 +52,11 @@ SeenPoint edge_end(const std::vector<SeenPoint>& seen, double offset_m, double w
 PadContact pad_contact(const Chamber& chamber, const ChamberFoot& foot, double direction_rad) {
   const PlanePoint away = {std::cos(direction_rad), std::sin(direction_rad)}, left = {-away[1], away[0]};
   const std::vector<SeenPoint> seen = seen_corners(chamber.pads, away, left);
-  const double width_m = chamber.lugs.width_m;
-  const SeenPoint low = edge_end(seen, -0.5 * width_m, width_m);
-  const SeenPoint high = edge_end(seen, 0.5 * width_m, width_m);
+  const double first_m = seen.front().offset_m, last_m = seen.back().offset_m;
+  const double width_m = std::min(chamber.lugs.width_m, last_m - first_m);
+  const double low_m = std::clamp(-0.5 * width_m, first_m, last_m - width_m);
+  const SeenPoint low = edge_end(seen, low_m, width_m);
+  const SeenPoint high = edge_end(seen, std::min(low_m + width_m, last_m), width_m);
 
   PadContact contact;
   const auto add = [&](const SeenPoint& point) {

@@ -64,7 +64,7 @@ std::vector<Side> seen_sides(const meshes::Chamber& chamber, const meshes::Chamb
   const Corner normals[4] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
   std::vector<Side> sides;
   for (int i = 0; i < 4; ++i) {
-    if (-(normals[i][0] * dx + normals[i][1] * dy) < 0.45) continue;
+    if (-(normals[i][0] * dx + normals[i][1] * dy) < 0.55) continue;
     // Counter-clockwise round the pad is from high to low offset on the side that faces the tube.
     const Corner &low = corners[(i + 1) % 4], &high = corners[i];
     sides.push_back({{foot.x_m + low[0], foot.y_m + low[1]},
@@ -100,9 +100,17 @@ std::pair<Corner, double> edge_end(const std::vector<Side>& sides, double offset
 
 Corners lug_end(const meshes::Chamber& chamber, const meshes::ChamberFoot& foot) {
   const double dx = foot.x_m - chamber.tube.axis_x_m, dy = foot.y_m - chamber.tube.axis_y_m;
-  const double length_m = std::hypot(dx, dy), width_m = chamber.lugs.width_m;
+  const double length_m = std::hypot(dx, dy);
   const auto sides = seen_sides(chamber, foot, dx / length_m, dy / length_m);
-  const auto low = edge_end(sides, -0.5 * width_m, width_m), high = edge_end(sides, 0.5 * width_m, width_m);
+  double low_m = -0.5 * chamber.lugs.width_m, high_m = 0.5 * chamber.lugs.width_m;
+  const double first_m = sides.front().from_offset_m, last_m = sides.back().to_offset_m;
+  if (high_m - low_m > last_m - first_m) {  // tapers
+    low_m = first_m;
+    high_m = last_m;
+  }
+  const double lean_m = std::max(first_m - low_m, 0.0) - std::max(high_m - last_m, 0.0);
+  const double width_m = high_m - low_m;
+  const auto low = edge_end(sides, low_m + lean_m, width_m), high = edge_end(sides, high_m + lean_m, width_m);
   Corners end = {low.first};
   if (sides.size() == 2 && low.second < sides[0].to_offset_m && sides[0].to_offset_m < high.second)
     end.push_back(sides[0].to);
