@@ -12,9 +12,6 @@ namespace meshes {
 
 using PlanePoint = std::array<double, 2>;  ///< x, y
 
-/// Smallest share of a pad's side between its corner and the end of a lug's edge, and of the lug's width.
-constexpr double foot_snap_share = 0.2, lug_snap_share = 0.25;
-
 /// Wanted of one cell around the tube or the housing, at most.
 constexpr double coarsest_turn_rad = 0.25;
 

@@ -7,6 +7,8 @@ namespace meshes {
 
 namespace {
 
+// An edge of the lug that ends nearer to the pad's corner runs to the corner.
+const double side_snap_share = 0.2, width_snap_share = 0.25;
 const double smallest_cosine = 0.55;  // between a side's normal and the lug: 33 degrees to the side
 
 /// A corner or end of what the lug sees of the pad, relative to the foot.
@@ -40,7 +42,7 @@ SeenPoint edge_end(const std::vector<SeenPoint>& seen, double offset_m, double w
   while (i + 2 < seen.size() && offset_m > seen[i + 1].offset_m) ++i;
   const SeenPoint hit = between(seen[i], seen[i + 1], offset_m);
   const double side_m = std::hypot(seen[i + 1].at[0] - seen[i].at[0], seen[i + 1].at[1] - seen[i].at[1]);
-  const double snap_m = std::min(foot_snap_share * side_m, lug_snap_share * width_m);
+  const double snap_m = std::min(side_snap_share * side_m, width_snap_share * width_m);
   const double from_first_m = std::hypot(hit.at[0] - seen[i].at[0], hit.at[1] - seen[i].at[1]);
   if (from_first_m < snap_m) return seen[i];
   if (side_m - from_first_m < snap_m) return seen[i + 1];

@@ -135,8 +135,8 @@ TEST(ChamberMesh, has_ports_charts_and_regions_of_the_drawing) {
 }
 
 /// What fem relies on: in the chart of its group each cell is an interval of radius times one of angle.
-TEST(ChamberMesh, has_cells_that_are_products_in_their_charts) {
-  const auto body = meshes::build_chamber(lopsided_chamber(), {}, temporary_msh("charts_of_chamber"));
+void expect_product_cells(const meshes::Chamber& chamber) {
+  const auto body = meshes::build_chamber(chamber, {}, temporary_msh("charts_of_chamber"));
   const MeshFile mesh = read_mesh_file(body.file);
   std::map<int, meshes::CylinderChart> charts;
   for (const auto& chart : body.cylinders) charts[chart.volume_id] = chart;
@@ -162,6 +162,31 @@ TEST(ChamberMesh, has_cells_that_are_products_in_their_charts) {
     ASSERT_GE(radius_m[0], chart.inner_radius_m - rounding_m);
     ASSERT_LE(radius_m[1], chart.outer_radius_m + rounding_m);
   }
+}
+
+TEST(ChamberMesh, has_cells_that_are_products_in_their_charts) {
+  expect_product_cells(laboratory_chamber());
+  expect_product_cells(lopsided_chamber());
+  auto small_housing = laboratory_chamber();  // the webs' cells fan out by a factor of 3
+  small_housing.housing.outer_radius_m = 0.045;
+  small_housing.housing.bore_radius_m = 0.03;
+  small_housing.webs.height_m = 0.08;
+  expect_product_cells(small_housing);
+}
+
+/// A lug about as long as it is wide, round a corner of its pad, with few columns: one of them has to run
+/// along the strip to the corner.
+TEST(ChamberMesh, has_good_cells_in_a_short_lug_round_its_pads_corner) {
+  meshes::Chamber chamber;
+  chamber.tube = {0.2965, 0.03, 1.03, 0.5956, -0.0214};
+  chamber.flanges = {0.37, 0.069};
+  chamber.housing = {0.206, 0.158, 0.655};
+  chamber.webs = {0.043, 0.16, {0}};
+  chamber.lugs = {0.028, 0.174, 0.259};
+  chamber.pads = {0.0745, 0.195, 0.057};
+  chamber.feet = {{0.3012, 0.3308}};
+  const auto body = meshes::build_chamber(chamber, {}, temporary_msh("short_lug"));
+  EXPECT_GT(body.quality.min_scaled_jacobian, 0.35);
 }
 
 /// So that loads symmetrical in z have no moment about x and y, to the last bit of the coordinates.
