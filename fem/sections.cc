@@ -74,13 +74,18 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
     const double* x = grid.position(node);
     return std::hypot(x[0] - plane.axis_x_m, x[1] - plane.axis_y_m);
   };
+  const auto from_z_axis = [&](std::int32_t node) {
+    return std::hypot(grid.position(node)[0], grid.position(node)[1]);
+  };
   const Tabulation at = gauss_on_face(grid.shape(), grid.degree + 3);
   Section section;
   auto face = std::lower_bound(faces.begin(), faces.end(), plane.z_m - tolerance,
                                [](const FlatFace& f, double z) { return f.z_m < z; });
   for (; face != faces.end() && face->z_m <= plane.z_m + tolerance; ++face) {
-    if (std::any_of(face->nodes.begin(), face->nodes.end(),
-                    [&](auto node) { return from_axis(node) > plane.radius_m + tolerance; }))
+    if (std::any_of(face->nodes.begin(), face->nodes.end(), [&](auto node) {
+          return from_axis(node) > plane.radius_m + tolerance ||
+                 from_z_axis(node) < plane.inner_radius_m - tolerance;
+        }))
       continue;
     for (int q = 0; q < at.n_points; ++q) {
       const FacePoint p = face_point(grid, face->nodes, at, q);
@@ -103,9 +108,10 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
   // A circle of n chords covers sin(2 pi / n) / (2 pi / n) of its disc: 10 % off for 8 chords, far less for
   // parabolas.
   const double disc = pi * plane.radius_m * plane.radius_m, allowed = grid.degree == 1 ? 0.15 : 0.01;
-  if (std::abs(section.area_m2 - disc) > allowed * disc)
-    refuse(plane,
-           "its cell faces have " + std::to_string(section.area_m2 / disc) + " of the area of the disc");
+  const double ring = disc - pi * plane.inner_radius_m * plane.inner_radius_m;
+  if (std::abs(section.area_m2 - ring) > allowed * ring)
+    refuse(plane, "its cell faces have " + std::to_string(section.area_m2 / ring) + " of the area of the " +
+                      (plane.inner_radius_m > 0 ? "ring" : "disc"));
   for (const auto& [node, weight] : section.weights)
     if (std::abs(from_axis(node) - plane.radius_m) <= tolerance) section.rim.push_back(node);
   if (section.rim.empty()) refuse(plane, "no node lies on its rim");

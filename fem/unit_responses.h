@@ -11,11 +11,12 @@
 
 namespace fem {
 
-/// A plane z = const made of cell faces through a whole circular cross-section.
+/// A plane z = const made of cell faces through a whole circular or annular cross-section.
 struct SectionPlane {
   double z_m = 0;
   double radius_m = 0;
   double axis_x_m = 0, axis_y_m = 0;
+  double inner_radius_m = 0;  ///< of a bore about the z axis; 0: solid
 };
 
 /// The nodes of one cell or face, looked at in place.

@@ -19,7 +19,7 @@ constexpr double closure_limit = 1e-9;
 std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPlane>& planes) {
   std::vector<fem::SectionPlane> result;
   for (const auto& plane : planes)
-    result.push_back({plane.z_m, plane.radius_m, plane.axis_x_m, plane.axis_y_m});
+    result.push_back({plane.z_m, plane.radius_m, plane.axis_x_m, plane.axis_y_m, plane.inner_radius_m});
   return result;
 }
 

@@ -20,7 +20,7 @@ struct Counts {
 };
 
 // These are written and read as rows of numbers.
-static_assert(sizeof(fem::SectionPlane) == 4 * sizeof(double));
+static_assert(sizeof(fem::SectionPlane) == 5 * sizeof(double));
 static_assert(sizeof(fem::SectionResponse) == 14 * sizeof(double));
 
 double* entries(std::vector<double>& v) {
@@ -57,7 +57,7 @@ void visit_arrays(fem::UnitResponses& r, const Counts& n, Visit visit) {
   visit("/displacement", r.displacement_m, Extents{n.nodes, n.channels, 3}, Hdf5Label{"m", "x y z"});
   visit("/stress", r.stress_Pa, Extents{n.nodes, n.channels, 6}, Hdf5Label{"Pa", "xx yy zz xy yz xz"});
   visit("/resultants", r.resultants, Extents{n.channels, 6}, Hdf5Label{"", "fx fy fz [N], mx my mz [N m]"});
-  visit("/planes", r.planes, Extents{n.planes, 4}, Hdf5Label{"m", "z, radius, axis x, axis y"});
+  visit("/planes", r.planes, Extents{n.planes, 5}, Hdf5Label{"m", "z, radius, axis x, axis y, inner radius"});
   visit("/plane_area", r.plane_area_m2, Extents{n.planes}, Hdf5Label{"m2", ""});
   visit("/sections", r.sections, Extents{n.planes, n.channels, 14},
         Hdf5Label{"",

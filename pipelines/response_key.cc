@@ -98,7 +98,7 @@ std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>
     key.line("load", load.channel);
     std::visit(Describe{key}, load.shape);
   }
-  for (const auto& p : planes) key.line("plane", p.z_m, p.radius_m, p.axis_x_m, p.axis_y_m);
+  for (const auto& p : planes) key.line("plane", p.z_m, p.radius_m, p.axis_x_m, p.axis_y_m, p.inner_radius_m);
   return key.text();
 }
 

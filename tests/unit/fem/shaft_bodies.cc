@@ -56,7 +56,7 @@ ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& cont
                             p.end_m - p.begin_m};
   }
   for (const auto& f : mesh.features) result.features[f.name] = f.boundary_id;
-  for (const auto& s : mesh.sections) result.planes.push_back({s.z_m, s.radius_m, s.axis_x_m, s.axis_y_m});
+  for (const auto& s : mesh.sections) result.planes.push_back({s.z_m, s.radius_m, s.axis_x_m, s.axis_y_m, s.inner_radius_m});
   return result;
 }
 
