@@ -54,10 +54,14 @@ struct Room {
   int n_min = 0;
 };
 
-Room room_above(const Junction& junction, double top_m, double big_radius_m) {
-  const double above_m = top_m - junction.top_radius_m;
-  if (above_m <= tiny * big_radius_m) return {true, 0};
-  return {false, geometric_count(above_m, first_above * junction.first_cell_m, rows_ratio)};
+/// A disc that is thinner than the room is a plate that bends: its rows are at most half as high as it is
+/// thick.
+Room room_above(const Junction& junction, double top_m, const SegmentLayout& big) {
+  const double above_m = top_m - junction.top_radius_m, length_m = big.end_m - big.begin_m;
+  if (above_m <= tiny * big.radius_m) return {true, 0};
+  const int n_graded = geometric_count(above_m, first_above * junction.first_cell_m, rows_ratio);
+  const bool is_plate = above_m > length_m;
+  return {false, is_plate ? std::max(n_graded, int(std::ceil(2 * above_m / length_m))) : n_graded};
 }
 
 /// Two lines that run through the same rows keep their order.
@@ -91,8 +95,7 @@ bool fit_shoulder(ShaftLayout& layout, int index) {
   if (small.has_line()) changed |= raise(small.n_outer_rows, n_depth + 1);
   const int used = small.n_rows() - n_depth + n_half;
   if (big.has_line() && line_m >= junction.top_radius_m * (1 - tiny))
-    return fit_above(small, used, big.n_inner_rows, big.n_inner_rows,
-                     room_above(junction, line_m, big.radius_m)) |
+    return fit_above(small, used, big.n_inner_rows, big.n_inner_rows, room_above(junction, line_m, big)) |
            changed;
   if (big.has_line() && line_m > floor_m * (1 - tiny)) {  // along the floor of the fan
     const int below = small.n_rows() - n_depth;
@@ -101,8 +104,7 @@ bool fit_shoulder(ShaftLayout& layout, int index) {
     changed |= raise_rows(small, big.n_inner_rows + 1 + n_depth);
     if (small.has_line()) changed |= order_lines(small, small_line_m, big, line_m);
   }
-  return fit_above(small, used, topmost(big), big.n_rows(),
-                   room_above(junction, big.radius_m, big.radius_m)) |
+  return fit_above(small, used, topmost(big), big.n_rows(), room_above(junction, big.radius_m, big)) |
          changed;
 }
 
@@ -119,7 +121,7 @@ bool fit_bore_step(ShaftLayout& layout, int index) {
   }
   SegmentLayout& big = layout.segments[junction.big];
   const bool big_is_wide = junction.big == junction.wide;
-  const int n_above = room_above(junction, big.radius_m, 0).n_min;
+  const int n_above = room_above(junction, big.radius_m, big).n_min;
   bool changed = big_is_wide ? raise_rows(wide, n_through + n_above)
                              : raise(topmost(narrow), topmost(narrow) + wide.n_rows() + n_above - n_through);
   if (!big.has_line() || (has_face && !big_is_wide)) return changed;
