@@ -130,6 +130,12 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
     force_size = std::max(force_size, closure.force_scale_N[c]);
     moment_size = std::max(moment_size, closure.moment_scale_Nm[c]);
   }
+  // Under torques alone forces are round-off: they are judged by what the torques are made of.
+  double arm_m = 0;
+  for (const auto& load : loads.unit_loads)
+    if (const auto* resultant = std::get_if<fem::SurfaceResultant>(&load.shape))
+      arm_m = std::max(arm_m, ScaleOf::arm(resultant->surface));
+  if (arm_m > 0) force_size = std::max(force_size, moment_size / arm_m);
   for (std::size_t c = 0; c < 3 && values.cols() > 0; ++c) {
     const auto relative = [](double residual, double own, double common) {
       return residual == 0 ? 0.0 : residual / (own > 1e-6 * common ? own : common);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -49,6 +50,16 @@ void add_shaft_quantities(kinetics::LoadHistory& loads, const BodyLoads& body) {
                               body.frame_bearing_force_N.matrix().colwise().norm().transpose()});
   loads.quantities.push_back(
       {"T_shaft", "N m", "drive torque with the shaft's own mass, clockwise positive", body.drive_torque_Nm});
+}
+
+/// A couple that no machine part carries is worth a word once it matters.
+void warn_of_guide(kinetics::LoadHistory& loads, const BodyLoads& body) {
+  if (body.carried_moment_Nm.size() == 0) return;
+  const double most = body.carried_moment_Nm.abs().maxCoeff();
+  if (most > 0.01 * body.carried_moment_scale_Nm)
+    loads.warnings.push_back(fmt::format(
+        "pitch is off: {} stresses contain a guide couple of {:.4g} N m, {:.2g} % of the moments on it",
+        body.history.body, most, 100 * most / body.carried_moment_scale_Nm));
 }
 
 /// The envelope as a picture; a machine that cannot draw gets a line instead.
@@ -154,6 +165,11 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
       return distribute_body(scene, body, loads, loaded_body(body, meshed[i]), masses);
     }));
     require_closed_loads(body_loads.back(), meshed[i].regions);
+    warn_of_guide(loads, body_loads.back());
+    if (body.role == BodyRole::train_shaft &&
+        std::none_of(body.train.forces.begin(), body.train.forces.end(),
+                     [&](const auto& force) { return scene.has_effect(force.effect); }))
+      loads.warnings.push_back("a drive train gives torsion only: bending is not modelled");
     add_shaft_quantities(loads, body_loads.back());
   }
   BodyChannels channels;

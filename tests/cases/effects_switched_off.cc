@@ -21,12 +21,11 @@ bool mentions(const fs::path& csv_file, const std::string& word) {
 // does the role; every other channel stays. Without the shaft's own mass, its body loads go.
 TEST(EffectsSwitchedOff, LeaveNoColumnAndNoUnitLoad) {
   const results_test::Directory directory;
-  write(directory / "all.toml", edited("vibratory_mill.toml", coarse()));
+  write(directory / "all.toml", shaft_alone(coarse()));
   write(directory / "without.toml",
-        edited("vibratory_mill.toml",
-               coarse() + Edits{{"\"gravity_charge\", \"gravity_debalance\",", "\"gravity_charge\","},
-                                {"  \"debalance_inertia\",", ""},
-                                {"  \"gravity_shaft\", \"shaft_inertia\",", "  \"gravity_shaft\","}}));
+        shaft_alone(coarse() + Edits{{"\"gravity_charge\", \"gravity_debalance\",", "\"gravity_charge\","},
+                                     {"  \"debalance_inertia\",", ""},
+                                     {"  \"gravity_shaft\", \"shaft_inertia\",", "  \"gravity_shaft\","}}));
   for (const char* name : {"all", "without"}) {
     const auto run = millstress(directory.path, std::string("run ") + name + ".toml -o " + name);
     ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -28,16 +28,37 @@ inline fs::path shipped(const std::string& name) {
   return fs::path(SOURCE_DIR) / "pipelines/scenes" / name;
 }
 
-/// The text of a shipped scene with edits, each of which must fit exactly one place.
-inline std::string edited(const std::string& scene, const Edits& edits) {
-  std::string text = results_test::bytes(shipped(scene));
+/// A text with edits, each of which must fit exactly one place.
+inline std::string with_edits(std::string text, const Edits& edits) {
   for (const auto& [from, to] : edits) {
     const auto at = text.find(from);
     if (at == std::string::npos || text.find(from, at + 1) != std::string::npos)
-      throw std::runtime_error(scene + ": not exactly one place for: " + from);
+      throw std::runtime_error("not exactly one place for: " + from);
     text.replace(at, from.size(), to);
   }
   return text;
+}
+
+/// The text of a shipped scene with edits.
+inline std::string edited(const std::string& scene, const Edits& edits) {
+  return with_edits(results_test::bytes(shipped(scene)), edits);
+}
+
+/// The text of a shipped scene without what stands from one line to another, the second of which stays.
+inline std::string without(const std::string& scene, const std::string& from, const std::string& to) {
+  std::string text = results_test::bytes(shipped(scene));
+  const auto begin = text.find("\n" + from + "\n"), end = text.find("\n" + to + "\n");
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw std::runtime_error(scene + ": no lines " + from + " .. " + to);
+  return text.erase(begin, end - begin);
+}
+
+/// The default scene with its shaft alone, or its chamber alone, and edits.
+inline std::string shaft_alone(const Edits& edits) {
+  return with_edits(without("vibratory_mill.toml", "[chamber]", "[zones]"), edits);
+}
+inline std::string chamber_alone(const Edits& edits) {
+  return with_edits(without("vibratory_mill.toml", "[shaft]", "[chamber]"), edits);
 }
 
 /// The default scene on the coarsest mesh that still has fillets: about 67 k unknowns, seconds instead of a

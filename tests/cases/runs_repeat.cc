@@ -7,7 +7,7 @@ using namespace cases;
 
 TEST(Runs, RepeatBitByBitFreshAndReused) {
   const results_test::Directory directory;
-  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse()));
+  write(directory / "mill.toml", shaft_alone(coarse()));
   for (const char* out : {"first", "second"})
     ASSERT_EQ(millstress(directory.path, std::string("run mill.toml --threads 2 -o ") + out).exit_code, 0);
   const auto first = contents(directory / "first");
@@ -42,19 +42,19 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
     EXPECT_TRUE(bytes == reused.at(name)) << name << " differs when the unit responses are reused";
 
   // Another operating point needs no new solve; another material does.
-  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse() + Edits{{"speed = \"151.844 rad/s\"",
-                                                                                 "speed = \"140 rad/s\""}}));
+  write(directory / "mill.toml",
+        shaft_alone(coarse() + Edits{{"speed = \"151.844 rad/s\"", "speed = \"140 rad/s\""}}));
   ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
   EXPECT_EQ(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
   EXPECT_NE(summary(directory / "first")["loads"]["R_E"], summary(directory / "second")["loads"]["R_E"]);
-  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse() + Edits{{"206 GPa", "205 GPa"}}));
+  write(directory / "mill.toml", shaft_alone(coarse() + Edits{{"206 GPa", "205 GPa"}}));
   ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
   EXPECT_NE(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
 }
 
 TEST(Runs, BrokenUnitResponsesAreSolvedAgain) {
   const results_test::Directory directory;
-  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse()));
+  write(directory / "mill.toml", shaft_alone(coarse()));
   ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
   const auto whole = contents(directory / "out");
   const auto file = directory / "out/shaft/unit_responses.h5";

@@ -20,16 +20,15 @@ double largest(const std::vector<double>& values) {
 TEST(VibratoryShaft, AgreesWithStaticsAndTheHandFigures) {
   const results_test::Directory directory;
   // The mill of the specification to the letter: the shipped scene's charge lags and follows the pitch.
-  const auto scene =
-      write(directory / "mill.toml",
-            edited("vibratory_mill.toml", {{"cells_per_fillet_quarter = 8", "cells_per_fillet_quarter = 4"},
-                                           {"sectors = 16", "sectors = 12"},
-                                           {"snapshots = 24", "snapshots = 1"},
-                                           {"instants_per_turn = 120", "instants_per_turn = 72"},
-                                           {"  \"charge_lag\", ", "  # "},
-                                           {"  \"charge_follows_pitch\",", "  # "},
-                                           {"[machine.charge.lag]", "# "},
-                                           {"grinding_power = \"500 W\"", "# "}}));
+  const auto scene = write(directory / "mill.toml",
+                           shaft_alone({{"cells_per_fillet_quarter = 8", "cells_per_fillet_quarter = 4"},
+                                        {"sectors = 16", "sectors = 12"},
+                                        {"snapshots = 24", "snapshots = 1"},
+                                        {"instants_per_turn = 120", "instants_per_turn = 72"},
+                                        {"  \"charge_lag\", ", "  # "},
+                                        {"  \"charge_follows_pitch\",", "  # "},
+                                        {"[machine.charge.lag]", "# "},
+                                        {"grinding_power = \"500 W\"", "# "}}));
   const auto run = millstress(directory.path, "run mill.toml -o out");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto json = summary(directory / "out");

@@ -6,7 +6,7 @@ using namespace cases;
 // and no directory made for a run that never was.
 TEST(WrongInput, LeavesEarlierResultsUntouched) {
   const results_test::Directory directory;
-  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse()));
+  write(directory / "mill.toml", shaft_alone(coarse()));
   ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
   std::map<std::string, fs::file_time_type> times;
   for (const auto& entry : fs::recursive_directory_iterator(directory / "out"))
@@ -20,7 +20,7 @@ TEST(WrongInput, LeavesEarlierResultsUntouched) {
                                  {{"convention = \"consistent\"", "convention = \"published\""}},
                                  {{"speed = \"151.844 rad/s\"", "speed = nan"}}};
   for (const auto& edits : wrong) {
-    write(directory / "mill.toml", edited("vibratory_mill.toml", coarse() + edits));
+    write(directory / "mill.toml", shaft_alone(coarse() + edits));
     for (const char* out : {"out", "other"}) {
       const auto run = millstress(directory.path, std::string("run mill.toml -o ") + out);
       EXPECT_EQ(run.exit_code, 2);
@@ -50,7 +50,7 @@ TEST(WrongInput, IsNamedBeforeAnythingRuns) {
 
 TEST(WrongInput, OutputThatCannotBeWrittenIsNamed) {
   const results_test::Directory directory;
-  write(directory / "mill.toml", edited("vibratory_mill.toml", coarse()));
+  write(directory / "mill.toml", shaft_alone(coarse()));
   write(directory / "file", "not a directory");
   const auto outcome = millstress(directory.path, "run mill.toml -o file/out");
   EXPECT_EQ(outcome.exit_code, 2);
