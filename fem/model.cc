@@ -5,6 +5,7 @@
 
 #include "fem/cholmod_factor.h"
 #include "fem/elastic_supports.h"
+#include "fem/geometry_error.h"
 #include "fem/grid.h"
 #include "fem/mesh_reader.h"
 #include "fem/nodes_export.h"
@@ -52,6 +53,10 @@ MassProperties Model::mass_properties() const {
 MassProperties Model::mass_properties(const std::vector<int>& volume_ids) const {
   return fem::mass_properties(impl_->grid, integrate_nodes(impl_->grid, volume_ids),
                               impl_->body.material.density_kg_m3);
+}
+
+GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const {
+  return fem::geometry_error(impl_->grid, impl_->body, seats);
 }
 
 namespace {

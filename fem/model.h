@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -39,6 +40,14 @@ enum class Recovery {
   average,  ///< mean of the cells' values at each node: a baseline for tests
 };
 
+/// Distance of curved faces from the cylinders and tori that they stand for.
+struct GeometryError {
+  std::size_t n_faces = 0;          ///< that were compared
+  double relative = 0;              ///< largest, in radii of its surface
+  double error_m = 0;               ///< there
+  std::array<double, 3> place_m{};  ///< there
+};
+
 class Model {
 public:
   /// Reads the mesh, attaches the charts, numbers the unknowns.
@@ -56,6 +65,10 @@ public:
   /// Of the cells of some volume groups.
   /// @throws std::invalid_argument if one of the groups has no cells
   MassProperties mass_properties(const std::vector<int>& volume_ids) const;
+
+  /// At the quadrature points of boundary faces; zero where no surface is known.
+  /// @param seats  cylinders known from elsewhere (imported bodies have no charts)
+  GeometryError geometry_error(const std::vector<LoadSurface>& seats = {}) const;
 
   /// The unit loads' responses. One factorisation (CHOLMOD), all loads as one block. Every load vector is
   /// balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the statically determinate support

@@ -222,6 +222,7 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
   analysis.scene = body;
   analysis.mesh = meshed.mesh;
   analysis.masses = meshed.masses;
+  analysis.geometry_error = meshed.geometry_error;
   const auto planes = to_fem_planes(meshed.mesh.sections);
   analysis.loads = std::move(loads);
   analysis.responses = solve_or_reuse(*meshed.model, meshed.body, analysis.loads, planes, options, n_threads,

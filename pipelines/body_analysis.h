@@ -48,6 +48,7 @@ struct BodyAnalysis {
   BodyScene scene;
   meshes::BodyMesh mesh;
   fem::MassProperties masses;
+  fem::GeometryError geometry_error;
   BodyLoads loads;
   fem::UnitResponses responses;
   bool responses_reused = false;  ///< taken from an earlier run

@@ -30,6 +30,19 @@ std::vector<fem::ElasticSupport> elastic_feet(const meshes::BodyMesh& mesh,
   return supports;
 }
 
+std::vector<fem::LoadSurface> round_ports(const meshes::BodyMesh& mesh) {
+  std::vector<fem::LoadSurface> seats;
+  for (const auto& port : mesh.ports) {
+    if (port.kind == meshes::Port::Kind::face) continue;
+    fem::LoadSurface seat;
+    seat.boundary_id = port.boundary_id;
+    seat.centre_m = {port.axis_x_m, port.axis_y_m, 0.5 * (port.begin_m + port.end_m)};
+    seat.radius_m = port.radius_m;
+    seats.push_back(seat);
+  }
+  return seats;
+}
+
 }  // namespace
 
 meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file) {
@@ -56,6 +69,7 @@ MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
   if (body.elastic_feet) result.body.elastic_supports = elastic_feet(result.mesh, springs);
   result.model = std::make_shared<const fem::Model>(result.body);
   result.masses = result.model->mass_properties();
+  result.geometry_error = result.model->geometry_error(round_ports(result.mesh));
   if (body.role == BodyRole::chamber)
     for (const auto& region : result.mesh.regions)
       result.regions.push_back(

@@ -16,6 +16,7 @@ struct MeshedBody {
   fem::Body body;  ///< what the model was made of
   std::shared_ptr<const fem::Model> model;
   fem::MassProperties masses;       ///< of the whole mesh
+  fem::GeometryError geometry_error;
   std::vector<RegionMass> regions;  ///< "structure" and "exciter" of a chamber; otherwise the whole body
 };
 

@@ -290,6 +290,9 @@ void check_command(const CommandOptions& options, std::ostream& out) {
         "\n{}: {} cells, scaled Jacobian at least {:.2f}, median {:.2f}; aspect at most {:.0f}\n", body.name,
         quality.n_cells, quality.min_scaled_jacobian, quality.median_scaled_jacobian, quality.max_aspect);
     print_cost(out, meshed[i].model->n_dofs());
+    const auto& geometry = meshed[i].geometry_error;
+    out << fmt::format("  curved faces off by at most {:.2g} of their radius ({} faces)\n", geometry.relative,
+                       geometry.n_faces);
     out << fmt::format("  mass {:.4g} kg\n", meshed[i].masses.mass_kg);
     for (const auto& figure : masses.figures)
       if (figure.body == body.name)

@@ -118,6 +118,9 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["min_scaled_jacobian"] = number(quality.min_scaled_jacobian);
   json["median_scaled_jacobian"] = number(quality.median_scaled_jacobian);
   json["max_aspect"] = number(quality.max_aspect);
+  json["geometry_error"] = {{"relative", number(analysis.geometry_error.relative)},
+                            {"faces", analysis.geometry_error.n_faces},
+                            {"position_m", analysis.geometry_error.place_m}};
   json["mass"] = figure(analysis.masses.mass_kg, "kg");
   json["unbalance"] =
       figure(std::hypot(analysis.masses.first_moment_kg_m[0], analysis.masses.first_moment_kg_m[1]), "kg m");

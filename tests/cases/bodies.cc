@@ -186,6 +186,7 @@ TEST(Bodies, WithoutForcesATrainGivesTorsionOnly) {
 
 TEST(Bodies, LoadTableIsBalancedByTheSupportsOfTheScene) {
   const results_test::Directory directory;
+  fs::copy_file(shipped("belt_pull.csv"), directory / "belt_pull.csv");
   const auto json =
       run(directory.path,
           edited("load_table.toml", {{"cells_per_fillet_quarter = 4", "cells_per_fillet_quarter = 2"},
