@@ -1,0 +1,25 @@
+/// How solids that are not made of blocks are meshed: with quadratic tetrahedra by Delaunay on one thread, so
+/// that the same solid gives the same bytes.
+#pragma once
+
+namespace meshes {
+
+struct SolidControl {
+  double size_m = 0;           ///< longest edge wanted; 0: a 20th of the body's diagonal
+  double smallest_size_m = 0;  ///< curvature asks for no shorter edges: limits what small fillets cost; 0: no
+                               ///< limit
+  int cells_per_circle =
+      16;  ///< around every curved surface, >= 6; a quarter of a fillet gets a fourth of it
+  double min_scaled_jacobian = 0.05;  ///< of the curved cells, refused below
+  double exclusion_m = 0;  ///< no stress is reported closer to re-entrant edges; 0: 1 % of the diagonal
+};
+
+/// @throws std::invalid_argument naming the value that is out of range
+void check_control(const SolidControl& control);
+
+/// Meshes the volumes of gmsh's current model, as imported or built: second order with the nodes on the
+/// surfaces.
+/// @param unit_m  length of the model's unit
+void mesh_solids(const SolidControl& control, double unit_m);
+
+}  // namespace meshes
