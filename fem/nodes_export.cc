@@ -1,16 +1,23 @@
 #include "fem/nodes_export.h"
 
+#include "fem/body_nodes.h"
 #include "fem/cell_geometry.h"
+#include "fem/mesh_reader.h"
 #include "fem/vtk_order.h"
 
 namespace fem {
 
 Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals) {
+  Nodes nodes = export_nodes(grid);
+  nodes.volume_m3.resize(grid.n_nodes);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) nodes.volume_m3[i] = integrals(i, 0);
+  return nodes;
+}
+
+Nodes export_nodes(const Grid& grid) {
   Nodes nodes;
   nodes.n = grid.n_nodes;
   nodes.xyz_m = grid.xyz_m;
-  nodes.volume_m3.resize(grid.n_nodes);
-  for (std::size_t i = 0; i < grid.n_nodes; ++i) nodes.volume_m3[i] = integrals(i, 0);
   if (grid.degree != 2) return nodes;
 
   nodes.kind = grid.kind;
@@ -27,6 +34,10 @@ Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals) {
     nodes.face_boundary_id.push_back(face.boundary_id);
   }
   return nodes;
+}
+
+Nodes body_nodes(const Body& body) {
+  return export_nodes(read_grid(body));
 }
 
 }  // namespace fem

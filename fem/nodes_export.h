@@ -10,4 +10,7 @@ namespace fem {
 /// Cells and faces in VTK's order (degree 2 only, empty otherwise).
 Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals);
 
+/// The same without the nodes' volumes.
+Nodes export_nodes(const Grid& grid);
+
 }  // namespace fem

@@ -12,7 +12,7 @@ namespace pipelines {
 struct CommandOptions {
   std::filesystem::path scene;
   std::filesystem::path
-      output;                 ///< run: directory; loads: .h5 file; empty: the default (run) or none (loads)
+      output;                 ///< run, ports: directory; loads: .h5 file; empty: the default or none (loads)
   std::filesystem::path csv;  ///< loads only; empty: none
   std::filesystem::path calculix;    ///< loads only: prefix of the files of cards; empty: none
   std::filesystem::path statistics;  ///< loads only: directory of statistics; empty: none
@@ -41,6 +41,10 @@ void springs_command(const CommandOptions& options, std::ostream& out);
 
 /// `millstress extremes`: a vibratory mill's loads over all angles of drive and charge.
 void extremes_command(const CommandOptions& options, std::ostream& out);
+
+/// `millstress ports`: every body's surface with its ports marked, as VTU and as a picture. The directory
+/// defaults to results/<scene's name>. Meshes the bodies, solves nothing.
+void ports_command(const CommandOptions& options, std::ostream& out);
 
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.

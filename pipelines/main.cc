@@ -76,6 +76,8 @@ int main(int argc, char** argv) {
   springs->add_flag("--json", options.json, "print JSON instead of the table");
   auto* extremes = add("extremes", "a vibratory mill's loads over all angles of drive and charge");
   extremes->add_flag("--json", options.json, "print JSON instead of the table");
+  auto* ports = add("ports", "pictures of the bodies with their ports coloured and named");
+  ports->add_option("-o,--output", options.output, "result directory (default: results/<scene>)");
   auto* check =
       add("check",
           "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing");
@@ -101,6 +103,8 @@ int main(int argc, char** argv) {
       pipelines::springs_command(options, std::cout);
     } else if (extremes->parsed()) {
       pipelines::extremes_command(options, std::cout);
+    } else if (ports->parsed()) {
+      pipelines::ports_command(options, std::cout);
     } else if (check->parsed()) {
       pipelines::check_command(options, std::cout);
     }

@@ -2,13 +2,9 @@
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
-#include <vtkAxesActor.h>
-#include <vtkCamera.h>
-#include <vtkCaptionActor2D.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -23,16 +19,14 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "pipelines/atomic_file.h"
 #include "pipelines/offscreen_window.h"
+#include "pipelines/picture_parts.h"
 #include "pipelines/picture_surface.h"
 
 namespace pipelines {
@@ -69,44 +63,16 @@ vtkSmartPointer<vtkLookupTable> colours(const std::array<double, 2>& range) {
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, vtkLookupTable* table) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
+  mapper->SetLookupTable(table);
+  mapper->UseLookupTableScalarRangeOn();
+  mapper->InterpolateScalarsBeforeMappingOn();
   auto actor = vtkSmartPointer<vtkActor>::New();
-  if (table) {
-    mapper->SetLookupTable(table);
-    mapper->UseLookupTableScalarRangeOn();
-    mapper->InterpolateScalarsBeforeMappingOn();
-    actor->GetProperty()->SetAmbient(0.35);
-    actor->GetProperty()->SetDiffuse(0.7);
-    actor->GetProperty()->SetSpecular(0.08);
-    actor->GetProperty()->SetSpecularPower(30);
-  } else {
-    mapper->ScalarVisibilityOff();
-    mapper->SetResolveCoincidentTopologyToPolygonOffset();
-    mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, -4);
-    actor->GetProperty()->SetColor(0.25, 0.25, 0.25);
-    actor->GetProperty()->SetLineWidth(1);
-    actor->GetProperty()->LightingOff();
-  }
+  actor->GetProperty()->SetAmbient(0.35);
+  actor->GetProperty()->SetDiffuse(0.7);
+  actor->GetProperty()->SetSpecular(0.08);
+  actor->GetProperty()->SetSpecularPower(30);
   actor->SetMapper(mapper);
   return actor;
-}
-
-void plain(vtkTextProperty* text, int size) {
-  text->SetFontFamilyToArial();
-  text->SetFontSize(size);
-  text->SetColor(0.1, 0.1, 0.1);
-  text->BoldOff();
-  text->ItalicOff();
-  text->ShadowOff();
-  text->SetLineSpacing(1.4);
-}
-
-vtkSmartPointer<vtkTextActor> text_at(const std::string& words, int size, double x, double y) {
-  auto text = vtkSmartPointer<vtkTextActor>::New();
-  text->SetInput(words.c_str());
-  plain(text->GetTextProperty(), size);
-  text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  text->GetPositionCoordinate()->SetValue(x, y);
-  return text;
 }
 
 /// A ring around a place of the body that keeps its size in pixels.
@@ -145,64 +111,6 @@ vtkSmartPointer<vtkScalarBarActor> colour_bar(vtkLookupTable* table, const std::
   return bar;
 }
 
-/// A parallel camera that shows the frame and what lies up to its half depth in front of its centre, and all
-/// behind.
-void look(vtkRenderer* renderer, const View& view, const Frame& frame, double width_over_height,
-          double all_depth) {
-  auto* camera = renderer->GetActiveCamera();
-  const std::array<Vector, 3> axes = view.axes();
-  Vector eye = frame.centre;
-  for (std::size_t d = 0; d < 3; ++d) eye[d] += 2 * frame.half_depth * axes[2][d];
-  camera->ParallelProjectionOn();
-  camera->SetFocalPoint(frame.centre.data());
-  camera->SetPosition(eye.data());
-  camera->SetViewUp(axes[1].data());
-  camera->SetParallelScale(std::max(frame.half_height, frame.half_width / width_over_height));
-  camera->SetClippingRange(0.95 * frame.half_depth, 2 * frame.half_depth + all_depth);
-}
-
-/// The directions of x, y and z as the camera of `like` sees them.
-void add_triad(vtkRenderer* renderer, vtkRenderer* like) {
-  vtkNew<vtkAxesActor> axes;
-  axes->SetShaftTypeToCylinder();
-  axes->SetCylinderRadius(0.04);
-  axes->SetConeRadius(0.3);
-  axes->SetXAxisLabelText("x");
-  axes->SetYAxisLabelText("y");
-  axes->SetZAxisLabelText("z");
-  for (auto* caption :
-       {axes->GetXAxisCaptionActor2D(), axes->GetYAxisCaptionActor2D(), axes->GetZAxisCaptionActor2D()}) {
-    plain(caption->GetCaptionTextProperty(), 20);
-    caption->GetTextActor()->SetTextScaleModeToNone();
-  }
-  renderer->AddActor(axes);
-  auto* camera = renderer->GetActiveCamera();
-  camera->ParallelProjectionOn();
-  const double* forward = like->GetActiveCamera()->GetDirectionOfProjection();
-  camera->SetFocalPoint(0, 0, 0);
-  camera->SetPosition(-5 * forward[0], -5 * forward[1], -5 * forward[2]);
-  camera->SetViewUp(like->GetActiveCamera()->GetViewUp());
-  camera->SetParallelScale(1.4);
-  camera->SetClippingRange(0.1, 10);
-}
-
-void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
-  window->Render();
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->SetInputBufferTypeToRGB();
-  image->ReadFrontBufferOff();
-  image->ShouldRerenderOff();
-  AtomicFile file(png);
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(file.temporary().c_str());
-  writer->SetInputConnection(image->GetOutputPort());
-  writer->Write();
-  if (writer->GetErrorCode() != 0)
-    throw std::runtime_error(png.string() + ": cannot be written; check the directory and the free space");
-  file.commit();
-}
-
 }  // namespace
 
 bool write_picture(const std::filesystem::path& vtu, const std::string& field, const std::string& title,
@@ -220,18 +128,14 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const auto table =
       colours(options.range.value_or(std::array<double, 2>{from, peak.value > from ? peak.value : from + 1}));
   const auto body = actor_of(surface.get(), table);
-  const auto edges = actor_of(edge_lines.get(), nullptr);
+  const auto edges = line_actor(edge_lines.get(), 0.25, 1);
 
   window->SetSize(options.width, options.height);
   window->SetMultiSamples(4);
   const double split = 0.48, head = 0.07, detail_width = 0.72, gap = 0.02;
   const int font_size = std::max(10, options.height / 45);
   const auto add = [&](double left, double bottom, double right, double top) {
-    auto renderer = vtkSmartPointer<vtkRenderer>::New();
-    renderer->SetViewport(left, bottom, right, top);
-    renderer->SetBackground(1, 1, 1);
-    window->AddRenderer(renderer);
-    return renderer;
+    return add_renderer(window.get(), left, bottom, right, top);
   };
   add(0, 0, 1, 1);  // white where the others leave gaps
   const auto heading = add(0, 1 - head, 1, 1), whole = add(0, split, 1, 1 - head),

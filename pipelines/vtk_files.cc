@@ -5,11 +5,13 @@
 #include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -60,6 +62,13 @@ void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n
   grid.GetPointData()->AddArray(array);
 }
 
+void add_names(vtkUnstructuredGrid& grid, const NameList& list) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(list.name.c_str());
+  for (const auto& name : list.names) array->InsertNextValue(name);
+  grid.GetFieldData()->AddArray(array);
+}
+
 void add_ids(vtkDataSetAttributes& data, const std::string& name, const std::vector<std::int32_t>& values) {
   vtkNew<vtkTypeInt32Array> array;
   array->SetName(name.c_str());
@@ -92,7 +101,8 @@ void set_cells(vtkUnstructuredGrid& grid, const Cells& cells) {
 /// the chosen).
 void write_grid(const std::filesystem::path& path, const Cells& cells, const fem::Nodes& nodes,
                 const std::vector<std::int32_t>& chosen, const std::vector<NodalField>& fields,
-                const std::vector<IdField>& ids, VtuCompression compression) {
+                const std::vector<IdField>& ids, const std::vector<NameList>& names,
+                VtuCompression compression) {
   if (nodes.xyz_m.size() != 3 * nodes.n)
     throw std::invalid_argument("nodes: " + std::to_string(nodes.xyz_m.size()) + " coordinates for " +
                                 std::to_string(nodes.n) + " nodes");
@@ -103,6 +113,7 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
   grid->SetPoints(points);
   set_cells(*grid, cells);
   for (const auto& field : fields) add_field(*grid, field, nodes.n, chosen);
+  for (const auto& list : names) add_names(*grid, list);
   for (const auto& id : ids) {
     const bool at_nodes = id.at == IdField::At::nodes;
     if (id.values.size() != (at_nodes ? nodes.n : cells.size()))
@@ -174,12 +185,12 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
   const bool tetrahedra = nodes.kind == fem::CellKind::tetrahedra;
   const Cells cells = {tetrahedra ? VTK_QUADRATIC_TETRA : VTK_TRIQUADRATIC_HEXAHEDRON, nodes.nodes_per_cell(),
                        nodes.cells};
-  write_grid(path, cells, nodes, all, fields, ids, compression);
+  write_grid(path, cells, nodes, all, fields, ids, {}, compression);
 }
 
 void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                                 const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
-                                VtuCompression compression) {
+                                VtuCompression compression, const std::vector<NameList>& names) {
   std::vector<std::int32_t> place(nodes.n, -1), chosen;
   for (const std::int32_t node : nodes.faces) place[static_cast<std::size_t>(node)] = 0;
   for (std::size_t node = 0; node < nodes.n; ++node)
@@ -194,7 +205,7 @@ void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::No
   const bool tetrahedra = nodes.kind == fem::CellKind::tetrahedra;
   const Cells cells = {tetrahedra ? VTK_QUADRATIC_TRIANGLE : VTK_BIQUADRATIC_QUAD, nodes.nodes_per_face(),
                        faces};
-  write_grid(path, cells, nodes, chosen, fields, with_boundary, compression);
+  write_grid(path, cells, nodes, chosen, fields, with_boundary, names, compression);
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {

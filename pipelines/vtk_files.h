@@ -39,6 +39,12 @@ struct IdField {
   At at = At::nodes;
 };
 
+/// Words for the ids of a field, kept beside the cells as field data.
+struct NameList {
+  std::string name;
+  std::vector<std::string> names;
+};
+
 enum class VtuCompression { none, zlib };
 
 /// The whole body: VTK_TRIQUADRATIC_HEXAHEDRON or VTK_QUADRATIC_TETRA, all nodes in their order.
@@ -55,7 +61,8 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
 /// @throws as write_envelope_vtu
 void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                                 const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
-                                VtuCompression compression = VtuCompression::zlib);
+                                VtuCompression compression = VtuCompression::zlib,
+                                const std::vector<NameList>& names = {});
 
 struct PvdEntry {
   double time_s = 0;
