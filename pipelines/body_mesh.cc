@@ -6,10 +6,15 @@ namespace {
 struct Build {
   const std::filesystem::path& file;
   meshes::BodyMesh operator()(const ShaftShape& shape) const {
-    return meshes::build_shaft(shape.geometry, shape.mesh, file);
+    return shape.keyways.empty()
+               ? meshes::build_shaft(shape.geometry, shape.mesh, file)
+               : meshes::build_solid_shaft(shape.geometry, shape.keyways, shape.solid, file);
   }
   meshes::BodyMesh operator()(const ChamberShape& shape) const {
     return meshes::build_chamber(shape.geometry, shape.mesh, file);
+  }
+  meshes::BodyMesh operator()(const meshes::Import& shape) const {
+    return meshes::build_imported(shape, file);
   }
 };
 
@@ -70,7 +75,9 @@ MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
   result.model = std::make_shared<const fem::Model>(result.body);
   result.masses = result.model->mass_properties();
   result.geometry_error = result.model->geometry_error(round_ports(result.mesh));
-  if (body.role == BodyRole::chamber)
+  if (body.role == BodyRole::chamber && result.mesh.regions.empty())
+    result.regions.push_back({"structure", {}, result.masses});
+  else if (body.role == BodyRole::chamber)
     for (const auto& region : result.mesh.regions)
       result.regions.push_back(
           {region.name, region.volume_ids, result.model->mass_properties(region.volume_ids)});

@@ -15,9 +15,10 @@ struct MeshedBody {
   meshes::BodyMesh mesh;
   fem::Body body;  ///< what the model was made of
   std::shared_ptr<const fem::Model> model;
-  fem::MassProperties masses;       ///< of the whole mesh
+  fem::MassProperties masses;  ///< of the whole mesh
   fem::GeometryError geometry_error;
-  std::vector<RegionMass> regions;  ///< "structure" and "exciter" of a chamber; otherwise the whole body
+  std::vector<RegionMass> regions;  ///< "structure" and "exciter" of a chamber; otherwise the whole body. A
+                                    ///< chamber of one piece is all structure: its exciter is an added mass
 };
 
 /// The mesh alone, written to `file`.

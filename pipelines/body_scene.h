@@ -9,7 +9,9 @@
 
 #include "fem/body.h"
 #include "meshes/chamber.h"
+#include "meshes/imported.h"
 #include "meshes/shaft.h"
+#include "meshes/solid_shaft.h"
 #include "pipelines/distribute.h"
 #include "pipelines/pressure_pattern.h"
 
@@ -21,6 +23,8 @@ enum class BodyRole { vibratory_shaft, chamber, drum, stub_axle, train_shaft, ta
 struct ShaftShape {
   meshes::Shaft geometry;
   meshes::ShaftMeshControl mesh;
+  std::vector<meshes::Keyway> keyways;  ///< some: the shaft is meshed with tetrahedra, by `solid`
+  meshes::SolidControl solid;
 };
 
 struct ChamberShape {
@@ -39,7 +43,7 @@ struct AddedMass {
 struct BodyScene {
   std::string name;  ///< "shaft", "chamber", "drum", "axle", "part": table and directory
   BodyRole role = BodyRole::vibratory_shaft;
-  std::variant<ShaftShape, ChamberShape> shape;
+  std::variant<ShaftShape, ChamberShape, meshes::Import> shape;
   fem::Material material;
   std::string material_name;
   double yield_strength_Pa = 0;

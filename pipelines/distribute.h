@@ -58,7 +58,7 @@ struct ChamberOptions {
 /// Ports: housing_bore (+B; mx, my for what is not symmetric in z), spring_foot_1.. (f_i), inner_wall (F_w
 /// through the axis C and the friction torque r e(chi) x F_w), volume.structure and volume.exciter (gravity,
 /// -s'', -theta'' z x p), attached masses at their ports.
-/// @param body  regions "structure" and "exciter"
+/// @param body  region "structure", and "exciter" unless that is an attached mass
 /// @throws std::invalid_argument if a port is missing or the history lacks a resultant; std::out_of_range if
 /// a region is
 BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics::VibratoryMill& mill,

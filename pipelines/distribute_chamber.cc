@@ -38,7 +38,8 @@ public:
     for (const auto& mass : options_.structure) book_.accelerate(mass, effect, field);
   }
   void exciter(const std::string& effect, const AccelerationField& field) {
-    book_.accelerate(body_.region("exciter"), effect, field);
+    for (const auto& region : body_.regions)
+      if (region.name == "exciter") book_.accelerate(region, effect, field);
     for (const auto& mass : options_.exciter) book_.accelerate(mass, effect, field);
   }
   void all(const std::string& effect, const AccelerationField& field) {
@@ -51,8 +52,8 @@ public:
   };
   Inertia about_mass_centre() const {
     double mass = 0, sx = 0, sy = 0, polar = 0;
-    for (const char* region : {"structure", "exciter"}) {
-      const auto& m = body_.region(region).masses;
+    for (const auto& region : body_.regions) {
+      const auto& m = region.masses;
       mass += m.mass_kg;
       sx += m.first_moment_kg_m[0];
       sy += m.first_moment_kg_m[1];

@@ -217,6 +217,14 @@ ContourRules contour_rules(BodyRole role, const Scene& scene, const BodyScene& b
   return rules;
 }
 
+std::vector<std::string> needed_ports(BodyRole role, const Scene& scene, const BodyScene& body) {
+  if (role != BodyRole::chamber) return contour_rules(role, scene, body).ports;
+  std::vector<std::string> ports{"housing_bore", "inner_wall"};
+  for (std::size_t i = 1; i <= scene.vibratory_mill().springs.size(); ++i)
+    ports.push_back("spring_foot_" + std::to_string(i));
+  return ports;
+}
+
 }  // namespace
 
 BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneFindings& findings) {
@@ -229,7 +237,6 @@ BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneF
     read_train_shaft(table, std::get<kinetics::DriveTrain>(scene.machine), body);
   if (role == BodyRole::table_body) read_supports(table, body);
   if (role == BodyRole::chamber) {
-    body.shape = read_chamber_shape(table, scene.vibratory_mill(), scene.milling_space);
     const std::string guide =
         table.text_or("pitch_guide", "body", "where the couple of a held attitude goes");
     if (guide == "feet")
@@ -237,9 +244,14 @@ BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneF
     else if (!guide.empty() && guide != "body")
       table.refuse("pitch_guide", "write \"body\" (a body load about the mass centre) or \"feet\"");
     body.elastic_feet = table.flag_or("elastic_feet", false, "the springs' stiffness is no part of the body");
-  } else {
-    body.shape = read_shaft_shape(table, contour_rules(role, scene, body), findings);
   }
+  table.know("file");
+  if (table.has("file"))
+    body.shape = read_import(table, scene.file.parent_path(), needed_ports(role, scene, body));
+  else if (role == BodyRole::chamber)
+    body.shape = read_chamber_shape(table, scene.vibratory_mill(), scene.milling_space);
+  else
+    body.shape = read_shaft_shape(table, contour_rules(role, scene, body), findings);
   read_pressures(table, body);
   if (role != BodyRole::vibratory_shaft && role != BodyRole::stub_axle && role != BodyRole::table_body)
     read_added_masses(table, body);

@@ -1,6 +1,7 @@
 /// The tables of a scene's bodies: [shaft], [chamber], [drum], [axle], [part].
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,16 @@ ShaftShape read_shaft_shape(SceneTable& body, const ContourRules& rules, SceneFi
 /// of its feet come from the machine.
 ChamberShape read_chamber_shape(SceneTable& body, const kinetics::VibratoryMill& mill,
                                 const std::optional<MillingSpace>& space);
+
+/// Reads file, length_unit, ports and mesh of a body of the user's own geometry.
+meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_directory,
+                           const std::vector<std::string>& needed_ports);
+
+/// Reads [[keyways]], if there are any.
+std::vector<meshes::Keyway> read_keyways(SceneTable& body);
+
+/// How a body of tetrahedra is meshed.
+meshes::SolidControl read_solid_control(SceneTable mesh);
 
 /// Reads the body's table as a whole and closes it.
 /// @param scene  with its machine read

@@ -227,7 +227,11 @@ ShaftShape read_shaft_shape(SceneTable& body, const ContourRules& rules, SceneFi
   for (std::size_t i = 0; i + 1 < contour.segments.size(); ++i) check_shoulder(contour, i, findings);
   for (std::size_t i = 0; i < contour.segments.size(); ++i) check_length(contour, i);
   shape.geometry = placed(contour, body, rules);
-  shape.mesh = read_mesh(body.table_or_empty("mesh"));
+  shape.keyways = read_keyways(body);
+  if (shape.keyways.empty())
+    shape.mesh = read_mesh(body.table_or_empty("mesh"));
+  else
+    shape.solid = read_solid_control(body.table_or_empty("mesh"));
   return shape;
 }
 
