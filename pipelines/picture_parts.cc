@@ -112,6 +112,7 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
   image->ShouldRerenderOff();
   AtomicFile file(png);
   vtkNew<vtkPNGWriter> writer;
+  writer->SetCompressionLevel(9);
   writer->SetFileName(file.temporary().c_str());
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
