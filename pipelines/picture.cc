@@ -144,7 +144,7 @@ void add_drawn(vtkRenderer* renderer, const Drawn& drawn, vtkLookupTable* table,
   renderer->AddActor(actor_of(parts->GetOutput(), table));
   renderer->AddActor(plain_actor(parts->GetClippedOutput(), 0.72));
   if (drawn.section) renderer->AddActor(plain_actor(drawn.section.get(), 0.58));
-  if (with_edges) renderer->AddActor(line_actor(drawn.edges.get(), 0.25, 1));
+  if (with_edges) add_lines(renderer, drawn.edges.get(), 0.25, 1);
 }
 
 /// Where the parts of a picture are, in shares of it: left, bottom, right, top.
@@ -193,8 +193,8 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   };
   add({0, 0, 1, 1});  // white where the others leave gaps
   const Layout& layout = is_long(bounds) ? one_above_the_other : side_by_side;
-  const auto heading = add({0, 1 - head, 1, 1}), whole = add(layout.whole), detail = add(layout.detail),
-             legend = add(layout.legend);
+  auto *heading = add({0, 1 - head, 1, 1}), *whole = add(layout.whole), *detail = add(layout.detail),
+       *legend = add(layout.legend);
 
   add_drawn(whole, drawn, table, false);
   add_drawn(detail, drawn, table, options.edges);
@@ -214,12 +214,12 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
 
   add_triad(add({1 - 0.13, gap, 1, gap + 0.22}), whole);
 
-  heading->AddActor2D(text_at(title, font_size * 4 / 3, 0.02, 0.25));
+  add_text(heading, title, font_size * 4 / 3, 0.02, 0.25);
   char words[200];
   std::snprintf(words, sizeof(words), "maximum %.4g %s\nat x = %.1f, y = %.1f, z = %.1f mm%s", peak.value,
                 unit.c_str(), 1e3 * peak.at[0], 1e3 * peak.at[1], 1e3 * peak.at[2],
                 some_excluded ? "\ngrey: beside a sharp edge" : "");
-  legend->AddActor2D(text_at(words, font_size, 0.12, some_excluded ? 0.74 : 0.8));
+  add_text(legend, words, font_size, 0.12, some_excluded ? 0.74 : 0.8);
   legend->AddActor2D(colour_bar(table, unit, font_size));
   write_png(window.get(), png);
   return true;

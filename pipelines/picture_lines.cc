@@ -2,11 +2,13 @@
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
+#include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper2D.h>
 #include <vtkProperty2D.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 
 #include <cmath>
@@ -23,27 +25,23 @@ double round_length(double at_most) {
   return decade * (at_most >= 5 * decade ? 5 : at_most >= 2 * decade ? 2 : 1);
 }
 
+vtkSmartPointer<vtkCellArray> cells_of(const std::vector<std::vector<Pixel>>& shapes, vtkPoints* points) {
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  for (const auto& shape : shapes) {
+    cells->InsertNextCell(int(shape.size()));
+    for (const auto& corner : shape) cells->InsertCellPoint(points->InsertNextPoint(corner[0], corner[1], 0));
+  }
+  return cells;
+}
+
 }  // namespace
 
-Drawing::Drawing() = default;
-Drawing::~Drawing() = default;
-
-void Drawing::line(double x0, double y0, double x1, double y1) {
-  lines_->InsertNextCell(2);
-  add(x0, y0, lines_);
-  add(x1, y1, lines_);
-}
-
-void Drawing::area(const std::vector<std::array<double, 2>>& corners) {
-  areas_->InsertNextCell(int(corners.size()));
-  for (const auto& corner : corners) add(corner[0], corner[1], areas_);
-}
-
 void Drawing::put(vtkRenderer* renderer, const Colour& colour, double line_width) const {
+  vtkNew<vtkPoints> points;
   vtkNew<vtkPolyData> data;
-  data->SetPoints(points_);
-  data->SetLines(lines_);
-  data->SetPolys(areas_);
+  data->SetLines(cells_of(lines_, points));
+  data->SetPolys(cells_of(areas_, points));
+  data->SetPoints(points);
   vtkNew<vtkPolyDataMapper2D> mapper;
   mapper->SetInputData(data);
   vtkNew<vtkActor2D> actor;
@@ -53,16 +51,10 @@ void Drawing::put(vtkRenderer* renderer, const Colour& colour, double line_width
   renderer->AddActor2D(actor);
 }
 
-void Drawing::add(double x, double y, vtkCellArray* cells) {
-  cells->InsertCellPoint(points_->InsertNextPoint(x, y, 0));
-}
-
-vtkSmartPointer<vtkTextActor> words_at(vtkRenderer* renderer, const std::string& words, int size, double x,
-                                       double y) {
-  auto text = text_at(words, size, 0, 0);
+vtkTextActor* add_words(vtkRenderer* renderer, const std::string& words, int size, double x, double y) {
+  auto* text = add_text(renderer, words, size, 0, 0);
   text->GetPositionCoordinate()->SetCoordinateSystemToViewport();
   text->GetPositionCoordinate()->SetValue(x, y);
-  renderer->AddActor2D(text);
   return text;
 }
 
@@ -76,7 +68,7 @@ double add_scale_bar(vtkRenderer* renderer, double x, double y, double at_most, 
   bar.put(renderer, ink, 2);
   char words[40];
   std::snprintf(words, sizeof words, "%g mm", length_m * 1e3);
-  const auto text = words_at(renderer, words, font_size, right + 12, y - 7);
+  auto* text = add_words(renderer, words, font_size, right + 12, y - 7);
   double box[4];
   text->GetBoundingBox(renderer, box);
   return right + 12 + box[1] - box[0];

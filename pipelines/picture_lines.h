@@ -1,17 +1,13 @@
 /// Lines, areas, words and the scale over a picture, in pixels of their renderer.
 #pragma once
 
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/picture_surface.h"
 
-class vtkCellArray;
-class vtkPoints;
 class vtkRenderer;
 class vtkTextActor;
 
@@ -19,23 +15,21 @@ namespace pipelines {
 
 inline constexpr Colour ink{40, 40, 40};
 
+using Pixel = std::array<double, 2>;
+
 /// Of one colour.
 class Drawing {
 public:
-  Drawing();
-  ~Drawing();
-  void line(double x0, double y0, double x1, double y1);
-  void area(const std::vector<std::array<double, 2>>& corners);
+  void line(double x0, double y0, double x1, double y1) { lines_.push_back({{x0, y0}, {x1, y1}}); }
+  void area(std::vector<Pixel> corners) { areas_.push_back(std::move(corners)); }
   void put(vtkRenderer* renderer, const Colour& colour, double line_width) const;
 
 private:
-  void add(double x, double y, vtkCellArray* cells);
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> lines_, areas_;
+  std::vector<std::vector<Pixel>> lines_, areas_;
 };
 
-vtkSmartPointer<vtkTextActor> words_at(vtkRenderer* renderer, const std::string& words, int size, double x,
-                                       double y);
+/// @return belongs to the renderer
+vtkTextActor* add_words(vtkRenderer* renderer, const std::string& words, int size, double x, double y);
 
 /// A bar of a round length with its length in mm beside it; true in the plane of the picture.
 /// @param x, y       of its left end

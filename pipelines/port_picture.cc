@@ -46,8 +46,8 @@ Panel make_panel(const PortBody& body, const PortView& view, int panel_width, in
   return panel;
 }
 
-std::vector<std::array<double, 2>> disc(double x, double y, double radius) {
-  std::vector<std::array<double, 2>> corners;
+std::vector<Pixel> disc(double x, double y, double radius) {
+  std::vector<Pixel> corners;
   for (int i = 0; i < 24; ++i)
     corners.push_back({x + radius * std::cos(i * M_PI / 12), y + radius * std::sin(i * M_PI / 12)});
   return corners;
@@ -56,10 +56,10 @@ std::vector<std::array<double, 2>> disc(double x, double y, double radius) {
 /// The labels of some ports of the panel.
 void add_labels(vtkRenderer* renderer, const Panel& panel, const std::vector<std::string>& names,
                 const std::vector<std::size_t>& ports) {
-  std::vector<vtkSmartPointer<vtkTextActor>> texts;
+  std::vector<vtkTextActor*> texts;
   std::vector<LabelWish> wishes;
   for (const std::size_t p : ports) {
-    texts.push_back(words_at(renderer, names[p], font, 0, 0));
+    texts.push_back(add_words(renderer, names[p], font, 0, 0));
     double box[4];
     texts.back()->GetBoundingBox(renderer, box);
     wishes.push_back({panel.seen[p].x, panel.seen[p].y, swatch + space + box[1] - box[0]});
@@ -89,7 +89,7 @@ void add_labels(vtkRenderer* renderer, const Panel& panel, const std::vector<std
 /// The scale, and what the panel shows.
 void add_scale(vtkRenderer* renderer, const Panel& panel) {
   const double right = add_scale_bar(renderer, strip + 30, 28, 0.16 * panel.width, panel.m_per_pixel, font);
-  words_at(renderer, panel.view.caption, font, right + 40, 21);
+  add_words(renderer, panel.view.caption, font, right + 40, 21);
 }
 
 /// Each port in the first view that shows it nearly as well as any.
@@ -162,18 +162,18 @@ bool write_port_picture(const std::filesystem::path& vtu, const std::string& tit
                         (bottom + high) / height);
   };
   part(0, 0, width, height);
-  part(0, height - heading, width, heading)->AddActor2D(text_at(title, font * 4 / 3, 0.02, 0.35));
+  add_text(part(0, height - heading, width, heading), title, font * 4 / 3, 0.02, 0.35);
   const auto ports = share_out(panels, body.ports.size());
   int top = height - heading;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const auto& panel = panels[i];
     const int bottom = top - panel.height;
-    const auto renderer = part(panel.left, bottom, panel.width, panel.height);
+    auto* renderer = part(panel.left, bottom, panel.width, panel.height);
     add_body(renderer, body, panel.view, false);
     look(renderer, panel.view.view, panel.frame, double(panel.width) / panel.height,
          4 * panel.frame.half_depth);
     add_labels(renderer, panel, body.ports, ports[i]);
-    const auto foot = part(panel.left, bottom - strip, panel.width, strip);
+    auto* foot = part(panel.left, bottom - strip, panel.width, strip);
     add_scale(foot, panel);
     add_triad(part(panel.left + 10, bottom - strip, strip, strip), renderer);
     if (!side_by_side) top = bottom - strip;

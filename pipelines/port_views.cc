@@ -107,7 +107,7 @@ void add_body(vtkRenderer* renderer, const PortBody& body, const PortView& view,
     face->GetProperty()->LightingOff();
     renderer->AddActor(face);
   }
-  if (!ids) renderer->AddActor(line_actor(shape.edges.get(), 0.2, 0.22));
+  if (!ids) add_lines(renderer, shape.edges.get(), 0.2, 0.22);
 }
 
 Frame frame_of(const PortBody& body, const PortView& view) {
@@ -120,7 +120,7 @@ std::vector<SeenPort> see_ports(const PortBody& body, const PortView& view, cons
   if (!window) return {};
   window->SetSize(width, height);
   window->SetMultiSamples(0);
-  const auto renderer = add_renderer(window.get(), 0, 0, 1, 1);
+  auto* renderer = add_renderer(window.get(), 0, 0, 1, 1);
   add_body(renderer, body, view, true);
   look(renderer, view.view, frame, double(width) / height, 4 * frame.half_depth);
   window->Render();
