@@ -63,12 +63,13 @@ void warn_of_guide(kinetics::LoadHistory& loads, const BodyLoads& body) {
 }
 
 /// The envelope as a picture; a machine that cannot draw gets a line instead.
-void draw(const std::filesystem::path& directory, const std::string& title) {
+void draw(const std::filesystem::path& directory, const std::string& title, const std::string& body) {
   PictureOptions options;
   options.scale = 1e-6;
+  options.excluded = "excluded";
   if (!write_picture(directory / "envelope.vtu", "von Mises stress, maximum [Pa]",
-                     title + ": largest von Mises stress over the cycle", "MPa", directory / "envelope.png",
-                     options))
+                     title + ", " + body + ": largest von Mises stress over the cycle", "MPa",
+                     directory / "envelope.png", options))
     std::cerr << "no picture: this machine offers no EGL (package libegl1); envelope.vtu opens in ParaView\n";
 }
 
@@ -186,7 +187,7 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
                                     {place, options.n_threads, options.fresh}, clock));
     meshed[i].model.reset();
     clock.run("write", [&] { write_body_results(place, scene, loads, analyses.back()); });
-    if (scene.pictures) clock.run("pictures", [&] { draw(place, scene.title); });
+    if (scene.pictures) clock.run("pictures", [&] { draw(place, scene.title, scene.bodies[i].name); });
   }
   clock.run("write", [&] { write_load_results(directory, loads, channels); });
   finish_run(options, out, directory, {scene, loads, analyses, masses.figures, clock.costs(), lives});

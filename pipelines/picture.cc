@@ -2,7 +2,9 @@
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
+#include <vtkClipPolyData.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkDataObject.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -22,10 +24,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <utility>
 #include <vector>
 
+#include "pipelines/cut_surface.h"
 #include "pipelines/offscreen_window.h"
+#include "pipelines/picture_lines.h"
 #include "pipelines/picture_parts.h"
 #include "pipelines/picture_surface.h"
 
@@ -75,6 +78,16 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, vtkLookupTable* table) {
   return actor;
 }
 
+vtkSmartPointer<vtkActor> plain_actor(vtkPolyData* data, double grey) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(grey, grey, grey);
+  return actor;
+}
+
 /// A ring around a place of the body that keeps its size in pixels.
 vtkSmartPointer<vtkActor2D> ring_at(const Vector& at, double radius) {
   vtkNew<vtkRegularPolygonSource> circle;
@@ -107,8 +120,45 @@ vtkSmartPointer<vtkScalarBarActor> colour_bar(vtkLookupTable* table, const std::
   bar->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   bar->GetPositionCoordinate()->SetValue(0.12, 0.06);
   bar->SetWidth(0.3);
-  bar->SetHeight(0.68);
+  bar->SetHeight(0.62);
   return bar;
+}
+
+/// The surface that is drawn: coloured where the field counts, grey where it does not and where it is cut.
+struct Drawn {
+  std::shared_ptr<vtkPolyData> surface, edges, section;
+};
+
+void add_drawn(vtkRenderer* renderer, const Drawn& drawn, vtkLookupTable* table, bool with_edges) {
+  vtkNew<vtkPolyData> marked;  // vtkClipPolyData looks at the active scalars only
+  marked->ShallowCopy(drawn.surface.get());
+  const std::string shown = marked->GetPointData()->GetScalars()->GetName();
+  marked->GetPointData()->SetActiveScalars(excluded_array);
+  vtkNew<vtkClipPolyData> parts;
+  parts->SetInputData(marked);
+  parts->SetValue(0.5);
+  parts->InsideOutOn();
+  parts->GenerateClippedOutputOn();
+  parts->Update();
+  parts->GetOutput()->GetPointData()->SetActiveScalars(shown.c_str());
+  renderer->AddActor(actor_of(parts->GetOutput(), table));
+  renderer->AddActor(plain_actor(parts->GetClippedOutput(), 0.72));
+  if (drawn.section) renderer->AddActor(plain_actor(drawn.section.get(), 0.58));
+  if (with_edges) add_lines(renderer, drawn.edges.get(), 0.25, 1);
+}
+
+/// Where the parts of a picture are, in shares of it: left, bottom, right, top.
+struct Layout {
+  using Place = std::array<double, 4>;
+  Place whole, detail, legend;
+};
+constexpr double head = 0.07, gap = 0.02;
+constexpr Layout one_above_the_other = {{0, 0.48, 1, 1 - head}, {gap, gap, 0.72, 0.46}, {0.72, 0, 1, 0.48}};
+constexpr Layout side_by_side = {
+    {0, gap, 0.5, 1 - head}, {0.5, 0.46, 1 - gap, 1 - head}, {0.5, 0, 0.78, 0.46}};
+
+double width_over_height(const Layout::Place& place, const PictureOptions& options) {
+  return (place[2] - place[0]) * options.width / ((place[3] - place[1]) * options.height);
 }
 
 }  // namespace
@@ -118,51 +168,58 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const auto window = make_offscreen_window();
   if (!window) return false;
 
-  const auto faces = boundary_faces(vtu, field, options.scale);
-  const auto surface = smooth_surface(faces.get(), options.subdivisions);
-  const auto edge_lines = curved_edges(faces.get());
-  const SurfacePeak peak = peak_of(faces.get(), surface.get());
-  const View view = view_of(surface->GetBounds(), peak.normal);
-  const double lowest = surface->GetPointData()->GetScalars()->GetRange()[0];
+  const int pieces = std::clamp(options.subdivisions, 0, 5);
+  const auto faces = boundary_faces(vtu, field, options.scale, options.excluded);
+  Drawn drawn{smooth_surface(faces.get(), pieces), curved_edges(faces.get(), 1 << pieces), {}};
+  const SurfacePeak peak = peak_of(faces.get(), drawn.surface.get());
+  const double* bounds = faces->GetBounds();
+  const SurfaceView seen = view_of_place(drawn.surface.get(), peak.at, peak.normal);
+  const View& view = seen.view;
+  const double lowest = drawn.surface->GetPointData()->GetScalars()->GetRange()[0];
   const double from = std::min(0., lowest);
   const auto table =
       colours(options.range.value_or(std::array<double, 2>{from, peak.value > from ? peak.value : from + 1}));
-  const auto body = actor_of(surface.get(), table);
-  const auto edges = line_actor(edge_lines.get(), 0.25, 1);
+  const bool some_excluded = drawn.surface->GetPointData()->GetArray(excluded_array)->GetRange()[1] > 0;
+  Frame all = frame_of(drawn.surface.get(), view);
+  if (seen.cut)
+    drawn = {clipped(drawn.surface.get(), *seen.cut), clipped(drawn.edges.get(), *seen.cut),
+             section(faces.get(), pieces, *seen.cut)};
 
   window->SetSize(options.width, options.height);
   window->SetMultiSamples(4);
-  const double split = 0.48, head = 0.07, detail_width = 0.72, gap = 0.02;
   const int font_size = std::max(10, options.height / 45);
-  const auto add = [&](double left, double bottom, double right, double top) {
-    return add_renderer(window.get(), left, bottom, right, top);
+  const auto add = [&](const Layout::Place& at) {
+    return add_renderer(window.get(), at[0], at[1], at[2], at[3]);
   };
-  add(0, 0, 1, 1);  // white where the others leave gaps
-  const auto heading = add(0, 1 - head, 1, 1), whole = add(0, split, 1, 1 - head),
-             detail = add(gap, gap, detail_width, split - gap), legend = add(detail_width, 0, 1, split);
+  add({0, 0, 1, 1});  // white where the others leave gaps
+  const Layout& layout = is_long(bounds) ? one_above_the_other : side_by_side;
+  auto *heading = add({0, 1 - head, 1, 1}), *whole = add(layout.whole), *detail = add(layout.detail),
+       *legend = add(layout.legend);
 
-  Frame all = frame_of(surface.get(), view);
-  for (const auto& [renderer, show_edges] : {std::pair(whole, false), std::pair(detail, options.edges)}) {
-    renderer->AddActor(body);
-    if (show_edges) renderer->AddActor(edges);
-  }
+  add_drawn(whole, drawn, table, false);
+  add_drawn(detail, drawn, table, options.edges);
   whole->AddActor(ring_at(peak.at, font_size));
   all.half_width *= 1.06;
   all.half_height *= 1.1;
-  const double pixel_ratio = double(options.width) / options.height;
-  look(whole, view, all, pixel_ratio / (1 - head - split), 4 * all.half_depth);
+  look(whole, view, all, width_over_height(layout.whole, options), 4 * all.half_depth);
   const double extent = std::max({all.half_width, all.half_height, all.half_depth});
   const double half_detail = std::clamp(options.detail, 1e-3, 1.) * extent;
-  look(detail, view, {peak.at, half_detail, 0, half_detail},
-       pixel_ratio * (detail_width - gap) / (split - 2 * gap), 4 * extent);
+  look(detail, view, {peak.at, half_detail, 0, half_detail}, width_over_height(layout.detail, options),
+       4 * extent);
+  const double whole_width = (layout.whole[2] - layout.whole[0]) * options.width;
+  const double m_per_pixel =
+      std::max(2 * all.half_width / whole_width,
+               2 * all.half_height * width_over_height(layout.whole, options) / whole_width);
+  add_scale_bar(whole, 0.02 * options.width, font_size, 0.1 * options.width, m_per_pixel, font_size);
 
-  add_triad(add(1 - 0.13, gap, 1, gap + 0.22), whole);
+  add_triad(add({1 - 0.13, gap, 1, gap + 0.22}), whole);
 
-  heading->AddActor2D(text_at(title, font_size * 4 / 3, 0.02, 0.25));
+  add_text(heading, title, font_size * 4 / 3, 0.02, 0.25);
   char words[200];
-  std::snprintf(words, sizeof(words), "maximum %.4g %s\nat x = %.1f, y = %.1f, z = %.1f mm", peak.value,
-                unit.c_str(), 1e3 * peak.at[0], 1e3 * peak.at[1], 1e3 * peak.at[2]);
-  legend->AddActor2D(text_at(words, font_size, 0.12, 0.8));
+  std::snprintf(words, sizeof(words), "maximum %.4g %s\nat x = %.1f, y = %.1f, z = %.1f mm%s", peak.value,
+                unit.c_str(), 1e3 * peak.at[0], 1e3 * peak.at[1], 1e3 * peak.at[2],
+                some_excluded ? "\ngrey: beside a sharp edge" : "");
+  add_text(legend, words, font_size, 0.12, some_excluded ? 0.74 : 0.8);
   legend->AddActor2D(colour_bar(table, unit, font_size));
   write_png(window.get(), png);
   return true;

@@ -32,33 +32,33 @@ void plain(vtkTextProperty* text, int size) {
   text->SetLineSpacing(1.4);
 }
 
-vtkSmartPointer<vtkTextActor> text_at(const std::string& words, int size, double x, double y) {
-  auto text = vtkSmartPointer<vtkTextActor>::New();
+vtkTextActor* add_text(vtkRenderer* renderer, const std::string& words, int size, double x, double y) {
+  vtkNew<vtkTextActor> text;
   text->SetInput(words.c_str());
   plain(text->GetTextProperty(), size);
   text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   text->GetPositionCoordinate()->SetValue(x, y);
+  renderer->AddActor2D(text);
   return text;
 }
 
-vtkSmartPointer<vtkActor> line_actor(vtkPolyData* lines, double grey, double opacity) {
+void add_lines(vtkRenderer* renderer, vtkPolyData* lines, double grey, double opacity) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(lines);
   mapper->ScalarVisibilityOff();
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
   mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, -4);
-  auto actor = vtkSmartPointer<vtkActor>::New();
+  vtkNew<vtkActor> actor;
   actor->GetProperty()->SetColor(grey, grey, grey);
   actor->GetProperty()->SetOpacity(opacity);
   actor->GetProperty()->SetLineWidth(1);
   actor->GetProperty()->LightingOff();
   actor->SetMapper(mapper);
-  return actor;
+  renderer->AddActor(actor);
 }
 
-vtkSmartPointer<vtkRenderer> add_renderer(vtkRenderWindow* window, double left, double bottom, double right,
-                                          double top) {
-  auto renderer = vtkSmartPointer<vtkRenderer>::New();
+vtkRenderer* add_renderer(vtkRenderWindow* window, double left, double bottom, double right, double top) {
+  vtkNew<vtkRenderer> renderer;
   renderer->SetViewport(left, bottom, right, top);
   renderer->SetBackground(1, 1, 1);
   window->AddRenderer(renderer);
@@ -112,6 +112,7 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
   image->ShouldRerenderOff();
   AtomicFile file(png);
   vtkNew<vtkPNGWriter> writer;
+  writer->SetCompressionLevel(9);
   writer->SetFileName(file.temporary().c_str());
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();

@@ -1,14 +1,12 @@
-/// What all pictures are made of: words, cameras, the axes' triad, the file.
+/// What all pictures are made of: words, cameras, the axes' triad, the file. Pointers that are returned
+/// belong to the window or renderer they were added to.
 #pragma once
-
-#include <vtkSmartPointer.h>
 
 #include <filesystem>
 #include <string>
 
 #include "pipelines/picture_surface.h"
 
-class vtkActor;
 class vtkRenderWindow;
 class vtkRenderer;
 class vtkTextActor;
@@ -20,14 +18,13 @@ namespace pipelines {
 void plain(vtkTextProperty* text, int size);
 
 /// @param x, y  of the lower left corner, in shares of the viewport
-vtkSmartPointer<vtkTextActor> text_at(const std::string& words, int size, double x, double y);
+vtkTextActor* add_text(vtkRenderer* renderer, const std::string& words, int size, double x, double y);
 
 /// Thin lines that lie on a surface and stay in front of it.
-vtkSmartPointer<vtkActor> line_actor(vtkPolyData* lines, double grey, double opacity);
+void add_lines(vtkRenderer* renderer, vtkPolyData* lines, double grey, double opacity);
 
 /// A white part of the window; places in shares of it.
-vtkSmartPointer<vtkRenderer> add_renderer(vtkRenderWindow* window, double left, double bottom, double right,
-                                          double top);
+vtkRenderer* add_renderer(vtkRenderWindow* window, double left, double bottom, double right, double top);
 
 /// A parallel camera that shows the frame and what lies up to its half depth in front of its centre, and all
 /// behind.

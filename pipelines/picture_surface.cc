@@ -49,7 +49,8 @@ std::shared_ptr<Object> shared(const vtkSmartPointer<Object>& object) {
 }  // namespace
 
 std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
-                                                    const std::string& field, double scale) {
+                                                    const std::string& field, double scale,
+                                                    const std::string& excluded) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   if (!reader->CanReadFile(vtu.c_str()))
     throw std::runtime_error(vtu.string() + ": is no VTU file that can be read");
@@ -66,9 +67,15 @@ std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path&
   shown->SetNumberOfTuples(values->GetNumberOfTuples());
   for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
     shown->SetValue(i, static_cast<float>(scale * values->GetComponent(i, 0)));
+  auto* marks = excluded.empty() ? nullptr : grid->GetPointData()->GetArray(excluded.c_str());
+  vtkNew<vtkFloatArray> marked;
+  marked->SetName(excluded_array);
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    marked->InsertNextValue(marks && marks->GetComponent(i, 0) != 0 ? 1 : 0);
   auto faces = vtkSmartPointer<vtkUnstructuredGrid>::New();
   faces->CopyStructure(grid);
   faces->GetPointData()->SetScalars(shown);
+  faces->GetPointData()->AddArray(marked);
   return shared(faces);
 }
 
@@ -85,8 +92,7 @@ std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subd
   return shared(vtkSmartPointer<vtkPolyData>(normals->GetOutput()));
 }
 
-std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces) {
-  constexpr int n_pieces = 8;
+std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces, int n_pieces) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
   std::set<std::pair<vtkIdType, vtkIdType>> drawn;
@@ -111,12 +117,14 @@ std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces) {
 
 SurfacePeak peak_of(vtkUnstructuredGrid* faces, vtkPolyData* surface) {
   auto* values = faces->GetPointData()->GetScalars();
+  auto* excluded = faces->GetPointData()->GetArray(excluded_array);
   SurfacePeak peak;
   peak.value = -std::numeric_limits<double>::infinity();
   for (vtkIdType f = 0; f < faces->GetNumberOfCells(); ++f) {
     vtkIdList* nodes = faces->GetCell(f)->GetPointIds();
     for (vtkIdType i = 0; i < nodes->GetNumberOfIds(); ++i)
-      if (const double value = values->GetComponent(nodes->GetId(i), 0); value > peak.value) {
+      if (const double value = values->GetComponent(nodes->GetId(i), 0);
+          value > peak.value && excluded->GetComponent(nodes->GetId(i), 0) == 0) {
         peak.value = value;
         faces->GetPoint(nodes->GetId(i), peak.at.data());
       }
@@ -136,24 +144,37 @@ std::array<Vector, 3> View::axes() const {
   return result;
 }
 
-View view_of(const double* bounds, const Vector& normal) {
-  int longest = 0;
-  for (int d = 1; d < 3; ++d)
-    if (bounds[2 * d + 1] - bounds[2 * d] > 1.001 * (bounds[2 * longest + 1] - bounds[2 * longest]))
-      longest = d;
-  Vector right{};
-  right[static_cast<std::size_t>(longest)] = 1;
-  Vector near = normal + (-dot(normal, right)) * right;
-  if (length(near) < 0.1)
-    near[static_cast<std::size_t>((longest + 1) % 3)] = -1;  // the peak is on an end face
-  near = unit_of(near);
-  Vector up;
-  vtkMath::Cross(near.data(), right.data(), up.data());
-  // Three quarters: 30 degrees round towards the right end, or the left one if the peak faces it, and 20
-  // degrees from above.
+bool is_long(const double* bounds) {
+  return bounds[5] - bounds[4] > 1.6 * std::max(bounds[1] - bounds[0], bounds[3] - bounds[2]);
+}
+
+Vector near_side(const double* bounds, const Vector& normal) {
+  Vector near = normal;
+  near[is_long(bounds) ? 2 : 1] = 0;
+  if (length(near) > 0.1) return unit_of(near);
+  return is_long(bounds) ? Vector{-1, 0, 0} : unit_of({-0.55, 0, 0.8});  // the place faces along the axis
+}
+
+std::vector<View> views_of(const double* bounds, const Vector& normal) {
+  const Vector near = near_side(bounds, normal);
+  Vector right, up;
+  if (is_long(bounds)) {
+    right = {0, 0, 1};
+    vtkMath::Cross(near.data(), right.data(), up.data());
+  } else {
+    up = {0, 1, 0};
+    vtkMath::Cross(up.data(), near.data(), right.data());
+  }
+  // First 30 degrees round towards the right, or the left if the place faces it, and 20 degrees from above,
+  // or from below if a place on a standing body faces down.
   const double turn = std::copysign(30 * vtkMath::Pi() / 180, dot(normal, right) < -0.3 ? -1 : 1);
-  const double tilt = 20 * vtkMath::Pi() / 180;
-  return {std::cos(tilt) * (std::cos(turn) * near + std::sin(turn) * right) + std::sin(tilt) * up, up};
+  const double tilt = std::copysign(20 * vtkMath::Pi() / 180, !is_long(bounds) && normal[1] < -0.3 ? -1 : 1);
+  std::vector<View> views;
+  for (const double raise : {tilt, -tilt})
+    for (const double side : {turn, -turn})
+      views.push_back(
+          {std::cos(raise) * (std::cos(side) * near + std::sin(side) * right) + std::sin(raise) * up, up});
+  return views;
 }
 
 Frame frame_of(vtkPolyData* surface, const View& view) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -12,20 +13,28 @@ class vtkUnstructuredGrid;
 namespace pipelines {
 
 using Vector = std::array<double, 3>;
+using Colour = std::array<unsigned char, 3>;  ///< red, green, blue
+
+/// The point array that says where the field has no converged value: 1 there, 0 elsewhere.
+inline constexpr const char* excluded_array = "excluded";
 
 /// The boundary faces of the cells with their quadratic shape; the field times `scale` is the active scalars.
+/// @param excluded  a field of the file that is not 0 where the other counts for nothing; empty or absent:
+/// nowhere
 /// @throws std::runtime_error naming the file if it cannot be read or has no such field of one component at
 ///         its nodes
 std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
-                                                    const std::string& field, double scale);
+                                                    const std::string& field, double scale,
+                                                    const std::string& excluded);
 
 /// The faces in 4^subdivisions pieces each, with outward normals; sharp edges stay sharp.
 std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions);
 
-/// The edges of the faces, each once, as polylines along their quadratic shape.
-std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces);
+/// The edges of the faces, each once, as polylines of n_pieces along their quadratic shape.
+std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces, int n_pieces);
 
-/// The node on the surface where the field is largest, and the direction from which that place is seen.
+/// The node on the surface, and not excluded, where the field is largest, and the direction from which that
+/// place is seen.
 struct SurfacePeak {
   double value = 0;
   Vector at{}, normal{};
@@ -35,7 +44,10 @@ struct SurfacePeak {
 /// @param surface  the same faces from smooth_surface, for the normal
 SurfacePeak peak_of(vtkUnstructuredGrid* faces, vtkPolyData* surface);
 
-/// The eye's frame: the body's longest extent runs to the right, the peak is on the near side.
+/// Whether z is by far the longest extent.
+bool is_long(const double* bounds);
+
+/// The eye's frame.
 struct View {
   Vector towards_eye{}, up{};
 
@@ -43,9 +55,15 @@ struct View {
   std::array<Vector, 3> axes() const;
 };
 
+/// The side of the body from which a place is looked at, across its length (long bodies) or horizontally, y
+/// up.
 /// @param bounds  of the body: x, y, z from and to
-/// @param normal  outward, at the peak
-View view_of(const double* bounds, const Vector& normal);
+/// @param normal  outward, at the place
+Vector near_side(const double* bounds, const Vector& normal);
+
+/// Three quarters, from the near side; the best first. The axis of a long body runs to the right, other
+/// bodies stand with y up.
+std::vector<View> views_of(const double* bounds, const Vector& normal);
 
 /// A rectangle in the plane of the picture, at the depth of `centre`.
 struct Frame {

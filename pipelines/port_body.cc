@@ -1,14 +1,8 @@
 #include "pipelines/port_body.h"
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkClipClosedSurface.h>
-#include <vtkClipPolyData.h>
-#include <vtkDataSetSurfaceFilter.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkPlane.h>
-#include <vtkPlaneCollection.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
@@ -25,7 +19,7 @@ namespace pipelines {
 namespace {
 
 constexpr int subdivisions = 2;  ///< a face is drawn in 16 pieces
-constexpr Colour plain_grey{208, 208, 208};
+constexpr Colour plain_grey{222, 222, 222};
 
 vtkSmartPointer<vtkUnstructuredGrid> read_faces(const std::filesystem::path& vtu) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -46,44 +40,6 @@ void add_colours(vtkUnstructuredGrid* faces, vtkDataArray* ports, const char* na
   for (vtkIdType f = 0; f < faces->GetNumberOfCells(); ++f)
     colours->SetTypedTuple(f, colour_of(static_cast<int>(ports->GetComponent(f, 0))).data());
   faces->GetCellData()->AddArray(colours);
-}
-
-/// What the plane leaves; fields stay.
-std::shared_ptr<vtkPolyData> clipped(vtkPolyData* data, vtkPlane* plane) {
-  vtkNew<vtkClipPolyData> clip;
-  clip->SetInputData(data);
-  clip->SetClipFunction(plane);
-  clip->InsideOutOn();
-  clip->Update();
-  const vtkSmartPointer<vtkPolyData> result = clip->GetOutput();
-  return {result.Get(), [result](vtkPolyData*) {}};
-}
-
-/// The section of the body inside a closed surface.
-std::shared_ptr<vtkPolyData> section(vtkUnstructuredGrid* faces, vtkPlane* plane) {
-  vtkNew<vtkDataSetSurfaceFilter> closed;  // without normals, which part the faces at sharp edges
-  closed->SetInputData(faces);
-  closed->SetNonlinearSubdivisionLevel(subdivisions);
-  vtkNew<vtkPlane> kept;  // vtkClipClosedSurface keeps the side of the normal
-  kept->SetOrigin(plane->GetOrigin());
-  const double* n = plane->GetNormal();
-  kept->SetNormal(-n[0], -n[1], -n[2]);
-  vtkNew<vtkPlaneCollection> planes;
-  planes->AddItem(kept);
-  vtkNew<vtkClipClosedSurface> clip;
-  clip->SetInputConnection(closed->GetOutputPort());
-  clip->SetClippingPlanes(planes);
-  clip->SetScalarModeToLabels();
-  clip->Update();
-  auto* all = clip->GetOutput();
-  auto* labels = all->GetCellData()->GetScalars();
-  vtkNew<vtkCellArray> faces_of_cut;
-  for (vtkIdType c = 0; c < all->GetNumberOfCells(); ++c)
-    if (labels->GetComponent(c, 0) > 0) faces_of_cut->InsertNextCell(all->GetCell(c));
-  const auto result = vtkSmartPointer<vtkPolyData>::New();
-  result->SetPoints(all->GetPoints());
-  result->SetPolys(faces_of_cut);
-  return {result.Get(), [result](vtkPolyData*) {}};
 }
 
 }  // namespace
@@ -125,17 +81,11 @@ PortBody read_port_body(const std::filesystem::path& vtu, const std::optional<Cu
   add_colours(faces, ports, port_arrays::id, [](int port) {
     return Colour{static_cast<unsigned char>(port / 256), 1, static_cast<unsigned char>(port % 256)};
   });
-  body.whole = {smooth_surface(faces, subdivisions), curved_edges(faces)};
+  body.whole = {smooth_surface(faces, subdivisions), curved_edges(faces, 1 << subdivisions)};
   if (!cut) return body;
 
-  // A hair beside the plane meant: on it lie whole edges of a symmetric mesh.
-  const double aside = 2e-5 * faces->GetLength();
-  vtkNew<vtkPlane> plane;
-  plane->SetNormal(cut->normal.data());
-  plane->SetOrigin(cut->point.data());
-  plane->Push(aside);
-  body.half = {clipped(body.whole.surface.get(), plane), clipped(body.whole.edges.get(), plane)};
-  body.face = section(faces, plane);
+  body.half = {clipped(body.whole.surface.get(), *cut), clipped(body.whole.edges.get(), *cut)};
+  body.face = section(faces, subdivisions, *cut);
   return body;
 }
 

@@ -9,21 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/picture_surface.h"
+#include "pipelines/cut_surface.h"
 
 class vtkPolyData;
 
 namespace pipelines {
 
-using Colour = std::array<unsigned char, 3>;
-
 /// The colour of port i of n: told apart by the colour-blind up to twelve.
 Colour port_colour(std::size_t i);
-
-/// A plane that cuts a body open: what lies on the side of its normal is taken away.
-struct CutPlane {
-  Vector point{}, normal{};
-};
 
 /// Cell arrays of the surfaces.
 namespace port_arrays {

@@ -1,25 +1,17 @@
 #include "pipelines/port_picture.h"
 
-#include <vtkActor2D.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper2D.h>
-#include <vtkProperty2D.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
-#include <vtkTextProperty.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "pipelines/label_rows.h"
 #include "pipelines/offscreen_window.h"
+#include "pipelines/picture_lines.h"
 #include "pipelines/picture_parts.h"
 #include "pipelines/port_views.h"
 
@@ -27,7 +19,7 @@ namespace pipelines {
 namespace {
 
 // Pixels.
-constexpr int width = 1600, heading = 70, margin = 40, row = 30, leader = 34, strip = 84, font = 22;
+constexpr int full_width = 1600, heading = 70, margin = 40, row = 30, leader = 34, strip = 104, font = 22;
 constexpr double swatch = 16, space = 8;
 
 /// A view in its part of the picture: a strip with triad and scale, a row of labels, the body, a row of
@@ -54,64 +46,20 @@ Panel make_panel(const PortBody& body, const PortView& view, int panel_width, in
   return panel;
 }
 
-/// Lines or areas in pixels of the renderer.
-class Drawing {
-public:
-  void line(double x0, double y0, double x1, double y1) {
-    lines_->InsertNextCell(2);
-    add(x0, y0, lines_);
-    add(x1, y1, lines_);
-  }
-  void area(const std::vector<std::array<double, 2>>& corners) {
-    areas_->InsertNextCell(int(corners.size()));
-    for (const auto& corner : corners) add(corner[0], corner[1], areas_);
-  }
-  void put(vtkRenderer* renderer, const Colour& colour, double line_width) const {
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points_);
-    data->SetLines(lines_);
-    data->SetPolys(areas_);
-    vtkNew<vtkPolyDataMapper2D> mapper;
-    mapper->SetInputData(data);
-    vtkNew<vtkActor2D> actor;
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetColor(colour[0] / 255., colour[1] / 255., colour[2] / 255.);
-    actor->GetProperty()->SetLineWidth(float(line_width));
-    renderer->AddActor2D(actor);
-  }
-
-private:
-  void add(double x, double y, vtkCellArray* cells) {
-    cells->InsertCellPoint(points_->InsertNextPoint(x, y, 0));
-  }
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> lines_, areas_;
-};
-
-vtkSmartPointer<vtkTextActor> words_at(vtkRenderer* renderer, const std::string& words, double x, double y) {
-  auto text = text_at(words, font, 0, 0);
-  text->GetPositionCoordinate()->SetCoordinateSystemToViewport();
-  text->GetPositionCoordinate()->SetValue(x, y);
-  renderer->AddActor2D(text);
-  return text;
-}
-
-std::vector<std::array<double, 2>> disc(double x, double y, double radius) {
-  std::vector<std::array<double, 2>> corners;
+std::vector<Pixel> disc(double x, double y, double radius) {
+  std::vector<Pixel> corners;
   for (int i = 0; i < 24; ++i)
     corners.push_back({x + radius * std::cos(i * M_PI / 12), y + radius * std::sin(i * M_PI / 12)});
   return corners;
 }
 
-constexpr Colour ink{40, 40, 40};
-
 /// The labels of some ports of the panel.
 void add_labels(vtkRenderer* renderer, const Panel& panel, const std::vector<std::string>& names,
                 const std::vector<std::size_t>& ports) {
-  std::vector<vtkSmartPointer<vtkTextActor>> texts;
+  std::vector<vtkTextActor*> texts;
   std::vector<LabelWish> wishes;
   for (const std::size_t p : ports) {
-    texts.push_back(words_at(renderer, names[p], 0, 0));
+    texts.push_back(add_words(renderer, names[p], font, 0, 0));
     double box[4];
     texts.back()->GetBoundingBox(renderer, box);
     wishes.push_back({panel.seen[p].x, panel.seen[p].y, swatch + space + box[1] - box[0]});
@@ -138,25 +86,10 @@ void add_labels(vtkRenderer* renderer, const Panel& panel, const std::vector<std
   leaders.put(renderer, ink, 1.5);
 }
 
-/// 1, 2 or 5 times a power of ten.
-double round_length(double at_most_m) {
-  const double decade = std::pow(10, std::floor(std::log10(at_most_m)));
-  return decade * (at_most_m >= 5 * decade ? 5 : at_most_m >= 2 * decade ? 2 : 1);
-}
-
-/// A bar of a round length, true in the plane of the picture, and what the panel shows.
+/// The scale, and what the panel shows.
 void add_scale(vtkRenderer* renderer, const Panel& panel) {
-  const double length_m = round_length(0.16 * panel.width * panel.m_per_pixel);
-  const double left = strip + 20, right = left + length_m / panel.m_per_pixel, y = 28;
-  Drawing bar;
-  bar.line(left, y, right, y);
-  bar.line(left, y - 6, left, y + 6);
-  bar.line(right, y - 6, right, y + 6);
-  bar.put(renderer, ink, 2);
-  char words[40];
-  std::snprintf(words, sizeof words, "%g mm", length_m * 1e3);
-  words_at(renderer, words, right + 12, y - 7);
-  if (!panel.view.caption.empty()) words_at(renderer, panel.view.caption, right + 150, y - 7);
+  const double right = add_scale_bar(renderer, strip + 30, 28, 0.16 * panel.width, panel.m_per_pixel, font);
+  add_words(renderer, panel.view.caption, font, right + 40, 21);
 }
 
 /// Each port in the first view that shows it nearly as well as any.
@@ -198,6 +131,7 @@ bool write_port_picture(const std::filesystem::path& vtu, const std::string& tit
   const auto views = choose_views(body, possible_views(bounds, cut));
   const bool side_by_side = views.size() > 1 && !is_long(bounds);
 
+  const int width = views.size() > 1 || is_long(bounds) ? full_width : full_width * 3 / 4;
   std::vector<Panel> panels;
   int height = heading, x = 0, tallest = 0;
   for (const auto& view : views) {
@@ -228,18 +162,18 @@ bool write_port_picture(const std::filesystem::path& vtu, const std::string& tit
                         (bottom + high) / height);
   };
   part(0, 0, width, height);
-  part(0, height - heading, width, heading)->AddActor2D(text_at(title, font * 4 / 3, 0.02, 0.35));
+  add_text(part(0, height - heading, width, heading), title, font * 4 / 3, 0.02, 0.35);
   const auto ports = share_out(panels, body.ports.size());
   int top = height - heading;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const auto& panel = panels[i];
     const int bottom = top - panel.height;
-    const auto renderer = part(panel.left, bottom, panel.width, panel.height);
+    auto* renderer = part(panel.left, bottom, panel.width, panel.height);
     add_body(renderer, body, panel.view, false);
     look(renderer, panel.view.view, panel.frame, double(panel.width) / panel.height,
          4 * panel.frame.half_depth);
     add_labels(renderer, panel, body.ports, ports[i]);
-    const auto foot = part(panel.left, bottom - strip, panel.width, strip);
+    auto* foot = part(panel.left, bottom - strip, panel.width, strip);
     add_scale(foot, panel);
     add_triad(part(panel.left + 10, bottom - strip, strip, strip), renderer);
     if (!side_by_side) top = bottom - strip;

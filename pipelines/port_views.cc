@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "pipelines/offscreen_window.h"
 #include "pipelines/picture_parts.h"
@@ -68,25 +67,21 @@ double worth(const std::vector<std::vector<double>>& shares, std::size_t a, std:
 
 }  // namespace
 
-bool is_long(const double* bounds) {
-  return bounds[5] - bounds[4] > 1.6 * std::max(bounds[1] - bounds[0], bounds[3] - bounds[2]);
-}
-
 std::vector<PortView> possible_views(const double* bounds, const std::optional<CutPlane>& cut) {
   std::vector<PortView> views;
   if (is_long(bounds)) {
     const Vector near = cut ? cut->normal : Vector{-1, 0, 0}, right{0, 0, 1};
-    views.push_back({"", turned(near, right, 25 * degree, 14 * degree)});
-    views.push_back({"from its other end", turned(near, right, -25 * degree, 14 * degree)});
+    views.push_back({"seen from the right", turned(near, right, 25 * degree, 14 * degree)});
+    views.push_back({"seen from the left", turned(near, right, -25 * degree, 14 * degree)});
     if (cut)
       views.push_back({"cut open through its axis", turned(near, right, 20 * degree, 10 * degree), true});
     return views;
   }
   const Vector up{0, 1, 0};
-  views.push_back({"", {{-0.55, 0.4, 0.8}, up}});
-  views.push_back({"from below", {{-0.55, -0.45, 0.8}, up}});
-  views.push_back({"from behind", {{0.55, 0.4, -0.8}, up}});
-  views.push_back({"from behind and below", {{0.55, -0.45, -0.8}, up}});
+  views.push_back({"seen from the front", {{-0.55, 0.4, 0.8}, up}});
+  views.push_back({"seen from the front, below", {{-0.55, -0.45, 0.8}, up}});
+  views.push_back({"seen from behind", {{0.55, 0.4, -0.8}, up}});
+  views.push_back({"seen from behind, below", {{0.55, -0.45, -0.8}, up}});
   if (cut) {
     // The plane contains z; its other direction runs to the right.
     const Vector z{0, 0, 1};
@@ -112,7 +107,7 @@ void add_body(vtkRenderer* renderer, const PortBody& body, const PortView& view,
     face->GetProperty()->LightingOff();
     renderer->AddActor(face);
   }
-  if (!ids) renderer->AddActor(line_actor(shape.edges.get(), 0.2, 0.22));
+  if (!ids) add_lines(renderer, shape.edges.get(), 0.2, 0.22);
 }
 
 Frame frame_of(const PortBody& body, const PortView& view) {
@@ -125,44 +120,20 @@ std::vector<SeenPort> see_ports(const PortBody& body, const PortView& view, cons
   if (!window) return {};
   window->SetSize(width, height);
   window->SetMultiSamples(0);
-  const auto renderer = add_renderer(window.get(), 0, 0, 1, 1);
+  auto* renderer = add_renderer(window.get(), 0, 0, 1, 1);
   add_body(renderer, body, view, true);
   look(renderer, view.view, frame, double(width) / height, 4 * frame.half_depth);
   window->Render();
   vtkNew<vtkUnsignedCharArray> pixels;
   window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels);
 
-  const auto port_at = [&](int x, int y) -> std::size_t {
-    const unsigned char* rgb = pixels->GetPointer(3 * (vtkIdType(y) * width + x));
-    return rgb[1] == 1 ? std::size_t(rgb[0]) * 256 + rgb[2] : 0;
-  };
-  std::vector<SeenPort> seen(body.ports.size());
-  const auto for_all = [&](auto&& what) {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        if (const std::size_t port = port_at(x, y); port > 0 && port <= seen.size())
-          what(seen[port - 1], x, y);
-  };
-  for_all([](SeenPort& port, int x, int y) {
-    ++port.n_pixels;
-    port.x += x;
-    port.y += y;
-  });
-  std::vector<SeenPort> middle = seen;
-  for (auto& port : middle) {
-    port.x /= std::max<double>(1, double(port.n_pixels));
-    port.y /= std::max<double>(1, double(port.n_pixels));
+  PortPixels ports{width, height, {}};
+  ports.port.reserve(std::size_t(width) * std::size_t(height));
+  for (vtkIdType i = 0; i < vtkIdType(width) * height; ++i) {
+    const unsigned char* rgb = pixels->GetPointer(3 * i);
+    ports.port.push_back(rgb[1] == 1 ? std::size_t(rgb[0]) * 256 + rgb[2] : 0);
   }
-  std::vector<double> nearest(seen.size(), std::numeric_limits<double>::max());
-  for_all([&](SeenPort& port, int x, int y) {
-    const std::size_t i = std::size_t(&port - seen.data());
-    const double distance = std::hypot(x - middle[i].x, y - middle[i].y);
-    if (distance >= nearest[i]) return;
-    nearest[i] = distance;
-    port.x = x;
-    port.y = y;
-  });
-  return seen;
+  return seen_ports(ports, body.ports.size());
 }
 
 std::vector<PortView> choose_views(const PortBody& body, const std::vector<PortView>& possible) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipelines/port_body.h"
+#include "pipelines/seen_ports.h"
 
 class vtkRenderer;
 
@@ -17,9 +18,6 @@ struct PortView {
   View view;
   bool cut = false;  ///< of the half body
 };
-
-/// Whether z is by far the longest extent.
-bool is_long(const double* bounds);
 
 /// All views that are worth a try. Long bodies lie with z to the right; others stand with y upwards.
 /// @param bounds  x, y, z from and to
@@ -33,11 +31,6 @@ void add_body(vtkRenderer* renderer, const PortBody& body, const PortView& view,
 Frame frame_of(const PortBody& body, const PortView& view);
 
 /// What is seen of the ports in a picture of the frame, which has its size.
-struct SeenPort {
-  std::size_t n_pixels = 0;
-  double x = 0, y = 0;  ///< a pixel on the port, near the middle of what is seen of it; y upwards
-};
-
 /// @return one entry per port; empty if this machine cannot draw
 std::vector<SeenPort> see_ports(const PortBody& body, const PortView& view, const Frame& frame, int width,
                                 int height);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "pipelines/cut_surface.h"
 #include "pipelines/picture.h"
 #include "pipelines/picture_surface.h"
 #include "pipelines/vtk_files.h"
@@ -121,10 +122,55 @@ TEST(Picture, shows_quadratic_tetrahedra) {
   std::vector<double> value(nodes.n, 1);
   value[26] = 7;
   write_envelope_vtu(at / "t.vtu", nodes, {nodal_field("value", value)});
-  const auto faces = boundary_faces(at / "t.vtu", "value", 2);
+  const auto faces = boundary_faces(at / "t.vtu", "value", 2, "");
   ASSERT_EQ(faces->GetNumberOfCells(), 12);
   for (vtkIdType f = 0; f < 12; ++f) EXPECT_EQ(faces->GetCellType(f), VTK_QUADRATIC_TRIANGLE);
   EXPECT_EQ(peak_of(faces.get(), smooth_surface(faces.get(), 1).get()).value, 14);
+}
+
+// The bar's peak is on the side of +x at z = 0.3: with z < 0.45 left out the largest is at the next nodes, z
+// = 0.45.
+TEST(Picture, takes_no_peak_where_the_field_is_excluded) {
+  const Directory at;
+  const auto nodes = results_test::mapped_cube(2, 2, 10, [](results_test::Point p) -> results_test::Point {
+    return {0.1 * p[0], 0.1 * p[1], p[2]};
+  });
+  std::vector<double> value(nodes.n), excluded(nodes.n);
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    value[i] = nodes.xyz_m[3 * i] * std::exp(-50 * std::pow(nodes.xyz_m[3 * i + 2] - 0.3, 2));
+    excluded[i] = nodes.xyz_m[3 * i + 2] < 0.44;
+  }
+  write_envelope_vtu(at / "b.vtu", nodes, {nodal_field("value", value), nodal_field("left out", excluded)});
+  const auto peak = [&](const char* field) {
+    const auto faces = boundary_faces(at / "b.vtu", "value", 1, field);
+    return peak_of(faces.get(), smooth_surface(faces.get(), 1).get());
+  };
+  EXPECT_NEAR(peak("").at[2], 0.3, 1e-7);  // the filters work in single precision
+  EXPECT_NEAR(peak("left out").at[2], 0.45, 1e-7);
+}
+
+// A pipe, 1 m long, with a slit: outside it is looked at as it is, inside only cut open, beyond the axis from
+// the place.
+TEST(Picture, cuts_open_what_hides_a_place) {
+  const Directory at;
+  const auto pipe = [](results_test::Point p) -> results_test::Point {
+    const double angle = 6.2 * (1 - p[0]), r = 0.1 + 0.05 * p[1];
+    return {r * std::cos(angle), r * std::sin(angle), p[2]};
+  };
+  const auto nodes = results_test::mapped_cube(12, 1, 4, pipe);
+  write_envelope_vtu(at / "p.vtu", nodes, {nodal_field("value", std::vector<double>(nodes.n, 1))});
+  const auto faces = boundary_faces(at / "p.vtu", "value", 1, "");
+  const auto surface = smooth_surface(faces.get(), 2);
+  const auto outside = view_of_place(surface.get(), {-0.15, 0, 0.5}, {-1, 0, 0});
+  EXPECT_FALSE(outside.cut);
+  EXPECT_LT(outside.view.towards_eye[0], -0.5);
+  const auto inside = view_of_place(surface.get(), {-0.1, 0, 0.5}, {1, 0, 0});
+  ASSERT_TRUE(inside.cut);
+  EXPECT_EQ(inside.cut->normal, (Vector{1, 0, 0}));
+  EXPECT_GT(inside.cut->point[0], -0.05);
+  EXPECT_LT(inside.cut->point[0], 0.05);
+  EXPECT_LT(clipped(surface.get(), *inside.cut)->GetBounds()[1], 0.05);
+  EXPECT_GT(section(faces.get(), 2, *inside.cut)->GetNumberOfCells(), 0);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "pipelines/port_picture.h"
 #include "pipelines/port_surface.h"
 #include "pipelines/scene.h"
+#include "pipelines/seen_ports.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 
@@ -91,17 +92,17 @@ double ring(double outer_diameter, double inner_diameter) {
   return M_PI / 4 * (outer_diameter * outer_diameter - inner_diameter * inner_diameter);
 }
 
-// Diameters, lengths and fillets are those of the scene files. A fillet lies on the thinner of its neighbours
-// and takes its radius off that one's length.
+// Diameters, lengths and fillets are those of the scene files. A fillet lies on the thinner of its
+// neighbours; the loaded zone is the length less that fillet at both ends.
 TEST(PortSurface, of_the_shaft_has_the_areas_of_its_cylinders) {
   expect_areas("vibratory_mill.toml", "shaft",
                {{"end_1", ring(0.025, 0)},
-                {"coupling", tube(0.025, 0.044)},
-                {"debalance_1", tube(0.03, 0.035)},
-                {"main_bearing_1", tube(0.035, 0.022)},
+                {"coupling", tube(0.025, 0.043)},
+                {"debalance_1", tube(0.03, 0.034)},
+                {"main_bearing_1", tube(0.035, 0.021)},
                 {"eccentric_seat", tube(0.06, 0.06)},
-                {"main_bearing_2", tube(0.035, 0.022)},
-                {"debalance_2", tube(0.03, 0.035)},
+                {"main_bearing_2", tube(0.035, 0.021)},
+                {"debalance_2", tube(0.03, 0.034)},
                 {"end_2", ring(0.03, 0)}});
 }
 
@@ -117,10 +118,10 @@ TEST(PortSurface, of_the_chamber_has_the_areas_of_its_bores_flanges_and_pads) {
 TEST(PortSurface, of_the_drum_has_the_areas_of_its_trunnions_and_its_wall) {
   expect_areas("planetary_mill.toml", "drum",
                {{"end_1", ring(0.08, 0.04)},
-                {"trunnion_1", tube(0.08, 0.037)},
+                {"trunnion_1", tube(0.08, 0.034)},
                 {"inner_wall", tube(0.2, 1)},
-                {"trunnion_2", tube(0.08, 0.037)},
-                {"pulley_seat", tube(0.07, 0.095)},
+                {"trunnion_2", tube(0.08, 0.034)},
+                {"pulley_seat", tube(0.07, 0.092)},
                 {"end_2", ring(0.07, 0.04)}});
 }
 
@@ -139,14 +140,37 @@ TEST(LabelRows, of_random_labels_do_not_overlap) {
       EXPECT_GE(places[i].left, -1e-9);
       EXPECT_LE(places[i].left + wishes[i].width, 1000 + 1e-9);
       for (std::size_t j = 0; j < wishes.size(); ++j)
-        if (i != j && places[i].above == places[j].above && wishes[i].anchor_x < wishes[j].anchor_x)
+        if (i != j && places[i].above == places[j].above && wishes[i].anchor_x < wishes[j].anchor_x) {
           EXPECT_LE(places[i].left + wishes[i].width + 10, places[j].left + 1e-9);
+        }
     }
   }
   // Alone a label stands over its anchor, in the nearer row.
   const auto alone = place_labels({{300, 100, 80}}, {0, 1000, 30, 470, 10});
   EXPECT_FALSE(alone[0].above);
   EXPECT_EQ(alone[0].left, 260);
+}
+
+// A square ring, and a port in two pieces: the place to point at is on the port and not at its edge.
+TEST(SeenPorts, are_pointed_at_inside) {
+  PortPixels pixels{30, 20, std::vector<std::size_t>(600, 0)};
+  const auto fill = [&](int x0, int x1, int y0, int y1, std::size_t port) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) pixels.port[std::size_t(y * 30 + x)] = port;
+  };
+  fill(2, 17, 2, 17, 1);
+  fill(7, 12, 7, 12, 0);
+  fill(20, 25, 0, 5, 2);
+  fill(20, 25, 15, 20, 2);
+  const auto seen = seen_ports(pixels, 3);
+  EXPECT_EQ(seen[0].n_pixels, 200u);
+  EXPECT_EQ(seen[1].n_pixels, 50u);
+  EXPECT_EQ(seen[2].n_pixels, 0u);
+  for (int p : {0, 1})
+    for (int step : {-1, 0, 1}) {
+      EXPECT_EQ(pixels.port[std::size_t(seen[p].y * 30 + seen[p].x + step)], p + 1u) << p;
+      EXPECT_EQ(pixels.port[std::size_t((seen[p].y + step) * 30 + seen[p].x)], p + 1u) << p;
+    }
 }
 
 /// A round bar along z, 1 m long, with ports on its mantle (ids 0 to 3 are its quarters) and at both ends.
@@ -239,7 +263,7 @@ TEST(PortPicture, cuts_through_the_axes_of_bores) {
 
 // Twenty ports: colours differ from each other and from the grey of the rest.
 TEST(PortPicture, has_a_colour_for_every_port) {
-  std::vector<Colour> colours{{208, 208, 208}};
+  std::vector<Colour> colours{{222, 222, 222}};
   for (std::size_t i = 0; i < 20; ++i) {
     const Colour colour = port_colour(i);
     for (const auto& other : colours)
