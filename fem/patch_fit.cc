@@ -47,21 +47,25 @@ Eigen::MatrixXd basis(const Exponents& exponents, const Scaled& points) {
   return values;
 }
 
-/// The fit in one space; an empty matrix if the samples do not determine it well.
-Eigen::MatrixXd fit_in(const Exponents& space, const Scaled& samples, const Scaled& targets) {
+/// The fit in one space, each sample's error times its weight (none: 1); an empty matrix if the samples do
+/// not determine it well.
+Eigen::MatrixXd fit_in(const Exponents& space, const Scaled& samples, const Scaled& targets,
+                       const Eigen::VectorXd& weights = {}) {
   // The squared sine between a basis function and the span of the others, on the samples. Below this they are
   // as good as dependent: errors of the samples could grow thirtyfold. Sound patches of shafts have 0.003 and
   // more.
   constexpr double smallest_pivot = 1e-3;
   if (samples.first.cols() < static_cast<Eigen::Index>(space.size())) return {};
-  const Eigen::MatrixXd at_samples = basis(space, samples);
+  Eigen::MatrixXd at_samples = basis(space, samples);
+  if (weights.size() > 0) at_samples = weights.asDiagonal() * at_samples;
   const Eigen::VectorXd norm = at_samples.colwise().norm();
   if (!(norm.minCoeff() > 0)) return {};
   const Eigen::MatrixXd scaled = at_samples * norm.cwiseInverse().asDiagonal();
   const Eigen::LDLT<Eigen::MatrixXd> gram(scaled.transpose() * scaled);
   if (!(gram.vectorD().minCoeff() > smallest_pivot)) return {};
   const Eigen::MatrixXd at_targets = basis(space, targets) * norm.cwiseInverse().asDiagonal();
-  return at_targets * gram.solve(scaled.transpose());
+  const Eigen::MatrixXd fit = at_targets * gram.solve(scaled.transpose());
+  return weights.size() > 0 ? Eigen::MatrixXd(fit * weights.asDiagonal()) : fit;
 }
 
 struct ScaledPatch {
@@ -105,9 +109,12 @@ Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& poi
   return Eigen::MatrixXd::Constant(t.first.cols(), s.first.cols(), 1.0 / double(s.first.cols()));
 }
 
-Eigen::MatrixXd complete_fit(int degree, const PatchPoints& points) {
+Eigen::MatrixXd complete_fit(int degree, double concentration, const PatchPoints& points) {
   const auto [samples, targets] = scale(points);
-  return fit_in(complete_space(degree), samples, targets);
+  const Eigen::VectorXd distance2 = points.samples.colwise().squaredNorm().transpose();
+  const Eigen::VectorXd weights =
+      (-concentration / 2 * distance2.array() / distance2.maxCoeff()).exp().matrix();
+  return fit_in(complete_space(degree), samples, targets, weights);
 }
 
 }  // namespace fem

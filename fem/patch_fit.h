@@ -22,6 +22,7 @@ struct PatchPoints {
 Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& points);
 
 /// The same in the complete space of `degree` alone; an empty matrix if the samples do not determine it well.
-Eigen::MatrixXd complete_fit(int degree, const PatchPoints& points);
+/// Squared errors count as exp(-concentration (d / largest d)^2), d the distance from the patch's centre.
+Eigen::MatrixXd complete_fit(int degree, double concentration, const PatchPoints& points);
 
 }  // namespace fem

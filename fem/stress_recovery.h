@@ -21,6 +21,9 @@ void average_stress(const Grid& grid, const CellsOfNodes& cells, const Lame& ela
 /// corners joined to it by edges. A cell without interior corners uses its boundary corners. Beyond the
 /// paper: free faces add samples on the surface itself, so that peaks there are interpolated; patches inside
 /// cylinder charts are fitted in r, theta, z, components too.
+/// Tetrahedra: patches around all corners, boundary ones too, with complete quadratic fits; where the cells
+/// around a corner have too few samples, the cells around those count as well. A middle of an edge has the
+/// mean of its two ends' fits.
 /// @param charts  of the grid's volumes; values must be stresses unless empty
 /// @param values  samples x columns
 /// @param nodal   n_nodes x columns, overwritten

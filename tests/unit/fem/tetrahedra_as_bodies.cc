@@ -56,6 +56,19 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
 
 const auto bent = [](const Point& x) { return Point(x[0] + 0.1 * x[1] * x[2], x[1], 3 * x[2]); };
 
+// The cube below shows two of the four faces only.
+TEST(TetrahedraFaces, point_outwards_with_middles_between_corners) {
+  const auto at = fem::nodes_in_cell({fem::CellKind::tetrahedra, 2}).point;
+  const auto x = [&](int node) { return Point(at[node][0], at[node][1], at[node][2]); };
+  for (int f = 0; f < 4; ++f) {
+    const auto face = fem::face_nodes({fem::CellKind::tetrahedra, 2}, f);
+    ASSERT_EQ(face.size(), 6u);
+    const Point normal = (x(face[1]) - x(face[0])).cross(x(face[2]) - x(face[0]));
+    EXPECT_LT(normal.dot(x(f) - x(face[0])), 0);  // away from the opposite corner
+    for (int e = 0; e < 3; ++e) EXPECT_EQ((2 * x(face[3 + e]) - x(face[e]) - x(face[(e + 1) % 3])).norm(), 0);
+  }
+}
+
 TEST(TetrahedraFile, comes_back_as_it_was) {
   const auto written = fem_tests::tetrahedra_cube(2, bent);
   const MeshFile file(fem_tests::as_msh(written));
