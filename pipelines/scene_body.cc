@@ -121,7 +121,7 @@ void read_stub_axle(SceneTable& table, BodyScene& body) {
   axle.pulley_plane_m = table.quantity("pulley_plane", "m", between(-100, 100));
   axle.pulley_mass_kg =
       table.quantity_or("pulley_mass", "kg", not_negative(1e6), 0, "all of the drum at mid-span");
-  const std::string side = table.text_or("side", "pulley", "the stub that carries more; or \"plain\"");
+  const std::string side = table.text_or("side", "plain", "the stub that carries more; or \"pulley\"");
   axle.pulley_side = side != "plain";
   if (!side.empty() && side != "plain" && side != "pulley")
     table.refuse("side", "write \"pulley\" or \"plain\": which of the two stubs");

@@ -185,7 +185,7 @@ meshes::Shaft placed(const Contour& contour, SceneTable& body, const ContourRule
     z_m += segment.end_m;
   }
   z_m = body.quantity_or(
-      "begin", "m", between(-100, 100), -middle_m,
+      "begin", "m", between(-100, 100), 0 - middle_m,
       rules.middle.empty() ? "the left end" : "left end; z = 0 in the middle of the " + spoken(rules.middle));
   meshes::Shaft result{contour.segments, contour.fillets_m};
   for (auto& segment : result.segments) {
