@@ -201,6 +201,25 @@ TEST(LoadBook, SupportsCloseAllSix) {
   EXPECT_LT(closure.worst_moment(), bodies::round_off);
 }
 
+// A clamp off the axis, under axial forces too, closes by force and moments about its own point.
+TEST(LoadBook, ClampClosesAllSix) {
+  std::mt19937 random(6);
+  LoadBook book(body(), {"inertia"}, n, 100);
+  book.accelerate(body().region(), "inertia", random_field(random));
+  book.axial_force("bore", "push", random_course(random, 100));
+  book.react_force("pad");
+  book.react_tilt("pad");
+  book.react_torque("pad");
+  const auto rest = bodies::residual(book.finish(), body().regions);
+  const auto closed = rest.topRows<2>().abs().maxCoeff() + rest.row(5).abs().maxCoeff();
+  EXPECT_LT(closed, 1e-11);
+  EXPECT_GT(rest.row(2).abs().maxCoeff(), 1) << "nobody was asked to take the axial force";
+  book.react_axial("pad");
+  const auto closure = bodies::closure_of(book.finish(), body().regions);
+  EXPECT_LT(closure.worst_force(), bodies::round_off);
+  EXPECT_LT(closure.worst_moment(), bodies::round_off);
+}
+
 // A reaction that the load stage gives is taken as it is: whether the body closes stays a question.
 TEST(LoadBook, GivenReactionIsNotCorrected) {
   LoadBook book(body(), {"a"}, n, 100);
