@@ -12,6 +12,9 @@ using Eigen::Index;
 
 namespace {
 
+const char* const only_accelerations =
+    "a force or moment on \"volume\": the body as a whole takes ax, ay, az and spin; name a port";
+
 /// One load beside the planar resultants, "<port>.<component>".
 void enter(LoadBook& book, const LoadedBody& body, const std::string& effect,
            const kinetics::Quantity& load) {
@@ -24,6 +27,8 @@ void enter(LoadBook& book, const LoadedBody& body, const std::string& effect,
       field.translation_m_s2.row(component == "ax" ? 0 : 1) = values.transpose();
     else
       field.translation_m_s2.resize(3, 0);
+    if (component == "fz" || component == "mx" || component == "my")
+      throw std::invalid_argument("the load \"" + load.name + "\": " + only_accelerations);
     if (component == "az") field.angular_rad_s2 = values;
     if (component == "spin") field.spin_rad2_s2 = values;
     return book.accelerate(body.region(), effect, field);
@@ -51,8 +56,7 @@ BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<s
     const auto own = kinetics::compute_loads(table, {effect}, grid);
     for (const auto& resultant : own.resultants) {
       if (resultant.role == "volume")
-        throw std::invalid_argument(
-            "a force or torque on \"volume\": the body as a whole takes ax, ay, az and spin; name a port");
+        throw std::invalid_argument("the effect \"" + effect + "\": " + only_accelerations);
       if (resultant.total.topRows<2>().abs().maxCoeff() > 0)
         book.force(resultant.role, effect, resultant.total.topRows<2>());
       if (resultant.total.row(2).abs().maxCoeff() > 0)
@@ -61,10 +65,13 @@ BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<s
     for (const auto& quantity : own.quantities)
       if (quantity.name.find('.') != std::string::npos) enter(book, body, effect, quantity);
   }
-  for (const auto& port : body.ports) book.pressure(port.name);  // of the loads; the supports' follows
-  if (options.bearings.size() == 2) {
-    book.react(options.bearings[0], options.bearings[1]);
-    for (const auto& bearing : options.bearings) book.pressure(bearing);
+  // Of the loads; the bearings' follows with what they carry altogether.
+  const auto& bearings = options.bearings;
+  for (const auto& port : body.ports)
+    if (std::find(bearings.begin(), bearings.end(), port.name) == bearings.end()) book.pressure(port.name);
+  if (bearings.size() == 2) {
+    book.react(bearings[0], bearings[1]);
+    for (const auto& bearing : bearings) book.pressure(bearing);
   }
   if (!options.axial_support.empty()) book.react_axial(options.axial_support);
   if (!options.torque_support.empty()) book.react_torque(options.torque_support);

@@ -49,8 +49,7 @@ LoadBook::LoadBook(const LoadedBody& body, std::vector<std::string> effects, Ind
       effects_(std::move(effects)),
       n_instants_(n_instants),
       force_scale_N_(force_scale_N),
-      length_scale_m_(0),
-      moment_sizes_Nm_(ArrayXd::Zero(n_instants)) {
+      length_scale_m_(0) {
   for (const auto& port : body.ports) {
     const double size = port.radius_m > 0 ? port.radius_m : std::hypot(port.axis_x_m, port.axis_y_m);
     if (length_scale_m_ == 0 || (size > 0 && size < length_scale_m_)) length_scale_m_ = size;
@@ -100,13 +99,16 @@ void LoadBook::add(const fem::UnitLoad& load, const std::string& unit, const std
   if (!is_first) part->second += values;
 }
 
-void LoadBook::count(const std::string& effect, const Eigen::Vector3d& p, const Wrench& load) {
+void LoadBook::count(const std::string& place, const std::string& effect, const Eigen::Vector3d& p,
+                     const Wrench& load) {
   Wrench about_origin = load;
   about_origin.row(3) += p[1] * load.row(2) - p[2] * load.row(1);
   about_origin.row(4) += p[2] * load.row(0) - p[0] * load.row(2);
   about_origin.row(5) += p[0] * load.row(1) - p[1] * load.row(0);
-  moment_sizes_Nm_ +=
-      ((p[0] * load.row(1)).abs() + (p[1] * load.row(0)).abs() + load.row(5).abs()).transpose();
+  auto& moments = moments_Nm_.try_emplace(place, Array3Xd::Zero(3, n_instants_)).first->second;
+  moments.row(0) += p[0] * load.row(1);
+  moments.row(1) += p[1] * load.row(0);
+  moments.row(2) += load.row(5);
   const auto [sum, is_first] = sums_.try_emplace(effect, about_origin);
   if (!is_first) sum->second += about_origin;
 }
@@ -118,7 +120,7 @@ void LoadBook::enter(const meshes::Port& port, const char* component, Component 
       effect, values, is_force ? force_scale_N_ : force_scale_N_ * length_scale_m_);
   Wrench load = Wrench::Zero(6, n_instants_);
   load.row(Index(which)) = values.transpose();
-  count(effect, centre_of(port), load);
+  count(port.name, effect, centre_of(port), load);
 }
 
 void LoadBook::force(const std::string& name, const std::string& effect, const Array2Xd& force_N) {
@@ -205,7 +207,7 @@ void LoadBook::accelerate(const RegionMass& region, const std::string& effect,
   }
   enter_field("spin", Field::spin, "rad2/s2", field.spin_rad2_s2, {s[0], s[1], 0, -yz, xz, 0});
   enter_field("az", Field::rotation, "rad/s2", field.angular_rad_s2, {-s[1], s[0], 0, -xz, -yz, xx + yy});
-  count(effect, Eigen::Vector3d::Zero(), load);
+  count(prefix, effect, Eigen::Vector3d::Zero(), load);
 }
 
 void LoadBook::accelerate(const AttachedMass& mass, const std::string& effect,
@@ -229,8 +231,14 @@ void LoadBook::accelerate(const AttachedMass& mass, const std::string& effect,
   const auto& port = find(mass.port);
   enter(port, "fx", Component::fx, effect, force.row(0).transpose());
   enter(port, "fy", Component::fy, effect, force.row(1).transpose());
-  if (largest(force.row(2).transpose()) > 0)
+  if (largest(force.row(2).transpose()) > 0) {
     enter(port, "fz", Component::fz, effect, force.row(2).transpose());
+    Eigen::Array2Xd tilting(2,
+                            n_instants_);  // of an axial force through the mass centre, off the port's point
+    tilting.row(0) = (s[1] - mass.mass_kg * p[1]) * field.translation_m_s2.row(2);
+    tilting.row(1) = -(s[0] - mass.mass_kg * p[0]) * field.translation_m_s2.row(2);
+    tilt(mass.port, effect, tilting);
+  }
   torque(mass.port, effect, moment - (p[0] * force.row(1) - p[1] * force.row(0)).transpose());
 }
 
@@ -246,7 +254,9 @@ Wrench LoadBook::sum() const {
 }
 
 double LoadBook::moment_scale_Nm() const {
-  return largest(moment_sizes_Nm_);
+  ArrayXd sizes = ArrayXd::Zero(n_instants_);
+  for (const auto& [place, moments] : moments_Nm_) sizes += moments.abs().colwise().sum().transpose();
+  return largest(sizes);
 }
 
 BodyLoads LoadBook::finish() const {

@@ -90,7 +90,8 @@ public:
   /// Sum of what an effect has brought so far; zero for one that has brought nothing.
   Wrench sum(const std::string& effect) const;
   Wrench sum() const;
-  /// max over the instants of the sum of the moments' sizes about z.
+  /// max over the instants of the sum of the moments' sizes about z: |x F_y| + |y F_x| + |couple| of what
+  /// enters at each place, the effects taken together.
   double moment_scale_Nm() const;
   std::vector<std::string> effects() const { return effects_; }
 
@@ -120,7 +121,8 @@ private:
              const std::string& effect, const Eigen::ArrayXd& values);
   void add(const fem::UnitLoad& load, const std::string& unit, const std::string& effect,
            const Eigen::ArrayXd& values, double scale);
-  void count(const std::string& effect, const Eigen::Vector3d& point, const Wrench& about_point);
+  void count(const std::string& place, const std::string& effect, const Eigen::Vector3d& point,
+             const Wrench& about_point);
 
   LoadedBody body_;
   std::vector<std::string> effects_;
@@ -130,7 +132,7 @@ private:
   std::map<std::string, std::size_t> index_;
   std::map<std::string, Wrench> sums_;
   std::map<std::string, std::map<std::string, Eigen::Array2Xd>> forces_;  // by port, effect
-  Eigen::ArrayXd moment_sizes_Nm_;
+  std::map<std::string, Eigen::Array3Xd> moments_Nm_;                     // by place: x F_y, y F_x, couple
 };
 
 /// Resolves a planar force along axes that are turned counter-clockwise by alpha.

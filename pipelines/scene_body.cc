@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/nearest.h"
+#include "pipelines/scene_body_parts.h"
 
 namespace pipelines {
 namespace {
@@ -17,60 +17,8 @@ void read_material(SceneTable material, BodyScene& body) {
   material.finish();
 }
 
-/// "uniform", "parabolic", or values along the seat.
-std::vector<double> read_axial_profile(SceneTable& table) {
-  table.know("axial");
-  if (!table.has("axial")) return {1};
-  if (table.has_list("axial")) {
-    auto values = table.list("axial", "1", not_negative(1e6));
-    if (values.size() == 1 || std::all_of(values.begin(), values.end(), [](double v) { return v == 0; }))
-      table.refuse("axial", "needs two values or more along the seat, not all zero");
-    return values;
-  }
-  const std::string shape = table.text("axial");
-  if (shape == "parabolic") {
-    std::vector<double> values;
-    constexpr int n = 16;  // straight lines between: the parabola is met to 1/256 of its height
-    for (int i = 0; i <= n; ++i) values.push_back(1 - std::pow(2.0 * i / n - 1, 2));
-    return values;
-  }
-  if (!shape.empty() && shape != "uniform")
-    table.refuse("axial",
-                 "unknown shape; write \"uniform\", \"parabolic\" or a list of values along the seat");
-  return {1};
-}
-
-PressureModel read_pressure(SceneTable table, int usual_harmonics) {
-  PressureModel model;
-  const std::string pattern =
-      table.text_or("pattern", "cosine", "of a pin in a bed; \"uniform\" is a belt over its arc of wrap");
-  if (pattern == "uniform")
-    model.pattern.kind = PressurePattern::Kind::uniform;
-  else if (!pattern.empty() && pattern != "cosine")
-    table.refuse("pattern", "unknown pattern; write \"cosine\" or \"uniform\"");
-  const bool uniform = model.pattern.kind == PressurePattern::Kind::uniform;
-  model.pattern.half_angle_rad = table.quantity_or(
-      "half_angle", "rad", {0, uniform ? M_PI * (1 - 1e-6) : M_PI, true}, M_PI / 2,
-      "of contact: 90 degrees is the half-cosine, less with clearance, more with interference");
-  model.highest_harmonic = table.count_or("harmonics", 0, 64, usual_harmonics, "as pressure_harmonics");
-  model.axial_profile = read_axial_profile(table);
-  table.finish();
-  return model;
-}
-
-void read_pressures(SceneTable& table, BodyScene& body) {
-  body.pressure_harmonics =
-      table.count_or("pressure_harmonics", 0, 64, body.pressure_harmonics, "of the seat pressure");
-  if (body.pressure_harmonics % 2 != 0)
-    table.refuse("pressure_harmonics",
-                 "must be even: a half-cosine has no odd harmonic above the first; write " +
-                     std::to_string(body.pressure_harmonics + 1));
-  table.know("pressure");
-  if (!table.has("pressure")) return;
-  SceneTable pressures = table.table("pressure");
-  for (const auto& port : pressures.names())
-    body.pressures[port] = read_pressure(pressures.table(port), body.pressure_harmonics);
-  pressures.finish();
+const char* first_torque_port(const BodyScene& body) {
+  return body.train.torques.empty() ? nullptr : body.train.torques.front().port.c_str();
 }
 
 void read_added_masses(SceneTable& table, BodyScene& body) {
@@ -80,6 +28,7 @@ void read_added_masses(SceneTable& table, BodyScene& body) {
       AddedMass added;
       added.name = entry.text("name");
       added.port = entry.text("port");
+      check_port(entry, "port", added.port, ports_of(body).all, "the ports of this body");
       added.mass_kg = entry.quantity("mass", "kg", positive(1e6));
       added.polar_inertia_kg_m2 =
           entry.quantity_or("polar_inertia", "kg m2", not_negative(1e9), 0, "about its own centre");
@@ -99,11 +48,12 @@ void read_added_masses(SceneTable& table, BodyScene& body) {
     }
   const char* usual = body.role == BodyRole::chamber       ? "covers"
                       : body.role == BodyRole::drum        ? "pulley_seat"
-                      : body.role == BodyRole::train_shaft ? "pulley_seat"
+                      : body.role == BodyRole::train_shaft ? first_torque_port(body)
                                                            : nullptr;
-  if (usual != nullptr)
-    body.difference_port =
-        table.text_or("difference_port", usual, "carries what the machine's masses and the mesh's differ by");
+  if (usual == nullptr) return;
+  body.difference_port =
+      table.text_or("difference_port", usual, "carries what the machine's masses and the mesh's differ by");
+  check_port(table, "difference_port", body.difference_port, ports_of(body).all, "the ports of this body");
 }
 
 void read_debalances(SceneTable& table, BodyScene& body) {
@@ -115,74 +65,57 @@ void read_debalances(SceneTable& table, BodyScene& body) {
     table.refuse("debalance_shares", "must add up to 1: they are the shares of one mass");
 }
 
-void read_stub_axle(SceneTable& table, BodyScene& body) {
+void read_stub_axle(SceneTable& table, const kinetics::PlanetaryMill& mill, BodyScene& body) {
   auto& axle = body.stub_axle;
   axle.bearing_span_m = table.quantity("bearing_span", "m", positive(100));
   axle.pulley_plane_m = table.quantity("pulley_plane", "m", between(-100, 100));
   axle.pulley_mass_kg =
       table.quantity_or("pulley_mass", "kg", not_negative(1e6), 0, "all of the drum at mid-span");
-  const std::string side = table.text_or("side", "pulley", "the stub that carries more; or \"plain\"");
+  if (axle.pulley_mass_kg > mill.drum_mass_kg)
+    table.refuse("pulley_mass", "is more than machine.drum.mass, of which it is a part: " +
+                                    shown(mill.drum_mass_kg) + " kg; check both");
+  const std::string side = table.text_or("side", "plain", "the stub that carries more; or \"pulley\"");
   axle.pulley_side = side != "plain";
   if (!side.empty() && side != "plain" && side != "pulley")
     table.refuse("side", "write \"pulley\" or \"plain\": which of the two stubs");
-}
-
-void read_train_shaft(SceneTable& table, const kinetics::DriveTrain& train, BodyScene& body) {
-  auto& shaft = body.train;
-  shaft.inertia = table.text("inertia");
-  std::vector<std::string> inertias, elements;
-  for (const auto& inertia : train.inertias) inertias.push_back(inertia.name);
-  if (!shaft.inertia.empty() && std::find(inertias.begin(), inertias.end(), shaft.inertia) == inertias.end())
-    table.refuse("inertia", "the train has no such inertia; it has " + listed(inertias));
-  for (const auto& element : train.elements)
-    if (element.first == shaft.inertia || element.second == shaft.inertia) elements.push_back(element.name);
-  std::vector<std::string> entered;
-  for (SceneTable& entry : table.tables("torques")) {
-    const std::string port = entry.text("port"), element = entry.text("element");
-    if (!element.empty() && std::find(elements.begin(), elements.end(), element) == elements.end())
-      entry.refuse("element", "does not join \"" + shaft.inertia + "\" to anything; its elements are " +
-                                  listed(elements));
-    shaft.torques.push_back({port, element + "_on_" + shaft.inertia});
-    entered.push_back(element);
-    entry.finish();
-  }
-  for (const auto& element : elements)
-    if (table.has("torques") && std::find(entered.begin(), entered.end(), element) == entered.end())
-      table.refuse("torques",
-                   "the torque of \"" + element + "\" enters nowhere, so that nothing would balance; add it");
-  table.know("bearings");
-  if (table.has("bearings")) {
-    const auto names = table.texts("bearings");
-    if (names.size() != 2)
-      table.refuse("bearings", "needs the ports of two bearings");
-    else
-      shaft.bearings = {names[0].text, names[1].text};
-  }
-  shaft.axial_bearing = table.text_or("axial_bearing", shaft.bearings[0], "takes forces along the shaft");
-  table.know("forces");
-  if (table.has("forces"))
-    for (SceneTable& entry : table.tables("forces")) {
-      TrainShaftOptions::Force force;
-      force.effect = entry.text("effect");
-      force.port = entry.text("port");
-      const auto value = entry.quantities("force", "N", between(-1e9, 1e9), 3);
-      if (value.size() == 3) force.force_N = {value[0], value[1], value[2]};
-      force.turns_with_shaft = entry.flag_or("turns_with_shaft", false, "it stands still in space");
-      entry.finish();
-      shaft.forces.push_back(force);
-    }
 }
 
 void read_supports(SceneTable& table, BodyScene& body) {
   table.know("bearings");
   if (table.has("bearings")) {
     for (const auto& name : table.texts("bearings")) body.table.bearings.push_back(name.text);
-    if (body.table.bearings.size() != 2) table.refuse("bearings", "needs the ports of two bearings");
+    const auto& bearings = body.table.bearings;
+    if (bearings.size() != 2 || bearings[0] == bearings[1])
+      table.refuse("bearings", "needs the ports of two bearings");
   }
   for (auto* support : {&body.table.axial_support, &body.table.torque_support}) {
     const char* key = support == &body.table.axial_support ? "axial_support" : "torque_support";
     table.know(key);
     if (table.has(key)) *support = table.text(key);
+  }
+}
+
+/// Ports that the loads of a table enter by; end faces are always there.
+void add_table_ports(const Scene& scene, std::vector<std::string>& ports) {
+  for (const auto& load : std::get<kinetics::LoadTable>(scene.machine).loads) {
+    const bool is_face = load.port == "end_1" || load.port == "end_2" || load.port == "volume";
+    if (!is_face && scene.has_effect(load.effect) &&
+        std::find(ports.begin(), ports.end(), load.port) == ports.end())
+      ports.push_back(load.port);
+  }
+}
+
+/// Forces need a surface, accelerations the whole body.
+void check_table_loads(SceneTable& body, const Scene& scene) {
+  for (const auto& load : std::get<kinetics::LoadTable>(scene.machine).loads) {
+    const auto& c = load.component;
+    const bool is_field = c == "ax" || c == "ay" || c == "az" || c == "spin";
+    if (!scene.has_effect(load.effect) || is_field == (load.port == "volume")) continue;
+    const std::string name = "the load \"" + load.port + "." + c + "\" ";
+    body.refuse_missing("", is_field ? name + "belongs to the whole body; write \"volume." + c + "\""
+                                     : name +
+                                           "has no place to enter: the body as a whole takes ax, ay, az "
+                                           "and spin; name a port");
   }
 }
 
@@ -203,6 +136,7 @@ ContourRules contour_rules(BodyRole role, const Scene& scene, const BodyScene& b
       rules.ports = {"bearing", "clamp"};
       break;
     case BodyRole::train_shaft:
+      rules.any_port = true;
       rules.ports = {body.train.bearings[0], body.train.bearings[1]};
       for (const auto& torque : body.train.torques) rules.ports.push_back(torque.port);
       for (const auto& force : body.train.forces) rules.ports.push_back(force.port);
@@ -210,6 +144,7 @@ ContourRules contour_rules(BodyRole role, const Scene& scene, const BodyScene& b
     case BodyRole::table_body:
       rules.any_port = true;
       rules.ports = body.table.bearings;
+      add_table_ports(scene, rules.ports);
       break;
     case BodyRole::chamber:
       break;
@@ -225,6 +160,25 @@ std::vector<std::string> needed_ports(BodyRole role, const Scene& scene, const B
   return ports;
 }
 
+/// Opposite forces on the first two feet make a couple only at a distance.
+void read_guide_by_feet(SceneTable& table, const kinetics::VibratoryMill& mill, BodyScene& body) {
+  body.pitch_guide = PitchGuide::feet;
+  const auto& springs = mill.springs;
+  if (springs.size() < 2 || springs[0].position_m.x() == springs[1].position_m.x())
+    table.refuse("pitch_guide",
+                 "needs two springs, one beside the other, to pull and push by; write \"body\"");
+}
+
+/// Ports of supports that are no segments: the contour has not asked for them.
+void check_supports(SceneTable& table, const BodyScene& body) {
+  const auto known = ports_of(body).all;
+  if (body.role == BodyRole::train_shaft)
+    check_port(table, "axial_bearing", body.train.axial_bearing, known, "the ports of this body");
+  if (body.role != BodyRole::table_body) return;
+  check_port(table, "axial_support", body.table.axial_support, known, "the ports of this body");
+  check_port(table, "torque_support", body.table.torque_support, known, "the ports of this body");
+}
+
 }  // namespace
 
 BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneFindings& findings) {
@@ -232,15 +186,19 @@ BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneF
   body.name = table.key();
   body.role = role;
   if (role == BodyRole::vibratory_shaft) read_debalances(table, body);
-  if (role == BodyRole::stub_axle) read_stub_axle(table, body);
+  if (role == BodyRole::stub_axle)
+    read_stub_axle(table, std::get<kinetics::PlanetaryMill>(scene.machine), body);
   if (role == BodyRole::train_shaft)
     read_train_shaft(table, std::get<kinetics::DriveTrain>(scene.machine), body);
-  if (role == BodyRole::table_body) read_supports(table, body);
+  if (role == BodyRole::table_body) {
+    read_supports(table, body);
+    check_table_loads(table, scene);
+  }
   if (role == BodyRole::chamber) {
     const std::string guide =
         table.text_or("pitch_guide", "body", "where the couple of a held attitude goes");
     if (guide == "feet")
-      body.pitch_guide = PitchGuide::feet;
+      read_guide_by_feet(table, scene.vibratory_mill(), body);
     else if (!guide.empty() && guide != "body")
       table.refuse("pitch_guide", "write \"body\" (a body load about the mass centre) or \"feet\"");
     body.elastic_feet = table.flag_or("elastic_feet", false, "the springs' stiffness is no part of the body");
@@ -252,6 +210,7 @@ BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneF
     body.shape = read_chamber_shape(table, scene.vibratory_mill(), scene.milling_space);
   else
     body.shape = read_shaft_shape(table, contour_rules(role, scene, body), findings);
+  check_supports(table, body);
   read_pressures(table, body);
   if (role != BodyRole::vibratory_shaft && role != BodyRole::stub_axle && role != BodyRole::table_body)
     read_added_masses(table, body);

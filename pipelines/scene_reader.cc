@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "meshes/shaft_checks.h"
 #include "pipelines/nearest.h"
 #include "pipelines/scene.h"
 #include "pipelines/scene_body.h"
@@ -14,6 +13,7 @@
 #include "pipelines/scene_load_table.h"
 #include "pipelines/scene_machine.h"
 #include "pipelines/scene_planetary.h"
+#include "pipelines/scene_stages.h"
 #include "pipelines/scene_table.h"
 #include "pipelines/scene_train.h"
 #include "pipelines/toml_tree.h"
@@ -57,60 +57,6 @@ TomlNode parse(const std::filesystem::path& file) {
 }
 
 const std::string machine_types = "\"vibratory_mill\", \"planetary_mill\", \"drive_train\", \"load_table\"";
-
-bool contains(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
-}
-
-constexpr int most_turns = 1000;
-
-/// The turns after which a machine's loads repeat.
-struct Period {
-  bool is_known = true;  ///< false: a speed could not be read
-  int turns = 1;         ///< 0: never, or not within most_turns
-};
-
-struct PeriodOf {
-  bool drum_axes;  ///< the loads in the drum's axes have to repeat too
-  Period operator()(const kinetics::VibratoryMill& mill) const {
-    if (!std::isfinite(mill.speed_rad_s) || !std::isfinite(mill.charge_relative_speed_rad_s))
-      return {false, 0};
-    return {true, kinetics::period_in_turns(mill, most_turns).value_or(0)};
-  }
-  /// In the carrier's frame every turn; seen from the drum after a few.
-  Period operator()(const kinetics::PlanetaryMill& mill) const {
-    return {true, drum_axes ? kinetics::period_in_turns(mill, most_turns).value_or(0) : 1};
-  }
-  /// Of the reference shaft; excitations that do not fit are warned of by the load stage.
-  Period operator()(const kinetics::DriveTrain&) const { return {}; }
-  /// Samples repeat after as many turns as the user says.
-  Period operator()(const kinetics::LoadTable&) const { return {}; }
-};
-
-kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneFindings& findings) {
-  constexpr int most_instants = 2'000'000;
-  kinetics::TimeGrid grid;
-  grid.instants_per_turn =
-      sampling.count_or("instants_per_turn", 8, 100'000, 120, "one instant every 3 degrees of the drive");
-  const auto [speeds_are_known, period] =
-      std::visit(PeriodOf{scene.drum_axes && findings.errors.empty()}, scene.machine);
-  if (sampling.has("turns") || period > 0)
-    grid.turns = sampling.count_or("turns", 1, most_turns, period, "the period of the motion");
-  else if (sampling.know("turns"); speeds_are_known)
-    sampling.refuse_missing("turns",
-                            "is missing, and the motion does not repeat within 1000 turns; add the number of "
-                            "turns to look at, or a machine.charge.turn_ratio with a small denominator");
-  if (sampling.has("turns") && period > 0 && grid.turns % period != 0)
-    findings.warnings.push_back("sampling.turns = " + std::to_string(grid.turns) +
-                                ": the motion repeats after " + std::to_string(period) +
-                                " turns; extremes and means are those of the turns given");
-  if (static_cast<double>(grid.turns) * grid.instants_per_turn > most_instants)
-    sampling.refuse(sampling.has("instants_per_turn") ? "instants_per_turn" : "turns",
-                    std::to_string(grid.turns) + " turns of " + std::to_string(grid.instants_per_turn) +
-                        " instants are more than 2 million; take fewer of either");
-  sampling.finish();
-  return grid;
-}
 
 /// "50 % of peak", "40 % of yield"
 ZoneRule read_zones(SceneTable zones) {
@@ -175,47 +121,6 @@ void refuse_open_balance(SceneTable& machine, const kinetics::VibratoryMill& mil
                      " of the moving structure, which a body in equilibrium needs; write \"consistent\", or "
                      "remove the bodies for "
                      "the load stage alone");
-}
-
-/// A table's samples need all their turns; what a mill refuses shows in one.
-int rehearsal_turns(const Scene& scene) {
-  return std::holds_alternative<kinetics::LoadTable>(scene.machine) ? scene.sampling.turns : 1;
-}
-
-/// A bearing's load must be one that the load stage gives, or that a body adds.
-void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, SceneTable& root) {
-  std::vector<std::string> of_bodies;
-  for (const auto& body : scene.bodies) {
-    const auto ports = force_ports(body);
-    of_bodies.insert(of_bodies.end(), ports.begin(), ports.end());
-    if (body.role == BodyRole::vibratory_shaft) of_bodies.push_back("R_E_shaft");
-  }
-  if (scene.drum_axes) of_bodies.push_back("trunnions_turning");
-  for (const auto& bearing : scene.bearings)
-    if (!force_of(bearing.load, loads, {}) && !contains(of_bodies, bearing.load))
-      root.refuse("bearings", "the load \"" + bearing.load + "\" of \"" + bearing.name +
-                                  "\" is no force here; known are: " + listed(known_forces(loads)) +
-                                  (of_bodies.empty() ? "" : ", " + listed(of_bodies)));
-}
-
-/// What the stages themselves refuse (resonances, springs that cannot carry the weights, shafts that cannot
-/// be meshed) is better said now, with a line, than after the first stage: a few instants cost next to
-/// nothing. Masses that only the mesh knows put that off.
-void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::vector<SceneTable>& bodies) {
-  try {
-    if (scene.run_up)
-      kinetics::check_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
-    else if (scene.masses_from_mesh.empty())
-      check_bearings(
-          scene, compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8}), root);
-  } catch (const std::invalid_argument& error) {
-    machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
-  }
-  for (std::size_t i = 0; i < bodies.size(); ++i) try {
-      if (const auto* shaft = scene.bodies[i].shaft()) meshes::check_shaft(shaft->geometry);
-    } catch (const std::invalid_argument& error) {
-      bodies[i].refuse("contour", "the mesher refuses it: " + std::string(error.what()));
-    }
 }
 
 /// Tables of bodies that a machine has, and what they are there.
@@ -284,20 +189,36 @@ void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& sce
   if (from_mesh) scene.masses_from_mesh.push_back("drum");
 }
 
+/// Only the inertia that [shaft] is can come from its mesh.
+void check_from_mesh(SceneTable& machine, const Scene& scene) {
+  if (scene.masses_from_mesh.empty()) return;
+  const auto* shaft = scene.body("shaft");
+  for (SceneTable& entry : machine.tables("inertias")) {
+    if (!entry.has("from_mesh") || !entry.flag_or("from_mesh", false, "")) continue;
+    const std::string name = entry.text("name");
+    if (shaft == nullptr)
+      entry.refuse("from_mesh", "needs a [shaft] whose mesh gives the inertia; add it, or the inertia");
+    else if (name != shaft->train.inertia)
+      entry.refuse("from_mesh", "the mesh is that of [shaft], which is \"" + shaft->train.inertia +
+                                    "\" in the train; give the inertia of \"" + name + "\"");
+  }
+}
+
 void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   auto train = read_drive_train(machine, scene.torsion, scene.masses_from_mesh);
-  if (!root.has("shaft") && !scene.masses_from_mesh.empty())
-    machine.refuse("inertias",
-                   "from_mesh needs a [shaft] whose mesh gives the inertia; add it, or the inertia");
   root.know("effects");
   scene.machine = train;
   std::vector<SceneTable> tables = read_bodies(root, "drive_train", scene, findings);
-  if (findings.errors.empty()) {
+  if (findings.errors.empty()) check_from_mesh(machine, scene);
+  if (!findings.errors.empty()) return;
+  try {
     EffectRules rules = plain_rules(kinetics::drive_train_effects(train));
     add_own_effects(rules, BodyRole::train_shaft, root.has("shaft"), "[shaft]");
     for (const auto& body : scene.bodies)
       for (const auto& force : body.train.forces) rules.known.push_back(force.effect);
     scene.effects = read_effects(root, rules, findings);
+  } catch (const std::invalid_argument& error) {
+    machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
 }
 

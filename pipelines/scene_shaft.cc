@@ -31,6 +31,27 @@ struct Contour {
   std::vector<std::optional<SceneTable>> fillet_tables;
 };
 
+void refuse_unknown_port(SceneTable& table, const std::string& key, const std::string& port,
+                         const ContourRules& rules) {
+  const auto& known = rules.ports;
+  if (port.empty() || rules.any_port || std::find(known.begin(), known.end(), port) != known.end()) return;
+  const std::string nearest = nearest_name(port, known);
+  table.refuse(key, nearest.empty() ? "no load of this machine enters here; ports are: " + listed(known)
+                                    : "unknown port; did you mean \"" + nearest + "\"?");
+}
+
+void read_bore_port(SceneTable& table, const ContourRules& rules, meshes::ShaftSegment& segment) {
+  table.know("bore_port");
+  if (!table.has("bore_port")) return;
+  segment.bore_port = table.text("bore_port");
+  if (!table.has("bore"))
+    table.refuse("bore_port", "is a port inside a bore that is not there; give the bore's diameter as bore");
+  if (segment.bore_port == "end_1" || segment.bore_port == "end_2")
+    table.refuse("bore_port", "is the name of an end face; take another one");
+  else
+    refuse_unknown_port(table, "bore_port", segment.bore_port, rules);
+}
+
 meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) {
   meshes::ShaftSegment segment;
   segment.is_port = table.has("port");
@@ -40,16 +61,10 @@ meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) 
   segment.name = table.text(segment.is_port ? "port" : "name",
                             "is missing; give the segment a name, or a port where load enters it");
   table.know("name");
-  if (segment.is_port && !segment.name.empty() && !rules.any_port) {
-    const auto& known = rules.ports;
-    if (std::find(known.begin(), known.end(), segment.name) == known.end()) {
-      const std::string nearest = nearest_name(segment.name, known);
-      table.refuse("port", nearest.empty()
-                               ? "no load of this machine enters here; ports are: " + listed(known)
-                               : "unknown port; did you mean \"" + nearest + "\"?");
-    }
+  if (segment.is_port && !rules.any_port) {
+    refuse_unknown_port(table, "port", segment.name, rules);
   } else if (segment.name == "end_1" || segment.name == "end_2") {
-    table.refuse("name", "is the name of an end face; take another one");
+    table.refuse(segment.is_port ? "port" : "name", "is the name of an end face; take another one");
   }
   segment.diameter_m = table.quantity("diameter", "m", positive(10));
   segment.end_m = table.quantity("length", "m", positive(100));
@@ -72,8 +87,10 @@ meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) 
   }
   table.know("bore");
   if (table.has("bore")) segment.bore_m = table.quantity("bore", "m", positive(10));
-  table.know("bore_port");
-  if (table.has("bore_port")) segment.bore_port = table.text("bore_port");
+  if (segment.bore_m >= segment.diameter_m)
+    table.refuse("bore", "leaves no wall: the diameter is " + mm(segment.diameter_m) +
+                             "; make it smaller, or the diameter larger");
+  read_bore_port(table, rules, segment);
   table.finish();
   return segment;
 }
@@ -113,12 +130,16 @@ void check_names(Contour& contour, SceneTable& body, const ContourRules& rules) 
     if (!segment.name.empty() && !names.insert(segment.name).second)
       contour.segment_tables[i].refuse(segment.is_port ? "port" : "name",
                                        "is the name of two segments; give each its own");
+    if (!segment.bore_port.empty() && !names.insert(segment.bore_port).second)
+      contour.segment_tables[i].refuse("bore_port", "is the name of two ports; give each its own");
   }
   std::vector<std::string> missing;
   for (const std::string& port : rules.ports) {
-    const auto is_meant = [&](const auto& segment) {  // a misspelt port is reported already
-      return segment.bore_port == port ||
-             (segment.is_port && (segment.name == port || nearest_name(segment.name, rules.ports) == port));
+    const auto is_meant = [&](const auto& segment) {
+      const auto is = [&](const std::string& name) {  // a misspelt port is reported already
+        return name == port || (!rules.any_port && nearest_name(name, rules.ports) == port);
+      };
+      return is(segment.bore_port) || (segment.is_port && is(segment.name));
     };
     if (std::none_of(contour.segments.begin(), contour.segments.end(), is_meant)) missing.push_back(port);
   }
@@ -185,7 +206,7 @@ meshes::Shaft placed(const Contour& contour, SceneTable& body, const ContourRule
     z_m += segment.end_m;
   }
   z_m = body.quantity_or(
-      "begin", "m", between(-100, 100), -middle_m,
+      "begin", "m", between(-100, 100), 0 - middle_m,
       rules.middle.empty() ? "the left end" : "left end; z = 0 in the middle of the " + spoken(rules.middle));
   meshes::Shaft result{contour.segments, contour.fillets_m};
   for (auto& segment : result.segments) {

@@ -30,6 +30,10 @@ std::string SceneTable::dotted(const std::string& name) const {
   return key_.empty() || name.empty() ? key_ + name : key_ + "." + name;
 }
 
+void SceneTable::know(const std::string& name) {
+  if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
+}
+
 bool SceneTable::has(const std::string& name) const {
   return node_->find(name) != nullptr;
 }

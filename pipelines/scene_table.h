@@ -58,7 +58,7 @@ public:
   std::string text_or(const std::string& name, const std::string& value, const std::string& reason);
 
   /// Makes a key known without reading it.
-  void know(const std::string& name) { known_.push_back(name); }
+  void know(const std::string& name);
   void record_default(const std::string& name, const std::string& value, const std::string& reason);
 
   /// Reports an error at the value of that key; at the table itself if it has no such key.

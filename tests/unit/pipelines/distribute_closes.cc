@@ -4,44 +4,29 @@
 
 #include <cmath>
 
+#include "bodies.h"
 #include "laboratory.h"
 #include "pipelines/distribute.h"
 
 namespace {
 
+using bodies::round_off;
+using bodies::row;
 using pipelines::BodyLoads;
-using pipelines::distribute_shaft;
+using pipelines::distribute_vibratory_shaft;
 
-pipelines::ShaftDistribution all_on() {
-  pipelines::ShaftDistribution options;
+pipelines::VibratoryShaftOptions all_on() {
+  pipelines::VibratoryShaftOptions options;
   options.own_weight = options.own_inertia = true;
   return options;
 }
 
-/// Resultants that a perfect mesh would give.
-std::vector<std::array<double, 6>> ideal_resultants(const BodyLoads& loads,
-                                                    const fem::MassProperties& masses) {
-  std::vector<std::array<double, 6>> resultants;
-  for (const auto& load : loads.unit_loads) resultants.push_back(pipelines::wanted_resultant(load, masses));
-  return resultants;
-}
-
 pipelines::Closure closure_of(const BodyLoads& loads) {
-  return pipelines::check_closure(loads, ideal_resultants(loads, laboratory::masses()), laboratory::masses());
+  return bodies::closure_of(loads, laboratory::shaft().regions);
 }
-
-Eigen::Index row(const BodyLoads& loads, const std::string& channel) {
-  for (std::size_t k = 0; k < loads.history.channels.size(); ++k)
-    if (loads.history.channels[k].name == channel) return Eigen::Index(k);
-  throw std::out_of_range(channel);
-}
-
-// Sums of some ten terms of the same size: round-off is 1e-15 of the scale; 1e-13 leaves two digits.
-constexpr double round_off = 1e-13;
 
 TEST(Distribute, ForcesAndMomentsCloseWithOwnMass) {
-  const auto loads =
-      distribute_shaft(laboratory::spec_loads(), laboratory::ports(), laboratory::masses(), all_on());
+  const auto loads = distribute_vibratory_shaft(laboratory::spec_loads(), laboratory::shaft(), all_on());
   const auto closure = closure_of(loads);
   EXPECT_LT(closure.worst_force(), round_off);
   EXPECT_LT(closure.worst_moment(), round_off);
@@ -49,8 +34,7 @@ TEST(Distribute, ForcesAndMomentsCloseWithOwnMass) {
 }
 
 TEST(Distribute, ForcesAndMomentsCloseWithoutOwnMass) {
-  const auto loads =
-      distribute_shaft(laboratory::spec_loads(), laboratory::ports(), laboratory::masses(), {});
+  const auto loads = distribute_vibratory_shaft(laboratory::spec_loads(), laboratory::shaft(), {});
   const auto closure = closure_of(loads);
   EXPECT_LT(closure.worst_force(), round_off);
   EXPECT_LT(closure.worst_moment(), round_off);
@@ -60,8 +44,7 @@ TEST(Distribute, ForcesAndMomentsCloseWithoutOwnMass) {
 // coupling.md section 2: R_E from 2.37 to 5.98 kN, 6.11 kN with the shaft's own mass, three figures printed.
 TEST(Distribute, BearingsCarryTheSpecsForces) {
   const auto history = laboratory::spec_loads(720);
-  const auto loads =
-      pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), all_on());
+  const auto loads = distribute_vibratory_shaft(history, laboratory::shaft(), all_on());
   const Eigen::ArrayXd own = loads.frame_bearing_force_N.matrix().colwise().norm();
   EXPECT_NEAR(history.quantity("R_E").values.maxCoeff(), 5980, 5);
   EXPECT_NEAR(history.quantity("R_E").values.minCoeff(), 2370, 5);
@@ -77,7 +60,7 @@ TEST(Distribute, BearingsCarryTheSpecsForces) {
 TEST(Distribute, TurningTheWrongWayFailsByItsMoment) {
   auto history = laboratory::spec_loads();
   history.phi_rad = -history.phi_rad;
-  const auto loads = pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), {});
+  const auto loads = distribute_vibratory_shaft(history, laboratory::shaft(), {});
   const auto closure = closure_of(loads);
   EXPECT_LT(closure.worst_force(), round_off);
   EXPECT_GT(closure.worst_moment(), 0.5);
@@ -98,7 +81,7 @@ TEST(Distribute, ForgottenDebalanceTorqueFailsByItsMoment) {
   for (auto& resultant : history.resultants)
     if (resultant.role == "debalance")
       for (auto& part : resultant.contributions) part.load.row(2).setZero();
-  const auto loads = pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), {});
+  const auto loads = distribute_vibratory_shaft(history, laboratory::shaft(), {});
   const auto closure = closure_of(loads);
   EXPECT_LT(closure.worst_force(), round_off);
   EXPECT_NEAR(closure.moment[2] * closure.moment_scale_Nm[2], 4 * 9.81 * 0.01, 1e-3);
@@ -108,8 +91,7 @@ TEST(Distribute, ForgottenDebalanceTorqueFailsByItsMoment) {
 // still on +xi.
 TEST(Distribute, ResolvesAlongTheTurningAxes) {
   const auto history = laboratory::spec_loads();
-  const auto loads =
-      pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), all_on());
+  const auto loads = distribute_vibratory_shaft(history, laboratory::shaft(), all_on());
   const auto& values = loads.history.values;
   const Eigen::ArrayXd ax = values.row(row(loads, "volume.ax")), ay = values.row(row(loads, "volume.ay"));
   EXPECT_LT((ax - 9.81 * history.phi_rad.sin()).abs().maxCoeff(), 1e-12);
@@ -125,8 +107,7 @@ TEST(Distribute, ResolvesAlongTheTurningAxes) {
 
 // The share rule: harmonics are not linear in the effects, their shares still add up to |F| cos(n beta).
 TEST(Distribute, PressureSharesAddUp) {
-  const auto loads =
-      distribute_shaft(laboratory::spec_loads(), laboratory::ports(), laboratory::masses(), all_on());
+  const auto loads = distribute_vibratory_shaft(laboratory::spec_loads(), laboratory::shaft(), all_on());
   const auto& h = loads.history;
   Eigen::ArrayXXd sum = Eigen::ArrayXXd::Zero(h.values.rows(), h.values.cols());
   for (const auto& part : h.by_effect) sum += part;
@@ -154,8 +135,7 @@ TEST(Distribute, WhatNoEffectFeedsDoesNotExist) {
     return result;
   };
   const auto history = laboratory::spec_loads();
-  const auto full =
-      names(pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), all_on()));
+  const auto full = names(distribute_vibratory_shaft(history, laboratory::shaft(), all_on()));
   // Three pressure seats with fx, fy, p0, p2, p2, p4, p4; two debalances with fx, fy, torque; coupling; ax,
   // ay, spin.
   EXPECT_EQ(full.size(), 3u * 7 + 2 * 3 + 1 + 3);
@@ -164,19 +144,17 @@ TEST(Distribute, WhatNoEffectFeedsDoesNotExist) {
 
   auto options = all_on();
   options.own_weight = false;
-  const auto weightless =
-      names(pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), options));
+  const auto weightless = names(distribute_vibratory_shaft(history, laboratory::shaft(), options));
   EXPECT_EQ(weightless.size(), full.size() - 2);
   options.own_inertia = false;
-  options.pressure_harmonics = 0;
-  const auto plain =
-      names(pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), options));
+  auto body = laboratory::shaft();
+  for (const auto& port : body.ports) body.pressures[port.name].highest_harmonic = 0;
+  const auto plain = names(distribute_vibratory_shaft(history, body, options));
   EXPECT_EQ(plain.size(), full.size() - 3 - 3 * 4);
 
   auto machine = laboratory::scene().vibratory_mill();
   const auto only_debalance = kinetics::compute_loads(machine, {"debalance_inertia"}, {20, 24});
-  const auto loads =
-      pipelines::distribute_shaft(only_debalance, laboratory::ports(), laboratory::masses(), {});
+  const auto loads = distribute_vibratory_shaft(only_debalance, laboratory::shaft(), {});
   EXPECT_EQ(loads.history.effects, std::vector<std::string>{"debalance_inertia"});
   for (const auto& name : names(loads)) {
     EXPECT_NE(name.substr(0, 14), "eccentric_seat") << name;
@@ -192,15 +170,14 @@ TEST(Distribute, PublishedConventionIsRefused) {
   for (const auto& effect : kinetics::vibratory_mill_effects(machine.convention))
     effects.push_back(effect.name);
   const auto history = kinetics::compute_loads(machine, effects, {1, 24});
-  EXPECT_THROW(pipelines::distribute_shaft(history, laboratory::ports(), laboratory::masses(), {}),
-               std::invalid_argument);
+  EXPECT_THROW(distribute_vibratory_shaft(history, laboratory::shaft(), {}), std::invalid_argument);
 }
 
 TEST(Distribute, MissingPortIsNamed) {
-  auto ports = laboratory::ports();
-  ports.erase(ports.begin() + 2);
+  auto body = laboratory::shaft();
+  body.ports.erase(body.ports.begin() + 2);
   try {
-    pipelines::distribute_shaft(laboratory::spec_loads(), ports, laboratory::masses(), {});
+    distribute_vibratory_shaft(laboratory::spec_loads(), body, {});
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("main_bearing_1"), std::string::npos);

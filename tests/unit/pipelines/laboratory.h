@@ -7,6 +7,7 @@
 #include "fem/body.h"
 #include "kinetics/vibratory_mill.h"
 #include "meshes/body_mesh.h"
+#include "pipelines/load_book.h"
 #include "pipelines/scene.h"
 
 namespace laboratory {
@@ -47,6 +48,11 @@ inline fem::MassProperties masses() {
   m.first_moment_kg_m = {5.33e-3, 0, -0.04};
   m.second_moments_kg_m2 = {6e-4, 6e-4, 0.08, 0, 0, 1e-5};
   return m;
+}
+
+/// The default shaft as distribution sees it, every seat's pressure to the fourth harmonic.
+inline pipelines::LoadedBody shaft() {
+  return {"shaft", ports(), {{"", {}, masses()}}, {}};
 }
 
 }  // namespace laboratory

@@ -52,7 +52,7 @@ TEST(LoadFiles, hdf5_holds_every_series_with_its_unit) {
   const Directory at;
   const auto loads = example();
   const auto channels = example_channels();
-  write_loads_h5(at / "loads.h5", loads, &channels);
+  write_loads_h5(at / "loads.h5", loads, {&channels});
   const Hdf5Reader in(at / "loads.h5");
   expect_equal(in.numbers("/time"), loads.time_s);
   expect_equal(in.numbers("/phi"), loads.phi_rad);
@@ -72,13 +72,30 @@ TEST(LoadFiles, hdf5_holds_every_series_with_its_unit) {
   EXPECT_EQ(in.text_attribute("/resultants/eccentric/torque", "unit"), "N m");
   EXPECT_EQ(in.text_attribute("/resultants/eccentric/fy", "unit"), "N");
   EXPECT_FALSE(in.has("/effects/gravity/debalance"));
-  EXPECT_EQ(in.text_attribute("/channels", "body"), "shaft");
-  EXPECT_EQ(in.text_attribute("/channels/pulley.mz", "unit"), "N m");
-  expect_equal(in.numbers("/channels/pulley.mz"), channels.values.row(1));
-  expect_equal(in.numbers("/effects/gravity_shaft/main_bearing_1.fx"), channels.by_effect[1].row(0));
+  EXPECT_TRUE(in.has("/channels/shaft"));
+  EXPECT_EQ(in.text_attribute("/channels/shaft/pulley.mz", "unit"), "N m");
+  expect_equal(in.numbers("/channels/shaft/pulley.mz"), channels.values.row(1));
+  expect_equal(in.numbers("/effects/gravity_shaft/shaft/main_bearing_1.fx"), channels.by_effect[1].row(0));
   EXPECT_EQ(in.texts("/effect_names"), loads.effects);
   EXPECT_EQ(in.texts("/warnings"), loads.warnings);
   EXPECT_EQ(in.text_attribute("/", "convention"), "newton");
+}
+
+// Two bodies may have ports, and effects, of the same name: each keeps its own.
+TEST(LoadFiles, bodies_keep_their_channels_apart) {
+  const Directory at;
+  const auto loads = example();
+  const auto shaft = example_channels();
+  auto chamber = shaft;
+  chamber.body = "chamber";
+  chamber.values *= 2;
+  for (auto& part : chamber.by_effect) part *= 2;
+  write_loads_h5(at / "loads.h5", loads, {&shaft, &chamber});
+  const Hdf5Reader in(at / "loads.h5");
+  EXPECT_EQ(in.names("/channels"), (std::vector<std::string>{"shaft", "chamber"}));
+  expect_equal(in.numbers("/channels/shaft/pulley.mz"), shaft.values.row(1));
+  expect_equal(in.numbers("/channels/chamber/pulley.mz"), 2 * shaft.values.row(1));
+  expect_equal(in.numbers("/effects/gravity/chamber/pulley.mz"), 2 * shaft.by_effect[0].row(1));
 }
 
 TEST(LoadFiles, the_load_stage_alone_has_no_channels) {
@@ -93,7 +110,7 @@ TEST(LoadFiles, csv_has_a_row_per_instant_and_exact_numbers) {
   const Directory at;
   const auto loads = example();
   const auto channels = example_channels();
-  write_loads_csv(at / "loads.csv", loads, &channels);
+  write_loads_csv(at / "loads.csv", loads, {&channels});
   std::istringstream lines(bytes(at / "loads.csv"));
   std::string line, cell;
   std::getline(lines, line);
@@ -116,8 +133,8 @@ TEST(LoadFiles, csv_has_a_row_per_instant_and_exact_numbers) {
       {"theta [rad]", loads.quantities[0].values},
       {"eccentric.torque [N m]", loads.resultants[0].total.row(2)},
       {"inertia/eccentric.fx [N]", loads.resultants[0].contributions[1].load.row(0)},
-      {"pulley.mz [N m]", channels.values.row(1)},
-      {"gravity_shaft/pulley.mz [N m]", channels.by_effect[1].row(1)}};
+      {"shaft/pulley.mz [N m]", channels.values.row(1)},
+      {"gravity_shaft/shaft/pulley.mz [N m]", channels.by_effect[1].row(1)}};
   for (const auto& [title, values] : expected) {
     const auto c = static_cast<std::size_t>(column(title));
     ASSERT_LT(c, titles.size()) << title;
@@ -130,8 +147,8 @@ TEST(LoadFiles, two_writes_give_the_same_bytes) {
   const auto loads = example();
   const auto channels = example_channels();
   for (const char* name : {"a", "b"}) {
-    write_loads_h5(at / (name + std::string(".h5")), loads, &channels);
-    write_loads_csv(at / (name + std::string(".csv")), loads, &channels);
+    write_loads_h5(at / (name + std::string(".h5")), loads, {&channels});
+    write_loads_csv(at / (name + std::string(".csv")), loads, {&channels});
   }
   EXPECT_EQ(bytes(at / "a.h5"), bytes(at / "b.h5"));
   EXPECT_EQ(bytes(at / "a.csv"), bytes(at / "b.csv"));
@@ -142,10 +159,10 @@ TEST(LoadFiles, refuses_what_would_mislead) {
   auto loads = example();
   auto channels = example_channels();
   channels.by_effect.pop_back();
-  EXPECT_THROW(write_loads_h5(at / "loads.h5", loads, &channels), std::invalid_argument);
+  EXPECT_THROW(write_loads_h5(at / "loads.h5", loads, {&channels}), std::invalid_argument);
   channels = example_channels();
   channels.values.conservativeResize(2, n - 1);
-  EXPECT_THROW(write_loads_csv(at / "loads.csv", loads, &channels), std::invalid_argument);
+  EXPECT_THROW(write_loads_csv(at / "loads.csv", loads, {&channels}), std::invalid_argument);
   loads.quantities[0].name = "a/b";
   EXPECT_THROW(write_loads_h5(at / "loads.h5", loads), std::invalid_argument);
   loads = example();

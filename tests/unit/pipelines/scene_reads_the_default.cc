@@ -99,8 +99,10 @@ TEST(default_scene, has_every_effect_of_the_convention_and_the_shafts_own) {
 
 TEST(default_scene, has_the_laboratory_shaft) {
   const Scene scene = pipelines::read_scene(default_scene);
-  ASSERT_TRUE(scene.shaft);
-  const auto& [segments, fillets_m] = scene.shaft->geometry;
+  const auto* body = scene.body("shaft");
+  ASSERT_TRUE(body && body->shaft());
+  EXPECT_EQ(body->role, pipelines::BodyRole::vibratory_shaft);
+  const auto& [segments, fillets_m] = body->shaft()->geometry;
   struct Expected {
     const char* name;
     double begin_mm, end_mm, diameter_mm, eccentricity_mm;
@@ -127,16 +129,16 @@ TEST(default_scene, has_the_laboratory_shaft) {
   ASSERT_EQ(fillets_m.size(), std::size(expected_fillets_mm));
   for (std::size_t i = 0; i < fillets_m.size(); ++i) expect_same(fillets_m[i], expected_fillets_mm[i] / 1e3);
 
-  EXPECT_EQ(scene.shaft->material_name, "C45+N");
-  expect_same(scene.shaft->material.youngs_modulus_Pa, 206e9);
-  expect_same(scene.shaft->material.poisson_ratio, 0.3);
-  expect_same(scene.shaft->material.density_kg_m3, 7850);
-  expect_same(scene.shaft->yield_strength_Pa, 305e6);
-  EXPECT_EQ(scene.shaft->pressure_harmonics, 4);
-  EXPECT_EQ(scene.shaft->debalance_shares, (std::vector<double>{0.5, 0.5}));
-  EXPECT_EQ(scene.shaft->mesh.cells_per_fillet_quarter, 8);
-  EXPECT_EQ(scene.shaft->mesh.n_sectors, 16);
-  EXPECT_EQ(scene.shaft->mesh.largest_cell_m, 0);
+  EXPECT_EQ(body->material_name, "C45+N");
+  expect_same(body->material.youngs_modulus_Pa, 206e9);
+  expect_same(body->material.poisson_ratio, 0.3);
+  expect_same(body->material.density_kg_m3, 7850);
+  expect_same(body->yield_strength_Pa, 305e6);
+  EXPECT_EQ(body->pressure_harmonics, 4);
+  EXPECT_EQ(body->debalance_shares, (std::vector<double>{0.5, 0.5}));
+  EXPECT_EQ(body->shaft()->mesh.cells_per_fillet_quarter, 8);
+  EXPECT_EQ(body->shaft()->mesh.n_sectors, 16);
+  EXPECT_EQ(body->shaft()->mesh.largest_cell_m, 0);
 }
 
 TEST(default_scene, covers_the_period_and_warns_of_nothing) {
@@ -183,7 +185,7 @@ TEST(scene, of_the_paper_to_the_letter_is_for_the_load_stage) {
   const Scene scene = pipelines::read_scene(file);
   fs::remove_all(file.parent_path());
   EXPECT_EQ(scene.vibratory_mill().convention, kinetics::Convention::published);
-  EXPECT_FALSE(scene.shaft);
+  EXPECT_TRUE(scene.bodies.empty());
   EXPECT_FALSE(has_default(scene, "machine.springs.preload", "static balance")) << "the paper has no preload";
 }
 
@@ -192,8 +194,8 @@ TEST(scene, warns_of_a_corner_without_fillet) {
   ASSERT_EQ(scene.warnings.size(), 2u);
   EXPECT_NE(scene.warnings[0].find("between \"body_1\" and \"eccentric_seat\" has no fillet"),
             std::string::npos);
-  EXPECT_EQ(scene.shaft->geometry.fillets_m[3], 0);
-  EXPECT_GT(scene.shaft->geometry.fillets_m[2], 0) << "the others stay where they were";
+  EXPECT_EQ(scene.body("shaft")->shaft()->geometry.fillets_m[3], 0);
+  EXPECT_GT(scene.body("shaft")->shaft()->geometry.fillets_m[2], 0) << "the others stay where they were";
 }
 
 TEST(largest_filling, fits_full_half_and_empty_chambers) {

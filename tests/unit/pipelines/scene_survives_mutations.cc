@@ -52,9 +52,13 @@ void mutate(std::vector<std::string>& lines, std::mt19937& random) {
   }
 }
 
-TEST(scene, mutated_is_read_or_refused_and_nothing_else) {
-  const auto original = lines_of(fs::path(SOURCE_DIR) / "pipelines/scenes/vibratory_mill.toml");
-  const fs::path file = fs::path(testing::TempDir()) / ("mutated_" + std::to_string(getpid()) + ".toml");
+class EveryScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryScene, mutated_is_read_or_refused_and_nothing_else) {
+  const auto original =
+      lines_of(fs::path(SOURCE_DIR) / "pipelines/scenes" / (GetParam() + std::string(".toml")));
+  const fs::path file =
+      fs::path(testing::TempDir()) / ("mutated_" + std::to_string(getpid()) + "_" + GetParam() + ".toml");
   std::mt19937 random(20240229);
   int n_read = 0, n_refused = 0;
   for (int i = 0; i < 300; ++i) {
@@ -83,5 +87,10 @@ TEST(scene, mutated_is_read_or_refused_and_nothing_else) {
   EXPECT_GT(n_read, 30) << "many mutations touch comments or stay within reason";
   EXPECT_GT(n_refused, 100);
 }
+
+INSTANTIATE_TEST_SUITE_P(shipped, EveryScene,
+                         testing::Values("vibratory_mill", "planetary_mill", "stub_axle", "drive_train",
+                                         "root_peeler_shaft"),
+                         [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

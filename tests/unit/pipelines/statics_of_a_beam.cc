@@ -52,9 +52,4 @@ TEST(Statics, WeightOfABar) {
               1e-12);  // weight below acts 0.3 lower: -(z_F - z) F_y > 0 on the part below
 }
 
-TEST(Statics, AShaftHasNoOtherLoads) {
-  EXPECT_THROW(internal_resultant(seat_load(0.5, 0.1, Component::mx), bar(), 1000, 0.6),
-               std::invalid_argument);
-}
-
 }  // namespace

@@ -32,10 +32,19 @@ struct Row {
   void layer(std::size_t l, double value) {
     std::fill_n(envelope.value_Pa.begin() + std::ptrdiff_t(9 * l), 9, value);
   }
-  pipelines::NodePlaces places(const std::vector<pipelines::SharpCorner>& corners = {}) const {
-    return pipelines::locate_nodes(nodes, features, ports, corners);
+  pipelines::NodePlaces places(const std::vector<meshes::SharpEdge>& edges = {}) const {
+    return pipelines::locate_nodes(nodes, features, ports, edges);
   }
 };
+
+/// An edge along straight lines from point to point.
+meshes::SharpEdge edge_along(const std::vector<std::array<double, 3>>& points, double distance_m) {
+  meshes::SharpEdge edge;
+  edge.name = "edge";
+  edge.distance_m = distance_m;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) edge.pieces.push_back({points[i], points[i + 1]});
+  return edge;
+}
 
 TEST(Zones, RegionsThatShareNoCellAreApart) {
   Row row(4);
@@ -78,16 +87,29 @@ TEST(Zones, NamedAfterTheMostTellingFeature) {
   EXPECT_EQ(row.places().place[9 * 5], pipelines::Place::loaded_seat);
 }
 
-TEST(Zones, SharpCornersHoldNoPeak) {
+TEST(Zones, SharpEdgesHoldNoPeak) {
   Row row(2);
   row.layer(0, 10);
-  row.envelope.value_Pa[0] = 1000;  // at z = 0, radius 0
-  const auto places = row.places({{"a/b", 0, 0, 0.5}});
+  row.envelope.value_Pa[0] = 1000;  // at the origin
+  const auto places = row.places({edge_along({{-1, 0, 0}, {0, 0, 0}}, 0.5)});
   EXPECT_EQ(row.envelope.value_Pa[pipelines::peak_node(row.envelope.value_Pa, places)], 10);
   const auto zones = find_zones(row.nodes, row.envelope, places, 5, 100);
   ASSERT_EQ(zones.zones.size(), 1u);
   EXPECT_EQ(zones.zones[0].peak_Pa, 10);
   EXPECT_EQ(zones.zone_of_node[0], 0);
+}
+
+// Distance is to the straight pieces, not to the lines through them (which pass (1, 1)) nor to the box around
+// them. Nodes of the first layer lie at whole numbers.
+TEST(Zones, ExclusionFollowsAnEdgeOfSeveralPieces) {
+  const Row row(1);
+  const auto places = row.places({edge_along({{0, 0, 0}, {0.5, 0.5, 0}, {2, 0.5, 0}, {2, 2.5, 0}}, 0.4)});
+  std::vector<std::size_t> excluded;
+  for (std::size_t i = 0; i < row.nodes.n; ++i)
+    if (places.excluded[i]) excluded.push_back(i);
+  EXPECT_EQ(excluded, (std::vector<std::size_t>{0, 5, 8}));
+  const auto everywhere = row.places({edge_along({{0, 0, 0}, {1, 0, 0}}, 9)});
+  EXPECT_THROW(pipelines::peak_node(row.envelope.value_Pa, everywhere), std::invalid_argument);
 }
 
 TEST(Zones, ABodyWithoutStressHasNone) {

@@ -1,0 +1,118 @@
+/// Hot-spot stress of fields that can be written down.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipelines/hot_spots.h"
+
+namespace {
+
+constexpr double thickness = 0.006;
+
+pipelines::Stress tension(double stress_Pa) {
+  return {stress_Pa, 0, 0, 0, 0, 0};
+}
+
+/// Nodes along a slanted line from the toe, stress  (constant + slope x distance) of each channel.
+struct Line {
+  std::array<double, 3> toe{0.1, -0.05, 0.02}, along{0.6, 0.0, 0.8};
+  std::vector<pipelines::Stress> constant, slope;  // per channel
+  fem::UnitResponses responses;
+
+  std::array<double, 3> at(double distance) const {
+    return {toe[0] + distance * along[0], toe[1] + distance * along[1], toe[2] + distance * along[2]};
+  }
+  Line(std::vector<pipelines::Stress> c, std::vector<pipelines::Stress> s)
+      : constant(std::move(c)), slope(std::move(s)) {
+    for (std::size_t k = 0; k < constant.size(); ++k) responses.channels.push_back("c" + std::to_string(k));
+    for (const double share : {2.0, 0.0, 0.4, 0.7, 1.0}) {
+      const auto p = at(share * thickness);
+      responses.nodes.xyz_m.insert(responses.nodes.xyz_m.end(), p.begin(), p.end());
+      ++responses.nodes.n;
+      for (std::size_t k = 0; k < constant.size(); ++k)
+        for (std::size_t i = 0; i < 6; ++i)
+          responses.stress_Pa.push_back(constant[k][i] + slope[k][i] * share * thickness);
+    }
+  }
+  meshes::HotSpot spot(const std::string& name = "toe") const {
+    return {name, thickness, toe, at(0.4 * thickness), at(thickness)};
+  }
+};
+
+pipelines::ChannelHistory history(const Eigen::ArrayXXd& values) {
+  pipelines::ChannelHistory loads;
+  loads.values = values;
+  return loads;
+}
+
+// Constant fields exactly; linear ones but for the rounding of the weights: 1.67 x 0.4 - 0.67 x 1.0 = -0.002
+// thicknesses of the slope.
+TEST(HotSpots, LinearFieldIsExtrapolatedToTheToe) {
+  const pipelines::Stress constant{100e6, 20e6, -30e6, 5e6, -8e6, 40e6},
+      slope{-2e9, 1e9, 3e9, 0.5e9, 0, -4e9};
+  const Line flat({constant}, {tension(0)}), sloped({constant}, {slope});
+  Eigen::ArrayXXd one(1, 1);
+  one << 1;
+  const auto on_flat = hot_spot_stresses({flat.spot()}, flat.responses, history(one));
+  ASSERT_EQ(on_flat.size(), 1u);
+  EXPECT_NEAR(on_flat[0].von_mises_Pa, pipelines::von_mises_Pa(constant), 1e-14 * 100e6 * 10);
+  pipelines::Stress wanted = constant;
+  for (std::size_t i = 0; i < 6; ++i) wanted[i] -= 0.002 * thickness * slope[i];
+  const auto on_sloped = hot_spot_stresses({sloped.spot()}, sloped.responses, history(one));
+  EXPECT_NEAR(on_sloped[0].von_mises_Pa, pipelines::von_mises_Pa(wanted), 1e-13 * 100e6);
+  EXPECT_NEAR(on_sloped[0].von_mises_Pa, pipelines::von_mises_Pa(constant), 0.002 * thickness * 15e9);
+  EXPECT_EQ(on_sloped[0].toe_m, sloped.toe);
+  EXPECT_EQ(on_sloped[0].name, "toe");
+}
+
+// Across the toe is the direction from it to its points: n . s n with n = (0.6, 0, 0.8).
+TEST(HotSpots, RangeIsOfTheStressAcrossTheToe) {
+  const pipelines::Stress a{100e6, 7e6, 50e6, 3e6, 2e6, -20e6}, b{-10e6, 0, 30e6, 0, 0, 60e6};
+  const Line line({a, b}, {tension(0), tension(0)});
+  Eigen::ArrayXXd values(2, 3);
+  values << 1, -1, 0.5, 0, 2, 3;
+  const auto result = hot_spot_stresses({line.spot()}, line.responses, history(values));
+  const auto across = [](const pipelines::Stress& s) { return 0.36 * s[0] + 0.64 * s[2] + 0.96 * s[5]; };
+  std::array<double, 3> normal{}, mises{};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    pipelines::Stress s{};
+    for (std::size_t c = 0; c < 6; ++c) s[c] = values(0, i) * a[c] + values(1, i) * b[c];
+    normal[std::size_t(i)] = across(s);
+    mises[std::size_t(i)] = pipelines::von_mises_Pa(s);
+  }
+  EXPECT_NEAR(result[0].max_normal_Pa, *std::max_element(normal.begin(), normal.end()), 1);
+  EXPECT_NEAR(result[0].min_normal_Pa, *std::min_element(normal.begin(), normal.end()), 1);
+  const auto worst = std::max_element(mises.begin(), mises.end());
+  EXPECT_NEAR(result[0].von_mises_Pa, *worst, 1);
+  EXPECT_EQ(result[0].instant, worst - mises.begin());
+}
+
+TEST(HotSpots, AreRankedByTheirStress) {
+  const Line line({tension(1e6)}, {tension(1e9)});
+  Eigen::ArrayXXd one(1, 1);
+  one << 1;
+  // Farther along the same line the stress is larger: points at 0.7 and 2.0 thicknesses.
+  auto other = line.spot("farther");
+  other.near_m = line.at(0.7 * thickness);
+  other.far_m = line.at(0.4 * thickness);
+  const auto result = hot_spot_stresses({line.spot(), other}, line.responses, history(one));
+  ASSERT_EQ(result.size(), 2u);
+  EXPECT_EQ(result[0].name, "farther");
+  EXPECT_GT(result[0].von_mises_Pa, result[1].von_mises_Pa);
+}
+
+TEST(HotSpots, PointThatIsNoNodeIsRefused) {
+  const Line line({tension(1e6)}, {tension(0)});
+  Eigen::ArrayXXd one(1, 1);
+  one << 1;
+  auto spot = line.spot("web_1 edge 1");
+  spot.far_m = line.at(0.97 * thickness);
+  try {
+    hot_spot_stresses({spot}, line.responses, history(one));
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("web_1 edge 1"), std::string::npos);
+  }
+}
+
+}  // namespace
