@@ -82,6 +82,9 @@ void check_webs(const Chamber& chamber) {
     require_between(z_m, -room_m, room_m, "a web's z",
                     "its thickness must meet the housing, " + mm(chamber.housing.length_m) +
                         " long; make the housing longer or move the web");
+    require_between(std::abs(z_m), 0, 0.5 * (chamber.tube.length_m - webs.thickness_m),
+                    "a web's distance from the middle",
+                    "its thickness must meet the tube, " + mm(chamber.tube.length_m) + " long");
   }
 }
 
@@ -98,6 +101,8 @@ void check_feet(const Chamber& chamber) {
   require_positive(lugs.thickness_m, "the lugs' thickness");
   require_positive(lugs.width_m, "the lugs' width");
   require_positive(lugs.z_m, "the lugs' z");
+  require_between(lugs.z_m, 0, 0.5 * (chamber.tube.length_m - lugs.thickness_m), "the lugs' z",
+                  "their thickness must meet the tube, " + mm(chamber.tube.length_m) + " long");
   require_positive(pads.size_x_m, "the pads' size in x");
   require_positive(pads.size_y_m, "the pads' size in y");
   require_positive(pads.size_z_m, "the pads' size in z");
