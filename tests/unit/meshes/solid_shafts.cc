@@ -124,9 +124,7 @@ TEST(SolidShaft, keyways_take_their_volume) {
                                       {"body", 0.014, 0.0055, 0.04, 0.08, -2, round_ends}};
     const auto file = temporary_msh("keyed");
     const auto body = meshes::build_solid_shaft(shaft, keys, coarse(), file);
-    const double exact = true_volume(shaft) -
-                         pi * bore_m * bore_m / 4 * 0.18 * (true_volume(shaft) > 0 ? 1 : 0) -
-                         slot_volume(0.02, keys[0]) - slot_volume(0.025, keys[1]);
+    const double exact = true_volume(shaft) - slot_volume(0.02, keys[0]) - slot_volume(0.025, keys[1]);
     EXPECT_NEAR(read_tetrahedra(file).volume_m3 / exact, 1, 1.2 * lost_by_parabolas(n_around));
     EXPECT_GT(body.quality.min_scaled_jacobian, 0.05);
     EXPECT_GT(body.quality.max_aspect, 1);
@@ -181,6 +179,7 @@ TEST(SolidShaft, keyways_that_do_not_fit_are_refused) {
                {"two keyways on pulley meet"});
   auto stepped = keyed_shaft(0.01);
   stepped.segments[1].bore_m = 0.012;
+  stepped.fillets_m[0] = 0;  // a bore may step beside a sharp shoulder only
   expect_words(refusal_of([&] { meshes::build_solid_shaft(stepped, {}, {}, temporary_msh("r")); }),
                {"bore of body", "one diameter"});
 }
