@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "meshes/flat_cells.h"
+
 namespace meshes {
 
 namespace {
@@ -87,6 +89,7 @@ void mesh_solids(const SolidControl& control, double unit_m) {
   set("Mesh.MeshSizeFromPoints", 0);
   limit_growth();
   gmsh::model::mesh::generate(3);
+  split_flat_cells();
   gmsh::model::mesh::setOrder(2);
 }
 

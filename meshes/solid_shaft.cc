@@ -161,12 +161,16 @@ std::vector<Port> ports_of(const Shaft& shaft, const SolidLayout& layout, const 
 
 }  // namespace
 
-BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways,
-                           const SolidControl& control, const std::filesystem::path& file) {
+void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, const SolidControl& control) {
   check_control(control);
   check_shaft(shaft);
+  check_keyways(shaft, lay_out_solid(shaft), keyways);
+}
+
+BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways,
+                           const SolidControl& control, const std::filesystem::path& file) {
+  check_solid_shaft(shaft, keyways, control);
   const SolidLayout layout = lay_out_solid(shaft);
-  check_keyways(shaft, layout, keyways);
   ModelMesh model;
   with_gmsh("meshing the shaft with keyways", [&] {
     model_solid(shaft, layout, keyways);

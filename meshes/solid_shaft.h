@@ -22,6 +22,10 @@ struct Keyway {
   bool round_ends = false;  ///< half circles of the width (end mill); else square
 };
 
+/// What build_solid_shaft refuses before it meshes.
+/// @throws std::invalid_argument as build_solid_shaft
+void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, const SolidControl& control);
+
 /// Meshes the shaft with its keyways and writes `file` (through a temporary name). Ports, and features of
 /// cylinders, fillets, shoulders, end faces and bores, are named and lie as build_shaft's; what a keyway
 /// leaves of a seat is the port. Keyway surfaces are "keyway <segment>", further ones on the segment "keyway

@@ -1,5 +1,7 @@
 #include "pipelines/body_mesh.h"
 
+#include <stdexcept>
+
 namespace pipelines {
 namespace {
 
@@ -51,7 +53,13 @@ std::vector<fem::LoadSurface> round_ports(const meshes::BodyMesh& mesh) {
 }  // namespace
 
 meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file) {
-  return std::visit(Build{file}, body.shape);
+  try {
+    return std::visit(Build{file}, body.shape);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(body.origin + ": " + error.what());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(body.origin + ": " + error.what());
+  }
 }
 
 fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& material) {

@@ -42,6 +42,7 @@ struct AddedMass {
 
 struct BodyScene {
   std::string name;  ///< "shaft", "chamber", "drum", "axle", "part": table and directory
+  std::string origin;  ///< "file:line:column: table", named by errors that meshing brings to light
   BodyRole role = BodyRole::vibratory_shaft;
   std::variant<ShaftShape, ChamberShape, meshes::Import> shape;
   fem::Material material;

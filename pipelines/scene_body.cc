@@ -184,6 +184,7 @@ void check_supports(SceneTable& table, const BodyScene& body) {
 BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneFindings& findings) {
   BodyScene body;
   body.name = table.key();
+  body.origin = table.origin();
   body.role = role;
   if (role == BodyRole::vibratory_shaft) read_debalances(table, body);
   if (role == BodyRole::stub_axle)

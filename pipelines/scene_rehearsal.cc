@@ -54,7 +54,12 @@ void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, Scen
 
 /// @throws std::invalid_argument as the mesher, without meshing
 void check_shape(const BodyScene& body) {
-  if (const auto* shaft = body.shaft()) meshes::check_shaft(shaft->geometry);
+  if (const auto* shaft = body.shaft()) {
+    if (shaft->keyways.empty())
+      meshes::check_shaft(shaft->geometry);
+    else
+      meshes::check_solid_shaft(shaft->geometry, shaft->keyways, shaft->solid);
+  }
   if (const auto* chamber = std::get_if<ChamberShape>(&body.shape)) {
     const auto& [geometry, control] = *chamber;
     meshes::check_control(control);

@@ -277,6 +277,10 @@ std::vector<SceneTable> SceneTable::tables(const std::string& name) {
   return result;
 }
 
+std::string SceneTable::origin() const {
+  return findings_->file + ":" + std::to_string(at_.line) + ":" + std::to_string(at_.column) + ": " + key_;
+}
+
 void SceneTable::finish() {
   for (const TomlEntry& entry : node_->entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;

@@ -66,6 +66,9 @@ public:
   /// Reports a missing key at the table; an empty name means the table as a whole.
   void refuse_missing(const std::string& name, const std::string& remedy);
 
+  /// "file:line:column: key", for errors that come to light after reading.
+  std::string origin() const;
+
   /// Reports the keys that nobody asked for, with the nearest known one, and the required keys that are
   /// missing.
   void finish();

@@ -1,0 +1,245 @@
+// Bodies of the user's own through a whole run: a STEP file and a .msh beside the same shaft made of blocks,
+// and a keyed shaft.
+#include <gmsh.h>
+
+#include <cmath>
+
+#include "tests/cases/program.h"
+
+using namespace cases;
+
+namespace {
+
+const std::string machine = R"(title = "A shaft under a pull and an alternating torque"
+effects = ["pull", "torque"]
+
+[machine]
+type = "load_table"
+speed = "600 rpm"
+
+[[machine.constants]]
+effect = "pull"
+load = "middle.fx"
+value = "8 kN"
+
+[[machine.harmonics]]
+effect = "torque"
+load = "right.torque"
+amplitude = "150 N m"
+order = 1
+
+[sampling]
+instants_per_turn = 16
+turns = 1
+
+[results]
+snapshots = 0
+pictures = false
+)";
+
+const std::string material = R"(
+[BODY.material]
+name = "C45+N"
+youngs_modulus = "206 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "305 MPa"
+)";
+
+const std::string supports = R"(
+bearings = ["left", "right"]
+axial_support = "left"
+torque_support = "left"
+)";
+
+// Diameter 30 for 60 mm, 40 for 60 mm, 30 for 60 mm, fillets of 4 mm.
+const std::string of_blocks = R"(
+[shaft]
+contour = [
+  { port = "left",   diameter = "30 mm", length = "60 mm" },
+  { fillet = "4 mm" },
+  { port = "middle", diameter = "40 mm", length = "60 mm" },
+  { fillet = "4 mm" },
+  { port = "right",  diameter = "30 mm", length = "60 mm" },
+]
+begin = "0 mm"
+)" + supports;
+
+const std::string of_step = R"(
+[part]
+file = "shaft.step"
+)" + supports + R"(
+[[part.ports]]
+port = "left"
+cylinder = { diameter = "30 mm", begin = "0 mm", end = "57 mm" }
+[[part.ports]]
+port = "middle"
+cylinder = { diameter = "40 mm", begin = "59 mm", end = "121 mm" }
+[[part.ports]]
+port = "right"
+cylinder = { diameter = "30 mm", begin = "123 mm", end = "180 mm" }
+
+[part.mesh]
+size = "8 mm"
+cells_per_circle = 20
+)";
+
+const std::string of_mesh = R"(
+[part]
+file = "shaft.msh"
+)" + supports + R"(
+[[part.ports]]
+port = "left"
+group = "journal A"
+[[part.ports]]
+port = "middle"
+group = "disc"
+[[part.ports]]
+port = "right"
+group = "journal B"
+)";
+
+const std::string keyed = of_blocks + R"(
+[[shaft.keyways]]
+segment = "right"
+width = "8 mm"
+depth = "4 mm"
+length = "40 mm"
+begin = "130 mm"
+
+[shaft.mesh]
+size = "8 mm"
+cells_per_circle = 12
+)";
+
+std::string scene(const std::string& body, const std::string& table) {
+  std::string own_material = material;
+  own_material.replace(own_material.find("BODY"), 4, table);
+  return machine + body + own_material;
+}
+
+/// The same drawing revolved by OpenCASCADE in gmsh's current model.
+/// @param unit_m  length of the model's unit
+void draw(double unit_m) {
+  namespace occ = gmsh::model::occ;
+  const double mm = 1e-3 / unit_m, f = 4 * mm, r = 15 * mm, s = 20 * mm, a = 60 * mm, b = 120 * mm;
+  const double profile[][2] = {{0, 0}, {r, 0},     {r, a - f}, {r + f, a},    {s, a},
+                               {s, b}, {r + f, b}, {r, b + f}, {r, 180 * mm}, {0, 180 * mm}};
+  std::vector<int> points, lines;
+  for (const auto& [x, z] : profile) points.push_back(occ::addPoint(x, 0, z));
+  const int low = occ::addPoint(r + f, 0, a - f), high = occ::addPoint(r + f, 0, b + f);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int from = points[i], to = points[(i + 1) % points.size()];
+    lines.push_back(i == 2   ? occ::addCircleArc(from, low, to)
+                    : i == 6 ? occ::addCircleArc(from, high, to)
+                             : occ::addLine(from, to));
+  }
+  gmsh::vectorpair parts;
+  occ::revolve({{2, occ::addPlaneSurface({occ::addWire(lines)})}}, 0, 0, 0, 0, 0, 1, 2 * std::acos(-1.0),
+               parts);
+  occ::synchronize();
+}
+
+/// Runs a construction in a session of gmsh of its own and writes what it left.
+template <typename Construct>
+void write_sample(const fs::path& file, const Construct& construct) {
+  gmsh::initialize();
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add("sample");
+  construct();
+  gmsh::write(file.string());
+  gmsh::finalize();
+}
+
+/// Names the surface whose middle is at z and whose greatest radius is given.
+void name_surface(const char* name, double z_m, double radius_m) {
+  gmsh::vectorpair surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  for (const auto& surface : surfaces) {
+    double low[3], high[3];
+    gmsh::model::getBoundingBox(2, surface.second, low[0], low[1], low[2], high[0], high[1], high[2]);
+    if (std::abs((low[2] + high[2]) / 2 - z_m) < 1e-5 && std::abs(high[0] - radius_m) < 1e-5)
+      gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surface.second}), name);
+  }
+}
+
+nlohmann::json run(const fs::path& directory, const std::string& text, const std::string& name) {
+  write(directory / (name + ".toml"), text);
+  const auto outcome = millstress(directory, "run " + name + ".toml -o " + name);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return outcome.exit_code == 0 ? summary(directory / name) : nlohmann::json();
+}
+
+double peak(const nlohmann::json& json, const std::string& body) {
+  return json["bodies"][body]["peak_von_mises"]["value"].get<double>();
+}
+
+double error(const nlohmann::json& json, const std::string& body) {
+  return json["bodies"][body]["peak_von_mises"]["error"]["total"].get<double>();
+}
+
+void expect_closed(const nlohmann::json& json, const std::string& body) {
+  EXPECT_LT(json["closure"][body]["force"].get<double>(), 1e-9);
+  EXPECT_LT(json["closure"][body]["moment"].get<double>(), 1e-9);
+}
+
+}  // namespace
+
+TEST(ImportedBody, AStepFileAgreesWithTheShaftOfBlocks) {
+  const results_test::Directory directory;
+  write_sample(directory / "shaft.step", [] { draw(1e-3); });
+  const auto blocks = run(directory.path, scene(of_blocks, "shaft"), "blocks");
+  const auto step = run(directory.path, scene(of_step, "part"), "step");
+  ASSERT_FALSE(blocks.is_null() || step.is_null());
+  expect_closed(step, "part");
+  // Neither estimate alone, nor their sum, is so wide that any peak would do.
+  EXPECT_LT(error(blocks, "shaft") + error(step, "part"), 0.06 * peak(blocks, "shaft"));
+  EXPECT_NEAR(peak(step, "part"), peak(blocks, "shaft"), error(blocks, "shaft") + error(step, "part"));
+  // The same steel: what the two meshes miss of their volume is some 1e-5.
+  EXPECT_NEAR(step["bodies"]["part"]["mass"]["value"].get<double>(),
+              blocks["bodies"]["shaft"]["mass"]["value"].get<double>(), 1e-3);
+}
+
+TEST(ImportedBody, AMeshWithNamedGroupsIsTakenAsItIs) {
+  const results_test::Directory directory;
+  write_sample(directory / "shaft.msh", [] {
+    draw(1);
+    name_surface("journal A", 0.028, 0.015);
+    name_surface("disc", 0.090, 0.020);
+    name_surface("journal B", 0.152, 0.015);
+    gmsh::model::addPhysicalGroup(3, {1});
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 0.01);
+    gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 12);
+    gmsh::model::mesh::generate(3);
+  });
+  const auto json = run(directory.path, scene(of_mesh, "part"), "msh");
+  ASSERT_FALSE(json.is_null());
+  expect_closed(json, "part");
+  // Simpson's rule on straight cells of 12 per circle loses 1 - sin(x)/x of the area, x = 2 pi / 12.
+  const double volume_m3 = std::acos(-1.0) * (2 * 0.015 * 0.015 + 0.02 * 0.02) * 0.06;
+  EXPECT_NEAR(json["bodies"]["part"]["mass"]["value"].get<double>() / (7850 * volume_m3), 0.96, 0.03);
+  EXPECT_GT(json["bodies"]["part"]["peak_von_mises"]["value"].get<double>(), 20e6);
+}
+
+TEST(ImportedBody, AKeywayWeakensItsShaft) {
+  const results_test::Directory directory;
+  const auto json = run(directory.path, scene(keyed, "shaft"), "keyed");
+  ASSERT_FALSE(json.is_null());
+  expect_closed(json, "shaft");
+  // A slot 8 mm wide and 4 mm deep, 40 mm long with round ends, and the fillets: by the drawing.
+  const double pi = std::acos(-1.0), f = 0.004, a = 0.015;
+  const double fillet_m3 =
+      pi * f * ((a + f) * (a + f) - (a + f) * f * pi / 2 + 2 * f * f / 3) - pi * a * a * f;
+  const double slot_m3 = 0.004 * (0.008 * 0.032 + pi * 0.004 * 0.004) * 0.93;
+  EXPECT_NEAR(json["bodies"]["shaft"]["mass"]["value"].get<double>(),
+              7850 * (pi * (2 * a * a + 0.02 * 0.02) * 0.06 + 2 * fillet_m3 - slot_m3), 2e-3);
+}
+
+TEST(ImportedBody, ThereIsNoFile) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", scene(of_step, "part"));
+  const auto outcome = millstress(directory.path, "run scene.toml -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  for (const char* word : {"scene.toml", "file", "shaft.step", "no such file"})
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+}
