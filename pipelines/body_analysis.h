@@ -26,7 +26,7 @@ namespace pipelines {
 struct StressErrors {
   double time_sampling = 0;  ///< what a parabola through the neighbouring instants adds to the largest one
   double pressure_harmonics = 0;  ///< what the highest harmonic of the seat pressures contributes
-  double discretisation = 0;      ///< recovered stress against the plain mean of the cells' own stresses
+  double discretisation = 0;      ///< recovered stress against that of the cell there that differs most
   double linear_solver = 0;       ///< relative residual times the stress
 };
 

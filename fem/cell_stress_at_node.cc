@@ -1,4 +1,4 @@
-#include "fem/mean_cell_stress.h"
+#include "fem/cell_stress_at_node.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -71,20 +71,20 @@ std::array<double, 3> gradient_of(const Field& field,
 
 }  // namespace
 
-std::vector<std::array<double, 6>> mean_cell_stress_Pa(const UnitResponses& responses,
-                                                       const Material& material, std::size_t node) {
+std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(const UnitResponses& responses,
+                                                                       const Material& material,
+                                                                       std::size_t node) {
   const std::size_t n_channels = responses.channels.size();
   const double nu = material.poisson_ratio;
   const double lambda = material.youngs_modulus_Pa * nu / ((1 + nu) * (1 - 2 * nu));
   const double mu = material.youngs_modulus_Pa / (2 * (1 + nu));
-  std::vector<std::array<double, 6>> mean(n_channels);
-  int n_cells = 0;
+  std::vector<std::vector<std::array<double, 6>>> stress_Pa;
   const auto& nodes = responses.nodes;
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
     const auto local = local_nodes(nodes.kind, nodes.cell(c));
     const auto found = std::find(local.begin(), local.end(), node);
     if (found == local.end()) continue;
-    ++n_cells;
+    auto& of_cell = stress_Pa.emplace_back(n_channels);
     const auto shape_gradients = reference_gradients(nodes.kind, std::size_t(found - local.begin()));
     Matrix3 jacobian;  // d x_i / d reference_j
     for (int i = 0; i < 3; ++i)
@@ -103,17 +103,15 @@ std::vector<std::array<double, 6>> mean_cell_stress_Pa(const UnitResponses& resp
           for (int d = 0; d < 3; ++d) gradient[i][j] += unit[d] * to_unit[d][j];
       }
       const double trace = gradient[0][0] + gradient[1][1] + gradient[2][2];
-      for (int i = 0; i < 3; ++i) mean[k][std::size_t(i)] += lambda * trace + 2 * mu * gradient[i][i];
-      mean[k][3] += mu * (gradient[0][1] + gradient[1][0]);
-      mean[k][4] += mu * (gradient[1][2] + gradient[2][1]);
-      mean[k][5] += mu * (gradient[0][2] + gradient[2][0]);
+      for (int i = 0; i < 3; ++i) of_cell[k][std::size_t(i)] = lambda * trace + 2 * mu * gradient[i][i];
+      of_cell[k][3] = mu * (gradient[0][1] + gradient[1][0]);
+      of_cell[k][4] = mu * (gradient[1][2] + gradient[2][1]);
+      of_cell[k][5] = mu * (gradient[0][2] + gradient[2][0]);
     }
   }
-  if (n_cells == 0)
-    throw std::invalid_argument("mean_cell_stress_Pa: no cell holds node " + std::to_string(node));
-  for (auto& stress : mean)
-    for (double& component : stress) component /= n_cells;
-  return mean;
+  if (stress_Pa.empty())
+    throw std::invalid_argument("cell_stress_at_node_Pa: no cell holds node " + std::to_string(node));
+  return stress_Pa;
 }
 
 }  // namespace fem
