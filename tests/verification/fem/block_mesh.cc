@@ -29,10 +29,14 @@ HexahedraMesh hexahedra(const Block& block) {
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i) {
-        const std::array<int, 8> c = {number(i, j, k),         number(i + 1, j, k),
-                                      number(i + 1, j + 1, k), number(i, j + 1, k),
-                                      number(i, j, k + 1),     number(i + 1, j, k + 1),
-                                      number(i + 1, j + 1, k + 1), number(i, j + 1, k + 1)};
+        const std::array<int, 8> c = {number(i, j, k),
+                                      number(i + 1, j, k),
+                                      number(i + 1, j + 1, k),
+                                      number(i, j + 1, k),
+                                      number(i, j, k + 1),
+                                      number(i + 1, j, k + 1),
+                                      number(i + 1, j + 1, k + 1),
+                                      number(i, j + 1, k + 1)};
         mesh.cells.push_back(c);
         if (i == 0) mesh.faces.push_back({{c[0], c[4], c[7], c[3]}, begin_1});
         if (i + 1 == n[0]) mesh.faces.push_back({{c[1], c[2], c[6], c[5]}, end_1});
@@ -56,7 +60,8 @@ std::filesystem::path write(const HexahedraMesh& mesh) {
   for (std::size_t i = 1; i <= mesh.nodes.size(); ++i) out << i << "\n";
   for (const auto& x : mesh.nodes) out << x[0] << " " << x[1] << " " << x[2] << "\n";
   const auto n_elements = mesh.faces.size() + mesh.cells.size();
-  out << "$EndNodes\n$Elements\n" << mesh.faces.size() + 1 << " " << n_elements << " 1 " << n_elements << "\n";
+  out << "$EndNodes\n$Elements\n"
+      << mesh.faces.size() + 1 << " " << n_elements << " 1 " << n_elements << "\n";
   std::size_t next = 1;
   for (const auto& [corners, side] : mesh.faces) {
     out << "2 " << side << " 3 1\n" << next++;

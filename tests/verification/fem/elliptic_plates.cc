@@ -33,8 +33,8 @@ TEST(P01, elliptic_membrane) {
   auto body = quarter(thickness_m, {6, 10, 1});
   body.clamps.push_back({verification::begin_3, {false, false, true}});
   const auto solution = verification::solve(
-      body, {{verification::uniform_pressure(verification::end_1, {0, 0, thickness_m / 2}, thickness_m),
-              -10e6}});
+      body,
+      {{verification::uniform_pressure(verification::end_1, {0, 0, thickness_m / 2}, thickness_m), -10e6}});
   const double ours = solution.stress_Pa(1, solution.at({2, 0, 0}));
   verification::check({"P01", "sigma_yy at D [Pa]", 92.6582e6, ours}, solution, 0.02);
 }

@@ -49,8 +49,8 @@ FieldErrors field_errors(const fem::Grid& grid, const fem::Material& material, c
   return {std::sqrt(displacement_error / displacement_norm), std::sqrt(stress_error / stress_norm)};
 }
 
-void expect_orders(const std::string& name, const Field& exact, const fem::Body& coarse, const fem::Body& fine,
-                   const LoadCase& loads) {
+void expect_orders(const std::string& name, const Field& exact, const fem::Body& coarse,
+                   const fem::Body& fine, const LoadCase& loads) {
   const auto errors = [&](const fem::Body& body, const Solution& solution) {
     const fem::RowMajor u = solution.displacement_m.transpose();
     return field_errors(fem::read_grid(body), body.material, exact, u);
@@ -65,10 +65,11 @@ void expect_orders(const std::string& name, int degree, const FieldErrors& coars
   const std::string q = ", Q" + std::to_string(degree);
   // Two meshes apart by a factor of two: a twentieth either way is what is left of higher terms. A curved
   // boundary followed too coarsely, or a load off its place, costs half an order or more.
-  check_order({name, "order of displacement" + q, degree + 1.0, std::log2(coarse.displacement / fine.displacement)},
-              finest, 0.2, 0.5);
-  check_order({name, "order of stress" + q, double(degree), std::log2(coarse.stress / fine.stress)}, finest, 0.2,
-              0.5);
+  check_order(
+      {name, "order of displacement" + q, degree + 1.0, std::log2(coarse.displacement / fine.displacement)},
+      finest, 0.2, 0.5);
+  check_order({name, "order of stress" + q, double(degree), std::log2(coarse.stress / fine.stress)}, finest,
+              0.2, 0.5);
 }
 
 }  // namespace verification

@@ -29,10 +29,10 @@ struct FieldErrors {
 FieldErrors field_errors(const fem::Grid& grid, const fem::Material& material, const Field& exact,
                          const fem::ConstBlock& displacement_m);
 
-/// Solves on two meshes, the second with cells of half the size in the plane, and expects the order degree + 1
-/// for displacement, degree for stress.
-void expect_orders(const std::string& name, const Field& exact, const fem::Body& coarse, const fem::Body& fine,
-                   const LoadCase& loads);
+/// Solves on two meshes, the second with cells of half the size in the plane, and expects the order degree +
+/// 1 for displacement, degree for stress.
+void expect_orders(const std::string& name, const Field& exact, const fem::Body& coarse,
+                   const fem::Body& fine, const LoadCase& loads);
 
 /// The same for errors at hand.
 void expect_orders(const std::string& name, int degree, const FieldErrors& coarse, const FieldErrors& fine,

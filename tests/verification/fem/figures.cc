@@ -68,10 +68,9 @@ fem::SeatPressure uniform_pressure(int boundary_id, const Eigen::Vector3d& centr
 }
 
 double von_Mises(const Eigen::Matrix<double, 6, 1>& s) {
-  return std::sqrt(((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) +
-                    (s[2] - s[0]) * (s[2] - s[0])) /
-                       2 +
-                   3 * s.tail<3>().squaredNorm());
+  return std::sqrt(
+      ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) + (s[2] - s[0]) * (s[2] - s[0])) / 2 +
+      3 * s.tail<3>().squaredNorm());
 }
 
 void check(const Figure& figure, const Solution& solution, double tolerance) {

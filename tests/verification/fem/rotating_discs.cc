@@ -11,7 +11,7 @@ namespace {
 
 constexpr double a = 0.05, b = 0.2, thickness = 0.01, omega_rad_s = 1000;
 constexpr fem::Material steel{210e9, 0.3, 7800};
-const verification::LoadCase spin = {{fem::BodyForce{fem::BodyForce::Field::spin}, omega_rad_s * omega_rad_s}};
+const verification::LoadCase spin = {{fem::BodyForce{fem::BodyForce::Field::spin}, omega_rad_s* omega_rad_s}};
 
 TEST(P05, solid_disc) {
   meshes::Shaft disc;
@@ -36,7 +36,7 @@ fem::Body annulus(int degree, double height_m, int n_radial, int n_around) {
 }
 
 TEST(P05, annular_disc) {
-  const auto s = verification::solve(annulus(2, thickness / 2, 6, 4), spin);  // half, above its middle plane
+  const auto s = verification::solve(annulus(2, thickness / 2, 8, 4), spin);  // half, above its middle plane
   const auto inner = s.at({a, 0, 0}), outer = s.at({b, 0, 0}), middle = s.at({0.1, 0, 0});
   verification::check({"P05", "annular: sigma_theta(a) [Pa]", 260.8125e6, s.stress_Pa(1, inner)}, s, 0.01);
   verification::check({"P05", "annular: sigma_theta(b) [Pa]", 70.6875e6, s.stress_Pa(1, outer)}, s, 0.02);
@@ -52,8 +52,7 @@ verification::Field long_cylinder() {
   const double w = steel.density_kg_m3 * omega_rad_s * omega_rad_s / 8;
   const auto stress = [=](double r) {
     const double radial = w * (3 + nu) * (a * a + b * b - a * a * b * b / (r * r) - r * r);
-    const double around =
-        w * ((3 + nu) * (a * a + b * b + a * a * b * b / (r * r)) - (1 + 3 * nu) * r * r);
+    const double around = w * ((3 + nu) * (a * a + b * b + a * a * b * b / (r * r)) - (1 + 3 * nu) * r * r);
     return std::array<double, 3>{radial, around, nu_3 * (radial + around)};
   };
   return verification::axisymmetric(
@@ -66,13 +65,13 @@ verification::Field long_cylinder() {
 
 class P05Orders : public testing::TestWithParam<int> {};
 TEST_P(P05Orders, displacement_p_plus_1_and_stress_p) {
-  const int degree = GetParam(), n = degree == 1 ? 8 : 4;
+  const int degree = GetParam();
   const auto held = [&](int cells) {
-    auto body = annulus(degree, 0.02, cells, cells);
+    auto body = annulus(degree, 0.02, cells, cells / 2);
     body.clamps.push_back({verification::end_3, {false, false, true}});
     return body;
   };
-  verification::expect_orders("P05", long_cylinder(), held(n), held(2 * n), spin);
+  verification::expect_orders("P05", long_cylinder(), held(8), held(16), spin);
 }
 INSTANTIATE_TEST_SUITE_P(Q, P05Orders, testing::Values(1, 2, 3));
 
