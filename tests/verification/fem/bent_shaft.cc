@@ -17,6 +17,7 @@ TEST(P10, cantilever) {
   shaft.segments = {{"rod", 0, length_m, diameter_m, 0, false}};
   meshes::ShaftMeshControl control;
   control.n_sectors = 8;
+  control.largest_cell_m = diameter_m / 2;  // longer cells miss the clamped end's constraint: 0.5 % stiff
   auto built = fem_tests::build(shaft, control);
   built.body.material = {210e9, 0.3, 7850};
   built.body.clamps = {{built.ports.at("end_1").boundary_id, {true, true, true}}};
@@ -32,7 +33,7 @@ TEST(P10, cantilever) {
   (s.place_m.colwise() - middle).colwise().norm().minCoeff(&node);
   ASSERT_NEAR(s.place_m(0, node), middle[0], 1e-9);
   const double at_middle = s.stress_Pa(2, node) * middle[2] / (length_m - s.place_m(2, node));
-  verification::check({"P10", "bending stress at L/2 [Pa]", -31830988.62, at_middle}, s, 0.01);
+  verification::check({"P10", "bending stress at L/2 [Pa]", 31830988.62, at_middle}, s, 0.01);
 }
 
 }  // namespace

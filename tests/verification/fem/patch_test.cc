@@ -1,6 +1,6 @@
 // MacNeal and Harder's patch of seven distorted hexahedra: P15 of the public cases. A state of uniform stress
 // is in every displacement space, whatever the shape of the cells, so it comes out to rounding. The stress is
-// applied as the tractions of the six sides; three corners hold the rigid motions.
+// applied as the tractions of the six sides, on a free body.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,17 +13,20 @@ namespace {
 using Component = fem::SurfaceResultant::Component;
 using verification::Point;
 
+/// The source's fifth inner node, and where it folds no cell.
+const Point printed(0.320, 0.186, 0.643), moved(0.320, 0.240, 0.643);
+
 /// The unit cube around an inner hexahedron; sides as those of a block.
-verification::HexahedraMesh seven_cells() {
+verification::HexahedraMesh seven_cells(const Point& fifth) {
   verification::HexahedraMesh mesh;
-  mesh.nodes = {{0, 0, 0},          {1, 0, 0},          {1, 1, 0},          {0, 1, 0},
-                {0, 0, 1},          {1, 0, 1},          {1, 1, 1},          {0, 1, 1},
-                {.249, .342, .192}, {.826, .288, .288}, {.850, .649, .263}, {.273, .750, .230},
-                {.320, .186, .643}, {.677, .305, .683}, {.788, .693, .644}, {.165, .745, .702}};
+  mesh.nodes = {{0, 0, 0},          {1, 0, 0},          {1, 1, 0}, {0, 1, 0},          {0, 0, 1},
+                {1, 0, 1},          {1, 1, 1},          {0, 1, 1}, {.249, .342, .192}, {.826, .288, .288},
+                {.850, .649, .263}, {.273, .750, .230}, fifth,     {.677, .305, .683}, {.788, .693, .644},
+                {.165, .745, .702}};
   const auto side = [&](std::array<int, 4> outer, int id) {  // counter-clockwise from outside
     mesh.faces.push_back({outer, id});
-    mesh.cells.push_back({outer[3] + 8, outer[2] + 8, outer[1] + 8, outer[0] + 8,  //
-                          outer[3], outer[2], outer[1], outer[0]});
+    mesh.cells.push_back({outer[0] + 8, outer[1] + 8, outer[2] + 8, outer[3] + 8,  //
+                          outer[0], outer[1], outer[2], outer[3]});
   };
   mesh.cells.push_back({8, 9, 10, 11, 12, 13, 14, 15});
   side({0, 4, 7, 3}, verification::begin_1);
@@ -64,18 +67,27 @@ void expect_uniform(const std::string& cells, const fem::Body& body) {
       EXPECT_LT((s.displacement_m.col(i) - mean - strain * s.place_m.col(i)).norm(), 1e-9 * 2e-3);
     Eigen::Index worst = 0;
     (s.stress_Pa.row(0).array() - 2000).abs().maxCoeff(&worst);
-    verification::check({"P15", "sigma_xx, " + cells + ", farthest node [Pa]", 2000, s.stress_Pa(0, worst)},
-                        s, 1e-9);
+    const std::string where =
+        cells + (recovery == fem::Recovery::patch ? ", patches" : ", average") + ", worst node [Pa]";
+    verification::check({"P15", "sigma_xx, " + where, 2000, s.stress_Pa(0, worst)}, s, 1e-9);
     (s.stress_Pa.row(3).array() - 400).abs().maxCoeff(&worst);
-    verification::check({"P15", "tau_xy, " + cells + ", farthest node [Pa]", 400, s.stress_Pa(3, worst)}, s,
-                        1e-9);
+    verification::check({"P15", "tau_xy, " + where, 400, s.stress_Pa(3, worst)}, s, 1e-9);
   }
+}
+
+// As printed, the front cell has a corner with a negative Jacobian (-0.013 of the cube's volume), though not
+// at its Gauss points: fem refuses such cells.
+TEST(P15, the_printed_patch_has_a_folded_corner) {
+  fem::Body body;
+  body.mesh = verification::write(seven_cells(printed));
+  body.material = {1e6, 0.25, 1};
+  EXPECT_THROW(fem::Model model(body), std::runtime_error);
 }
 
 TEST(P15, distorted_hexahedra) {
   for (const int degree : {1, 2, 3}) {
     fem::Body body;
-    body.mesh = verification::write(seven_cells());
+    body.mesh = verification::write(seven_cells(moved));
     body.material = {1e6, 0.25, 1};
     body.degree = degree;
     expect_uniform("Q" + std::to_string(degree), body);

@@ -28,7 +28,7 @@ struct Torsion {
 
 /// Twists the quarter bar by a traction e_z x r; cells across at will, one per half height along.
 Torsion twist(const Section& section, int degree, int n) {
-  const double x = section.width_m / 2, y = section.height_m / 2, length_m = 4 * x;
+  const double x = section.width_m / 2, y = section.height_m / 2, length_m = 8 * x;
   constexpr int n_along = 8;
   verification::Block block;
   block.cells = {n, n, n_along};
@@ -60,14 +60,14 @@ Torsion twist(const Section& section, int degree, int n) {
 TEST(P07, square_bar) {
   const auto t = twist({0.02, 0.02}, 2, 4);
   verification::check({"P07", "square: J [m4]", 2.249232239e-8, t.inertia_m4}, t.solution, 0.005);
-  const double tau = t.solution.stress_Pa(4, t.solution.at({0.01, 0, 0.005}));
+  const double tau = t.solution.stress_Pa(4, t.solution.at({0.01, 0, 0.01}));
   verification::check({"P07", "square: largest tau [Pa]", 60048444.22, tau}, t.solution, 0.01);
 }
 
 TEST(P07, rectangular_bar) {
   const auto t = twist({0.04, 0.02}, 2, 4);
   verification::check({"P07", "40 x 20: J [m4]", 7.317813668e-8, t.inertia_m4}, t.solution, 0.005);
-  const double tau = -t.solution.stress_Pa(5, t.solution.at({0, 0.01, 0.01}));
+  const double tau = -t.solution.stress_Pa(5, t.solution.at({0, 0.01, 0.02}));
   verification::check({"P07", "40 x 20: largest tau [Pa]", 25419074.93, tau}, t.solution, 0.01);
 }
 
@@ -81,7 +81,7 @@ TEST_P(P07Orders, of_the_twist_are_2_p_but_4_at_most) {
   const double order = std::log2(std::abs(coarse.inertia_m4 - exact) / std::abs(fine.inertia_m4 - exact));
   verification::check_order(
       {"P07", "order of J, Q" + std::to_string(degree), std::min(2.0 * degree, 4.0), order}, fine.solution,
-      0.3, 0.5);
+      0.4, 0.4);
 }
 INSTANTIATE_TEST_SUITE_P(Q, P07Orders, testing::Values(1, 2, 3));
 
