@@ -60,9 +60,11 @@ void refuse_rigid_motion(const Grid& grid, const std::vector<std::int64_t>& unkn
   constexpr double negligible =
       1e-6;  // the share of the best held motion: displacements on a line, as meshed
   if (modes.eigenvalues()[0] > negligible * negligible * modes.eigenvalues()[5]) return;
-  const Vector6 motion = modes.eigenvectors().col(0);
+  Vector6 motion = modes.eigenvectors().col(0);
+  Eigen::Index largest = 0;
+  motion.cwiseAbs().maxCoeff(&largest);
+  motion = ((motion / motion[largest]) * 1000).array().round() / 1000 + 0.0;  // + 0.0: no -0
   std::ostringstream message;
-  message.precision(3);
   message << "the clamps leave the body a rigid motion, translation (" << motion[0] << ", " << motion[1]
           << ", " << motion[2] << ") with rotation (" << motion[3] << ", " << motion[4] << ", " << motion[5]
           << ") in units of its size: hold all six motions, or none and let inertia balance the loads";

@@ -36,7 +36,8 @@ TEST(P01, elliptic_membrane) {
       body,
       {{verification::uniform_pressure(verification::end_1, {0, 0, thickness_m / 2}, thickness_m), -10e6}});
   const double ours = solution.stress_Pa(1, solution.at({2, 0, 0}));
-  verification::check({"P01", "sigma_yy at D [Pa]", 92.6582e6, ours}, solution, 0.02);
+  verification::check({"P01", "sigma_yy at D, spectral elements [Pa]", 92.6582e6, ours}, solution, 0.02);
+  verification::check({"P01", "sigma_yy at D, NAFEMS [Pa]", 92.7e6, ours}, solution, 0.02);
 }
 
 TEST(P02, thick_elliptic_plate) {
@@ -50,7 +51,8 @@ TEST(P02, thick_elliptic_plate) {
   const auto solution = verification::solve(
       body, {{verification::on_face(verification::end_3, centroid, Component::fz), -1e6 * area_m2}});
   const double ours = solution.stress_Pa(1, solution.at({2, 0, 0.6}));
-  verification::check({"P02", "sigma_yy at D [Pa]", -5.38e6, ours}, solution, 0.03);
+  verification::check({"P02", "sigma_yy at D, spectral elements [Pa]", -5.37e6, ours}, solution, 0.03);
+  verification::check({"P02", "sigma_yy at D, NAFEMS [Pa]", -5.38e6, ours}, solution, 0.03);
 }
 
 }  // namespace

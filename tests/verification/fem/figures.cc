@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
@@ -92,11 +93,16 @@ void add_row(const Figure& figure, bool is_order, std::size_t n_dofs, double sec
   std::ofstream out(file, std::ios::app);
   out.precision(7);
   out << figure.name << "\t" << figure.quantity << "\t" << figure.reference << "\t" << figure.ours << "\t";
+  const double error = is_order ? figure.ours - figure.reference : figure.ours / figure.reference - 1;
   out.precision(2);
   if (is_order)
-    out << std::fixed << figure.ours - figure.reference;
+    out << std::showpos << std::fixed << error;
+  else if (std::abs(error) < 5e-5)
+    out << std::showpos << std::scientific << std::setprecision(0) << error;
   else
-    out << std::fixed << std::showpos << 100 * (figure.ours / figure.reference - 1) << std::noshowpos << " %";
+    out << std::showpos << std::fixed << 100 * error << " %";
+  out.precision(2);
+  out << std::noshowpos << std::fixed;
   out << "\t" << n_dofs << "\t" << seconds << "\n";
 }
 
