@@ -45,7 +45,8 @@ struct Figure {
   double reference = 0, ours = 0;
 };
 
-/// Expects ours within the relative tolerance of the reference, and adds a row to the table.
+/// Expects ours within the relative tolerance of the reference, and adds a row to the table. Tolerances are
+/// those that the public cases suggest: what a mesh that is fine enough leaves, and what the source rounded.
 void check(const Figure& figure, const Solution& solution, double tolerance);
 
 /// Expects an observed order of convergence in [expected - slack, expected + excess]; adds a row.
