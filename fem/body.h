@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,14 @@ struct TorusChart {
   double centre_z_m = 0, centre_radius_m = 0, radius_m = 0;
 };
 
+/// Nodes of the boundary group without displacement in the fixed directions (x, y, z). Clamps are ideal: a
+/// surface held in a way the body feels (a line, the rim of a face) makes stress infinite there.
+struct Clamp {
+  int boundary_id = 0;
+  std::array<bool, 3> fixed = {true, true, true};
+  std::optional<double> only_at_z_m{};  ///< holds the group's nodes at this height only: a line
+};
+
 struct Body {
   /// .msh 4.1 with physical groups: linear hexahedra, or quadratic tetrahedra (10 nodes, curved as they are;
   /// no charts, degree 2)
@@ -43,6 +52,8 @@ struct Body {
   Material material;
   std::vector<ElasticSupport> elastic_supports;
   int degree = 2;  ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
+  /// None: a free body, whose loads inertia balances. Otherwise they hold all six rigid motions.
+  std::vector<Clamp> clamps{};
 };
 
 /// Mass, first moment and inertia of the meshed body by the quadrature of its load vectors, about the origin.

@@ -2,8 +2,11 @@
 
 #include <functional>
 #include <future>
+#include <optional>
+#include <stdexcept>
 
 #include "fem/cholmod_factor.h"
+#include "fem/clamps.h"
 #include "fem/elastic_supports.h"
 #include "fem/geometry_error.h"
 #include "fem/grid.h"
@@ -74,18 +77,23 @@ Scales scales_of(const Eigen::MatrixXd& force) {
           force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300)};
 }
 
-/// K u = f on the supported body; fills the solver's figures of `responses`.
-Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
-                               const std::vector<std::vector<std::int32_t>>& colours,
-                               const Material& material, const Eigen::MatrixXd& force, const Scales& scales,
-                               UnitResponses& responses, const Progress& progress) {
+/// K u = f on the body held at the clamped unknowns or, without any, on statically determinate supports;
+/// fills the solver's figures of `responses`.
+Eigen::MatrixXd solve_held(const Grid& grid, const CellsOfNodes& cells,
+                           const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
+                           const std::vector<std::int64_t>& clamped, const Eigen::MatrixXd& force,
+                           const Scales& scales, UnitResponses& responses, const Progress& progress) {
   progress(0.05, "assemble");
   const NodeGraph graph = make_node_graph(grid, cells);
   auto order =
       std::async(std::launch::async, order_nodes, std::cref(graph));  // one thread, while others assemble
   SymmetricMatrix matrix = make_matrix(graph);
   assemble_stiffness(grid, colours, graph, material, matrix);
-  const Supports supports(choose_supports(grid), matrix);
+  std::optional<Supports> supports;
+  if (clamped.empty())
+    supports.emplace(choose_supports(grid), matrix);
+  else
+    clamp(clamped, matrix);
 
   progress(0.1, "order");
   CholmodFactor factor(matrix, order.get());
@@ -95,7 +103,8 @@ Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
 
   progress(0.75, "solve");
   Eigen::MatrixXd free_force = force;
-  supports.clear(free_force);
+  if (supports) supports->clear(free_force);
+  for (const auto unknown : clamped) free_force.row(unknown).setZero();
   Eigen::MatrixXd displacement = factor.solve(free_force);
   Eigen::MatrixXd rest = free_force - multiply(matrix, displacement);
   responses.residual = rest.colwise().norm().cwiseQuotient(scales.norm).maxCoeff();
@@ -104,19 +113,20 @@ Eigen::MatrixXd solve_balanced(const Grid& grid, const CellsOfNodes& cells,
     rest = free_force - multiply(matrix, displacement);
     responses.residual = rest.colwise().norm().cwiseQuotient(scales.norm).maxCoeff();
   }
-  responses.support_reaction = supports.reactions(displacement, force)
-                                   .colwise()
-                                   .lpNorm<Eigen::Infinity>()
-                                   .cwiseQuotient(scales.largest_entry)
-                                   .maxCoeff();
+  if (supports)
+    responses.support_reaction = supports->reactions(displacement, force)
+                                     .colwise()
+                                     .lpNorm<Eigen::Infinity>()
+                                     .cwiseQuotient(scales.largest_entry)
+                                     .maxCoeff();
   return displacement;
 }
 
-/// Boundary groups that any of the loads or springs acts on.
-std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads,
-                               const std::vector<ElasticSupport>& springs) {
+/// Boundary groups that any of the loads, springs or clamps acts on.
+std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads, const Body& body) {
   std::vector<int> groups;
-  for (const auto& spring : springs) groups.push_back(spring.surface.boundary_id);
+  for (const auto& spring : body.elastic_supports) groups.push_back(spring.surface.boundary_id);
+  for (const auto& clamp : body.clamps) groups.push_back(clamp.boundary_id);
   for (const auto& load : loads) {
     if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
       groups.push_back(resultant->surface.boundary_id);
@@ -134,6 +144,10 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   const Progress report = progress ? progress : [](double, const std::string&) {};
   const auto& grid = impl_->grid;
   const auto n_loads = static_cast<Eigen::Index>(loads.size());
+  const auto clamped = clamped_unknowns(grid, impl_->body.clamps);
+  if (!clamped.empty() && !impl_->body.elastic_supports.empty())
+    throw std::invalid_argument(
+        "a body with clamps cannot have elastic supports, which act on a free body: leave one of them out");
   UnitResponses responses;
   responses.n_dofs = n_dofs();
   for (const auto& load : loads) responses.channels.push_back(load.channel);
@@ -151,10 +165,10 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     force.rightCols(springs.unit_forces().cols()) = springs.unit_forces();
     const Scales scales = scales_of(force);
     const RigidBalance rigid(grid, impl_->integrals);
-    rigid.balance(force);
-    Eigen::MatrixXd displacement = solve_balanced(grid, impl_->cells, impl_->colours, impl_->body.material,
-                                                  force, scales, responses, report);
-    rigid.remove_motion(displacement);
+    if (clamped.empty()) rigid.balance(force);
+    Eigen::MatrixXd displacement = solve_held(grid, impl_->cells, impl_->colours, impl_->body.material,
+                                              clamped, force, scales, responses, report);
+    if (clamped.empty()) rigid.remove_motion(displacement);
     displacement = springs.apply(displacement);
     responses.displacement_m.resize(displacement.size());
     for (std::size_t i = 0; i < grid.n_nodes; ++i)
@@ -172,7 +186,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   if (recovery == Recovery::average) {
     average_stress(grid, impl_->cells, elastic, displacement, stress);
   } else {
-    const auto free = free_faces(grid, loaded_groups(loads, impl_->body.elastic_supports));
+    const auto free = free_faces(grid, loaded_groups(loads, impl_->body));
     recover_by_patches(grid, impl_->cells, impl_->body.cylinders, make_samples(grid, free),
                        stress_at_samples(grid, free, elastic, displacement), stress);
   }

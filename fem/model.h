@@ -74,8 +74,10 @@ public:
   /// balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the statically determinate support
   /// carries nothing; displacements have no rigid part in the mass norm. The body's elastic supports act on
   /// these displacements, and their forces close among themselves.
+  /// A body with clamps is held by them instead: loads act as they are, displacements are those in space.
   /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
-  /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces
+  /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces,
+  /// clamps that leave a rigid motion, clamps together with elastic supports
   /// @throws std::runtime_error if the factorisation fails
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
                                Recovery recovery = Recovery::patch, const Progress& progress = {}) const;

@@ -160,6 +160,7 @@ Eigen::VectorXd LoadedSurface::pressure(const SeatPressure& load) const {
         const double theta = std::atan2(p[1], p[0]);
         return -scale * profile(p[2]) * (sine ? std::sin(n * theta) : std::cos(n * theta)) * normal;
       });
+  if (load.keeps_resultants) return force;
   for (int pass = 0; pass < 2; ++pass) force -= basis_ * about_centre(force);
   return force;
 }

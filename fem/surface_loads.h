@@ -32,7 +32,8 @@ public:
   /// Unit resultant: force on the surface's nodes.
   Eigen::VectorXd resultant(SurfaceResultant::Component component) const;
 
-  /// Harmonic of the seat pressure without its discrete resultants; `load.surface` is this one.
+  /// Harmonic of the seat pressure without its discrete resultants, unless it keeps them; `load.surface` is
+  /// this one.
   /// @throws std::invalid_argument for harmonic 1 or a negative one, the sine of harmonic 0, or a face
   Eigen::VectorXd pressure(const SeatPressure& load) const;
 

@@ -37,13 +37,15 @@ struct SurfaceResultant {
 
 /// Normal pressure  p = value c cos(n theta) / (pi R b)  (or sin) times the axial profile (of mean 1), theta
 /// from +x about the seat's axis. A positive p pushes against the surface, into the material. Its discrete
-/// resultants are removed on the mesh: n = 1 is the resultant fx, fy.
+/// resultants are removed on the mesh: n = 1 is the resultant fx, fy. On a clamped body they may stay, and
+/// the surface may then be an arc, or of another shape.
 struct SeatPressure {
   enum class Phase { cosine, sine };
   LoadSurface surface;
   int harmonic = 0;        ///< 0, 2, 3, 4 ...
   double coefficient = 1;  ///< c, of the pressure pattern, against its harmonic n = 1
   Phase phase = Phase::cosine;
+  bool keeps_resultants = false;
 };
 
 /// Body force rho (acceleration field): `translation` along x, y, z: rho; `rotation`: rho z x p = rho (-y, x,

@@ -80,7 +80,7 @@ struct UnitResponses {
   std::vector<RimRing> rings;
   std::vector<std::array<double, 2>> ring_shear_Pa;  ///< n_rings x K; means of sigma_r_theta, sigma_theta_z
   /// Largest support reaction over all unit loads, relative to the load vector's largest entry: must be
-  /// round-off.
+  /// round-off. 0 with clamps.
   double support_reaction = 0;
   /// Largest |K u - f| / |f| over all unit loads.
   double residual = 0;

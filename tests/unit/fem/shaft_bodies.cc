@@ -1,30 +1,13 @@
 #include "shaft_bodies.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
+
+#include "scratch_directory.h"
 
 namespace fem_tests {
 
 namespace {
-
-/// A directory under the system's temporary one, removed at the end.
-class ScratchDirectory {
-public:
-  ScratchDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "millstress-fem-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary directory");
-    path_ = name;
-  }
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
 
 std::size_t column(const fem::UnitResponses& responses, const std::string& channel) {
   const auto found = std::find(responses.channels.begin(), responses.channels.end(), channel);

@@ -17,12 +17,12 @@ namespace {
 /// Nodes on a lattice of half cells.
 class Lattice {
 public:
-  Lattice(int n, const std::function<Point(const Point&)>& bend) : n_(n), bend_(bend) {}
+  Lattice(const std::array<int, 3>& n, const std::function<Point(const Point&)>& bend) : n_(n), bend_(bend) {}
   std::int32_t node(const std::array<int, 3>& at, fem::Grid& grid) {
     const auto [known, is_new] = numbers_.emplace(at, static_cast<std::int32_t>(grid.n_nodes));
     if (is_new) {
       ++grid.n_nodes;
-      const Point x = bend_(Point(at[0], at[1], at[2]) / (2.0 * n_));
+      const Point x = bend_(Point(at[0] / (2.0 * n_[0]), at[1] / (2.0 * n_[1]), at[2] / (2.0 * n_[2])));
       grid.xyz_m.insert(grid.xyz_m.end(), x.data(), x.data() + 3);
       lattice.push_back(at);
     }
@@ -31,7 +31,7 @@ public:
   std::vector<std::array<int, 3>> lattice;  // of each node
 
 private:
-  int n_;
+  std::array<int, 3> n_;
   std::function<Point(const Point&)> bend_;
   std::map<std::array<int, 3>, std::int32_t> numbers_;
 };
@@ -50,15 +50,19 @@ void add_cell(std::array<std::array<int, 3>, 4> corners, Lattice& lattice, fem::
 }  // namespace
 
 fem::Grid tetrahedra_cube(int n, const std::function<Point(const Point&)>& bend) {
+  return tetrahedra_block({n, n, n}, bend);
+}
+
+fem::Grid tetrahedra_block(const std::array<int, 3>& n, const std::function<Point(const Point&)>& bend) {
   fem::Grid grid;
   grid.kind = fem::CellKind::tetrahedra;
   Lattice lattice(n, bend);
-  for (int box = 0; box < n * n * n; ++box) {
+  for (int box = 0; box < n[0] * n[1] * n[2]; ++box) {
     // From the box' low corner to its high one along the axes, in each of the six orders.
     std::array<int, 3> order = {0, 1, 2};
     do {
       std::array<std::array<int, 3>, 4> corners;
-      corners[0] = {2 * (box % n), 2 * (box / n % n), 2 * (box / n / n)};
+      corners[0] = {2 * (box % n[0]), 2 * (box / n[0] % n[1]), 2 * (box / n[0] / n[1])};
       for (int step = 0; step < 3; ++step) {
         corners[step + 1] = corners[step];
         corners[step + 1][order[step]] += 2;
@@ -73,7 +77,7 @@ fem::Grid tetrahedra_cube(int n, const std::function<Point(const Point&)>& bend)
       for (int side = 0; side < 6; ++side) {
         const auto nodes = fem::nodes_of_face(grid, c, f);
         const auto on_side = [&](std::int32_t i) {
-          return lattice.lattice[i][side / 2] == (side % 2 == 0 ? 0 : 2 * n);
+          return lattice.lattice[i][side / 2] == (side % 2 == 0 ? 0 : 2 * n[side / 2]);
         };
         if (std::all_of(nodes.begin(), nodes.end(), on_side))
           grid.boundary.push_back({static_cast<std::int32_t>(c), f, side + 1});

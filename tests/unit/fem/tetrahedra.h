@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <functional>
 #include <string>
 
@@ -15,7 +16,10 @@ using Point = Eigen::Vector3d;
 /// Boundary ids 1 to 6 are x = 0, x = 1, y = 0, y = 1, z = 0, z = 1; the volume is 7.
 fem::Grid tetrahedra_cube(int n, const std::function<Point(const Point&)>& bend);
 
-/// The same with straight edges and corners inside the cube moved at random by up to a fifth of a box.
+/// The same with n[0] x n[1] x n[2] boxes.
+fem::Grid tetrahedra_block(const std::array<int, 3>& n, const std::function<Point(const Point&)>& bend);
+
+/// The cube with straight edges and corners inside the cube moved at random by up to a fifth of a box.
 fem::Grid irregular_cube(int n);
 
 /// The grid as a .msh 4.1 file, as gmsh would write it: type 11 and 9, one entity per group, node tags that

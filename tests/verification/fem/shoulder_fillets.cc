@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
 #include "fem/model.h"
+#include "figures.h"
 #include "shaft_bodies.h"
 
 namespace {
@@ -43,6 +45,7 @@ std::array<double, 3> principal(const std::array<double, 6>& s) {
 struct Factors {
   double torsion = 0, bending = 0, tension = 0;
   std::size_t n_dofs = 0;
+  double seconds = 0;
 };
 
 /// Segments of 1.5 of their diameters; loads in opposite pairs on the two ends.
@@ -62,8 +65,10 @@ Factors concentration(const fem_tests::ShaftBody& shaft, fem::Recovery recovery)
   for (const auto* end : {"end_1", "end_2"})
     for (const auto component : {Component::torque, Component::mx, Component::fz})
       loads.push_back(fem_tests::resultant(shaft, end, component));
+  const auto start = std::chrono::steady_clock::now();
   const auto r = fem::Model(shaft.body).unit_responses(loads, {}, recovery);
   Factors factors;
+  factors.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   factors.n_dofs = r.n_dofs;
   std::vector<char> on_fillet(r.nodes.n, 0);
   for (std::size_t f = 0; f < r.nodes.n_faces(); ++f)
@@ -102,6 +107,15 @@ TEST_P(ShoulderFillet, has_the_stress_concentration_of_the_elastic_solution) {
   EXPECT_LT(print_row("bending", c, c.bending, patch.bending, average.bending), 0.01);
   EXPECT_LT(print_row("tension", c, c.tension, patch.tension, average.tension), 0.01);
   std::printf("%zu unknowns\n", patch.n_dofs);
+  char sizes[40];
+  std::snprintf(sizes, sizeof sizes, ", D/d %.1f, r/d %.2f", c.D, c.r);
+  const auto row = [&](const char* name, const char* load, double reference, double ours) {
+    verification::add_row({name, std::string("Kt ") + load + sizes, reference, ours}, false, patch.n_dofs,
+                          patch.seconds);
+  };
+  row("P08", "torsion", c.torsion, patch.torsion);
+  row("P09", "bending", c.bending, patch.bending);
+  row("P09", "tension", c.tension, patch.tension);
 }
 
 INSTANTIATE_TEST_SUITE_P(P08_P09, ShoulderFillet, testing::ValuesIn(cases), [](const auto& info) {

@@ -1,0 +1,39 @@
+/// Meshes that the verification cases write themselves: blocks of cells mapped from the unit cube.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace verification {
+
+using Point = Eigen::Vector3d;
+
+/// Boundary groups of a block: the ends of the cube's three directions. Its volume group is block_volume.
+enum Side : int { begin_1 = 1, end_1, begin_2, end_2, begin_3, end_3 };
+inline constexpr int block_volume = 7;
+
+/// cells[d] cells along direction d of the unit cube; the map keeps right-handedness.
+struct Block {
+  std::array<int, 3> cells{{1, 1, 1}};
+  std::function<Point(const Point&)> map;
+};
+
+/// Linear hexahedra, corners in gmsh's order; faces by their corners, with their boundary group.
+struct HexahedraMesh {
+  std::vector<Point> nodes;
+  std::vector<std::array<int, 8>> cells;
+  std::vector<std::pair<std::array<int, 4>, int>> faces;
+};
+HexahedraMesh hexahedra(const Block& block);
+
+/// As .msh 4.1, in a directory of this process, which goes when the process ends.
+std::filesystem::path write(const HexahedraMesh& mesh);
+std::filesystem::path write_hexahedra(const Block& block);
+/// Six tetrahedra of 10 nodes for each cell; all nodes where the map has them.
+std::filesystem::path write_tetrahedra(const Block& block);
+
+}  // namespace verification
