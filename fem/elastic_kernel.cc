@@ -9,7 +9,7 @@ namespace {
 #if defined(__AVX512F__)
 constexpr int large = 64, small = 32;
 #elif defined(__AVX__)
-constexpr int large = 32, small = 0;
+constexpr int large = 32, small = 16;
 #else
 constexpr int large = 16, small = 0;
 #endif

@@ -3,6 +3,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -45,28 +46,35 @@ std::vector<double> cell_metric(const Grid& grid, const CellOrder& order) {
 }
 
 std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
-                                    const std::vector<std::vector<std::int32_t>>& colours,
-                                    const Lame& elastic) {
+                                    const std::vector<double>& metric, const Lame& elastic) {
   const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
-  std::vector<double> blocks(9 * grid.n_nodes, 0.0);
-  for (const auto& cells : colours)
-    parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
-      CellGradients gradients;
-      for (std::size_t c = begin; c < end; ++c) {
-        compute_gradients(grid, cells[c], at, gradients);
-        for (int i = 0; i < grid.nodes_per_cell(); ++i) {
-          Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
-          for (int q = 0; q < at.n_points; ++q) {
-            const Eigen::Vector3d g = gradients.gradient.block<3, 1>(3 * q, i);
-            h += gradients.jxw[q] * g * g.transpose();
-          }
-          Eigen::Map<Eigen::Matrix3d> block(blocks.data() +
-                                            9 * std::size_t(order.node_place[grid.nodes_of(cells[c])[i]]));
-          block += (elastic.lambda_Pa + elastic.mu_Pa) * h;
-          block.diagonal().array() += elastic.mu_Pa * h.trace();
+  const int n_local = grid.nodes_per_cell();
+  std::vector<double> products(grid.n_cells() * n_local * 6);  // of a node's gradient with itself
+  parallel_for(grid.n_cells(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (int i = 0; i < n_local; ++i) {
+        double h[6] = {0, 0, 0, 0, 0, 0};
+        for (int q = 0; q < at.n_points; ++q) {
+          const double* m = &metric[(k * at.n_points + q) * 9];
+          const auto& g = at.gradient[std::size_t(q) * at.n_shapes + i];
+          const double x = m[0] * g[0] + m[3] * g[1] + m[6] * g[2];
+          const double y = m[1] * g[0] + m[4] * g[1] + m[7] * g[2];
+          const double z = m[2] * g[0] + m[5] * g[1] + m[8] * g[2];
+          h[0] += x * x, h[1] += y * y, h[2] += z * z, h[3] += x * y, h[4] += y * z, h[5] += x * z;
         }
+        std::copy(h, h + 6, &products[(k * n_local + i) * 6]);
       }
-    });
+  });
+  std::vector<double> blocks(9 * grid.n_nodes, 0.0);
+  const double both = elastic.lambda_Pa + elastic.mu_Pa;
+  for (std::size_t k = 0; k < grid.n_cells(); ++k)
+    for (int i = 0; i < n_local; ++i) {
+      const double* h = &products[(k * n_local + i) * 6];
+      double* block = &blocks[9 * std::size_t(order.node_place[grid.nodes_of(order.cell[k])[i]])];
+      const double trace = elastic.mu_Pa * (h[0] + h[1] + h[2]);
+      const double full[9] = {h[0], h[3], h[5], h[3], h[1], h[4], h[5], h[4], h[2]};
+      for (int e = 0; e < 9; ++e) block[e] += both * full[e] + (e % 4 == 0 ? trace : 0.0);
+    }
   return blocks;
 }
 

@@ -16,10 +16,9 @@ namespace fem {
 /// cells in the order of CellOrder, 9 numbers per point.
 std::vector<double> cell_metric(const Grid& grid, const CellOrder& order);
 
-/// The 3 x 3 diagonal blocks of K for every node (n_nodes x 9), nodes in order.
+/// The 3 x 3 diagonal blocks of K (n_nodes x 9), nodes in order.
 std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
-                                    const std::vector<std::vector<std::int32_t>>& colours,
-                                    const Lame& elastic);
+                                    const std::vector<double>& metric, const Lame& elastic);
 
 /// Sums are the same bits for every number of threads.
 template <typename T>

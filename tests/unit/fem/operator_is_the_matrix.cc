@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <thread>
 
 #include "fem/elastic_operator.h"
 #include "fem/mesh_reader.h"
@@ -29,7 +28,7 @@ struct Problem {
     shaft.body.degree = degree;
     grid = fem::read_grid(shaft.body);
     const auto cells = fem::cells_of_nodes(grid);
-    colours = fem::colour_cells(grid, cells);
+    const auto colours = fem::colour_cells(grid, cells);
     const auto graph = fem::make_node_graph(grid, cells);
     matrix = fem::make_matrix(graph);
     fem::assemble_stiffness(grid, colours, graph, shaft.body.material, matrix);
@@ -38,7 +37,6 @@ struct Problem {
     elastic = fem::lame(shaft.body.material);
   }
   fem::Grid grid;
-  std::vector<std::vector<std::int32_t>> colours;
   fem::SymmetricMatrix matrix;
   fem::CellOrder order;
   std::vector<double> metric;
@@ -78,7 +76,7 @@ TEST(ElasticOperator, is_the_assembled_matrix) {
 
 TEST(ElasticOperator, diagonal_blocks_are_those_of_the_matrix) {
   const Problem problem(2);
-  const auto blocks = fem::diagonal_blocks(problem.grid, problem.order, problem.colours, problem.elastic);
+  const auto blocks = fem::diagonal_blocks(problem.grid, problem.order, problem.metric, problem.elastic);
   double largest = 0;
   for (std::size_t i = 0; i < problem.grid.n_nodes; ++i)
     for (int c = 0; c < 3; ++c)
