@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t chunk = 2048;  // nodes; sums are taken chunk after chunk on every number of threads
 constexpr int n_patient = 25;        // iterations
 constexpr double least_progress = 0.9;
+constexpr int n_before_forecast = 30;
 
 /// Sums over all nodes of what a kernel returns for a range; `n` sums per lane.
 template <int n, typename Body>
@@ -58,7 +59,7 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
   })[0];
   Eigen::ArrayXd rz_before = Eigen::ArrayXd::Zero(n_lanes), step = rz_before, factor = rz_before,
                  scale = rz_before;
-  double best = std::numeric_limits<double>::infinity();
+  double best = std::numeric_limits<double>::infinity(), first_worst = 0;
   int best_at = 0;
   while (true) {
     const Eigen::Array<bool, Eigen::Dynamic, 1> active = rr.sqrt() > tolerance;
@@ -73,7 +74,12 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
       result.end = BlockCgEnd::not_falling;
       return result;
     }
-    if (result.n_iterations == control.max_iterations) {
+    // At the mean pace so far twice the iterations allowed would not do: it is not worth going on.
+    if (result.n_iterations == 0) first_worst = worst;
+    const bool hopeless =
+        result.n_iterations >= n_before_forecast &&
+        result.n_iterations * first_worst > 2.0 * control.max_iterations * (first_worst - worst);
+    if (hopeless || result.n_iterations == control.max_iterations) {
       result.end = BlockCgEnd::too_many_iterations;
       return result;
     }

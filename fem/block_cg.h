@@ -18,9 +18,9 @@ struct BlockCgControl {
 
 enum class BlockCgEnd {
   converged,
-  too_many_iterations,
-  not_falling,  ///< in some iterations in a row the residual did not fall by a tenth
-  broke_down,   ///< a number that is not finite or not positive where it has to be
+  too_many_iterations,  ///< or they are foreseen
+  not_falling,          ///< in some iterations in a row the residual did not fall by a tenth
+  broke_down,           ///< a number that is not finite or not positive where it has to be
 };
 
 struct BlockCgResult {

@@ -132,7 +132,8 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const RigidBalance rigid(grid, impl_->integrals);
     const BalancedLoads balanced = balance(rigid, std::move(force));
     responses.solver =
-        choose_solver(grid, static_cast<std::size_t>(balanced.force.cols()), choice, physical_memory());
+        choose_solver(grid, impl_->body.material, static_cast<std::size_t>(balanced.force.cols()), choice,
+                      physical_memory());
     Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->body.material, balanced, choice,
                               report, responses.solver);
     responses.residual = responses.solver.relative_residual = solution.residual;

@@ -15,6 +15,8 @@ namespace {
 
 // Cells more stretched than that cost more iterations than they save (the smoother is pointwise).
 constexpr double most_stretched = 12;
+// Beyond it the smoother loses its grip on motions that keep volume.
+constexpr double most_incompressible = 0.45;
 // Other arrays of a run (responses, recovery) live beside the solver's.
 constexpr double share_of_memory = 0.8;
 
@@ -67,8 +69,8 @@ double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
-SolverReport choose_solver(const Grid& grid, std::size_t n_loads, const SolverChoice& choice,
-                           double memory_bytes) {
+SolverReport choose_solver(const Grid& grid, const Material& material, std::size_t n_loads,
+                           const SolverChoice& choice, double memory_bytes) {
   SolverReport report;
   report.predicted_direct = predict_direct(3 * grid.n_nodes, n_loads);
   report.largest_aspect = largest_aspect(grid);
@@ -84,6 +86,11 @@ SolverReport choose_solver(const Grid& grid, std::size_t n_loads, const SolverCh
   if (report.largest_aspect > most_stretched) {
     std::ostringstream text;
     text << "cells are stretched up to 1 : " << std::setprecision(3) << report.largest_aspect;
+    return take(Solver::direct, text.str());
+  }
+  if (material.poisson_ratio > most_incompressible) {
+    std::ostringstream text;
+    text << "Poisson's ratio is " << material.poisson_ratio;
     return take(Solver::direct, text.str());
   }
   const bool direct_fits = report.predicted_direct.bytes < share_of_memory * memory_bytes;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "fem/mesh_reader.h"
 #include "fem/model.h"
@@ -47,9 +46,9 @@ double difference(const std::vector<double>& a, const std::vector<double>& b, st
 constexpr fem::SolverChoice directly{fem::Solver::direct, 1e-10, 100};
 constexpr fem::SolverChoice iteratively{fem::Solver::iterative, 1e-10, 100};
 
-/// Residuals of 1e-10 of the load become this much of the largest displacement or stress: a free shaft bends
-/// more under a given imbalance the more slender it is, by the square of length over diameter, here 16 to 40.
-constexpr double same_answer = 1e-7;
+/// A residual of 1e-10 of the load as applied is worth as much of the response to it, more where the load is
+/// mostly balanced by the body force or bends a slender body: measured 3e-11 to 1.2e-10, a tenfold is left.
+constexpr double same_answer = 1e-9;
 
 void expect_agreement(const fem_tests::ShaftBody& shaft) {
   const auto direct = solve(shaft, directly), iterative = solve(shaft, iteratively);
@@ -59,9 +58,6 @@ void expect_agreement(const fem_tests::ShaftBody& shaft) {
   const std::size_t n = direct.channels.size();
   EXPECT_LT(difference(iterative.displacement_m, direct.displacement_m, n, 3), same_answer);
   EXPECT_LT(difference(iterative.stress_Pa, direct.stress_Pa, n, 6), same_answer);
-  std::printf("iterations %d displacement %g stress %g residual %g\n", iterative.solver.n_iterations,
-              difference(iterative.displacement_m, direct.displacement_m, n, 3),
-              difference(iterative.stress_Pa, direct.stress_Pa, n, 6), iterative.residual);
 }
 
 TEST(Solvers, agree_on_quadratic_cells) {
@@ -88,13 +84,12 @@ TEST(Solvers, near_incompressibility_is_right_either_way) {
   const std::size_t n = direct.channels.size();
   EXPECT_LT(difference(other.displacement_m, direct.displacement_m, n, 3), same_answer)
       << other.solver.reason;
-  std::printf("%s %d\n", other.solver.reason.c_str(), other.solver.n_iterations);
 }
 
 // A rod of 50 mm in eight sectors with cells 0.5 mm thin: aspect about 40.
 TEST(Solvers, stretched_cells_are_right_either_way) {
   meshes::Shaft shaft;
-  shaft.segments = {{"rod", 0, 0.02, 0.05, 0, true}};
+  shaft.segments = {{"rod", 0, 0.005, 0.05, 0, true}};
   meshes::ShaftMeshControl control;
   control.n_sectors = 8;
   control.largest_cell_m = 5e-4;
@@ -106,7 +101,6 @@ TEST(Solvers, stretched_cells_are_right_either_way) {
   EXPECT_LT(difference(other.displacement_m, direct.displacement_m, n, 3), same_answer);
   EXPECT_EQ(automatic.solver.used, fem::Solver::direct);
   EXPECT_NE(automatic.solver.reason.find("stretched"), std::string::npos) << automatic.solver.reason;
-  std::printf("%s %d\n", other.solver.reason.c_str(), other.solver.n_iterations);
 }
 
 TEST(Solvers, stall_falls_back_to_the_direct_solver_and_says_so) {
@@ -131,19 +125,23 @@ TEST(Solvers, iteration_repeats_bit_for_bit_and_scales_with_load_and_modulus) {
 TEST(SolverChoice, follows_prediction_memory_and_kind_of_cell) {
   auto body = fem_tests::rod(8);
   const auto grid = fem::read_grid(body.body);
-  const auto used = [&](double memory_bytes) { return fem::choose_solver(grid, 12, {}, memory_bytes).used; };
-  const auto report = fem::choose_solver(grid, 12, {}, 1e12);
+  const auto steel = fem_tests::steel;
+  const auto used = [&](double memory_bytes) {
+    return fem::choose_solver(grid, steel, 12, {}, memory_bytes).used;
+  };
+  const auto report = fem::choose_solver(grid, steel, 12, {}, 1e12);
   EXPECT_EQ(report.used == fem::Solver::iterative,
             report.predicted_iterative.seconds < report.predicted_direct.seconds);
-  EXPECT_EQ(fem::choose_solver(grid, 12, {fem::Solver::iterative, 1e-10, 100}, 1e12).used,
+  EXPECT_EQ(fem::choose_solver(grid, steel, 12, {fem::Solver::iterative, 1e-10, 100}, 1e12).used,
             fem::Solver::iterative);
   // Between the two needs of memory the one that fits is taken, whatever its time.
   ASSERT_NE(report.predicted_direct.bytes, report.predicted_iterative.bytes);
   const bool direct_is_smaller = report.predicted_direct.bytes < report.predicted_iterative.bytes;
   EXPECT_EQ(used(1.25 * std::sqrt(report.predicted_direct.bytes * report.predicted_iterative.bytes)),
             direct_is_smaller ? fem::Solver::direct : fem::Solver::iterative);
+  EXPECT_EQ(fem::choose_solver(grid, {206e9, 0.4999, 7850}, 12, {}, 1e12).used, fem::Solver::direct);
   body.body.degree = 1;
-  EXPECT_EQ(fem::choose_solver(fem::read_grid(body.body), 12, {}, 1e12).used, fem::Solver::direct);
+  EXPECT_EQ(fem::choose_solver(fem::read_grid(body.body), steel, 12, {}, 1e12).used, fem::Solver::direct);
 }
 
 TEST(SolverChoice, aspect_is_that_of_the_longest_cell) {
