@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "fem/cell_geometry.h"
 #include "fem/parallel.h"
@@ -80,12 +81,15 @@ std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
 
 template <typename T>
 ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, const Lame& elastic,
-                                    const std::vector<double>& metric, const kernel::Kernels& kernels)
+                                    std::vector<double> metric, const kernel::Kernels& kernels)
     : kernels_(&kernels),
       n_nodes_(grid.n_nodes),
       part_begin_(order.part_begin),
-      targets_(make_targets(grid, order)),
-      metric_(metric.begin(), metric.end()) {
+      targets_(make_targets(grid, order))) {
+  if constexpr (std::is_same_v<T, double>)
+    metric_ = std::move(metric);
+  else
+    metric_.assign(metric.begin(), metric.end());
   std::vector<dealii::Point<1>> nodes;
   for (int i = 0; i <= grid.degree; ++i)
     nodes.emplace_back(dealii::QGaussLobatto<1>(grid.degree + 1).point(i));

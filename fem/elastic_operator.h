@@ -25,8 +25,7 @@ template <typename T>
 class ElasticOperator {
 public:
   /// @param kernels  one of those of elastic_kernel.h; the machine must have its instructions
-  ElasticOperator(const Grid& grid, const CellOrder& order, const Lame& elastic,
-                  const std::vector<double>& metric,
+  ElasticOperator(const Grid& grid, const CellOrder& order, const Lame& elastic, std::vector<double> metric,
                   const kernel::Kernels& kernels = kernel::kernels_for_this_machine());
 
   std::size_t n_nodes() const noexcept { return n_nodes_; }

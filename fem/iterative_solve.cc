@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "fem/block_cg.h"
 #include "fem/parallel.h"
@@ -78,8 +79,8 @@ std::optional<Solution> solve_iteratively(const Grid& grid, const Material& mate
   auto metric = cell_metric(grid, order);
   const PolynomialMultigrid multigrid(grid, order, metric, material.poisson_ratio);
   // The modulus is taken out: displacements of unit loads on a body of modulus 1.
-  const ElasticOperator<double> stiffness(grid, order, lame({1, material.poisson_ratio, 1}), metric);
-  metric = {};
+  const ElasticOperator<double> stiffness(grid, order, lame({1, material.poisson_ratio, 1}),
+                                          std::move(metric));
 
   const SerialBlas serial;  // the coarse level's solves are too small to share
   const Block block(order, stiffness, multigrid, choice);

@@ -7,7 +7,8 @@
 namespace fem {
 
 enum class Solver {
-  automatic,  ///< the one that is predicted to be faster, of those that suit the body and fit into memory
+  automatic,  ///< of those that suit the body and fit into memory: the iterative one if predicted to save
+              ///< more than a second, else the direct one
   direct,     ///< sparse factorisation (CHOLMOD)
   iterative,  ///< conjugate gradients with polynomial multigrid; the direct one if that does not converge
 };
