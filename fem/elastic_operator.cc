@@ -85,7 +85,7 @@ ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, co
     : kernels_(&kernels),
       n_nodes_(grid.n_nodes),
       part_begin_(order.part_begin),
-      targets_(make_targets(grid, order))) {
+      targets_(make_targets(grid, order)) {
   if constexpr (std::is_same_v<T, double>)
     metric_ = std::move(metric);
   else
