@@ -1,23 +1,23 @@
 #include "fem/model.h"
 
-#include <functional>
-#include <future>
-#include <optional>
 #include <stdexcept>
+#include <utility>
 
-#include "fem/cholmod_factor.h"
+#include "fem/balanced_loads.h"
 #include "fem/clamps.h"
+#include "fem/direct_solve.h"
 #include "fem/elastic_supports.h"
 #include "fem/geometry_error.h"
 #include "fem/grid.h"
+#include "fem/iterative_solve.h"
 #include "fem/mesh_reader.h"
 #include "fem/nodes_export.h"
 #include "fem/ranks.h"
 #include "fem/rigid_modes.h"
 #include "fem/sections.h"
+#include "fem/solver_prediction.h"
 #include "fem/stiffness.h"
 #include "fem/stress_recovery.h"
-#include "fem/supports.h"
 #include "fem/surface_loads.h"
 
 namespace fem {
@@ -64,62 +64,35 @@ GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const
 
 namespace {
 
-// Rounding alone leaves eps |K| |u| / |f|, up to 1e-9 in slender bodies: refinement cannot go below that.
-constexpr double acceptable_residual = 1e-8;
-
-/// Sizes of the load vectors as applied. A balanced one may vanish (a uniform acceleration), and is no scale.
-struct Scales {
-  Eigen::RowVectorXd norm, largest_entry;
-};
-
-Scales scales_of(const Eigen::MatrixXd& force) {
-  return {force.colwise().norm().cwiseMax(1e-300),
-          force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300)};
+BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>& clamped,
+                      Eigen::MatrixXd force) {
+  BalancedLoads loads;
+  loads.clamped = clamped;
+  loads.norm = force.colwise().norm().cwiseMax(1e-300);
+  loads.largest_entry = force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300);
+  if (clamped.empty()) rigid.balance(force);
+  loads.force = std::move(force);
+  return loads;
 }
 
-/// K u = f on the body held at the clamped unknowns or, without any, on statically determinate supports;
-/// fills the solver's figures of `responses`.
-Eigen::MatrixXd solve_held(const Grid& grid, const CellsOfNodes& cells,
-                           const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
-                           const std::vector<std::int64_t>& clamped, const Eigen::MatrixXd& force,
-                           const Scales& scales, UnitResponses& responses, const Progress& progress) {
-  progress(0.05, "assemble");
-  const NodeGraph graph = make_node_graph(grid, cells);
-  auto order =
-      std::async(std::launch::async, order_nodes, std::cref(graph));  // one thread, while others assemble
-  SymmetricMatrix matrix = make_matrix(graph);
-  assemble_stiffness(grid, colours, graph, material, matrix);
-  std::optional<Supports> supports;
-  if (clamped.empty())
-    supports.emplace(choose_supports(grid), matrix);
-  else
-    clamp(clamped, matrix);
-
-  progress(0.1, "order");
-  CholmodFactor factor(matrix, order.get());
-  progress(0.25, "factorise");
-  factor.factorise(matrix);
-  responses.factor_gigabytes = factor.gigabytes();
-
-  progress(0.75, "solve");
-  Eigen::MatrixXd free_force = force;
-  if (supports) supports->clear(free_force);
-  for (const auto unknown : clamped) free_force.row(unknown).setZero();
-  Eigen::MatrixXd displacement = factor.solve(free_force);
-  Eigen::MatrixXd rest = free_force - multiply(matrix, displacement);
-  responses.residual = rest.colwise().norm().cwiseQuotient(scales.norm).maxCoeff();
-  if (responses.residual > acceptable_residual) {
-    displacement += factor.solve(rest);
-    rest = free_force - multiply(matrix, displacement);
-    responses.residual = rest.colwise().norm().cwiseQuotient(scales.norm).maxCoeff();
+/// By the solver that the report names; by the direct one if the iterative one gives up, which the report
+/// then tells.
+Solution solve(const Grid& grid, const CellsOfNodes& cells,
+               const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
+               const BalancedLoads& loads, const SolverChoice& choice, const Progress& progress,
+               SolverReport& report) {
+  if (report.used == Solver::iterative) {
+    std::string failure;
+    try {
+      if (auto solution = solve_iteratively(grid, material, loads, choice, progress, failure))
+        return std::move(*solution);
+    } catch (const std::runtime_error& error) {
+      failure = error.what();
+    }
+    report.used = Solver::direct;
+    report.reason = failure + "; solved directly";
   }
-  if (supports)
-    responses.support_reaction = supports->reactions(displacement, force)
-                                     .colwise()
-                                     .lpNorm<Eigen::Infinity>()
-                                     .cwiseQuotient(scales.largest_entry)
-                                     .maxCoeff();
-  return displacement;
+  return solve_directly(grid, cells, colours, material, loads, progress);
 }
 
 /// Boundary groups that any of the loads, springs or clamps acts on.
@@ -140,7 +113,7 @@ std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads, const Body& b
 
 UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
                                     const std::vector<SectionPlane>& planes, Recovery recovery,
-                                    const Progress& progress) const {
+                                    const Progress& progress, const SolverChoice& choice) const {
   const Progress report = progress ? progress : [](double, const std::string&) {};
   const auto& grid = impl_->grid;
   const auto n_loads = static_cast<Eigen::Index>(loads.size());
@@ -163,20 +136,30 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const ElasticSupports springs(grid, impl_->body.elastic_supports);
     force.conservativeResize(Eigen::NoChange, n_loads + springs.unit_forces().cols());
     force.rightCols(springs.unit_forces().cols()) = springs.unit_forces();
-    const Scales scales = scales_of(force);
     const RigidBalance rigid(grid, impl_->integrals);
-    if (clamped.empty()) rigid.balance(force);
-    Eigen::MatrixXd displacement = solve_held(grid, impl_->cells, impl_->colours, impl_->body.material,
-                                              clamped, force, scales, responses, report);
-    if (clamped.empty()) rigid.remove_motion(displacement);
-    displacement = springs.apply(displacement);
+    const BalancedLoads balanced = balance(rigid, clamped, std::move(force));
+    responses.solver =
+        choose_solver(grid, impl_->body.material, static_cast<std::size_t>(balanced.force.cols()), choice,
+                      physical_memory());
+    if (!clamped.empty()) {
+      responses.solver.used = Solver::direct;
+      responses.solver.reason = "the body is clamped";
+    }
+    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->body.material, balanced, choice,
+                              report, responses.solver);
+    responses.residual = responses.solver.relative_residual = solution.residual;
+    responses.support_reaction = solution.support_reaction;
+    responses.factor_gigabytes = solution.factor_gigabytes;
+    responses.solver.used_bytes = solution.bytes;
+    responses.solver.n_iterations = solution.n_iterations;
+    if (clamped.empty()) rigid.remove_motion(solution.displacement);
+    const Eigen::MatrixXd displacement = springs.apply(solution.displacement);
     responses.displacement_m.resize(displacement.size());
     for (std::size_t i = 0; i < grid.n_nodes; ++i)
       for (Eigen::Index k = 0; k < n_loads; ++k)
         for (int d = 0; d < 3; ++d)
           responses.displacement_m[(i * n_loads + k) * 3 + d] = displacement(3 * i + d, k);
   }
-  force.resize(0, 0);
 
   report(0.85, "recover");
   const Lame elastic = lame(impl_->body.material);

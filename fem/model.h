@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fem/body.h"
+#include "fem/solver_choice.h"
 #include "fem/unit_load.h"
 #include "fem/unit_responses.h"
 
@@ -70,17 +71,20 @@ public:
   /// @param seats  cylinders known from elsewhere (imported bodies have no charts)
   GeometryError geometry_error(const std::vector<LoadSurface>& seats = {}) const;
 
-  /// The unit loads' responses. One factorisation (CHOLMOD), all loads as one block. Every load vector is
-  /// balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the statically determinate support
-  /// carries nothing; displacements have no rigid part in the mass norm. The body's elastic supports act on
-  /// these displacements, and their forces close among themselves.
-  /// A body with clamps is held by them instead: loads act as they are, displacements are those in space.
+  /// The unit loads' responses, all loads as one block: by one factorisation (CHOLMOD) on a statically
+  /// determinate support, or by conjugate gradients on the free body. Every load vector is balanced by a
+  /// rigid-mode body force, f - M R (R'MR)^-1 R'f, so the support carries nothing; displacements have no
+  /// rigid part in the mass norm. The body's elastic supports act on these displacements, and their forces
+  /// close among themselves. A body with clamps is held by them instead, and solved directly: loads act as
+  /// they are, displacements are those in space.
   /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
+  /// @param choice of the solver; UnitResponses::solver tells which one was taken and why
   /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces,
   /// clamps that leave a rigid motion, clamps together with elastic supports
   /// @throws std::runtime_error if the factorisation fails
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
-                               Recovery recovery = Recovery::patch, const Progress& progress = {}) const;
+                               Recovery recovery = Recovery::patch, const Progress& progress = {},
+                               const SolverChoice& choice = {}) const;
 
 private:
   struct Impl;

@@ -13,16 +13,14 @@ namespace fem {
 
 namespace {
 
-/// Lower triangle of  H_ij = integral of grad N_i (x) grad N_j,  3 x 3 blocks.
-void gradient_products(const CellGradients& cell, Eigen::MatrixXd& scaled, Eigen::MatrixXd& products) {
+/// Gradients of a cell's shape functions times sqrt(JxW): three rows per node, one column per point.
+void scale_gradients(const CellGradients& cell, Eigen::MatrixXd& scaled) {
   const auto n_points = static_cast<Eigen::Index>(cell.jxw.size());
   const auto n_nodes = cell.gradient.cols();
   scaled.resize(3 * n_nodes, n_points);
   for (Eigen::Index q = 0; q < n_points; ++q)
     for (Eigen::Index i = 0; i < n_nodes; ++i)
       scaled.block<3, 1>(3 * i, q) = std::sqrt(cell.jxw[q]) * cell.gradient.block<3, 1>(3 * q, i);
-  products.setZero(3 * n_nodes, 3 * n_nodes);
-  products.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
 }
 
 /// The block K_ij that goes with H_ij: lambda H + mu H' + mu tr(H) I.
@@ -70,30 +68,38 @@ void refuse_impossible(const Material& material) {
   if (!(material.density_kg_m3 > 0)) refuse("density", material.density_kg_m3, "be positive");
 }
 
+void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes, const Lame& elastic,
+                        const NodeGraph& graph, Eigen::MatrixXd& products, SymmetricMatrix& matrix) {
+  const auto n_local = static_cast<int>(scaled.rows() / 3);
+  // Lower triangle of  H_ij = integral of grad N_i (x) grad N_j,  3 x 3 blocks.
+  Eigen::MatrixXd& h = products;
+  h.setZero(scaled.rows(), scaled.rows());
+  h.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
+  for (int j = 0; j < n_local; ++j) {
+    const Eigen::Matrix3d diagonal = h.block<3, 3>(3 * j, 3 * j).selfadjointView<Eigen::Lower>();
+    add_diagonal_block(matrix, nodes[j], elastic_block(elastic, diagonal));
+    for (int i = j + 1; i < n_local; ++i) {
+      const Eigen::Matrix3d k = elastic_block(elastic, h.block<3, 3>(3 * i, 3 * j));
+      if (nodes[i] > nodes[j])
+        add_block(graph, matrix, nodes[i], nodes[j], k);
+      else
+        add_block(graph, matrix, nodes[j], nodes[i], k.transpose());
+    }
+  }
+}
+
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
                         const NodeGraph& graph, const Material& material, SymmetricMatrix& matrix) {
   const Lame elastic = lame(material);
   const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
-  const int n_local = grid.nodes_per_cell();
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
       CellGradients gradients;
-      Eigen::MatrixXd scaled, h;
+      Eigen::MatrixXd scaled, products;
       for (std::size_t c = begin; c < end; ++c) {
         compute_gradients(grid, cells[c], at, gradients);
-        gradient_products(gradients, scaled, h);
-        const auto* nodes = grid.nodes_of(cells[c]);
-        for (int j = 0; j < n_local; ++j) {
-          const Eigen::Matrix3d diagonal = h.block<3, 3>(3 * j, 3 * j).selfadjointView<Eigen::Lower>();
-          add_diagonal_block(matrix, nodes[j], elastic_block(elastic, diagonal));
-          for (int i = j + 1; i < n_local; ++i) {
-            const Eigen::Matrix3d k = elastic_block(elastic, h.block<3, 3>(3 * i, 3 * j));
-            if (nodes[i] > nodes[j])
-              add_block(graph, matrix, nodes[i], nodes[j], k);
-            else
-              add_block(graph, matrix, nodes[j], nodes[i], k.transpose());
-          }
-        }
+        scale_gradients(gradients, scaled);
+        add_cell_stiffness(scaled, grid.nodes_of(cells[c]), elastic, graph, products, matrix);
       }
     });
 }

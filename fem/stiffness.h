@@ -1,6 +1,10 @@
 /// Stiffness of isotropic linear elasticity on isoparametric hexahedra. Internal to fem.
 #pragma once
 
+#include <Eigen/Dense>
+#include <cstdint>
+#include <vector>
+
 #include "fem/body.h"
 #include "fem/grid.h"
 #include "fem/symmetric_matrix.h"
@@ -21,5 +25,14 @@ void refuse_impossible(const Material& material);
 /// @param matrix  made from the graph, zero on entry
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
                         const NodeGraph& graph, const Material& material, SymmetricMatrix& matrix);
+
+/// Adds one cell's stiffness to the matrix.
+/// @param scaled  gradients of the cell's shape functions times sqrt(JxW): three rows per node, one column
+/// per
+///                quadrature point
+/// @param nodes   of the cell
+/// @param products  work space
+void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes, const Lame& elastic,
+                        const NodeGraph& graph, Eigen::MatrixXd& products, SymmetricMatrix& matrix);
 
 }  // namespace fem

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/cell_shape.h"
+#include "fem/solver_choice.h"
 
 namespace fem {
 
@@ -80,12 +81,13 @@ struct UnitResponses {
   std::vector<RimRing> rings;
   std::vector<std::array<double, 2>> ring_shear_Pa;  ///< n_rings x K; means of sigma_r_theta, sigma_theta_z
   /// Largest support reaction over all unit loads, relative to the load vector's largest entry: must be
-  /// round-off. 0 with clamps.
+  /// round-off. 0 if clamps hold the body, or the iterative solver left it free.
   double support_reaction = 0;
   /// Largest |K u - f| / |f| over all unit loads.
   double residual = 0;
   std::size_t n_dofs = 0;
-  double factor_gigabytes = 0;
+  double factor_gigabytes = 0;  ///< 0: solved iteratively
+  SolverReport solver;
 };
 
 }  // namespace fem

@@ -1,0 +1,13 @@
+/// Unit responses by one factorisation on a statically determinate support. Internal to fem.
+#pragma once
+
+#include "fem/balanced_loads.h"
+
+namespace fem {
+
+/// @throws std::runtime_error as CholmodFactor
+Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
+                        const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
+                        const BalancedLoads& loads, const StepReport& progress);
+
+}  // namespace fem

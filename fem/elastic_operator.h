@@ -1,0 +1,48 @@
+/// y = K x of linear elasticity on isoparametric hexahedra, for a block of load cases, without a matrix.
+/// Internal to fem.
+#pragma once
+
+#include <vector>
+
+#include "fem/block_vector.h"
+#include "fem/body.h"
+#include "fem/cell_order.h"
+#include "fem/grid.h"
+#include "fem/stiffness.h"
+
+namespace fem {
+
+/// What the cells of a mesh know of their geometry: sqrt(JxW) d xi_r / d x_d at the (k+1)^3 Gauss points,
+/// cells in the order of CellOrder, 9 numbers per point.
+std::vector<double> cell_metric(const Grid& grid, const CellOrder& order);
+
+/// The 3 x 3 diagonal blocks of K (n_nodes x 9), nodes in order.
+std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
+                                    const std::vector<double>& metric, const Lame& elastic);
+
+/// Sums are the same bits for every number of threads.
+template <typename T>
+class ElasticOperator {
+public:
+  /// @param kernels  one of those of elastic_kernel.h; the machine must have its instructions
+  ElasticOperator(const Grid& grid, const CellOrder& order, const Lame& elastic, std::vector<double> metric,
+                  const kernel::Kernels& kernels = kernel::kernels_for_this_machine());
+
+  std::size_t n_nodes() const noexcept { return n_nodes_; }
+  std::size_t bytes() const noexcept;
+
+  /// @param x, y  nodes in order
+  /// @param copies  work space of the operator: made by work_space for the same lanes
+  void apply(const Lanes& lanes, const BlockVector<T>& x, BlockVector<T>& y, BlockVector<T>& copies) const;
+  BlockVector<T> work_space(const Lanes& lanes) const { return {targets_.copy.size(), lanes}; }
+
+private:
+  const kernel::Kernels* kernels_;
+  std::size_t n_nodes_;
+  std::vector<std::size_t> part_begin_;
+  AddTargets targets_;
+  std::vector<T> value_, derivative_, metric_;
+  kernel::CellRange<T> cells_;  // begin, end and pointers are set by apply
+};
+
+}  // namespace fem

@@ -1,0 +1,22 @@
+/// Unit responses by conjugate gradients on the free body. Internal to fem.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fem/balanced_loads.h"
+#include "fem/solver_choice.h"
+
+namespace fem {
+
+/// Load cases that advance together: more would take more memory than they save time.
+inline constexpr int loads_per_block = 16;
+
+/// @param failure  filled if there is no solution: what happened
+/// @return nothing if the iteration stalls or leaves a residual that is not acceptable
+/// @throws std::runtime_error as CoarseSpace
+std::optional<Solution> solve_iteratively(const Grid& grid, const Material& material,
+                                          const BalancedLoads& loads, const SolverChoice& choice,
+                                          const StepReport& progress, std::string& failure);
+
+}  // namespace fem

@@ -1,0 +1,38 @@
+/// Which solver finds the unit responses, and what it tells about its work. Plain values, no deal.II.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace fem {
+
+enum class Solver {
+  automatic,  ///< of those that suit the body and fit into memory: the iterative one if predicted to save
+              ///< more than a second, else the direct one
+  direct,     ///< sparse factorisation (CHOLMOD)
+  iterative,  ///< conjugate gradients with polynomial multigrid; the direct one if that does not converge
+};
+
+struct SolverChoice {
+  Solver solver = Solver::automatic;
+  double relative_tolerance = 1e-10;  ///< of the iterative solver: |K u - f| / |f| of every load as applied
+  int max_iterations = 100;           ///< of the iterative solver, per block of load cases
+};
+
+/// What a solver is expected to need on a machine like the one that was measured (solver_prediction.h).
+struct SolverCost {
+  double seconds = 0;
+  double bytes = 0;
+};
+
+struct SolverReport {
+  Solver used = Solver::direct;
+  std::string reason;  ///< why this one; if the iterative one gave up, how
+  SolverCost predicted_direct, predicted_iterative;
+  double largest_aspect = 0;     ///< of the cells; 0: not looked at (tetrahedra)
+  int n_iterations = 0;          ///< most of all blocks; 0: direct
+  double relative_residual = 0;  ///< largest |K u - f| / |f|, computed anew from the solution
+  double used_bytes = 0;         ///< matrix and factor, or operator, preconditioner and vectors
+};
+
+}  // namespace fem
