@@ -25,10 +25,10 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
 
 /// The seconds of factorising depend on what a run before has left; results do not.
 fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body, const BodyLoads& loads,
-                                  const std::vector<fem::SectionPlane>& planes, const RunOptions& options,
-                                  int n_threads, bool& reused, StageClock& clock) {
+                                  const std::vector<fem::SectionPlane>& planes, fem::Solver solver,
+                                  const RunOptions& options, int n_threads, bool& reused, StageClock& clock) {
   const auto file = options.directory / "unit_responses.h5";
-  const auto key = response_key(body, loads.unit_loads, planes, n_threads);
+  const auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
   if (!options.fresh) {
     auto kept = clock.run("solve", [&] { return read_unit_responses(file, key); });
     if (kept) {
@@ -38,8 +38,11 @@ fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body
   }
   reused = false;
   auto responses = clock.run("solve", [&] {
-    return model.unit_responses(loads.unit_loads, planes, fem::Recovery::patch,
-                                [&](double share, const std::string& step) { clock.advance(share, step); });
+    fem::SolverChoice choice;
+    choice.solver = solver;
+    return model.unit_responses(
+        loads.unit_loads, planes, fem::Recovery::patch,
+        [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
   clock.run("write", [&] { write_unit_responses(file, key, responses); });
   return responses;
@@ -225,8 +228,8 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
   analysis.geometry_error = meshed.geometry_error;
   const auto planes = to_fem_planes(meshed.mesh.sections);
   analysis.loads = std::move(loads);
-  analysis.responses = solve_or_reuse(*meshed.model, meshed.body, analysis.loads, planes, options, n_threads,
-                                      analysis.responses_reused, clock);
+  analysis.responses = solve_or_reuse(*meshed.model, meshed.body, analysis.loads, planes, body.solver,
+                                      options, n_threads, analysis.responses_reused, clock);
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
   require_closure(body.name, analysis.closure);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/body.h"
+#include "fem/solver_choice.h"
 #include "meshes/chamber.h"
 #include "meshes/imported.h"
 #include "meshes/shaft.h"
@@ -41,7 +42,7 @@ struct AddedMass {
 };
 
 struct BodyScene {
-  std::string name;  ///< "shaft", "chamber", "drum", "axle", "part": table and directory
+  std::string name;    ///< "shaft", "chamber", "drum", "axle", "part": table and directory
   std::string origin;  ///< "file:line:column: table", named by errors that meshing brings to light
   BodyRole role = BodyRole::vibratory_shaft;
   std::variant<ShaftShape, ChamberShape, meshes::Import> shape;
@@ -51,6 +52,7 @@ struct BodyScene {
   int pressure_harmonics = 4;                      ///< where `pressures` has no entry
   std::map<std::string, PressureModel> pressures;  ///< by port
   std::vector<AddedMass> added_masses;
+  fem::Solver solver = fem::Solver::automatic;
   std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
 
   std::vector<double> debalance_shares = {0.5, 0.5};  ///< vibratory shaft

@@ -87,6 +87,12 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
                      analysis.responses.n_dofs, analysis.responses.channels.size(),
                      analysis.responses_reused ? " (responses of an earlier run)" : "",
                      analysis.masses.mass_kg);
+  const auto& solver = analysis.responses.solver;
+  if (solver.used == fem::Solver::iterative)
+    out << fmt::format("  solved by conjugate gradients, {} iterations ({})\n", solver.n_iterations,
+                       solver.reason);
+  else
+    out << fmt::format("  solved by factorisation ({})\n", solver.reason);
   out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
                      analysis.closure.worst_moment());
   print_masses(out, report, analysis);

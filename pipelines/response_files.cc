@@ -13,7 +13,7 @@ namespace pipelines {
 namespace {
 
 /// Of the arrangement of the file: files of another one count as missing.
-constexpr double arrangement = 2;
+constexpr double arrangement = 3;
 
 struct Counts {
   std::size_t nodes, cells, faces, channels, planes, rings;
@@ -99,6 +99,10 @@ fem::UnitResponses read(const Hdf5Reader& in) {
   r.residual = in.number_attribute("/", "residual");
   r.n_dofs = static_cast<std::size_t>(in.number_attribute("/", "n_dofs"));
   r.factor_gigabytes = in.number_attribute("/", "factor_gigabytes");
+  r.solver.used =
+      in.number_attribute("/", "solver_iterations") > 0 ? fem::Solver::iterative : fem::Solver::direct;
+  r.solver.n_iterations = int(in.number_attribute("/", "solver_iterations"));
+  r.solver.reason = in.text_attribute("/", "solver_reason");
   return r;
 }
 
@@ -114,6 +118,9 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
   out.attribute("/", "residual", responses.residual);
   out.attribute("/", "n_dofs", static_cast<double>(responses.n_dofs));
   out.attribute("/", "factor_gigabytes", responses.factor_gigabytes);
+  out.attribute("/", "solver_iterations",
+                responses.solver.used == fem::Solver::iterative ? responses.solver.n_iterations : 0);
+  out.attribute("/", "solver_reason", responses.solver.reason);
   out.write("/channels", responses.channels);
   std::vector<double> rings;
   for (const auto& ring : responses.rings)

@@ -45,7 +45,7 @@ struct Describe {
     describe(key, load.surface);
   }
   void operator()(const fem::SeatPressure& load) const {
-    key.line("pressure", load.harmonic, int(load.phase), load.coefficient);
+    key.line("pressure", load.harmonic, int(load.phase), load.coefficient, load.keeps_resultants);
     describe(key, load.surface);
   }
   void operator()(const fem::BodyForce& load) const {
@@ -77,10 +77,11 @@ const std::string& program_fingerprint() {
 }
 
 std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
-                         const std::vector<fem::SectionPlane>& planes, int n_threads) {
+                         const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
   KeyText key;
   key.line("program", program_fingerprint())
       .line("threads", n_threads)
+      .line("solver", int(solver))
       .line("mesh", content_hash(body.mesh))
       .line("degree", body.degree);
   key.line("material", body.material.youngs_modulus_Pa, body.material.poisson_ratio,
@@ -94,6 +95,9 @@ std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>
     key.line("springs", support.stiffness_N_m[0], support.stiffness_N_m[1], support.stiffness_N_m[2]);
     describe(key, support.surface);
   }
+  for (const auto& clamp : body.clamps)
+    key.line("clamp", clamp.boundary_id, clamp.fixed[0], clamp.fixed[1], clamp.fixed[2],
+             clamp.only_at_z_m ? shortest(*clamp.only_at_z_m) : "");
   for (const auto& load : loads) {
     key.line("load", load.channel);
     std::visit(Describe{key}, load.shape);

@@ -5,16 +5,17 @@
 #include <vector>
 
 #include "fem/body.h"
+#include "fem/solver_choice.h"
 #include "fem/unit_load.h"
 #include "fem/unit_responses.h"
 
 namespace pipelines {
 
-/// Program, content of the mesh file, charts, material, unit loads and section planes. Two runs with equal
-/// keys have equal unit responses, bit for bit on the same machine.
+/// Program, content of the mesh file, charts, material, unit loads, section planes and choice of the solver.
+/// Two runs with equal keys have equal unit responses, bit for bit on the same machine.
 /// @throws std::runtime_error if the mesh file cannot be read
 std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
-                         const std::vector<fem::SectionPlane>& planes, int n_threads);
+                         const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads);
 
 /// 128-bit hash of a file's content in hexadecimal digits. @throws std::runtime_error if it cannot be read
 std::string content_hash(const std::filesystem::path& file);

@@ -56,6 +56,16 @@ void read_added_masses(SceneTable& table, BodyScene& body) {
   check_port(table, "difference_port", body.difference_port, ports_of(body).all, "the ports of this body");
 }
 
+void read_solver(SceneTable& table, BodyScene& body) {
+  const std::string solver =
+      table.text_or("solver", "automatic", "the faster one of those that suit the body");
+  if (solver == "direct") body.solver = fem::Solver::direct;
+  if (solver == "iterative") body.solver = fem::Solver::iterative;
+  if (!solver.empty() && solver != "automatic" && solver != "direct" && solver != "iterative")
+    table.refuse("solver",
+                 "write \"automatic\", \"direct\" (a factorisation) or \"iterative\" (conjugate gradients)");
+}
+
 void read_debalances(SceneTable& table, BodyScene& body) {
   table.know("debalance_shares");
   if (!table.has("debalance_shares"))
@@ -216,6 +226,7 @@ BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneF
   if (role != BodyRole::vibratory_shaft && role != BodyRole::stub_axle && role != BodyRole::table_body)
     read_added_masses(table, body);
   read_material(table.table("material"), body);
+  read_solver(table, body);
   table.finish();
   return body;
 }

@@ -157,7 +157,11 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
                                 {"mesh", figure.mesh},
                                 {"from_mesh", figure.from_mesh},
                                 {"difference", figure.share()}});
-  json["solver"] = {{"residual", number(analysis.responses.residual)},
+  const auto& solver = analysis.responses.solver;
+  json["solver"] = {{"used", solver.used == fem::Solver::iterative ? "iterative" : "direct"},
+                    {"reason", solver.reason},
+                    {"iterations", solver.used == fem::Solver::iterative ? solver.n_iterations : 0},
+                    {"residual", number(analysis.responses.residual)},
                     {"support_reaction", number(analysis.responses.support_reaction)},
                     {"factor_gigabytes", number(analysis.responses.factor_gigabytes)}};
   return json;
