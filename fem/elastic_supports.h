@@ -22,6 +22,9 @@ public:
   /// W, one column per spring (3 n_nodes x m); springs without stiffness have none.
   const Eigen::MatrixXd& unit_forces() const noexcept { return forces_; }
 
+  /// k, one per spring of unit_forces().
+  const Eigen::VectorXd& stiffness_N_m() const noexcept { return stiffness_N_m_; }
+
   /// @param displacement  of the loads, then of the m unit forces, on the free body without rigid part
   /// @return of the loads with springs
   Eigen::MatrixXd apply(const Eigen::MatrixXd& displacement) const;

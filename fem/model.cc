@@ -11,6 +11,7 @@
 #include "fem/grid.h"
 #include "fem/iterative_solve.h"
 #include "fem/mesh_reader.h"
+#include "fem/natural_frequencies.h"
 #include "fem/nodes_export.h"
 #include "fem/ranks.h"
 #include "fem/rigid_modes.h"
@@ -60,6 +61,11 @@ MassProperties Model::mass_properties(const std::vector<int>& volume_ids) const 
 
 GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const {
   return fem::geometry_error(impl_->grid, impl_->body, seats);
+}
+
+std::vector<NaturalMode> Model::natural_frequencies(int n_modes) const {
+  return fem::natural_frequencies(VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body),
+                                  n_modes);
 }
 
 namespace {

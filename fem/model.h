@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fem/body.h"
+#include "fem/natural_mode.h"
 #include "fem/solver_choice.h"
 #include "fem/unit_load.h"
 #include "fem/unit_responses.h"
@@ -85,6 +86,17 @@ public:
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
                                Recovery recovery = Recovery::patch, const Progress& progress = {},
                                const SolverChoice& choice = {}) const;
+
+  /// The lowest natural frequencies, ascending, without the rigid motions that nothing holds. Mass and
+  /// stiffness are consistent, so frequencies come out from above. Clamps hold the body; elastic supports are
+  /// springs to the ground against its whole motion, rigid part included (unlike in unit_responses, where
+  /// inertia carries that part). Same bits for the same body and number of threads.
+  /// @param n_modes  at least 1, at most a tenth of the unknowns that can vibrate: a mesh has no more to say
+  /// @throws std::invalid_argument for another number, for clamps that leave a rigid motion, clamps together
+  /// with elastic supports
+  /// @throws std::runtime_error if the factorisation fails, or a mode leaves more than 1e-6 of its inertia
+  /// forces unbalanced
+  std::vector<NaturalMode> natural_frequencies(int n_modes) const;
 
 private:
   struct Impl;

@@ -77,6 +77,10 @@ Tabulation gauss_on_face(CellShape shape, int n) {
   return tabulate<2>(shape.degree, quadrature.get_points(), quadrature.get_weights());
 }
 
+Tabulation moment_points_in_cell(CellShape shape) {
+  return gauss_in_cell(shape, (5 * shape.degree + 1) / 2);
+}
+
 Tabulation stress_points_in_cell(CellShape shape) {
   if (shape.is_tetrahedron()) return tabulate_simplex<3>(dealii::QGaussSimplex<3>(2));
   return gauss_in_cell(shape, shape.degree);

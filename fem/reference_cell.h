@@ -23,6 +23,10 @@ struct Tabulation {
 Tabulation gauss_in_cell(CellShape shape, int n);
 Tabulation gauss_on_face(CellShape shape, int n);
 
+/// Gauss points that make the body's second moments and its mass matrix exact. N, x and det J have degree k,
+/// k and 3 k - 1 in each direction; two of the former make 5 k - 1 in all. Tetrahedra: 2, 2 and 3.
+Tabulation moment_points_in_cell(CellShape shape);
+
 /// Where stress is sampled: the Gauss points of k in each direction; 4 in a tetrahedron, 3 on a triangle.
 Tabulation stress_points_in_cell(CellShape shape);
 Tabulation stress_points_on_face(CellShape shape);

@@ -12,12 +12,6 @@ namespace fem {
 
 namespace {
 
-/// N, x and det J have degree k, k and 3 k - 1 in each direction; second moments take two x: 5 k - 1 in all.
-/// Tetrahedra: 2, 2 and 3, so 9 in all.
-Tabulation exact_points(const Grid& grid) {
-  return gauss_in_cell(grid.shape(), (5 * grid.degree + 1) / 2);
-}
-
 void add_cell(const Grid& grid, const Tabulation& at, std::size_t cell, NodeIntegrals& integrals) {
   const auto* nodes = grid.nodes_of(cell);
   for (int q = 0; q < at.n_points; ++q) {
@@ -32,7 +26,7 @@ void add_cell(const Grid& grid, const Tabulation& at, std::size_t cell, NodeInte
 }  // namespace
 
 NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours) {
-  const Tabulation at = exact_points(grid);
+  const Tabulation at = moment_points_in_cell(grid.shape());
   NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
@@ -45,7 +39,7 @@ NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_i
   for (const int id : volume_ids)
     if (std::find(grid.volume_id.begin(), grid.volume_id.end(), id) == grid.volume_id.end())
       throw std::invalid_argument("the mesh has no cells in the volume group " + std::to_string(id));
-  const Tabulation at = exact_points(grid);
+  const Tabulation at = moment_points_in_cell(grid.shape());
   NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     if (std::find(volume_ids.begin(), volume_ids.end(), grid.volume_id[c]) != volume_ids.end())
