@@ -1,4 +1,5 @@
-/// Private precompiled header of kinetics: the heavy includes of its .cc files. The code builds without it too.
+/// Private precompiled header of kinetics: the heavy includes of its .cc files. The code builds without it
+/// too.
 #pragma once
 
 #include <Eigen/Core>
