@@ -1,0 +1,20 @@
+# Run by ctest before it starts: one test per suite of an executable, named EXECUTABLE/SUITE. Programs that link deal.II take half
+# a second to start, so that hundreds of short tests would spend most of their time with starting.
+# NAME, EXECUTABLE, LABEL and DIRECTORY are set by the file that includes this one.
+if(NOT EXISTS "${EXECUTABLE}")
+  add_test("${NAME}/not_built" "${EXECUTABLE}")
+  return()
+endif()
+execute_process(COMMAND "${EXECUTABLE}" --gtest_list_tests OUTPUT_VARIABLE listing RESULT_VARIABLE outcome)
+if(NOT outcome EQUAL 0)
+  add_test("${NAME}/lists_no_tests" "${EXECUTABLE}" --gtest_list_tests)
+  return()
+endif()
+string(REGEX MATCHALL "[^\n]+" lines "${listing}")
+foreach(line IN LISTS lines)
+  if(line MATCHES "^([A-Za-z0-9_/]+)\\.( |$)")
+    set(suite "${CMAKE_MATCH_1}")
+    add_test("${NAME}/${suite}" "${EXECUTABLE}" "--gtest_filter=${suite}.*")
+    set_tests_properties("${NAME}/${suite}" PROPERTIES LABELS "${LABEL}" TIMEOUT 900 WORKING_DIRECTORY "${DIRECTORY}")
+  endif()
+endforeach()
