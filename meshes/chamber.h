@@ -74,8 +74,9 @@ struct Chamber {
 
 struct ChamberMeshControl {
   int cells_through_wall = 2;
-  double size_m = 0;    ///< of cells away from weld toes; 0: 0.15 of the tube's outer radius
-  double growth = 0.7;  ///< slope of the cell size away from the weld toes, where it is 0.6 walls
+  double size_m = 0;                 ///< of cells away from weld toes; 0: 0.15 of the tube's outer radius
+  double growth = 0.7;               ///< slope of the cell size away from the weld toes
+  double toe_walls = 0.6;            ///< size of the cells at the weld toes, in walls of the tube
   double min_scaled_jacobian = 0.3;  ///< refused below
 };
 

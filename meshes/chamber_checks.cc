@@ -123,6 +123,8 @@ void check_control(const ChamberMeshControl& control) {
   if (control.cells_through_wall < 1 || control.cells_through_wall > 20)
     refuse_control("cells_through_wall = " + std::to_string(control.cells_through_wall) +
                    " must lie between 1 and 20");
+  if (!(control.toe_walls > 0 && control.toe_walls <= 2))
+    refuse_control("toe_walls = " + std::to_string(control.toe_walls) + " must lie between 0 and 2");
   if (!std::isfinite(control.size_m) || control.size_m < 0)
     refuse_control("size_m = " + std::to_string(control.size_m) + " must be positive, or 0");
   if (!std::isfinite(control.growth) || control.growth <= 0)

@@ -11,7 +11,7 @@ namespace {
 
 const double largest_share_of_housing = 0.8;  // half the web's height there, of the housing's radius
 const double chosen_size_share = 0.15;        // of the tube's outer radius
-const double toe_walls = 0.6, closest_walls = 0.05;
+const double closest_walls = 0.05;
 
 WebLayout lay_out_webs(const Chamber& chamber, double tube_outer_m) {
   const double to_tube_rad = std::atan2(chamber.tube.axis_y_m, chamber.tube.axis_x_m);
@@ -61,7 +61,7 @@ ChamberLayout lay_out(const Chamber& chamber, const ChamberMeshControl& control)
   layout.tube_outer_m = chamber.tube.inner_radius_m + chamber.tube.wall_m;
   const double wanted_m = control.size_m > 0 ? control.size_m : chosen_size_share * layout.tube_outer_m;
   layout.size_m = std::min(wanted_m, coarsest_turn_rad * layout.tube_outer_m);
-  layout.toe_size_m = std::min(toe_walls * chamber.tube.wall_m, layout.size_m);
+  layout.toe_size_m = std::min(control.toe_walls * chamber.tube.wall_m, layout.size_m);
   layout.closest_m = closest_walls * chamber.tube.wall_m;
   layout.flange_begin_m = 0.5 * chamber.tube.length_m - chamber.flanges.thickness_m;
   layout.web = lay_out_webs(chamber, layout.tube_outer_m);

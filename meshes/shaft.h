@@ -53,10 +53,17 @@ struct Shaft {
 
 struct ShaftMeshControl {
   int cells_per_fillet_quarter = 8;  ///< even, >= 2
+  std::vector<int> fillet_cells;     ///< the same for each of Shaft::fillets_m; empty: alike; 0: as above
   int n_sectors = 16;                ///< around, a multiple of 4, >= 8
   double growth = 1.0;  ///< slope of the axial cell size away from fillets; cells grow by at most e^growth
   double largest_cell_m = 0;         ///< axial; 0: chosen from diameters and walls
   double min_scaled_jacobian = 0.3;  ///< refused below
+
+  /// On a quarter of one of Shaft::fillets_m.
+  int cells_at(int fillet) const {
+    const bool own = std::size_t(fillet) < fillet_cells.size() && fillet_cells[std::size_t(fillet)] > 0;
+    return own ? fillet_cells[std::size_t(fillet)] : cells_per_fillet_quarter;
+  }
 };
 
 /// Meshes the shaft and writes `file` (through a temporary name).

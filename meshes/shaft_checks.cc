@@ -145,6 +145,10 @@ void check_control(const ShaftMeshControl& control) {
   if (control.cells_per_fillet_quarter < 2 || control.cells_per_fillet_quarter % 2 != 0)
     refuse_control("cells_per_fillet_quarter = " + std::to_string(control.cells_per_fillet_quarter) +
                    " must be even and at least 2");
+  for (const int cells : control.fillet_cells)
+    if (cells != 0 && (cells < 2 || cells % 2 != 0))
+      refuse_control("fillet_cells has " + std::to_string(cells) +
+                     ", which must be even and at least 2, or 0");
   if (control.n_sectors < 8 || control.n_sectors % 4 != 0)
     refuse_control("n_sectors = " + std::to_string(control.n_sectors) +
                    " must be a multiple of 4 and at least 8");

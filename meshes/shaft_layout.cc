@@ -220,7 +220,7 @@ ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
   set_base_radii(layout.segments);
   const int n_junctions = static_cast<int>(layout.segments.size()) - 1;
   for (int i = 0; i < n_junctions; ++i)
-    layout.junctions.push_back(junction_of(layout, shaft, i, control.cells_per_fillet_quarter / 2));
+    layout.junctions.push_back(junction_of(layout, shaft, i, control.cells_at(i) / 2));
   for (int i = 0; i < n_junctions; ++i)
     if (layout.junctions[i].has_fan()) set_fan(layout.junctions[i], layout, radius_below_fan(layout, i));
   match_fans_of_grooves(layout);

@@ -32,9 +32,24 @@ double element_length(int curve) {
   return types.empty() || tags[0].empty() ? 0 : length / double(tags[0].size());
 }
 
+/// The ball's size inside, and `growth` times the distance from it more outside.
+int field_of(const FineSpot& spot, double unit_m) {
+  const auto shifted = [&](const char* axis, std::size_t i) {
+    return std::string("(") + axis + "-(" + std::to_string(spot.centre_m[i] / unit_m) + "))^2";
+  };
+  const std::string beyond = "(sqrt(" + shifted("x", 0) + "+" + shifted("y", 1) + "+" + shifted("z", 2) +
+                             ")-" + std::to_string(spot.radius_m / unit_m) + ")";
+  const int field = gmsh::model::mesh::field::add("MathEval");
+  gmsh::model::mesh::field::setString(field, "F",
+                                      std::to_string(spot.size_m / unit_m) + "+" +
+                                          std::to_string(0.5 * growth) + "*(sqrt(" + beyond + "^2)+" +
+                                          beyond + ")");
+  return field;
+}
+
 /// Cells grow gently with the distance from every curve: without this a narrow surface beside a fillet gets
 /// cells as long as its other edge asks for. Meshes the curves, and forgets them again.
-void limit_growth() {
+void limit_growth(const std::vector<FineSpot>& fine_spots, double unit_m) {
   gmsh::model::mesh::generate(1);
   std::map<int, std::vector<double>> curves_of_size;  // by size in steps of a tenth
   gmsh::vectorpair curves;
@@ -53,6 +68,7 @@ void limit_growth() {
                                             std::to_string(growth) + "*F" + std::to_string(distance));
     fields.push_back(size);
   }
+  for (const auto& spot : fine_spots) fields.push_back(field_of(spot, unit_m));
   const int smallest = gmsh::model::mesh::field::add("Min");
   gmsh::model::mesh::field::setNumbers(smallest, "FieldsList", fields);
   gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
@@ -70,6 +86,10 @@ void check_control(const SolidControl& control) {
   check_length("size_m", control.size_m);
   check_length("smallest_size_m", control.smallest_size_m);
   check_length("exclusion_m", control.exclusion_m);
+  if (!std::isfinite(control.size_factor) || control.size_factor <= 0)
+    refuse("size_factor = " + std::to_string(control.size_factor) + " must be positive");
+  for (const auto& spot : control.fine_spots)
+    if (!(spot.size_m > 0 && spot.radius_m >= 0)) refuse("a fine spot needs a positive size and a radius");
   if (control.cells_per_circle < 6)
     refuse("cells_per_circle = " + std::to_string(control.cells_per_circle) + " must be at least 6");
   if (!(control.min_scaled_jacobian > 0 && control.min_scaled_jacobian < 1))
@@ -79,7 +99,8 @@ void check_control(const SolidControl& control) {
 
 void mesh_solids(const SolidControl& control, double unit_m) {
   const auto set = [](const char* name, double value) { gmsh::option::setNumber(name, value); };
-  const double size = control.size_m > 0 ? control.size_m / unit_m : diagonal_of_model() / 20;
+  const double size =
+      control.size_factor * (control.size_m > 0 ? control.size_m / unit_m : diagonal_of_model() / 20);
   set("General.NumThreads", 1);
   set("Mesh.Algorithm", 6);
   set("Mesh.Algorithm3D", 1);
@@ -87,7 +108,7 @@ void mesh_solids(const SolidControl& control, double unit_m) {
   set("Mesh.MeshSizeMin", control.smallest_size_m / unit_m);
   set("Mesh.MeshSizeFromCurvature", control.cells_per_circle);
   set("Mesh.MeshSizeFromPoints", 0);
-  limit_growth();
+  limit_growth(control.fine_spots, unit_m);
   gmsh::model::mesh::generate(3);
   split_flat_cells();
   gmsh::model::mesh::setOrder(2);

@@ -2,15 +2,27 @@
 /// that the same solid gives the same bytes.
 #pragma once
 
+#include <array>
+#include <vector>
+
 namespace meshes {
+
+/// A ball in which edges are short; outside they grow with the distance.
+struct FineSpot {
+  std::array<double, 3> centre_m{};
+  double radius_m = 0;
+  double size_m = 0;  ///< of edges inside
+};
 
 struct SolidControl {
   double size_m = 0;           ///< longest edge wanted; 0: a 20th of the body's diagonal
+  double size_factor = 1;      ///< of size_m, given or not
   double smallest_size_m = 0;  ///< curvature asks for no shorter edges: limits what small fillets cost; 0: no
                                ///< limit
   int cells_per_circle =
       16;  ///< around every curved surface, >= 6; a quarter of a fillet gets a fourth of it
   double min_scaled_jacobian = 0.05;  ///< of the curved cells, refused below
+  std::vector<FineSpot> fine_spots{};
   double exclusion_m = 0;  ///< no stress is reported closer to re-entrant edges; 0: 1 % of the diagonal
 };
 

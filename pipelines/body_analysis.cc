@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "fem/cell_stress_at_node.h"
 #include "fem/model.h"
 #include "pipelines/response_files.h"
 #include "pipelines/response_key.h"
@@ -27,14 +26,15 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
 fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body, const BodyLoads& loads,
                                   const std::vector<fem::SectionPlane>& planes, fem::Solver solver,
                                   const RunOptions& options, int n_threads, bool& reused, StageClock& clock) {
-  const auto file = options.directory / "unit_responses.h5";
+  const auto usual = options.directory / "unit_responses.h5";
+  const auto file = options.responses.empty() ? usual : options.responses;
   const auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
   if (!options.fresh) {
-    auto kept = clock.run("solve", [&] { return read_unit_responses(file, key); });
-    if (kept) {
-      reused = true;
-      return std::move(*kept);
-    }
+    for (const auto& place : file == usual ? std::vector{usual} : std::vector{file, usual})
+      if (auto kept = clock.run("solve", [&] { return read_unit_responses(place, key); })) {
+        reused = true;
+        return std::move(*kept);
+      }
   }
   reused = false;
   auto responses = clock.run("solve", [&] {
@@ -60,57 +60,6 @@ void require_closure(const std::string& body, const Closure& closure) {
   throw std::runtime_error(text.str());
 }
 
-/// Von Mises at a node and instant with other unit stresses or time factors than the run's.
-double von_mises_with(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXd& factors) {
-  Stress stress{};
-  for (std::size_t k = 0; k < unit.size(); ++k)
-    for (std::size_t c = 0; c < 6; ++c) stress[c] += factors[Eigen::Index(k)] * unit[k][c];
-  return von_mises_Pa(stress);
-}
-
-/// The highest harmonic n > 1 among the channels, and whether channel k belongs to it.
-std::vector<bool> highest_harmonic(const std::vector<fem::UnitLoad>& loads) {
-  int highest = 0;
-  for (const auto& load : loads)
-    if (const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape))
-      highest = std::max(highest, pressure->harmonic);
-  std::vector<bool> belongs;
-  for (const auto& load : loads) {
-    const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape);
-    belongs.push_back(pressure && pressure->harmonic == highest);
-  }
-  return belongs;
-}
-
-StressErrors estimate_errors(const Peak& peak, const BodyAnalysis& analysis, const fem::Material& material) {
-  const auto& history = analysis.loads.history;
-  const auto n_instants = history.values.cols();
-  const Eigen::ArrayXd factors = history.values.col(peak.instant);
-  const std::size_t n_channels = history.channels.size();
-  std::vector<std::array<double, 6>> unit(n_channels);
-  for (std::size_t k = 0; k < n_channels; ++k)
-    std::copy_n(&analysis.responses.stress_Pa[(peak.node * n_channels + k) * 6], 6, unit[k].begin());
-
-  StressErrors errors;
-  // The cycle is periodic, so the neighbours of the first and last instant are each other.
-  const double before =
-      von_mises_with(unit, history.values.col((peak.instant + n_instants - 1) % n_instants));
-  const double after = von_mises_with(unit, history.values.col((peak.instant + 1) % n_instants));
-  const double curvature = before - 2 * peak.value_Pa + after;
-  if (curvature < 0) errors.time_sampling = (before - after) * (before - after) / (-8 * curvature);
-
-  Eigen::ArrayXd without = factors;
-  const auto belongs = highest_harmonic(analysis.loads.unit_loads);
-  for (std::size_t k = 0; k < n_channels; ++k)
-    if (belongs[k]) without[Eigen::Index(k)] = 0;
-  errors.pressure_harmonics = std::abs(von_mises_with(unit, without) - peak.value_Pa);
-  for (const auto& of_cell : fem::cell_stress_at_node_Pa(analysis.responses, material, peak.node))
-    errors.discretisation =
-        std::max(errors.discretisation, std::abs(von_mises_with(of_cell, factors) - peak.value_Pa));
-  errors.linear_solver = analysis.responses.residual * peak.value_Pa;
-  return errors;
-}
-
 Peak headline(const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;
@@ -126,7 +75,8 @@ Peak headline(const BodyAnalysis& analysis) {
   const std::size_t n_effects = analysis.loads.history.effects.size();
   const auto shares = analysis.envelope.effect_share.begin() + std::ptrdiff_t(peak.node * n_effects);
   peak.effect_share.assign(shares, shares + std::ptrdiff_t(n_effects));
-  peak.errors = estimate_errors(peak, analysis, analysis.scene.material);
+  peak.errors = self_estimate({{{peak.node, 1.0}}, peak.instant}, analysis.responses, analysis.loads,
+                              analysis.scene.material, analysis.geometry_error.relative);
   return peak;
 }
 
@@ -151,6 +101,10 @@ std::vector<std::string> references(const BodyScene& body) {
       break;
   }
   return {};
+}
+
+int threads(int wanted) {
+  return wanted > 0 ? wanted : int(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 }  // namespace
@@ -218,23 +172,30 @@ void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>&
 
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                           BodyLoads loads, const RunOptions& options, StageClock& clock) {
-  const int n_threads =
-      options.n_threads > 0 ? options.n_threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  bool reused = false;
+  auto responses = solve_or_reuse(*meshed.model, meshed.body, loads, to_fem_planes(meshed.mesh.sections),
+                                  body.solver, options, threads(options.n_threads), reused, clock);
+  auto analysis =
+      superpose_body(scene, body, meshed, std::move(loads), std::move(responses), options.n_threads, clock);
+  analysis.responses_reused = reused;
+  return analysis;
+}
+
+BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock) {
   const ShaftShape* shaft = body.shaft();
   BodyAnalysis analysis;
   analysis.scene = body;
   analysis.mesh = meshed.mesh;
   analysis.masses = meshed.masses;
   analysis.geometry_error = meshed.geometry_error;
-  const auto planes = to_fem_planes(meshed.mesh.sections);
   analysis.loads = std::move(loads);
-  analysis.responses = solve_or_reuse(*meshed.model, meshed.body, analysis.loads, planes, body.solver,
-                                      options, n_threads, analysis.responses_reused, clock);
+  analysis.responses = std::move(responses);
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
   require_closure(body.name, analysis.closure);
 
-  analysis.envelope =
-      clock.run("superpose", [&] { return envelope(analysis.loads.history, analysis.responses, n_threads); });
+  analysis.envelope = clock.run(
+      "superpose", [&] { return envelope(analysis.loads.history, analysis.responses, threads(n_threads)); });
   clock.run("zones", [&] {
     analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
                                    analysis.mesh.sharp_edges);
@@ -244,6 +205,10 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
                                 zone_level(scene.zones, analysis.peak.value_Pa, body.yield_strength_Pa),
                                 body.yield_strength_Pa);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
+    if (!analysis.hot_spots.empty())
+      analysis.hot_spot_errors =
+          self_estimate(stress_point(analysis.hot_spots.front()), analysis.responses, analysis.loads,
+                        analysis.scene.material, analysis.geometry_error.relative);
   });
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {

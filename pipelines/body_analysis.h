@@ -12,23 +12,16 @@
 #include "pipelines/body_mesh.h"
 #include "pipelines/closure.h"
 #include "pipelines/diagrams.h"
+#include "pipelines/error_ledger.h"
 #include "pipelines/hot_spots.h"
 #include "pipelines/machine_masses.h"
 #include "pipelines/scene.h"
+#include "pipelines/search.h"
 #include "pipelines/stage_clock.h"
 #include "pipelines/superposition.h"
 #include "pipelines/zones.h"
 
 namespace pipelines {
-
-/// Parts of the error of a stress at one place that a run can tell by itself [Pa], each an estimate of size,
-/// not a bound.
-struct StressErrors {
-  double time_sampling = 0;  ///< what a parabola through the neighbouring instants adds to the largest one
-  double pressure_harmonics = 0;  ///< what the highest harmonic of the seat pressures contributes
-  double discretisation = 0;      ///< recovered stress against that of the cell there that differs most
-  double linear_solver = 0;       ///< relative residual times the stress
-};
 
 /// One headline stress: where, when, how much.
 struct Peak {
@@ -41,7 +34,7 @@ struct Peak {
   Place place = Place::interior;
   double safety = 0;                 ///< yield strength / von Mises
   std::vector<double> effect_share;  ///< in the order of ChannelHistory::effects
-  StressErrors errors;
+  ErrorLedger errors;
 };
 
 struct BodyAnalysis {
@@ -59,14 +52,17 @@ struct BodyAnalysis {
   Peak peak;                             ///< largest von Mises stress outside the exclusion distances
   std::size_t principal_node = 0;        ///< largest principal stress, likewise
   std::vector<HotSpotStress> hot_spots;  ///< descending
+  ErrorLedger hot_spot_errors;           ///< of the first
   std::optional<Diagrams> diagrams;      ///< parametric shafts and drums only
+  Search search;  ///< how the mesh was found, if a tolerance or time limit asked for it
 };
 
 /// Where a run keeps its files and what it may use.
 struct RunOptions {
-  std::filesystem::path directory;  ///< of this body
-  int n_threads = 0;                ///< 0: all cores
-  bool fresh = false;               ///< do not reuse unit responses of an earlier run
+  std::filesystem::path directory;    ///< of this body
+  int n_threads = 0;                  ///< 0: all cores
+  bool fresh = false;                 ///< do not reuse unit responses of an earlier run
+  std::filesystem::path responses{};  ///< file that keeps them; empty: unit_responses.h5 in the directory
 };
 
 /// The loads of one body of a scene, by its role.
@@ -78,10 +74,15 @@ BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinet
 /// @throws std::runtime_error if forces or moments miss 1e-9 of their scale
 void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions);
 
-/// Solves and superposes. Writes unit_responses.h5 into the body's directory, nothing else.
+/// Solves and superposes. Writes the unit responses, nothing else.
 /// @throws std::runtime_error if the solve fails, or if the loads do not close to 1e-9 on the mesh
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                           BodyLoads loads, const RunOptions& options, StageClock& clock);
+
+/// The second half of analyse_body: everything that follows from unit responses.
+/// @throws std::runtime_error if the loads do not close to 1e-9 on the mesh
+BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock);
 
 /// What distribution needs to know of a meshed body.
 LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);

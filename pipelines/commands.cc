@@ -19,6 +19,7 @@
 #include "pipelines/picture.h"
 #include "pipelines/results.h"
 #include "pipelines/scene.h"
+#include "pipelines/scene_run.h"
 #include "pipelines/summary.h"
 #include "pipelines/torsion_report.h"
 #include "pipelines/units.h"
@@ -26,40 +27,13 @@
 namespace pipelines {
 namespace {
 
-/// What a trunnion that turns with the drum feels: constant loads of the carrier's frame reverse fully.
-void add_turning_trunnions(kinetics::LoadHistory& loads) {
-  auto turning = kinetics::turned_with_drum(loads, loads.resultant("trunnions"));
-  turning.role = "trunnions_turning";
-  turning.description = "the same load in axes that turn with the drum";
-  loads.resultants.push_back(std::move(turning));
-}
-
-kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
-  if (scene.run_up)
-    return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
-  auto loads = compute_loads(machine, scene.kinetics_effects(), scene.sampling);
-  if (scene.drum_axes) add_turning_trunnions(loads);
-  return loads;
-}
-
-/// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
-/// figures.
-void add_shaft_quantities(kinetics::LoadHistory& loads, const BodyLoads& body) {
-  if (body.drive_torque_Nm.size() == 0) return;
-  loads.quantities.push_back({"R_E_shaft", "N", "bearing reaction with the shaft's own mass, magnitude",
-                              body.frame_bearing_force_N.matrix().colwise().norm().transpose()});
-  loads.quantities.push_back(
-      {"T_shaft", "N m", "drive torque with the shaft's own mass, clockwise positive", body.drive_torque_Nm});
-}
-
-/// A couple that no machine part carries is worth a word once it matters.
-void warn_of_guide(kinetics::LoadHistory& loads, const BodyLoads& body) {
-  if (body.carried_moment_Nm.size() == 0) return;
-  const double most = body.carried_moment_Nm.abs().maxCoeff();
-  if (most > 0.01 * body.carried_moment_scale_Nm)
-    loads.warnings.push_back(fmt::format(
-        "pitch is off: {} stresses contain a guide couple of {:.4g} N m, {:.2g} % of the moments on it",
-        body.history.body, most, 100 * most / body.carried_moment_scale_Nm));
+/// @throws std::invalid_argument naming the option
+double option_in_si(const char* option, const std::string& text, const std::string& unit) {
+  try {
+    return to_si(text, unit);
+  } catch (const UnitError& error) {
+    throw std::invalid_argument(std::string(option) + ' ' + text + ": " + error.what());
+  }
 }
 
 /// The envelope as a picture; a machine that cannot draw gets a line instead.
@@ -87,10 +61,6 @@ void print_cost(std::ostream& out, std::size_t n_dofs) {
                      2.7 * std::pow(double(n_dofs) / 203e3, 1.38));
 }
 
-}  // namespace
-
-namespace {
-
 /// MPI takes half a second and may talk: only where a body is looked at.
 struct Solver {
   explicit Solver(int n_threads) : environment(argc, argv, n_threads) {}
@@ -100,11 +70,6 @@ struct Solver {
   int argc = 1;
   fem::Environment environment;
 };
-
-std::vector<kinetics::Spring> springs_of(const Scene& scene) {
-  const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
-  return mill ? mill->springs : std::vector<kinetics::Spring>{};
-}
 
 /// Meshes all bodies, each to a temporary name beside its place.
 std::vector<MeshedBody> mesh_bodies(const Scene& scene,
@@ -148,50 +113,34 @@ void run_load_stage(const CommandOptions& options, std::ostream& out, const Scen
   out << "\n  results in " << directory.string() << '\n';
 }
 
+SearchWish wish_of(const CommandOptions& options, const Scene& scene) {
+  SearchWish wish = scene.wish;
+  if (!options.tolerance.empty()) wish.tolerance = option_in_si("--tolerance", options.tolerance, "1");
+  if (!options.time_limit.empty()) wish.time_limit_s = option_in_si("--time-limit", options.time_limit, "s");
+  if (wish.tolerance < 0 || wish.tolerance > 1)
+    throw std::invalid_argument("--tolerance " + options.tolerance + ": must lie between 0 and 100 %");
+  if (wish.time_limit_s < 0)
+    throw std::invalid_argument("--time-limit " + options.time_limit + ": is negative");
+  return wish;
+}
+
 void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& scene,
                 const std::filesystem::path& directory, StageClock& clock) {
+  const auto wish = wish_of(options, scene);
   const Solver solver(options.n_threads);
-  std::vector<std::unique_ptr<AtomicFile>> files;
-  for (const auto& body : scene.bodies) {
-    std::filesystem::create_directories(directory / body.name);
-    files.push_back(std::make_unique<AtomicFile>(directory / body.name / "mesh.msh"));
-  }
-  auto meshed = clock.run("mesh", [&] { return mesh_bodies(scene, files); });
-  const auto masses = agree_masses(scene, meshed);
-  auto loads = clock.run("loads", [&] { return load_stage(scene, masses.machine); });
-  std::vector<BodyLoads> body_loads;
-  for (std::size_t i = 0; i < meshed.size(); ++i) {
-    const auto& body = scene.bodies[i];
-    body_loads.push_back(clock.run("distribute", [&] {
-      return distribute_body(scene, body, loads, loaded_body(body, meshed[i]), masses);
-    }));
-    require_closed_loads(body_loads.back(), meshed[i].regions);
-    warn_of_guide(loads, body_loads.back());
-    if (body.role == BodyRole::train_shaft &&
-        std::none_of(body.train.forces.begin(), body.train.forces.end(),
-                     [&](const auto& force) { return scene.has_effect(force.effect); }))
-      loads.warnings.push_back("a drive train gives torsion only: bending is not modelled");
-    add_shaft_quantities(loads, body_loads.back());
-  }
-  BodyChannels channels;
-  for (const auto& body : body_loads) channels.push_back(&body.history);
-  const auto lives = bearing_lives(scene.bearings, loads, channels);
-
-  // From here on nothing of the scene can be wrong any more: results of an earlier run may go.
-  std::vector<BodyAnalysis> analyses;
-  for (std::size_t i = 0; i < meshed.size(); ++i) {
-    files[i]->commit();
-    const auto place = directory / scene.bodies[i].name;
-    meshed[i].mesh.file = meshed[i].body.mesh = place / "mesh.msh";
-    analyses.push_back(analyse_body(scene, scene.bodies[i], meshed[i], body_loads[i],
-                                    {place, options.n_threads, options.fresh}, clock));
-    meshed[i].model.reset();
-    clock.run("write", [&] { write_body_results(place, scene, loads, analyses.back()); });
-    if (scene.pictures) clock.run("pictures", [&] { draw(place, scene.title, scene.bodies[i].name); });
+  auto run = run_scene(scene, {directory, options.n_threads, options.fresh, wish}, clock);
+  const auto& loads = run.loaded.loads;
+  const auto channels = run.loaded.channels();
+  for (const auto& analysis : run.analyses) {
+    const auto place = directory / analysis.scene.name;
+    clock.run("write", [&] { write_body_results(place, run.scene, loads, analysis); });
+    if (scene.pictures) clock.run("pictures", [&] { draw(place, scene.title, analysis.scene.name); });
   }
   clock.run("write", [&] { write_load_results(directory, loads, channels); });
-  finish_run(options, out, directory, {scene, loads, analyses, masses.figures, clock.costs(), lives});
+  finish_run(options, out, directory,
+             {run.scene, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings});
   if (!options.json) out << "\n  results in " << directory.string() << '\n';
+  if (!run.met()) throw ToleranceNotMet("the tolerance is not met; the results are kept");
 }
 
 }  // namespace
@@ -223,12 +172,7 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
 }
 
 void effects_command(const CommandOptions& options, std::ostream& out) {
-  double threshold = 0;
-  try {
-    threshold = to_si(options.threshold, "1");
-  } catch (const UnitError& error) {
-    throw std::invalid_argument("--threshold " + options.threshold + ": " + error.what());
-  }
+  const double threshold = option_in_si("--threshold", options.threshold, "1");
   const Scene scene = read_scene(options.scene);
   const EffectReport worth = report_effects(scene, threshold);
   if (options.json)

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <stdexcept>
+#include <string>
 
 #include "pipelines/progress.h"
 
@@ -14,13 +16,19 @@ struct CommandOptions {
   std::filesystem::path
       output;                 ///< run, ports: directory; loads: .h5 file; empty: the default or none (loads)
   std::filesystem::path csv;  ///< loads only; empty: none
-  std::filesystem::path calculix;    ///< loads only: prefix of the files of cards; empty: none
-  std::filesystem::path statistics;  ///< loads only: directory of statistics; empty: none
-  std::string threshold = "1 %";     ///< effects only: what may change when effects are left out
-  int n_threads = 0;                 ///< 0: all cores
+  std::filesystem::path calculix;     ///< loads only: prefix of the files of cards; empty: none
+  std::filesystem::path statistics;   ///< loads only: directory of statistics; empty: none
+  std::string threshold = "1 %";      ///< effects only: what may change when effects are left out
+  std::string tolerance, time_limit;  ///< run: override the scene's; empty: the scene's
+  int n_threads = 0;                  ///< 0: all cores
   bool fresh = false;
   bool json = false;  ///< the summary as JSON instead of the table
   Verbosity verbosity = Verbosity::normal;
+};
+
+/// A tolerance or time limit that a run did not meet; its results are kept. Exit code 4.
+class ToleranceNotMet : public std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// `millstress run`: everything. The directory defaults to results/<scene's name>.

@@ -9,6 +9,8 @@ namespace {
 
 using Eigen::ArrayXXd;
 
+constexpr double near_weight = 1.67, far_weight = -0.67;
+
 std::size_t node_at(const fem::Nodes& nodes, const std::array<double, 3>& p, const meshes::HotSpot& spot) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::max();
@@ -32,17 +34,23 @@ ArrayXXd course(const fem::UnitResponses& responses, const ChannelHistory& loads
 
 }  // namespace
 
+StressPoint stress_point(const HotSpotStress& spot) {
+  return {{{spot.near_node, near_weight}, {spot.far_node, far_weight}}, spot.instant};
+}
+
 std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>& spots,
                                              const fem::UnitResponses& responses,
                                              const ChannelHistory& loads) {
   std::vector<HotSpotStress> results;
   for (const auto& spot : spots) {
-    const ArrayXXd stress = 1.67 * course(responses, loads, node_at(responses.nodes, spot.near_m, spot)) -
-                            0.67 * course(responses, loads, node_at(responses.nodes, spot.far_m, spot));
+    HotSpotStress result;
+    result.near_node = node_at(responses.nodes, spot.near_m, spot);
+    result.far_node = node_at(responses.nodes, spot.far_m, spot);
+    const ArrayXXd stress = near_weight * course(responses, loads, result.near_node) +
+                            far_weight * course(responses, loads, result.far_node);
     Eigen::Vector3d across;
     for (int d = 0; d < 3; ++d) across[d] = spot.near_m[std::size_t(d)] - spot.toe_m[std::size_t(d)];
     across.normalize();
-    HotSpotStress result;
     result.name = spot.name;
     result.toe_m = spot.toe_m;
     for (Eigen::Index i = 0; i < stress.cols(); ++i) {

@@ -8,6 +8,7 @@
 #include "fem/unit_responses.h"
 #include "meshes/body_mesh.h"
 #include "pipelines/channels.h"
+#include "pipelines/error_ledger.h"
 #include "pipelines/superposition.h"
 
 namespace pipelines {
@@ -15,11 +16,15 @@ namespace pipelines {
 struct HotSpotStress {
   std::string name;
   std::array<double, 3> toe_m{};
-  double von_mises_Pa = 0;   ///< largest over the cycle
-  std::int32_t instant = 0;  ///< of that
+  std::size_t near_node = 0, far_node = 0;  ///< at 0.4 and 1.0 plate thicknesses
+  double von_mises_Pa = 0;                  ///< largest over the cycle
+  std::int32_t instant = 0;                 ///< of that
   double max_normal_Pa = 0,
          min_normal_Pa = 0;  ///< across the toe, over the cycle: their range is what fatigue counts
 };
+
+/// The extrapolation at the instant of the largest von Mises stress.
+StressPoint stress_point(const HotSpotStress& spot);
 
 /// @return in descending order of the largest von Mises stress
 /// @throws std::runtime_error if a point of a hot spot is no node of the solution

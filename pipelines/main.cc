@@ -9,7 +9,7 @@
 
 namespace {
 
-enum ExitCode { done = 0, scene_is_wrong = 2, mesh_or_solve_failed = 3 };
+enum ExitCode { done = 0, scene_is_wrong = 2, mesh_or_solve_failed = 3, tolerance_not_met = 4 };
 
 /// Runs a command and turns what it throws into a message and an exit code.
 template <typename Command>
@@ -27,6 +27,9 @@ int guarded(Command&& command) {
     std::cerr << "millstress: " << error.code().message() << ": " << error.path1().string()
               << ": choose another output with -o, or make room for it\n";
     return scene_is_wrong;
+  } catch (const pipelines::ToleranceNotMet& error) {
+    std::cerr << "millstress: " << error.what() << '\n';
+    return tolerance_not_met;
   } catch (const std::exception& error) {
     std::cerr << "millstress: " << error.what() << '\n';
     return mesh_or_solve_failed;
@@ -53,6 +56,10 @@ int main(int argc, char** argv) {
   run->add_option("-o,--output", options.output, "result directory (default: results/<scene>)");
   run->add_option("--threads", options.n_threads, "threads to use (default: all cores)")
       ->check(CLI::Range(1, 1024));
+  run->add_option("--tolerance", options.tolerance,
+                  "refine until the stress is known this well, like \"2 %\" (default: the scene's)");
+  run->add_option("--time-limit", options.time_limit,
+                  "stop refining in time, like \"60 s\" (default: the scene's)");
   run->add_flag("--fresh", options.fresh, "reuse nothing of an earlier run");
   run->add_flag("--json", options.json, "print summary.json instead of the table");
   auto* loads = add("loads", "the load stage alone");

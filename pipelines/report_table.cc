@@ -80,9 +80,24 @@ void print_hot_spots(std::ostream& out, const RunReport& report, const BodyAnaly
   }
 }
 
+void print_search(std::ostream& out, const Search& search) {
+  if (search.steps.empty()) return;
+  out << fmt::format("\n  {:<24}{:>9}{:>10}{:>11}{:>9}  {}\n", search.quantity, "MPa", "error", "unknowns",
+                     "seconds", "dominated by, mesh");
+  int n = 0;
+  for (const auto& step : search.steps)
+    out << fmt::format("    step {:<17}{:>9.1f}{:>9.1f}%{:>11}{:>9.1f}  {}; {}\n", ++n, step.value_Pa / 1e6,
+                       step.value_Pa > 0 ? 100 * step.error_Pa / step.value_Pa : 0.0, step.n_dofs,
+                       step.seconds, step.dominated_by, step.fineness);
+  out << fmt::format("  {}: {}", search.met ? "ended" : "NOT MET", search.ended);
+  if (search.tolerance > 0) out << fmt::format("; {:.3g} % was asked", 100 * search.tolerance);
+  if (search.ended == "the time is up")
+    out << fmt::format("; the next step needs about {:.0f} s", search.next_seconds);
+  out << '\n';
+}
+
 void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   const Peak& peak = analysis.peak;
-  const auto& e = peak.errors;
   out << fmt::format("\n  {}: {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.scene.name,
                      analysis.responses.n_dofs, analysis.responses.channels.size(),
                      analysis.responses_reused ? " (responses of an earlier run)" : "",
@@ -98,10 +113,10 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
   print_masses(out, report, analysis);
   out << fmt::format(
       "\n  peak von Mises stress   {:.1f} MPa (error about {:.1f} MPa), safety against yield {:.2f}\n",
-      peak.value_Pa / 1e6,
-      (e.time_sampling + e.pressure_harmonics + e.discretisation + e.linear_solver) / 1e6, peak.safety);
+      peak.value_Pa / 1e6, peak.errors.total_Pa() / 1e6, peak.safety);
   out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place), where(peak.position_m),
                      when(report, peak.instant));
+  print_search(out, analysis.search);
   const std::size_t p = analysis.principal_node;
   out << fmt::format("  largest principal stress {:.1f} MPa\n",
                      analysis.envelope.principal.value_Pa[p] / 1e6);

@@ -59,6 +59,14 @@ TomlNode parse(const std::filesystem::path& file) {
 const std::string machine_types = "\"vibratory_mill\", \"planetary_mill\", \"drive_train\", \"load_table\"";
 
 /// "50 % of peak", "40 % of yield"
+SearchWish read_wish(SceneTable& root) {
+  SearchWish wish;
+  for (const char* key : {"tolerance", "time_limit"}) root.know(key);
+  if (root.has("tolerance")) wish.tolerance = root.quantity("tolerance", "1", between(1e-4, 0.5));
+  if (root.has("time_limit")) wish.time_limit_s = root.quantity("time_limit", "s", positive(1e7));
+  return wish;
+}
+
 ZoneRule read_zones(SceneTable zones) {
   ZoneRule rule;
   const std::string level = zones.text_or("level", "50 % of peak", "where a zone begins");
@@ -263,7 +271,8 @@ Scene read_scene(const std::filesystem::path& file) {
       machine.refuse_missing("type", "is missing; add it: one of " + machine_types);
     else if (!type.empty())
       machine.refuse("type", "unknown machine; write one of " + machine_types);
-    for (const char* key : {"effects", "sampling", "bearings", "zones", "results"}) root.know(key);
+    for (const char* key : {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit"})
+      root.know(key);
     for (const auto& body : all_bodies) root.know(body.first);
     root.finish();  // there may be no [machine] at all
     throw_sorted(findings.errors);
@@ -279,6 +288,7 @@ Scene read_scene(const std::filesystem::path& file) {
   if (bodies.empty() && (root.has("zones") || root.has("results")))
     findings.warnings.push_back("without a body ([shaft], [chamber] ...) [zones] and [results] have no use");
   scene.bearings = read_bearings(root);
+  scene.wish = read_wish(root);
   scene.zones = read_zones(root.table_or_empty("zones"));
   read_results(root.table_or_empty("results"), scene);
   root.finish();

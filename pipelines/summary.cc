@@ -33,16 +33,38 @@ Json place_and_moment(const RunReport& report, const std::array<double, 3>& posi
           {"drive_angle_rad", moment.angle_rad}};
 }
 
+/// "total" of all sources, "numerical" of those that a finer run would mend.
+Json ledger_json(const ErrorLedger& ledger) {
+  Json json{{"total", number(ledger.total_Pa())}, {"numerical", number(ledger.numerical_Pa())}};
+  for (const auto* entries : {&ledger.numerical, &ledger.model})
+    for (const auto& entry : *entries) {
+      json[entry.source] = number(entry.value_Pa);
+      json["methods"][entry.source] = entry.method;
+    }
+  return json;
+}
+
+/// Seconds are no part of it: they change from run to run.
+Json search_json(const Search& search) {
+  Json json{{"quantity", search.quantity},
+            {"tolerance", number(search.tolerance)},
+            {"met", search.met},
+            {"ended", search.ended}};
+  for (const auto& step : search.steps)
+    json["steps"].push_back({{"mesh", step.fineness},
+                             {"instants_per_turn", step.instants_per_turn},
+                             {"pressure_harmonics", step.pressure_harmonics},
+                             {"dofs", step.n_dofs},
+                             {"value_Pa", number(step.value_Pa)},
+                             {"error_Pa", number(step.error_Pa)},
+                             {"dominated_by", step.dominated_by}});
+  return json;
+}
+
 Json peak_json(const RunReport& report, const BodyAnalysis& analysis) {
   const Peak& peak = analysis.peak;
   Json json = figure(peak.value_Pa, "Pa");
-  const auto& e = peak.errors;
-  json["error"] = {
-      {"total", number(e.time_sampling + e.pressure_harmonics + e.discretisation + e.linear_solver)},
-      {"time_sampling", number(e.time_sampling)},
-      {"pressure_harmonics", number(e.pressure_harmonics)},
-      {"discretisation", number(e.discretisation)},
-      {"linear_solver", number(e.linear_solver)}};
+  json["error"] = ledger_json(peak.errors);
   json["safety_against_yield"] = number(peak.safety);
   json.update(place_and_moment(report, peak.position_m, peak.feature, peak.place, peak.instant));
   json["stress_Pa"] = peak.stress_Pa;
@@ -131,6 +153,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["peak_principal"] = principal_json(report, analysis);
   json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
   json["zones"] = zones_json(report, analysis);
+  if (!analysis.search.steps.empty()) json["search"] = search_json(analysis.search);
   if (analysis.diagrams) {
     json["torsion"] = torsion_json(analysis);
     for (const auto& seat : analysis.diagrams->seats)
@@ -147,6 +170,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
                                  {"normal_max_Pa", number(spot.max_normal_Pa)},
                                  {"normal_min_Pa", number(spot.min_normal_Pa)},
                                  {"position_m", spot.toe_m}});
+  if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = ledger_json(analysis.hot_spot_errors);
   for (const auto& edge : analysis.mesh.sharp_edges)
     json["singular"].push_back({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}});
   for (const auto& figure : report.masses)

@@ -1,0 +1,69 @@
+/// The error ledger of a headline stress: what each source may be wrong by, and how that was found out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fem/body.h"
+#include "fem/unit_responses.h"
+#include "pipelines/distribute.h"
+
+namespace pipelines {
+
+/// One source of error of a von Mises stress.
+struct ErrorEntry {
+  std::string source;   ///< "time_sampling", "discretisation", ...
+  std::string method;   ///< in a few words: how the figure was found
+  double value_Pa = 0;  ///< estimate of the size, not negative
+};
+
+/// Entries add up: signs are not known.
+struct ErrorLedger {
+  std::vector<ErrorEntry> numerical;  ///< of the calculation: finer runs make them smaller
+  std::vector<ErrorEntry> model;      ///< of assumptions that no mesh mends
+
+  double numerical_Pa() const;
+  double total_Pa() const;
+  /// 0 if the ledger has no such entry.
+  double of(const std::string& source) const;
+  /// Replaces the entry of that source, or adds it.
+  void set_numerical(const ErrorEntry& entry);
+};
+
+/// Where a headline stress comes from: the weighted sum of the stress at some nodes (one node for a peak, two
+/// for a stress extrapolated to a weld toe), at one instant.
+struct StressPoint {
+  struct Part {
+    std::size_t node = 0;
+    double weight = 1;
+  };
+  std::vector<Part> parts;
+  std::int32_t instant = 0;  ///< column of ChannelHistory::values
+};
+
+/// Unit stress at the point, per channel (xx, yy, zz, xy, yz, xz) [Pa].
+std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& responses,
+                                                  const StressPoint& point);
+
+/// Von Mises stress of unit stresses times factors [Pa].
+double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXd& factors);
+
+/// What one run can tell about itself:
+///   time_sampling       what a parabola through the neighbouring instants adds
+///   pressure_harmonics  what the highest harmonic of the seat pressures contributes
+///   discretisation      the largest difference between the recovered stress and that of one cell, over the
+///                       faces around the point, times discretisation_safety: a single cell may agree by
+///                       chance
+///   geometry            distance of curved faces from their surfaces, in radii, times 3: bending stress goes
+///                       with the third power of a radius
+///   linear_solver       relative residual
+/// Responses without cells (cheap models) get no discretisation entry here.
+/// @param geometry_error  relative, fem::GeometryError
+ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
+                          const BodyLoads& loads, const fem::Material& material, double geometry_error);
+
+/// True errors were up to this many times the plain estimate on shafts of 2 to 16 cells per fillet quarter.
+inline constexpr double discretisation_safety = 3;
+
+}  // namespace pipelines

@@ -1,0 +1,86 @@
+#include "pipelines/load_stage.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace pipelines {
+namespace {
+
+/// What a trunnion that turns with the drum feels: constant loads of the carrier's frame reverse fully.
+void add_turning_trunnions(kinetics::LoadHistory& loads) {
+  auto turning = kinetics::turned_with_drum(loads, loads.resultant("trunnions"));
+  turning.role = "trunnions_turning";
+  turning.description = "the same load in axes that turn with the drum";
+  loads.resultants.push_back(std::move(turning));
+}
+
+}  // namespace
+
+kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
+  if (scene.run_up)
+    return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
+  auto loads = compute_loads(machine, scene.kinetics_effects(), scene.sampling);
+  if (scene.drum_axes) add_turning_trunnions(loads);
+  return loads;
+}
+
+namespace {
+
+/// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
+/// figures.
+void add_shaft_quantities(kinetics::LoadHistory& loads, const BodyLoads& body) {
+  if (body.drive_torque_Nm.size() == 0) return;
+  loads.quantities.push_back({"R_E_shaft", "N", "bearing reaction with the shaft's own mass, magnitude",
+                              body.frame_bearing_force_N.matrix().colwise().norm().transpose()});
+  loads.quantities.push_back(
+      {"T_shaft", "N m", "drive torque with the shaft's own mass, clockwise positive", body.drive_torque_Nm});
+}
+
+/// A couple that no machine part carries is worth a word once it matters.
+void warn_of_guide(kinetics::LoadHistory& loads, const BodyLoads& body) {
+  if (body.carried_moment_Nm.size() == 0) return;
+  const double most = body.carried_moment_Nm.abs().maxCoeff();
+  if (most > 0.01 * body.carried_moment_scale_Nm)
+    loads.warnings.push_back(fmt::format(
+        "pitch is off: {} stresses contain a guide couple of {:.4g} N m, {:.2g} % of the moments on it",
+        body.history.body, most, 100 * most / body.carried_moment_scale_Nm));
+}
+
+}  // namespace
+
+std::vector<kinetics::Spring> springs_of(const Scene& scene) {
+  const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
+  return mill ? mill->springs : std::vector<kinetics::Spring>{};
+}
+
+BodyChannels LoadedScene::channels() const {
+  BodyChannels channels;
+  for (const auto& body : body_loads) channels.push_back(&body.history);
+  return channels;
+}
+
+LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock) {
+  LoadedScene result;
+  result.meshed = std::move(meshed);
+  result.masses = agree_masses(scene, result.meshed);
+  result.loads = clock.run("loads", [&] { return load_stage(scene, result.masses.machine); });
+  for (std::size_t i = 0; i < result.meshed.size(); ++i) {
+    const auto& body = scene.bodies[i];
+    result.body_loads.push_back(clock.run("distribute", [&] {
+      return distribute_body(scene, body, result.loads, loaded_body(body, result.meshed[i]), result.masses);
+    }));
+    const auto& loads = result.body_loads.back();
+    require_closed_loads(loads, result.meshed[i].regions);
+    warn_of_guide(result.loads, loads);
+    if (body.role == BodyRole::train_shaft &&
+        std::none_of(body.train.forces.begin(), body.train.forces.end(),
+                     [&](const auto& force) { return scene.has_effect(force.effect); }))
+      result.loads.warnings.push_back("a drive train gives torsion only: bending is not modelled");
+    add_shaft_quantities(result.loads, loads);
+  }
+  result.bearings = bearing_lives(scene.bearings, result.loads, result.channels());
+  return result;
+}
+
+}  // namespace pipelines

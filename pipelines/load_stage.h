@@ -1,0 +1,36 @@
+/// The load stage and what it hands to the bodies of a scene.
+#pragma once
+
+#include <vector>
+
+#include "kinetics/load_history.h"
+#include "pipelines/body_analysis.h"
+#include "pipelines/load_files.h"
+#include "pipelines/stage_clock.h"
+
+namespace pipelines {
+
+/// Loads of a machine over the scene's period, or its run-up.
+kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine);
+
+/// The springs of a vibratory mill; empty for other machines.
+std::vector<kinetics::Spring> springs_of(const Scene& scene);
+
+/// A scene's bodies, meshed and loaded: ready to be solved.
+struct LoadedScene {
+  std::vector<MeshedBody> meshed;  ///< in the order of Scene::bodies, like body_loads
+  MassAgreement masses;
+  kinetics::LoadHistory loads;
+  std::vector<BodyLoads> body_loads;
+  std::vector<BearingResult> bearings;
+
+  BodyChannels channels() const;
+};
+
+/// @param meshed  in the order of scene.bodies
+/// @throws std::invalid_argument if masses of machine and mesh do not agree, no effect loads a body, or a
+/// bearing's load is none of the scene
+/// @throws std::runtime_error if the loads of a body do not close
+LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock);
+
+}  // namespace pipelines

@@ -1,0 +1,138 @@
+#include "pipelines/refinement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipelines/fineness.h"
+
+namespace pipelines {
+namespace {
+
+constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
+constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
+constexpr double spot_shrinkage = 0.6, spot_radius_cells = 3;
+
+int next_cells(int cells) {
+  const auto next = std::upper_bound(cells_on_quarters.begin(), cells_on_quarters.end(), cells);
+  return next == cells_on_quarters.end() ? cells : *next;
+}
+
+/// Index among the shaft's fillets of each one that may hold the peak, by its own stress and error.
+std::vector<std::size_t> fillets_that_may_lead(const BodyAnalysis& analysis, double leading_Pa) {
+  const auto names = fillets_of(analysis.scene);
+  const auto& places = analysis.places;
+  const auto& maximum = analysis.envelope.von_mises;
+  std::vector<std::size_t> result;
+  for (std::size_t f = 0; f < names.size(); ++f) {
+    const auto feature = std::find(places.feature_names.begin(), places.feature_names.end(), names[f]);
+    if (names[f].empty() || feature == places.feature_names.end()) continue;
+    const auto index = std::int32_t(feature - places.feature_names.begin());
+    std::size_t node = maximum.value_Pa.size();
+    for (std::size_t i = 0; i < maximum.value_Pa.size(); ++i)
+      if (places.feature[i] == index && !places.excluded[i] &&
+          (node == maximum.value_Pa.size() || maximum.value_Pa[i] > maximum.value_Pa[node]))
+        node = i;
+    if (node == maximum.value_Pa.size()) continue;
+    const auto errors = self_estimate({{{node, 1.0}}, maximum.instant[node]}, analysis.responses,
+                                      analysis.loads, analysis.scene.material, 0);
+    if (maximum.value_Pa[node] + errors.of("discretisation") >= leading_Pa) result.push_back(f);
+  }
+  return result;
+}
+
+Refinement refine_evenly(BodyScene& body) {
+  body = with_fineness(body, step_factor);
+  return {true, true, step_factor};
+}
+
+Refinement refine_shaft(BodyScene& body, const BodyAnalysis& analysis, bool stalled) {
+  auto& mesh = std::get<ShaftShape>(body.shape).mesh;
+  const bool on_fillet = analysis.peak.feature.rfind("fillet ", 0) == 0;
+  const auto leading = fillets_that_may_lead(analysis, analysis.peak.value_Pa);
+  if (!on_fillet || stalled || leading.empty()) return refine_evenly(body);
+  mesh.fillet_cells.resize(fillets_of(body).size(), 0);
+  double ratio = 1;
+  for (const auto f : leading) {
+    const int before = mesh.cells_at(int(f)), after = next_cells(before);
+    mesh.fillet_cells[f] = after;
+    ratio = std::max(ratio, double(after) / before);
+  }
+  return {ratio > 1, true, ratio};
+}
+
+/// Mean edge of the cells around a node.
+double cell_size_m(const fem::Nodes& nodes, std::size_t node) {
+  double sum_m = 0;
+  int n = 0;
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto cell = nodes.cell(c);
+    if (std::find(cell.begin(), cell.end(), std::int32_t(node)) == cell.end()) continue;
+    for (int i = 0; i < 4; ++i)  // corners of a tetrahedron
+      for (int j = 0; j < i; ++j, ++n) {
+        const double* a = &nodes.xyz_m[3 * std::size_t(cell[std::size_t(i)])];
+        const double* b = &nodes.xyz_m[3 * std::size_t(cell[std::size_t(j)])];
+        sum_m += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      }
+  }
+  return n > 0 ? sum_m / n : 0;
+}
+
+Refinement refine_solid(BodyScene& body, const BodyAnalysis& analysis) {
+  auto* shaft = std::get_if<ShaftShape>(&body.shape);
+  auto& control = shaft ? shaft->solid : std::get<meshes::Import>(body.shape).control;
+  const double size_m = cell_size_m(analysis.responses.nodes, analysis.peak.node);
+  if (!can_be_refined(body) || size_m == 0) return {};
+  control.fine_spots.push_back(
+      {analysis.peak.position_m, spot_radius_cells * size_m, spot_shrinkage * size_m});
+  control.smallest_size_m = std::min(control.smallest_size_m, spot_shrinkage * size_m);
+  return {true, true, 1 / spot_shrinkage};
+}
+
+}  // namespace
+
+GoverningStress governing_stress(const BodyAnalysis& analysis) {
+  if (analysis.hot_spots.empty())
+    return {"peak von Mises stress", analysis.peak.feature, analysis.peak.value_Pa, analysis.peak.errors};
+  const auto& spot = analysis.hot_spots.front();
+  return {"hot-spot stress", spot.name, spot.von_mises_Pa, analysis.hot_spot_errors};
+}
+
+BodyScene coarsest(const BodyScene& body) {
+  BodyScene result = body;
+  auto* shaft = std::get_if<ShaftShape>(&result.shape);
+  if (shaft == nullptr || !shaft->keyways.empty()) return with_fineness(body, coarser_start);
+  shaft->mesh.cells_per_fillet_quarter = 2;
+  shaft->mesh.fillet_cells.clear();
+  shaft->mesh.n_sectors = 8;
+  return result;
+}
+
+Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis, bool stalled) {
+  BodyScene& body = scene.bodies[index];
+  const auto ledger = governing_stress(analysis).errors;
+  const double discretisation = ledger.of("discretisation") + ledger.of("geometry");
+  const double harmonics = ledger.of("pressure_harmonics"), sampling = ledger.of("time_sampling");
+  if (sampling > std::max(discretisation, harmonics)) {
+    scene.sampling.instants_per_turn *= 2;
+    return {true, false, 1};
+  }
+  if (harmonics > discretisation) {
+    body.pressure_harmonics += 2;
+    for (auto& [port, pressure] : body.pressures) pressure.highest_harmonic += 2;
+    return {body.pressure_harmonics <= 64, false, 1};
+  }
+  const auto* shaft = body.shaft();
+  if (shaft != nullptr && shaft->keyways.empty()) return refine_shaft(body, analysis, stalled);
+  if (std::holds_alternative<ChamberShape>(body.shape)) return refine_evenly(body);
+  return refine_solid(body, analysis);
+}
+
+void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio) {
+  const double missing_Pa = std::abs(change_Pa) / (ratio * ratio - 1);
+  if (ratio > 1 && missing_Pa > ledger.of("discretisation"))
+    ledger.set_numerical(
+        {"discretisation", "change from the coarser mesh over (ratio of cell sizes)^2 - 1", missing_Pa});
+}
+
+}  // namespace pipelines

@@ -1,0 +1,49 @@
+/// Running a body again and again until its headline stress is known well enough: what dominates the error is
+/// refined, everything else stays coarse.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/body_analysis.h"
+#include "pipelines/scene.h"
+
+namespace pipelines {
+
+/// The stress that a tolerance refers to: the hot-spot stress of the worst weld toe where a body has weld
+/// toes, else its peak von Mises stress.
+struct GoverningStress {
+  std::string name;  ///< "peak von Mises stress", "hot-spot stress"
+  std::string place;
+  double value_Pa = 0;
+  ErrorLedger errors;
+
+  /// Numerical part, relative; 0 where nothing is stressed.
+  double relative_error() const { return value_Pa > 0 ? errors.numerical_Pa() / value_Pa : 0; }
+};
+GoverningStress governing_stress(const BodyAnalysis& analysis);
+
+/// What the next step changes.
+struct Refinement {
+  bool possible = false;
+  bool new_mesh = false;
+  double ratio = 1;  ///< of cell sizes at the governing place, before : after
+};
+
+/// The coarsest mesh that a search begins with: 2 cells on every fillet quarter and 8 sectors; cells half as
+/// large again as the scene's on other bodies.
+BodyScene coarsest(const BodyScene& body);
+
+/// Mends what dominates the governing stress's ledger: more instants, more pressure harmonics, or smaller
+/// cells. Cells of a shaft become smaller on those fillets only whose stress with its error could be the
+/// peak; all round once that no longer helps. Bodies of tetrahedra get a fine spot at the peak. The sequence
+/// of meshes does not depend on a tolerance, so that a stricter one never costs less.
+/// @param stalled  the last step of this kind brought less than a quarter
+Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, bool stalled);
+
+/// Two runs tell more than one: if cells became `ratio` times smaller and the stress changed by d, at least
+/// d / (ratio^2 - 1) may be missing still (second order; recovered stress of quadratic cells does better).
+/// Raises the discretisation entry to that.
+void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio);
+
+}  // namespace pipelines

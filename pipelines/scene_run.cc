@@ -1,0 +1,232 @@
+#include "pipelines/scene_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "pipelines/atomic_file.h"
+#include "pipelines/fineness.h"
+#include "pipelines/refinement.h"
+
+namespace pipelines {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr int most_steps = 12;
+/// A step is taken if it is predicted to end in time; predictions are rough.
+constexpr double growth_of_seconds = 1.5;  // with the number of unknowns, for the direct solver
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The files of one body: what becomes its mesh, and what is kept of the search.
+class BodyFiles {
+public:
+  explicit BodyFiles(const fs::path& directory)
+      : directory_(directory), mesh_(std::make_unique<AtomicFile>(directory / "mesh.msh")) {}
+
+  const fs::path& mesh() const { return mesh_->temporary(); }
+  fs::path kept(int step) const { return directory_ / ("search_" + std::to_string(step) + ".h5"); }
+
+  /// The mesh gets its name; responses of the last step become those of the body, the others go.
+  void finish(BodyAnalysis& analysis, MeshedBody& meshed, int last_step) {
+    mesh_->commit();
+    analysis.mesh.file = meshed.mesh.file = meshed.body.mesh = directory_ / "mesh.msh";
+    if (last_step > 0 && fs::exists(kept(last_step)))
+      fs::rename(kept(last_step), directory_ / "unit_responses.h5");
+  }
+
+private:
+  fs::path directory_;
+  std::unique_ptr<AtomicFile> mesh_;
+};
+
+class SceneRunner {
+public:
+  SceneRunner(const Scene& scene, const SceneRunOptions& options, StageClock& clock)
+      : options_(options), clock_(clock), start_(Clock::now()) {
+    run_.scene = scene;
+    for (const auto& body : scene.bodies) files_.emplace_back(options.directory / body.name);
+  }
+
+  SceneRun run() {
+    const bool search = options_.wish.any();
+    if (search)
+      for (auto& body : run_.scene.bodies) body = coarsest(body);
+    std::vector<MeshedBody> meshed;
+    for (std::size_t i = 0; i < n_bodies(); ++i) meshed.push_back(mesh(i));
+    load(std::move(meshed));
+    const auto first_sampling = run_.scene.sampling.instants_per_turn;
+    for (std::size_t i = 0; i < n_bodies(); ++i) {
+      run_.analyses.push_back(search ? search_mesh(i) : analyse(i, {}));
+      if (!search) finish(i, run_.analyses.back(), 0);
+    }
+    if (search && (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
+      agree_at_last();
+    return std::move(run_);
+  }
+
+private:
+  std::size_t n_bodies() const { return run_.scene.bodies.size(); }
+
+  MeshedBody mesh(std::size_t i) {
+    return clock_.run(
+        "mesh", [&] { return mesh_body(run_.scene.bodies[i], files_[i].mesh(), springs_of(run_.scene)); });
+  }
+
+  void load(std::vector<MeshedBody> meshed) {
+    run_.loaded = load_bodies(run_.scene, std::move(meshed), clock_);
+  }
+
+  BodyAnalysis analyse(std::size_t i, const fs::path& responses) {
+    const auto& body = run_.scene.bodies[i];
+    return analyse_body(run_.scene, body, run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                        {options_.directory / body.name, options_.n_threads, options_.fresh, responses},
+                        clock_);
+  }
+
+  void finish(std::size_t i, BodyAnalysis& analysis, int last_step) {
+    files_[i].finish(analysis, run_.loaded.meshed[i], last_step);
+    run_.loaded.meshed[i].model.reset();
+  }
+
+  SearchStep record(std::size_t i, const GoverningStress& stress, const BodyAnalysis& analysis,
+                    double seconds) const {
+    const auto& entries = stress.errors.numerical;
+    const auto largest = std::max_element(
+        entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.value_Pa < b.value_Pa; });
+    return {fineness_text(run_.scene.bodies[i]),
+            run_.scene.sampling.instants_per_turn,
+            run_.scene.bodies[i].pressure_harmonics,
+            analysis.responses.n_dofs,
+            stress.value_Pa,
+            stress.errors.numerical_Pa(),
+            largest->source,
+            seconds};
+  }
+
+  /// Why no further step is taken; empty: one is.
+  std::string reason_to_end(const Search& search, const GoverningStress& stress) const {
+    if (search.tolerance > 0 && stress.relative_error() <= search.tolerance) return "the tolerance is met";
+    if (stress.value_Pa == 0) return "nothing is stressed";
+    if (int(search.steps.size()) >= most_steps) return "too many steps";
+    return {};
+  }
+
+  /// Runs body i until its governing stress is good enough, or nothing more can be done.
+  BodyAnalysis search_mesh(std::size_t i) {
+    Search search;
+    search.tolerance = options_.wish.tolerance;
+    search.time_limit_s = options_.wish.time_limit_s;
+    auto step_start = Clock::now();
+    BodyAnalysis analysis = analyse(i, files_[i].kept(1));
+    double ratio = 1, before_Pa = 0;
+    bool stalled = false;
+    while (true) {
+      auto stress = governing_stress(analysis);
+      if (!search.steps.empty()) learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio);
+      set_errors(analysis, stress.errors);
+      const double seconds = seconds_since(step_start);
+      search.quantity = stress.name;
+      search.steps.push_back(record(i, stress, analysis, seconds));
+      search.ended = reason_to_end(search, stress);
+      if (!search.ended.empty()) break;
+
+      step_start = Clock::now();
+      before_Pa = stress.value_Pa;
+      Scene next = run_.scene;
+      const auto refinement = refine(next, i, analysis, stalled);
+      if (!refinement.possible) {
+        search.ended = "the mesh cannot be refined further";
+        break;
+      }
+      ratio = refinement.ratio;
+      const double error_before_Pa = stress.errors.numerical_Pa();
+      if (!take(std::move(next), i, refinement, search, analysis, seconds)) break;
+      const auto changed = governing_stress(analysis).errors.numerical_Pa();
+      stalled = refinement.new_mesh && changed > 0.75 * error_before_Pa;
+    }
+    search.met = search.tolerance == 0 || governing_stress(analysis).relative_error() <= search.tolerance;
+    const int last = int(search.steps.size());
+    analysis.search = std::move(search);
+    finish(i, analysis, last);
+    return analysis;
+  }
+
+  /// Takes the next step, unless it would not end in time or cannot be meshed.
+  bool take(Scene next, std::size_t i, const Refinement& refinement, Search& search, BodyAnalysis& analysis,
+            double seconds_before) {
+    const Scene previous = std::exchange(run_.scene, std::move(next));
+    MeshedBody finer = run_.loaded.meshed[i];
+    if (refinement.new_mesh) {
+      try {
+        finer = mesh(i);
+      } catch (const std::runtime_error& error) {
+        run_.scene = previous;
+        search.ended = std::string("a finer mesh failed: ") + error.what();
+        return false;
+      }
+    }
+    const double growth = double(finer.model->n_dofs()) / double(analysis.responses.n_dofs);
+    search.next_seconds = seconds_before * std::pow(growth, growth_of_seconds);
+    if (search.time_limit_s > 0 && seconds_since(start_) + search.next_seconds > search.time_limit_s) {
+      run_.scene = previous;
+      search.ended = "the time is up";
+      if (refinement.new_mesh) run_.loaded.meshed[i] = mesh(i);
+      return false;
+    }
+    auto meshed = std::move(run_.loaded.meshed);
+    meshed[i] = std::move(finer);
+    load(std::move(meshed));
+    const int step = int(search.steps.size());
+    analysis = analyse(i, files_[i].kept(step + 1));
+    std::error_code ignored;
+    fs::remove(files_[i].kept(step), ignored);
+    return true;
+  }
+
+  static void set_errors(BodyAnalysis& analysis, const ErrorLedger& errors) {
+    (analysis.hot_spots.empty() ? analysis.peak.errors : analysis.hot_spot_errors) = errors;
+  }
+
+  /// Masses and instants may have changed after a body was done: its loads are computed and superposed again,
+  /// with the responses it has.
+  void agree_at_last() {
+    auto meshed = std::move(run_.loaded.meshed);
+    load(std::move(meshed));
+    for (std::size_t i = 0; i < n_bodies(); ++i) {
+      BodyAnalysis before = std::move(run_.analyses[i]);
+      const auto errors = governing_stress(before).errors;
+      auto& after = run_.analyses[i];
+      after =
+          superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                         std::move(before.responses), options_.n_threads, clock_);
+      after.responses_reused = before.responses_reused;
+      after.search = std::move(before.search);
+      set_errors(after, errors);
+    }
+  }
+
+  SceneRunOptions options_;
+  StageClock& clock_;
+  Clock::time_point start_;
+  SceneRun run_;
+  std::vector<BodyFiles> files_;
+};
+
+}  // namespace
+
+bool SceneRun::met() const {
+  return std::all_of(analyses.begin(), analyses.end(), [](const auto& a) { return a.search.met; });
+}
+
+SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock) {
+  return SceneRunner(scene, options, clock).run();
+}
+
+}  // namespace pipelines

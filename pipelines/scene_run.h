@@ -1,0 +1,34 @@
+/// The bodies of a scene from mesh to zones: once, as the scene has them, or refined until a tolerance is
+/// met.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "pipelines/load_stage.h"
+#include "pipelines/search.h"
+
+namespace pipelines {
+
+struct SceneRunOptions {
+  std::filesystem::path directory;  ///< every body has a folder of its own in it
+  int n_threads = 0;                ///< 0: all cores
+  bool fresh = false;               ///< reuse nothing of an earlier run
+  SearchWish wish;
+};
+
+struct SceneRun {
+  Scene scene;  ///< with the meshes, instants and harmonics that were chosen
+  LoadedScene loaded;
+  std::vector<BodyAnalysis> analyses;  ///< in the order of Scene::bodies
+
+  /// False if a tolerance was asked for and is not reached.
+  bool met() const;
+};
+
+/// Leaves mesh.msh and unit_responses.h5 in the bodies' folders. Needs an fem::Environment.
+/// @throws std::invalid_argument, std::runtime_error as load_bodies and analyse_body, before any earlier
+/// result is touched where the scene is wrong
+SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock);
+
+}  // namespace pipelines

@@ -1,0 +1,35 @@
+/// The way of a run to its tolerance, as values: every mesh that was tried, and why it ended.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pipelines {
+
+/// One run on the way.
+struct SearchStep {
+  std::string fineness;  ///< of the mesh, in words
+  int instants_per_turn = 0, pressure_harmonics = 0;
+  std::size_t n_dofs = 0;
+  double value_Pa = 0, error_Pa = 0;  ///< of the governing stress; the numerical part of its ledger
+  std::string dominated_by;           ///< source of the largest entry
+  double seconds = 0;                 ///< of this step
+};
+
+struct Search {
+  std::string quantity;     ///< the stress that the tolerance refers to
+  double tolerance = 0;     ///< relative; 0: as good as the time allows
+  double time_limit_s = 0;  ///< of the whole run; 0: none
+  bool met = true;
+  std::string ended;                ///< why no further step was taken
+  double next_seconds = 0;          ///< what the next step was predicted to take; 0: none was planned
+  std::vector<SearchStep> steps{};  ///< none: the scene's own mesh, once
+};
+
+/// What a run is asked for beside the scene's mesh; neither: that mesh as it is.
+struct SearchWish {
+  double tolerance = 0, time_limit_s = 0;
+  bool any() const { return tolerance > 0 || time_limit_s > 0; }
+};
+
+}  // namespace pipelines
