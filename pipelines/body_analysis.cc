@@ -44,7 +44,7 @@ fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body
         loads.unit_loads, planes, fem::Recovery::patch,
         [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
-  clock.run("write", [&] { write_unit_responses(file, key, responses); });
+  if (options.keep) clock.run("write", [&] { write_unit_responses(file, key, responses); });
   return responses;
 }
 

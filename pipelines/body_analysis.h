@@ -62,6 +62,7 @@ struct RunOptions {
   std::filesystem::path directory;    ///< of this body
   int n_threads = 0;                  ///< 0: all cores
   bool fresh = false;                 ///< do not reuse unit responses of an earlier run
+  bool keep = true;                   ///< unit responses, for the next run
   std::filesystem::path responses{};  ///< file that keeps them; empty: unit_responses.h5 in the directory
 };
 

@@ -13,28 +13,20 @@
 #include "pipelines/body_analysis.h"
 #include "pipelines/calculix_cards.h"
 #include "pipelines/effect_report.h"
+#include "pipelines/fem_environment.h"
 #include "pipelines/load_files.h"
 #include "pipelines/load_statistics.h"
 #include "pipelines/mill_reports.h"
+#include "pipelines/option_value.h"
 #include "pipelines/picture.h"
 #include "pipelines/results.h"
 #include "pipelines/scene.h"
 #include "pipelines/scene_run.h"
 #include "pipelines/summary.h"
 #include "pipelines/torsion_report.h"
-#include "pipelines/units.h"
 
 namespace pipelines {
 namespace {
-
-/// @throws std::invalid_argument naming the option
-double option_in_si(const char* option, const std::string& text, const std::string& unit) {
-  try {
-    return to_si(text, unit);
-  } catch (const UnitError& error) {
-    throw std::invalid_argument(std::string(option) + ' ' + text + ": " + error.what());
-  }
-}
 
 /// The envelope as a picture; a machine that cannot draw gets a line instead.
 void draw(const std::filesystem::path& directory, const std::string& title, const std::string& body) {
@@ -61,16 +53,6 @@ void print_cost(std::ostream& out, std::size_t n_dofs) {
                      2.7 * std::pow(double(n_dofs) / 203e3, 1.38));
 }
 
-/// MPI takes half a second and may talk: only where a body is looked at.
-struct Solver {
-  explicit Solver(int n_threads) : environment(argc, argv, n_threads) {}
-  char name[11] = "millstress";
-  char* arguments[2] = {name, nullptr};
-  char** argv = arguments;
-  int argc = 1;
-  fem::Environment environment;
-};
-
 /// Meshes all bodies, each to a temporary name beside its place.
 std::vector<MeshedBody> mesh_bodies(const Scene& scene,
                                     const std::vector<std::unique_ptr<AtomicFile>>& files) {
@@ -83,7 +65,7 @@ std::vector<MeshedBody> mesh_bodies(const Scene& scene,
 /// Masses that only a mesh can tell, for commands that need no more of it; the meshes are thrown away.
 Machine machine_with_masses(const Scene& scene, int n_threads) {
   if (scene.masses_from_mesh.empty()) return scene.machine;
-  const Solver solver(n_threads);
+  const FemEnvironment environment(n_threads);
   std::vector<std::unique_ptr<AtomicFile>> scratch;
   for (const auto& body : scene.bodies)
     scratch.push_back(std::make_unique<AtomicFile>(std::filesystem::temp_directory_path() /
@@ -127,7 +109,7 @@ SearchWish wish_of(const CommandOptions& options, const Scene& scene) {
 void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& scene,
                 const std::filesystem::path& directory, StageClock& clock) {
   const auto wish = wish_of(options, scene);
-  const Solver solver(options.n_threads);
+  const FemEnvironment environment(options.n_threads);
   auto run = run_scene(scene, {directory, options.n_threads, options.fresh, wish}, clock);
   const auto& loads = run.loaded.loads;
   const auto channels = run.loaded.channels();
@@ -217,7 +199,7 @@ void check_command(const CommandOptions& options, std::ostream& out) {
 
   // The mesh is a second's work and the only honest answer to what will be solved; it is made aside and
   // thrown away.
-  const Solver solver(options.n_threads);
+  const FemEnvironment environment(options.n_threads);
   std::vector<std::unique_ptr<AtomicFile>> scratch;
   for (const auto& body : scene.bodies)
     scratch.push_back(std::make_unique<AtomicFile>(

@@ -19,7 +19,9 @@ struct CommandOptions {
   std::filesystem::path calculix;     ///< loads only: prefix of the files of cards; empty: none
   std::filesystem::path statistics;   ///< loads only: directory of statistics; empty: none
   std::string threshold = "1 %";      ///< effects only: what may change when effects are left out
-  std::string tolerance, time_limit;  ///< run: override the scene's; empty: the scene's
+  std::string tolerance, time_limit;  ///< run, accuracy: override the scene's; empty: the scene's
+  std::string body, reference;        ///< accuracy: of this body alone; a known stress; empty: all, none
+  int n_repeats = 1;                  ///< accuracy: of each run
   int n_threads = 0;                  ///< 0: all cores
   bool fresh = false;
   bool json = false;  ///< the summary as JSON instead of the table
@@ -49,6 +51,10 @@ void springs_command(const CommandOptions& options, std::ostream& out);
 
 /// `millstress extremes`: a vibratory mill's loads over all angles of drive and charge.
 void extremes_command(const CommandOptions& options, std::ostream& out);
+
+/// `millstress accuracy`: error against seconds on every rung of the ladder of fidelity, as table, CSV, HDF5
+/// and chart. The directory defaults to results/<scene's name>; files go into its folder accuracy.
+void accuracy_command(const CommandOptions& options, std::ostream& out);
 
 /// `millstress ports`: every body's surface with its ports marked, as VTU and as a picture. The directory
 /// defaults to results/<scene's name>. Meshes the bodies, solves nothing.

@@ -85,6 +85,12 @@ double ErrorLedger::total_Pa() const {
   return numerical_Pa() + sum_of(model);
 }
 
+std::string ErrorLedger::largest() const {
+  const auto entry = std::max_element(numerical.begin(), numerical.end(),
+                                      [](const auto& a, const auto& b) { return a.value_Pa < b.value_Pa; });
+  return entry == numerical.end() ? "" : entry->source;
+}
+
 double ErrorLedger::of(const std::string& source) const {
   for (const auto* entries : {&numerical, &model})
     for (const auto& entry : *entries)

@@ -25,6 +25,8 @@ struct ErrorLedger {
 
   double numerical_Pa() const;
   double total_Pa() const;
+  /// Source of the largest numerical entry; empty without any.
+  std::string largest() const;
   /// 0 if the ledger has no such entry.
   double of(const std::string& source) const;
   /// Replaces the entry of that source, or adds it.

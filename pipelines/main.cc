@@ -83,6 +83,18 @@ int main(int argc, char** argv) {
   springs->add_flag("--json", options.json, "print JSON instead of the table");
   auto* extremes = add("extremes", "a vibratory mill's loads over all angles of drive and charge");
   extremes->add_flag("--json", options.json, "print JSON instead of the table");
+  auto* accuracy = add("accuracy", "what accuracy costs in time: error against seconds, as table and chart");
+  accuracy->add_option("-o,--output", options.output, "result directory (default: results/<scene>)");
+  accuracy->add_option("--body", options.body, "this body alone, like shaft");
+  accuracy->add_option("--tolerance", options.tolerance,
+                       "what a run is chosen for (default: the scene's, or \"5 %\")");
+  accuracy->add_option("--time-limit", options.time_limit, "for each body (default: \"600 s\")");
+  accuracy->add_option("--reference", options.reference,
+                       "a known stress, like \"104.8 MPa\" (default: an overkill run)");
+  accuracy->add_option("--repeats", options.n_repeats, "of every run, for the spread of its seconds")
+      ->check(CLI::Range(1, 100));
+  accuracy->add_option("--threads", options.n_threads, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 1024));
   auto* ports = add("ports", "pictures of the bodies with their ports coloured and named");
   ports->add_option("-o,--output", options.output, "result directory (default: results/<scene>)");
   auto* check =
@@ -110,6 +122,8 @@ int main(int argc, char** argv) {
       pipelines::springs_command(options, std::cout);
     } else if (extremes->parsed()) {
       pipelines::extremes_command(options, std::cout);
+    } else if (accuracy->parsed()) {
+      pipelines::accuracy_command(options, std::cout);
     } else if (ports->parsed()) {
       pipelines::ports_command(options, std::cout);
     } else if (check->parsed()) {

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
+constexpr double share_of_own_estimate = 0.5;  // a floor: two meshes may agree by chance
 constexpr double spot_shrinkage = 0.6, spot_radius_cells = 3;
 
 int next_cells(int cells) {
@@ -50,7 +51,12 @@ Refinement refine_shaft(BodyScene& body, const BodyAnalysis& analysis, bool stal
   auto& mesh = std::get<ShaftShape>(body.shape).mesh;
   const bool on_fillet = analysis.peak.feature.rfind("fillet ", 0) == 0;
   const auto leading = fillets_that_may_lead(analysis, analysis.peak.value_Pa);
-  if (!on_fillet || stalled || leading.empty()) return refine_evenly(body);
+  if (!on_fillet || stalled || leading.empty()) {
+    mesh.n_sectors = with_fineness(body, step_factor).shaft()->mesh.n_sectors;
+    mesh.growth /= step_factor;
+    mesh.largest_cell_m /= step_factor;
+    return {true, true, step_factor};
+  }
   mesh.fillet_cells.resize(fillets_of(body).size(), 0);
   double ratio = 1;
   for (const auto f : leading) {
@@ -129,10 +135,17 @@ Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis,
 }
 
 void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio) {
+  if (!(ratio > 1)) return;
   const double missing_Pa = std::abs(change_Pa) / (ratio * ratio - 1);
-  if (ratio > 1 && missing_Pa > ledger.of("discretisation"))
+  const double own_Pa = share_of_own_estimate * ledger.of("discretisation") / discretisation_safety;
+  if (missing_Pa > own_Pa)
     ledger.set_numerical(
         {"discretisation", "change from the coarser mesh over (ratio of cell sizes)^2 - 1", missing_Pa});
+  else
+    ledger.set_numerical({"discretisation",
+                          "half of recovered stress against single cells around: the change from the coarser "
+                          "mesh is smaller",
+                          own_Pa});
 }
 
 }  // namespace pipelines

@@ -41,9 +41,9 @@ BodyScene coarsest(const BodyScene& body);
 /// @param stalled  the last step of this kind brought less than a quarter
 Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, bool stalled);
 
-/// Two runs tell more than one: if cells became `ratio` times smaller and the stress changed by d, at least
-/// d / (ratio^2 - 1) may be missing still (second order; recovered stress of quadratic cells does better).
-/// Raises the discretisation entry to that.
+/// Two meshes tell more than one. If cells became `ratio` times smaller and the stress changed by d, about
+/// d / (ratio^2 - 1) is missing still (second order; recovered stress of quadratic cells does better). The
+/// discretisation entry becomes that, or half of what single cells differ by if that is more.
 void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio);
 
 }  // namespace pipelines

@@ -87,8 +87,8 @@ void print_search(std::ostream& out, const Search& search) {
   int n = 0;
   for (const auto& step : search.steps)
     out << fmt::format("    step {:<17}{:>9.1f}{:>9.1f}%{:>11}{:>9.1f}  {}; {}\n", ++n, step.value_Pa / 1e6,
-                       step.value_Pa > 0 ? 100 * step.error_Pa / step.value_Pa : 0.0, step.n_dofs,
-                       step.seconds, step.dominated_by, step.fineness);
+                       step.value_Pa > 0 ? 100 * step.errors.numerical_Pa() / step.value_Pa : 0.0,
+                       step.n_dofs, step.seconds, step.errors.largest(), step.fineness);
   out << fmt::format("  {}: {}", search.met ? "ended" : "NOT MET", search.ended);
   if (search.tolerance > 0) out << fmt::format("; {:.3g} % was asked", 100 * search.tolerance);
   if (search.ended == "the time is up")

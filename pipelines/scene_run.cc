@@ -57,22 +57,31 @@ public:
   SceneRun run() {
     const bool search = options_.wish.any();
     if (search)
-      for (auto& body : run_.scene.bodies) body = coarsest(body);
+      for (const auto i : wanted()) run_.scene.bodies[i] = coarsest(run_.scene.bodies[i]);
     std::vector<MeshedBody> meshed;
-    for (std::size_t i = 0; i < n_bodies(); ++i) meshed.push_back(mesh(i));
+    for (std::size_t i = 0; i < n_bodies(); ++i)
+      meshed.push_back(is_wanted(i) ? mesh(i) : options_.others.at(i));
     load(std::move(meshed));
     const auto first_sampling = run_.scene.sampling.instants_per_turn;
-    for (std::size_t i = 0; i < n_bodies(); ++i) {
+    for (const auto i : wanted()) {
       run_.analyses.push_back(search ? search_mesh(i) : analyse(i, {}));
       if (!search) finish(i, run_.analyses.back(), 0);
     }
-    if (search && (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
+    if (search && !options_.only &&
+        (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
       agree_at_last();
     return std::move(run_);
   }
 
 private:
   std::size_t n_bodies() const { return run_.scene.bodies.size(); }
+  bool is_wanted(std::size_t i) const { return !options_.only || *options_.only == i; }
+  std::vector<std::size_t> wanted() const {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < n_bodies(); ++i)
+      if (is_wanted(i)) indices.push_back(i);
+    return indices;
+  }
 
   MeshedBody mesh(std::size_t i) {
     return clock_.run(
@@ -85,9 +94,10 @@ private:
 
   BodyAnalysis analyse(std::size_t i, const fs::path& responses) {
     const auto& body = run_.scene.bodies[i];
-    return analyse_body(run_.scene, body, run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                        {options_.directory / body.name, options_.n_threads, options_.fresh, responses},
-                        clock_);
+    return analyse_body(
+        run_.scene, body, run_.loaded.meshed[i], run_.loaded.body_loads[i],
+        {options_.directory / body.name, options_.n_threads, options_.fresh, options_.keep, responses},
+        clock_);
   }
 
   void finish(std::size_t i, BodyAnalysis& analysis, int last_step) {
@@ -97,16 +107,13 @@ private:
 
   SearchStep record(std::size_t i, const GoverningStress& stress, const BodyAnalysis& analysis,
                     double seconds) const {
-    const auto& entries = stress.errors.numerical;
-    const auto largest = std::max_element(
-        entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.value_Pa < b.value_Pa; });
     return {fineness_text(run_.scene.bodies[i]),
             run_.scene.sampling.instants_per_turn,
             run_.scene.bodies[i].pressure_harmonics,
             analysis.responses.n_dofs,
             stress.value_Pa,
-            stress.errors.numerical_Pa(),
-            largest->source,
+            stress.errors,
+            analysis.envelope.principal.value_Pa[analysis.principal_node],
             seconds};
   }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "pipelines/load_stage.h"
@@ -14,13 +15,16 @@ struct SceneRunOptions {
   std::filesystem::path directory;  ///< every body has a folder of its own in it
   int n_threads = 0;                ///< 0: all cores
   bool fresh = false;               ///< reuse nothing of an earlier run
-  SearchWish wish;
+  bool keep = true;                 ///< unit responses, for the next run
+  SearchWish wish{};
+  std::optional<std::size_t> only{};  ///< this body alone is meshed and solved...
+  std::vector<MeshedBody> others{};   ///< ...beside these meshes, in the order of Scene::bodies
 };
 
 struct SceneRun {
   Scene scene;  ///< with the meshes, instants and harmonics that were chosen
   LoadedScene loaded;
-  std::vector<BodyAnalysis> analyses;  ///< in the order of Scene::bodies
+  std::vector<BodyAnalysis> analyses;  ///< in the order of Scene::bodies, or of the only body
 
   /// False if a tolerance was asked for and is not reached.
   bool met() const;

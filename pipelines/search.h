@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/error_ledger.h"
+
 namespace pipelines {
 
 /// One run on the way.
@@ -11,9 +13,10 @@ struct SearchStep {
   std::string fineness;  ///< of the mesh, in words
   int instants_per_turn = 0, pressure_harmonics = 0;
   std::size_t n_dofs = 0;
-  double value_Pa = 0, error_Pa = 0;  ///< of the governing stress; the numerical part of its ledger
-  std::string dominated_by;           ///< source of the largest entry
-  double seconds = 0;                 ///< of this step
+  double value_Pa = 0;      ///< of the governing stress
+  ErrorLedger errors;       ///< likewise
+  double principal_Pa = 0;  ///< largest principal stress outside the exclusion distances
+  double seconds = 0;       ///< of this step
 };
 
 struct Search {

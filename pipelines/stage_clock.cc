@@ -3,12 +3,22 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <fstream>
 
 namespace pipelines {
 
 double peak_memory_gigabytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string key; status >> key;) {
+    double kilobytes = 0;
+    if (key == "VmHWM:" && status >> kilobytes) return kilobytes * 1024 / 1e9;
+  }
   rusage usage{};
   return getrusage(RUSAGE_SELF, &usage) == 0 ? double(usage.ru_maxrss) * 1024 / 1e9 : 0.0;
+}
+
+void forget_peak_memory() {
+  std::ofstream("/proc/self/clear_refs") << 5;
 }
 
 StageClock::Timer::Timer(StageClock& clock, std::string stage)

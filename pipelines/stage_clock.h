@@ -14,8 +14,12 @@ struct StageCost {
   double peak_gigabytes = 0;  ///< resident memory of the process, largest so far
 };
 
-/// Largest resident memory of this process so far [GB]; 0 where the system does not say.
+/// Largest resident memory of this process so far, or since it was last forgotten [GB]; 0 where the system
+/// does not say.
 double peak_memory_gigabytes();
+
+/// Lets the peak begin anew from what is resident now, where the system allows it (Linux).
+void forget_peak_memory();
 
 /// Told what happens while it happens. Empty functions are not called.
 struct ProgressListener {

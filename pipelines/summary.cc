@@ -56,8 +56,8 @@ Json search_json(const Search& search) {
                              {"pressure_harmonics", step.pressure_harmonics},
                              {"dofs", step.n_dofs},
                              {"value_Pa", number(step.value_Pa)},
-                             {"error_Pa", number(step.error_Pa)},
-                             {"dominated_by", step.dominated_by}});
+                             {"error", ledger_json(step.errors)},
+                             {"dominated_by", step.errors.largest()}});
   return json;
 }
 

@@ -1,0 +1,63 @@
+/// What accuracy costs in time: one body of a scene on every rung of the ladder of fidelity, against a
+/// reference.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/error_ledger.h"
+#include "pipelines/scene.h"
+#include "pipelines/stage_clock.h"
+
+namespace pipelines {
+
+/// One run on one rung.
+struct AccuracyRow {
+  std::string rung;      ///< "beam", "axisymmetric", "even mesh", "refined mesh", "fewer instants"
+  std::string fineness;  ///< in words
+  int instants_per_turn = 0;
+  std::size_t n_dofs = 0;
+  double value_Pa = 0;               ///< of the governing stress (refinement.h)
+  double principal_Pa = 0;           ///< largest principal stress outside the exclusion distances
+  ErrorLedger errors;                ///< of the governing stress
+  std::vector<StageCost> stages;     ///< what this run itself took; a refined mesh: all steps up to it
+  double seconds = 0, spread_s = 0;  ///< mean and range over the repeats
+  double gigabytes = 0;              ///< largest resident memory during the run
+  double true_error_Pa = 0;          ///< |value - reference|
+  bool is_reference = false;
+  bool on_frontier = false;  ///< no cheaper run is closer to the reference
+};
+
+/// Estimated over true error; infinite where the run meets the reference exactly.
+double effectivity(const AccuracyRow& row);
+
+struct AccuracyStudy {
+  std::string body, quantity;
+  std::vector<AccuracyRow> rows;  ///< cheapest first
+  double reference_Pa = 0;
+  double reference_error_Pa = 0;      ///< of an overkill run by its own ledger; 0: a known value
+  std::string reference;              ///< what it is, in words
+  double tolerance = 0;               ///< relative
+  std::optional<std::size_t> chosen;  ///< cheapest row whose estimate is within the tolerance
+  std::string next_factor_of_two;     ///< a sentence
+};
+
+struct AccuracyOptions {
+  std::filesystem::path directory;  ///< of the body's scratch files
+  int n_threads = 0;
+  double time_limit_s = 600;  ///< of the study of one body; finer runs are left out
+  double tolerance = 0.05;    ///< if the scene has none
+  int n_repeats = 1;          ///< of every run that takes less than a tenth of the time
+  double reference_Pa = 0;    ///< a known value; 0: an overkill run
+};
+
+/// Runs the ladder for one body, cheapest first: beam and axisymmetric harmonics (round shafts), the scene's
+/// mesh from half as fine to several times finer, with fewer instants, and meshes refined where stress asks
+/// for it. The last of these is the overkill run that the others are compared with, unless a value is known.
+/// Needs an fem::Environment.
+AccuracyStudy study_accuracy(const Scene& scene, std::size_t body, const AccuracyOptions& options,
+                             StageClock& clock);
+
+}  // namespace pipelines

@@ -1,0 +1,36 @@
+/// An accuracy study as a table, CSV and HDF5.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <vector>
+
+#include "pipelines/accuracy.h"
+
+namespace pipelines {
+
+/// The table on the terminal, with what it ran on.
+void print_accuracy(std::ostream& out, const AccuracyStudy& study);
+
+/// One row per run: rung, mesh, unknowns, stress, every entry of the ledger, true error, seconds per stage,
+/// memory.
+/// @throws std::runtime_error naming the file if it cannot be written
+void write_accuracy_csv(const std::filesystem::path& file, const AccuracyStudy& study);
+
+/// /<body>/<series>, the columns of the CSV; reference, tolerance, machine and versions are attributes.
+/// @throws std::runtime_error naming the file if it cannot be written
+void write_accuracy_h5(const std::filesystem::path& file, const std::vector<AccuracyStudy>& studies);
+
+/// Effectivity (estimated over true error) of all runs but the references: how many are bounded, the median.
+struct Effectivities {
+  std::size_t n_runs = 0, n_bounded = 0;
+  double median = 0, smallest = 0;
+};
+/// Runs closer to the reference than the reference's own error count as bounded if their estimate says so
+/// much.
+Effectivities effectivities(const AccuracyStudy& study);
+
+/// "AMD EPYC 7B13, 2 threads, 25 GB; millstress 0.1, deal.II 9.4.1, ...".
+std::string machine_and_versions();
+
+}  // namespace pipelines
