@@ -211,19 +211,20 @@ UnitResponses beam_responses(const BeamShaft& shaft, const std::vector<UnitLoad>
   return r;
 }
 
-double beam_model_error(const BeamShaft& shaft) {
+double eccentricity_error(const BeamShaft& shaft) {
   require_sizes(shaft);
   double error = 0;
   for (const auto& shoulder : shoulders_of(shaft)) {
-    double low = 1e300, high = 0;
-    for (int j = 0; j < shaft.n_angles; ++j) {
-      const double k = shoulder.factors(at_angle(shaft, j)).bending;
-      low = std::min(low, k);
-      high = std::max(high, k);
-    }
-    error = std::max(error, (high - low) / (high + low));
+    const double concentric =
+        fillet_factors(2 * shoulder.thin->radius_m, 2 * shoulder.thick->radius_m, shoulder.fillet_m).bending;
+    for (int j = 0; j < shaft.n_angles; ++j)
+      error = std::max(error, std::abs(shoulder.factors(at_angle(shaft, j)).bending / concentric - 1));
   }
-  return fillet_factor_error.bending + error;
+  return error < 1e-12 ? 0 : error;
+}
+
+double beam_model_error(const BeamShaft& shaft) {
+  return fillet_factor_error.bending + eccentricity_error(shaft);
 }
 
 }  // namespace fem

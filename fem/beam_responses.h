@@ -28,9 +28,15 @@ namespace fem {
 /// without a step, an empty list of loads, a body force on a part of the shaft
 UnitResponses beam_responses(const BeamShaft& shaft, const std::vector<UnitLoad>& loads);
 
-/// Bound of the error of a peak stress at the fillets, relative: that of the bending factor, and beside an
-/// eccentric segment half of what the factors of its lowest and its highest shoulder differ by. Pressure
-/// right beside a fillet and sections that go oval are not in it.
+/// Largest relative change of a fillet's bending factor when the shoulder is as high as it really is at an
+/// angle, instead of as high as with concentric segments. 0 without eccentric segments. It estimates, for
+/// peaks at fillets, what concentric shoulders cost (axisymmetric_responses.h), and for the beam, which takes
+/// the height at each angle, how far that may be off.
+/// @throws std::invalid_argument as beam_responses
+double eccentricity_error(const BeamShaft& shaft);
+
+/// Estimate of the error of a peak stress at the fillets, relative: that of the bending factor and
+/// eccentricity_error. Pressure right beside a fillet and sections that go oval are not in it.
 double beam_model_error(const BeamShaft& shaft);
 
 }  // namespace fem

@@ -22,4 +22,17 @@ std::optional<fem::BeamShaft> beam_shaft(const BodyScene& body, const meshes::Bo
 std::optional<fem::UnitResponses> beam_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
                                                  const std::vector<fem::UnitLoad>& loads);
 
+/// Unit responses and what the model behind them leaves out.
+struct AxisymmetricRung {
+  fem::UnitResponses responses;
+  double model_error = 0;  ///< relative, of a peak at a fillet: fem::eccentricity_error
+};
+
+/// Harmonics around the axis (fem/axisymmetric_responses.h) on the half section of the solid's blocks, for
+/// the same features, ports and sharp edges.
+/// @return nothing if the body is no shaft, or has keyways
+/// @throws as fem::axisymmetric_responses
+std::optional<AxisymmetricRung> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                                       const std::vector<fem::UnitLoad>& loads);
+
 }  // namespace pipelines

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 
+#include "fem/beam_responses.h"
 #include "laboratory.h"
 #include "pipelines/body_mesh.h"
 #include "pipelines/cheap_rungs.h"
@@ -93,9 +96,61 @@ TEST_F(ShippedShaft, as_a_beam_peaks_at_the_fillet_of_the_eccentric_seat) {
   EXPECT_EQ(places.place[peak], pipelines::Place::free_surface);
 }
 
+TEST_F(ShippedShaft, as_harmonics_stands_on_the_surface_of_the_mesh) {
+  const auto rung = pipelines::axisymmetric_responses(body, mesh, loads);
+  ASSERT_TRUE(rung);
+  const auto& nodes = rung->responses.nodes;
+  const auto places = pipelines::locate_nodes(nodes, mesh.features, mesh.ports, mesh.sharp_edges);
+  std::vector<char> met(mesh.features.size(), 0);
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    ASSERT_GE(places.feature[i], 0);
+    const auto& feature = mesh.features[std::size_t(places.feature[i])];
+    met[std::size_t(places.feature[i])] = 1;
+    EXPECT_GE(nodes.xyz_m[3 * i + 2], feature.begin_m - 1e-9) << feature.name;
+    EXPECT_LE(nodes.xyz_m[3 * i + 2], feature.end_m + 1e-9) << feature.name;
+  }
+  for (std::size_t f = 0; f < met.size(); ++f) EXPECT_TRUE(met[f]) << mesh.features[f].name;
+}
+
+// The beam's peak may miss that of the harmonics by what it states, and by what the harmonics state.
+TEST_F(ShippedShaft, peaks_alike_on_both_rungs) {
+  const auto beam = pipelines::beam_responses(body, mesh, loads);
+  const auto rung = pipelines::axisymmetric_responses(body, mesh, loads);
+  ASSERT_TRUE(beam && rung);
+  const auto peak_of = [&](const fem::UnitResponses& r) {
+    const auto places = pipelines::locate_nodes(r.nodes, mesh.features, mesh.ports, mesh.sharp_edges);
+    const auto value = von_mises(r);
+    const auto node = pipelines::peak_node(value, places);
+    EXPECT_EQ(places.feature_names[std::size_t(places.feature[node])].substr(0, 6), "fillet");
+    return value[node];
+  };
+  const double a = peak_of(*beam), b = peak_of(rung->responses);
+  std::printf("beam %.0f Pa, harmonics %.0f Pa: %+.2f %%; stated %.1f %% and %.1f %%\n", a, b, 100 * (a / b - 1),
+              100 * fem::beam_model_error(*pipelines::beam_shaft(body, mesh)), 100 * rung->model_error);
+  EXPECT_NEAR(a, b, (fem::beam_model_error(*pipelines::beam_shaft(body, mesh)) + rung->model_error) * b);
+  EXPECT_GT(rung->model_error, 0);
+}
+
 TEST_F(ShippedShaft, has_no_cheap_rung_with_a_keyway) {
   std::get<pipelines::ShaftShape>(body.shape).keyways.emplace_back();
   EXPECT_FALSE(pipelines::beam_responses(body, mesh, loads));
+  EXPECT_FALSE(pipelines::axisymmetric_responses(body, mesh, loads));
 }
 
+TEST_F(ShippedShaft, timing) {
+  const auto bodyloads=[&]{ std::vector<fem::UnitLoad> l; 
+    for (const auto& p : mesh.ports) { if (p.kind==meshes::Port::Kind::face) continue; for (int c=0;c<6;++c) l.push_back(load(p.name, Component(c), (std::string(".")+std::to_string(c)).c_str()));
+      auto surface=std::get<fem::SurfaceResultant>(l.back().shape).surface;
+      for (int n : {0,2,3,4}) { l.push_back({p.name+".c"+std::to_string(n), fem::SeatPressure{surface,n}}); if(n) l.push_back({p.name+".s"+std::to_string(n), fem::SeatPressure{surface,n,1,fem::SeatPressure::Phase::sine}});} }
+    for(int f=0;f<5;++f) l.push_back({"f"+std::to_string(f), fem::BodyForce{fem::BodyForce::Field(f)}});
+ return l; }();
+  for (int rep=0;rep<2;++rep){
+  auto t0=std::chrono::steady_clock::now();
+  const auto b = pipelines::beam_responses(body, mesh, bodyloads);
+  auto t1=std::chrono::steady_clock::now();
+  const auto a = pipelines::axisymmetric_responses(body, mesh, bodyloads);
+  auto t2=std::chrono::steady_clock::now();
+  std::printf("%zu loads: beam %.4f s, axisymmetric %.3f s; dofs %zu, nodes %zu / %zu\n", bodyloads.size(), std::chrono::duration<double>(t1-t0).count(), std::chrono::duration<double>(t2-t1).count(), a->responses.n_dofs, b->nodes.n, a->responses.nodes.n);
+  }
+}
 }  // namespace
