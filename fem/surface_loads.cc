@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/axial_profile.h"
 #include "fem/cell_geometry.h"
 #include "fem/reference_cell.h"
 
@@ -20,39 +21,6 @@ void refuse_impossible(const LoadSurface& surface) {
     throw std::invalid_argument("loaded surface with boundary group " + std::to_string(surface.boundary_id) +
                                 ": radius and length must be positive");
 }
-
-/// The seat's axial profile at z from its middle, scaled to the mean 1.
-class AxialProfile {
-public:
-  explicit AxialProfile(const LoadSurface& surface)
-      : values_(surface.axial_profile), half_length_(surface.length_m / 2) {
-    const bool sensible =
-        std::all_of(values_.begin(), values_.end(), [](double v) { return std::isfinite(v) && v >= 0; });
-    double mean = 0;  // trapezoidal rule, exact for straight lines
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      mean += values_[i] * (i == 0 || i + 1 == values_.size() ? 0.5 : 1.0);
-    if (values_.size() == 1)
-      mean = values_.front();
-    else
-      mean /= double(values_.size()) - 1;
-    if (values_.empty() || !sensible || !(mean > 0))
-      throw std::invalid_argument("axial profile of the surface with boundary group " +
-                                  std::to_string(surface.boundary_id) +
-                                  ": needs values that are not negative, some of them positive");
-    for (double& value : values_) value /= mean;
-  }
-  double operator()(double z) const {
-    if (values_.size() == 1) return values_.front();
-    const double place = std::clamp((z / half_length_ + 1) / 2, 0.0, 1.0) * double(values_.size() - 1);
-    const auto i = std::min(std::size_t(place), values_.size() - 2);
-    const double t = place - double(i);
-    return (1 - t) * values_[i] + t * values_[i + 1];
-  }
-
-private:
-  std::vector<double> values_;
-  double half_length_;
-};
 
 }  // namespace
 

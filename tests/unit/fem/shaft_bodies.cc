@@ -1,8 +1,10 @@
 #include "shaft_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "meshes/half_section.h"
 #include "scratch_directory.h"
 
 namespace fem_tests {
@@ -39,8 +41,25 @@ ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& cont
                             p.end_m - p.begin_m};
   }
   for (const auto& f : mesh.features) result.features[f.name] = f.boundary_id;
-  for (const auto& s : mesh.sections) result.planes.push_back({s.z_m, s.radius_m, s.axis_x_m, s.axis_y_m, s.inner_radius_m});
+  for (const auto& s : mesh.sections)
+    result.planes.push_back({s.z_m, s.radius_m, s.axis_x_m, s.axis_y_m, s.inner_radius_m});
   return result;
+}
+
+fem::MeridianBody half_section(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control) {
+  const auto half = meshes::build_half_section(shaft, control);
+  fem::MeridianBody body;
+  body.material = steel;
+  for (const auto& p : half.points) body.points_m.push_back({p.z_m, p.r_m});
+  for (const auto& q : half.quads) body.cells.push_back({q.corners});
+  for (const auto& e : half.edges) body.edges.push_back({e.ends, e.boundary_id});
+  for (const auto& t : build(shaft, control).body.tori) body.tori.push_back(t);
+  for (const auto& s : shaft.segments)
+    if (s.eccentricity_m != 0)
+      body.eccentric.push_back({s.begin_m, s.end_m, s.diameter_m / 2,
+                                s.eccentricity_m * std::cos(s.eccentricity_angle_rad),
+                                s.eccentricity_m * std::sin(s.eccentricity_angle_rad)});
+  return body;
 }
 
 ShaftBody rod(int n_sectors) {
@@ -51,16 +70,20 @@ ShaftBody rod(int n_sectors) {
   return build(shaft, control);
 }
 
-ShaftBody eccentric_shaft(int cells_per_fillet_quarter) {
+meshes::Shaft small_eccentric_shaft() {
   meshes::Shaft shaft;
   shaft.segments = {{"bearing_1", -0.06, -0.02, 0.03, 0, true},
                     {"seat", -0.02, 0.02, 0.05, 0.002, true},
                     {"bearing_2", 0.02, 0.06, 0.03, 0, true}};
   shaft.fillets_m = {0.003, 0.003};
+  return shaft;
+}
+
+ShaftBody eccentric_shaft(int cells_per_fillet_quarter) {
   meshes::ShaftMeshControl control;
   control.cells_per_fillet_quarter = cells_per_fillet_quarter;
   control.n_sectors = 8;
-  return build(shaft, control);
+  return build(small_eccentric_shaft(), control);
 }
 
 fem::UnitLoad resultant(const ShaftBody& body, const std::string& port,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fem/body.h"
+#include "fem/meridian_body.h"
 #include "fem/unit_load.h"
 #include "fem/unit_responses.h"
 #include "meshes/shaft.h"
@@ -27,10 +28,14 @@ struct ShaftBody {
 /// Meshes the shaft in a directory of this process, which goes when the process ends.
 ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control);
 
+/// The shaft's half section, with the boundary ids of build().
+fem::MeridianBody half_section(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control);
+
 /// Rod of diameter 50 mm and length 200 mm from z = 0: ports end_1, end_2, and its whole surface "rod".
 ShaftBody rod(int n_sectors = 16);
 
 /// Small stepped shaft with an eccentric seat (offset 2 mm along x) between two bearing seats.
+meshes::Shaft small_eccentric_shaft();
 ShaftBody eccentric_shaft(int cells_per_fillet_quarter = 4);
 
 /// One unit load named "<port>.<component>".

@@ -1,0 +1,74 @@
+#include "pipelines/cheap_rungs.h"
+
+#include <cmath>
+
+#include "fem/axisymmetric_responses.h"
+#include "fem/beam_responses.h"
+#include "meshes/half_section.h"
+
+namespace pipelines {
+namespace {
+
+/// The segment whose cylinder a feature of the surface is part of.
+std::size_t segment_at(const meshes::Shaft& shaft, double z_m) {
+  for (std::size_t i = 0; i < shaft.segments.size(); ++i)
+    if (z_m < shaft.segments[i].end_m) return i;
+  return shaft.segments.size() - 1;
+}
+
+fem::MeridianBody meridian_body(const ShaftShape& shape, const meshes::BodyMesh& mesh,
+                                const fem::Material& material) {
+  const auto half = meshes::build_half_section(shape.geometry, shape.mesh);
+  fem::MeridianBody body;
+  body.material = material;
+  for (const auto& p : half.points) body.points_m.push_back({p.z_m, p.r_m});
+  for (const auto& q : half.quads) body.cells.push_back({q.corners});
+  for (const auto& e : half.edges) body.edges.push_back({e.ends, e.boundary_id});
+  for (const auto& t : mesh.tori)
+    body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
+  return body;
+}
+
+}  // namespace
+
+std::optional<fem::BeamShaft> beam_shaft(const BodyScene& body, const meshes::BodyMesh& mesh) {
+  const ShaftShape* shape = body.shaft();
+  if (shape == nullptr || !shape->keyways.empty()) return std::nullopt;
+  const auto& shaft = shape->geometry;
+  fem::BeamShaft beam;
+  beam.material = body.material;
+  for (const auto& s : shaft.segments)
+    beam.segments.push_back({s.begin_m, s.end_m, s.diameter_m / 2, s.bore_m / 2,
+                             s.eccentricity_m * std::cos(s.eccentricity_angle_rad),
+                             s.eccentricity_m * std::sin(s.eccentricity_angle_rad)});
+  std::size_t torus = 0;  // one per fillet that has a step, in the order of the junctions
+  for (std::size_t i = 0; i + 1 < shaft.segments.size(); ++i)
+    if (shaft.fillets_m[i] > 0 && shaft.segments[i].diameter_m != shaft.segments[i + 1].diameter_m)
+      beam.fillets.push_back({i, shaft.fillets_m[i], mesh.tori.at(torus++).boundary_id});
+  using Kind = meshes::Feature::Kind;
+  for (const auto& feature : mesh.features)
+    if (feature.kind == Kind::seat || feature.kind == Kind::surface)
+      beam.pieces.push_back({segment_at(shaft, (feature.begin_m + feature.end_m) / 2), feature.begin_m,
+                             feature.end_m, feature.boundary_id});
+  return beam;
+}
+
+std::optional<fem::UnitResponses> beam_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                                 const std::vector<fem::UnitLoad>& loads) {
+  const auto beam = beam_shaft(body, mesh);
+  if (!beam) return std::nullopt;
+  return fem::beam_responses(*beam, loads);
+}
+
+std::optional<AxisymmetricRung> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                                       const std::vector<fem::UnitLoad>& loads) {
+  const auto beam = beam_shaft(body, mesh);
+  if (!beam) return std::nullopt;
+  auto section = meridian_body(*body.shaft(), mesh, body.material);
+  for (const auto& s : beam->segments)
+    if (s.axis_x_m != 0 || s.axis_y_m != 0)
+      section.eccentric.push_back({s.begin_m, s.end_m, s.radius_m, s.axis_x_m, s.axis_y_m});
+  return AxisymmetricRung{fem::axisymmetric_responses(section, loads), fem::eccentricity_error(*beam)};
+}
+
+}  // namespace pipelines

@@ -1,0 +1,38 @@
+/// The cheap rungs of the ladder of fidelity: unit responses of a shaft in the solid's channels, so that
+/// envelope, peak and places come out of the same functions as the solid's.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fem/beam_shaft.h"
+#include "fem/unit_responses.h"
+#include "pipelines/body_scene.h"
+
+namespace pipelines {
+
+/// The shaft as a beam; nothing for other bodies, nor with keyways.
+std::optional<fem::BeamShaft> beam_shaft(const BodyScene& body, const meshes::BodyMesh& mesh);
+
+/// Beam theory with stress concentration factors (fem/beam_responses.h). Locate its nodes with the features,
+/// ports and sharp edges of `mesh`.
+/// @param mesh  of the same body: its boundary ids
+/// @return nothing if the body is no shaft, or has keyways
+/// @throws std::invalid_argument as fem::beam_responses
+std::optional<fem::UnitResponses> beam_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                                 const std::vector<fem::UnitLoad>& loads);
+
+/// Unit responses and what the model behind them leaves out.
+struct AxisymmetricRung {
+  fem::UnitResponses responses;
+  double model_error = 0;  ///< relative, of a peak at a fillet: fem::eccentricity_error
+};
+
+/// Harmonics around the axis (fem/axisymmetric_responses.h) on the half section of the solid's blocks, for
+/// the same features, ports and sharp edges.
+/// @return nothing if the body is no shaft, or has keyways
+/// @throws as fem::axisymmetric_responses
+std::optional<AxisymmetricRung> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                                       const std::vector<fem::UnitLoad>& loads);
+
+}  // namespace pipelines
