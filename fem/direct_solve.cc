@@ -12,14 +12,14 @@
 namespace fem {
 
 Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
-                        const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
+                        const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                         const BalancedLoads& loads, const StepReport& progress) {
   progress(0.05, "assemble");
   const NodeGraph graph = make_node_graph(grid, cells);
   auto order =
       std::async(std::launch::async, order_nodes, std::cref(graph));  // one thread, while others assemble
   SymmetricMatrix matrix = make_matrix(graph);
-  assemble_stiffness(grid, colours, graph, material, matrix);
+  assemble_stiffness(grid, colours, graph, materials.elastic(), matrix);
   std::optional<Supports> supports;
   if (loads.clamped.empty())
     supports.emplace(choose_supports(grid), matrix);

@@ -9,16 +9,17 @@
 namespace fem {
 
 VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
-                             const std::vector<std::vector<std::int32_t>>& colours, const Body& body)
+                             const std::vector<std::vector<std::int32_t>>& colours, const Body& body,
+                             const CellMaterials& materials)
     : graph_(make_node_graph(grid, cells)),
-      mass_(grid, colours, graph_, body.material.density_kg_m3),
+      mass_(grid, colours, graph_, materials.density_kg_m3()),
       matrix_(make_matrix(graph_)),
       springs_(grid, body.elastic_supports),
       clamped_(clamped_unknowns(grid, body.clamps)) {
   if (!clamped_.empty() && !body.elastic_supports.empty())
     throw std::invalid_argument(
         "natural frequencies of a body with clamps and elastic supports: leave one of them out");
-  assemble_stiffness(grid, colours, graph_, body.material, matrix_);
+  assemble_stiffness(grid, colours, graph_, materials.elastic(), matrix_);
   const auto order = order_nodes(graph_);
   if (!clamped_.empty()) {
     clamp(clamped_, matrix_);

@@ -97,7 +97,7 @@ StressErrors estimate_errors(const Peak& peak, const BodyAnalysis& analysis, con
       von_mises_with(unit, history.values.col((peak.instant + n_instants - 1) % n_instants));
   const double after = von_mises_with(unit, history.values.col((peak.instant + 1) % n_instants));
   const double curvature = before - 2 * peak.value_Pa + after;
-  if (curvature < 0) errors.time_sampling = (before - after) * (before - after) / (-8 * curvature);
+  if (curvature < 0) errors.time_sampling = (before - after) / (-8 * curvature) * (before - after);
 
   Eigen::ArrayXd without = factors;
   const auto belongs = highest_harmonic(analysis.loads.unit_loads);
@@ -109,6 +109,14 @@ StressErrors estimate_errors(const Peak& peak, const BodyAnalysis& analysis, con
         std::max(errors.discretisation, std::abs(von_mises_with(of_cell, factors) - peak.value_Pa));
   errors.linear_solver = analysis.responses.residual * peak.value_Pa;
   return errors;
+}
+
+/// 6 x instants.
+Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, std::size_t node) {
+  const auto n_channels = analysis.responses.channels.size();
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> unit(
+      &analysis.responses.stress_Pa[node * n_channels * 6], 6, Eigen::Index(n_channels));
+  return unit * analysis.loads.history.values.matrix();
 }
 
 Peak headline(const BodyAnalysis& analysis) {
@@ -132,25 +140,6 @@ Peak headline(const BodyAnalysis& analysis) {
 
 double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
   return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
-}
-
-/// Where deflection is measured from.
-std::vector<std::string> references(const BodyScene& body) {
-  switch (body.role) {
-    case BodyRole::vibratory_shaft:
-      return {"main_bearing_1", "main_bearing_2"};
-    case BodyRole::drum:
-      return {"trunnion_1", "trunnion_2"};
-    case BodyRole::stub_axle:
-      return {"clamp"};
-    case BodyRole::train_shaft:
-      return {body.train.bearings[0], body.train.bearings[1]};
-    case BodyRole::table_body:
-      return body.table.bearings;
-    case BodyRole::chamber:
-      break;
-  }
-  return {};
 }
 
 }  // namespace
@@ -217,7 +206,8 @@ void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>&
 }
 
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          BodyLoads loads, const RunOptions& options, StageClock& clock) {
+                          const kinetics::LoadHistory& history, BodyLoads loads, const RunOptions& options,
+                          StageClock& clock) {
   const int n_threads =
       options.n_threads > 0 ? options.n_threads : int(std::max(1u, std::thread::hardware_concurrency()));
   const ShaftShape* shaft = body.shaft();
@@ -248,7 +238,11 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {
       return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
-                              body.material.density_kg_m3, references(body));
+                              body.material.density_kg_m3, supporting_ports(body));
+    });
+  if (body.natural_frequencies > 0)
+    analysis.vibration = clock.run("natural frequencies", [&] {
+      return vibration(scene, body, meshed, history, stress_over_cycle(analysis, analysis.peak.node));
     });
   return analysis;
 }

@@ -12,6 +12,7 @@
 #include "pipelines/body_mesh.h"
 #include "pipelines/closure.h"
 #include "pipelines/diagrams.h"
+#include "pipelines/dynamics.h"
 #include "pipelines/hot_spots.h"
 #include "pipelines/machine_masses.h"
 #include "pipelines/scene.h"
@@ -60,6 +61,7 @@ struct BodyAnalysis {
   std::size_t principal_node = 0;        ///< largest principal stress, likewise
   std::vector<HotSpotStress> hot_spots;  ///< descending
   std::optional<Diagrams> diagrams;      ///< parametric shafts and drums only
+  std::optional<Vibration> vibration;    ///< where the scene asks for natural frequencies
 };
 
 /// Where a run keeps its files and what it may use.
@@ -80,8 +82,10 @@ void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>&
 
 /// Solves and superposes. Writes unit_responses.h5 into the body's directory, nothing else.
 /// @throws std::runtime_error if the solve fails, or if the loads do not close to 1e-9 on the mesh
+/// @param history  of the load stage, that `loads` were distributed from
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          BodyLoads loads, const RunOptions& options, StageClock& clock);
+                          const kinetics::LoadHistory& history, BodyLoads loads, const RunOptions& options,
+                          StageClock& clock);
 
 /// What distribution needs to know of a meshed body.
 LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);

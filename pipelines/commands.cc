@@ -183,9 +183,12 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
     files[i]->commit();
     const auto place = directory / scene.bodies[i].name;
     meshed[i].mesh.file = meshed[i].body.mesh = place / "mesh.msh";
-    analyses.push_back(analyse_body(scene, scene.bodies[i], meshed[i], body_loads[i],
+    analyses.push_back(analyse_body(scene, scene.bodies[i], meshed[i], loads, body_loads[i],
                                     {place, options.n_threads, options.fresh}, clock));
     meshed[i].model.reset();
+    if (const auto& vibration = analyses.back().vibration)
+      if (const auto warning = warning_of(scene.bodies[i], *vibration); !warning.empty())
+        loads.warnings.push_back(warning);
     clock.run("write", [&] { write_body_results(place, scene, loads, analyses.back()); });
     if (scene.pictures) clock.run("pictures", [&] { draw(place, scene.title, scene.bodies[i].name); });
   }
