@@ -60,6 +60,14 @@ std::vector<std::int32_t> pieces_of_cells(const Grid& grid) {
   return parent;
 }
 
+/// Mean of the cell's nodes.
+std::array<double, 3> centre(const Grid& grid, std::size_t cell) {
+  std::array<double, 3> x{};
+  for (int i = 0; i < grid.nodes_per_cell(); ++i)
+    for (int d = 0; d < 3; ++d) x[d] += grid.position(grid.nodes_of(cell)[i])[d] / grid.nodes_per_cell();
+  return x;
+}
+
 }  // namespace
 
 void refuse_several_pieces(const Grid& grid) {
@@ -73,7 +81,7 @@ void refuse_several_pieces(const Grid& grid) {
   std::ostringstream message;
   message << "the mesh is in " << pieces.size() << " pieces that share no face:";
   for (std::size_t k = 0; k < std::min(shown, pieces.size()); ++k) {
-    const double* x = grid.position(grid.nodes_of(std::size_t(pieces[k].first))[0]);
+    const auto x = centre(grid, std::size_t(pieces[k].first));
     message << (k > 0 ? "," : "") << " " << pieces[k].second << " cells near (" << x[0] << ", " << x[1]
             << ", " << x[2] << ") m in volume " << grid.volume_id[pieces[k].first];
   }

@@ -6,7 +6,7 @@
 
 namespace fem {
 
-/// @throws std::runtime_error as CholmodFactor
+/// @throws std::runtime_error as CholmodFactor, or if rounding reaches more than 1 % of displacements
 Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
                         const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                         const BalancedLoads& loads, const StepReport& progress);

@@ -208,6 +208,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
                               responses.solver);
     responses.residual = responses.solver.relative_residual = solution.residual;
     responses.support_reaction = solution.support_reaction;
+    responses.solver.rounding = solution.rounding;
     responses.factor_gigabytes = solution.factor_gigabytes;
     responses.solver.used_bytes = solution.bytes;
     responses.solver.n_iterations = solution.n_iterations;

@@ -74,7 +74,10 @@ void VibratingBody::clear_clamped(Eigen::MatrixXd& vectors) const {
 }
 
 Eigen::MatrixXd VibratingBody::stiffness(const Eigen::MatrixXd& motion) const {
-  Eigen::MatrixXd force = multiply(matrix_, motion);
+  // Rigid motions deform nothing, but K times one is rounding of its size: soft springs' modes drown in it.
+  Eigen::MatrixXd force = multiply(
+      matrix_,
+      clamped_.empty() ? Eigen::MatrixXd(motion - rigid_ * (mass_rigid_.transpose() * motion)) : motion);
   clear_clamped(force);
   const auto& springs = springs_.unit_forces();
   force += springs * (springs_.stiffness_N_m().asDiagonal() * (springs.transpose() * motion));

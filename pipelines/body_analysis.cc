@@ -107,7 +107,8 @@ StressErrors estimate_errors(const Peak& peak, const BodyAnalysis& analysis, con
   for (const auto& of_cell : fem::cell_stress_at_node_Pa(analysis.responses, material, peak.node))
     errors.discretisation =
         std::max(errors.discretisation, std::abs(von_mises_with(of_cell, factors) - peak.value_Pa));
-  errors.linear_solver = analysis.responses.residual * peak.value_Pa;
+  errors.linear_solver =
+      std::max(analysis.responses.residual, analysis.responses.solver.rounding) * peak.value_Pa;
   return errors;
 }
 

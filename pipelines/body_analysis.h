@@ -28,7 +28,7 @@ struct StressErrors {
   double time_sampling = 0;  ///< what a parabola through the neighbouring instants adds to the largest one
   double pressure_harmonics = 0;  ///< what the highest harmonic of the seat pressures contributes
   double discretisation = 0;      ///< recovered stress against that of the cell there that differs most
-  double linear_solver = 0;       ///< relative residual times the stress
+  double linear_solver = 0;       ///< relative residual, or rounding, times the stress
 };
 
 /// One headline stress: where, when, how much.

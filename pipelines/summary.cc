@@ -180,6 +180,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
                     {"reason", solver.reason},
                     {"iterations", solver.used == fem::Solver::iterative ? solver.n_iterations : 0},
                     {"residual", number(analysis.responses.residual)},
+                    {"rounding", number(solver.rounding)},
                     {"support_reaction", number(analysis.responses.support_reaction)},
                     {"factor_gigabytes", number(analysis.responses.factor_gigabytes)}};
   return json;
