@@ -29,6 +29,7 @@ inline constexpr double acceptable_residual = 1e-8;
 struct Solution {
   Eigen::MatrixXd displacement;
   double residual = 0;          ///< largest |K u - f| / |f|
+  double rounding = 0;          ///< as SolverReport
   double support_reaction = 0;  ///< largest, over the load vector's largest entry; 0 without supports
   double factor_gigabytes = 0;
   double bytes = 0;  ///< taken by the solver

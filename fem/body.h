@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,9 @@ struct Body {
   int degree = 2;  ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
   /// None: a free body, whose loads inertia balances. Otherwise they hold all six rigid motions.
   std::vector<Clamp> clamps{};
+  /// By volume group, where it is not `material`. Stress jumps where materials meet: the nodes there appear
+  /// once for each of them in UnitResponses::nodes, and no recovery looks across.
+  std::map<int, Material> material_of_volume{};
 };
 
 /// Mass, first moment and inertia of the meshed body by the quadrature of its load vectors, about the origin.

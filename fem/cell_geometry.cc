@@ -67,7 +67,7 @@ void refuse_inverted_cells(const Grid& grid) {
           const Eigen::Vector3d x = position(grid, c, at, q);
           std::ostringstream message;
           message << "the mesh has an inverted or degenerate cell in volume " << grid.volume_id[c]
-                  << " near (" << x[0] << ", " << x[1] << ", " << x[2]
+                  << " (number " << c + 1 << " of all cells) near (" << x[0] << ", " << x[1] << ", " << x[2]
                   << ") m: refine the mesh there or check its geometry";
           throw std::runtime_error(message.str());
         }

@@ -2,7 +2,7 @@
 
 namespace fem {
 
-CellStress::CellStress(const Grid& grid, const Tabulation& at, const Lame& elastic,
+CellStress::CellStress(const Grid& grid, const Tabulation& at, const PerCell<Lame>& elastic,
                        const ConstBlock& displacement)
     : grid_(grid), at_(at), elastic_(elastic), displacement_(displacement) {}
 
@@ -10,26 +10,27 @@ void CellStress::operator()(std::size_t cell, Eigen::Ref<RowMajor> stress) {
   compute_gradients(grid_, cell, at_, gradients_);
   local_.resize(at_.n_shapes, displacement_.cols());
   for (int i = 0; i < at_.n_shapes; ++i) local_.row(i) = displacement_.row(grid_.nodes_of(cell)[i]);
+  const Lame elastic = elastic_[cell];
   gradient_.noalias() = gradients_.gradient * local_;  // row 3 q + d: derivatives along d
   for (int q = 0; q < at_.n_points; ++q)
     for (Eigen::Index k = 0; k < displacement_.cols() / 3; ++k) {
       const auto g = [&](int component, int along) { return gradient_(3 * q + along, 3 * k + component); };
-      const double dilatation = elastic_.lambda_Pa * (g(0, 0) + g(1, 1) + g(2, 2));
+      const double dilatation = elastic.lambda_Pa * (g(0, 0) + g(1, 1) + g(2, 2));
       double* s = &stress(q, 6 * k);
-      for (int d = 0; d < 3; ++d) s[d] = dilatation + 2 * elastic_.mu_Pa * g(d, d);
-      s[3] = elastic_.mu_Pa * (g(0, 1) + g(1, 0));
-      s[4] = elastic_.mu_Pa * (g(1, 2) + g(2, 1));
-      s[5] = elastic_.mu_Pa * (g(0, 2) + g(2, 0));
+      for (int d = 0; d < 3; ++d) s[d] = dilatation + 2 * elastic.mu_Pa * g(d, d);
+      s[3] = elastic.mu_Pa * (g(0, 1) + g(1, 0));
+      s[4] = elastic.mu_Pa * (g(1, 2) + g(2, 1));
+      s[5] = elastic.mu_Pa * (g(0, 2) + g(2, 0));
     }
 }
 
-FreeFaceStress::FreeFaceStress(const Grid& grid, const Tabulation& at, const Lame& elastic,
+FreeFaceStress::FreeFaceStress(const Grid& grid, const Tabulation& at, const PerCell<Lame>& elastic,
                                const ConstBlock& displacement)
     : grid_(grid), at_(at), elastic_(elastic), displacement_(displacement) {}
 
 void FreeFaceStress::operator()(const BoundaryFace& face, Eigen::Ref<RowMajor> stress) {
   // Plane stress: E / (1 - nu^2), and nu times it.
-  const double lambda = elastic_.lambda_Pa, mu = elastic_.mu_Pa;
+  const auto [lambda, mu] = elastic_[std::size_t(face.cell)];
   const double direct = 4 * mu * (lambda + mu) / (lambda + 2 * mu),
                cross = 2 * mu * lambda / (lambda + 2 * mu);
   const auto nodes = nodes_of_face(grid_, face.cell, face.face);

@@ -19,13 +19,14 @@ using ConstBlock = Eigen::Ref<const RowMajor>;
 /// Hooke's law at the tabulated points of cells; keeps its work space from cell to cell.
 class CellStress {
 public:
-  CellStress(const Grid& grid, const Tabulation& at, const Lame& elastic, const ConstBlock& displacement);
+  CellStress(const Grid& grid, const Tabulation& at, const PerCell<Lame>& elastic,
+             const ConstBlock& displacement);
   void operator()(std::size_t cell, Eigen::Ref<RowMajor> stress);
 
 private:
   const Grid& grid_;
   const Tabulation& at_;
-  Lame elastic_;
+  PerCell<Lame> elastic_;
   ConstBlock displacement_;
   CellGradients gradients_;
   RowMajor local_, gradient_;
@@ -36,13 +37,14 @@ private:
 /// while the derivative across the face, which is not taken, would be the least accurate of all.
 class FreeFaceStress {
 public:
-  FreeFaceStress(const Grid& grid, const Tabulation& at, const Lame& elastic, const ConstBlock& displacement);
+  FreeFaceStress(const Grid& grid, const Tabulation& at, const PerCell<Lame>& elastic,
+                 const ConstBlock& displacement);
   void operator()(const BoundaryFace& face, Eigen::Ref<RowMajor> stress);
 
 private:
   const Grid& grid_;
   const Tabulation& at_;
-  Lame elastic_;
+  PerCell<Lame> elastic_;
   ConstBlock displacement_;
 };
 

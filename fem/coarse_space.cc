@@ -94,7 +94,7 @@ std::vector<Eigen::Matrix<double, 3, 8>> hat_gradients(const Tabulation& at) {
 }  // namespace
 
 CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
-                         const Lame& elastic) {
+                         const PerCell<Lame>& elastic) {
   std::vector<std::int32_t> coarse_of_place;
   const Grid coarse = corner_grid(grid, order, coarse_of_place);
   n_nodes_ = coarse.n_nodes;
@@ -119,7 +119,7 @@ CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::ve
           Eigen::Map<Eigen::Matrix<double, 3, 8>>(scaled.col(q).data()).noalias() =
               to_space.lazyProduct(hats[q]);
         }
-        add_cell_stiffness(scaled, coarse.nodes_of(colour[c]), elastic, graph, products, matrix);
+        add_cell_stiffness(scaled, coarse.nodes_of(colour[c]), elastic[colour[c]], graph, products, matrix);
       }
     });
   supports_ = std::make_unique<Supports>(choose_supports(coarse), matrix);

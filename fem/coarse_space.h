@@ -28,7 +28,7 @@ class CoarseSpace {
 public:
   /// @throws std::runtime_error as CholmodFactor
   CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
-              const Lame& elastic);
+              const PerCell<Lame>& elastic);
 
   std::size_t n_nodes() const noexcept { return n_nodes_; }
   const NodeMatrix& interpolation() const noexcept { return interpolation_; }  ///< P, rows: nodes in order

@@ -1,25 +1,60 @@
 #include "fem/direct_solve.h"
 
+#include <algorithm>
 #include <functional>
 #include <future>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 
 #include "fem/cholmod_factor.h"
 #include "fem/clamps.h"
+#include "fem/solver_prediction.h"
 #include "fem/stiffness.h"
 #include "fem/supports.h"
 
 namespace fem {
 
+namespace {
+
+/// Beyond it displacements are not worth handing on.
+constexpr double most_rounding = 0.01;
+
+/// The largest share of a load case's displacement that the correction is; of those cases that need one.
+double rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& correction,
+                const Eigen::MatrixXd& displacement, const BalancedLoads& loads) {
+  double worst = 0;
+  for (Eigen::Index k = 0; k < rest.cols(); ++k) {
+    if (rest.col(k).norm() <= acceptable_residual * loads.norm[k]) continue;
+    const double size = displacement.col(k).lpNorm<Eigen::Infinity>();
+    worst = std::max(worst, correction.col(k).lpNorm<Eigen::Infinity>() / std::max(size, 1e-300));
+  }
+  return worst;
+}
+
+void refuse_rounding(const Grid& grid, double share) {
+  if (share <= most_rounding) return;
+  std::ostringstream message;
+  message
+      << "rounding reaches " << 100 * share << " % of the displacements, " << 100 * most_rounding
+      << " % at most are accepted: the body is too slender for its cells (stretched up to 1 : "
+      << largest_aspect(grid)
+      << ") or its materials too unlike for a solution in double precision; use cells of a more equal shape, "
+         "shorten the body, or check lengths and moduli";
+  throw std::runtime_error(message.str());
+}
+
+}  // namespace
+
 Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
-                        const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
+                        const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                         const BalancedLoads& loads, const StepReport& progress) {
   progress(0.05, "assemble");
   const NodeGraph graph = make_node_graph(grid, cells);
   auto order =
       std::async(std::launch::async, order_nodes, std::cref(graph));  // one thread, while others assemble
   SymmetricMatrix matrix = make_matrix(graph);
-  assemble_stiffness(grid, colours, graph, material, matrix);
+  assemble_stiffness(grid, colours, graph, materials.elastic(), matrix);
   std::optional<Supports> supports;
   if (loads.clamped.empty())
     supports.emplace(choose_supports(grid), matrix);
@@ -42,7 +77,10 @@ Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
   Eigen::MatrixXd rest = free_force - multiply(matrix, solution.displacement);
   solution.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
   if (solution.residual > acceptable_residual) {
-    solution.displacement += factor.solve(rest);
+    const Eigen::MatrixXd correction = factor.solve(rest);
+    solution.rounding = rounding(rest, correction, solution.displacement, loads);
+    refuse_rounding(grid, solution.rounding);
+    solution.displacement += correction;
     rest = free_force - multiply(matrix, solution.displacement);
     solution.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
   }

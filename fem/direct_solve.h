@@ -2,12 +2,13 @@
 #pragma once
 
 #include "fem/balanced_loads.h"
+#include "fem/cell_materials.h"
 
 namespace fem {
 
-/// @throws std::runtime_error as CholmodFactor
+/// @throws std::runtime_error as CholmodFactor, or if rounding reaches more than 1 % of displacements
 Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
-                        const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
+                        const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                         const BalancedLoads& loads, const StepReport& progress);
 
 }  // namespace fem

@@ -141,9 +141,9 @@ void apply_cell(const CellRange<T>& cells, std::size_t cell, std::size_t first_l
     for (int c = 0; c < 3; ++c) u[c][i] = load<V>(from + (3 * std::size_t(node[i]) + c) * w);
   for (int c = 0; c < 3; ++c) to_points<n>(u[c], cells.value);
   const T* metric = cells.metric + cell * n_local * 9;
+  const T lambda = cells.elastic_Pa[2 * cell], mu = cells.elastic_Pa[2 * cell + 1];
   for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      stress_of_row<n>(u, flux, cells.derivative, metric, cells.lambda_Pa, cells.mu_Pa, j, k);
+    for (int j = 0; j < n; ++j) stress_of_row<n>(u, flux, cells.derivative, metric, lambda, mu, j, k);
   for (int c = 0; c < 3; ++c) {
     divergence<n>(flux[c], u[c], cells.derivative);
     from_points<n>(u[c], cells.value);

@@ -26,10 +26,10 @@ template <typename T>
 struct CellRange {
   int n = 0;                 ///< nodes in each direction, 2 to 4
   const T* value = nullptr;  ///< [point][node] of the one-dimensional shape functions at the Gauss points
-  const T* derivative = nullptr;  ///< [point][point] of the polynomials through the Gauss points, there
-  const T* metric = nullptr;      ///< per cell and point [axis r][direction d]: sqrt(JxW) d xi_r / d x_d
-  T lambda_Pa = 0, mu_Pa = 0;
-  const std::int32_t* node = nullptr;    ///< n^3 per cell: where to read
+  const T* derivative = nullptr;       ///< [point][point] of the polynomials through the Gauss points, there
+  const T* metric = nullptr;           ///< per cell and point [axis r][direction d]: sqrt(JxW) d xi_r / d x_d
+  const T* elastic_Pa = nullptr;       ///< per cell: Lame's lambda and mu
+  const std::int32_t* node = nullptr;  ///< n^3 per cell: where to read
   const std::int32_t* target = nullptr;  ///< n^3 per cell: where to add; see Target
   std::size_t begin = 0, end = 0;
   std::size_t n_nodes = 0, n_copies = 0;  ///< of x and y; of `copies`

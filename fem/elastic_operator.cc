@@ -47,7 +47,7 @@ std::vector<double> cell_metric(const Grid& grid, const CellOrder& order) {
 }
 
 std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
-                                    const std::vector<double>& metric, const Lame& elastic) {
+                                    const std::vector<double>& metric, const PerCell<Lame>& elastic) {
   const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
   const int n_local = grid.nodes_per_cell();
   std::vector<double> products(grid.n_cells() * n_local * 6);  // of a node's gradient with itself
@@ -67,12 +67,13 @@ std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
       }
   });
   std::vector<double> blocks(9 * grid.n_nodes, 0.0);
-  const double both = elastic.lambda_Pa + elastic.mu_Pa;
   for (std::size_t k = 0; k < grid.n_cells(); ++k)
     for (int i = 0; i < n_local; ++i) {
       const double* h = &products[(k * n_local + i) * 6];
       double* block = &blocks[9 * std::size_t(order.node_place[grid.nodes_of(order.cell[k])[i]])];
-      const double trace = elastic.mu_Pa * (h[0] + h[1] + h[2]);
+      const Lame& own = elastic[order.cell[k]];
+      const double both = own.lambda_Pa + own.mu_Pa;
+      const double trace = own.mu_Pa * (h[0] + h[1] + h[2]);
       const double full[9] = {h[0], h[3], h[5], h[3], h[1], h[4], h[5], h[4], h[2]};
       for (int e = 0; e < 9; ++e) block[e] += both * full[e] + (e % 4 == 0 ? trace : 0.0);
     }
@@ -80,7 +81,7 @@ std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
 }
 
 template <typename T>
-ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, const Lame& elastic,
+ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, const PerCell<Lame>& elastic,
                                     std::vector<double> metric, const kernel::Kernels& kernels)
     : kernels_(&kernels),
       n_nodes_(grid.n_nodes),
@@ -90,6 +91,11 @@ ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, co
     metric_ = std::move(metric);
   else
     metric_.assign(metric.begin(), metric.end());
+  elastic_.reserve(2 * grid.n_cells());
+  for (const auto cell : order.cell) {
+    elastic_.push_back(static_cast<T>(elastic[cell].lambda_Pa));
+    elastic_.push_back(static_cast<T>(elastic[cell].mu_Pa));
+  }
   std::vector<dealii::Point<1>> nodes;
   for (int i = 0; i <= grid.degree; ++i)
     nodes.emplace_back(dealii::QGaussLobatto<1>(grid.degree + 1).point(i));
@@ -97,15 +103,14 @@ ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, co
   value_ = tabulate<T>(nodes, points, 0);
   derivative_ = tabulate<T>(points, points, 1);
   cells_.n = grid.degree + 1;
-  cells_.lambda_Pa = static_cast<T>(elastic.lambda_Pa);
-  cells_.mu_Pa = static_cast<T>(elastic.mu_Pa);
   cells_.n_nodes = n_nodes_;
   cells_.n_copies = targets_.copy.size();
 }
 
 template <typename T>
 std::size_t ElasticOperator<T>::bytes() const noexcept {
-  return metric_.size() * sizeof(T) + (targets_.node.size() + targets_.target.size()) * sizeof(std::int32_t);
+  return (metric_.size() + elastic_.size()) * sizeof(T) +
+         (targets_.node.size() + targets_.target.size()) * sizeof(std::int32_t);
 }
 
 template <typename T>
@@ -117,6 +122,7 @@ void ElasticOperator<T>::apply(const Lanes& lanes, const BlockVector<T>& x, Bloc
       cells.value = value_.data();
       cells.derivative = derivative_.data();
       cells.metric = metric_.data();
+      cells.elastic_Pa = elastic_.data();
       cells.node = targets_.node.data();
       cells.target = targets_.target.data();
       cells.begin = part_begin_[part];

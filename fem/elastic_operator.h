@@ -18,14 +18,15 @@ std::vector<double> cell_metric(const Grid& grid, const CellOrder& order);
 
 /// The 3 x 3 diagonal blocks of K (n_nodes x 9), nodes in order.
 std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
-                                    const std::vector<double>& metric, const Lame& elastic);
+                                    const std::vector<double>& metric, const PerCell<Lame>& elastic);
 
 /// Sums are the same bits for every number of threads.
 template <typename T>
 class ElasticOperator {
 public:
   /// @param kernels  one of those of elastic_kernel.h; the machine must have its instructions
-  ElasticOperator(const Grid& grid, const CellOrder& order, const Lame& elastic, std::vector<double> metric,
+  ElasticOperator(const Grid& grid, const CellOrder& order, const PerCell<Lame>& elastic,
+                  std::vector<double> metric,
                   const kernel::Kernels& kernels = kernel::kernels_for_this_machine());
 
   std::size_t n_nodes() const noexcept { return n_nodes_; }
@@ -41,7 +42,7 @@ private:
   std::size_t n_nodes_;
   std::vector<std::size_t> part_begin_;
   AddTargets targets_;
-  std::vector<T> value_, derivative_, metric_;
+  std::vector<T> value_, derivative_, metric_, elastic_;
   kernel::CellRange<T> cells_;  // begin, end and pointers are set by apply
 };
 

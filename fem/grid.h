@@ -30,6 +30,7 @@ struct Grid {
   std::vector<std::int32_t> cell_nodes;  ///< n_cells x nodes_per_cell, in the order above
   std::vector<int> volume_id;            ///< n_cells
   std::vector<BoundaryFace> boundary;
+  std::vector<BoundaryFace> interfaces{};  ///< faces inside the body where no stress is smoothed across
 
   std::size_t n_cells() const noexcept { return volume_id.size(); }
   CellShape shape() const noexcept { return {kind, degree}; }

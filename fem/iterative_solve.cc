@@ -71,16 +71,17 @@ private:
 
 }  // namespace
 
-std::optional<Solution> solve_iteratively(const Grid& grid, const Material& material,
+std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials& materials,
                                           const BalancedLoads& loads, const SolverChoice& choice,
                                           const StepReport& progress, std::string& failure) {
   progress(0.05, "prepare multigrid");
   const CellOrder order = order_cells(grid);
   auto metric = cell_metric(grid, order);
-  const PolynomialMultigrid multigrid(grid, order, metric, material.poisson_ratio);
   // The modulus is taken out: displacements of unit loads on a body of modulus 1.
-  const ElasticOperator<double> stiffness(grid, order, lame({1, material.poisson_ratio, 1}),
-                                          std::move(metric));
+  const double modulus_Pa = materials.largest_modulus_Pa();
+  const auto elastic = materials.elastic(modulus_Pa);
+  const PolynomialMultigrid multigrid(grid, order, metric, elastic);
+  const ElasticOperator<double> stiffness(grid, order, elastic, std::move(metric));
 
   const SerialBlas serial;  // the coarse level's solves are too small to share
   const Block block(order, stiffness, multigrid, choice);
@@ -102,7 +103,7 @@ std::optional<Solution> solve_iteratively(const Grid& grid, const Material& mate
       return std::nullopt;
     }
     solution.displacement.middleCols(first, columns) =
-        displacement.array().rowwise() * (scale / material.youngs_modulus_Pa).array();
+        displacement.array().rowwise() * (scale / modulus_Pa).array();
   }
   solution.bytes += static_cast<double>(stiffness.bytes() + multigrid.bytes());
   return solution;

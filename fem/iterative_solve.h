@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fem/balanced_loads.h"
+#include "fem/cell_materials.h"
 #include "fem/solver_choice.h"
 
 namespace fem {
@@ -15,7 +16,7 @@ inline constexpr int loads_per_block = 16;
 /// @param failure  filled if there is no solution: what happened
 /// @return nothing if the iteration stalls or leaves a residual that is not acceptable
 /// @throws std::runtime_error as CoarseSpace
-std::optional<Solution> solve_iteratively(const Grid& grid, const Material& material,
+std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials& materials,
                                           const BalancedLoads& loads, const SolverChoice& choice,
                                           const StepReport& progress, std::string& failure);
 

@@ -38,8 +38,12 @@ namespace {
 /// Fills one column; remembers the surfaces it has met.
 class Columns {
 public:
-  Columns(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3)
-      : grid_(grid), integrals_(integrals), density_kg_m3_(density_kg_m3) {}
+  Columns(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
+          const PerCell<double>& relative_density)
+      : grid_(grid),
+        integrals_(integrals),
+        density_kg_m3_(density_kg_m3),
+        relative_density_(relative_density) {}
 
   void fill(const SurfaceResultant& load, Eigen::Ref<Eigen::VectorXd> column) {
     const auto& surface = find(load.surface);
@@ -63,7 +67,7 @@ private:
   const NodeIntegrals& integrals_over(const std::vector<int>& volume_ids) {
     if (volume_ids.empty()) return integrals_;
     auto [known, is_new] = regions_.try_emplace(volume_ids);
-    if (is_new) known->second = integrate_nodes(grid_, volume_ids);
+    if (is_new) known->second = integrate_nodes(grid_, volume_ids, relative_density_);
     return known->second;
   }
   static void scatter(const LoadedSurface& surface, const Eigen::VectorXd& force,
@@ -75,6 +79,7 @@ private:
   const Grid& grid_;
   const NodeIntegrals& integrals_;
   double density_kg_m3_;
+  PerCell<double> relative_density_;
   std::vector<std::unique_ptr<LoadedSurface>> surfaces_;
   std::map<std::vector<int>, NodeIntegrals> regions_;
 };
@@ -82,7 +87,7 @@ private:
 }  // namespace
 
 Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
-                             const std::vector<UnitLoad>& loads) {
+                             const std::vector<UnitLoad>& loads, const PerCell<double>& relative_density) {
   if (loads.empty()) throw std::invalid_argument("no unit loads: nothing to solve");
   std::set<std::string> channels;
   for (const auto& load : loads) {
@@ -91,7 +96,7 @@ Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, d
       throw std::invalid_argument("channel " + load.channel + " appears twice among the unit loads");
   }
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * grid.n_nodes, loads.size());
-  Columns columns(grid, integrals, density_kg_m3);
+  Columns columns(grid, integrals, density_kg_m3, relative_density);
   for (std::size_t k = 0; k < loads.size(); ++k) {
     try {
       std::visit([&](const auto& shape) { columns.fill(shape, force.col(k)); }, loads[k].shape);

@@ -35,7 +35,7 @@ double& entry(SymmetricMatrix& matrix, std::int32_t i, std::int32_t j) {
 }  // namespace
 
 MassMatrix::MassMatrix(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
-                       const NodeGraph& graph, double density_kg_m3)
+                       const NodeGraph& graph, const PerCell<double>& density_kg_m3)
     : nodes_(make_node_matrix(graph)) {
   // N_i N_j det J has the degree of the second moments' N_i x det J.
   const Tabulation at = moment_points_in_cell(grid.shape());
@@ -45,9 +45,9 @@ MassMatrix::MassMatrix(const Grid& grid, const std::vector<std::vector<std::int3
       Eigen::MatrixXd scaled(at.n_shapes, at.n_points), products(at.n_shapes, at.n_shapes);
       for (std::size_t c = begin; c < end; ++c) {
         for (int q = 0; q < at.n_points; ++q)
-          scaled.col(q) =
-              std::sqrt(density_kg_m3 * jacobian(grid, cells[c], at, q).determinant() * at.weight[q]) *
-              shapes.col(q);
+          scaled.col(q) = std::sqrt(density_kg_m3[cells[c]] * jacobian(grid, cells[c], at, q).determinant() *
+                                    at.weight[q]) *
+                          shapes.col(q);
         products.setZero();
         products.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
         const auto* nodes = grid.nodes_of(cells[c]);

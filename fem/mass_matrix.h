@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fem/grid.h"
+#include "fem/per_cell.h"
 #include "fem/symmetric_matrix.h"
 
 namespace fem {
@@ -14,7 +15,7 @@ namespace fem {
 class MassMatrix {
 public:
   MassMatrix(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours, const NodeGraph& graph,
-             double density_kg_m3);
+             const PerCell<double>& density_kg_m3);
 
   /// M X for all columns of X (3 n_nodes x columns); the same bits for every number of threads.
   Eigen::MatrixXd operator*(const Eigen::MatrixXd& x) const;

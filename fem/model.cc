@@ -1,15 +1,20 @@
 #include "fem/model.h"
 
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "fem/balanced_loads.h"
+#include "fem/cell_materials.h"
 #include "fem/clamps.h"
+#include "fem/connected_pieces.h"
 #include "fem/direct_solve.h"
 #include "fem/elastic_supports.h"
 #include "fem/geometry_error.h"
 #include "fem/grid.h"
 #include "fem/iterative_solve.h"
+#include "fem/material_interfaces.h"
 #include "fem/mesh_reader.h"
 #include "fem/natural_frequencies.h"
 #include "fem/nodes_export.h"
@@ -23,12 +28,27 @@
 
 namespace fem {
 
+namespace {
+
+/// Where stress lives, if not on the nodes of displacement.
+struct Seen {
+  SplitGrid split;
+  CellsOfNodes cells;
+  NodeIntegrals volumes;
+};
+
+}  // namespace
+
 struct Model::Impl {
   Body body;
   Grid grid;
   CellsOfNodes cells;
   std::vector<std::vector<std::int32_t>> colours;
-  NodeIntegrals integrals;
+  CellMaterials materials{Material{}};
+  NodeIntegrals integrals;   // of the volume, weighted with the density relative to body.material's
+  std::optional<Seen> seen;  // only of several materials
+
+  PerCell<double> relative_density() const { return materials.density(body.material.density_kg_m3); }
 };
 
 Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
@@ -38,9 +58,16 @@ Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
   if (progress) progress(0, "read mesh");
   impl_->body = body;
   impl_->grid = read_grid(body);
+  refuse_several_pieces(impl_->grid);
+  impl_->materials = CellMaterials(impl_->grid, body);
   impl_->cells = cells_of_nodes(impl_->grid);
   impl_->colours = colour_cells(impl_->grid, impl_->cells);
-  impl_->integrals = integrate_nodes(impl_->grid, impl_->colours);
+  impl_->integrals = integrate_nodes(impl_->grid, impl_->colours, impl_->relative_density());
+  if (impl_->materials.is_uniform()) return;
+  auto& seen = impl_->seen.emplace();
+  seen.split = split_at_interfaces(impl_->grid, impl_->cells, impl_->materials);
+  seen.cells = cells_of_nodes(seen.split.grid);
+  seen.volumes = integrate_nodes(seen.split.grid, impl_->colours);
 }
 
 Model::~Model() = default;
@@ -51,12 +78,17 @@ std::size_t Model::n_dofs() const {
 }
 
 MassProperties Model::mass_properties() const {
-  return fem::mass_properties(impl_->grid, impl_->integrals, impl_->body.material.density_kg_m3);
+  auto masses = fem::mass_properties(impl_->grid, impl_->integrals, impl_->body.material.density_kg_m3);
+  if (impl_->seen) masses.volume_m3 = impl_->seen->volumes.col(0).sum();
+  return masses;
 }
 
 MassProperties Model::mass_properties(const std::vector<int>& volume_ids) const {
-  return fem::mass_properties(impl_->grid, integrate_nodes(impl_->grid, volume_ids),
-                              impl_->body.material.density_kg_m3);
+  auto masses =
+      fem::mass_properties(impl_->grid, integrate_nodes(impl_->grid, volume_ids, impl_->relative_density()),
+                           impl_->body.material.density_kg_m3);
+  masses.volume_m3 = integrate_nodes(impl_->grid, volume_ids).col(0).sum();
+  return masses;
 }
 
 GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const {
@@ -64,11 +96,28 @@ GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const
 }
 
 std::vector<NaturalMode> Model::natural_frequencies(int n_modes) const {
-  return fem::natural_frequencies(VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body),
-                                  n_modes);
+  auto modes = fem::natural_frequencies(
+      VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body, impl_->materials), n_modes);
+  if (impl_->seen)
+    for (auto& mode : modes)
+      for (const auto node : impl_->seen->split.copy)
+        for (int d = 0; d < 3; ++d) mode.shape.push_back(mode.shape[3 * std::size_t(node) + d]);
+  return modes;
 }
 
 namespace {
+
+/// Powers of two that bring the largest entry of each column to size 1, so that squares of neither small nor
+/// large loads leave the range of numbers, and no bit changes; 1 for a column of zeros.
+Eigen::RowVectorXd to_unit_size(const Eigen::MatrixXd& force) {
+  Eigen::RowVectorXd scale = Eigen::RowVectorXd::Ones(force.cols());
+  for (Eigen::Index k = 0; k < force.cols(); ++k) {
+    const double largest = force.col(k).lpNorm<Eigen::Infinity>();
+    if (largest > 0 && std::isfinite(largest))
+      scale[k] = std::ldexp(1.0, std::max(-1000, std::min(1000, -std::ilogb(largest))));
+  }
+  return scale;
+}
 
 BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>& clamped,
                       Eigen::MatrixXd force) {
@@ -84,13 +133,13 @@ BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>
 /// By the solver that the report names; by the direct one if the iterative one gives up, which the report
 /// then tells.
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
-               const std::vector<std::vector<std::int32_t>>& colours, const Material& material,
+               const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                const BalancedLoads& loads, const SolverChoice& choice, const Progress& progress,
                SolverReport& report) {
   if (report.used == Solver::iterative) {
     std::string failure;
     try {
-      if (auto solution = solve_iteratively(grid, material, loads, choice, progress, failure))
+      if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure))
         return std::move(*solution);
     } catch (const std::runtime_error& error) {
       failure = error.what();
@@ -98,7 +147,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     report.used = Solver::direct;
     report.reason = failure + "; solved directly";
   }
-  return solve_directly(grid, cells, colours, material, loads, progress);
+  return solve_directly(grid, cells, colours, materials, loads, progress);
 }
 
 /// Boundary groups that any of the loads, springs or clamps acts on.
@@ -122,6 +171,8 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
                                     const Progress& progress, const SolverChoice& choice) const {
   const Progress report = progress ? progress : [](double, const std::string&) {};
   const auto& grid = impl_->grid;
+  const auto& seen = impl_->seen ? impl_->seen->split.grid : grid;
+  const auto& seen_cells = impl_->seen ? impl_->seen->cells : impl_->cells;
   const auto n_loads = static_cast<Eigen::Index>(loads.size());
   const auto clamped = clamped_unknowns(grid, impl_->body.clamps);
   if (!clamped.empty() && !impl_->body.elastic_supports.empty())
@@ -132,7 +183,8 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   for (const auto& load : loads) responses.channels.push_back(load.channel);
 
   report(0, "loads");
-  Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads);
+  Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads,
+                                       impl_->relative_density());
   const Eigen::MatrixXd applied = resultants(grid, force, Eigen::Vector3d::Zero());
   responses.resultants.resize(loads.size());
   for (Eigen::Index k = 0; k < n_loads; ++k)
@@ -142,46 +194,51 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const ElasticSupports springs(grid, impl_->body.elastic_supports);
     force.conservativeResize(Eigen::NoChange, n_loads + springs.unit_forces().cols());
     force.rightCols(springs.unit_forces().cols()) = springs.unit_forces();
+    const Eigen::RowVectorXd scale = to_unit_size(force);
+    force.array().rowwise() *= scale.array();
     const RigidBalance rigid(grid, impl_->integrals);
     const BalancedLoads balanced = balance(rigid, clamped, std::move(force));
-    responses.solver =
-        choose_solver(grid, impl_->body.material, static_cast<std::size_t>(balanced.force.cols()), choice,
-                      physical_memory());
+    responses.solver = choose_solver(grid, impl_->materials, static_cast<std::size_t>(balanced.force.cols()),
+                                     choice, physical_memory());
     if (!clamped.empty()) {
       responses.solver.used = Solver::direct;
       responses.solver.reason = "the body is clamped";
     }
-    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->body.material, balanced, choice,
-                              report, responses.solver);
+    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,
+                              responses.solver);
     responses.residual = responses.solver.relative_residual = solution.residual;
     responses.support_reaction = solution.support_reaction;
+    responses.solver.rounding = solution.rounding;
     responses.factor_gigabytes = solution.factor_gigabytes;
     responses.solver.used_bytes = solution.bytes;
     responses.solver.n_iterations = solution.n_iterations;
     if (clamped.empty()) rigid.remove_motion(solution.displacement);
+    solution.displacement.array().rowwise() *= scale.array().inverse();
     const Eigen::MatrixXd displacement = springs.apply(solution.displacement);
-    responses.displacement_m.resize(displacement.size());
-    for (std::size_t i = 0; i < grid.n_nodes; ++i)
+    responses.displacement_m.resize(3 * seen.n_nodes * loads.size());
+    for (std::size_t i = 0; i < seen.n_nodes; ++i) {
+      const std::size_t node = i < grid.n_nodes ? i : std::size_t(impl_->seen->split.copy[i - grid.n_nodes]);
       for (Eigen::Index k = 0; k < n_loads; ++k)
         for (int d = 0; d < 3; ++d)
-          responses.displacement_m[(i * n_loads + k) * 3 + d] = displacement(3 * i + d, k);
+          responses.displacement_m[(i * n_loads + k) * 3 + d] = displacement(3 * node + d, k);
+    }
   }
 
   report(0.85, "recover");
-  const Lame elastic = lame(impl_->body.material);
-  responses.stress_Pa.resize(grid.n_nodes * n_loads * 6);
-  const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), grid.n_nodes, 3 * n_loads);
-  Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), grid.n_nodes, 6 * n_loads);
+  const auto elastic = impl_->materials.elastic();
+  responses.stress_Pa.resize(seen.n_nodes * n_loads * 6);
+  const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), seen.n_nodes, 3 * n_loads);
+  Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
   if (recovery == Recovery::average) {
-    average_stress(grid, impl_->cells, elastic, displacement, stress);
+    average_stress(seen, seen_cells, elastic, displacement, stress);
   } else {
-    const auto free = free_faces(grid, loaded_groups(loads, impl_->body));
-    recover_by_patches(grid, impl_->cells, impl_->body.cylinders, make_samples(grid, free),
-                       stress_at_samples(grid, free, elastic, displacement), stress);
+    const auto free = free_faces(seen, loaded_groups(loads, impl_->body));
+    recover_by_patches(seen, seen_cells, impl_->body.cylinders, make_samples(seen, free),
+                       stress_at_samples(seen, free, elastic, displacement), stress);
   }
-  responses.nodes = export_nodes(grid, impl_->integrals);
-  respond_on_sections(grid, planes, responses);
-  respond_on_rings(grid, impl_->body, responses);
+  responses.nodes = export_nodes(seen, impl_->seen ? impl_->seen->volumes : impl_->integrals);
+  respond_on_sections(seen, planes, responses);
+  respond_on_rings(seen, impl_->body, responses);
   return responses;
 }
 

@@ -82,7 +82,7 @@ public:
   /// @param choice of the solver; UnitResponses::solver tells which one was taken and why
   /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces,
   /// clamps that leave a rigid motion, clamps together with elastic supports
-  /// @throws std::runtime_error if the factorisation fails
+  /// @throws std::runtime_error if the factorisation fails, or rounding reaches 1 % of displacements
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
                                Recovery recovery = Recovery::patch, const Progress& progress = {},
                                const SolverChoice& choice = {}) const;

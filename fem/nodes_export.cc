@@ -2,6 +2,7 @@
 
 #include "fem/body_nodes.h"
 #include "fem/cell_geometry.h"
+#include "fem/material_interfaces.h"
 #include "fem/mesh_reader.h"
 #include "fem/vtk_order.h"
 
@@ -37,7 +38,8 @@ Nodes export_nodes(const Grid& grid) {
 }
 
 Nodes body_nodes(const Body& body) {
-  return export_nodes(read_grid(body));
+  const Grid grid = read_grid(body);
+  return export_nodes(grid_of_stress(grid, CellMaterials(grid, body)));
 }
 
 }  // namespace fem

@@ -26,6 +26,21 @@ Exponents complete_space(int degree) {
   return e;
 }
 
+/// The complete space, then what is left of it without the highest power of one coordinate, and of two: where
+/// a patch is thin in some direction, the others need not suffer.
+std::vector<Exponents> spaces_within(int degree) {
+  std::vector<Exponents> spaces{complete_space(degree)};
+  for (const int limited : {1, 2, 4, 3, 5, 6}) {  // bit d: coordinate d
+    auto& space = spaces.emplace_back();
+    for (const auto& e : spaces.front()) {
+      bool kept = true;
+      for (int d = 0; d < 3; ++d) kept = kept && (e[d] < degree || (limited >> d & 1) == 0);
+      if (kept) space.push_back(e);
+    }
+  }
+  return spaces;
+}
+
 /// What stands for x and x^2 of each coordinate, both in [-1, 1] over the patch.
 struct Scaled {
   Points first, second;
@@ -105,7 +120,8 @@ Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& poi
   if (full_patch && degree > 1)
     if (auto fit = fit_in(tensor_space(degree), s, t); fit.size() > 0) return fit;
   for (int p = degree; p > 0; --p)
-    if (auto fit = fit_in(complete_space(p), s, t); fit.size() > 0) return fit;
+    for (const auto& space : spaces_within(p))
+      if (auto fit = fit_in(space, s, t); fit.size() > 0) return fit;
   return Eigen::MatrixXd::Constant(t.first.cols(), s.first.cols(), 1.0 / double(s.first.cols()));
 }
 

@@ -16,9 +16,9 @@ struct PatchPoints {
 
 /// Matrix that takes the values at the samples to the values of their fit at the targets (targets x samples).
 /// Polynomials of the coordinates, scaled to the patch: the tensor-product space of `degree` if the patch is
-/// a full one, else (or if the samples do not determine it) the complete space of `degree`, then lower ones
-/// down to the mean. Of an angle t the powers are 1, sin t, 1 - cos t, sin t (1 - cos t): the harmonics 0 and
-/// 1 are in the space exactly.
+/// a full one, else (or if the samples do not determine it) the complete space of `degree`, that without
+/// the highest powers of one or two coordinates, then lower ones down to the mean. Of an angle t the powers
+/// are 1, sin t, 1 - cos t, sin t (1 - cos t): the harmonics 0 and 1 are in the space exactly.
 Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& points);
 
 /// The same in the complete space of `degree` alone; an empty matrix if the samples do not determine it well.

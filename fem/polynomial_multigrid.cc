@@ -33,12 +33,12 @@ std::vector<std::int32_t> identity(std::size_t n) {
 }  // namespace
 
 PolynomialMultigrid::PolynomialMultigrid(const Grid& grid, const CellOrder& order,
-                                         const std::vector<double>& metric, double poisson_ratio,
+                                         const std::vector<double>& metric, const PerCell<Lame>& elastic,
                                          const kernel::Kernels& kernels)
     : kernels_(&kernels),
-      operator_(grid, order, lame({1, poisson_ratio, 1}), metric, kernels),
-      coarse_(grid, order, metric, lame({1, poisson_ratio, 1})),
-      inverse_blocks_(invert(diagonal_blocks(grid, order, metric, lame({1, poisson_ratio, 1})))),
+      operator_(grid, order, elastic, metric, kernels),
+      coarse_(grid, order, metric, elastic),
+      inverse_blocks_(invert(diagonal_blocks(grid, order, metric, elastic))),
       coarse_place_(identity(coarse_.n_nodes())) {
   find_largest_eigenvalue();
 }

@@ -11,13 +11,12 @@
 
 namespace fem {
 
-/// Of the material only Poisson's ratio counts: the preconditioner is that of a body with modulus 1, so that
-/// single precision has room for every unit.
+/// @param elastic  in units of the largest modulus, so that single precision has room for every unit
 class PolynomialMultigrid {
 public:
   /// @throws std::runtime_error as CoarseSpace
   PolynomialMultigrid(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
-                      double poisson_ratio,
+                      const PerCell<Lame>& elastic,
                       const kernel::Kernels& kernels = kernel::kernels_for_this_machine());
 
   struct WorkSpace {

@@ -12,10 +12,11 @@ namespace fem {
 
 namespace {
 
-void add_cell(const Grid& grid, const Tabulation& at, std::size_t cell, NodeIntegrals& integrals) {
+void add_cell(const Grid& grid, const Tabulation& at, std::size_t cell, double weight,
+              NodeIntegrals& integrals) {
   const auto* nodes = grid.nodes_of(cell);
   for (int q = 0; q < at.n_points; ++q) {
-    const double volume = jacobian(grid, cell, at, q).determinant() * at.weight[q];
+    const double volume = weight * jacobian(grid, cell, at, q).determinant() * at.weight[q];
     const Eigen::Vector3d x = position(grid, cell, at, q);
     const Eigen::RowVector4d moments = volume * Eigen::RowVector4d(1, x[0], x[1], x[2]);
     for (int i = 0; i < at.n_shapes; ++i)
@@ -25,17 +26,19 @@ void add_cell(const Grid& grid, const Tabulation& at, std::size_t cell, NodeInte
 
 }  // namespace
 
-NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours) {
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
+                              const PerCell<double>& weight) {
   const Tabulation at = moment_points_in_cell(grid.shape());
   NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) add_cell(grid, at, cells[c], integrals);
+      for (std::size_t c = begin; c < end; ++c) add_cell(grid, at, cells[c], weight[cells[c]], integrals);
     });
   return integrals;
 }
 
-NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids) {
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids,
+                              const PerCell<double>& weight) {
   for (const int id : volume_ids)
     if (std::find(grid.volume_id.begin(), grid.volume_id.end(), id) == grid.volume_id.end())
       throw std::invalid_argument("the mesh has no cells in the volume group " + std::to_string(id));
@@ -43,7 +46,7 @@ NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_i
   NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     if (std::find(volume_ids.begin(), volume_ids.end(), grid.volume_id[c]) != volume_ids.end())
-      add_cell(grid, at, c, integrals);
+      add_cell(grid, at, c, weight[c], integrals);
   return integrals;
 }
 

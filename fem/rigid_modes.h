@@ -6,19 +6,24 @@
 
 #include "fem/body.h"
 #include "fem/grid.h"
+#include "fem/per_cell.h"
 
 namespace fem {
 
 /// Integrals over the body of N_i, N_i x, N_i y, N_i z for every node (n x 4). Gauss points in number that
 /// makes them exact on isoparametric cells: mass, first and second moments, body loads and balancing all come
 /// from this table.
+/// @param weight  of the cells: relative density
 using NodeIntegrals = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
-NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours);
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
+                              const PerCell<double>& weight = 1.0);
 
 /// The same over the cells of some volume groups only; zero at the other nodes.
 /// @throws std::invalid_argument if one of the groups has no cells
-NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids);
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids,
+                              const PerCell<double>& weight = 1.0);
 
+/// @param density_kg_m3  of the cells with weight 1; volume_m3 is the integrals', weighted as they are
 MassProperties mass_properties(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3);
 
 /// Displacements of unit translations along and unit rotations about x, y, z through `centre` (3 n x 6).

@@ -32,7 +32,10 @@ struct SolverReport {
   double largest_aspect = 0;     ///< of the cells; 0: not looked at (tetrahedra)
   int n_iterations = 0;          ///< most of all blocks; 0: direct
   double relative_residual = 0;  ///< largest |K u - f| / |f|, computed anew from the solution
-  double used_bytes = 0;         ///< matrix and factor, or operator, preconditioner and vectors
+  /// What a second solve for the residual changed of the largest displacement, relative: how far rounding
+  /// may reach, in the matrix too. 0: the residual was too small to ask.
+  double rounding = 0;
+  double used_bytes = 0;  ///< matrix and factor, or operator, preconditioner and vectors
 };
 
 }  // namespace fem

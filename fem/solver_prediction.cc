@@ -71,7 +71,7 @@ double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
-SolverReport choose_solver(const Grid& grid, const Material& material, std::size_t n_loads,
+SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes) {
   SolverReport report;
   report.predicted_direct = predict_direct(3 * grid.n_nodes, n_loads);
@@ -90,9 +90,9 @@ SolverReport choose_solver(const Grid& grid, const Material& material, std::size
     text << "cells are stretched up to 1 : " << std::setprecision(3) << report.largest_aspect;
     return take(Solver::direct, text.str());
   }
-  if (material.poisson_ratio > most_incompressible) {
+  if (materials.largest_poisson_ratio() > most_incompressible) {
     std::ostringstream text;
-    text << "Poisson's ratio is " << material.poisson_ratio;
+    text << "Poisson's ratio is " << materials.largest_poisson_ratio();
     return take(Solver::direct, text.str());
   }
   const bool direct_fits = report.predicted_direct.bytes < share_of_memory * memory_bytes;

@@ -1,7 +1,7 @@
 /// What the two solvers are predicted to cost. Internal to fem.
 #pragma once
 
-#include "fem/body.h"
+#include "fem/cell_materials.h"
 #include "fem/grid.h"
 #include "fem/solver_choice.h"
 
@@ -24,7 +24,7 @@ SolverCost predict_iterative(const Grid& grid, std::size_t n_loads, double aspec
 double physical_memory();
 
 /// Takes the choice, or makes it: fills used, reason, predictions, aspect.
-SolverReport choose_solver(const Grid& grid, const Material& material, std::size_t n_loads,
+SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes);
 
 }  // namespace fem

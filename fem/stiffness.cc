@@ -89,8 +89,7 @@ void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes
 }
 
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
-                        const NodeGraph& graph, const Material& material, SymmetricMatrix& matrix) {
-  const Lame elastic = lame(material);
+                        const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix) {
   const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
@@ -99,7 +98,7 @@ void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int
       for (std::size_t c = begin; c < end; ++c) {
         compute_gradients(grid, cells[c], at, gradients);
         scale_gradients(gradients, scaled);
-        add_cell_stiffness(scaled, grid.nodes_of(cells[c]), elastic, graph, products, matrix);
+        add_cell_stiffness(scaled, grid.nodes_of(cells[c]), elastic[cells[c]], graph, products, matrix);
       }
     });
 }

@@ -7,6 +7,7 @@
 
 #include "fem/body.h"
 #include "fem/grid.h"
+#include "fem/per_cell.h"
 #include "fem/symmetric_matrix.h"
 
 namespace fem {
@@ -24,7 +25,7 @@ void refuse_impossible(const Material& material);
 /// on threads.
 /// @param matrix  made from the graph, zero on entry
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
-                        const NodeGraph& graph, const Material& material, SymmetricMatrix& matrix);
+                        const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix);
 
 /// Adds one cell's stiffness to the matrix.
 /// @param scaled  gradients of the cell's shape functions times sqrt(JxW): three rows per node, one column

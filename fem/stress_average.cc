@@ -3,7 +3,7 @@
 
 namespace fem {
 
-void average_stress(const Grid& grid, const CellsOfNodes& cells, const Lame& elastic,
+void average_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
                     const ConstBlock& displacement, Eigen::Ref<RowMajor> stress) {
   const Tabulation at = nodes_in_cell(grid.shape());
   stress.setZero();

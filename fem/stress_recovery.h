@@ -12,7 +12,7 @@ namespace fem {
 
 /// The mean over a node's cells of the stress there.
 /// @param stress  n_nodes x 6 K, overwritten
-void average_stress(const Grid& grid, const CellsOfNodes& cells, const Lame& elastic,
+void average_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
                     const ConstBlock& displacement, Eigen::Ref<RowMajor> stress);
 
 /// Superconvergent patch recovery (Zienkiewicz and Zhu, Int. J. Numer. Meth. Engng 33, 1992): around every

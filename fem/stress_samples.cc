@@ -37,8 +37,8 @@ StressSamples make_samples(const Grid& grid, const std::vector<BoundaryFace>& fr
   return samples;
 }
 
-RowMajor stress_at_samples(const Grid& grid, const std::vector<BoundaryFace>& free, const Lame& elastic,
-                           const ConstBlock& displacement) {
+RowMajor stress_at_samples(const Grid& grid, const std::vector<BoundaryFace>& free,
+                           const PerCell<Lame>& elastic, const ConstBlock& displacement) {
   const Tabulation inside = stress_points_in_cell(grid.shape()),
                    on_face = stress_points_on_face(grid.shape());
   const auto n_inside = static_cast<Eigen::Index>(grid.n_cells()) * inside.n_points;

@@ -23,7 +23,7 @@ std::vector<BoundaryFace> free_faces(const Grid& grid, const std::vector<int>& l
 StressSamples make_samples(const Grid& grid, const std::vector<BoundaryFace>& free);
 
 /// Stress at the samples (samples x 6 K).
-RowMajor stress_at_samples(const Grid& grid, const std::vector<BoundaryFace>& free, const Lame& elastic,
-                           const ConstBlock& displacement);
+RowMajor stress_at_samples(const Grid& grid, const std::vector<BoundaryFace>& free,
+                           const PerCell<Lame>& elastic, const ConstBlock& displacement);
 
 }  // namespace fem

@@ -60,7 +60,8 @@ Eigen::VectorXd body_force(const NodeIntegrals& integrals, double density_kg_m3,
 /// @throws std::invalid_argument for an empty list, an empty or repeated channel, a body force on a volume
 /// group without cells, and as LoadedSurface, naming the channel
 Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
-                             const std::vector<UnitLoad>& loads);
+                             const std::vector<UnitLoad>& loads,
+                             const PerCell<double>& relative_density = 1.0);
 
 /// Unit resultants of a surface as columns (3 n_nodes x 3): fx, fy, fz.
 Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface);

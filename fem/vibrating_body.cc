@@ -9,16 +9,17 @@
 namespace fem {
 
 VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
-                             const std::vector<std::vector<std::int32_t>>& colours, const Body& body)
+                             const std::vector<std::vector<std::int32_t>>& colours, const Body& body,
+                             const CellMaterials& materials)
     : graph_(make_node_graph(grid, cells)),
-      mass_(grid, colours, graph_, body.material.density_kg_m3),
+      mass_(grid, colours, graph_, materials.density_kg_m3()),
       matrix_(make_matrix(graph_)),
       springs_(grid, body.elastic_supports),
       clamped_(clamped_unknowns(grid, body.clamps)) {
   if (!clamped_.empty() && !body.elastic_supports.empty())
     throw std::invalid_argument(
         "natural frequencies of a body with clamps and elastic supports: leave one of them out");
-  assemble_stiffness(grid, colours, graph_, body.material, matrix_);
+  assemble_stiffness(grid, colours, graph_, materials.elastic(), matrix_);
   const auto order = order_nodes(graph_);
   if (!clamped_.empty()) {
     clamp(clamped_, matrix_);
@@ -73,7 +74,10 @@ void VibratingBody::clear_clamped(Eigen::MatrixXd& vectors) const {
 }
 
 Eigen::MatrixXd VibratingBody::stiffness(const Eigen::MatrixXd& motion) const {
-  Eigen::MatrixXd force = multiply(matrix_, motion);
+  // Rigid motions deform nothing, but K times one is rounding of its size: soft springs' modes drown in it.
+  Eigen::MatrixXd force = multiply(
+      matrix_,
+      clamped_.empty() ? Eigen::MatrixXd(motion - rigid_ * (mass_rigid_.transpose() * motion)) : motion);
   clear_clamped(force);
   const auto& springs = springs_.unit_forces();
   force += springs * (springs_.stiffness_N_m().asDiagonal() * (springs.transpose() * motion));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/body.h"
+#include "fem/cell_materials.h"
 #include "fem/cholmod_factor.h"
 #include "fem/elastic_supports.h"
 #include "fem/grid.h"
@@ -25,7 +26,8 @@ public:
   /// @throws std::invalid_argument for clamps that leave a rigid motion or come with elastic supports
   /// @throws std::runtime_error if the factorisation fails
   VibratingBody(const Grid& grid, const CellsOfNodes& cells,
-                const std::vector<std::vector<std::int32_t>>& colours, const Body& body);
+                const std::vector<std::vector<std::int32_t>>& colours, const Body& body,
+                const CellMaterials& materials);
 
   Eigen::Index n_unknowns() const noexcept { return static_cast<Eigen::Index>(matrix_.n); }
   /// Without the clamped unknowns and the rigid motions that nothing holds.

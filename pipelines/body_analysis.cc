@@ -60,6 +60,14 @@ void require_closure(const std::string& body, const Closure& closure) {
   throw std::runtime_error(text.str());
 }
 
+/// 6 x instants.
+Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, std::size_t node) {
+  const auto n_channels = analysis.responses.channels.size();
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> unit(
+      &analysis.responses.stress_Pa[node * n_channels * 6], 6, Eigen::Index(n_channels));
+  return unit * analysis.loads.history.values.matrix();
+}
+
 Peak headline(const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;
@@ -82,25 +90,6 @@ Peak headline(const BodyAnalysis& analysis) {
 
 double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
   return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
-}
-
-/// Where deflection is measured from.
-std::vector<std::string> references(const BodyScene& body) {
-  switch (body.role) {
-    case BodyRole::vibratory_shaft:
-      return {"main_bearing_1", "main_bearing_2"};
-    case BodyRole::drum:
-      return {"trunnion_1", "trunnion_2"};
-    case BodyRole::stub_axle:
-      return {"clamp"};
-    case BodyRole::train_shaft:
-      return {body.train.bearings[0], body.train.bearings[1]};
-    case BodyRole::table_body:
-      return body.table.bearings;
-    case BodyRole::chamber:
-      break;
-  }
-  return {};
 }
 
 int threads(int wanted) {
@@ -213,9 +202,20 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {
       return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
-                              body.material.density_kg_m3, references(body));
+                              body.material.density_kg_m3, supporting_ports(body));
     });
   return analysis;
+}
+
+void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
+                   BodyAnalysis& analysis, StageClock& clock) {
+  if (analysis.scene.natural_frequencies <= 0) return;
+  analysis.vibration = clock.run("natural frequencies", [&] {
+    return vibration(scene, analysis.scene, meshed, history, stress_over_cycle(analysis, analysis.peak.node));
+  });
+  const double more = analysis.vibration->amplification.factor - 1;
+  analysis.peak.errors.model.push_back(
+      {"quasi_static", "dynamic amplification of the harmonics of the peak", more * analysis.peak.value_Pa});
 }
 
 }  // namespace pipelines

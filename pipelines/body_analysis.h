@@ -12,6 +12,7 @@
 #include "pipelines/body_mesh.h"
 #include "pipelines/closure.h"
 #include "pipelines/diagrams.h"
+#include "pipelines/dynamics.h"
 #include "pipelines/error_ledger.h"
 #include "pipelines/hot_spots.h"
 #include "pipelines/machine_masses.h"
@@ -54,7 +55,8 @@ struct BodyAnalysis {
   std::vector<HotSpotStress> hot_spots;  ///< descending
   ErrorLedger hot_spot_errors;           ///< of the first
   std::optional<Diagrams> diagrams;      ///< parametric shafts and drums only
-  Search search;  ///< how the mesh was found, if a tolerance or time limit asked for it
+  Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
+  std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
 };
 
 /// Where a run keeps its files and what it may use.
@@ -84,6 +86,12 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
 /// @throws std::runtime_error if the loads do not close to 1e-9 on the mesh
 BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                             BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock);
+
+/// Natural frequencies and dynamic amplification, if the body asks for them; the latter also as an entry of
+/// the peak's ledger.
+/// @param history  of the load stage, that the analysis' loads were distributed from
+void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
+                   BodyAnalysis& analysis, StageClock& clock);
 
 /// What distribution needs to know of a meshed body.
 LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);

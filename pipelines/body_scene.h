@@ -53,6 +53,7 @@ struct BodyScene {
   std::map<std::string, PressureModel> pressures;  ///< by port
   std::vector<AddedMass> added_masses;
   fem::Solver solver = fem::Solver::automatic;
+  int natural_frequencies = 0;  ///< how many to compute and compare with the loads; 0: none
   std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
 
   std::vector<double> debalance_shares = {0.5, 0.5};  ///< vibratory shaft

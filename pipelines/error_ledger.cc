@@ -38,7 +38,7 @@ double time_sampling_error(const std::vector<std::array<double, 6>>& unit, const
   const double here = von_mises_of(unit, values.col(instant));
   const double after = von_mises_of(unit, values.col((instant + 1) % n));
   const double curvature = before - 2 * here + after;
-  return curvature < 0 ? (before - after) * (before - after) / (-8 * curvature) : 0.0;
+  return curvature < 0 ? (before - after) / (-8 * curvature) * (before - after) : 0.0;
 }
 
 /// Nodes of the boundary faces that hold the node; of its own alone if none does.
@@ -147,7 +147,8 @@ ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& re
          discretisation_safety * discretisation_error(point, responses, material, factors)});
   ledger.numerical.push_back(
       {"geometry", "distance of curved faces in radii, times 3", 3 * geometry_error * value});
-  ledger.numerical.push_back({"linear_solver", "relative residual", responses.residual * value});
+  ledger.numerical.push_back({"linear_solver", "relative residual, or rounding",
+                              std::max(responses.residual, responses.solver.rounding) * value});
   return ledger;
 }
 

@@ -59,7 +59,7 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 ///                       chance
 ///   geometry            distance of curved faces from their surfaces, in radii, times 3: bending stress goes
 ///                       with the third power of a radius
-///   linear_solver       relative residual
+///   linear_solver       relative residual, or rounding if that is more
 /// Responses without cells (cheap models) get no discretisation entry here.
 /// @param geometry_error  relative, fem::GeometryError
 ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,

@@ -96,6 +96,17 @@ void print_search(std::ostream& out, const Search& search) {
   out << '\n';
 }
 
+void print_vibration(std::ostream& out, const Vibration& vibration) {
+  out << "\n  natural frequencies [Hz]";
+  for (const double f : vibration.natural_frequencies_Hz) out << fmt::format("  {:.5g}", f);
+  const auto& dynamic = vibration.amplification;
+  out << fmt::format(
+      "   ({})\n  dynamic amplification    {:.4f} of the peak; harmonic {:.4g} at {:.4g} Hz: "
+      "{:.2g} % of it, times {:.4f}\n",
+      vibration.held, dynamic.factor, dynamic.highest.order, dynamic.highest.frequency_Hz,
+      100 * dynamic.highest.share, dynamic.highest.amplification);
+}
+
 void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   const Peak& peak = analysis.peak;
   out << fmt::format("\n  {}: {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.scene.name,
@@ -134,6 +145,7 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
                        "  " + when(report, zones[i].instant), to_string(zones[i].place));
   if (zones.size() > shown) out << fmt::format("       and {} more in zones.csv\n", zones.size() - shown);
 
+  if (analysis.vibration) print_vibration(out, *analysis.vibration);
   print_hot_spots(out, report, analysis);
   if (!analysis.diagrams) return;
   out << fmt::format("\n  {:<28}{:>16}{:>16}\n", "seat", "deflection mm", "slope mrad");

@@ -103,6 +103,7 @@ fem::UnitResponses read(const Hdf5Reader& in) {
       in.number_attribute("/", "solver_iterations") > 0 ? fem::Solver::iterative : fem::Solver::direct;
   r.solver.n_iterations = int(in.number_attribute("/", "solver_iterations"));
   r.solver.reason = in.text_attribute("/", "solver_reason");
+  r.solver.rounding = in.number_attribute("/", "solver_rounding");
   return r;
 }
 
@@ -121,6 +122,7 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
   out.attribute("/", "solver_iterations",
                 responses.solver.used == fem::Solver::iterative ? responses.solver.n_iterations : 0);
   out.attribute("/", "solver_reason", responses.solver.reason);
+  out.attribute("/", "solver_rounding", responses.solver.rounding);
   out.write("/channels", responses.channels);
   std::vector<double> rings;
   for (const auto& ring : responses.rings)

@@ -66,6 +66,13 @@ void read_solver(SceneTable& table, BodyScene& body) {
                  "write \"automatic\", \"direct\" (a factorisation) or \"iterative\" (conjugate gradients)");
 }
 
+void read_natural_frequencies(SceneTable& table, BodyScene& body) {
+  constexpr int most = 50;  // above them a body's modes are no concern of its bearings' harmonics
+  table.know("natural_frequencies");
+  if (table.has("natural_frequencies"))
+    body.natural_frequencies = table.count_or("natural_frequencies", 0, most, 0, "not asked for");
+}
+
 void read_debalances(SceneTable& table, BodyScene& body) {
   table.know("debalance_shares");
   if (!table.has("debalance_shares"))
@@ -227,6 +234,7 @@ BodyScene read_body(SceneTable& table, BodyRole role, const Scene& scene, SceneF
     read_added_masses(table, body);
   read_material(table.table("material"), body);
   read_solver(table, body);
+  read_natural_frequencies(table, body);
   table.finish();
   return body;
 }

@@ -70,6 +70,7 @@ public:
     if (search && !options_.only &&
         (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
       agree_at_last();
+    for (const auto& warning : warnings_) run_.loaded.loads.warnings.push_back(warning);
     return std::move(run_);
   }
 
@@ -101,6 +102,10 @@ private:
   }
 
   void finish(std::size_t i, BodyAnalysis& analysis, int last_step) {
+    add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
+    if (analysis.vibration)
+      if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
+        warnings_.push_back(warning);
     files_[i].finish(analysis, run_.loaded.meshed[i], last_step);
     run_.loaded.meshed[i].model.reset();
   }
@@ -215,6 +220,7 @@ private:
                          std::move(before.responses), options_.n_threads, clock_);
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
+      after.vibration = std::move(before.vibration);
       set_errors(after, errors);
     }
   }
@@ -224,6 +230,7 @@ private:
   Clock::time_point start_;
   SceneRun run_;
   std::vector<BodyFiles> files_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace

@@ -132,6 +132,23 @@ Json carried_json(const BodyLoads& loads) {
           {"share", number(most / loads.carried_moment_scale_Nm)}};
 }
 
+/// How the quasi-static stress is meant: dynamic_amplification is the factor that resonance is expected to
+/// put on the peak.
+void add_vibration(const Vibration& vibration, Json& json) {
+  json["natural_frequencies"] = Json::array();
+  for (const double f : vibration.natural_frequencies_Hz)
+    json["natural_frequencies"].push_back(figure(f, "Hz"));
+  const auto& dynamic = vibration.amplification;
+  json["dynamic_amplification"] = figure(dynamic.factor, "1");
+  json["dynamic_amplification"]["held"] = vibration.held;
+  json["dynamic_amplification"]["limit"] = amplification_limit;
+  json["dynamic_amplification"]["highest_harmonic"] = {
+      {"order", dynamic.highest.order},
+      {"frequency_Hz", dynamic.highest.frequency_Hz},
+      {"share", number(dynamic.highest.share)},
+      {"amplification", number(dynamic.highest.amplification)}};
+}
+
 Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& quality = analysis.mesh.quality;
   Json json;
@@ -154,6 +171,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
   json["zones"] = zones_json(report, analysis);
   if (!analysis.search.steps.empty()) json["search"] = search_json(analysis.search);
+  if (analysis.vibration) add_vibration(*analysis.vibration, json);
   if (analysis.diagrams) {
     json["torsion"] = torsion_json(analysis);
     for (const auto& seat : analysis.diagrams->seats)
@@ -186,6 +204,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
                     {"reason", solver.reason},
                     {"iterations", solver.used == fem::Solver::iterative ? solver.n_iterations : 0},
                     {"residual", number(analysis.responses.residual)},
+                    {"rounding", number(solver.rounding)},
                     {"support_reaction", number(analysis.responses.support_reaction)},
                     {"factor_gigabytes", number(analysis.responses.factor_gigabytes)}};
   return json;

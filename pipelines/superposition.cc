@@ -117,12 +117,48 @@ void check_channels(const ChannelHistory& loads, const fem::UnitResponses& respo
 
 }  // namespace
 
+namespace {
+
+/// Squares and cubes of stresses beyond these leave the range of numbers.
+constexpr double smallest_Pa = 1e-80, largest_Pa = 1e80;
+
+/// A power of two that brings the largest size to about 1; 1 where there is no need, or nothing to scale.
+double power_to_unit_size(double largest) {
+  if (!(largest > 0) || !std::isfinite(largest) || (largest > smallest_Pa && largest < largest_Pa)) return 1;
+  return std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
+}
+
+double power_to_unit_size(const Stress& s) {
+  double largest = 0;
+  for (const double component : s) largest = std::max(largest, std::abs(component));
+  return power_to_unit_size(largest);
+}
+
+Stress scaled(Stress s, double factor) {
+  for (double& component : s) component *= factor;
+  return s;
+}
+
+/// The envelope of loads times `scale`, brought back.
+Envelope unscaled(Envelope envelope, double scale) {
+  for (NodalMaximum* maximum : {&envelope.von_mises, &envelope.principal}) {
+    for (double& value : maximum->value_Pa) value /= scale;
+    for (Stress& stress : maximum->stress_Pa) stress = scaled(stress, 1 / scale);
+  }
+  return envelope;
+}
+
+}  // namespace
+
 double von_mises_Pa(const Stress& s) {
+  if (const double scale = power_to_unit_size(s); scale != 1) return von_mises_Pa(scaled(s, scale)) / scale;
   const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
   return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
 double largest_principal_Pa(const Stress& s) {
+  if (const double scale = power_to_unit_size(s); scale != 1)
+    return largest_principal_Pa(scaled(s, scale)) / scale;
   const double mean = (s[0] + s[1] + s[2]) / 3;
   const double x = s[0] - mean, y = s[1] - mean, z = s[2] - mean;
   const double j2 = 0.5 * (x * x + y * y + z * z) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
@@ -140,6 +176,13 @@ Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& load
 
 Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& responses, int n_threads) {
   check_channels(loads, responses);
+  if (const double scale = power_to_unit_size(loads.values.size() > 0 ? loads.values.abs().maxCoeff() : 0.0);
+      scale != 1) {
+    ChannelHistory of_unit_size = loads;
+    of_unit_size.values *= scale;
+    for (auto& part : of_unit_size.by_effect) part *= scale;
+    return unscaled(envelope(of_unit_size, responses, n_threads), scale);
+  }
   const std::size_t n_nodes = responses.nodes.n, n_effects = loads.effects.size();
   const PackedFactors factors(loads);
   Envelope result;

@@ -214,7 +214,8 @@ TEST_F(Vibrations, residual_is_that_of_the_matrices) {
   const auto cells = fem::cells_of_nodes(grid);
   const auto graph = fem::make_node_graph(grid, cells);
   auto stiffness = fem::make_matrix(graph);
-  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, rod->body.material, stiffness);
+  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(rod->body.material),
+                          stiffness);
   const Eigen::MatrixXd x = shapes(*free_modes);
   const Eigen::MatrixXd force = fem::multiply(stiffness, x),
                         inertia = mass_matrix(grid, rod->body.material.density_kg_m3) * x;

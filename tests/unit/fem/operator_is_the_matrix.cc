@@ -31,7 +31,7 @@ struct Problem {
     const auto colours = fem::colour_cells(grid, cells);
     const auto graph = fem::make_node_graph(grid, cells);
     matrix = fem::make_matrix(graph);
-    fem::assemble_stiffness(grid, colours, graph, shaft.body.material, matrix);
+    fem::assemble_stiffness(grid, colours, graph, fem::lame(shaft.body.material), matrix);
     order = fem::order_cells(grid);
     metric = fem::cell_metric(grid, order);
     elastic = fem::lame(shaft.body.material);

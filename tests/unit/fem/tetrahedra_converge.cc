@@ -55,7 +55,7 @@ fem::RowMajor solve(const fem::Grid& grid, const Exact& exact) {
   const auto cells = fem::cells_of_nodes(grid);
   const auto graph = fem::make_node_graph(grid, cells);
   auto matrix = fem::make_matrix(graph);
-  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, material, matrix);
+  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(material), matrix);
   std::vector<int> unknown(3 * grid.n_nodes, 0);
   for (const auto& face : grid.boundary)
     for (const auto node : fem::nodes_of_face(grid, face.cell, face.face))

@@ -87,7 +87,7 @@ fem::RowMajor solve(const fem::Grid& grid) {
   const auto cells = fem::cells_of_nodes(grid);
   const auto graph = fem::make_node_graph(grid, cells);
   auto matrix = fem::make_matrix(graph);
-  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, material, matrix);
+  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(material), matrix);
   std::vector<fem::Clamp> surface;
   for (int side = verification::begin_1; side <= verification::end_3; ++side) {
     surface.emplace_back();

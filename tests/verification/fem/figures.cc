@@ -24,15 +24,17 @@ Eigen::Index Solution::at(const Eigen::Vector3d& place) const {
   return node;
 }
 
-Solution solve(const fem::Body& body, const LoadCase& loads, fem::Recovery recovery) {
+Solution solve(const fem::Body& body, const LoadCase& loads, fem::Recovery recovery, fem::Solver solver) {
   std::vector<fem::UnitLoad> unit_loads;
   for (const auto& [shape, factor] : loads)
     unit_loads.push_back({"load." + std::to_string(unit_loads.size()), shape});
   const auto start = std::chrono::steady_clock::now();
-  const auto r = fem::Model(body).unit_responses(unit_loads, {}, recovery);
+  const auto r = fem::Model(body).unit_responses(unit_loads, {}, recovery, {}, {solver, 1e-10, 100});
   Solution solution;
   solution.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   solution.n_dofs = r.n_dofs;
+  solution.nodes = r.nodes;
+  solution.solver = r.solver;
   const auto n = static_cast<Eigen::Index>(r.nodes.n), n_loads = static_cast<Eigen::Index>(loads.size());
   solution.place_m = Eigen::Map<const Eigen::Matrix3Xd>(r.nodes.xyz_m.data(), 3, n);
   solution.displacement_m = Eigen::Matrix3Xd::Zero(3, n);

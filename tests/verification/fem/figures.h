@@ -22,12 +22,15 @@ struct Solution {
   Eigen::Matrix<double, 6, Eigen::Dynamic> stress_Pa;  ///< xx, yy, zz, xy, yz, xz
   std::size_t n_dofs = 0;
   double seconds = 0;  ///< of reading the mesh, solving and recovering stress
+  fem::Nodes nodes;
+  fem::SolverReport solver;
 
   /// The node at a place, to 1e-6 of the body's size.
   /// @throws std::out_of_range if there is none
   Eigen::Index at(const Eigen::Vector3d& place_m) const;
 };
-Solution solve(const fem::Body& body, const LoadCase& loads, fem::Recovery recovery = fem::Recovery::patch);
+Solution solve(const fem::Body& body, const LoadCase& loads, fem::Recovery recovery = fem::Recovery::patch,
+               fem::Solver solver = fem::Solver::automatic);
 
 /// The resultant of a face, as a shape of a load case. The face's moments are about `centre_m`.
 fem::SurfaceResultant on_face(int boundary_id, const Eigen::Vector3d& centre_m,
