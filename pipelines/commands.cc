@@ -110,7 +110,7 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
                 const std::filesystem::path& directory, StageClock& clock) {
   const auto wish = wish_of(options, scene);
   const FemEnvironment environment(options.n_threads);
-  auto run = run_scene(scene, {directory, options.n_threads, options.fresh, wish}, clock);
+  auto run = run_scene(scene, {directory, options.n_threads, options.fresh, true, wish}, clock);
   const auto& loads = run.loaded.loads;
   const auto channels = run.loaded.channels();
   for (const auto& analysis : run.analyses) {

@@ -1,0 +1,138 @@
+#include "pipelines/error_ledger.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipelines/refinement.h"
+#include "pipelines/superposition.h"
+
+using namespace pipelines;
+
+namespace {
+
+/// One node without cells, one channel per unit stress.
+fem::UnitResponses at_one_node(const std::vector<std::array<double, 6>>& unit) {
+  fem::UnitResponses responses;
+  responses.nodes.n = 1;
+  responses.nodes.xyz_m = {0, 0, 0};
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    responses.channels.push_back("port.c" + std::to_string(k));
+    responses.stress_Pa.insert(responses.stress_Pa.end(), unit[k].begin(), unit[k].end());
+  }
+  return responses;
+}
+
+fem::UnitLoad pressure(int harmonic) {
+  fem::SeatPressure shape;
+  shape.harmonic = harmonic;
+  return {"port.p" + std::to_string(harmonic), shape};
+}
+
+BodyLoads loads_of(const Eigen::ArrayXXd& values, std::vector<fem::UnitLoad> unit_loads = {}) {
+  BodyLoads loads;
+  loads.history.values = values;
+  loads.unit_loads = std::move(unit_loads);
+  return loads;
+}
+
+Eigen::Index largest(const Eigen::ArrayXXd& values) {
+  Eigen::Index row, column;
+  values.abs().maxCoeff(&row, &column);
+  return column;
+}
+
+}  // namespace
+
+// A cosine between its samples: 1 - cos(d) is missing, d the angle from the next sample to the crest. The parabola
+// through three samples finds all but the fourth order, (d^2 + h^2)^2 / 24 with h = 15 degrees.
+TEST(ErrorLedger, TimeSamplingFindsTheCrestBetweenInstants) {
+  constexpr int n = 24;
+  for (const double shift : {0.0, 0.05, 0.1, 0.13}) {
+    Eigen::ArrayXXd values(1, n);
+    for (int i = 0; i < n; ++i) values(0, i) = 2 + std::cos(2 * M_PI * i / n - shift);
+    const auto ledger = self_estimate({{{0, 1.0}}, std::int32_t(largest(values))}, at_one_node({{1, 0, 0, 0, 0, 0}}),
+                                      loads_of(values), {}, 0);
+    EXPECT_NEAR(ledger.of("time_sampling"), 1 - std::cos(shift), 3e-4) << shift;
+  }
+}
+
+// The cycle closes: a crest just before the first instant is seen from there.
+TEST(ErrorLedger, TimeSamplingTakesTheCycleAsPeriodic) {
+  Eigen::ArrayXXd values(1, 24);
+  for (int i = 0; i < 24; ++i) values(0, i) = 2 + std::cos(2 * M_PI * i / 24 + 0.1);
+  const auto ledger =
+      self_estimate({{{0, 1.0}}, 0}, at_one_node({{1, 0, 0, 0, 0, 0}}), loads_of(values), {}, 0);
+  EXPECT_NEAR(ledger.of("time_sampling"), 1 - std::cos(0.1), 3e-4);
+}
+
+// Uniaxial stresses of harmonics 1, 2 and 4 add up; the highest one brings 0.3 of 1.8.
+TEST(ErrorLedger, PressureHarmonicsAreWhatTheHighestBrings) {
+  const std::array<double, 6> unit{1, 0, 0, 0, 0, 0};
+  Eigen::ArrayXXd values(3, 3);
+  values << 1, 1, 1, 0.5, 0.5, 0.5, 0.3, 0.3, 0.3;
+  const auto loads = loads_of(values, {pressure(1), pressure(2), pressure(4)});
+  const auto ledger = self_estimate({{{0, 1.0}}, 1}, at_one_node({unit, unit, unit}), loads, {}, 0);
+  EXPECT_NEAR(ledger.of("pressure_harmonics"), 0.3, 1e-14);
+  // The first harmonic carries the force: it is no correction of the pattern.
+  const auto first = self_estimate({{{0, 1.0}}, 1}, at_one_node({unit}), loads_of(values.topRows(1), {pressure(1)}), {}, 0);
+  EXPECT_EQ(first.of("pressure_harmonics"), 0);
+}
+
+// Three radii's worth of relative error: sigma = M r / I ~ r^-3.
+TEST(ErrorLedger, GeometryGoesWithTheThirdPowerOfTheRadius) {
+  const Eigen::ArrayXXd values = Eigen::ArrayXXd::Constant(1, 3, 5.0);
+  const auto ledger =
+      self_estimate({{{0, 1.0}}, 0}, at_one_node({{1, 0, 0, 0, 0, 0}}), loads_of(values), {}, 1e-3);
+  const double r = 1, off = 1 + 1e-3;
+  EXPECT_NEAR(ledger.of("geometry"), 5 * (1 - std::pow(r / off, 3)), 0.01 * ledger.of("geometry"));
+  EXPECT_EQ(ledger.largest(), "geometry");
+  EXPECT_EQ(ledger.of("discretisation"), 0);  // no cells, no such estimate
+}
+
+// Weights of an extrapolation act on the tensors, before von Mises.
+TEST(ErrorLedger, ExtrapolatedStressIsTheWeightedSumOfTensors) {
+  auto responses = at_one_node({{3, 1, 0, 2, 0, 0}});
+  responses.nodes.n = 2;
+  responses.stress_Pa.insert(responses.stress_Pa.end(), {1, -2, 4, 0, 1, 0});
+  const auto unit = unit_stress_at(responses, {{{0, 1.67}, {1, -0.67}}, 0});
+  const Stress wanted{1.67 * 3 - 0.67, 1.67 + 2 * 0.67, -4 * 0.67, 1.67 * 2, -0.67, 0};
+  for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(unit[0][c], wanted[c], 1e-14);
+  EXPECT_NEAR(von_mises_of(unit, Eigen::ArrayXd::Constant(1, -2)), 2 * von_mises_Pa(wanted), 1e-13);
+}
+
+// A stress of second order in the cell size h: v = v0 (1 + c h^2). The change from h to h / r tells exactly what is
+// missing at h / r.
+TEST(LearnFromChange, IsExactForSecondOrder) {
+  for (const double ratio : {4.0 / 3, 2.0, 3.0}) {
+    const auto stress = [](double h) { return 100 * (1 - 0.2 * h * h); };
+    ErrorLedger ledger;
+    ledger.set_numerical({"discretisation", "", 1.0});
+    learn_from_change(ledger, stress(1 / ratio) - stress(1), ratio);
+    EXPECT_NEAR(ledger.of("discretisation"), 100 - stress(1 / ratio), 1e-12) << ratio;
+    EXPECT_EQ(ledger.numerical.size(), 1u);
+  }
+}
+
+// Two meshes may agree by chance: the cells' own disagreement stays as a floor. Without a ratio nothing is learnt.
+TEST(LearnFromChange, KeepsAFloorOfTheMeshesOwnEstimate) {
+  ErrorLedger ledger;
+  ledger.set_numerical({"discretisation", "", 6.0});
+  ErrorLedger same = ledger;
+  learn_from_change(same, 3.0, 1.0);
+  EXPECT_EQ(same.of("discretisation"), 6);
+  learn_from_change(ledger, 0.0, 2.0);
+  EXPECT_NEAR(ledger.of("discretisation"), 0.5 * 6 / discretisation_safety, 1e-14);
+}
+
+TEST(ErrorLedger, AddsUpWithoutSigns) {
+  ErrorLedger ledger;
+  ledger.set_numerical({"a", "", 1});
+  ledger.set_numerical({"b", "", 3});
+  ledger.set_numerical({"a", "", 2});
+  ledger.model.push_back({"beam", "", 10});
+  EXPECT_EQ(ledger.numerical_Pa(), 5);
+  EXPECT_EQ(ledger.total_Pa(), 15);
+  EXPECT_EQ(ledger.largest(), "b");
+  EXPECT_EQ(ledger.of("beam"), 10);
+}
