@@ -55,9 +55,9 @@ public:
   /// Reads the mesh, attaches the charts, numbers the unknowns.
   /// @param communicator  whose ranks share the work: one rank so far
   /// @param progress told that reading starts; may be empty
-  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells, or the communicator has
-  /// several ranks
-  /// @throws std::invalid_argument for impossible material values
+  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells or several pieces, or the
+  /// communicator has several ranks
+  /// @throws std::invalid_argument for impossible material values, or a material of a group without cells
   explicit Model(const Body& body, MPI_Comm communicator = MPI_COMM_WORLD, const Progress& progress = {});
   ~Model();
   Model(Model&&) noexcept;
@@ -95,7 +95,7 @@ public:
   /// @throws std::invalid_argument for another number, for clamps that leave a rigid motion, clamps together
   /// with elastic supports
   /// @throws std::runtime_error if the factorisation fails, or a mode leaves more than 1e-6 of its inertia
-  /// forces unbalanced
+  /// forces unbalanced and rounding does not explain it
   std::vector<NaturalMode> natural_frequencies(int n_modes) const;
 
 private:

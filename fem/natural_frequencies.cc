@@ -13,6 +13,8 @@ namespace fem {
 namespace {
 
 constexpr double acceptable_residual = 1e-6;
+// Frequencies come from energies, whose share of that is its square.
+constexpr double most_rounding = 0.01;
 
 void refuse_number(const VibratingBody& body, int n_modes) {
   const auto most = body.n_vibrating() / 10;  // higher modes are the mesh's, not the body's
@@ -23,8 +25,9 @@ void refuse_number(const VibratingBody& body, int n_modes) {
   throw std::invalid_argument(message.str());
 }
 
-void refuse_unbalanced(const NaturalMode& mode, std::size_t number) {
-  if (mode.residual <= acceptable_residual) return;
+/// @param rounding  share of the inertia forces that rounding alone may leave
+void refuse_unbalanced(const NaturalMode& mode, std::size_t number, double rounding) {
+  if (mode.residual <= std::max(acceptable_residual, std::min(rounding, most_rounding))) return;
   std::ostringstream message;
   message << "natural frequency " << number << " of " << mode.frequency_Hz << " Hz leaves a share of "
           << mode.residual << " of its inertia forces unbalanced, " << acceptable_residual
@@ -67,7 +70,8 @@ std::vector<NaturalMode> natural_frequencies(const VibratingBody& body, int n_mo
     NaturalMode mode;
     mode.frequency_Hz = std::sqrt(pairs.value[i]) / (2 * EIGEN_PI);
     mode.residual = rest.col(i).norm() / inertia.col(i).norm();
-    refuse_unbalanced(mode, modes.size() + 1);
+    refuse_unbalanced(mode, modes.size() + 1,
+                      body.rounding_of_stiffness(pairs.vector.col(i)) / inertia.col(i).norm());
     Eigen::Index largest = 0;
     pairs.vector.col(i).cwiseAbs().maxCoeff(&largest);
     const Eigen::VectorXd shape = pairs.vector(largest, i) < 0 ? Eigen::VectorXd(-pairs.vector.col(i))

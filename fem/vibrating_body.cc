@@ -1,5 +1,7 @@
 #include "fem/vibrating_body.h"
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "fem/clamps.h"
@@ -74,14 +76,21 @@ void VibratingBody::clear_clamped(Eigen::MatrixXd& vectors) const {
 }
 
 Eigen::MatrixXd VibratingBody::stiffness(const Eigen::MatrixXd& motion) const {
-  // Rigid motions deform nothing, but K times one is rounding of its size: soft springs' modes drown in it.
-  Eigen::MatrixXd force = multiply(
-      matrix_,
-      clamped_.empty() ? Eigen::MatrixXd(motion - rigid_ * (mass_rigid_.transpose() * motion)) : motion);
+  Eigen::MatrixXd force = multiply(matrix_, motion);
   clear_clamped(force);
   const auto& springs = springs_.unit_forces();
   force += springs * (springs_.stiffness_N_m().asDiagonal() * (springs.transpose() * motion));
   return force;
+}
+
+double VibratingBody::rounding_of_stiffness(const Eigen::VectorXd& motion) const {
+  constexpr double of_a_row = 16;  // its terms, some hundred, round independently
+  double sum = 0;
+  for (Eigen::Index i = 0; i < motion.size(); ++i) {
+    const double term = matrix_.value[matrix_.column_begin[i]] * motion[i];
+    sum += term * term;
+  }
+  return of_a_row * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
 Eigen::MatrixXd VibratingBody::free_inverse(const Eigen::MatrixXd& force) const {

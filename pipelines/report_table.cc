@@ -102,7 +102,7 @@ void print_vibration(std::ostream& out, const Vibration& vibration) {
   const auto& dynamic = vibration.amplification;
   out << fmt::format(
       "   ({})\n  dynamic amplification    {:.4f} of the peak; harmonic {:.4g} at {:.4g} Hz: "
-      "{:.2g} % of it, times {:.4f}\n",
+      "{:.3g} % of it, times {:.4f}\n",
       vibration.held, dynamic.factor, dynamic.highest.order, dynamic.highest.frequency_Hz,
       100 * dynamic.highest.share, dynamic.highest.amplification);
 }

@@ -1,7 +1,7 @@
 #include <hdf5.h>
 
 #include "tests/cases/program.h"
-#include "tests/cases/small_shaft.h"
+#include "tests/cases/stepped_shaft.h"
 
 using namespace cases;
 
@@ -12,7 +12,7 @@ class AccuracyOfTheSmallShaft : public testing::Test {
 protected:
   static void SetUpTestSuite() {
     directory = new results_test::Directory;
-    write(*directory / "small.toml", small_shaft());
+    write(*directory / "small.toml", stepped_shaft());
     outcome = new Outcome(millstress(directory->path, "accuracy small.toml -o out --time-limit '40 s'"));
   }
   static void TearDownTestSuite() {
@@ -45,7 +45,8 @@ TEST_F(AccuracyOfTheSmallShaft, HasEveryRungOfTheLadder) {
   EXPECT_NE(outcome->out.find("the next factor of two in accuracy costs"), std::string::npos) << outcome->out;
 }
 
-// Against the overkill run, whose own estimate counts too. A rung whose estimate were forgotten would stick out.
+// Against the overkill run, whose own estimate counts too. A rung whose estimate were forgotten would stick
+// out.
 TEST_F(AccuracyOfTheSmallShaft, EstimatesBoundTheTrueErrors) {
   ASSERT_EQ(outcome->exit_code, 0) << outcome->err;
   const auto names = rungs();
@@ -85,9 +86,11 @@ TEST_F(AccuracyOfTheSmallShaft, LeavesTheChartAndNoScratch) {
 
 TEST(Accuracy, WrongWishesAreRefused) {
   const results_test::Directory directory;
-  write(directory / "small.toml", small_shaft());
-  for (const auto& [arguments, word] : std::map<std::string, std::string>{
-           {"--body chamber", "--body chamber"}, {"--reference heavy", "--reference heavy"}, {"--time-limit '0 s'", "positive"}}) {
+  write(directory / "small.toml", stepped_shaft());
+  for (const auto& [arguments, word] :
+       std::map<std::string, std::string>{{"--body chamber", "--body chamber"},
+                                          {"--reference heavy", "--reference heavy"},
+                                          {"--time-limit '0 s'", "positive"}}) {
     const auto run = millstress(directory.path, "accuracy small.toml -o out " + arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments;
     EXPECT_NE(run.err.find(word), std::string::npos) << run.err;

@@ -147,9 +147,9 @@ TEST(Bodies, StubAxleIsNearTheHandFigure) {
   const auto json =
       run(directory.path, edited("stub_axle.toml", {{"instants_per_turn = 120", "instants_per_turn = 24"}}));
   expect_closed(json, "axle");
-  // By hand 55 kN on an arm of 50 mm, and the neck's own mass, bend the root by 57 MPa; the elastic factor of a
-  // long shaft, r/d = 0.0625 and D/d = 1.75, lies between 1.80 and 2.33 (verification P09). On an arm of 0.6 d
-  // shear and the clamp's edge pressure come on top: 18 % and 15 %, see README.
+  // By hand 55 kN on an arm of 50 mm, and the neck's own mass, bend the root by 57 MPa; the elastic factor of
+  // a long shaft, r/d = 0.0625 and D/d = 1.75, lies between 1.80 and 2.33 (verification P09). On an arm of
+  // 0.6 d shear and the clamp's edge pressure come on top: 18 % and 15 %, see README.
   const auto& axle = json["bodies"]["axle"];
   EXPECT_GT(axle["peak_von_mises"]["value"].get<double>(), 57e6 * 1.80);
   EXPECT_LT(axle["peak_von_mises"]["value"].get<double>(), 57e6 * 2.33 * 1.18 * 1.15);

@@ -1,5 +1,5 @@
 #include "tests/cases/program.h"
-#include "tests/cases/small_shaft.h"
+#include "tests/cases/stepped_shaft.h"
 
 using namespace cases;
 
@@ -15,14 +15,15 @@ double peak_MPa(const nlohmann::json& summary) {
 
 }  // namespace
 
-// A stricter tolerance walks the same way further: its first steps are those of the looser one. Each ends within its
-// tolerance of the strictest, whose own error is a tenth.
+// A stricter tolerance walks the same way further: its first steps are those of the looser one. Each ends
+// within its tolerance of the strictest, whose own error is a tenth.
 TEST(Tolerance, EachIsMetAgainstTheStrictest) {
   const results_test::Directory directory;
-  write(directory / "small.toml", small_shaft());
+  write(directory / "small.toml", stepped_shaft());
   std::map<std::string, nlohmann::json> results;
   for (const std::string percent : {"20", "5", "1.5"}) {
-    const auto run = millstress(directory.path, "run small.toml -o " + percent + " --tolerance '" + percent + " %'");
+    const auto run =
+        millstress(directory.path, "run small.toml -o " + percent + " --tolerance '" + percent + " %'");
     ASSERT_EQ(run.exit_code, 0) << run.err << run.out;
     results[percent] = summary(directory / percent);
     const auto& search = shaft_of(results[percent])["search"];
@@ -38,7 +39,8 @@ TEST(Tolerance, EachIsMetAgainstTheStrictest) {
     ASSERT_LE(steps.size(), all.size());
     for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_EQ(steps[i], all[i]) << percent << ' ' << i;
   }
-  EXPECT_GT(shaft_of(results["1.5"])["search"]["steps"].size(), shaft_of(results["20"])["search"]["steps"].size());
+  EXPECT_GT(shaft_of(results["1.5"])["search"]["steps"].size(),
+            shaft_of(results["20"])["search"]["steps"].size());
   // Only the fillets that may hold the peak became finer first.
   EXPECT_FALSE(fs::exists(directory / "1.5/shaft/search_1.h5"));
   EXPECT_TRUE(fs::exists(directory / "1.5/shaft/unit_responses.h5"));
@@ -47,7 +49,7 @@ TEST(Tolerance, EachIsMetAgainstTheStrictest) {
 // Time that is up keeps what there is: exit code 4, results whole, and a word on what the rest would cost.
 TEST(Tolerance, NotMetInTimeKeepsTheResults) {
   const results_test::Directory directory;
-  write(directory / "small.toml", small_shaft("tolerance = \"0.01 %\"\ntime_limit = \"3 s\""));
+  write(directory / "small.toml", stepped_shaft("tolerance = \"0.01 %\"\ntime_limit = \"3 s\""));
   const auto run = millstress(directory.path, "run small.toml -o out");
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_NE(run.err.find("tolerance is not met"), std::string::npos) << run.err;
@@ -61,7 +63,7 @@ TEST(Tolerance, NotMetInTimeKeepsTheResults) {
 // The last mesh of a search is kept with its responses: the same run again solves that mesh no more.
 TEST(Tolerance, SecondRunReusesTheLastMesh) {
   const results_test::Directory directory;
-  write(directory / "small.toml", small_shaft("tolerance = \"20 %\""));
+  write(directory / "small.toml", stepped_shaft("tolerance = \"20 %\""));
   ASSERT_EQ(millstress(directory.path, "run small.toml -o out").exit_code, 0);
   const auto first = contents(directory / "out");
   const auto run = millstress(directory.path, "run small.toml -o out");
@@ -72,13 +74,14 @@ TEST(Tolerance, SecondRunReusesTheLastMesh) {
 
 TEST(Tolerance, WrongWishesAreRefused) {
   const results_test::Directory directory;
-  write(directory / "small.toml", small_shaft());
-  write(directory / "wrong.toml", small_shaft("tolerance = \"2 mm\""));
+  write(directory / "small.toml", stepped_shaft());
+  write(directory / "wrong.toml", stepped_shaft("tolerance = \"2 mm\""));
   for (const std::string arguments : {"run small.toml --tolerance soon", "run small.toml --tolerance '200 %'",
                                       "run small.toml --time-limit '3 kg'", "run wrong.toml"}) {
     const auto run = millstress(directory.path, arguments + " -o out");
     EXPECT_EQ(run.exit_code, 2) << arguments;
-    EXPECT_NE(run.err.find(arguments == "run wrong.toml" ? "tolerance" : "--t"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find(arguments == "run wrong.toml" ? "tolerance" : "--t"), std::string::npos)
+        << run.err;
     EXPECT_FALSE(fs::exists(directory / "out")) << arguments;
   }
 }

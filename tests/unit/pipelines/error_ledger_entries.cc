@@ -44,15 +44,15 @@ Eigen::Index largest(const Eigen::ArrayXXd& values) {
 
 }  // namespace
 
-// A cosine between its samples: 1 - cos(d) is missing, d the angle from the next sample to the crest. The parabola
-// through three samples finds all but the fourth order, (d^2 + h^2)^2 / 24 with h = 15 degrees.
+// A cosine between its samples: 1 - cos(d) is missing, d the angle from the next sample to the crest. The
+// parabola through three samples finds all but the fourth order, (d^2 + h^2)^2 / 24 with h = 15 degrees.
 TEST(ErrorLedger, TimeSamplingFindsTheCrestBetweenInstants) {
   constexpr int n = 24;
   for (const double shift : {0.0, 0.05, 0.1, 0.13}) {
     Eigen::ArrayXXd values(1, n);
     for (int i = 0; i < n; ++i) values(0, i) = 2 + std::cos(2 * M_PI * i / n - shift);
-    const auto ledger = self_estimate({{{0, 1.0}}, std::int32_t(largest(values))}, at_one_node({{1, 0, 0, 0, 0, 0}}),
-                                      loads_of(values), {}, 0);
+    const auto ledger = self_estimate({{{0, 1.0}}, std::int32_t(largest(values))},
+                                      at_one_node({{1, 0, 0, 0, 0, 0}}), loads_of(values), {}, 0);
     EXPECT_NEAR(ledger.of("time_sampling"), 1 - std::cos(shift), 3e-4) << shift;
   }
 }
@@ -75,7 +75,8 @@ TEST(ErrorLedger, PressureHarmonicsAreWhatTheHighestBrings) {
   const auto ledger = self_estimate({{{0, 1.0}}, 1}, at_one_node({unit, unit, unit}), loads, {}, 0);
   EXPECT_NEAR(ledger.of("pressure_harmonics"), 0.3, 1e-14);
   // The first harmonic carries the force: it is no correction of the pattern.
-  const auto first = self_estimate({{{0, 1.0}}, 1}, at_one_node({unit}), loads_of(values.topRows(1), {pressure(1)}), {}, 0);
+  const auto first =
+      self_estimate({{{0, 1.0}}, 1}, at_one_node({unit}), loads_of(values.topRows(1), {pressure(1)}), {}, 0);
   EXPECT_EQ(first.of("pressure_harmonics"), 0);
 }
 
@@ -101,8 +102,8 @@ TEST(ErrorLedger, ExtrapolatedStressIsTheWeightedSumOfTensors) {
   EXPECT_NEAR(von_mises_of(unit, Eigen::ArrayXd::Constant(1, -2)), 2 * von_mises_Pa(wanted), 1e-13);
 }
 
-// A stress of second order in the cell size h: v = v0 (1 + c h^2). The change from h to h / r tells exactly what is
-// missing at h / r.
+// A stress of second order in the cell size h: v = v0 (1 + c h^2). The change from h to h / r tells exactly
+// what is missing at h / r.
 TEST(LearnFromChange, IsExactForSecondOrder) {
   for (const double ratio : {4.0 / 3, 2.0, 3.0}) {
     const auto stress = [](double h) { return 100 * (1 - 0.2 * h * h); };
@@ -114,7 +115,8 @@ TEST(LearnFromChange, IsExactForSecondOrder) {
   }
 }
 
-// Two meshes may agree by chance: the cells' own disagreement stays as a floor. Without a ratio nothing is learnt.
+// Two meshes may agree by chance: the cells' own disagreement stays as a floor. Without a ratio nothing is
+// learnt.
 TEST(LearnFromChange, KeepsAFloorOfTheMeshesOwnEstimate) {
   ErrorLedger ledger;
   ledger.set_numerical({"discretisation", "", 6.0});

@@ -1,41 +1,18 @@
-// What breaks finite elements first: hardly compressible material, cells a thousand times longer than thick,
-// lengths and loads far from 1. Closed forms, on both solvers where the body is free.
+// What breaks finite elements first: hardly compressible material, cells a thousand times longer than thick.
+// Closed forms, on both solvers where the body is free.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
 #include "block_mesh.h"
+#include "distorted_beam.h"
 #include "figures.h"
 
 namespace {
 
 using Component = fem::SurfaceResultant::Component;
 using verification::Point;
-
-/// Inner nodes moved against each other; the sides of the unit cube stay.
-Point distorted(const Point& c, double amount) {
-  const auto bump = [](double t) { return t * (1 - t); };
-  return c + 4 * amount *
-                 Point(bump(c[0]) * std::sin(5 * c[1] + 3 * c[2]), bump(c[1]) * std::sin(4 * c[2] + 5 * c[0]),
-                       bump(c[2]) * std::sin(3 * c[0] + 4 * c[1]));
-}
-
-/// w x h x l about the z axis, from z = 0.
-fem::Body beam(const Point& size, const std::array<int, 3>& cells, double distortion,
-               const fem::Material& material, int degree) {
-  verification::Block block;
-  block.cells = cells;
-  block.map = [size, distortion](const Point& c) {
-    const Point d = distorted(c, distortion);
-    return Point(size[0] * (d[0] - 0.5), size[1] * (d[1] - 0.5), size[2] * d[2]);
-  };
-  fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
-  body.material = material;
-  body.degree = degree;
-  return body;
-}
 
 verification::LoadCase on_ends(double length, Component component, double moment_or_force) {
   return {{verification::on_face(verification::begin_3, {0, 0, 0}, component), -moment_or_force},
@@ -73,7 +50,7 @@ class Incompressible : public testing::TestWithParam<Setting> {};
 TEST_P(Incompressible, straight_beams_are_exact_on_distorted_cells) {
   const auto [nu, degree, solver] = GetParam();
   const Point size(0.03, 0.04, 0.12);
-  const auto body = beam(size, {2, 2, 3}, 0.06, {200e9, nu, 7850}, degree);
+  const auto body = verification::distorted_beam(size, {2, 2, 3}, 0.06, {200e9, nu, 7850}, degree);
   const double area = size[0] * size[1], second = size[0] * std::pow(size[1], 3) / 12;
   const auto pulled =
       verification::solve(body, on_ends(size[2], Component::fz, 1), fem::Recovery::patch, solver);
@@ -144,14 +121,15 @@ TEST_P(DistortedCylinder, locks_no_more_than_stated) {
   EXPECT_LT(error, stress_bound);
 }
 
-// Bounds are the errors measured, with a third to spare. Degree 2 on 4 x 4 cells locks at 0.4999: 4.4 % of
-// the displacement is missing and the pressure-like part of the stress is worthless; 8 x 8 cells or degree 3
-// get it. Up to 0.49, as far as scenes go, degree 2 has no trouble.
+// Bounds are the errors measured, with a third to spare. Up to 0.49, as far as scenes go, degree 2 has no
+// trouble. At 0.4999 displacement locks by 4.4 % on 4 x 4 cells of degree 2, by 0.2 % on 8 x 8 and 0.01 % in
+// degree 3; the pressure-like part of the stress is worthless in degree 2 and needs 8 x 8 cells of degree 3.
 INSTANTIATE_TEST_SUITE_P(
     Cases, DistortedCylinder,
-    testing::Values(CylinderCase{0.0, 2, 4, 1e-4, 0.025}, CylinderCase{0.0, 3, 4, 1e-5, 0.0025},
-                    CylinderCase{0.49, 2, 4, 3e-4, 0.03}, CylinderCase{0.4999, 2, 4, 0.06, 3.5},
-                    CylinderCase{0.4999, 2, 8, 3e-3, 0.15}, CylinderCase{0.4999, 3, 4, 2e-4, 0.12}),
+    testing::Values(CylinderCase{0.0, 2, 4, 1e-4, 0.017}, CylinderCase{0.0, 3, 4, 1e-5, 0.0013},
+                    CylinderCase{0.49, 2, 4, 3e-4, 0.05}, CylinderCase{0.4999, 2, 4, 0.06, 9},
+                    CylinderCase{0.4999, 2, 8, 3e-3, 2.7}, CylinderCase{0.4999, 3, 4, 2e-4, 1},
+                    CylinderCase{0.4999, 3, 8, 2e-6, 0.1}),
     [](const auto& info) {
       return "nu_" + std::to_string(int(1e4 * info.param.poisson_ratio + 0.5)) + "_degree_" +
              std::to_string(info.param.degree) + "_cells_" + std::to_string(info.param.n);
@@ -161,7 +139,8 @@ class ThinCells : public testing::TestWithParam<double> {};
 
 /// One cell of 50 mm, as thin as its aspect says.
 fem::Body strip(double aspect, int n_cells, const fem::Material& material, int degree) {
-  return beam(Point(0.05, 0.05 / aspect, 0.05 * n_cells), {1, 1, n_cells}, 0, material, degree);
+  return verification::distorted_beam(Point(0.05, 0.05 / aspect, 0.05 * n_cells), {1, 1, n_cells}, 0,
+                                      material, degree);
 }
 
 double second_moment(double aspect) {
@@ -176,7 +155,7 @@ TEST_P(ThinCells, strip_bends_as_a_beam) {
     const auto s = verification::solve(strip(aspect, 1, {206e9, 0.3, 7850}, 2),
                                        on_ends(0.05, Component::mx, 1e-3), fem::Recovery::patch, solver);
     EXPECT_LT(stress_error(s, [&](const Point& x) { return along_z(1e-3 * x[1] / second_moment(aspect)); }),
-              std::max(1e-9, 2e-10 * aspect * aspect))
+              std::max(1e-9, 1e-9 * aspect * aspect))
         << s.solver.reason;
     if (solver == fem::Solver::automatic) {
       EXPECT_EQ(s.solver.used, fem::Solver::direct);
@@ -238,101 +217,13 @@ TEST_P(ThinCells, tube_bends_as_a_beam) {
   const double second = verification::pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4));
   for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
     const auto s = verification::solve(body, on_ends(length, Component::mx, 1), fem::Recovery::patch, solver);
-    // Twelve parabolas for the circle have a second moment 3.6e-4 too small.
-    EXPECT_LT(stress_error(s, [&](const Point& x) { return along_z(x[1] / second); }), 5e-4)
+    // Twelve parabolas for the circle have a second moment 3.6e-4 too small; the rest is recovery.
+    EXPECT_LT(stress_error(s, [&](const Point& x) { return along_z(x[1] / second); }), 2e-3)
         << s.solver.reason;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Aspects, ThinCells, testing::Values(17.0, 1000.0),
                          [](const auto& info) { return "aspect_" + std::to_string(int(info.param)); });
-
-// The same bent and pulled beam, a thousand times smaller and larger: stress times length squared (to the
-// third) is a number without dimension. 1e-9: what coordinates of another rounding leave.
-TEST(Scaling, lengths_of_micrometres_and_kilometres_give_the_same_numbers) {
-  const auto answer = [](double unit, Component component, int power, fem::Solver solver) {
-    const Point size = unit * Point(0.3, 0.4, 1.2);
-    const auto body = beam(size, {2, 2, 4}, 0.04, {206e9, 0.3, 7850}, 2);
-    const auto s = verification::solve(
-        body, {{verification::on_face(verification::end_3, {0, 0, size[2]}, component), 1}},
-        fem::Recovery::patch, solver);
-    return std::pair<Eigen::MatrixXd, Eigen::MatrixXd>(s.stress_Pa * std::pow(unit, power),
-                                                       s.displacement_m * std::pow(unit, power - 1));
-  };
-  for (const auto solver : {fem::Solver::direct, fem::Solver::iterative})
-    for (const auto& [component, power] :
-         {std::pair{Component::fx, 2}, {Component::fz, 2}, {Component::torque, 3}}) {
-      const auto one = answer(1, component, power, solver);
-      for (const double unit : {1e-6, 1e-3, 1e3}) {
-        const auto other = answer(unit, component, power, solver);
-        EXPECT_LT((other.first - one.first).cwiseAbs().maxCoeff(), 1e-9 * one.first.cwiseAbs().maxCoeff())
-            << unit;
-        EXPECT_LT((other.second - one.second).cwiseAbs().maxCoeff(), 1e-9 * one.second.cwiseAbs().maxCoeff())
-            << unit;
-      }
-    }
-}
-
-/// A whole tube of radii 0.2 and 0.3 m.
-fem::Body tube(double density_kg_m3) {
-  verification::Block block;
-  block.cells = {2, 8, 2};
-  block.is_ring = true;
-  block.map = [](const Point& c) {
-    const double r = 0.2 + 0.1 * c[0], angle = 2 * verification::pi * c[1];
-    return Point(r * std::cos(angle), r * std::sin(angle), 0.2 * c[2]);
-  };
-  fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
-  fem::CylinderChart chart;
-  chart.volume_id = verification::block_volume;
-  body.cylinders = {chart};
-  body.material = {206e9, 0.3, density_kg_m3};
-  return body;
-}
-
-/// Pressure inside, and the field of spin, both times a factor.
-fem::UnitResponses pressed_and_spun(double factor, fem::Solver solver) {
-  auto pressure = verification::uniform_pressure(verification::begin_1, {0, 0, 0.1}, 0.2);
-  pressure.coefficient *= factor;
-  return fem::Model(tube(factor))
-      .unit_responses(
-          {{"inside.p0", pressure}, {"volume.omega2", fem::BodyForce{fem::BodyForce::Field::spin}}}, {},
-          fem::Recovery::patch, {}, {solver, 1e-10, 100});
-}
-
-// Unit loads of 1e-150 and 1e150: their squares are no numbers any more. Powers of two change no bit, so the
-// answers are compared bit by bit.
-TEST(Scaling, loads_are_linear_over_three_hundred_decades) {
-  for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
-    const auto usual = pressed_and_spun(1, solver);
-    EXPECT_EQ(usual.solver.used, solver) << usual.solver.reason;
-    for (const int exponent : {-498, 498, -664, 664}) {  // 1e-150, 1e150, 1e-200, 1e200
-      const auto other = pressed_and_spun(std::ldexp(1.0, exponent), solver);
-      EXPECT_EQ(other.solver.used, solver) << other.solver.reason;
-      for (std::size_t i = 0; i < usual.stress_Pa.size(); ++i)
-        ASSERT_EQ(std::ldexp(other.stress_Pa[i], -exponent), usual.stress_Pa[i]) << exponent;
-    }
-  }
-}
-
-// A load vector of nothing but zeros, beside one that is none.
-TEST(Scaling, no_load_gives_zero_by_both_solvers) {
-  for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
-    auto nothing = verification::uniform_pressure(verification::begin_1, {0, 0, 0.1}, 0.2);
-    nothing.coefficient = 0;
-    const auto r = fem::Model(tube(7850))
-                       .unit_responses({{"none.p0", nothing},
-                                        {"volume.omega2", fem::BodyForce{fem::BodyForce::Field::spin}}},
-                                       {}, fem::Recovery::patch, {}, {solver, 1e-10, 100});
-    EXPECT_EQ(r.solver.used, solver) << r.solver.reason;
-    EXPECT_TRUE(std::isfinite(r.residual));
-    for (std::size_t i = 0; i < r.nodes.n; ++i) {
-      for (std::size_t c = 0; c < 6; ++c) ASSERT_EQ(r.stress_Pa[12 * i + c], 0);
-      for (std::size_t d = 0; d < 3; ++d) ASSERT_EQ(r.displacement_m[6 * i + d], 0);
-      ASSERT_TRUE(std::isfinite(r.stress_Pa[12 * i + 6]));
-    }
-  }
-}
 
 }  // namespace

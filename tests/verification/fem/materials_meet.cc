@@ -52,7 +52,8 @@ protected:
     const auto solver = std::get<1>(GetParam());
     auto solution = verification::solve(body, loads, fem::Recovery::patch, solver);
     // At 1e6 rounding leaves bending a residual that is not acceptable, and the factor takes over.
-    if (jump() < 1e6) EXPECT_EQ(solution.solver.used, solver) << solution.solver.reason;
+    const bool handed_over = jump() == 1e6 && solution.solver.used == fem::Solver::direct;
+    EXPECT_TRUE(handed_over || solution.solver.used == solver) << solution.solver.reason;
     return solution;
   }
 };

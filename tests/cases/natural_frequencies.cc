@@ -1,0 +1,106 @@
+// Natural frequencies in a run: those of a bar between two bearings, and what they say of its loads.
+#include <cmath>
+
+#include "tests/cases/program.h"
+#include "tests/cases/small_shaft.h"
+
+using namespace cases;
+
+namespace {
+
+constexpr double e_Pa = 206e9, rho_kg_m3 = 7850;
+
+/// Pinned at both ends: w = (n pi / L)^2 sqrt(E I / rho A), less the first order of Timoshenko's correction
+/// for rotary inertia and shear. Source: Timoshenko, Vibration Problems in Engineering, art. on lateral
+/// vibration.
+double pinned_bar_Hz(int n) {
+  const double radius_m = small_diameter / 2e3, length_m = small_span / 1e3, gyration_m = radius_m / 2;
+  const double wave = n * M_PI / length_m, thick = wave * wave * gyration_m * gyration_m;
+  const double shear = e_Pa / (0.9 * e_Pa / 2.6);
+  return wave * wave * gyration_m * std::sqrt(e_Pa / rho_kg_m3) * (1 - thick / 2 * (1 + shear)) / (2 * M_PI);
+}
+
+std::string rpm(double hertz) {
+  return std::to_string(60 * hertz) + " rpm";
+}
+
+bool warns(const nlohmann::json& json) {
+  for (const auto& warning : json["warnings"])
+    if (warning.get<std::string>().find("natural frequency") != std::string::npos) return true;
+  return false;
+}
+
+nlohmann::json shaken(const fs::path& directory, const std::string& speed, int order,
+                      std::string* out = nullptr) {
+  return run_small(directory, small_shaft({{"shake", "middle.fy", "100 N", order}}, "mm", speed), out);
+}
+
+}  // namespace
+
+TEST(NaturalFrequencies, OfABarBetweenBearingsAreThoseOfABeam) {
+  const results_test::Directory directory;
+  std::string text;
+  const auto shaft = shaken(directory.path, "600 rpm", 1, &text)["bodies"]["shaft"];
+  ASSERT_EQ(shaft["natural_frequencies"].size(), 2u);
+  // A pair, for the bar is round. Seats of 1 % of the span hold its mean over them, and 2 mm stand over: 1 %.
+  for (const auto& f : shaft["natural_frequencies"])
+    EXPECT_NEAR(f["value"].get<double>(), pinned_bar_Hz(1), 0.01 * pinned_bar_Hz(1));
+  EXPECT_EQ(shaft["natural_frequencies"][0]["unit"], "Hz");
+  EXPECT_EQ(shaft["dynamic_amplification"]["held"], "pinned at bearing_1, bearing_2");
+  EXPECT_NE(text.find("natural frequencies [Hz]"), std::string::npos) << text;
+  EXPECT_NE(text.find("dynamic amplification"), std::string::npos) << text;
+}
+
+// One harmonic of all the stress at f: 1 / (1 - (f / f1)^2). At a tenth of f1 that is 1 %, at a fifth 4 %.
+TEST(NaturalFrequencies, AFastShaftIsWarnedOf) {
+  const results_test::Directory directory;
+  const double f1 =
+      shaken(directory.path, "600 rpm", 1)["bodies"]["shaft"]["natural_frequencies"][0]["value"];
+  for (const auto& [share, order] : {std::pair{0.1, 1}, {0.2, 1}, {0.1, 2}, {1.5, 1}}) {
+    const auto json = shaken(directory.path, rpm(share * f1), order);
+    const auto& dynamic = json["bodies"]["shaft"]["dynamic_amplification"];
+    const double ratio = share * order, expected = 1 / std::abs(1 - ratio * ratio);
+    const auto& line = dynamic["highest_harmonic"];
+    EXPECT_NEAR(line["amplification"].get<double>(), expected, 1e-6 * expected);
+    EXPECT_NEAR(line["share"].get<double>(), 1, 0.01);
+    // Under the middle seat the one-sided pressure adds even harmonics of a percent.
+    EXPECT_NEAR(dynamic["value"].get<double>() - 1, std::abs(expected - 1), 0.05 * std::abs(expected - 1))
+        << share;
+    EXPECT_NEAR(line["frequency_Hz"].get<double>(), ratio * f1, 1e-6 * f1);
+    EXPECT_NEAR(line["order"].get<double>(), order, 1e-12);
+    EXPECT_EQ(warns(json), ratio > 0.15) << share << " " << order;
+  }
+}
+
+// Not asked for: no stage, no keys, and the rest of the results is the same to the byte.
+TEST(NaturalFrequencies, CostNothingUnlessAskedFor) {
+  const results_test::Directory directory;
+  const std::vector<SmallLoad> loads{{"shake", "middle.fy", "100 N", 1}};
+  const auto results = [&](const std::string& keys) {
+    auto json = run_small(directory.path, small_shaft(loads, "mm", "600 rpm", keys));
+    json["input"].erase("hash");
+    return json;
+  };
+  auto with = results("natural_frequencies = 2");
+  for (const auto* keys : {"", "natural_frequencies = 0"}) {
+    auto without = results(keys);
+    EXPECT_FALSE(without["bodies"]["shaft"].contains("natural_frequencies"));
+    EXPECT_FALSE(without["bodies"]["shaft"].contains("dynamic_amplification"));
+    EXPECT_FALSE(without["timing"].contains("natural frequencies"));
+    EXPECT_TRUE(with["timing"].contains("natural frequencies"));
+    auto stripped = with;
+    for (auto* json : {&stripped, &without}) json->erase("timing");
+    stripped["bodies"]["shaft"].erase("natural_frequencies");
+    stripped["bodies"]["shaft"].erase("dynamic_amplification");
+    EXPECT_EQ(stripped, without);
+  }
+}
+
+TEST(NaturalFrequencies, MoreThanTheMeshHasAreRefused) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml",
+        small_shaft({{"shake", "middle.fy", "100 N", 1}}, "mm", "600 rpm", "natural_frequencies = 51"));
+  const auto outcome = millstress(directory.path, "run scene.toml -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("natural_frequencies = 51"), std::string::npos) << outcome.err;
+}
