@@ -13,11 +13,14 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// What one harmonic adds to one channel.
+/// What one harmonic adds to one channel: nine columns of the harmonic's amplitudes.
 struct Part {
   std::size_t channel;
-  int m;
   bool twin;
+};
+struct Harmonic {
+  int m;
+  std::vector<Part> parts;
   SurfaceAmplitudes surface;
 };
 
@@ -44,70 +47,71 @@ Nodes revolved_nodes(const MeridianGrid& grid, int n_angles) {
   return nodes;
 }
 
-std::vector<Part> solve_harmonics(const MeridianGrid& grid, const MeridianBody& body,
-                                  const std::vector<UnitLoad>& loads, UnitResponses& r) {
+std::vector<Harmonic> solve_harmonics(const MeridianGrid& grid, const MeridianBody& body,
+                                      const std::vector<UnitLoad>& loads, UnitResponses& r) {
   const HarmonicLoads load_of(grid, body);
-  struct Column {
-    std::size_t channel;
-    bool twin;
-    Eigen::VectorXd force;
+  struct Columns {
+    std::vector<Part> parts;
+    std::vector<Eigen::VectorXd> force;
   };
-  std::map<int, std::vector<Column>> by_harmonic;
+  std::map<int, Columns> by_harmonic;
   for (std::size_t k = 0; k < loads.size(); ++k) {
     auto forces = load_of(loads[k]);
     r.channels.push_back(loads[k].channel);
     r.resultants.push_back(load_of.resultant(forces));
-    for (auto& part : forces) {
-      const double applied = part.force.norm();
-      load_of.balance(part.m, part.force);
+    for (auto& [m, twin, force] : forces) {
+      const double applied = force.norm();
+      load_of.balance(m, force);
       // A uniform acceleration is what balances a load: nothing but rounding is left of it.
-      if (part.force.norm() > 1e-12 * applied)
-        by_harmonic[part.m].push_back({k, part.twin, std::move(part.force)});
+      if (!(force.norm() > 1e-12 * applied)) continue;
+      by_harmonic[m].parts.push_back({k, twin});
+      by_harmonic[m].force.push_back(std::move(force));
     }
   }
-  const HarmonicSolver solver(grid, body.material);
-  std::vector<Part> parts;
+  HarmonicSolver solver(grid, body.material);
+  std::vector<Harmonic> harmonics;
   for (const auto& [m, columns] : by_harmonic) {
-    Eigen::MatrixXd force(3 * grid.n_nodes(), columns.size());
-    for (std::size_t k = 0; k < columns.size(); ++k) force.col(Eigen::Index(k)) = columns[k].force;
-    const Eigen::MatrixXd displacement = solver.solve(m, force, r.residual);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      Eigen::VectorXd u = displacement.col(Eigen::Index(k));
-      load_of.remove_motion(m, u);
-      parts.push_back(
-          {columns[k].channel, m, columns[k].twin, surface_amplitudes(grid, body.material, m, u)});
-    }
+    Eigen::MatrixXd force(3 * grid.n_nodes(), columns.force.size());
+    for (std::size_t k = 0; k < columns.force.size(); ++k) force.col(Eigen::Index(k)) = columns.force[k];
+    Eigen::MatrixXd displacement = solver.solve(m, force, r.residual);
+    load_of.remove_motion(m, displacement);
+    harmonics.push_back({m, columns.parts, surface_amplitudes(grid, body.material, m, displacement)});
     r.n_dofs += 3 * std::size_t(grid.n_nodes());
   }
-  return parts;
+  return harmonics;
 }
 
-/// Adds a harmonic's part on one half plane.
-void add_on_half_plane(const Part& part, double angle, std::size_t node_step, std::size_t first_node,
-                       UnitResponses& r) {
+/// Adds amplitudes a (U, V, W, rr, tt, zz, rz, rt, tz) times the factors of their cosine and sine at an angle
+/// to displacement u and stress s.
+void add_at_angle(const double* a, double even, double odd, double cos, double sin, double* u, double* s) {
+  const double ur = even * a[0], ut = odd * a[1];
+  u[0] += ur * cos - ut * sin;
+  u[1] += ur * sin + ut * cos;
+  u[2] += even * a[2];
+  const double rr = even * a[3], tt = even * a[4], rz = even * a[6], rt = odd * a[7], tz = odd * a[8];
+  s[0] += rr * cos * cos + tt * sin * sin - 2 * rt * cos * sin;
+  s[1] += rr * sin * sin + tt * cos * cos + 2 * rt * cos * sin;
+  s[2] += even * a[5];
+  s[3] += (rr - tt) * cos * sin + rt * (cos * cos - sin * sin);
+  s[4] += rz * sin + tz * cos;
+  s[5] += rz * cos - tz * sin;
+}
+
+/// All channels at one node.
+void add_at_node(const std::vector<Harmonic>& harmonics, Eigen::Index point, double angle, std::size_t node,
+                 UnitResponses& r) {
   const std::size_t n_channels = r.channels.size();
   const double cos = std::cos(angle), sin = std::sin(angle);
-  double even = 1, odd = 1;  // factors of the cosine's and the sine's amplitudes
-  if (part.m > 0) {
-    even = part.twin ? std::sin(part.m * angle) : std::cos(part.m * angle);
-    odd = part.twin ? -std::cos(part.m * angle) : std::sin(part.m * angle);
-  }
-  for (Eigen::Index p = 0; p < part.surface.rows(); ++p) {
-    const std::size_t at = (first_node + std::size_t(p) * node_step) * n_channels + part.channel;
-    const auto a = part.surface.row(p);
-    const double ur = even * a[0], ut = odd * a[1];
-    double* u = &r.displacement_m[3 * at];
-    u[0] += ur * cos - ut * sin;
-    u[1] += ur * sin + ut * cos;
-    u[2] += even * a[2];
-    const double rr = even * a[3], tt = even * a[4], rz = even * a[6], rt = odd * a[7], tz = odd * a[8];
-    double* s = &r.stress_Pa[6 * at];
-    s[0] += rr * cos * cos + tt * sin * sin - 2 * rt * cos * sin;
-    s[1] += rr * sin * sin + tt * cos * cos + 2 * rt * cos * sin;
-    s[2] += even * a[5];
-    s[3] += (rr - tt) * cos * sin + rt * (cos * cos - sin * sin);
-    s[4] += rz * sin + tz * cos;
-    s[5] += rz * cos - tz * sin;
+  for (const auto& harmonic : harmonics) {
+    const double cos_m = std::cos(harmonic.m * angle), sin_m = std::sin(harmonic.m * angle);
+    const double* amplitudes = harmonic.surface.row(point).data();
+    for (const auto& [channel, twin] : harmonic.parts) {
+      const double even = twin ? sin_m : cos_m;
+      const double odd = harmonic.m == 0 ? 1 : twin ? -cos_m : sin_m;
+      const std::size_t at = node * n_channels + channel;
+      add_at_angle(amplitudes, even, odd, cos, sin, &r.displacement_m[3 * at], &r.stress_Pa[6 * at]);
+      amplitudes += 9;
+    }
   }
 }
 
@@ -120,13 +124,15 @@ UnitResponses axisymmetric_responses(const MeridianBody& body, const std::vector
   const MeridianGrid grid = meridian_grid(body);
   UnitResponses r;
   r.solver.reason = "axisymmetric harmonics";
-  const auto parts = solve_harmonics(grid, body, loads, r);
+  const auto harmonics = solve_harmonics(grid, body, loads, r);
   r.nodes = revolved_nodes(grid, body.n_angles);
   r.displacement_m.assign(r.nodes.n * loads.size() * 3, 0);
   r.stress_Pa.assign(r.nodes.n * loads.size() * 6, 0);
-  for (int j = 0; j < body.n_angles; ++j)
-    for (const auto& part : parts)
-      add_on_half_plane(part, 2 * pi * j / body.n_angles, std::size_t(body.n_angles), std::size_t(j), r);
+  for (std::size_t node = 0; node < r.nodes.n; ++node) {
+    const auto n_angles = std::size_t(body.n_angles);
+    add_at_node(harmonics, Eigen::Index(node / n_angles), 2 * pi * double(node % n_angles) / body.n_angles,
+                node, r);
+  }
   return r;
 }
 

@@ -270,7 +270,7 @@ void HarmonicLoads::balance(int m, Eigen::VectorXd& force) const {
   force -= mass * (rigid.transpose() * mass).inverse() * (rigid.transpose() * force);
 }
 
-void HarmonicLoads::remove_motion(int m, Eigen::VectorXd& displacement) const {
+void HarmonicLoads::remove_motion(int m, Eigen::MatrixXd& displacement) const {
   if (m > 1) return;
   const auto &rigid = modes_[std::size_t(m)], &mass = mass_modes_[std::size_t(m)];
   displacement -= rigid * (rigid.transpose() * mass).inverse() * (mass.transpose() * displacement);

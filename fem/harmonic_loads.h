@@ -38,7 +38,7 @@ public:
 
   // By the mass: resultants out of a load, rigid motion out of a displacement; m = 0 or 1, else nothing.
   void balance(int m, Eigen::VectorXd& force) const;
-  void remove_motion(int m, Eigen::VectorXd& displacement) const;
+  void remove_motion(int m, Eigen::MatrixXd& displacement) const;
 
 private:
   /// Amplitudes with exact unit resultants about a height: of m = 0, axial force and torque; of m = 1, force

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "fem/cholmod_factor.h"
 #include "fem/harmonic_strain.h"
 
 namespace fem {
@@ -28,7 +27,11 @@ NodeGraph graph_of(const MeridianGrid& grid) {
 }  // namespace
 
 HarmonicSolver::HarmonicSolver(const MeridianGrid& grid, const Material& material)
-    : grid_(&grid), material_(material), graph_(graph_of(grid)), order_(order_nodes(graph_)) {}
+    : grid_(&grid),
+      material_(material),
+      graph_(graph_of(grid)),
+      matrix_(make_matrix(graph_)),
+      factor_(std::make_unique<CholmodFactor>(matrix_, order_nodes(graph_))) {}
 
 std::vector<char> HarmonicSolver::held_unknowns(int m) const {
   const auto& z = grid_->z_m;
@@ -51,7 +54,8 @@ std::vector<char> HarmonicSolver::held_unknowns(int m) const {
   return held;
 }
 
-void HarmonicSolver::assemble(int m, const std::vector<char>& held, SymmetricMatrix& matrix) const {
+void HarmonicSolver::assemble(int m, const std::vector<char>& held) {
+  std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   const auto elasticity = elasticity_matrix(material_);
   for (std::size_t c = 0; c < grid_->cell_nodes.size(); ++c) {
     const auto& nodes = grid_->cell_nodes[c];
@@ -82,30 +86,30 @@ void HarmonicSolver::assemble(int m, const std::vector<char>& held, SymmetricMat
         for (int d = 0; d < 3; ++d)
           for (int e = row == column ? d : 0; e < 3; ++e)
             if (!held[std::size_t(3 * row + e)] && !held[std::size_t(3 * column + d)])
-              matrix.value[std::size_t(matrix.column_begin[std::size_t(3 * column + d)] + offset + e - d)] +=
+              matrix_
+                  .value[std::size_t(matrix_.column_begin[std::size_t(3 * column + d)] + offset + e - d)] +=
                   stiffness(3 * Eigen::Index(a) + e, 3 * Eigen::Index(b) + d);
       }
   }
   for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i]) matrix.value[std::size_t(matrix.column_begin[i])] = material_.youngs_modulus_Pa;
+    if (held[i]) matrix_.value[std::size_t(matrix_.column_begin[i])] = material_.youngs_modulus_Pa;
 }
 
-Eigen::MatrixXd HarmonicSolver::solve(int m, const Eigen::MatrixXd& force, double& residual) const {
+Eigen::MatrixXd HarmonicSolver::solve(int m, const Eigen::MatrixXd& force, double& residual) {
   const auto held = held_unknowns(m);
-  SymmetricMatrix matrix = make_matrix(graph_);
-  assemble(m, held, matrix);
+  assemble(m, held);
   Eigen::MatrixXd f = force;
   if (m == 1)
     for (int i = 0; i < grid_->n_nodes(); ++i)
       if (grid_->on_axis[std::size_t(i)]) f.row(3 * i) -= f.row(3 * i + 1);
   for (std::size_t i = 0; i < held.size(); ++i)
     if (held[i]) f.row(Eigen::Index(i)).setZero();
-  CholmodFactor factor(matrix, order_);
-  factor.factorise(matrix);
-  Eigen::MatrixXd u = factor.solve(f);
+  factor_->factorise(matrix_);
+  Eigen::MatrixXd u = factor_->solve(f);
+  const Eigen::MatrixXd rest = multiply(matrix_, u) - f;
   for (Eigen::Index k = 0; k < f.cols(); ++k)
     if (const double size = f.col(k).norm(); size > 0)
-      residual = std::max(residual, (multiply(matrix, u.col(k)) - f.col(k)).norm() / size);
+      residual = std::max(residual, rest.col(k).norm() / size);
   if (m == 1)
     for (int i = 0; i < grid_->n_nodes(); ++i)
       if (grid_->on_axis[std::size_t(i)]) u.row(3 * i + 1) = -u.row(3 * i);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "fem/body.h"
+#include "fem/cholmod_factor.h"
 #include "fem/meridian_grid.h"
 #include "fem/symmetric_matrix.h"
 
@@ -19,16 +20,17 @@ public:
   /// 0 at m = 1, none beyond.
   /// @param residual  becomes the larger of itself and the largest |K u - f| / |f|
   /// @throws std::runtime_error if the factorisation fails
-  Eigen::MatrixXd solve(int m, const Eigen::MatrixXd& force, double& residual) const;
+  Eigen::MatrixXd solve(int m, const Eigen::MatrixXd& force, double& residual);
 
 private:
-  void assemble(int m, const std::vector<char>& held, SymmetricMatrix& matrix) const;
+  void assemble(int m, const std::vector<char>& held);
   std::vector<char> held_unknowns(int m) const;
 
   const MeridianGrid* grid_;
   Material material_;
   NodeGraph graph_;
-  std::vector<std::int32_t> order_;
+  SymmetricMatrix matrix_;  // of the harmonic solved last
+  std::unique_ptr<CholmodFactor> factor_;
 };
 
 }  // namespace fem

@@ -38,22 +38,24 @@ double angle_integral(int m) {
 }
 
 SurfaceAmplitudes surface_amplitudes(const MeridianGrid& grid, const Material& material, int m,
-                                     const Eigen::VectorXd& displacement) {
+                                     const Eigen::MatrixXd& displacement) {
   const auto elasticity = elasticity_matrix(material);
-  SurfaceAmplitudes result = SurfaceAmplitudes::Zero(Eigen::Index(grid.surface.size()), 9);
+  SurfaceAmplitudes result =
+      SurfaceAmplitudes::Zero(Eigen::Index(grid.surface.size()), 9 * displacement.cols());
   for (std::size_t p = 0; p < grid.surface.size(); ++p) {
     const auto& samples = grid.surface[p].samples;
+    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(9, displacement.cols());
     for (const auto& sample : samples) {
       const auto& nodes = grid.cell_nodes[std::size_t(sample.cell)];
-      Eigen::VectorXd own(3 * nodes.size());
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        own.segment<3>(3 * Eigen::Index(i)) = displacement.segment<3>(3 * nodes[i]);
-      auto row = result.row(Eigen::Index(p));
-      row.tail<6>() += (elasticity * (strain_matrix(sample, m) * own)).transpose() / double(samples.size());
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        row.head<3>() += sample.value[Eigen::Index(i)] * own.segment<3>(3 * Eigen::Index(i)).transpose() /
-                         double(samples.size());
+      Eigen::MatrixXd own(3 * nodes.size(), displacement.cols());
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        own.middleRows<3>(3 * Eigen::Index(i)) = displacement.middleRows<3>(3 * nodes[i]);
+        mean.topRows<3>() += sample.value[Eigen::Index(i)] * own.middleRows<3>(3 * Eigen::Index(i));
+      }
+      mean.bottomRows<6>() += elasticity * (strain_matrix(sample, m) * own);
     }
+    mean /= double(samples.size());
+    result.row(Eigen::Index(p)) = Eigen::Map<const Eigen::RowVectorXd>(mean.data(), mean.size());
   }
   return result;
 }

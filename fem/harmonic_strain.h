@@ -25,10 +25,10 @@ Eigen::Matrix<double, 6, 6> elasticity_matrix(const Material& material);
 /// Integral over the angle of cos^2 m theta: 2 pi or pi.
 double angle_integral(int m);
 
-/// Amplitudes at the points of the surface, a row each: U, V, W [m]; rr, tt, zz, rz, rt, tz [Pa], means of
-/// the cells' values.
-using SurfaceAmplitudes = Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>;
+/// Amplitudes at the points of the surface, a row each: nine columns per displacement, U, V, W [m]; rr, tt,
+/// zz, rz, rt, tz [Pa], means of the cells' values.
+using SurfaceAmplitudes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 SurfaceAmplitudes surface_amplitudes(const MeridianGrid& grid, const Material& material, int m,
-                                     const Eigen::VectorXd& displacement);
+                                     const Eigen::MatrixXd& displacement);
 
 }  // namespace fem
