@@ -8,10 +8,10 @@
 #include <memory>
 #include <optional>
 
-#include "fem/model.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/body_analysis.h"
 #include "pipelines/calculix_cards.h"
+#include "pipelines/command_stages.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/load_files.h"
 #include "pipelines/load_statistics.h"
@@ -25,22 +25,6 @@
 
 namespace pipelines {
 namespace {
-
-/// What a trunnion that turns with the drum feels: constant loads of the carrier's frame reverse fully.
-void add_turning_trunnions(kinetics::LoadHistory& loads) {
-  auto turning = kinetics::turned_with_drum(loads, loads.resultant("trunnions"));
-  turning.role = "trunnions_turning";
-  turning.description = "the same load in axes that turn with the drum";
-  loads.resultants.push_back(std::move(turning));
-}
-
-kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
-  if (scene.run_up)
-    return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
-  auto loads = compute_loads(machine, scene.kinetics_effects(), scene.sampling);
-  if (scene.drum_axes) add_turning_trunnions(loads);
-  return loads;
-}
 
 /// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
 /// figures.
@@ -85,34 +69,6 @@ void report(std::ostream& out, const CommandOptions& options, const RunReport& c
 void print_cost(std::ostream& out, std::size_t n_dofs) {
   out << fmt::format("  {:.0f} k unknowns, factor about {:.1f} GB\n", double(n_dofs) / 1e3,
                      2.7 * std::pow(double(n_dofs) / 203e3, 1.38));
-}
-
-}  // namespace
-
-namespace {
-
-/// MPI takes half a second and may talk: only where a body is looked at.
-struct Solver {
-  explicit Solver(int n_threads) : environment(argc, argv, n_threads) {}
-  char name[11] = "millstress";
-  char* arguments[2] = {name, nullptr};
-  char** argv = arguments;
-  int argc = 1;
-  fem::Environment environment;
-};
-
-std::vector<kinetics::Spring> springs_of(const Scene& scene) {
-  const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
-  return mill ? mill->springs : std::vector<kinetics::Spring>{};
-}
-
-/// Meshes all bodies, each to a temporary name beside its place.
-std::vector<MeshedBody> mesh_bodies(const Scene& scene,
-                                    const std::vector<std::unique_ptr<AtomicFile>>& files) {
-  std::vector<MeshedBody> bodies;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    bodies.push_back(mesh_body(scene.bodies[i], files[i]->temporary(), springs_of(scene)));
-  return bodies;
 }
 
 /// Masses that only a mesh can tell, for commands that need no more of it; the meshes are thrown away.

@@ -78,6 +78,9 @@ int main(int argc, char** argv) {
   extremes->add_flag("--json", options.json, "print JSON instead of the table");
   auto* ports = add("ports", "pictures of the bodies with their ports coloured and named");
   ports->add_option("-o,--output", options.output, "result directory (default: results/<scene>)");
+  auto* calculix = add("calculix", "the bodies' meshes and unit loads as input files of CalculiX");
+  calculix->add_option("-o,--output", options.output,
+                       "directory of the <body>.inp (default: results/<scene>)");
   auto* check =
       add("check",
           "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing");
@@ -105,6 +108,8 @@ int main(int argc, char** argv) {
       pipelines::extremes_command(options, std::cout);
     } else if (ports->parsed()) {
       pipelines::ports_command(options, std::cout);
+    } else if (calculix->parsed()) {
+      pipelines::calculix_command(options, std::cout);
     } else if (check->parsed()) {
       pipelines::check_command(options, std::cout);
     }
