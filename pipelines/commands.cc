@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 
-#include "fem/model.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/body_analysis.h"
 #include "pipelines/calculix_cards.h"
@@ -51,15 +50,6 @@ void report(std::ostream& out, const CommandOptions& options, const RunReport& c
 void print_cost(std::ostream& out, std::size_t n_dofs) {
   out << fmt::format("  {:.0f} k unknowns, factor about {:.1f} GB\n", double(n_dofs) / 1e3,
                      2.7 * std::pow(double(n_dofs) / 203e3, 1.38));
-}
-
-/// Meshes all bodies, each to a temporary name beside its place.
-std::vector<MeshedBody> mesh_bodies(const Scene& scene,
-                                    const std::vector<std::unique_ptr<AtomicFile>>& files) {
-  std::vector<MeshedBody> bodies;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    bodies.push_back(mesh_body(scene.bodies[i], files[i]->temporary(), springs_of(scene)));
-  return bodies;
 }
 
 /// Masses that only a mesh can tell, for commands that need no more of it; the meshes are thrown away.

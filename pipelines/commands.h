@@ -14,8 +14,8 @@ namespace pipelines {
 struct CommandOptions {
   std::filesystem::path scene;
   std::filesystem::path
-      output;                 ///< run, ports: directory; loads: .h5 file; empty: the default or none (loads)
-  std::filesystem::path csv;  ///< loads only; empty: none
+      output;  ///< run, ports, calculix: directory; loads: .h5 file; empty: the default or none (loads)
+  std::filesystem::path csv;          ///< loads only; empty: none
   std::filesystem::path calculix;     ///< loads only: prefix of the files of cards; empty: none
   std::filesystem::path statistics;   ///< loads only: directory of statistics; empty: none
   std::string threshold = "1 %";      ///< effects only: what may change when effects are left out
@@ -59,6 +59,10 @@ void accuracy_command(const CommandOptions& options, std::ostream& out);
 /// `millstress ports`: every body's surface with its ports marked, as VTU and as a picture. The directory
 /// defaults to results/<scene's name>. Meshes the bodies, solves nothing.
 void ports_command(const CommandOptions& options, std::ostream& out);
+
+/// `millstress calculix`: every body's mesh and unit loads as <body>.inp for CalculiX. The directory defaults
+/// to results/<scene's name>. Solves nothing.
+void calculix_command(const CommandOptions& options, std::ostream& out);
 
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.

@@ -54,6 +54,14 @@ std::vector<kinetics::Spring> springs_of(const Scene& scene) {
   return mill ? mill->springs : std::vector<kinetics::Spring>{};
 }
 
+std::vector<MeshedBody> mesh_bodies(const Scene& scene,
+                                    const std::vector<std::unique_ptr<AtomicFile>>& files) {
+  std::vector<MeshedBody> bodies;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    bodies.push_back(mesh_body(scene.bodies[i], files[i]->temporary(), springs_of(scene)));
+  return bodies;
+}
+
 BodyChannels LoadedScene::channels() const {
   BodyChannels channels;
   for (const auto& body : body_loads) channels.push_back(&body.history);

@@ -1,9 +1,11 @@
 /// The load stage and what it hands to the bodies of a scene.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "kinetics/load_history.h"
+#include "pipelines/atomic_file.h"
 #include "pipelines/body_analysis.h"
 #include "pipelines/load_files.h"
 #include "pipelines/stage_clock.h"
@@ -15,6 +17,10 @@ kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine);
 
 /// The springs of a vibratory mill; empty for other machines.
 std::vector<kinetics::Spring> springs_of(const Scene& scene);
+
+/// Meshes all bodies, each to a temporary name beside its place.
+std::vector<MeshedBody> mesh_bodies(const Scene& scene,
+                                    const std::vector<std::unique_ptr<AtomicFile>>& files);
 
 /// A scene's bodies, meshed and loaded: ready to be solved.
 struct LoadedScene {

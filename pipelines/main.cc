@@ -97,6 +97,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   auto* ports = add("ports", "pictures of the bodies with their ports coloured and named");
   ports->add_option("-o,--output", options.output, "result directory (default: results/<scene>)");
+  auto* calculix = add("calculix", "the bodies' meshes and unit loads as input files of CalculiX");
+  calculix->add_option("-o,--output", options.output,
+                       "directory of the <body>.inp (default: results/<scene>)");
   auto* check =
       add("check",
           "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing");
@@ -126,6 +129,8 @@ int main(int argc, char** argv) {
       pipelines::accuracy_command(options, std::cout);
     } else if (ports->parsed()) {
       pipelines::ports_command(options, std::cout);
+    } else if (calculix->parsed()) {
+      pipelines::calculix_command(options, std::cout);
     } else if (check->parsed()) {
       pipelines::check_command(options, std::cout);
     }

@@ -25,6 +25,7 @@
 #include "fem/surface_loads.h"
 #include "pipelines/body_mesh.h"
 #include "pipelines/scene.h"
+#include "tests/benchmarks/benchmark_shaft.h"
 
 namespace {
 
@@ -96,24 +97,6 @@ struct Csr {
   std::vector<std::int32_t> column;
   std::vector<double> value;
 };
-
-std::vector<fem::UnitLoad> twelve_loads(const meshes::BodyMesh& mesh) {
-  using Component = fem::SurfaceResultant::Component;
-  const std::pair<const char*, Component> components[] = {
-      {"fx", Component::fx}, {"fy", Component::fy}, {"fz", Component::fz}, {"torque", Component::torque}};
-  std::vector<fem::UnitLoad> loads;
-  for (const auto& port : mesh.ports)
-    if (port.kind == meshes::Port::Kind::seat)
-      for (const auto& [name, component] : components)
-        loads.push_back({port.name + "." + name, fem::SurfaceResultant{{fem::LoadSurface::Kind::seat,
-                                                                        port.boundary_id,
-                                                                        {port.axis_x_m, port.axis_y_m,
-                                                                         (port.begin_m + port.end_m) / 2},
-                                                                        port.radius_m,
-                                                                        port.end_m - port.begin_m},
-                                                                       component}});
-  return loads;
-}
 
 template <typename T>
 double our_operator_s(const fem::Grid& grid, const fem::Lame& elastic) {
@@ -219,15 +202,8 @@ int main(int argc, char** argv) {
   const auto directory =
       std::filesystem::temp_directory_path() / ("solver_benchmarks_" + std::to_string(getpid()));
   std::filesystem::create_directory(directory);
-  struct Refinement {
-    int fillet_cells, sectors;
-  };
-  for (const auto& [fillet_cells, sectors] : {Refinement{2, 16}, {4, 24}, {4, 36}, {6, 48}, {8, 68}}) {
-    auto part = scene.bodies.at(0);
-    auto& control = std::get<pipelines::ShaftShape>(part.shape).mesh;
-    control.largest_cell_m *= control.n_sectors / double(sectors);
-    control.cells_per_fillet_quarter = fillet_cells;
-    control.n_sectors = sectors;
+  for (const auto& refinement : {measure::Refinement{2, 16}, {4, 24}, {4, 36}, {6, 48}, {8, 68}}) {
+    const auto part = measure::refined_shaft(scene, refinement);
     const auto mesh = pipelines::build_mesh(part, directory / "shaft.msh");
     const auto body = pipelines::to_fem_body(mesh, part.material);
     const auto grid = fem::read_grid(body);
@@ -235,7 +211,7 @@ int main(int argc, char** argv) {
     std::printf("%zu unknowns, %zu cells of degree 2, aspect up to %.1f, %d load cases, %d threads\n",
                 3 * grid.n_nodes, grid.n_cells(), fem::largest_aspect(grid), n_loads, n_threads);
     compare_operators(body, grid);
-    compare_solvers(body, grid, twelve_loads(mesh));
+    compare_solvers(body, grid, measure::seat_loads(mesh));
     std::fflush(stdout);
   }
   std::filesystem::remove_all(directory);

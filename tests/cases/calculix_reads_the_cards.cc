@@ -106,3 +106,26 @@ TEST(CalculixCards, AreAppliedAsComputed) {
   }
   EXPECT_GT(largest, 900);
 }
+
+// CalculiX itself solves such a model in tests/verification/calculix.
+TEST(CalculixModel, HasAStepForEveryChannel) {
+  const results_test::Directory directory;
+  write(directory / "shaft.toml",
+        with_edits(results_test::bytes(fs::path(SOURCE_DIR) / "tests/benchmarks/shaft.toml"),
+                   {{"sectors = 16", "sectors = 8"}, {"\"12 mm\"", "\"24 mm\""}}));
+  const auto run = millstress(directory.path, "calculix shaft.toml -o out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto check = millstress(directory.path, "check shaft.toml");
+  const std::string model = results_test::bytes(directory / "out/shaft.inp");
+  EXPECT_NE(model.find("TYPE=C3D20,"), std::string::npos);
+  int n_steps = 0;
+  std::istringstream lines(check.out.substr(check.out.find(" channels\n")));
+  for (std::string line; std::getline(lines, line);) {
+    const auto name = line.find("shaft/");
+    if (name == std::string::npos) continue;
+    const auto channel = line.substr(name + 6, line.find(" [") - name - 6);
+    EXPECT_NE(model.find("** " + channel + " = 1\n*STEP\n"), std::string::npos) << channel;
+    ++n_steps;
+  }
+  EXPECT_EQ(n_steps, 13);
+}

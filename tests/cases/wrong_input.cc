@@ -38,9 +38,9 @@ TEST(WrongInput, IsNamedBeforeAnythingRuns) {
   const results_test::Directory directory;
   write(directory / "empty.toml", "");
   fs::create_directory(directory / "folder.toml");
-  for (const char* arguments :
-       {"run missing.toml", "run empty.toml", "run folder.toml", "check folder.toml", "loads missing.toml",
-        "run", "walk mill.toml", "run --threads 0 empty.toml"}) {
+  for (const char* arguments : {"run missing.toml", "run empty.toml", "run folder.toml", "check folder.toml",
+                                "loads missing.toml", "calculix missing.toml", "calculix empty.toml", "run",
+                                "walk mill.toml", "run --threads 0 empty.toml"}) {
     const auto outcome = millstress(directory.path, arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
@@ -56,4 +56,17 @@ TEST(WrongInput, OutputThatCannotBeWrittenIsNamed) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("file/out"), std::string::npos) << outcome.err;
   EXPECT_EQ(results_test::bytes(directory / "file"), "not a directory");
+}
+
+TEST(WrongInput, ModelForCalculixNeedsAFreeBody) {
+  const results_test::Directory directory;
+  fs::copy_file(shipped("drive_train.toml"), directory / "train.toml");
+  const auto train = millstress(directory.path, "calculix train.toml -o out");
+  EXPECT_EQ(train.exit_code, 2);
+  EXPECT_NE(train.err.find("has no body"), std::string::npos) << train.err;
+  write(directory / "mill.toml", chamber_alone({{"elastic_feet = false", "elastic_feet = true"}}));
+  const auto feet = millstress(directory.path, "calculix mill.toml -o out");
+  EXPECT_EQ(feet.exit_code, 2);
+  EXPECT_NE(feet.err.find("elastic_feet = true"), std::string::npos) << feet.err;
+  EXPECT_FALSE(fs::exists(directory / "out"));
 }
