@@ -9,6 +9,7 @@
 
 #include "fem/beam_responses.h"
 #include "pipelines/cheap_rungs.h"
+#include "pipelines/effect_report.h"
 #include "pipelines/fineness.h"
 #include "pipelines/refinement.h"
 #include "pipelines/scene_run.h"
@@ -20,8 +21,14 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double even_factors[] = {0.5, 0.75, 1, 1.5, 2, 3};
+/// The coarser of two meshes, cells twice as large: 4/3 of the change is missing there (second order), which
+/// is what this ratio says to learn_from_change.
+constexpr double first_of_two = 1.3228756555322954;
 constexpr double growth_of_seconds = 1.6;      // of a run, with the number of unknowns
 constexpr double share_for_even_meshes = 0.5;  // of the time; the rest is for refined ones
+
+/// Of the beam's own estimate: it knows nothing of loads beside a fillet, nor of short segments.
+constexpr double beam_safety = 3;
 
 /// A cheap model's responses, and what the model itself is known to be off by.
 struct CheapRung {
@@ -34,8 +41,8 @@ std::optional<CheapRung> beam_rung(const BodyScene& body, const meshes::BodyMesh
                                    const std::vector<fem::UnitLoad>& loads) {
   auto responses = beam_responses(body, mesh, loads);
   if (!responses) return std::nullopt;
-  return CheapRung{std::move(*responses), fem::beam_model_error(*beam_shaft(body, mesh)),
-                   "beam: spread of the fillets' published factors, and eccentric shoulders"};
+  return CheapRung{std::move(*responses), beam_safety * fem::beam_model_error(*beam_shaft(body, mesh)),
+                   "beam: spread of the fillets' published factors and eccentric shoulders, times 3"};
 }
 
 std::optional<CheapRung> axisymmetric_rung(const BodyScene& body, const meshes::BodyMesh& mesh,
@@ -89,34 +96,53 @@ private:
   }
 
   void cheap_rungs() {
+    if (governing_has_hot_spots()) return;
     StageClock silent;
     const auto loaded = load_bodies(scene_, others_, silent);
     const auto& loads = loaded.body_loads[body_];
-    const auto& body = scene_.bodies[body_];
-    const auto& mesh = others_[body_].mesh;
-    cheap_rung("beam", loaded, [&] { return beam_rung(body, mesh, loads.unit_loads); });
-    cheap_rung("axisymmetric", loaded, [&] { return axisymmetric_rung(body, mesh, loads.unit_loads); });
+    cheap_rung("beam", scene_.bodies[body_], loaded,
+               [&](const BodyScene& body) { return beam_rung(body, others_[body_].mesh, loads.unit_loads); });
+    // Each size learns from the one before; the first from the second.
+    std::vector<std::size_t> sizes;
+    for (const double factor : {0.5, 1.0, 2.0}) {
+      const auto body = with_fineness(scene_.bodies[body_], factor);
+      if (cheap_rung("axisymmetric", body, loaded, [&](const BodyScene& finer) {
+            return axisymmetric_rung(finer, others_[body_].mesh, loads.unit_loads);
+          }))
+        sizes.push_back(rows_.size() - 1);
+    }
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      auto& row = rows_[sizes[i]];
+      const double other_Pa =
+          rows_[sizes[i > 0 ? i - 1 : std::min<std::size_t>(1, sizes.size() - 1)]].value_Pa;
+      row.errors.set_numerical({"discretisation", "", 0});
+      learn_from_change(row.errors, row.value_Pa - other_Pa, i > 0 ? 2 : first_of_two);
+      if (i > 0) row.seconds += rows_[sizes[i - 1]].seconds;
+    }
   }
 
   /// @param solve  gives responses, if the body has this rung
+  /// @return whether it has
   template <typename Solve>
-  void cheap_rung(const std::string& name, const LoadedScene& loaded, Solve&& solve) {
-    if (governing_has_hot_spots()) return;
+  bool cheap_rung(const std::string& name, const BodyScene& body, const LoadedScene& loaded, Solve&& solve) {
     std::optional<AccuracyRow> row;
     std::vector<double> seconds;
     timed(name, [&] {
       for (int repeat = 0; repeat < options_.n_repeats; ++repeat) {
         StageClock own;
-        auto rung = own.run("solve", solve);
+        auto rung = own.run("solve", [&] { return solve(body); });
         if (!rung) return;
-        row = cheap_row(name, loaded, std::move(*rung), own);
+        row = cheap_row(name, body, loaded, std::move(*rung), own);
         seconds.push_back(row->seconds);
       }
     });
-    if (row) add(std::move(*row), seconds);
+    if (!row) return false;
+    add(std::move(*row), seconds);
+    return true;
   }
 
-  AccuracyRow cheap_row(const std::string& name, const LoadedScene& loaded, CheapRung rung, StageClock& own) {
+  AccuracyRow cheap_row(const std::string& name, const BodyScene& body, const LoadedScene& loaded,
+                        CheapRung rung, StageClock& own) {
     const auto& loads = loaded.body_loads[body_];
     const auto& mesh = others_[body_].mesh;
     const auto maximum = own.run("superpose", [&] {
@@ -126,7 +152,7 @@ private:
     const auto node = peak_node(maximum.von_mises.value_Pa, places);
     AccuracyRow row;
     row.rung = name;
-    row.fineness = fmt::format("{} nodes on the surface", rung.responses.nodes.n);
+    row.fineness = name == "beam" ? "published fillet factors" : fineness_text(body);
     row.instants_per_turn = scene_.sampling.instants_per_turn;
     row.n_dofs = rung.responses.n_dofs;
     row.value_Pa = maximum.von_mises.value_Pa[node];
@@ -214,8 +240,27 @@ private:
     } catch (const std::runtime_error&) {
       return;  // too coarse for the mesher's demands on quality, or too large for the memory
     }
+    if (even_before_ && even_before_->n_dofs == row.n_dofs)
+      return;  // too little finer for whole numbers of cells
+    const AccuracyRow plain = row;
+    if (even_before_)
+      learn_from_change(row.errors, row.value_Pa - even_before_->value_Pa,
+                        std::cbrt(double(row.n_dofs) / double(even_before_->n_dofs)));
+    even_before_ = plain;
     add(row, seconds);
-    if (factor == 1) fewer_instants(scene, row, std::move(*last));
+    if (factor != 1) return;
+    prices_ = price_effects(last->analyses.front(), seconds_of(row.stages, "solve"),
+                            seconds_of(row.stages, "superpose"), evaluation_seconds());
+    fewer_instants(scene, row, std::move(*last));
+  }
+
+  /// Seconds of the load stage that each effect is worth.
+  std::vector<std::pair<std::string, double>> evaluation_seconds() const {
+    std::vector<std::pair<std::string, double>> seconds;
+    const double n_instants = double(scene_.sampling.turns) * scene_.sampling.instants_per_turn;
+    for (const auto& worth : report_effects(scene_, 0.01).effects)
+      seconds.push_back({worth.effect.name, worth.seconds_per_instant * n_instants});
+    return seconds;
   }
 
   /// The same responses at fewer instants: only loads and superposition are done anew.
@@ -231,6 +276,7 @@ private:
                          std::move(analysis.responses), options_.n_threads, own);
       run.scene = scene;
       auto row = row_of("fewer instants", run);
+      row.errors.set_numerical({"discretisation", "as at all instants", full.errors.of("discretisation")});
       finish(row, own);
       for (const auto& stage : full.stages)
         if (stage.stage == "mesh" || stage.stage == "solve" || stage.stage == "write")
@@ -289,6 +335,7 @@ private:
     mark_frontier();
     choose(study);
     study.rows = std::move(rows_);
+    study.effects = std::move(prices_);
     return study;
   }
 
@@ -329,6 +376,8 @@ private:
   Clock::time_point start_;
   std::vector<MeshedBody> others_;  ///< all bodies at the scene's own fineness
   std::vector<AccuracyRow> rows_;
+  std::optional<AccuracyRow> even_before_;  ///< the last even mesh
+  std::vector<EffectPrice> prices_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/effect_prices.h"
 #include "pipelines/error_ledger.h"
 #include "pipelines/scene.h"
 #include "pipelines/stage_clock.h"
@@ -42,6 +43,7 @@ struct AccuracyStudy {
   double tolerance = 0;               ///< relative
   std::optional<std::size_t> chosen;  ///< cheapest row whose estimate is within the tolerance
   std::string next_factor_of_two;     ///< a sentence
+  std::vector<EffectPrice> effects;   ///< of the scene's own mesh
 };
 
 struct AccuracyOptions {

@@ -56,13 +56,6 @@ std::vector<std::string> stages(const std::vector<AccuracyRow>& rows) {
   });
 }
 
-double seconds_of(const AccuracyRow& row, const std::string& stage) {
-  double sum = 0;
-  for (const auto& cost : row.stages)
-    if (cost.stage == stage) sum += cost.seconds;
-  return sum;
-}
-
 template <typename Value>
 std::vector<double> numbers(const std::vector<AccuracyRow>& rows, Value&& value) {
   std::vector<double> result;
@@ -98,7 +91,7 @@ std::vector<CsvColumn> columns(const AccuracyStudy& study) {
   for (const auto& source : sources(rows))
     add("error." + source, "Pa", [&](const auto& row) { return row.errors.of(source); });
   for (const auto& stage : stages(rows))
-    add("seconds." + stage, "s", [&](const auto& row) { return seconds_of(row, stage); });
+    add("seconds." + stage, "s", [&](const auto& row) { return seconds_of(row.stages, stage); });
   return result;
 }
 

@@ -17,6 +17,13 @@ double peak_memory_gigabytes() {
   return getrusage(RUSAGE_SELF, &usage) == 0 ? double(usage.ru_maxrss) * 1024 / 1e9 : 0.0;
 }
 
+double seconds_of(const std::vector<StageCost>& costs, const std::string& stage) {
+  double sum = 0;
+  for (const auto& cost : costs)
+    if (cost.stage == stage) sum += cost.seconds;
+  return sum;
+}
+
 void forget_peak_memory() {
   std::ofstream("/proc/self/clear_refs") << 5;
 }

@@ -10,10 +10,12 @@ namespace {
 /// One study for all tests: it takes some seconds.
 class AccuracyOfTheSmallShaft : public testing::Test {
 protected:
-  static void SetUpTestSuite() {
+  void SetUp() override {
+    if (outcome) return;
     directory = new results_test::Directory;
     write(*directory / "small.toml", stepped_shaft());
-    outcome = new Outcome(millstress(directory->path, "accuracy small.toml -o out --time-limit '40 s'"));
+    outcome = new Outcome(
+        millstress(directory->path, "accuracy small.toml -o out --threads 1 --time-limit '40 s'"));
   }
   static void TearDownTestSuite() {
     delete directory;
@@ -69,8 +71,8 @@ TEST_F(AccuracyOfTheSmallShaft, EstimatesBoundTheTrueErrors) {
     n_bounded += estimated[i] + reference_error >= truth[i];
     EXPECT_GT(value[i], 0) << names[i];
     EXPECT_GT(seconds[i], 0) << names[i];
-    if (i > 0) EXPECT_GE(seconds[i], seconds[i - 1]) << "cheapest first";
-    if (names[i] == "even mesh") EXPECT_GT(unknowns[i], 1000) << names[i];
+    EXPECT_GE(seconds[i], seconds[i > 0 ? i - 1 : 0]) << "cheapest first";
+    EXPECT_GT(unknowns[i], names[i] == "even mesh" ? 1000 : 0) << names[i];
   }
   EXPECT_GE(double(n_bounded), 0.95 * double(names.size()));
   H5Fclose(h5);
