@@ -35,8 +35,10 @@ public:
   void remove_motion(Eigen::MatrixXd& displacement) const;  ///< u - R (R'MR)^-1 R'M u
 
 private:
-  Eigen::MatrixXd modes_, mass_modes_;  // R and M R, 3 n x 6
-  Eigen::MatrixXd inverse_;             // (R'MR)^-1
+  Eigen::Matrix3Xd place_m_;             // from the centre of mass
+  Eigen::Matrix3Xd moment_;              // of the nodes' masses about it: integral of N_i x
+  Eigen::VectorXd mass_;                 // integral of N_i
+  Eigen::Matrix<double, 6, 6> inverse_;  // (R'MR)^-1
 };
 
 }  // namespace fem

@@ -63,7 +63,8 @@ SolverCost predict_iterative(const Grid& grid, std::size_t n_loads, double aspec
   const SolverCost coarse = predict_direct(static_cast<std::size_t>(dofs / (k * k * k)), 0);
   const double iterations = 8 + 2.3 * aspect;
   const double per_iteration = 3.5e-8 * dofs * static_cast<double>(n_loads) + 0.05 * coarse.seconds;
-  const double vectors = dofs * std::min<double>(loads_per_block, static_cast<double>(n_loads)) * 60;
+  const double vectors =
+      dofs * std::min<double>(double(loads_per_block(3 * grid.n_nodes)), static_cast<double>(n_loads)) * 60;
   return {1.5e-6 * dofs + coarse.seconds + iterations * per_iteration, 300 * dofs + vectors + coarse.bytes};
 }
 
@@ -76,6 +77,9 @@ SolverReport choose_solver(const Grid& grid, const Material& material, std::size
   SolverReport report;
   report.predicted_direct = predict_direct(3 * grid.n_nodes, n_loads);
   report.largest_aspect = largest_aspect(grid);
+  report.coarse_level = choice.coarse_level;
+  if (report.coarse_level == CoarseLevel::automatic)
+    report.coarse_level = 3 * grid.n_nodes / 8 > 40000 ? CoarseLevel::aggregated : CoarseLevel::factorised;
   const auto take = [&](Solver solver, const std::string& reason) {
     report.used = solver;
     report.reason = reason;
