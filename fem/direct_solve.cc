@@ -6,6 +6,7 @@
 
 #include "fem/cholmod_factor.h"
 #include "fem/clamps.h"
+#include "fem/solver_prediction.h"
 #include "fem/stiffness.h"
 #include "fem/supports.h"
 
@@ -28,6 +29,7 @@ Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
 
   progress(0.1, "order");
   CholmodFactor factor(matrix, order.get());
+  refuse_large_factor(1e9 * factor.gigabytes(), static_cast<std::size_t>(matrix.n), physical_memory());
   progress(0.25, "factorise");
   factor.factorise(matrix);
   Solution solution;

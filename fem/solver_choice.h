@@ -45,6 +45,11 @@ struct SolverReport {
   int n_iterations = 0;                                ///< most of all blocks; 0: direct
   double relative_residual = 0;  ///< largest |K u - f| / |f|, computed anew from the solution
   double used_bytes = 0;         ///< matrix and factor, or operator, preconditioner and vectors
+
+  /// Of the solver used.
+  const SolverCost& predicted() const noexcept {
+    return used == Solver::iterative ? predicted_iterative : predicted_direct;
+  }
 };
 
 }  // namespace fem

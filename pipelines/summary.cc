@@ -163,7 +163,10 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
                     {"iterations", solver.used == fem::Solver::iterative ? solver.n_iterations : 0},
                     {"residual", number(analysis.responses.residual)},
                     {"support_reaction", number(analysis.responses.support_reaction)},
-                    {"factor_gigabytes", number(analysis.responses.factor_gigabytes)}};
+                    {"factor_gigabytes", number(analysis.responses.factor_gigabytes)},
+                    {"gave_up", solver.gave_up},
+                    {"bytes", number(solver.used_bytes)},
+                    {"predicted_bytes", number(solver.predicted().bytes)}};
   return json;
 }
 
