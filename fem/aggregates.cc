@@ -1,123 +1,134 @@
 #include "fem/aggregates.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fem {
 
 namespace {
 
-// Squared lengths, relative to the largest: motions below are not told apart.
-constexpr double least_motion = 1e-6;
+// Relative to the largest: motions below are rounding. Rotation about a far axis leaves some 1e-3.
+constexpr double least_motion = 1e-8;
 
-using Block = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 using Motions = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
 
-Motions motions_at(const Eigen::Vector3d& x) {
-  Motions m;
-  m.leftCols<3>().setIdentity();
-  m.rightCols<3>() << 0, x[2], -x[1], -x[2], 0, x[0], x[1], -x[0], 0;
-  return m;
+/// Neighbours with the strength of their coupling in units of the threshold; weak ones are left out.
+struct Couplings {
+  std::vector<std::size_t> begin;
+  std::vector<std::pair<std::int32_t, double>> to;
+};
+
+Couplings strong_couplings(const BlockMatrix<double>& stiffness, int siblings, double threshold) {
+  const std::size_t n = stiffness.n_rows() / siblings;
+  Couplings all{{0}, {}};
+  std::vector<double> size(n), sum(n, 0.0);
+  std::vector<std::int32_t> found;
+  for (std::size_t i = 0; i < n; ++i) {
+    found.clear();
+    for (auto row = i * siblings; row < (i + 1) * siblings; ++row)
+      for (auto k = stiffness.begin[row]; k < stiffness.begin[row + 1]; ++k) {
+        const auto j = stiffness.column[k] / siblings;
+        if (sum[j] == 0) found.push_back(j);
+        sum[j] += Eigen::Map<const Eigen::Array<double, 9, 1>>(stiffness.at(k)).square().sum() + 1e-300;
+      }
+    std::sort(found.begin(), found.end());
+    size[i] = std::sqrt(sum[i]);
+    for (const auto j : found) {
+      if (j != std::int32_t(i)) all.to.emplace_back(j, sum[j]);
+      sum[j] = 0;
+    }
+    all.begin.push_back(all.to.size());
+  }
+  Couplings strong{{0}, {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    for (auto k = all.begin[i]; k < all.begin[i + 1]; ++k) {
+      const auto& [j, square] = all.to[k];
+      const double strength = square / (threshold * threshold * size[i] * size[j]);
+      if (strength > 1) strong.to.emplace_back(j, strength);
+    }
+    strong.begin.push_back(strong.to.size());
+  }
+  return strong;
 }
 
 }  // namespace
 
-Aggregates aggregate_nodes(const BlockMatrix<double>& stiffness, double threshold) {
-  const std::size_t n = stiffness.n_rows();
-  std::vector<double> size(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k)
-      if (stiffness.column[k] == std::int32_t(i)) size[i] = Block(stiffness.at(k)).norm();
-  // Strength in units of the threshold; 0: weak, or the node itself.
-  const auto strength = [&](std::size_t i, std::int64_t k) {
-    const auto j = std::size_t(stiffness.column[k]);
-    const double s =
-        Block(stiffness.at(k)).squaredNorm() / (threshold * threshold * size[i] * size[j] + 1e-300);
-    return j != i && s > 1 ? s : 0.0;
-  };
+Aggregates aggregate_nodes(const BlockMatrix<double>& stiffness, int siblings, double threshold) {
+  const auto strong = strong_couplings(stiffness, siblings, threshold);
+  const std::size_t n = strong.begin.size() - 1;
   Aggregates result;
-  result.of_node.assign(n, -1);
-  auto& of_node = result.of_node;
+  std::vector<std::int32_t> of_node(n, -1);
   const auto gather = [&](std::size_t i) {
     of_node[i] = std::int32_t(result.n);
-    for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k)
-      if (of_node[stiffness.column[k]] < 0 && strength(i, k) > 0)
-        of_node[stiffness.column[k]] = std::int32_t(result.n);
+    for (auto k = strong.begin[i]; k < strong.begin[i + 1]; ++k)
+      if (of_node[strong.to[k].first] < 0) of_node[strong.to[k].first] = std::int32_t(result.n);
     ++result.n;
   };
   // Nodes with all their strong neighbours ...
   for (std::size_t i = 0; i < n; ++i) {
-    bool free = of_node[i] < 0, alone = true;
-    for (auto k = stiffness.begin[i]; free && k < stiffness.begin[i + 1]; ++k)
-      if (strength(i, k) > 0) {
-        alone = false;
-        free = of_node[stiffness.column[k]] < 0;
-      }
-    if (free && !alone) gather(i);
+    bool free = of_node[i] < 0 && strong.begin[i + 1] > strong.begin[i];
+    for (auto k = strong.begin[i]; free && k < strong.begin[i + 1]; ++k)
+      free = of_node[strong.to[k].first] < 0;
+    if (free) gather(i);
   }
   // ... the rest joins the neighbour that holds it most, if that was among them ...
-  const std::vector<std::int32_t> first = of_node;
+  const auto first = of_node;
   for (std::size_t i = 0; i < n; ++i) {
-    double best = 0;
     if (of_node[i] >= 0) continue;
-    for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k)
-      if (first[stiffness.column[k]] >= 0 && strength(i, k) > best) {
-        best = strength(i, k);
-        of_node[i] = first[stiffness.column[k]];
+    double best = 0;
+    for (auto k = strong.begin[i]; k < strong.begin[i + 1]; ++k)
+      if (first[strong.to[k].first] >= 0 && strong.to[k].second > best) {
+        best = strong.to[k].second;
+        of_node[i] = first[strong.to[k].first];
       }
   }
   // ... or groups of its own.
   for (std::size_t i = 0; i < n; ++i)
     if (of_node[i] < 0) gather(i);
+  for (const auto a : of_node) result.of_node.insert(result.of_node.end(), siblings, a);
   return result;
 }
 
-std::vector<double> rigid_motions(const Aggregates& aggregates, const std::vector<double>& xyz_m,
-                                  std::vector<int>& rank) {
-  const std::size_t n = aggregates.of_node.size();
-  struct Sum {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    double n_nodes = 0, radius_squared = 0;
-    Eigen::Matrix<double, 6, 6> products = Eigen::Matrix<double, 6, 6>::Zero(), basis;
-  };
-  std::vector<Sum> sums(aggregates.n);
-  const auto place = [&](std::size_t i) { return Eigen::Vector3d(&xyz_m[3 * i]); };
-  for (std::size_t i = 0; i < n; ++i) {
-    auto& sum = sums[aggregates.of_node[i]];
-    sum.centre += place(i);
-    sum.n_nodes += 1;
+std::vector<double> rigid_motions(const std::vector<double>& xyz_m) {
+  const Eigen::Map<const Eigen::Matrix3Xd> place(xyz_m.data(), 3, Eigen::Index(xyz_m.size() / 3));
+  const Eigen::Vector3d centre = place.rowwise().mean();
+  const double radius_m = std::max((place.colwise() - centre).colwise().norm().maxCoeff(), 1e-300);
+  std::vector<double> motions(6 * xyz_m.size());
+  for (Eigen::Index i = 0; i < place.cols(); ++i) {
+    const Eigen::Vector3d x = (place.col(i) - centre) / radius_m;
+    Eigen::Map<Motions> m(motions.data() + 18 * i);
+    m.leftCols<3>().setIdentity();
+    m.rightCols<3>() << 0, x[2], -x[1], -x[2], 0, x[0], x[1], -x[0], 0;
   }
-  for (auto& sum : sums) sum.centre /= sum.n_nodes;
-  for (std::size_t i = 0; i < n; ++i) {
-    auto& sum = sums[aggregates.of_node[i]];
-    sum.radius_squared += (place(i) - sum.centre).squaredNorm() / sum.n_nodes;
-  }
-  // Rotations by displacements of size 1 at the aggregate's radius.
-  const auto motions = [&](std::size_t i, const Sum& sum) {
-    return motions_at((place(i) - sum.centre) / std::sqrt(sum.radius_squared + 1e-300));
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    auto& sum = sums[aggregates.of_node[i]];
-    const Motions m = motions(i, sum);
-    sum.products += m.transpose() * m;
-  }
-  rank.assign(aggregates.n, 0);
+  return motions;
+}
+
+AggregateMotions span_motions(const Aggregates& aggregates, const std::vector<double>& motions) {
+  std::vector<std::vector<std::int32_t>> nodes(aggregates.n);
+  for (std::size_t i = 0; i < aggregates.of_node.size(); ++i)
+    nodes[aggregates.of_node[i]].push_back(std::int32_t(i));
+  AggregateMotions result;
+  result.basis.assign(motions.size(), 0.0);
+  result.motion.assign(36 * aggregates.n, 0.0);
   for (std::size_t a = 0; a < aggregates.n; ++a) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(sums[a].products);
-    const auto& length_squared = solver.eigenvalues();
-    sums[a].basis.setZero();
-    for (int m = 0; m < 6; ++m)
-      if (length_squared[m] > least_motion * length_squared[5]) {
-        sums[a].basis.col(m) = solver.eigenvectors().col(m) / std::sqrt(length_squared[m]);
-        ++rank[a];
-      }
+    const auto n = Eigen::Index(nodes[a].size());
+    Eigen::MatrixXd of_aggregate(3 * n, 6);
+    for (Eigen::Index i = 0; i < n; ++i)
+      of_aggregate.middleRows<3>(3 * i) = Eigen::Map<const Motions>(&motions[18 * std::size_t(nodes[a][i])]);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of_aggregate);
+    qr.setThreshold(least_motion);
+    const auto rank = qr.rank();
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(3 * n, 6);
+    basis.leftCols(rank) = qr.householderQ() * Eigen::MatrixXd::Identity(3 * n, rank);
+    for (Eigen::Index i = 0; i < n; ++i)
+      Eigen::Map<Motions>(result.basis.data() + 18 * std::size_t(nodes[a][i])) = basis.middleRows<3>(3 * i);
+    Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(result.motion.data() + 36 * a) =
+        basis.transpose() * of_aggregate;
+    result.rank.push_back(static_cast<int>(rank));
   }
-  std::vector<double> blocks(18 * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& sum = sums[aggregates.of_node[i]];
-    Eigen::Map<Motions>(blocks.data() + 18 * i) = motions(i, sum) * sum.basis;
-  }
-  return blocks;
+  return result;
 }
 
 }  // namespace fem

@@ -20,14 +20,22 @@ struct Aggregates {
 /// Every node in one aggregate: a node with its strong neighbours, or what such groups have left over.
 /// Neighbours i, j are strong if |K_ij|^2 > threshold^2 |K_ii| |K_jj| (Frobenius): in stretched cells those
 /// across the short sides.
-Aggregates aggregate_nodes(const BlockMatrix<double>& stiffness, double threshold);
+/// @param stiffness  3 x 3 blocks
+/// @param siblings   so many nodes after each other stay together and count as one
+Aggregates aggregate_nodes(const BlockMatrix<double>& stiffness, int siblings, double threshold);
 
-/// Six displacements per aggregate that span its rigid motions: a 3 x 6 block per node, of unit size over the
-/// aggregate and orthogonal to each other. Motions that its nodes do not tell apart (of a node, of nodes on a
-/// line) are left out: their columns are zero.
-/// @param xyz_m  3 per node
-/// @param rank   of each aggregate on return, 3 to 6
-std::vector<double> rigid_motions(const Aggregates& aggregates, const std::vector<double>& xyz_m,
-                                  std::vector<int>& rank);
+/// The six rigid motions of nodes at these places, about their mean, rotations by displacements of size 1 at
+/// the farthest node: a 3 x 6 block per node.
+std::vector<double> rigid_motions(const std::vector<double>& xyz_m);
+
+/// What an aggregate can do: motions as a combination of six displacements that are orthogonal and of size 1.
+struct AggregateMotions {
+  std::vector<double> basis;   ///< 3 x 6 per node; zero columns for what the nodes do not tell apart (of a
+                               ///< node, of nodes on a line)
+  std::vector<double> motion;  ///< 6 x 6 per aggregate, two blocks of 3 x 6: the motions in that basis
+  std::vector<int> rank;       ///< per aggregate, of 6
+};
+/// @param motions  3 x 6 per node
+AggregateMotions span_motions(const Aggregates& aggregates, const std::vector<double>& motions);
 
 }  // namespace fem

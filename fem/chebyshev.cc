@@ -1,6 +1,7 @@
 #include "fem/chebyshev.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cstdint>
 
 #include "fem/parallel.h"
@@ -28,35 +29,64 @@ Chebyshev::Chebyshev(const std::vector<double>& diagonal_blocks, const Control& 
   find_largest_eigenvalue(apply);
 }
 
+// Conjugate gradients from noise: their step lengths are the tridiagonal matrix of Lanczos' method, whose
+// largest eigenvalue comes up to that of D^-1 K from below, much faster than powers of it do.
 void Chebyshev::find_largest_eigenvalue(const Apply& apply) {
-  const Lanes lanes = spread_over_lanes<float>(1, *kernels_);  // a register of starts
-  BlockVector<float> x(n_nodes(), lanes), y(n_nodes(), lanes), d(n_nodes(), lanes);
-  std::uint32_t random = 1;
-  for (std::size_t i = 0; i < 3 * n_nodes() * lanes.n_lanes; ++i) {
-    random = random * 1664525u + 1013904223u;
-    x.data()[i] = static_cast<float>(random >> 8) / (1 << 23) - 1;
-  }
   constexpr int n_steps = 12;
-  const auto norms = [&] {
-    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(lanes.n_lanes);
-    for (std::size_t i = 0; i < 3 * n_nodes(); ++i)
-      for (std::size_t l = 0; l < lanes.n_lanes; ++l) {
-        const double value = x.data()[i * lanes.n_lanes + l];
-        sum[l] += value * value;
-      }
-    return Eigen::ArrayXd(sum.sqrt());
-  };
-  Eigen::ArrayXd before = norms(), after = before;
-  for (int step = 0; step < n_steps; ++step) {
-    before = after;
-    apply(lanes, x, y);
-    parallel_for(n_nodes(), grain, [&](std::size_t begin, std::size_t end) {
-      kernels_->chebyshev(lanes.view(), n_nodes(), begin, end, {0, 1, true}, inverse_blocks_.data(), y.data(),
-                          nullptr, d.data(), x.data());
-    });
-    if (step + 2 >= n_steps) after = norms();
+  constexpr float margin = 1.1f;
+  const Lanes lanes = spread_over_lanes<float>(1, *kernels_);  // a register of starts
+  const std::size_t n = 3 * n_nodes() * lanes.n_lanes;
+  BlockVector<float> r(n_nodes(), lanes), p(n_nodes(), lanes), q(n_nodes(), lanes), z(n_nodes(), lanes);
+  std::uint32_t random = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    random = random * 1664525u + 1013904223u;
+    r.data()[i] = static_cast<float>(random >> 8) / (1 << 23) - 1;
   }
-  largest_eigenvalue_ = 1.15f * static_cast<float>((after / before).maxCoeff());
+  const auto dot = [&](const BlockVector<float>& x, const BlockVector<float>& y) {
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(lanes.n_lanes);
+    for (std::size_t i = 0; i < n; i += lanes.n_lanes)
+      for (std::size_t l = 0; l < lanes.n_lanes; ++l)
+        sum[l] += double(x.data()[i + l]) * double(y.data()[i + l]);
+    return sum;
+  };
+  /// x = a x + b y
+  const auto combine = [&](const Eigen::ArrayXd& a, BlockVector<float>& x, const Eigen::ArrayXd& b,
+                           const BlockVector<float>& y) {
+    const Eigen::ArrayXf to = a.cast<float>(), from = b.cast<float>();
+    parallel_for(3 * n_nodes(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin * lanes.n_lanes; i < end * lanes.n_lanes; i += lanes.n_lanes)
+        for (std::size_t l = 0; l < lanes.n_lanes; ++l)
+          x.data()[i + l] = to[l] * x.data()[i + l] + from[l] * y.data()[i + l];
+    });
+  };
+  const Eigen::ArrayXd one = Eigen::ArrayXd::Ones(lanes.n_lanes), none = 0 * one;
+  Eigen::ArrayXXd diagonal = Eigen::ArrayXXd::Zero(lanes.n_lanes, n_steps), beside = diagonal;
+  Eigen::ArrayXd step = one, ratio = none, rz = none;
+  for (int k = 0; k < n_steps; ++k) {
+    parallel_for(n_nodes(), grain, [&](std::size_t begin, std::size_t end) {
+      kernels_->chebyshev(lanes.view(), n_nodes(), begin, end, {0, 1, true}, inverse_blocks_.data(), r.data(),
+                          nullptr, q.data(), z.data());
+    });
+    const Eigen::ArrayXd now = dot(r, z);
+    if (k > 0) {
+      ratio = now / rz;
+      beside.col(k - 1) = ratio.sqrt() / step;
+    }
+    rz = now;
+    combine(ratio, p, one, z);
+    apply(lanes, p, q);
+    const Eigen::ArrayXd before = ratio / step;
+    step = rz / dot(p, q);
+    diagonal.col(k) = 1 / step + before;
+    combine(one, r, -step, q);
+  }
+  for (std::size_t l = 0; l < lanes.n_lanes; ++l) {
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+    const Eigen::VectorXd middle = diagonal.row(l), side = beside.row(l).head(n_steps - 1);
+    solver.computeFromTridiagonal(middle, side, Eigen::EigenvaluesOnly);
+    largest_eigenvalue_ =
+        std::max(largest_eigenvalue_, margin * static_cast<float>(solver.eigenvalues().maxCoeff()));
+  }
 }
 
 void Chebyshev::smooth(const Lanes& lanes, const Apply& apply, const BlockVector<float>& b,

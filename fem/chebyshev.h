@@ -23,7 +23,7 @@ public:
     std::size_t bytes() const { return direction.bytes() + image.bytes(); }
   };
 
-  /// Estimates the largest eigenvalue by power iteration on some columns of noise.
+  /// Estimates the largest eigenvalue from some columns of noise.
   /// @param diagonal_blocks  n_nodes x 9
   /// @param apply  called for lanes of its own choice
   Chebyshev(const std::vector<double>& diagonal_blocks, const Control& control, const Apply& apply,

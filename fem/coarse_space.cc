@@ -140,6 +140,7 @@ CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::ve
     supports_ = std::make_unique<Supports>(choose_supports(coarse), matrix);
     factor_ = std::make_unique<CholmodFactor>(matrix, node_order.get());
     factor_->factorise(matrix);
+    without_rigid_ = WithoutModes(rigid_modes(coarse, Eigen::Vector3d::Zero()));
   }
 }
 
@@ -159,8 +160,11 @@ void CoarseSpace::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVe
   if (multigrid_) return multigrid_->apply(lanes, b, x, work.multigrid);
   Eigen::MatrixXd columns(3 * n_nodes_, lanes.n_loads);
   from_block(b, lanes, place_, 0, columns);
+  without_rigid_.apply(columns);
   supports_->clear(columns);
-  to_block(factor_->solve(columns), 0, place_, lanes, x);
+  columns = factor_->solve(columns);
+  without_rigid_.apply(columns);
+  to_block(columns, 0, place_, lanes, x);
 }
 
 }  // namespace fem

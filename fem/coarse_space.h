@@ -12,6 +12,7 @@
 #include "fem/cholmod_factor.h"
 #include "fem/elastic_kernel.h"
 #include "fem/grid.h"
+#include "fem/rigid_modes.h"
 #include "fem/solver_choice.h"
 #include "fem/stiffness.h"
 #include "fem/supports.h"
@@ -46,14 +47,15 @@ public:
   };
   WorkSpace work_space(const Lanes& lanes) const;
 
-  /// x = (P'K P)^-1 b on the statically determinate support, whose rows are held at zero; or one V-cycle of
-  /// the free body in its place.
+  /// x = (P'K P)^-1 b by a statically determinate support, without rigid motion in b and x; or one V-cycle in
+  /// its place.
   void solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x, WorkSpace& work) const;
 
 private:
   std::size_t n_nodes_ = 0;
   NodeMatrix interpolation_, restriction_;
   std::vector<std::int32_t> place_;  ///< nodes keep their numbers in block vectors
+  WithoutModes without_rigid_;
   std::unique_ptr<Supports> supports_;
   std::unique_ptr<CholmodFactor> factor_;
   std::unique_ptr<AggregationMultigrid> multigrid_;

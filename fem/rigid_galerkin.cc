@@ -87,23 +87,23 @@ BlockMatrix<T> make_rows(std::size_t n_rows, std::size_t n_columns, const Fill& 
 }  // namespace
 
 BlockMatrix<float> smoothed_interpolation(const BlockMatrix<double>& stiffness, const Aggregates& aggregates,
-                                          const std::vector<double>& motions, double damping) {
+                                          const std::vector<double>& basis, double damping) {
   return make_rows<float>(stiffness.n_rows(), aggregates.n, [&](std::size_t i, Row<Matrix36>& row) {
     Eigen::Matrix3d diagonal;
     for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k) {
       const auto j = stiffness.column[k];
       const Block33<double> block(stiffness.at(k));
       if (j == std::int32_t(i)) diagonal = block;
-      row[aggregates.of_node[j]] += block * Eigen::Map<const Matrix36>(&motions[18 * std::size_t(j)]);
+      row[aggregates.of_node[j]] += block * Eigen::Map<const Matrix36>(&basis[18 * std::size_t(j)]);
     }
     const Eigen::Matrix3d scale = -damping * diagonal.inverse();
     for (const auto c : row.sorted_columns()) row[c] = (scale * row[c]).eval();
-    row[aggregates.of_node[i]] += Eigen::Map<const Matrix36>(&motions[18 * i]);
+    row[aggregates.of_node[i]] += Eigen::Map<const Matrix36>(&basis[18 * i]);
   });
 }
 
-RigidGalerkin rigid_galerkin(const BlockMatrix<double>& stiffness, const BlockMatrix<float>& interpolation,
-                             std::int32_t held) {
+BlockMatrix<double> galerkin_product(const BlockMatrix<double>& stiffness,
+                                     const BlockMatrix<float>& interpolation) {
   const auto block_of = [](const BlockMatrix<float>& m, std::int64_t k) -> Matrix36 {
     return Eigen::Map<const Eigen::Matrix<float, 3, 6, Eigen::RowMajor>>(m.at(k)).cast<double>();
   };
@@ -115,74 +115,72 @@ RigidGalerkin rigid_galerkin(const BlockMatrix<double>& stiffness, const BlockMa
             row[interpolation.column[l]] += Block33<double>(stiffness.at(k)) * block_of(interpolation, l);
         }
       });
-  // Nodes that an aggregate reaches, and where in the interpolation.
-  const std::size_t n = interpolation.n_columns;
-  std::vector<std::int64_t> begin(n + 1, 0);
-  for (const auto a : interpolation.column) ++begin[a + 1];
-  for (std::size_t a = 0; a < n; ++a) begin[a + 1] += begin[a];
-  std::vector<std::int64_t> place(interpolation.column.size());
-  std::vector<std::int32_t> node(place.size());
-  auto next = begin;
-  for (std::size_t i = 0; i < interpolation.n_rows(); ++i)
-    for (auto k = interpolation.begin[i]; k < interpolation.begin[i + 1]; ++k) {
-      const auto at = next[interpolation.column[k]]++;
-      place[at] = k;
-      node[at] = static_cast<std::int32_t>(i);
-    }
-
-  struct Column {
-    std::vector<std::int32_t> row;
+  const auto restriction = transpose(interpolation);  // blocks 6 x 3
+  const std::size_t n = restriction.n_rows();
+  struct BlockRow {
+    std::vector<std::int32_t> column;
     std::vector<Matrix66, Eigen::aligned_allocator<Matrix66>> block;
   };
-  std::vector<Column> columns(n);  // of blocks on and below the diagonal
+  std::vector<BlockRow> rows(n);
   parallel_for(n, 64, [&](std::size_t first, std::size_t last) {
     Row<Matrix66> sums(n);
     for (std::size_t a = first; a < last; ++a) {
-      sums[std::int32_t(a)];
-      for (auto l = begin[a]; l < begin[a + 1] && std::int32_t(a) != held; ++l) {
-        const Matrix36 p = block_of(interpolation, place[l]);
-        for (auto k = image.begin[node[l]]; k < image.begin[node[l] + 1]; ++k)
-          if (image.column[k] >= std::int32_t(a) && image.column[k] != held)
-            sums[image.column[k]].noalias() += Eigen::Map<const Matrix36>(image.at(k)).transpose() * p;
+      for (auto l = restriction.begin[a]; l < restriction.begin[a + 1]; ++l) {
+        const Eigen::Matrix<double, 6, 3> p =
+            Eigen::Map<const Eigen::Matrix<float, 6, 3, Eigen::RowMajor>>(restriction.at(l)).cast<double>();
+        const auto node = restriction.column[l];
+        for (auto k = image.begin[node]; k < image.begin[node + 1]; ++k)
+          sums[image.column[k]].noalias() += p * Eigen::Map<const Matrix36>(image.at(k));
       }
-      columns[a].row = sums.sorted_columns();
-      for (const auto row : columns[a].row) columns[a].block.push_back(sums[row]);
-      auto& diagonal = columns[a].block.front();
+      auto& diagonal = sums[std::int32_t(a)];
       for (int c = 0; c < 6; ++c)
         if (!(diagonal(c, c) > 0)) diagonal(c, c) = 1;
+      rows[a].column = sums.sorted_columns();
+      for (const auto c : rows[a].column) rows[a].block.push_back(sums[c]);
       sums.clear();
     }
   });
-
-  RigidGalerkin level;
-  level.graph.begin.assign(1, 0);
-  level.matrix.n = static_cast<std::int64_t>(6 * n);
-  level.matrix.column_begin.assign(1, 0);
-  for (std::size_t a = 0; a < n; ++a) {
-    auto& column = columns[a];
-    level.graph.neighbour.insert(level.graph.neighbour.end(), column.row.begin() + 1, column.row.end());
-    level.graph.begin.push_back(static_cast<std::int64_t>(level.graph.neighbour.size()));
-    for (int c = 0; c < 6; ++c) {
-      for (std::size_t b = 0; b < column.row.size(); ++b)
-        for (int r = b == 0 ? c : 0; r < 6; ++r) {
-          level.matrix.row.push_back(6 * std::int64_t(column.row[b]) + r);
-          level.matrix.value.push_back(column.block[b](r, c));
+  BlockMatrix<double> result;
+  result.n_columns = 2 * n;
+  result.begin.assign(1, 0);
+  for (auto& row : rows) {
+    for (int half = 0; half < 2; ++half) {
+      for (std::size_t b = 0; b < row.column.size(); ++b)
+        for (int other = 0; other < 2; ++other) {
+          result.column.push_back(2 * row.column[b] + other);
+          for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c) result.block.push_back(row.block[b](3 * half + r, 3 * other + c));
         }
-      level.matrix.column_begin.push_back(static_cast<std::int64_t>(level.matrix.row.size()));
+      result.begin.push_back(static_cast<std::int64_t>(result.column.size()));
     }
-    column = {};
+    row = {};
   }
-  return level;
+  return result;
 }
 
-std::unique_ptr<CholmodFactor> factorise(const RigidGalerkin& level) {
-  std::vector<std::int32_t> order;  // two times three unknowns for each aggregate
-  for (const auto a : order_nodes(level.graph)) {
-    order.push_back(2 * a);
-    order.push_back(2 * a + 1);
+std::unique_ptr<CholmodFactor> factorise_held(const BlockMatrix<double>& stiffness, std::int32_t held) {
+  NodeGraph graph;
+  graph.begin.assign(1, 0);
+  for (std::size_t i = 0; i < stiffness.n_rows(); ++i) {
+    for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k)
+      if (stiffness.column[k] > std::int32_t(i)) graph.neighbour.push_back(stiffness.column[k]);
+    graph.begin.push_back(static_cast<std::int64_t>(graph.neighbour.size()));
   }
-  auto factor = std::make_unique<CholmodFactor>(level.matrix, order);
-  factor->factorise(level.matrix);
+  // Column 3 i + c below the diagonal is row 3 i + c right of it.
+  SymmetricMatrix matrix = make_matrix(graph);
+  for (std::size_t i = 0; i < stiffness.n_rows(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      auto place = matrix.column_begin[3 * i + c];
+      for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k) {
+        const auto j = stiffness.column[k];
+        if (j < std::int32_t(i)) continue;
+        const bool stays = (j / 2 != held && std::int32_t(i) / 2 != held);
+        for (int a = j == std::int32_t(i) ? c : 0; a < 3; ++a, ++place)
+          if (stays || (j == std::int32_t(i) && a == c)) matrix.value[place] = stiffness.at(k)[3 * c + a];
+      }
+    }
+  auto factor = std::make_unique<CholmodFactor>(matrix, order_nodes(graph));
+  factor->factorise(matrix);
   return factor;
 }
 

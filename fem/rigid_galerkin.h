@@ -11,23 +11,19 @@
 
 namespace fem {
 
-/// Rigid motions of the aggregates, smoothed by one step of damped Jacobi: P = (1 - damping D^-1 K) Q with
-/// 3 x 6 blocks. Whatever K does not resist, rigid motion of the body, stays in its range.
-/// @param motions  3 x 6 per node (rigid_motions)
+/// The aggregates' displacements, smoothed by one step of damped Jacobi: P = (1 - damping D^-1 K) Q with 3 x
+/// 6 blocks. Whatever K does not resist, rigid motion of the body, stays in its range.
+/// @param basis  Q, 3 x 6 per node (AggregateMotions)
 BlockMatrix<float> smoothed_interpolation(const BlockMatrix<double>& stiffness, const Aggregates& aggregates,
-                                          const std::vector<double>& motions, double damping);
+                                          const std::vector<double>& basis, double damping);
 
-/// P'K P, its lower triangle by columns, six unknowns per aggregate. One aggregate is held fast, which leaves
-/// a free body no rigid motion; what an aggregate's nodes do not tell apart has a one on the diagonal.
-struct RigidGalerkin {
-  NodeGraph graph;  ///< of aggregates
-  SymmetricMatrix matrix;
-};
-RigidGalerkin rigid_galerkin(const BlockMatrix<double>& stiffness, const BlockMatrix<float>& interpolation,
-                             std::int32_t held);
+/// P'K P in 3 x 3 blocks: an aggregate's six unknowns are two nodes after each other. What an aggregate's
+/// nodes do not tell apart has a one on the diagonal.
+BlockMatrix<double> galerkin_product(const BlockMatrix<double>& stiffness,
+                                     const BlockMatrix<float>& interpolation);
 
-/// Its factor.
+/// Its factor with one aggregate held fast, which leaves a free body no rigid motion.
 /// @throws std::runtime_error as CholmodFactor
-std::unique_ptr<CholmodFactor> factorise(const RigidGalerkin& level);
+std::unique_ptr<CholmodFactor> factorise_held(const BlockMatrix<double>& stiffness, std::int32_t held);
 
 }  // namespace fem

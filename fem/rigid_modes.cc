@@ -92,16 +92,32 @@ RigidBalance::RigidBalance(const Grid& grid, const NodeIntegrals& integrals) {
   inverse_ = inertia.inverse();
 }
 
+namespace {
+
+/// Sum over items of a 6-vector, in pieces: rounding grows with the length of a piece.
+template <typename Item>
+Eigen::Matrix<double, 6, 1> sum_in_pieces(Eigen::Index n, const Item& add) {
+  constexpr Eigen::Index piece = 1024;
+  Eigen::Matrix<double, 6, 1> total = Eigen::Matrix<double, 6, 1>::Zero();
+  for (Eigen::Index first = 0; first < n; first += piece) {
+    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+    for (Eigen::Index i = first; i < std::min(n, first + piece); ++i) add(i, sum);
+    total += sum;
+  }
+  return total;
+}
+
+}  // namespace
+
 // Column by column: the modes are as simple to apply as to store, and large.
 void RigidBalance::balance(Eigen::MatrixXd& force) const {
   parallel_for(force.cols(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       Eigen::Map<Eigen::Matrix3Xd> f(force.col(k).data(), 3, mass_.size());
-      Eigen::Matrix<double, 6, 1> resultant = Eigen::Matrix<double, 6, 1>::Zero();
-      for (Eigen::Index i = 0; i < f.cols(); ++i) {
-        resultant.head<3>() += f.col(i);
-        resultant.tail<3>() += place_m_.col(i).cross(f.col(i));
-      }
+      const auto resultant = sum_in_pieces(f.cols(), [&](Eigen::Index i, auto& sum) {
+        sum.template head<3>() += f.col(i);
+        sum.template tail<3>() += place_m_.col(i).cross(f.col(i));
+      });
       const Eigen::Matrix<double, 6, 1> acceleration = inverse_ * resultant;
       const Eigen::Vector3d along = acceleration.head<3>(), about = acceleration.tail<3>();
       for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) -= mass_[i] * along + about.cross(moment_.col(i));
@@ -113,16 +129,25 @@ void RigidBalance::remove_motion(Eigen::MatrixXd& displacement) const {
   parallel_for(displacement.cols(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       Eigen::Map<Eigen::Matrix3Xd> u(displacement.col(k).data(), 3, mass_.size());
-      Eigen::Matrix<double, 6, 1> momentum = Eigen::Matrix<double, 6, 1>::Zero();
-      for (Eigen::Index i = 0; i < u.cols(); ++i) {
-        momentum.head<3>() += mass_[i] * u.col(i);
-        momentum.tail<3>() += moment_.col(i).cross(u.col(i));
-      }
+      const auto momentum = sum_in_pieces(u.cols(), [&](Eigen::Index i, auto& sum) {
+        sum.template head<3>() += mass_[i] * u.col(i);
+        sum.template tail<3>() += moment_.col(i).cross(u.col(i));
+      });
       const Eigen::Matrix<double, 6, 1> motion = inverse_ * momentum;
       const Eigen::Vector3d along = motion.head<3>(), about = motion.tail<3>();
       for (Eigen::Index i = 0; i < u.cols(); ++i) u.col(i) -= along + about.cross(place_m_.col(i));
     }
   });
+}
+
+WithoutModes::WithoutModes(const Eigen::MatrixXd& modes) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(modes);
+  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(modes.rows(), qr.rank());
+}
+
+void WithoutModes::apply(Eigen::MatrixXd& vectors) const {
+  const Eigen::MatrixXd along = basis_.transpose() * vectors;
+  vectors.noalias() -= basis_ * along;
 }
 
 }  // namespace fem

@@ -41,4 +41,18 @@ private:
   Eigen::Matrix<double, 6, 6> inverse_;  // (R'MR)^-1
 };
 
+/// Takes the part along some vectors out of others, by the dot product: what rounding leaves of rigid motion
+/// in forces that should balance would be answered by large displacements.
+class WithoutModes {
+public:
+  WithoutModes() = default;
+  /// @param modes  one per column; of rank 6 for those of a body
+  explicit WithoutModes(const Eigen::MatrixXd& modes);
+  void apply(Eigen::MatrixXd& vectors) const;
+  std::size_t bytes() const { return 8 * std::size_t(basis_.size()); }
+
+private:
+  Eigen::MatrixXd basis_;  // orthonormal
+};
+
 }  // namespace fem

@@ -27,16 +27,15 @@ struct Level {
     matrix = fem::make_matrix(graph);
     fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, {1, 0.3, 1}, matrix);
     rows = fem::full_rows(graph, matrix);
-    aggregates = fem::aggregate_nodes(rows, 0.08);
-    motions = fem::rigid_motions(aggregates, grid.xyz_m, rank);
+    aggregates = fem::aggregate_nodes(rows, 1, 0.08);
+    spanned = fem::span_motions(aggregates, fem::rigid_motions(grid.xyz_m));
   }
   fem::Grid grid;
   fem::NodeGraph graph;
   fem::SymmetricMatrix matrix;
   fem::BlockMatrix<double> rows;
   fem::Aggregates aggregates;
-  std::vector<int> rank;
-  std::vector<double> motions;
+  fem::AggregateMotions spanned;
 };
 
 template <typename T>
@@ -71,48 +70,59 @@ TEST(Aggregates, hold_every_node_and_are_small) {
 // Rigid motion costs no energy on any level: P reproduces it, to the rounding of its floats.
 TEST(Aggregates, interpolate_rigid_motion) {
   const Level level;
-  const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.motions, 0.5);
-  const Eigen::MatrixXd rigid = fem::rigid_modes(level.grid, {0.1, 0.2, 0.3});
-  Eigen::MatrixXd below = Eigen::MatrixXd::Zero(6 * Eigen::Index(level.aggregates.n), 6);
-  for (std::size_t i = 0; i < level.grid.n_nodes; ++i)
-    below.middleRows<6>(6 * level.aggregates.of_node[i]) +=
-        Eigen::Map<const Eigen::Matrix<double, 3, 6, Eigen::RowMajor>>(&level.motions[18 * i]).transpose() *
-        rigid.middleRows<3>(3 * Eigen::Index(i));
+  const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
+  const auto motions = fem::rigid_motions(level.grid.xyz_m);
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+  const Eigen::Map<const Rows> rigid(motions.data(), 3 * Eigen::Index(level.grid.n_nodes), 6),
+      below(level.spanned.motion.data(), 6 * Eigen::Index(level.aggregates.n), 6);
   EXPECT_LT((dense(p) * below - rigid).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((dense(level.rows) * rigid).cwiseAbs().maxCoeff(),
+            1e-12 * dense(level.rows).cwiseAbs().maxCoeff());
 }
 
 TEST(Aggregates, level_below_is_the_galerkin_product) {
   const Level level;
-  const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.motions, 0.5);
-  const std::int32_t held = 1;
-  const auto below = fem::rigid_galerkin(level.rows, p, held);
-  const Eigen::MatrixXd full = dense(p);
-  Eigen::MatrixXd expected = full.transpose() * dense(level.rows) * full;
-  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(below.matrix.n, 4);
-  Eigen::MatrixXd free = x;
+  const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
+  const Eigen::MatrixXd full = dense(p), expected = full.transpose() * dense(level.rows) * full,
+                        below = dense(fem::galerkin_product(level.rows, p));
+  EXPECT_LT((below - expected).norm(), 1e-12 * expected.norm());
+}
+
+TEST(Aggregates, factor_holds_one_aggregate) {
+  const Level level;
+  const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
+  const auto below = fem::galerkin_product(level.rows, p);
+  const int held = 1;
+  const auto factor = fem::factorise_held(below, held);
+  // A force that balances itself is met exactly, whichever aggregate is held.
+  const Eigen::MatrixXd force = dense(below) * Eigen::MatrixXd::Random(below.n_columns * 3, 2);
+  Eigen::MatrixXd free = force;
   free.middleRows<6>(6 * held).setZero();
-  Eigen::MatrixXd y = fem::multiply(below.matrix, free);
-  expected = (expected * free).eval();
-  expected.middleRows<6>(6 * held).setZero();
-  EXPECT_LT((y - expected).norm(), 1e-12 * expected.norm());
-  EXPECT_GT(y.norm(), 0);
-  EXPECT_NO_THROW(fem::factorise(below)) << "one aggregate held leaves no rigid motion";
+  const Eigen::MatrixXd u = factor->solve(free);
+  EXPECT_LT((dense(below) * u - force).norm(), 1e-8 * force.norm());
+  EXPECT_EQ(u.middleRows<6>(6 * held).norm(), 0);
+}
+
+TEST(Aggregates, siblings_stay_together) {
+  const Level level;
+  const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
+  const auto next = fem::aggregate_nodes(fem::galerkin_product(level.rows, p), 2, 0.08);
+  for (std::size_t i = 0; i < next.of_node.size(); i += 2) EXPECT_EQ(next.of_node[i], next.of_node[i + 1]);
+  EXPECT_LT(2 * next.n, level.aggregates.n);
 }
 
 TEST(Aggregates, transpose_of_blocks) {
   const Level level;
-  const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.motions, 0.5);
+  const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
   EXPECT_EQ(dense(fem::transpose(p)), dense(p).transpose());
 }
 
 // Single nodes and nodes on a line do not tell all motions apart.
 TEST(Aggregates, motions_that_cannot_be_told_apart_are_left_out) {
   const fem::Aggregates aggregates{3, {0, 1, 1, 2, 2, 2}};
-  const std::vector<double> xyz_m = {5, 5, 5, 0, 0, 0, 0, 0, 1, 1, 0, 0, 2, 0, 0, 2, 1, 0};
-  std::vector<int> rank;
-  const auto motions = fem::rigid_motions(aggregates, xyz_m, rank);
-  EXPECT_EQ(rank, (std::vector<int>{3, 5, 6}));
-  for (const double m : motions) EXPECT_TRUE(std::isfinite(m));
+  const auto spanned = fem::span_motions(
+      aggregates, fem::rigid_motions({5, 5, 5, 0, 0, 0, 0, 0, 1, 1, 0, 0, 2, 0, 0, 2, 1, 0}));
+  EXPECT_EQ(spanned.rank, (std::vector<int>{3, 5, 6}));
 }
 
 struct Answer {
