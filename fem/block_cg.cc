@@ -118,4 +118,18 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
   }
 }
 
+Eigen::ArrayXd subtract_image(const ElasticOperator<double>& stiffness, const kernel::Kernels& kernels,
+                              const Lanes& lanes, const BlockVector<double>& u, BlockVector<double>& r) {
+  const std::size_t n_nodes = stiffness.n_nodes();
+  BlockVector<double> image(n_nodes, lanes);
+  auto copies = stiffness.work_space(lanes);
+  stiffness.apply(lanes, u, image, copies);
+  for_chunks(3 * n_nodes * lanes.n_lanes, [&](auto begin, auto end) {
+    for (auto i = begin; i < end; ++i) r.data()[i] -= image.data()[i];
+  });
+  return sum_over_nodes<1>(n_nodes, lanes.n_lanes, [&](auto begin, auto end, double* sum) {
+    kernels.dot(lanes.view(), n_nodes, begin, end, r.data(), r.data(), sum);
+  })[0];
+}
+
 }  // namespace fem

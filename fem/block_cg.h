@@ -37,4 +37,9 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
                           const kernel::Kernels& kernels, const Lanes& lanes, const BlockCgControl& control,
                           BlockVector<double>& u, BlockVector<double>& r);
 
+/// r -= K u: on entry the forces.
+/// @return |r|^2 per lane
+Eigen::ArrayXd subtract_image(const ElasticOperator<double>& stiffness, const kernel::Kernels& kernels,
+                              const Lanes& lanes, const BlockVector<double>& u, BlockVector<double>& r);
+
 }  // namespace fem

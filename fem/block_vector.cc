@@ -41,7 +41,7 @@ BlockVector<T>::BlockVector(std::size_t n_nodes, const Lanes& lanes)
 
 template <typename T>
 void to_block(const Eigen::MatrixXd& columns, Eigen::Index first, const std::vector<std::int32_t>& place,
-              const Lanes& lanes, BlockVector<T>& block) {
+              const Lanes& lanes, BlockVector<T>& block, const double* factor) {
   for (const auto& group : lanes.groups) {
     T* to = block.data() + 3 * block.n_nodes() * group.first_lane;
     parallel_for(place.size(), 1000, [&](std::size_t begin, std::size_t end) {
@@ -50,7 +50,9 @@ void to_block(const Eigen::MatrixXd& columns, Eigen::Index first, const std::vec
           for (int l = 0; l < group.width; ++l) {
             const std::size_t load = group.first_lane + l;
             to[(3 * std::size_t(place[i]) + c) * group.width + l] =
-                load < lanes.n_loads ? static_cast<T>(columns(3 * Eigen::Index(i) + c, first + load)) : T(0);
+                load < lanes.n_loads ? static_cast<T>((factor != nullptr ? factor[load] : 1) *
+                                                      columns(3 * Eigen::Index(i) + c, first + load))
+                                     : T(0);
           }
     });
   }
@@ -58,16 +60,18 @@ void to_block(const Eigen::MatrixXd& columns, Eigen::Index first, const std::vec
 
 template <typename T>
 void from_block(const BlockVector<T>& block, const Lanes& lanes, const std::vector<std::int32_t>& place,
-                Eigen::Index first, Eigen::MatrixXd& columns) {
+                Eigen::Index first, Eigen::MatrixXd& columns, const double* factor) {
   for (const auto& group : lanes.groups) {
     const T* from = block.data() + 3 * block.n_nodes() * group.first_lane;
     const auto n_used = std::min<std::size_t>(group.width, lanes.n_loads - group.first_lane);
     parallel_for(place.size(), 1000, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t l = 0; l < n_used; ++l)
+      for (std::size_t l = 0; l < n_used; ++l) {
+        const double times = factor != nullptr ? factor[group.first_lane + l] : 1;
         for (std::size_t i = begin; i < end; ++i)
           for (int c = 0; c < 3; ++c)
             columns(3 * Eigen::Index(i) + c, first + group.first_lane + l) =
-                from[(3 * std::size_t(place[i]) + c) * group.width + l];
+                times * from[(3 * std::size_t(place[i]) + c) * group.width + l];
+      }
     });
   }
 }
@@ -77,12 +81,12 @@ template Lanes spread_over_lanes<float>(std::size_t, const kernel::Kernels&);
 template class BlockVector<double>;
 template class BlockVector<float>;
 template void to_block(const Eigen::MatrixXd&, Eigen::Index, const std::vector<std::int32_t>&, const Lanes&,
-                       BlockVector<double>&);
+                       BlockVector<double>&, const double*);
 template void to_block(const Eigen::MatrixXd&, Eigen::Index, const std::vector<std::int32_t>&, const Lanes&,
-                       BlockVector<float>&);
+                       BlockVector<float>&, const double*);
 template void from_block(const BlockVector<double>&, const Lanes&, const std::vector<std::int32_t>&,
-                         Eigen::Index, Eigen::MatrixXd&);
+                         Eigen::Index, Eigen::MatrixXd&, const double*);
 template void from_block(const BlockVector<float>&, const Lanes&, const std::vector<std::int32_t>&,
-                         Eigen::Index, Eigen::MatrixXd&);
+                         Eigen::Index, Eigen::MatrixXd&, const double*);
 
 }  // namespace fem

@@ -44,11 +44,12 @@ private:
 
 /// Columns of a matrix (3 n_nodes x loads) into a block vector and back. Node i of the matrix is node
 /// place[i] of the block vector; lanes without a column become zero.
+/// @param factor  of each load case, multiplied on the way; none: 1
 template <typename T>
 void to_block(const Eigen::MatrixXd& columns, Eigen::Index first, const std::vector<std::int32_t>& place,
-              const Lanes& lanes, BlockVector<T>& block);
+              const Lanes& lanes, BlockVector<T>& block, const double* factor = nullptr);
 template <typename T>
 void from_block(const BlockVector<T>& block, const Lanes& lanes, const std::vector<std::int32_t>& place,
-                Eigen::Index first, Eigen::MatrixXd& columns);
+                Eigen::Index first, Eigen::MatrixXd& columns, const double* factor = nullptr);
 
 }  // namespace fem

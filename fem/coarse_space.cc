@@ -1,6 +1,8 @@
 #include "fem/coarse_space.h"
 
 #include <future>
+#include <numeric>
+#include <utility>
 
 #include "fem/cell_geometry.h"
 #include "fem/parallel.h"
@@ -91,19 +93,10 @@ std::vector<Eigen::Matrix<double, 3, 8>> hat_gradients(const Tabulation& at) {
   return result;
 }
 
-}  // namespace
-
-CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
-                         const PerCell<Lame>& elastic) {
-  std::vector<std::int32_t> coarse_of_place;
-  const Grid coarse = corner_grid(grid, order, coarse_of_place);
-  n_nodes_ = coarse.n_nodes;
-  const auto cells = cells_of_nodes(coarse);
-  const NodeGraph graph = make_node_graph(coarse, cells);
-  auto node_order = std::async(std::launch::async, order_nodes, std::cref(graph));
-  interpolation_ = make_interpolation(grid, order, coarse);
-  restriction_ = transpose(interpolation_, n_nodes_);
-
+/// P'K P.
+SymmetricMatrix assemble(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
+                         const PerCell<Lame>& elastic, const Grid& coarse, const CellsOfNodes& cells,
+                         const NodeGraph& graph) {
   const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
   const auto hats = hat_gradients(at);
   std::vector<std::size_t> place(grid.n_cells());
@@ -122,14 +115,56 @@ CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::ve
         add_cell_stiffness(scaled, coarse.nodes_of(colour[c]), elastic[colour[c]], graph, products, matrix);
       }
     });
-  supports_ = std::make_unique<Supports>(choose_supports(coarse), matrix);
-  factor_ = std::make_unique<CholmodFactor>(matrix, node_order.get());
-  factor_->factorise(matrix);
+  return matrix;
 }
 
-Eigen::MatrixXd CoarseSpace::solve(Eigen::MatrixXd force) const {
-  supports_->clear(force);
-  return factor_->solve(force);
+}  // namespace
+
+CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
+                         const PerCell<Lame>& elastic, CoarseLevel level, const kernel::Kernels& kernels) {
+  std::vector<std::int32_t> coarse_of_place;
+  const Grid coarse = corner_grid(grid, order, coarse_of_place);
+  n_nodes_ = coarse.n_nodes;
+  place_.resize(n_nodes_);
+  std::iota(place_.begin(), place_.end(), 0);
+  const auto cells = cells_of_nodes(coarse);
+  const NodeGraph graph = make_node_graph(coarse, cells);
+  interpolation_ = make_interpolation(grid, order, coarse);
+  restriction_ = transpose(interpolation_, n_nodes_);
+  if (level == CoarseLevel::aggregated) {
+    multigrid_ = std::make_unique<AggregationMultigrid>(
+        graph, assemble(grid, order, metric, elastic, coarse, cells, graph), coarse.xyz_m, kernels);
+  } else {
+    auto node_order = std::async(std::launch::async, order_nodes, std::cref(graph));
+    auto matrix = assemble(grid, order, metric, elastic, coarse, cells, graph);
+    supports_ = std::make_unique<Supports>(choose_supports(coarse), matrix);
+    factor_ = std::make_unique<CholmodFactor>(matrix, node_order.get());
+    factor_->factorise(matrix);
+    without_rigid_ = WithoutModes(rigid_modes(coarse, Eigen::Vector3d::Zero()));
+  }
+}
+
+std::size_t CoarseSpace::bytes() const {
+  const auto of = [](const NodeMatrix& m) { return 8 * (m.begin.size() + m.column.size()); };
+  return of(interpolation_) + of(restriction_) +
+         (multigrid_ ? multigrid_->bytes() : static_cast<std::size_t>(1e9 * factor_->gigabytes()));
+}
+
+CoarseSpace::WorkSpace CoarseSpace::work_space(const Lanes& lanes) const {
+  if (multigrid_) return {multigrid_->work_space(lanes)};
+  return {};
+}
+
+void CoarseSpace::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
+                        WorkSpace& work) const {
+  if (multigrid_) return multigrid_->apply(lanes, b, x, work.multigrid);
+  Eigen::MatrixXd columns(3 * n_nodes_, lanes.n_loads);
+  from_block(b, lanes, place_, 0, columns);
+  without_rigid_.apply(columns);
+  supports_->clear(columns);
+  columns = factor_->solve(columns);
+  without_rigid_.apply(columns);
+  to_block(columns, 0, place_, lanes, x);
 }
 
 }  // namespace fem

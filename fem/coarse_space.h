@@ -3,12 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "fem/aggregation_multigrid.h"
+#include "fem/block_vector.h"
 #include "fem/cell_order.h"
 #include "fem/cholmod_factor.h"
 #include "fem/elastic_kernel.h"
 #include "fem/grid.h"
+#include "fem/rigid_modes.h"
+#include "fem/solver_choice.h"
 #include "fem/stiffness.h"
 #include "fem/supports.h"
 
@@ -26,23 +31,34 @@ struct NodeMatrix {
 /// stiffness is exactly P'K P, P the interpolation, and no cell can be inverted. Its nodes are the corners.
 class CoarseSpace {
 public:
+  /// @param level  factorised or aggregated
   /// @throws std::runtime_error as CholmodFactor
   CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
-              const PerCell<Lame>& elastic);
+              const PerCell<Lame>& elastic, CoarseLevel level, const kernel::Kernels& kernels);
 
   std::size_t n_nodes() const noexcept { return n_nodes_; }
   const NodeMatrix& interpolation() const noexcept { return interpolation_; }  ///< P, rows: nodes in order
   const NodeMatrix& restriction() const noexcept { return restriction_; }      ///< P'
-  double gigabytes() const { return factor_->gigabytes(); }
+  std::size_t bytes() const;
 
-  /// (P'K P)^-1 on the statically determinate support, whose rows are held at zero.
-  Eigen::MatrixXd solve(Eigen::MatrixXd force) const;
+  struct WorkSpace {
+    AggregationMultigrid::WorkSpace multigrid;
+    std::size_t bytes() const { return multigrid.bytes(); }
+  };
+  WorkSpace work_space(const Lanes& lanes) const;
+
+  /// x = (P'K P)^-1 b by a statically determinate support, without rigid motion in b and x; or one V-cycle in
+  /// its place.
+  void solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x, WorkSpace& work) const;
 
 private:
   std::size_t n_nodes_ = 0;
   NodeMatrix interpolation_, restriction_;
+  std::vector<std::int32_t> place_;  ///< nodes keep their numbers in block vectors
+  WithoutModes without_rigid_;
   std::unique_ptr<Supports> supports_;
   std::unique_ptr<CholmodFactor> factor_;
+  std::unique_ptr<AggregationMultigrid> multigrid_;
 };
 
 }  // namespace fem

@@ -63,6 +63,7 @@ Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
 
   progress(0.1, "order");
   CholmodFactor factor(matrix, order.get());
+  refuse_large_factor(1e9 * factor.gigabytes(), static_cast<std::size_t>(matrix.n), physical_memory());
   progress(0.25, "factorise");
   factor.factorise(matrix);
   Solution solution;

@@ -45,6 +45,14 @@ struct NodeRows {
   const float* weight = nullptr;
 };
 
+/// Rows of a sparse matrix of small dense blocks, 3 x 3, 3 x 6 or 6 x 3, each row after row.
+struct BlockRows {
+  int height = 3, width = 3;  ///< of a block
+  const std::int64_t* begin = nullptr;
+  const std::int32_t* column = nullptr;
+  const float* block = nullptr;
+};
+
 struct ChebyshevStep {
   float old_direction = 0, new_direction = 0;
   bool from_zero = false;  ///< x and K x are zero and not read
@@ -66,6 +74,9 @@ struct Kernels {
   /// y = (keep ? y : 0) + rows x
   void (*combine)(LaneGroups, std::size_t n_rows, std::size_t n_columns, std::size_t begin, std::size_t end,
                   const NodeRows&, bool keep, const float* x, float* y);
+  /// The same with blocks; n_rows and n_columns count blocks, of `height` and `width` rows of x and y.
+  void (*combine_blocks)(LaneGroups, std::size_t n_rows, std::size_t n_columns, std::size_t begin,
+                         std::size_t end, const BlockRows&, bool keep, const float* x, float* y);
 
   /// sum = a . b
   void (*dot)(LaneGroups, std::size_t n_nodes, std::size_t begin, std::size_t end, const double* a,

@@ -22,21 +22,24 @@ std::string describe(BlockCgEnd end, int n_iterations, double residual) {
   return text.str();
 }
 
-/// One block of load cases, each scaled to size 1 in `force`; solution in the same scale.
-class Block {
+/// Solves blocks of load cases, each load scaled to size 1 on the way.
+class BlockSolver {
 public:
-  Block(const CellOrder& order, const ElasticOperator<double>& stiffness,
-        const PolynomialMultigrid& multigrid, const SolverChoice& choice)
+  BlockSolver(const CellOrder& order, const ElasticOperator<double>& stiffness,
+              const PolynomialMultigrid& multigrid, const SolverChoice& choice)
       : order_(order), stiffness_(stiffness), multigrid_(multigrid), choice_(choice) {}
 
-  /// @param norm  of the loads as applied, in the same scale
-  /// @param solution  on return its bytes, iterations and residual are at least those of this block
-  BlockCgEnd solve(const Eigen::MatrixXd& force, const Eigen::ArrayXd& norm, Eigen::MatrixXd& displacement,
+  /// Load cases first .. first + n - 1, of a body of modulus `modulus_Pa` times that of the operator.
+  /// @param solution  their columns are filled; its bytes, iterations and residual are at least theirs
+  BlockCgEnd solve(const BalancedLoads& loads, Eigen::Index first, Eigen::Index n, double modulus_Pa,
                    Solution& solution) const {
     const auto& kernels = kernel::kernels_for_this_machine();
-    const Lanes lanes = spread_over_lanes<double>(force.cols(), kernels);
+    const Lanes lanes = spread_over_lanes<double>(std::size_t(n), kernels);
     BlockVector<double> u(stiffness_.n_nodes(), lanes), r(stiffness_.n_nodes(), lanes);
-    to_block(force, 0, order_.node_place, lanes, r);
+    const Eigen::ArrayXd scale = loads.largest_entry.segment(first, n).transpose();
+    const Eigen::ArrayXd norm = loads.norm.segment(first, n).transpose().array() / scale, to_unit = 1 / scale,
+                         from_unit = scale / modulus_Pa;
+    to_block(loads.force, first, order_.node_place, lanes, r, to_unit.data());
     int n_iterations = 0;
     double residual = 0;
     // A second round starts from the residual computed anew, should the updated one have drifted away.
@@ -48,16 +51,11 @@ public:
       solution.bytes = std::max(solution.bytes, static_cast<double>(result.bytes));
       solution.n_iterations = std::max(solution.n_iterations, n_iterations);
       if (result.end != BlockCgEnd::converged) return result.end;
-      from_block(u, lanes, order_.node_place, 0, displacement);
-      Eigen::MatrixXd image(force.rows(), force.cols());
-      auto copies = stiffness_.work_space(lanes);
-      stiffness_.apply(lanes, u, r, copies);
-      from_block(r, lanes, order_.node_place, 0, image);
-      image = force - image;
-      residual = (image.colwise().norm().transpose().array() / norm).maxCoeff();
+      to_block(loads.force, first, order_.node_place, lanes, r, to_unit.data());
+      residual = (subtract_image(stiffness_, kernels, lanes, u, r).head(n).sqrt() / norm).maxCoeff();
       if (residual <= acceptable_residual) break;
-      to_block(image, 0, order_.node_place, lanes, r);
     }
+    from_block(u, lanes, order_.node_place, first, solution.displacement, from_unit.data());
     solution.residual = std::max(solution.residual, residual);
     return BlockCgEnd::converged;
   }
@@ -71,6 +69,11 @@ private:
 
 }  // namespace
 
+std::size_t loads_per_block(std::size_t n_dofs) {
+  constexpr std::size_t vectors_bytes = 1'600'000'000, per_unknown = 48;  // four of doubles, four of floats
+  return std::clamp<std::size_t>(vectors_bytes / (per_unknown * n_dofs) / 4 * 4, 4, 16);
+}
+
 std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials& materials,
                                           const BalancedLoads& loads, const SolverChoice& choice,
                                           const StepReport& progress, std::string& failure) {
@@ -80,30 +83,26 @@ std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials&
   // The modulus is taken out: displacements of unit loads on a body of modulus 1.
   const double modulus_Pa = materials.largest_modulus_Pa();
   const auto elastic = materials.elastic(modulus_Pa);
-  const PolynomialMultigrid multigrid(grid, order, metric, elastic);
+  const PolynomialMultigrid multigrid(grid, order, metric, elastic, choice.coarse_level);
   const ElasticOperator<double> stiffness(grid, order, elastic, std::move(metric));
 
   const SerialBlas serial;  // the coarse level's solves are too small to share
-  const Block block(order, stiffness, multigrid, choice);
+  const BlockSolver solver(order, stiffness, multigrid, choice);
   Solution solution;
   solution.displacement.resize(loads.force.rows(), loads.force.cols());
   const Eigen::Index n_loads = loads.force.cols(),
-                     n_blocks = (n_loads + loads_per_block - 1) / loads_per_block,
-                     width = (n_loads + n_blocks - 1) / n_blocks;
-  for (Eigen::Index first = 0; first < n_loads; first += width) {
+                     width = static_cast<Eigen::Index>(loads_per_block(3 * grid.n_nodes)),
+                     n_blocks = (n_loads + width - 1) / width;
+  // Blocks of even size, in fours: what a register holds.
+  const Eigen::Index even = std::min(width, ((n_loads + n_blocks - 1) / n_blocks + 3) / 4 * 4);
+  for (Eigen::Index first = 0; first < n_loads; first += even) {
     progress(0.2 + 0.65 * double(first) / double(n_loads), "iterate");
-    const auto columns = std::min(width, n_loads - first);
-    const Eigen::RowVectorXd scale = loads.largest_entry.segment(first, columns);
-    const Eigen::MatrixXd force = loads.force.middleCols(first, columns).array().rowwise() / scale.array();
-    const Eigen::ArrayXd norm = (loads.norm.segment(first, columns).array() / scale.array()).transpose();
-    Eigen::MatrixXd displacement(force.rows(), columns);
-    const auto end = block.solve(force, norm, displacement, solution);
+    const auto end =
+        solver.solve(loads, first, std::min(even, n_loads - first), modulus_Pa, solution);
     if (end != BlockCgEnd::converged || !(solution.residual <= acceptable_residual)) {
       failure = describe(end, solution.n_iterations, solution.residual);
       return std::nullopt;
     }
-    solution.displacement.middleCols(first, columns) =
-        displacement.array().rowwise() * (scale / modulus_Pa).array();
   }
   solution.bytes += static_cast<double>(stiffness.bytes() + multigrid.bytes());
   return solution;

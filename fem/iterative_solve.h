@@ -10,9 +10,11 @@
 
 namespace fem {
 
-/// Load cases that advance together: more would take more memory than they save time.
-inline constexpr int loads_per_block = 16;
+/// Load cases that advance together, of so many unknowns each: as many as give vectors of a bounded size, 4
+/// at least. More than 16 would take more memory than they save time.
+std::size_t loads_per_block(std::size_t n_dofs);
 
+/// @param choice   its coarse level must have been decided (not automatic)
 /// @param failure  filled if there is no solution: what happened
 /// @return nothing if the iteration stalls or leaves a residual that is not acceptable
 /// @throws std::runtime_error as CoarseSpace

@@ -134,8 +134,9 @@ BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>
 /// then tells.
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
-               const BalancedLoads& loads, const SolverChoice& choice, const Progress& progress,
+               const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
                SolverReport& report) {
+  choice.coarse_level = report.coarse_level;
   if (report.used == Solver::iterative) {
     std::string failure;
     try {
@@ -145,6 +146,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
       failure = error.what();
     }
     report.used = Solver::direct;
+    report.gave_up = true;
     report.reason = failure + "; solved directly";
   }
   return solve_directly(grid, cells, colours, materials, loads, progress);

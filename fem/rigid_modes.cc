@@ -81,25 +81,76 @@ Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const
 RigidBalance::RigidBalance(const Grid& grid, const NodeIntegrals& integrals) {
   const Eigen::Vector3d centre =
       integrals.rightCols<3>().colwise().sum().transpose() / integrals.col(0).sum();
-  modes_ = rigid_modes(grid, centre);
-  mass_modes_ = Eigen::MatrixXd::Zero(modes_.rows(), 6);
-  for (std::size_t i = 0; i < grid.n_nodes; ++i) {
-    const double m = integrals(i, 0);
-    const Eigen::Vector3d s = integrals.block<1, 3>(i, 1).transpose() - m * centre;
-    mass_modes_.block<3, 3>(3 * i, 0).diagonal().setConstant(m);
-    mass_modes_.block<3, 3>(3 * i, 3) << 0, s[2], -s[1], -s[2], 0, s[0], s[1], -s[0], 0;
-  }
-  inverse_ = (modes_.transpose() * mass_modes_).inverse();
+  mass_ = integrals.col(0);
+  place_m_ = Eigen::Map<const Eigen::Matrix3Xd>(grid.xyz_m.data(), 3, grid.n_nodes).colwise() - centre;
+  moment_ = integrals.rightCols<3>().transpose() - centre * mass_.transpose();
+  Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Zero();
+  for (Eigen::Index i = 0; i < mass_.size(); ++i)
+    for (int mode = 0; mode < 6; ++mode) {
+      const Eigen::Vector3d moved = mode < 3 ? Eigen::Vector3d(mass_[i] * Eigen::Vector3d::Unit(mode))
+                                             : Eigen::Vector3d::Unit(mode - 3).cross(moment_.col(i));
+      inertia.col(mode).head<3>() += moved;
+      inertia.col(mode).tail<3>() += place_m_.col(i).cross(moved);
+    }
+  inverse_ = inertia.inverse();
 }
 
+namespace {
+
+/// Sum over items of a 6-vector, in pieces: rounding grows with the length of a piece.
+template <typename Item>
+Eigen::Matrix<double, 6, 1> sum_in_pieces(Eigen::Index n, const Item& add) {
+  constexpr Eigen::Index piece = 1024;
+  Eigen::Matrix<double, 6, 1> total = Eigen::Matrix<double, 6, 1>::Zero();
+  for (Eigen::Index first = 0; first < n; first += piece) {
+    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+    for (Eigen::Index i = first; i < std::min(n, first + piece); ++i) add(i, sum);
+    total += sum;
+  }
+  return total;
+}
+
+}  // namespace
+
+// Column by column: the modes are as simple to apply as to store, and large.
 void RigidBalance::balance(Eigen::MatrixXd& force) const {
-  const Eigen::MatrixXd acceleration = inverse_ * (modes_.transpose() * force);
-  force.noalias() -= mass_modes_ * acceleration;
+  parallel_for(force.cols(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      Eigen::Map<Eigen::Matrix3Xd> f(force.col(k).data(), 3, mass_.size());
+      const auto resultant = sum_in_pieces(f.cols(), [&](Eigen::Index i, auto& sum) {
+        sum.template head<3>() += f.col(i);
+        sum.template tail<3>() += place_m_.col(i).cross(f.col(i));
+      });
+      const Eigen::Matrix<double, 6, 1> acceleration = inverse_ * resultant;
+      const Eigen::Vector3d along = acceleration.head<3>(), about = acceleration.tail<3>();
+      for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) -= mass_[i] * along + about.cross(moment_.col(i));
+    }
+  });
 }
 
 void RigidBalance::remove_motion(Eigen::MatrixXd& displacement) const {
-  const Eigen::MatrixXd motion = inverse_ * (mass_modes_.transpose() * displacement);
-  displacement.noalias() -= modes_ * motion;
+  parallel_for(displacement.cols(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      Eigen::Map<Eigen::Matrix3Xd> u(displacement.col(k).data(), 3, mass_.size());
+      const auto momentum = sum_in_pieces(u.cols(), [&](Eigen::Index i, auto& sum) {
+        sum.template head<3>() += mass_[i] * u.col(i);
+        sum.template tail<3>() += moment_.col(i).cross(u.col(i));
+      });
+      const Eigen::Matrix<double, 6, 1> motion = inverse_ * momentum;
+      const Eigen::Vector3d along = motion.head<3>(), about = motion.tail<3>();
+      for (Eigen::Index i = 0; i < u.cols(); ++i) u.col(i) -= along + about.cross(place_m_.col(i));
+    }
+  });
+}
+
+WithoutModes::WithoutModes(const Eigen::MatrixXd& modes) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(modes);
+  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(modes.rows(), qr.rank());
+}
+
+void WithoutModes::apply(Eigen::MatrixXd& vectors) const {
+  const Eigen::MatrixXd along = basis_.transpose() * vectors;
+  vectors.noalias() -= basis_ * along;
 }
 
 }  // namespace fem

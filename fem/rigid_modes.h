@@ -40,8 +40,24 @@ public:
   void remove_motion(Eigen::MatrixXd& displacement) const;  ///< u - R (R'MR)^-1 R'M u
 
 private:
-  Eigen::MatrixXd modes_, mass_modes_;  // R and M R, 3 n x 6
-  Eigen::MatrixXd inverse_;             // (R'MR)^-1
+  Eigen::Matrix3Xd place_m_;             // from the centre of mass
+  Eigen::Matrix3Xd moment_;              // of the nodes' masses about it: integral of N_i x
+  Eigen::VectorXd mass_;                 // integral of N_i
+  Eigen::Matrix<double, 6, 6> inverse_;  // (R'MR)^-1
+};
+
+/// Takes the part along some vectors out of others, by the dot product: what rounding leaves of rigid motion
+/// in forces that should balance would be answered by large displacements.
+class WithoutModes {
+public:
+  WithoutModes() = default;
+  /// @param modes  one per column; of rank 6 for those of a body
+  explicit WithoutModes(const Eigen::MatrixXd& modes);
+  void apply(Eigen::MatrixXd& vectors) const;
+  std::size_t bytes() const { return 8 * std::size_t(basis_.size()); }
+
+private:
+  Eigen::MatrixXd basis_;  // orthonormal
 };
 
 }  // namespace fem

@@ -13,10 +13,20 @@ enum class Solver {
   iterative,  ///< conjugate gradients with polynomial multigrid; the direct one if that does not converge
 };
 
+/// How the iterative solver treats the trilinear displacements, its level below the polynomials of the mesh.
+enum class CoarseLevel {
+  automatic,   ///< factorised as long as that is predicted to be the faster one
+  factorised,  ///< sparse factorisation: fewest iterations, cost grows faster than the unknowns
+  aggregated,  ///< one more level of multigrid, of rigid bodies: cost grows as the unknowns
+};
+
 struct SolverChoice {
   Solver solver = Solver::automatic;
   double relative_tolerance = 1e-10;  ///< of the iterative solver: |K u - f| / |f| of every load as applied
   int max_iterations = 100;           ///< of the iterative solver, per block of load cases
+  CoarseLevel coarse_level = CoarseLevel::automatic;
+  bool gave_up_before =
+      false;  ///< the iteration is known to stall on this mesh and material: not tried again
 };
 
 /// What a solver is expected to need on a machine like the one that was measured (solver_prediction.h).
@@ -27,15 +37,22 @@ struct SolverCost {
 
 struct SolverReport {
   Solver used = Solver::direct;
-  std::string reason;  ///< why this one; if the iterative one gave up, how
+  std::string reason;    ///< why this one; if the iterative one gave up, how
+  bool gave_up = false;  ///< the iterative one stalled, here or before (SolverChoice::gave_up_before)
   SolverCost predicted_direct, predicted_iterative;
-  double largest_aspect = 0;     ///< of the cells; 0: not looked at (tetrahedra)
-  int n_iterations = 0;          ///< most of all blocks; 0: direct
+  CoarseLevel coarse_level = CoarseLevel::factorised;  ///< of the iterative one, decided
+  double largest_aspect = 0;                           ///< of the cells; 0: not looked at (tetrahedra)
+  int n_iterations = 0;                                ///< most of all blocks; 0: direct
   double relative_residual = 0;  ///< largest |K u - f| / |f|, computed anew from the solution
   /// What a second solve for the residual changed of the largest displacement, relative: how far rounding
   /// may reach, in the matrix too. 0: the residual was too small to ask.
   double rounding = 0;
   double used_bytes = 0;  ///< matrix and factor, or operator, preconditioner and vectors
+
+  /// Of the solver used.
+  const SolverCost& predicted() const noexcept {
+    return used == Solver::iterative ? predicted_iterative : predicted_direct;
+  }
 };
 
 }  // namespace fem

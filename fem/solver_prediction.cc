@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 
 #include "fem/iterative_solve.h"
 
@@ -19,15 +21,27 @@ constexpr double worth_seconds = 1;
 constexpr double most_stretched = 12;
 // Beyond it the smoother loses its grip on motions that keep volume.
 constexpr double most_incompressible = 0.45;
-// Other arrays of a run (responses, recovery) live beside the solver's.
-constexpr double share_of_memory = 0.8;
+
+std::string gigabytes(double bytes) {
+  std::ostringstream text;
+  text << std::setprecision(bytes < 1e10 ? 2 : 3) << 1e-9 * bytes << " GB";
+  return text.str();
+}
 
 std::string cost_text(const SolverReport& report) {
   std::ostringstream text;
   text << std::setprecision(2) << "direct " << report.predicted_direct.seconds << " s, "
-       << 1e-9 * report.predicted_direct.bytes << " GB; iterative " << report.predicted_iterative.seconds
-       << " s, " << 1e-9 * report.predicted_iterative.bytes << " GB predicted";
+       << gigabytes(report.predicted_direct.bytes) << "; iterative " << report.predicted_iterative.seconds
+       << " s, " << gigabytes(report.predicted_iterative.bytes) << " predicted";
   return text.str();
+}
+
+constexpr const char* remedy =
+    "mesh with larger cells, take a lower degree, or use a machine with more memory";
+
+[[noreturn]] void refuse(std::size_t n_dofs, const std::string& needs, double memory_bytes) {
+  throw std::runtime_error("a body of " + std::to_string(n_dofs) + " unknowns does not fit into memory: " +
+                           needs + ", the machine has " + gigabytes(memory_bytes) + "; " + remedy);
 }
 
 }  // namespace
@@ -57,25 +71,48 @@ SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads) {
   return {factor + solve * static_cast<double>(n_loads), 3.4e9 * std::pow(n, 1.3)};
 }
 
-SolverCost predict_iterative(const Grid& grid, std::size_t n_loads, double aspect) {
-  const double dofs = 3.0 * static_cast<double>(grid.n_nodes);
-  const int k = grid.degree;
-  const SolverCost coarse = predict_direct(static_cast<std::size_t>(dofs / (k * k * k)), 0);
-  const double iterations = 8 + 2.3 * aspect;
-  const double per_iteration = 3.5e-8 * dofs * static_cast<double>(n_loads) + 0.05 * coarse.seconds;
-  const double vectors = dofs * std::min<double>(loads_per_block, static_cast<double>(n_loads)) * 60;
-  return {1.5e-6 * dofs + coarse.seconds + iterations * per_iteration, 300 * dofs + vectors + coarse.bytes};
+SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
+                             CoarseLevel level) {
+  const double n = double(n_dofs), k = double(n_loads), block = std::min(double(loads_per_block(n_dofs)), k);
+  const double trilinear = n / (degree * degree * degree);
+  double iterations = 8 + 2.3 * aspect, setup = 4e-6 * n, each = 9e-8 * n * k, bytes = 200 * n;
+  if (level == CoarseLevel::factorised) {
+    const SolverCost factor = predict_direct(static_cast<std::size_t>(trilinear), 0);
+    setup += factor.seconds;
+    each += 0.05 * factor.seconds;
+    bytes += factor.bytes;
+  } else {
+    iterations *= 1.15;
+    setup += 1e-5 * trilinear;
+    bytes += 500 * trilinear;
+  }
+  return {setup + iterations * each, bytes + 50 * n * block};
+}
+
+CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_loads) {
+  const auto seconds = [&](CoarseLevel level) {
+    return predict_iterative(n_dofs, degree, n_loads, 3, level).seconds;
+  };
+  return seconds(CoarseLevel::aggregated) < seconds(CoarseLevel::factorised) ? CoarseLevel::aggregated
+                                                                             : CoarseLevel::factorised;
 }
 
 double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
+double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads) {
+  constexpr double program = 2e8, grid = 40, load_and_displacement = 16;
+  return program + double(n_dofs) * (grid + load_and_displacement * double(n_loads));
+}
+
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes) {
+  const std::size_t n_dofs = 3 * grid.n_nodes;
   SolverReport report;
-  report.predicted_direct = predict_direct(3 * grid.n_nodes, n_loads);
+  report.predicted_direct = predict_direct(n_dofs, n_loads);
   report.largest_aspect = largest_aspect(grid);
+  report.coarse_level = choice.coarse_level;
   const auto take = [&](Solver solver, const std::string& reason) {
     report.used = solver;
     report.reason = reason;
@@ -83,9 +120,31 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
   };
   if (grid.shape().is_tetrahedron()) return take(Solver::direct, "the body has tetrahedra");
   if (grid.degree < 2) return take(Solver::direct, "cells of degree 1 have no coarser polynomials");
-  report.predicted_iterative = predict_iterative(grid, n_loads, report.largest_aspect);
-  if (choice.solver != Solver::automatic) return take(choice.solver, "as asked for");
-  if (report.largest_aspect > most_stretched) {
+  if (report.coarse_level == CoarseLevel::automatic)
+    report.coarse_level = cheaper_coarse_level(n_dofs, grid.degree, n_loads);
+  report.predicted_iterative =
+      predict_iterative(n_dofs, grid.degree, n_loads, report.largest_aspect, report.coarse_level);
+  if (choice.gave_up_before) {
+    report.gave_up = true;
+    return take(Solver::direct, "the iteration has given up on this mesh and material before");
+  }
+  if (choice.solver != Solver::automatic) {
+    take(choice.solver, "as asked for");
+    if (report.predicted().bytes > memory_bytes)
+      refuse(n_dofs, "the solver asked for is predicted to need " + gigabytes(report.predicted().bytes),
+             memory_bytes);
+    return report;
+  }
+  const double room = memory_bytes - bytes_beside_solver(n_dofs, n_loads);
+  const bool direct_fits = report.predicted_direct.bytes < room;
+  const bool iterative_fits = report.predicted_iterative.bytes < room;
+  const bool compact = report.largest_aspect <= most_stretched;
+  // Thin bodies have small factors: what they need the analysis of their matrix will tell.
+  if (!direct_fits && !iterative_fits && compact)
+    refuse(n_dofs,
+           "beside " + gigabytes(memory_bytes - room) + " for the rest of the run " + cost_text(report),
+           memory_bytes);
+  if (!compact) {
     std::ostringstream text;
     text << "cells are stretched up to 1 : " << std::setprecision(3) << report.largest_aspect;
     return take(Solver::direct, text.str());
@@ -95,19 +154,18 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
     text << "Poisson's ratio is " << materials.largest_poisson_ratio();
     return take(Solver::direct, text.str());
   }
-  const bool direct_fits = report.predicted_direct.bytes < share_of_memory * memory_bytes;
-  const bool iterative_fits = report.predicted_iterative.bytes < share_of_memory * memory_bytes;
-  if (!direct_fits && iterative_fits)
+  if (!direct_fits)
     return take(Solver::iterative, "the factor would not fit into memory: " + cost_text(report));
-  if (!direct_fits && !iterative_fits)
-    return take(
-        report.predicted_direct.bytes < report.predicted_iterative.bytes ? Solver::direct : Solver::iterative,
-        "neither may fit into memory, this one needs less: " + cost_text(report));
   if (!iterative_fits)
     return take(Solver::direct, "the vectors would not fit into memory: " + cost_text(report));
   const bool worth_it = report.predicted_iterative.seconds + worth_seconds < report.predicted_direct.seconds;
   return worth_it ? take(Solver::iterative, "faster: " + cost_text(report))
                   : take(Solver::direct, "as fast: " + cost_text(report));
+}
+
+void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes) {
+  if (factor_bytes > memory_bytes)
+    refuse(n_dofs, "its factor needs " + gigabytes(factor_bytes), memory_bytes);
 }
 
 }  // namespace fem

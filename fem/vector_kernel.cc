@@ -69,6 +69,44 @@ void combine(LaneGroups groups, std::size_t n_rows, std::size_t n_columns, std::
   });
 }
 
+template <int height, int width>
+void combine_blocks_of(LaneGroups groups, std::size_t n_rows, std::size_t n_columns, std::size_t begin,
+                       std::size_t end, const BlockRows& rows, bool keep, const float* x, float* y) {
+  for_groups<float>(groups, [&](const LaneGroup& group, auto type) {
+    using V = typename decltype(type)::Type;
+    constexpr int w = width_of(decltype(type)());
+    const float* from = x + width * n_columns * group.first_lane;
+    float* to = y + height * n_rows * group.first_lane;
+    for (std::size_t i = begin; i < end; ++i) {
+      V sum[height] = {};
+      if (keep)
+        for (int r = 0; r < height; ++r) sum[r] = load<V>(to + (height * i + r) * w);
+      for (auto k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+        const float* block = rows.block + height * width * k;
+        const float* at = from + width * w * std::size_t(rows.column[k]);
+#pragma GCC unroll 6
+        for (int c = 0; c < width; ++c) {
+          const V value = load<V>(at + c * w);
+#pragma GCC unroll 6
+          for (int r = 0; r < height; ++r) sum[r] += block[r * width + c] * value;
+        }
+      }
+#pragma GCC unroll 6
+      for (int r = 0; r < height; ++r) store(to + (height * i + r) * w, sum[r]);
+    }
+  });
+}
+
+void combine_blocks(LaneGroups groups, std::size_t n_rows, std::size_t n_columns, std::size_t begin,
+                    std::size_t end, const BlockRows& rows, bool keep, const float* x, float* y) {
+  if (rows.height == 6)
+    combine_blocks_of<6, 3>(groups, n_rows, n_columns, begin, end, rows, keep, x, y);
+  else if (rows.width == 6)
+    combine_blocks_of<3, 6>(groups, n_rows, n_columns, begin, end, rows, keep, x, y);
+  else
+    combine_blocks_of<3, 3>(groups, n_rows, n_columns, begin, end, rows, keep, x, y);
+}
+
 void dot(LaneGroups groups, std::size_t n_nodes, std::size_t begin, std::size_t end, const double* a,
          const double* b, double* sum) {
   for_groups<double>(groups, [&](const LaneGroup& group, auto type) {
@@ -177,6 +215,7 @@ const Kernels kernels = {{large / 8, small / 8},
                          chebyshev,
                          residual,
                          combine,
+                         combine_blocks,
                          dot,
                          advance,
                          dots_with_float,

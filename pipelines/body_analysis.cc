@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "fem/model.h"
+#include "pipelines/iteration_memory.h"
 #include "pipelines/response_files.h"
 #include "pipelines/response_key.h"
 
@@ -22,7 +23,8 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
   return result;
 }
 
-/// The seconds of factorising depend on what a run before has left; results do not.
+/// The seconds of factorising depend on what a run before has left; results do not: where the iteration gives
+/// up, the direct solver takes over, and it is the direct solver from the start in the next run.
 fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body, const BodyLoads& loads,
                                   const std::vector<fem::SectionPlane>& planes, fem::Solver solver,
                                   const RunOptions& options, int n_threads, bool& reused, StageClock& clock) {
@@ -40,11 +42,15 @@ fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body
   auto responses = clock.run("solve", [&] {
     fem::SolverChoice choice;
     choice.solver = solver;
+    choice.gave_up_before = !options.fresh && iteration_gave_up_before(options.directory, body_key(body));
     return model.unit_responses(
         loads.unit_loads, planes, fem::Recovery::patch,
         [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
-  if (options.keep) clock.run("write", [&] { write_unit_responses(file, key, responses); });
+  clock.run("write", [&] {
+    remember_iteration(options.directory, body_key(body), responses.solver.gave_up);
+    if (options.keep) write_unit_responses(file, key, responses);
+  });
   return responses;
 }
 

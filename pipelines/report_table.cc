@@ -119,6 +119,8 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
                        solver.reason);
   else
     out << fmt::format("  solved by factorisation ({})\n", solver.reason);
+  out << fmt::format("  the solver took {:.2f} GB, {:.2f} GB were predicted\n", 1e-9 * solver.used_bytes,
+                     1e-9 * solver.predicted().bytes);
   out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
                      analysis.closure.worst_moment());
   print_masses(out, report, analysis);

@@ -79,6 +79,10 @@ bool fits(std::vector<Element>& v, const std::vector<std::size_t>& extents) {
   return v.size() * sizeof(Element) == n * sizeof(*entries(v));
 }
 
+fem::SolverCost& predicted_of_used(fem::SolverReport& report) {
+  return report.used == fem::Solver::iterative ? report.predicted_iterative : report.predicted_direct;
+}
+
 fem::UnitResponses read(const Hdf5Reader& in) {
   fem::UnitResponses r;
   r.channels = in.texts("/channels");
@@ -104,6 +108,9 @@ fem::UnitResponses read(const Hdf5Reader& in) {
   r.solver.n_iterations = int(in.number_attribute("/", "solver_iterations"));
   r.solver.reason = in.text_attribute("/", "solver_reason");
   r.solver.rounding = in.number_attribute("/", "solver_rounding");
+  r.solver.gave_up = in.number_attribute("/", "solver_gave_up") > 0;
+  r.solver.used_bytes = in.number_attribute("/", "solver_bytes");
+  predicted_of_used(r.solver).bytes = in.number_attribute("/", "solver_bytes_predicted");
   return r;
 }
 
@@ -123,6 +130,9 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
                 responses.solver.used == fem::Solver::iterative ? responses.solver.n_iterations : 0);
   out.attribute("/", "solver_reason", responses.solver.reason);
   out.attribute("/", "solver_rounding", responses.solver.rounding);
+  out.attribute("/", "solver_gave_up", responses.solver.gave_up ? 1 : 0);
+  out.attribute("/", "solver_bytes", responses.solver.used_bytes);
+  out.attribute("/", "solver_bytes_predicted", responses.solver.predicted().bytes);
   out.write("/channels", responses.channels);
   std::vector<double> rings;
   for (const auto& ring : responses.rings)

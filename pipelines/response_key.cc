@@ -76,16 +76,14 @@ const std::string& program_fingerprint() {
   return fingerprint;
 }
 
-std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
-                         const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
-  KeyText key;
+namespace {
+
+void describe(KeyText& key, const fem::Body& body) {
   key.line("program", program_fingerprint())
-      .line("threads", n_threads)
-      .line("solver", int(solver))
       .line("mesh", content_hash(body.mesh))
-      .line("degree", body.degree);
-  key.line("material", body.material.youngs_modulus_Pa, body.material.poisson_ratio,
-           body.material.density_kg_m3);
+      .line("degree", body.degree)
+      .line("material", body.material.youngs_modulus_Pa, body.material.poisson_ratio,
+            body.material.density_kg_m3);
   for (const auto& [volume, material] : body.material_of_volume)
     key.line("material of", volume, material.youngs_modulus_Pa, material.poisson_ratio,
              material.density_kg_m3);
@@ -94,6 +92,21 @@ std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>
              c.axis_x_m, c.axis_y_m);
   for (const auto& t : body.tori)
     key.line("torus", t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m);
+}
+
+}  // namespace
+
+std::string body_key(const fem::Body& body) {
+  KeyText key;
+  describe(key, body);
+  return key.text();
+}
+
+std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
+                         const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
+  KeyText key;
+  describe(key, body);
+  key.line("threads", n_threads).line("solver", int(solver));
   for (const auto& support : body.elastic_supports) {
     key.line("springs", support.stiffness_N_m[0], support.stiffness_N_m[1], support.stiffness_N_m[2]);
     describe(key, support.surface);

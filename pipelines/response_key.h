@@ -17,6 +17,11 @@ namespace pipelines {
 std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
                          const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads);
 
+/// Program, content of the mesh file, charts and material: what decides whether the iterative solver
+/// converges.
+/// @throws std::runtime_error if the mesh file cannot be read
+std::string body_key(const fem::Body& body);
+
 /// 128-bit hash of a file's content in hexadecimal digits. @throws std::runtime_error if it cannot be read
 std::string content_hash(const std::filesystem::path& file);
 

@@ -1,11 +1,14 @@
 #include "dealii_operator.h"
 
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
@@ -54,22 +57,32 @@ struct DealiiOperator::Impl {
   }
 };
 
-DealiiOperator::DealiiOperator(const fem::Body& body) : impl_(std::make_unique<Impl>()) {
+DealiiOperator::DealiiOperator(const fem::Body& body, bool distorted) : impl_(std::make_unique<Impl>()) {
   auto& o = *impl_;
   dealii::GridIn<3> reader(o.mesh);
   std::ifstream file(body.mesh);
   reader.read_msh(file);
   fem::attach_charts(o.mesh, body.cylinders, body.tori);
+  if (distorted) dealii::GridTools::distort_random(0.1, o.mesh, true, 1);
   o.unknowns.distribute_dofs(o.element);
   o.none.close();
   o.elastic = fem::lame(body.material);
   Cells::AdditionalData options;
-  options.tasks_parallel_scheme = Cells::AdditionalData::partition_partition;
+  options.tasks_parallel_scheme = Cells::AdditionalData::none;
   options.mapping_update_flags = dealii::update_gradients | dealii::update_JxW_values;
+  dealii::DoFRenumbering::matrix_free_data_locality(o.unknowns, o.none, options);
   o.cells.reinit(dealii::MappingQ<3>(degree), o.unknowns, o.none, dealii::QGauss<1>(degree + 1), options);
   o.cells.initialize_dof_vector(o.x);
   o.cells.initialize_dof_vector(o.y);
   for (auto& value : o.x) value = 1e-3 * double(&value - o.x.begin());
+}
+
+OneThread::OneThread() : n_before_(dealii::MultithreadInfo::n_threads()) {
+  dealii::MultithreadInfo::set_thread_limit(1);
+}
+
+OneThread::~OneThread() {
+  dealii::MultithreadInfo::set_thread_limit(n_before_);
 }
 
 DealiiOperator::~DealiiOperator() = default;

@@ -7,10 +7,23 @@
 
 namespace measure {
 
+/// While it lives, deal.II works on one thread, and so do the loops of fem.
+class OneThread {
+public:
+  OneThread();
+  ~OneThread();
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+private:
+  unsigned n_before_;
+};
+
 class DealiiOperator {
 public:
   /// Reads the mesh of the body anew: hexahedra, degree 2.
-  explicit DealiiOperator(const fem::Body& body);
+  /// @param distorted  moves the inner vertices by up to a tenth of their shortest edge
+  DealiiOperator(const fem::Body& body, bool distorted);
   ~DealiiOperator();
   std::size_t n_dofs() const;
   int n_lanes() const;  ///< cells that it works on at once

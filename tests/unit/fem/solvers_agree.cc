@@ -108,6 +108,8 @@ TEST(Solvers, stall_falls_back_to_the_direct_solver_and_says_so) {
   const auto direct = solve(rod, directly), stalled = solve(rod, {fem::Solver::iterative, 1e-10, 3});
   EXPECT_EQ(stalled.solver.used, fem::Solver::direct);
   EXPECT_EQ(stalled.solver.reason, "the iteration did not converge after 3 steps; solved directly");
+  EXPECT_TRUE(stalled.solver.gave_up);
+  EXPECT_FALSE(direct.solver.gave_up);
   EXPECT_EQ(stalled.displacement_m, direct.displacement_m);
   EXPECT_GT(stalled.factor_gigabytes, 0);
 }

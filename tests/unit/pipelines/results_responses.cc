@@ -49,6 +49,10 @@ fem::UnitResponses example() {
   r.residual = 1. / 3e12;
   r.n_dofs = 634047;
   r.factor_gigabytes = 2.7;
+  r.solver.gave_up = true;
+  r.solver.reason = "stalled";
+  r.solver.used_bytes = 3e9;
+  r.solver.predicted_direct.bytes = 2e9;
   return r;
 }
 
@@ -87,6 +91,10 @@ TEST(ResponseFiles, come_back_bit_for_bit) {
   EXPECT_EQ(read->residual, written.residual);
   EXPECT_EQ(read->n_dofs, written.n_dofs);
   EXPECT_EQ(read->factor_gigabytes, written.factor_gigabytes);
+  EXPECT_EQ(read->solver.gave_up, written.solver.gave_up);
+  EXPECT_EQ(read->solver.reason, written.solver.reason);
+  EXPECT_EQ(read->solver.used_bytes, written.solver.used_bytes);
+  EXPECT_EQ(read->solver.predicted().bytes, written.solver.predicted().bytes);
 }
 
 TEST(ResponseFiles, two_writes_give_the_same_bytes) {

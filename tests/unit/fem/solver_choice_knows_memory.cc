@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "fem/iterative_solve.h"
+#include "fem/solver_prediction.h"
+#include "shaft_bodies.h"
+
+namespace {
+
+/// One cell of degree 2, edges 1, 1 and `length`, in a mesh that claims so many nodes.
+fem::Grid one_cell(std::size_t n_nodes, double length = 1) {
+  fem::Grid grid;
+  grid.n_nodes = n_nodes;
+  for (int i = 0; i < 27; ++i) {
+    grid.cell_nodes.push_back(i);
+    for (const double x : {0.5 * (i % 3), 0.5 * (i / 3 % 3), 0.5 * length * (i / 9)}) grid.xyz_m.push_back(x);
+  }
+  grid.volume_id.push_back(1);
+  return grid;
+}
+
+fem::SolverReport choose(std::size_t n_nodes, const fem::SolverChoice& choice, double memory_bytes,
+                         double length = 1) {
+  return fem::choose_solver(one_cell(n_nodes, length), fem_tests::steel, 12, choice, memory_bytes);
+}
+
+std::string refusal(std::size_t n_nodes, const fem::SolverChoice& choice, double memory_bytes) {
+  try {
+    choose(n_nodes, choice, memory_bytes);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr std::size_t n_nodes = 2'000'000;
+
+TEST(SolverMemory, body_that_fits_neither_way_is_refused_with_figures_and_remedy) {
+  const auto report = choose(n_nodes, {}, 1e13);
+  const double needed = report.predicted_iterative.bytes + fem::bytes_beside_solver(3 * n_nodes, 12);
+  EXPECT_EQ(choose(n_nodes, {}, 1.01 * needed).used, fem::Solver::iterative);
+  const auto text = refusal(n_nodes, {}, 0.99 * needed);
+  for (const char* part :
+       {"6000000 unknowns", "direct", "iterative", "predicted", "the machine has", "larger cells"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+}
+
+TEST(SolverMemory, solver_asked_for_is_refused_only_if_no_machine_of_that_size_could_hold_it) {
+  fem::SolverChoice direct;
+  direct.solver = fem::Solver::direct;
+  const double bytes = choose(n_nodes, direct, 1e13).predicted_direct.bytes;
+  EXPECT_EQ(choose(n_nodes, direct, 1.01 * bytes).used, fem::Solver::direct);
+  EXPECT_NE(refusal(n_nodes, direct, 0.99 * bytes).find("asked for"), std::string::npos);
+}
+
+// The factors of thin bodies are smaller than predicted: their own analysis decides.
+TEST(SolverMemory, stretched_bodies_are_left_to_the_analysis_of_their_matrix) {
+  EXPECT_EQ(choose(n_nodes, {}, 1e9, 40).used, fem::Solver::direct);
+  EXPECT_NO_THROW(fem::refuse_large_factor(1e9, 1000, 1.1e9));
+  EXPECT_THROW(fem::refuse_large_factor(1.1e9, 1000, 1e9), std::runtime_error);
+}
+
+TEST(SolverMemory, what_gave_up_before_is_not_tried_again) {
+  fem::SolverChoice choice;
+  choice.gave_up_before = true;
+  for (const auto solver : {fem::Solver::automatic, fem::Solver::iterative}) {
+    choice.solver = solver;
+    const auto report = choose(200'000, choice, 1e13);
+    EXPECT_EQ(report.used, fem::Solver::direct);
+    EXPECT_TRUE(report.gave_up);
+    EXPECT_NE(report.reason.find("given up"), std::string::npos);
+  }
+}
+
+TEST(SolverMemory, trilinear_level_is_factorised_only_while_small) {
+  EXPECT_EQ(choose(3'000, {}, 1e13).coarse_level, fem::CoarseLevel::factorised);
+  EXPECT_EQ(choose(n_nodes, {}, 1e13).coarse_level, fem::CoarseLevel::aggregated);
+  fem::SolverChoice choice;
+  choice.coarse_level = fem::CoarseLevel::factorised;
+  EXPECT_EQ(choose(n_nodes, choice, 1e13).coarse_level, fem::CoarseLevel::factorised);
+}
+
+// Four vectors of doubles and four of floats for 4 million unknowns: below 2 GB.
+TEST(SolverMemory, blocks_of_load_cases_are_bounded) {
+  EXPECT_EQ(fem::loads_per_block(100'000), 16u);
+  EXPECT_EQ(fem::loads_per_block(4'000'000), 8u);
+  EXPECT_EQ(fem::loads_per_block(100'000'000), 4u);
+}
+
+}  // namespace
