@@ -51,7 +51,7 @@ TEST(FilletFactors, lie_within_their_stated_error_of_the_elastic_solution) {
   EXPECT_GT(torsion, fem::fillet_factor_error.torsion - 0.01);
 }
 
-// DIN 743's own quoted values, where the polynomials end: h/r = 25 and 0.05.
+// Beyond the polynomials, at h/r above 20 and below 0.1, DIN 743 goes on.
 TEST(FilletFactors, outside_the_polynomials_are_finite_and_monotone) {
   double before = std::numeric_limits<double>::max();
   for (const double r : {0.004, 0.008, 0.01, 0.02, 0.05, 0.1, 0.2}) {
