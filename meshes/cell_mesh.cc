@@ -1,9 +1,6 @@
 #include "meshes/cell_mesh.h"
 
 #include <gmsh.h>
-#include <unistd.h>
-
-#include <system_error>
 
 #include "meshes/gmsh_session.h"
 
@@ -65,19 +62,7 @@ const std::vector<std::vector<int>>& local_faces(CellKind kind) {
 }
 
 void write_msh(const CellMesh& mesh, const GroupNames& names, const std::filesystem::path& file) {
-  const std::filesystem::path temporary = file.string() + "." + std::to_string(::getpid()) + ".msh";
-  const std::string purpose = "writing " + file.string();
-  with_gmsh(purpose, [&] {
-    fill_model(mesh, names);
-    gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
-    gmsh::option::setNumber("Mesh.Binary", 0);
-    gmsh::write(temporary.string());
-  });
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error)
-    throw std::runtime_error(purpose + ": " + error.message() +
-                             "; check that the directory exists and is writable");
+  write_msh_file(file, [&] { fill_model(mesh, names); });
 }
 
 }  // namespace meshes

@@ -94,18 +94,15 @@ MeshQuality measure_quality(const CellMesh& mesh) {
     values.push_back(scaled_jacobian(mesh, c));
     quality.max_aspect = std::max(quality.max_aspect, aspect(mesh, mesh.cell(c)));
   }
-  const auto worst = std::min_element(values.begin(), values.end());
-  quality.min_scaled_jacobian = *worst;
-  Point centre{};
-  const int n_corners = mesh.kind == CellKind::tetrahedra ? 4 : 8;
-  for (int i = 0; i < n_corners; ++i)
-    for (int d = 0; d < 3; ++d) centre[d] += mesh.points[mesh.cell(worst - values.begin())[i]][d] / n_corners;
-  quality.worst_x_m = centre[0];
-  quality.worst_y_m = centre[1];
-  quality.worst_z_m = centre[2];
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  quality.median_scaled_jacobian = *middle;
+  summarise(
+      std::move(values),
+      [&](std::size_t cell) {
+        std::vector<Point> corners;
+        for (int i = 0; i < (mesh.kind == CellKind::tetrahedra ? 4 : 8); ++i)
+          corners.push_back(mesh.points[mesh.cell(cell)[i]]);
+        return corners;
+      },
+      quality);
   return quality;
 }
 

@@ -1,6 +1,9 @@
 #include "meshes/gmsh_session.h"
 
 #include <gmsh.h>
+#include <unistd.h>
+
+#include <system_error>
 
 namespace meshes {
 
@@ -14,6 +17,22 @@ GmshSession::~GmshSession() {
     gmsh::finalize();
   } catch (...) {  // a destructor must not throw, and there is nothing left to save
   }
+}
+
+void write_msh_file(const std::filesystem::path& file, const std::function<void()>& fill_model) {
+  const std::filesystem::path temporary = file.string() + "." + std::to_string(::getpid()) + ".msh";
+  const std::string purpose = "writing " + file.string();
+  with_gmsh(purpose, [&] {
+    fill_model();
+    gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+    gmsh::option::setNumber("Mesh.Binary", 0);
+    gmsh::write(temporary.string());
+  });
+  std::error_code error;
+  std::filesystem::rename(temporary, file, error);
+  if (error)
+    throw std::runtime_error(purpose + ": " + error.message() +
+                             "; check that the directory exists and is writable");
 }
 
 }  // namespace meshes

@@ -2,6 +2,8 @@
 /// one session at a time, not from several threads.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -26,5 +28,9 @@ void with_gmsh(const std::string& purpose, Action action) {
     throw std::runtime_error(purpose + ": gmsh says: " + message);
   }
 }
+
+/// Fills a model in a session of its own and writes it as .msh 4.1, through a temporary name.
+/// @throws std::runtime_error naming the file
+void write_msh_file(const std::filesystem::path& file, const std::function<void()>& fill_model);
 
 }  // namespace meshes

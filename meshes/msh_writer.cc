@@ -1,10 +1,8 @@
 #include "meshes/msh_writer.h"
 
 #include <gmsh.h>
-#include <unistd.h>
 
 #include <cstddef>
-#include <system_error>
 #include <vector>
 
 #include "meshes/gmsh_session.h"
@@ -67,19 +65,7 @@ void fill_model(const HexMesh& mesh, const GroupNames& names) {
 }  // namespace
 
 void write_msh(const HexMesh& mesh, const GroupNames& names, const std::filesystem::path& file) {
-  const std::filesystem::path temporary = file.string() + "." + std::to_string(::getpid()) + ".msh";
-  const std::string purpose = "writing " + file.string();
-  with_gmsh(purpose, [&] {
-    fill_model(mesh, names);
-    gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
-    gmsh::option::setNumber("Mesh.Binary", 0);
-    gmsh::write(temporary.string());
-  });
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error)
-    throw std::runtime_error(purpose + ": " + error.message() +
-                             "; check that the directory exists and is writable");
+  write_msh_file(file, [&] { fill_model(mesh, names); });
 }
 
 }  // namespace meshes

@@ -47,6 +47,22 @@ double aspect(const HexMesh& mesh, const Hex& hex) {
   return longest / shortest;
 }
 
+void summarise(std::vector<double> values, const std::function<std::vector<Point>(std::size_t)>& corners_of,
+               MeshQuality& quality) {
+  const auto worst = std::min_element(values.begin(), values.end());
+  quality.min_scaled_jacobian = *worst;
+  const auto corners = corners_of(std::size_t(worst - values.begin()));
+  Point centre{};
+  for (const Point& corner : corners)
+    for (int d = 0; d < 3; ++d) centre[d] += corner[d] / double(corners.size());
+  quality.worst_x_m = centre[0];
+  quality.worst_y_m = centre[1];
+  quality.worst_z_m = centre[2];
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  quality.median_scaled_jacobian = *middle;
+}
+
 MeshQuality measure_quality(const HexMesh& mesh) {
   MeshQuality quality;
   quality.n_cells = mesh.hexes.size();
@@ -56,18 +72,14 @@ MeshQuality measure_quality(const HexMesh& mesh) {
 
   for (const Hex& hex : mesh.hexes) quality.max_aspect = std::max(quality.max_aspect, aspect(mesh, hex));
 
-  const auto worst = std::min_element(values.begin(), values.end());
-  quality.min_scaled_jacobian = *worst;
-  Point centre{};
-  for (const int node : mesh.hexes[worst - values.begin()].nodes)
-    for (int i = 0; i < 3; ++i) centre[i] += mesh.points[node][i] / 8;
-  quality.worst_x_m = centre[0];
-  quality.worst_y_m = centre[1];
-  quality.worst_z_m = centre[2];
-
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  quality.median_scaled_jacobian = *middle;
+  summarise(
+      std::move(values),
+      [&](std::size_t cell) {
+        std::vector<Point> corners;
+        for (const int node : mesh.hexes[cell].nodes) corners.push_back(mesh.points[node]);
+        return corners;
+      },
+      quality);
   return quality;
 }
 

@@ -56,6 +56,9 @@ struct BodyScene {
   int natural_frequencies = 0;  ///< how many to compute and compare with the loads; 0: none
   std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
 
+  /// Places where a search found that stress grows without bound: kept out of the peak like sharp edges.
+  std::vector<meshes::SharpEdge> singular;
+
   std::vector<double> debalance_shares = {0.5, 0.5};  ///< vibratory shaft
   PitchGuide pitch_guide = PitchGuide::body;          ///< chamber
   bool elastic_feet = false;                          ///< chamber

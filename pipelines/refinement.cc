@@ -12,6 +12,7 @@ namespace {
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
 constexpr double share_of_own_estimate = 0.5;  // a floor: two meshes may agree by chance
+constexpr double smallest_exponent = 0.1, kept_exponent = 0.75;
 constexpr double spot_shrinkage = 0.6, spot_radius_cells = 3;
 
 int next_cells(int cells) {
@@ -132,6 +133,16 @@ Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis,
   if (shaft != nullptr && shaft->keyways.empty()) return refine_shaft(body, analysis, stalled);
   if (std::holds_alternative<ChamberShape>(body.shape)) return refine_evenly(body);
   return refine_solid(body, analysis);
+}
+
+bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios) {
+  const std::size_t n = values.size();
+  if (n < 3 || ratios.size() + 1 < n) return false;
+  const auto exponent = [&](std::size_t i) {  // from values[i] on
+    return ratios[i] > 1 && values[i] > 0 ? std::log(values[i + 1] / values[i]) / std::log(ratios[i]) : 0.0;
+  };
+  return exponent(n - 2) > smallest_exponent && exponent(n - 2) >= kept_exponent * exponent(n - 3) &&
+         exponent(n - 3) > 0;
 }
 
 void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio) {

@@ -41,6 +41,12 @@ BodyScene coarsest(const BodyScene& body);
 /// @param stalled  the last step of this kind brought less than a quarter
 Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, bool stalled);
 
+/// Whether a stress keeps growing like a power of the cell size: over the last two refinements its exponent,
+/// ln(v2 / v1) / ln(ratio), has fallen by less than a quarter and is above 0.1. That of a stress that
+/// converges with second order falls by ratio^2 at each step.
+/// @param values, ratios  of the steps so far at one place; ratios[i] leads from values[i] to values[i + 1]
+bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios);
+
 /// Two meshes tell more than one. If cells became `ratio` times smaller and the stress changed by d, about
 /// d / (ratio^2 - 1) is missing still (second order; recovered stress of quadratic cells does better). The
 /// discretisation entry becomes that, or half of what single cells differ by if that is more.

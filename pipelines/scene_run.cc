@@ -1,8 +1,12 @@
 #include "pipelines/scene_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -17,6 +21,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int most_steps = 12;
+constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
 /// A step is taken if it is predicted to end in time; predictions are rough.
 constexpr double growth_of_seconds = 1.5;  // with the number of unknowns, for the direct solver
 
@@ -45,6 +50,43 @@ private:
   fs::path directory_;
   std::unique_ptr<AtomicFile> mesh_;
 };
+
+/// The peak's values at one place, mesh after mesh.
+class Growth {
+public:
+  /// @param ratio  of cell sizes from the step before to this one
+  /// @return whether the stress there grows without bound
+  bool at(const BodyAnalysis& analysis, double ratio) {
+    if (!analysis.hot_spots.empty()) return false;  // extrapolated past the toe
+    if (analysis.peak.feature != feature_) {
+      values_.clear();
+      ratios_.clear();
+      feature_ = analysis.peak.feature;
+    } else {
+      ratios_.push_back(ratio);
+    }
+    values_.push_back(analysis.peak.value_Pa);
+    const bool grows = grows_without_bound(values_, ratios_);
+    if (grows) feature_.clear();
+    return grows;
+  }
+
+private:
+  std::string feature_;
+  std::vector<double> values_, ratios_;
+};
+
+double diagonal_m(const fem::Nodes& nodes) {
+  std::array<double, 3> low, high;
+  low.fill(std::numeric_limits<double>::max());
+  high.fill(std::numeric_limits<double>::lowest());
+  for (std::size_t i = 0; i < nodes.n; ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], nodes.xyz_m[3 * i + c]);
+      high[c] = std::max(high[c], nodes.xyz_m[3 * i + c]);
+    }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
 
 class SceneRunner {
 public:
@@ -139,7 +181,9 @@ private:
     BodyAnalysis analysis = analyse(i, files_[i].kept(1));
     double ratio = 1, before_Pa = 0;
     bool stalled = false;
+    Growth growth;
     while (true) {
+      if (growth.at(analysis, ratio)) leave_out(i, analysis);
       auto stress = governing_stress(analysis);
       if (!search.steps.empty()) learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio);
       set_errors(analysis, stress.errors);
@@ -168,6 +212,27 @@ private:
     analysis.search = std::move(search);
     finish(i, analysis, last);
     return analysis;
+  }
+
+  /// A stress that grows with every refinement has no peak to report: its place joins the sharp edges, which
+  /// are left out by a distance fixed in the geometry, and the search goes on for the rest.
+  void leave_out(std::size_t i, BodyAnalysis& analysis) {
+    const auto& p = analysis.peak.position_m;
+    const meshes::SharpEdge spot{"stress grows without bound at " + analysis.peak.feature,
+                                 share_left_out * diagonal_m(analysis.responses.nodes),
+                                 {{p, p}}};
+    warnings_.push_back(
+        fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} "
+                    "mm around ({:.1f}, {:.1f}, {:.1f}) mm are left out of the peak",
+                    analysis.scene.name, analysis.peak.feature, 1e3 * spot.distance_m, 1e3 * p[0], 1e3 * p[1],
+                    1e3 * p[2]));
+    run_.scene.bodies[i].singular.push_back(spot);
+    run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
+    BodyAnalysis before = std::move(analysis);
+    analysis =
+        superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                       std::move(before.responses), options_.n_threads, clock_);
+    analysis.responses_reused = before.responses_reused;
   }
 
   /// Takes the next step, unless it would not end in time or cannot be meshed.

@@ -138,3 +138,22 @@ TEST(ErrorLedger, AddsUpWithoutSigns) {
   EXPECT_EQ(ledger.largest(), "b");
   EXPECT_EQ(ledger.of("beam"), 10);
 }
+
+// sigma ~ h^-0.3, a re-entrant corner's power, against a stress of second order that starts as steeply.
+TEST(GrowsWithoutBound, TellsACornerFromAFillet) {
+  const std::vector<double> ratios{1.5, 1.5, 1.33};
+  std::vector<double> corner, fillet;
+  double h = 1;
+  for (std::size_t i = 0; i <= ratios.size(); ++i) {
+    corner.push_back(std::pow(h, -0.3));
+    fillet.push_back(1 - 0.4 * h * h);
+    if (i < ratios.size()) h /= ratios[i];
+  }
+  EXPECT_TRUE(grows_without_bound(corner, ratios));
+  EXPECT_FALSE(grows_without_bound(fillet, ratios));
+  for (std::size_t n : {1u, 2u})  // two meshes cannot tell
+    EXPECT_FALSE(grows_without_bound({corner.begin(), corner.begin() + long(n)}, ratios));
+  // Growth too slow to matter, and a stress that falls.
+  EXPECT_FALSE(grows_without_bound({1, 1.01, 1.02}, {1.5, 1.5}));
+  EXPECT_FALSE(grows_without_bound({1.2, 1.1, 1.0}, {1.5, 1.5}));
+}
