@@ -42,7 +42,7 @@ void write_model(std::FILE* out, const std::string& title, const fem::Material& 
 
 void write_step(std::FILE* out, const std::string& channel, const double* force, const Serendipity& kept,
                 std::size_t n_nodes) {
-  // OP=NEW: the loads of the step before would stay.
+  // OP=NEW: nothing of the step before stays.
   std::fprintf(out, "** %s = 1\n*STEP\n*STATIC\n*CLOAD, OP=NEW\n", channel.c_str());
   for (std::size_t i = 0; i < n_nodes; ++i)
     for (int d = 0; kept.keeps(i) && d < 3; ++d)

@@ -1,8 +1,10 @@
 /// Twelve unit loads on the shaft of shaft.toml here and in CalculiX, in the same run on the same machine,
 /// each in a process of its own; and our direct path beside bare CHOLMOD. Ratios of one run.
-///   calculix_benchmark <shaft.toml> [largest number of our unknowns, default 250000]
+///   calculix_benchmark <shaft.toml> [largest number of our unknowns, default 250000
+///   [seconds that CalculiX may take for each mesh, default 600]]
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -19,7 +21,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double time_limit_s = 600;  ///< of each run of CalculiX
 constexpr int n_loads = 12;
 
 /// A mesh that is solved by us and by CalculiX, and a finer one on which CalculiX has as many unknowns as we
@@ -46,8 +47,9 @@ std::string text_of(const fs::path& file) {
 /// Runs parts of this program, and CalculiX, in one directory per mesh.
 class Bench {
 public:
-  Bench(const char* program, const char* scene)
-      : program_(fs::canonical(program)),
+  Bench(const char* program, const char* scene, double time_limit_s)
+      : time_limit_s_(time_limit_s),
+        program_(fs::canonical(program)),
         scene_(fs::absolute(scene)),
         directory_(fs::temp_directory_path() / ("calculix_benchmark_" + std::to_string(getpid()))) {
     fs::create_directory(directory_);
@@ -68,7 +70,7 @@ public:
   measure::ChildCost part(const char* name, const measure::Refinement& mesh) const {
     const auto cost = measure::run_child({program_, scene_, "--part", name, std::to_string(mesh.fillet_cells),
                                           std::to_string(mesh.sectors), place(mesh)},
-                                         place(mesh), name, {}, time_limit_s);
+                                         place(mesh), name, {}, 3600);
     if (!cost.finished)
       std::printf("  %s did not come to its end:\n%s\n", name, text_of(place(mesh) / name).c_str());
     return cost;
@@ -79,20 +81,27 @@ public:
     return measure::run_child({"ccx", "-i", "shaft"}, place(mesh), "ccx.log",
                               {"OMP_NUM_THREADS=" + n, "CCX_NPROC_EQUATION_SOLVER=" + n,
                                "CCX_NPROC_STIFFNESS=" + n, "CCX_NPROC_RESULTS=" + n},
-                              time_limit_s);
+                              time_limit_s_);
   }
 
 private:
+  double time_limit_s_;  ///< of CalculiX
   std::string program_, scene_;
   fs::path directory_;
 };
 
+/// Without unknowns: it did not come about.
 struct Row {
   std::string name;
   double unknowns = 0, wall_s = 0, cpu_s = 0, peak_gigabytes = 0;
+  bool finished = true;  ///< all steps: there are results to compare
 };
 
 void print(const Row& row, const Row& direct, const Row& iterative) {
+  if (row.unknowns == 0) {
+    std::printf("  %-34s not measured\n", row.name.c_str());
+    return;
+  }
   std::printf("  %-34s %8.0f %9.2f %9.2f %7.2f %8.1f %8.1f %8.1f %8.1f\n", row.name.c_str(), row.unknowns,
               row.wall_s, row.cpu_s, row.peak_gigabytes, row.wall_s / direct.wall_s,
               row.wall_s / iterative.wall_s, row.cpu_s / direct.cpu_s, row.cpu_s / iterative.cpu_s);
@@ -102,27 +111,35 @@ Row ours(const Bench& bench, const char* name, const measure::Refinement& mesh, 
   const auto cost = bench.part(name, mesh);
   auto taken = figures(bench.place(mesh) / name);
   if (taken.count("another_solver")) std::printf("  %s: the other solver took over\n", name);
-  return {std::string("ours, ") + name, unknowns, taken["wall_s"], taken["cpu_s"], cost.peak_gigabytes};
+  return {std::string("ours, ") + name, unknowns, taken["wall_s"], taken["cpu_s"], cost.peak_gigabytes, true};
 }
 
-/// Steps are alike: of a run that was stopped, those done tell how long all would take.
+int n_steps_done(const fs::path& sta) {
+  std::ifstream in(sta);
+  int n_lines = 0;
+  for (std::string line; std::getline(in, line);) ++n_lines;
+  return std::max(0, n_lines - 2);  // of header
+}
+
+/// Of twelve steps that are alike: a run that was stopped tells by those done how long all would take.
 Row theirs(const Bench& bench, const measure::Refinement& mesh, double unknowns, const char* which) {
-  auto cost = bench.calculix(mesh);
+  const auto cost = bench.calculix(mesh);
   const std::string log = text_of(bench.place(mesh) / "ccx.log");
   const auto at = log.find("using the ");
-  std::printf("  CalculiX's solver: %s\n",
-              at == std::string::npos ? "?" : log.substr(at + 10, log.find('\n', at) - at - 10).c_str());
-  Row row{std::string("CalculiX, ") + which, unknowns, cost.wall_s, cost.cpu_s, cost.peak_gigabytes};
+  if (at != std::string::npos)
+    std::printf("  CalculiX's solver: %s\n", log.substr(at + 10, log.find('\n', at) - at - 10).c_str());
+  Row row{std::string("CalculiX, ") + which, unknowns, cost.wall_s, cost.cpu_s, cost.peak_gigabytes, true};
   if (cost.finished) return row;
-  std::ifstream sta(bench.place(mesh) / "shaft.sta");
-  int n_steps = -2;  // two lines of header
-  for (std::string line; std::getline(sta, line);) ++n_steps;
-  if (!cost.timed_out || n_steps < 1) {
-    std::printf("  CalculiX failed or did not finish one step in %.0f s:\n%s\n", time_limit_s, log.c_str());
-    return row;
+  const Row not_measured{row.name, 0, 0, 0, 0, false};
+  row.finished = false;
+  if (!cost.timed_out) {
+    std::printf("  CalculiX failed:\n%s\n", log.c_str());
+    return not_measured;
   }
-  std::printf("  stopped after %d of %d steps: seconds below are those times %d/%d\n", n_steps, n_loads,
-              n_loads, n_steps);
+  const int n_steps = n_steps_done(bench.place(mesh) / "shaft.sta");
+  std::printf("  CalculiX was stopped after %.0f s and %d of %d steps: its seconds are those times %d/%d\n",
+              cost.wall_s, n_steps, n_loads, n_loads, n_steps);
+  if (n_steps == 0) return not_measured;
   row.wall_s *= double(n_loads) / n_steps;
   row.cpu_s *= double(n_loads) / n_steps;
   return row;
@@ -157,13 +174,13 @@ void measure_size(const Bench& bench, const Size& size, double most) {
   if (bench.part("factorise", size.mesh).finished) {
     auto factor = figures(bench.place(size.mesh) / "factorise");
     std::printf(
-        "  direct path over bare CHOLMOD (analyse, factorise, solve: %.2f s): %.2f with assembly, %.2f "
-        "without; "
-        "answers differ by %.1e\n",
-        factor["bare_s"], factor["with_assembly_s"] / factor["bare_s"],
-        factor["without_assembly_s"] / factor["bare_s"], factor["apart"]);
+        "  direct path over bare CHOLMOD (analyse, factorise, solve: %.2f s): with assembly %.2f (CPU %.2f), "
+        "without "
+        "%.2f (CPU %.2f); answers differ by %.1e\n",
+        factor["bare_s"], factor["with_assembly"], factor["with_assembly_cpu"], factor["without_assembly"],
+        factor["without_assembly_cpu"], factor["apart"]);
   }
-  if (bench.part("compare", size.mesh).finished)
+  if (same_mesh.finished && bench.part("compare", size.mesh).finished)
     std::printf("%s", text_of(bench.place(size.mesh) / "compare").c_str());
 }
 
@@ -174,11 +191,14 @@ int run_part(int argc, char** argv) {
   const measure::Work work{
       measure::refined_shaft(pipelines::read_scene(argv[1]), {std::atoi(argv[4]), std::atoi(argv[5])}),
       argv[6]};
-  if (name == "model") measure::write_model(work);
-  if (name == "direct") measure::solve(work, fem::Solver::direct);
-  if (name == "iterative") measure::solve(work, fem::Solver::iterative);
-  if (name == "factorise") measure::factorise(work);
-  if (name == "compare") measure::compare(work);
+  if (name == "model")
+    measure::write_model(work);
+  else if (name == "factorise")
+    measure::factorise(work);
+  else if (name == "compare")
+    measure::compare(work);
+  else
+    measure::solve(work, name == "direct" ? fem::Solver::direct : fem::Solver::iterative);
   return 0;
 }
 
@@ -187,10 +207,12 @@ int run_part(int argc, char** argv) {
 int main(int argc, char** argv) {
   if (argc > 2 && std::string(argv[2]) == "--part") return run_part(argc, argv);
   if (argc < 2) {
-    std::fprintf(stderr, "usage: calculix_benchmark <shaft.toml> [largest number of unknowns]\n");
+    std::fprintf(
+        stderr,
+        "usage: calculix_benchmark <shaft.toml> [largest number of unknowns [seconds for CalculiX]]\n");
     return 2;
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  const Bench bench(argv[0], argv[1]);
+  const Bench bench(argv[0], argv[1], argc > 3 ? std::atof(argv[3]) : 600);
   for (const auto& size : sizes) measure_size(bench, size, argc > 2 ? std::atof(argv[2]) : 2.5e5);
 }

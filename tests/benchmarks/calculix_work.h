@@ -25,7 +25,7 @@ void write_model(const Work& work);
 void solve(const Work& work, fem::Solver solver);
 
 /// Our direct path with and without assembly, and bare CHOLMOD on the same matrix and right-hand sides;
-/// prints the smallest seconds of each, taken in turns.
+/// prints ratios of the smallest wall and CPU seconds of three turns.
 void factorise(const Work& work);
 
 /// Our solution beside CalculiX's shaft.frd: prints a table.

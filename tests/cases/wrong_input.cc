@@ -64,7 +64,8 @@ TEST(WrongInput, ModelForCalculixNeedsAFreeBody) {
   const auto train = millstress(directory.path, "calculix train.toml -o out");
   EXPECT_EQ(train.exit_code, 2);
   EXPECT_NE(train.err.find("has no body"), std::string::npos) << train.err;
-  write(directory / "mill.toml", chamber_alone({{"elastic_feet = false", "elastic_feet = true"}}));
+  write(directory / "mill.toml",
+        edited("vibratory_mill.toml", {{"elastic_feet = false", "elastic_feet = true"}}));
   const auto feet = millstress(directory.path, "calculix mill.toml -o out");
   EXPECT_EQ(feet.exit_code, 2);
   EXPECT_NE(feet.err.find("elastic_feet = true"), std::string::npos) << feet.err;

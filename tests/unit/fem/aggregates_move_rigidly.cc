@@ -25,7 +25,7 @@ struct Level {
     const auto cells = fem::cells_of_nodes(grid);
     graph = fem::make_node_graph(grid, cells);
     matrix = fem::make_matrix(graph);
-    fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::Lame{1, 0.3, 1}, matrix);
+    fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame({1, 0.3, 1}), matrix);
     rows = fem::full_rows(graph, matrix);
     aggregates = fem::aggregate_nodes(rows, 1, 0.08);
     spanned = fem::span_motions(aggregates, fem::rigid_motions(grid.xyz_m));
