@@ -71,7 +71,7 @@ std::vector<NaturalMode> natural_frequencies(const VibratingBody& body, int n_mo
     mode.frequency_Hz = std::sqrt(pairs.value[i]) / (2 * EIGEN_PI);
     mode.residual = rest.col(i).norm() / inertia.col(i).norm();
     refuse_unbalanced(mode, modes.size() + 1,
-                      body.rounding_of_stiffness(pairs.vector.col(i)) / inertia.col(i).norm());
+                      body.rounding_of_rigid_part(pairs.vector.col(i)) / inertia.col(i).norm());
     Eigen::Index largest = 0;
     pairs.vector.col(i).cwiseAbs().maxCoeff(&largest);
     const Eigen::VectorXd shape = pairs.vector(largest, i) < 0 ? Eigen::VectorXd(-pairs.vector.col(i))

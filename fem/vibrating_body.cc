@@ -83,11 +83,13 @@ Eigen::MatrixXd VibratingBody::stiffness(const Eigen::MatrixXd& motion) const {
   return force;
 }
 
-double VibratingBody::rounding_of_stiffness(const Eigen::VectorXd& motion) const {
+double VibratingBody::rounding_of_rigid_part(const Eigen::VectorXd& motion) const {
   constexpr double of_a_row = 16;  // its terms, some hundred, round independently
+  if (!clamped_.empty()) return 0;
+  const Eigen::VectorXd rigid = rigid_ * (mass_rigid_.transpose() * motion);
   double sum = 0;
   for (Eigen::Index i = 0; i < motion.size(); ++i) {
-    const double term = matrix_.value[matrix_.column_begin[i]] * motion[i];
+    const double term = matrix_.value[matrix_.column_begin[i]] * rigid[i];
     sum += term * term;
   }
   return of_a_row * std::numeric_limits<double>::epsilon() * std::sqrt(sum);

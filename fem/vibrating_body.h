@@ -36,9 +36,9 @@ public:
   Eigen::MatrixXd mass(const Eigen::MatrixXd& motion) const { return mass_ * motion; }
   /// Forces on the unknowns that are not clamped, zero on those that are.
   Eigen::MatrixXd stiffness(const Eigen::MatrixXd& motion) const;
-  /// What rounding may leave of the body's own forces, where they should cancel: a soft spring's mode moves
-  /// the body as if rigid, and its inertia forces may be smaller. In the norm over all unknowns.
-  double rounding_of_stiffness(const Eigen::VectorXd& motion) const;
+  /// What rounding may leave of K times the rigid part of a motion, which is nothing: on soft springs the
+  /// body moves as if rigid, and its inertia forces may be smaller than that. In the norm over all unknowns.
+  double rounding_of_rigid_part(const Eigen::VectorXd& motion) const;
   /// The motion with Z'M u = 0 that answers f - M Z Z'f; clamped unknowns stay.
   Eigen::MatrixXd inverse(const Eigen::MatrixXd& force) const;
   /// Sets the clamped unknowns to zero.

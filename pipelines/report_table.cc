@@ -50,6 +50,14 @@ std::string when(const RunReport& report, std::int32_t instant) {
   return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / M_PI);
 }
 
+/// With that many decimals; numbers that no column holds, or that would show as zero, with an exponent.
+std::string fixed(double value, int decimals) {
+  const bool is_plain =
+      value == 0 || (std::abs(value) >= 0.5 * std::pow(10, -decimals) && std::abs(value) < 1e7);
+  return is_plain || !std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals)
+                                           : fmt::format("{:.3g}", value);
+}
+
 std::string where(const std::array<double, 3>& p) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", p[0] * 1e3, p[1] * 1e3, p[2] * 1e3);
 }
@@ -86,7 +94,8 @@ void print_search(std::ostream& out, const Search& search) {
                      "seconds", "dominated by, mesh");
   int n = 0;
   for (const auto& step : search.steps)
-    out << fmt::format("    step {:<17}{:>9.1f}{:>9.1f}%{:>11}{:>9.1f}  {}; {}\n", ++n, step.value_Pa / 1e6,
+    out << fmt::format("    step {:<17}{:>9}{:>9.1f}%{:>11}{:>9.1f}  {}; {}\n", ++n,
+                       fixed(step.value_Pa / 1e6, 1),
                        step.value_Pa > 0 ? 100 * step.errors.numerical_Pa() / step.value_Pa : 0.0,
                        step.n_dofs, step.seconds, step.errors.largest(), step.fineness);
   out << fmt::format("  {}: {}", search.met ? "ended" : "NOT MET", search.ended);
@@ -124,26 +133,27 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
   out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
                      analysis.closure.worst_moment());
   print_masses(out, report, analysis);
-  out << fmt::format(
-      "\n  peak von Mises stress   {:.1f} MPa (error about {:.1f} MPa), safety against yield {:.2f}\n",
-      peak.value_Pa / 1e6, peak.errors.total_Pa() / 1e6, peak.safety);
+  out << fmt::format("\n  peak von Mises stress   {} MPa (error about {} MPa), safety against yield {}\n",
+                     fixed(peak.value_Pa / 1e6, 1), fixed(peak.errors.total_Pa() / 1e6, 1),
+                     fixed(peak.safety, 2));
   out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place), where(peak.position_m),
                      when(report, peak.instant));
   print_search(out, analysis.search);
   const std::size_t p = analysis.principal_node;
-  out << fmt::format("  largest principal stress {:.1f} MPa\n",
-                     analysis.envelope.principal.value_Pa[p] / 1e6);
+  out << fmt::format("  largest principal stress {} MPa\n",
+                     fixed(analysis.envelope.principal.value_Pa[p] / 1e6, 1));
   if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr)
-    out << fmt::format("  largest torsional stress {:.2f} MPa at {}, z = {:.1f} mm\n", ring->max_Pa / 1e6,
-                       ring->feature, ring->z_m * 1e3);
+    out << fmt::format("  largest torsional stress {} MPa at {}, z = {:.1f} mm\n",
+                       fixed(ring->max_Pa / 1e6, 2), ring->feature, ring->z_m * 1e3);
 
   const auto& zones = analysis.zones.zones;
-  out << fmt::format("\n  zones above {:.1f} MPa{:>22}{:>9}{:>13}  {:<20}{}\n", analysis.zones.level_Pa / 1e6,
-                     "peak MPa", "safety", "volume mm3", "  moment", "where");
+  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>13}  {:<20}{}\n",
+                     fixed(analysis.zones.level_Pa / 1e6, 1), "peak MPa", "safety", "volume mm3", "  moment",
+                     "where");
   constexpr std::size_t shown = 10;
   for (std::size_t i = 0; i < std::min(shown, zones.size()); ++i)
-    out << fmt::format("  {:>3}  {:<34}{:>7.1f}{:>9.2f}{:>13.1f}  {:<20}{}\n", i + 1, zones[i].feature,
-                       zones[i].peak_Pa / 1e6, zones[i].safety, zones[i].volume_m3 * 1e9,
+    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>13.1f}  {:<20}{}\n", i + 1, zones[i].feature,
+                       fixed(zones[i].peak_Pa / 1e6, 1), fixed(zones[i].safety, 2), zones[i].volume_m3 * 1e9,
                        "  " + when(report, zones[i].instant), to_string(zones[i].place));
   if (zones.size() > shown) out << fmt::format("       and {} more in zones.csv\n", zones.size() - shown);
 

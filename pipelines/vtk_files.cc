@@ -16,8 +16,9 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -42,6 +43,14 @@ vtkSmartPointer<Array> array_of(const double* values, int n_components,
   return array;
 }
 
+/// Neither too large, nor all lost among the smallest numbers.
+bool fits_single_precision(const NodalField& field) {
+  double largest = 0;
+  for (std::size_t i = 0; i < field.n_values; ++i) largest = std::max(largest, std::abs(field.values[i]));
+  return largest == 0 || (largest < std::numeric_limits<float>::max() &&
+                          largest > 1e6 * double(std::numeric_limits<float>::min()));
+}
+
 void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n_nodes,
                const std::vector<std::int32_t>& chosen) {
   const auto n_components = static_cast<std::size_t>(field.n_components);
@@ -52,7 +61,7 @@ void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n
                                 " components at " + std::to_string(n_nodes) +
                                 " nodes, or the names of the components are not as many");
   vtkSmartPointer<vtkDataArray> array;
-  if (field.precision == FieldPrecision::float32)
+  if (field.precision == FieldPrecision::float32 && fits_single_precision(field))
     array = array_of<vtkFloatArray>(field.values, field.n_components, chosen);
   else
     array = array_of<vtkDoubleArray>(field.values, field.n_components, chosen);

@@ -156,6 +156,20 @@ TEST(EnvelopeVtu, fields_come_back_in_the_precision_asked_for) {
   }
 }
 
+TEST(EnvelopeVtu, fields_beyond_single_precision_are_doubles) {
+  const Directory at;
+  const auto nodes = mapped_cube(1, 1, 1, quadratic_map);
+  for (const double size : {1e-150, 0.0, 1.0, 1e150}) {
+    const std::vector<double> values(nodes.n, size);
+    write_envelope_vtu(at / "e.vtu", nodes, {nodal_field("load", values)});
+    const auto grid = read(at / "e.vtu");
+    auto* array = grid->GetPointData()->GetArray("load");
+    ASSERT_NE(array, nullptr);
+    EXPECT_EQ(array->GetTuple1(5), size);
+    EXPECT_EQ(array->GetDataType(), size == 1 || size == 0 ? VTK_FLOAT : VTK_DOUBLE);
+  }
+}
+
 TEST(SurfaceSnapshotVtu, faces_follow_the_map_over_their_own_nodes) {
   const Directory at;
   const int nx = 3, ny = 2, nz = 2;
