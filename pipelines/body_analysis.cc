@@ -1,6 +1,7 @@
 #include "pipelines/body_analysis.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -168,11 +169,14 @@ void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>&
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                           BodyLoads loads, const RunOptions& options, StageClock& clock) {
   bool reused = false;
+  const auto start = std::chrono::steady_clock::now();
   auto responses = solve_or_reuse(*meshed.model, meshed.body, loads, to_fem_planes(meshed.mesh.sections),
                                   body.solver, options, threads(options.n_threads), reused, clock);
+  const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
   auto analysis =
       superpose_body(scene, body, meshed, std::move(loads), std::move(responses), options.n_threads, clock);
   analysis.responses_reused = reused;
+  analysis.solve_s = reused ? 0 : solve.count();
   return analysis;
 }
 

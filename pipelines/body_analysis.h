@@ -45,7 +45,8 @@ struct BodyAnalysis {
   fem::GeometryError geometry_error;
   BodyLoads loads;
   fem::UnitResponses responses;
-  bool responses_reused = false;  ///< taken from an earlier run
+  bool responses_reused = false;        ///< taken from an earlier run
+  double solve_s = 0, superpose_s = 0;  ///< wall time; solve_s: 0 if reused
   Closure closure;
   NodePlaces places;
   Envelope envelope;

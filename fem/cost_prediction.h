@@ -1,0 +1,16 @@
+/// What solving a body will take, before anything is solved.
+#pragma once
+
+#include <cstddef>
+
+#include "fem/body.h"
+#include "fem/solver_choice.h"
+
+namespace fem {
+
+/// The solver that Model::unit_responses would take for so many unit loads, why, and what both are predicted
+/// to need (SolverReport::predicted): seconds of a machine of 2025 with two threads, bytes. Reads the mesh.
+/// @throws as Model for the mesh; std::runtime_error if no solver would fit into this machine's memory
+SolverReport predict_solver(const Body& body, std::size_t n_loads, const SolverChoice& choice);
+
+}  // namespace fem
