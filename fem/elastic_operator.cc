@@ -81,11 +81,13 @@ std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
 
 template <typename T>
 ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, const Lame& elastic,
-                                    std::vector<double> metric, const kernel::Kernels& kernels)
+                                    std::vector<double> metric, const kernel::Kernels& kernels,
+                                    std::shared_ptr<const AddTargets> targets)
     : kernels_(&kernels),
       n_nodes_(grid.n_nodes),
       part_begin_(order.part_begin),
-      targets_(make_targets(grid, order)) {
+      has_own_targets_(targets == nullptr),
+      targets_(targets ? std::move(targets) : std::make_shared<const AddTargets>(make_targets(grid, order))) {
   if constexpr (std::is_same_v<T, double>)
     metric_ = std::move(metric);
   else
@@ -100,12 +102,13 @@ ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, co
   cells_.lambda_Pa = static_cast<T>(elastic.lambda_Pa);
   cells_.mu_Pa = static_cast<T>(elastic.mu_Pa);
   cells_.n_nodes = n_nodes_;
-  cells_.n_copies = targets_.copy.size();
+  cells_.n_copies = targets_->copy.size();
 }
 
 template <typename T>
 std::size_t ElasticOperator<T>::bytes() const noexcept {
-  return metric_.size() * sizeof(T) + (targets_.node.size() + targets_.target.size()) * sizeof(std::int32_t);
+  const std::size_t n_targets = has_own_targets_ ? targets_->node.size() + targets_->target.size() : 0;
+  return metric_.size() * sizeof(T) + n_targets * sizeof(std::int32_t);
 }
 
 template <typename T>
@@ -117,8 +120,8 @@ void ElasticOperator<T>::apply(const Lanes& lanes, const BlockVector<T>& x, Bloc
       cells.value = value_.data();
       cells.derivative = derivative_.data();
       cells.metric = metric_.data();
-      cells.node = targets_.node.data();
-      cells.target = targets_.target.data();
+      cells.node = targets_->node.data();
+      cells.target = targets_->target.data();
       cells.begin = part_begin_[part];
       cells.end = part_begin_[part + 1];
       if constexpr (std::is_same_v<T, double>)
@@ -129,11 +132,11 @@ void ElasticOperator<T>::apply(const Lanes& lanes, const BlockVector<T>& x, Bloc
   });
   for (const auto& group : lanes.groups) {
     T* to = y.data() + 3 * n_nodes_ * group.first_lane;
-    const T* from = copies.data() + 3 * targets_.copy.size() * group.first_lane;
+    const T* from = copies.data() + 3 * targets_->copy.size() * group.first_lane;
     const std::size_t per_node = 3 * std::size_t(group.width);
-    for (std::size_t k = 0; k < targets_.copy.size(); ++k)
+    for (std::size_t k = 0; k < targets_->copy.size(); ++k)
       for (std::size_t l = 0; l < per_node; ++l)
-        to[targets_.copied[k] * per_node + l] += from[targets_.copy[k] * per_node + l];
+        to[targets_->copied[k] * per_node + l] += from[targets_->copy[k] * per_node + l];
   }
 }
 

@@ -83,7 +83,9 @@ std::optional<Solution> solve_iteratively(const Grid& grid, const Material& mate
   const PolynomialMultigrid multigrid(grid, order, metric, material.poisson_ratio, choice.coarse_level);
   // The modulus is taken out: displacements of unit loads on a body of modulus 1.
   const ElasticOperator<double> stiffness(grid, order, lame({1, material.poisson_ratio, 1}),
-                                          std::move(metric));
+                                          std::move(metric), kernel::kernels_for_this_machine(),
+                                          multigrid.targets());
+  release_free_memory();
 
   const SerialBlas serial;  // the coarse level's solves are too small to share
   const BlockSolver solver(order, stiffness, multigrid, choice);
