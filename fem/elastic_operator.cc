@@ -82,11 +82,13 @@ std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
 
 template <typename T>
 ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, const PerCell<Lame>& elastic,
-                                    std::vector<double> metric, const kernel::Kernels& kernels)
+                                    std::vector<double> metric, const kernel::Kernels& kernels,
+                                    std::shared_ptr<const AddTargets> targets)
     : kernels_(&kernels),
       n_nodes_(grid.n_nodes),
       part_begin_(order.part_begin),
-      targets_(make_targets(grid, order)) {
+      has_own_targets_(targets == nullptr),
+      targets_(targets ? std::move(targets) : std::make_shared<const AddTargets>(make_targets(grid, order))) {
   if constexpr (std::is_same_v<T, double>)
     metric_ = std::move(metric);
   else
@@ -104,13 +106,13 @@ ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, co
   derivative_ = tabulate<T>(points, points, 1);
   cells_.n = grid.degree + 1;
   cells_.n_nodes = n_nodes_;
-  cells_.n_copies = targets_.copy.size();
+  cells_.n_copies = targets_->copy.size();
 }
 
 template <typename T>
 std::size_t ElasticOperator<T>::bytes() const noexcept {
-  return (metric_.size() + elastic_.size()) * sizeof(T) +
-         (targets_.node.size() + targets_.target.size()) * sizeof(std::int32_t);
+  const std::size_t n_targets = has_own_targets_ ? targets_->node.size() + targets_->target.size() : 0;
+  return (metric_.size() + elastic_.size()) * sizeof(T) + n_targets * sizeof(std::int32_t);
 }
 
 template <typename T>
@@ -123,8 +125,8 @@ void ElasticOperator<T>::apply(const Lanes& lanes, const BlockVector<T>& x, Bloc
       cells.derivative = derivative_.data();
       cells.metric = metric_.data();
       cells.elastic_Pa = elastic_.data();
-      cells.node = targets_.node.data();
-      cells.target = targets_.target.data();
+      cells.node = targets_->node.data();
+      cells.target = targets_->target.data();
       cells.begin = part_begin_[part];
       cells.end = part_begin_[part + 1];
       if constexpr (std::is_same_v<T, double>)
@@ -135,11 +137,11 @@ void ElasticOperator<T>::apply(const Lanes& lanes, const BlockVector<T>& x, Bloc
   });
   for (const auto& group : lanes.groups) {
     T* to = y.data() + 3 * n_nodes_ * group.first_lane;
-    const T* from = copies.data() + 3 * targets_.copy.size() * group.first_lane;
+    const T* from = copies.data() + 3 * targets_->copy.size() * group.first_lane;
     const std::size_t per_node = 3 * std::size_t(group.width);
-    for (std::size_t k = 0; k < targets_.copy.size(); ++k)
+    for (std::size_t k = 0; k < targets_->copy.size(); ++k)
       for (std::size_t l = 0; l < per_node; ++l)
-        to[targets_.copied[k] * per_node + l] += from[targets_.copy[k] * per_node + l];
+        to[targets_->copied[k] * per_node + l] += from[targets_->copy[k] * per_node + l];
   }
 }
 

@@ -2,6 +2,7 @@
 /// Internal to fem.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "fem/block_vector.h"
@@ -25,23 +26,28 @@ template <typename T>
 class ElasticOperator {
 public:
   /// @param kernels  one of those of elastic_kernel.h; the machine must have its instructions
+  /// @param targets  of another operator on the same cells; none: made here
   ElasticOperator(const Grid& grid, const CellOrder& order, const PerCell<Lame>& elastic,
                   std::vector<double> metric,
-                  const kernel::Kernels& kernels = kernel::kernels_for_this_machine());
+                  const kernel::Kernels& kernels = kernel::kernels_for_this_machine(),
+                  std::shared_ptr<const AddTargets> targets = nullptr);
 
   std::size_t n_nodes() const noexcept { return n_nodes_; }
+  std::shared_ptr<const AddTargets> targets() const noexcept { return targets_; }
+  /// Without the targets of another operator.
   std::size_t bytes() const noexcept;
 
   /// @param x, y  nodes in order
   /// @param copies  work space of the operator: made by work_space for the same lanes
   void apply(const Lanes& lanes, const BlockVector<T>& x, BlockVector<T>& y, BlockVector<T>& copies) const;
-  BlockVector<T> work_space(const Lanes& lanes) const { return {targets_.copy.size(), lanes}; }
+  BlockVector<T> work_space(const Lanes& lanes) const { return {targets_->copy.size(), lanes}; }
 
 private:
   const kernel::Kernels* kernels_;
   std::size_t n_nodes_;
   std::vector<std::size_t> part_begin_;
-  AddTargets targets_;
+  bool has_own_targets_;
+  std::shared_ptr<const AddTargets> targets_;
   std::vector<T> value_, derivative_, metric_, elastic_;
   kernel::CellRange<T> cells_;  // begin, end and pointers are set by apply
 };

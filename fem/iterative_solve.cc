@@ -84,7 +84,9 @@ std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials&
   const double modulus_Pa = materials.largest_modulus_Pa();
   const auto elastic = materials.elastic(modulus_Pa);
   const PolynomialMultigrid multigrid(grid, order, metric, elastic, choice.coarse_level);
-  const ElasticOperator<double> stiffness(grid, order, elastic, std::move(metric));
+  const ElasticOperator<double> stiffness(grid, order, elastic, std::move(metric),
+                                          kernel::kernels_for_this_machine(), multigrid.targets());
+  release_free_memory();
 
   const SerialBlas serial;  // the coarse level's solves are too small to share
   const BlockSolver solver(order, stiffness, multigrid, choice);
@@ -97,8 +99,7 @@ std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials&
   const Eigen::Index even = std::min(width, ((n_loads + n_blocks - 1) / n_blocks + 3) / 4 * 4);
   for (Eigen::Index first = 0; first < n_loads; first += even) {
     progress(0.2 + 0.65 * double(first) / double(n_loads), "iterate");
-    const auto end =
-        solver.solve(loads, first, std::min(even, n_loads - first), modulus_Pa, solution);
+    const auto end = solver.solve(loads, first, std::min(even, n_loads - first), modulus_Pa, solution);
     if (end != BlockCgEnd::converged || !(solution.residual <= acceptable_residual)) {
       failure = describe(end, solution.n_iterations, solution.residual);
       return std::nullopt;

@@ -36,6 +36,7 @@ public:
   void apply(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x, WorkSpace& work) const;
 
   std::size_t bytes() const;
+  std::shared_ptr<const AddTargets> targets() const noexcept { return operator_.targets(); }
 
 private:
   const kernel::Kernels* kernels_;

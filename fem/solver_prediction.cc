@@ -73,20 +73,21 @@ SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads) {
 
 SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
                              CoarseLevel level) {
-  const double n = double(n_dofs), k = double(n_loads), block = std::min(double(loads_per_block(n_dofs)), k);
+  const double n = double(n_dofs), k = double(n_loads);
+  const double lanes = std::min(double(loads_per_block(n_dofs)), 4 * std::ceil(k / 4));
   const double trilinear = n / (degree * degree * degree);
-  double iterations = 8 + 2.3 * aspect, setup = 4e-6 * n, each = 9e-8 * n * k, bytes = 200 * n;
+  double iterations = 8 + 2.3 * aspect, setup = 2e-6 * n, each = 8e-8 * n * k, bytes = n * (215 + 48 * lanes);
   if (level == CoarseLevel::factorised) {
     const SolverCost factor = predict_direct(static_cast<std::size_t>(trilinear), 0);
-    setup += factor.seconds;
-    each += 0.05 * factor.seconds;
+    setup += 3 * factor.seconds;
+    each += 0.25 * factor.seconds;
     bytes += factor.bytes;
   } else {
-    iterations *= 1.15;
-    setup += 1e-5 * trilinear;
-    bytes += 500 * trilinear;
+    iterations *= 1.1;
+    setup += 8e-6 * trilinear;
+    bytes += 1100 * trilinear;
   }
-  return {setup + iterations * each, bytes + 50 * n * block};
+  return {setup + iterations * each, bytes};
 }
 
 CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_loads) {

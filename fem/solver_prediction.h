@@ -10,13 +10,14 @@ namespace fem {
 /// Largest ratio of a cell's mean edge lengths along its three axes; 1 without cells.
 double largest_aspect(const Grid& grid);
 
-/// Power laws of the number of unknowns n, with N = n / 2e5, for two threads of a machine of 2025:
-///   direct     7 N^1.75 + 0.03 N^1.3 n_loads  s,   3.4e9 N^1.3  bytes
-///   iterative  1.5e-6 n + c + (8 + 2.3 aspect) (3.5e-8 n n_loads + 0.05 c)  s,  c: the trilinear level's
-///              factorisation, which has n / degree^3 unknowns; 300 n + 60 n loads_per_block + its factor
-///              bytes
-/// Fitted on shafts of 50 k to 600 k unknowns, tests/benchmarks/shaft.toml among them: good to a factor of
-/// two there. On slower machines the seconds of both grow alike, and the choice stays.
+/// For two threads of a quiet server core of 2023 with AVX2 (AMD EPYC; half the CPU seconds of both threads),
+/// with n unknowns, N = n / 2e5, m = n / degree^3 unknowns of the trilinear level, k load cases:
+///   direct      7 N^1.75 + 0.03 N^1.3 k  s,   3.4e9 N^1.3  bytes
+///   factorised  2e-6 n + 3 c + (8 + 2.3 aspect) (8e-8 n k + 0.25 c)  s,  c and its bytes as direct of m
+///   aggregated  2e-6 n + 8e-6 m + 1.1 (8 + 2.3 aspect) 8e-8 n k  s,  1100 m bytes
+/// and 215 n + 48 n (load cases of a block) bytes for both of the latter. Fitted on
+/// tests/benchmarks/shaft.toml and stretched rods, aspect 2.7 to 7, 50 k to 4 M unknowns (direct: 50 k to 700
+/// k). On slower machines the seconds of all grow alike, and the choice stays.
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads);
 SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
                              CoarseLevel level);

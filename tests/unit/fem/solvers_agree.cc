@@ -138,7 +138,8 @@ TEST(SolverChoice, follows_prediction_memory_and_kind_of_cell) {
   // Between the two needs of memory the one that fits is taken, whatever its time.
   ASSERT_NE(report.predicted_direct.bytes, report.predicted_iterative.bytes);
   const bool direct_is_smaller = report.predicted_direct.bytes < report.predicted_iterative.bytes;
-  EXPECT_EQ(used(1.25 * std::sqrt(report.predicted_direct.bytes * report.predicted_iterative.bytes)),
+  EXPECT_EQ(used(std::sqrt(report.predicted_direct.bytes * report.predicted_iterative.bytes) +
+                 fem::bytes_beside_solver(3 * grid.n_nodes, 12)),
             direct_is_smaller ? fem::Solver::direct : fem::Solver::iterative);
   EXPECT_EQ(fem::choose_solver(grid, fem::Material{206e9, 0.4999, 7850}, 12, {}, 1e12).used,
             fem::Solver::direct);
