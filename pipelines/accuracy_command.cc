@@ -30,7 +30,7 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
   }
   if (!options.body.empty() && scene.body(options.body) == nullptr)
     throw std::invalid_argument("--body " + options.body + ": the scene has no such body");
-  if (study_options.time_limit_s <= 0 || study_options.tolerance <= 0)
+  if (study_options.time_limit_s <= 0 || (!options.tolerance.empty() && study_options.tolerance <= 0))
     throw std::invalid_argument("--time-limit and --tolerance must be positive");
 
   const auto directory =

@@ -20,7 +20,8 @@ void expect_finite(const fs::path& out, const std::set<std::string>& nulls = {})
       EXPECT_TRUE(end == cell.c_str() || std::isfinite(value)) << entry.path() << ": " << cell;
     }
   }
-  for (const auto& [key, value] : summary(out).flatten().items())
+  const auto flat = summary(out).flatten();  // items() only points into it
+  for (const auto& [key, value] : flat.items())
     EXPECT_TRUE(!value.is_null() || nulls.count(key.substr(key.rfind('/') + 1)) > 0) << key;
 }
 
