@@ -76,7 +76,7 @@ std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitRe
     for (std::size_t k = 0; k < n_channels; ++k)
       for (std::size_t c = 0; c < 2; ++c)
         unit(Index(c), Index(k)) = responses.ring_shear_Pa[r * n_channels + k][c];
-    const ArrayXd shear = over_the_cycle(unit, loads.history).matrix().colwise().norm().transpose();
+    const ArrayXd shear = over_the_cycle(unit, loads.history).matrix().colwise().stableNorm().transpose();
     TorsionRing ring;
     ring.z_m = responses.rings[r].z_m;
     ring.radius_m = responses.rings[r].radius_m;
@@ -158,8 +158,9 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
   for (const auto& port : mesh.ports) {
     if (port.kind != meshes::Port::Kind::seat) continue;
     const auto [displacement, slope] = line.at(centre_z(port));
-    diagrams.seats.push_back({port.name, centre_z(port), displacement.matrix().colwise().norm().maxCoeff(),
-                              slope.matrix().colwise().norm().maxCoeff()});
+    diagrams.seats.push_back({port.name, centre_z(port),
+                              displacement.matrix().colwise().stableNorm().maxCoeff(),
+                              slope.matrix().colwise().stableNorm().maxCoeff()});
   }
   diagrams.rings = torsion_rings(loads, responses, mesh);
   return diagrams;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "fem/model.h"
@@ -41,7 +40,7 @@ fem::ElasticSupport pin(const meshes::Port& port, double stiffness_N_m) {
 
 double amplification_at(double frequency_Hz, double f1_Hz) {
   const double ratio = frequency_Hz / f1_Hz, rest = std::abs(1 - ratio * ratio);
-  return rest > 0 ? 1 / rest : std::numeric_limits<double>::infinity();
+  return std::min(1 / rest, resonance_peak);
 }
 
 std::string joined(const std::vector<std::string>& names) {

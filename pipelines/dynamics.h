@@ -19,16 +19,20 @@
 
 namespace pipelines {
 
+/// What damping leaves of a resonance, 1 / (2 D) with D = 1 %, as of steel in bearings: harmonics without
+/// weight meet a natural frequency in every machine, and must not be infinite.
+inline constexpr double resonance_peak = 50;
+
 /// One harmonic of the stress at a place.
 struct StressHarmonic {
   double order = 0;          ///< relative to the drive's turn, in the body's axes
   double frequency_Hz = 0;   ///< at which the body is shaken
   double share = 0;          ///< of the static peak
-  double amplification = 1;  ///< 1 / |1 - (f / f1)^2|
+  double amplification = 1;  ///< 1 / |1 - (f / f1)^2|, at most resonance_peak
 };
 
 struct DynamicAmplification {
-  /// 1 + sum over the harmonics of share |amplification - 1|; infinite in resonance.
+  /// 1 + sum over the harmonics of share |amplification - 1|
   double factor = 1;
   StressHarmonic highest;  ///< the one of the highest frequency with a share above 1 %
 };

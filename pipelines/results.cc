@@ -7,6 +7,7 @@
 
 #include "pipelines/csv.h"
 #include "pipelines/load_files.h"
+#include "pipelines/statistics.h"
 #include "pipelines/vtk_files.h"
 
 namespace pipelines {
@@ -156,7 +157,7 @@ void write_hot_spots(const path& file, const Scene& scene, const kinetics::LoadH
 
 /// Largest over the cycle of the length of rows (r, r + 1).
 double largest_pair(const SectionHistory& history, Eigen::Index row) {
-  return history.middleRows<2>(row).matrix().colwise().norm().maxCoeff();
+  return history.middleRows<2>(row).matrix().colwise().stableNorm().maxCoeff();
 }
 
 void write_diagrams(const path& file, const BodyAnalysis& analysis) {
@@ -185,10 +186,11 @@ void write_diagrams(const path& file, const BodyAnalysis& analysis) {
   columns.push_back(
       column("T_min_statics", "N m", sections, [](const auto& s) { return s.by_statics.row(5).minCoeff(); }));
   columns.push_back(column("deflection_max", "m", sections, [](const auto& s) {
-    return s.deflection_m.matrix().colwise().norm().maxCoeff();
+    return s.deflection_m.matrix().colwise().stableNorm().maxCoeff();
   }));
-  columns.push_back(column("slope_max", "rad", sections,
-                           [](const auto& s) { return s.slope_rad.matrix().colwise().norm().maxCoeff(); }));
+  columns.push_back(column("slope_max", "rad", sections, [](const auto& s) {
+    return s.slope_rad.matrix().colwise().stableNorm().maxCoeff();
+  }));
   const std::vector<std::string> names{"Vx", "Vy", "N", "Mx", "My", "T"};
   for (std::size_t c = 0; c < 6; ++c)
     columns.push_back(column(names[c] + "_at_peak", c < 3 ? "N" : "N m", sections,
@@ -211,8 +213,8 @@ void write_torsion(const path& directory, const kinetics::LoadHistory& loads, co
         column(name + "_min", unit, sections, [&](const auto& s) { return series(s).minCoeff(); }));
     columns.push_back(
         column(name + "_mean", unit, sections, [&](const auto& s) { return series(s).mean(); }));
-    columns.push_back(column(name + "_rms", unit, sections,
-                             [&](const auto& s) { return std::sqrt(series(s).square().mean()); }));
+    columns.push_back(
+        column(name + "_rms", unit, sections, [&](const auto& s) { return root_mean_square(series(s)); }));
   };
   columns.push_back(column("z", "m", sections, [](const auto& s) { return s.plane.z_m; }));
   columns.push_back(column("segment", "", sections, [](const auto& s) { return s.plane.segment; }));

