@@ -83,7 +83,8 @@ TEST(HardLoads, StressIsLinearFromTheSmallestToTheLargestNumbers) {
     const auto json =
         run_small(directory.path, small_shaft({{"load", "middle.fy", "1" + size + " N", 0},
                                                {"turning", "middle.fx", "2" + size + " N", 1},
-                                               {"twist", "middle.torque", "3" + size + " N m", 2}}));
+                                               {"twist", "middle.torque", "3" + size + " N m", 2}},
+                                              "mm", "600 rpm", ""));
     expect_finite(directory / "out");
     EXPECT_FALSE(json["bodies"]["shaft"]["zones"].empty());
     return figures(json, directory / "out");
@@ -103,8 +104,9 @@ TEST(HardLoads, StressIsLinearFromTheSmallestToTheLargestNumbers) {
 TEST(HardLoads, LengthsOfMicrometresAndOfManyMetresGiveTheSameStress) {
   const results_test::Directory directory;
   const auto in = [&](const std::string& unit, const std::string& force) {
-    return figures(run_small(directory.path, small_shaft({{"load", "middle.fy", force, 0}}, unit)),
-                   directory / "out");
+    return figures(
+        run_small(directory.path, small_shaft({{"load", "middle.fy", force, 0}}, unit, "600 rpm", "")),
+        directory / "out");
   };
   const auto usual = in("mm", "100 N"), small = in("um", "1e-4 N"), large = in("dm", "1e6 N");
   EXPECT_NEAR(small.peak, usual.peak, 1e-8 * usual.peak);

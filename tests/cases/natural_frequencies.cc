@@ -51,20 +51,22 @@ TEST(NaturalFrequencies, OfABarBetweenBearingsAreThoseOfABeam) {
   EXPECT_NE(text.find("dynamic amplification"), std::string::npos) << text;
 }
 
-// One harmonic of all the stress at f: 1 / (1 - (f / f1)^2). At a tenth of f1 that is 1 %, at a fifth 4 %.
+// One harmonic of all the stress at f: 1 / (1 - (f / f1)^2). Near a tenth of f1 that is 1 %, near a
+// fifth 4 %.
 TEST(NaturalFrequencies, AFastShaftIsWarnedOf) {
   const results_test::Directory directory;
   const double f1 =
       shaken(directory.path, "600 rpm", 1)["bodies"]["shaft"]["natural_frequencies"][0]["value"];
-  for (const auto& [share, order] : {std::pair{0.1, 1}, {0.2, 1}, {0.1, 2}, {1.5, 1}}) {
+  for (const auto& [share, order] : {std::pair{0.095, 1}, {0.19, 1}, {0.095, 2}, {1.5, 1}}) {
     const auto json = shaken(directory.path, rpm(share * f1), order);
     const auto& dynamic = json["bodies"]["shaft"]["dynamic_amplification"];
     const double ratio = share * order, expected = 1 / std::abs(1 - ratio * ratio);
     const auto& line = dynamic["highest_harmonic"];
     EXPECT_NEAR(line["amplification"].get<double>(), expected, 1e-6 * expected);
     EXPECT_NEAR(line["share"].get<double>(), 1, 0.01);
-    // Under the middle seat the one-sided pressure adds even harmonics of a percent.
-    EXPECT_NEAR(dynamic["value"].get<double>() - 1, std::abs(expected - 1), 0.05 * std::abs(expected - 1))
+    // Under the middle seat the one-sided pressure adds higher harmonics: a percent, and 1e-4 near resonance.
+    EXPECT_NEAR(dynamic["value"].get<double>() - 1, std::abs(expected - 1),
+                0.05 * std::abs(expected - 1) + 1e-3)
         << share;
     EXPECT_NEAR(line["frequency_Hz"].get<double>(), ratio * f1, 1e-6 * f1);
     EXPECT_NEAR(line["order"].get<double>(), order, 1e-12);
