@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "fem/beam_responses.h"
 #include "pipelines/cheap_rungs.h"
@@ -328,56 +327,10 @@ private:
     study.body = scene_.bodies[body_].name;
     study.quantity = governing_has_hot_spots() ? "hot-spot stress" : "peak von Mises stress";
     study.tolerance = tolerance();
-    if (options_.reference_Pa > 0) {
-      study.reference_Pa = options_.reference_Pa;
-      study.reference = "known value";
-    } else {
-      auto best = std::min_element(rows_.begin(), rows_.end(), [](const auto& a, const auto& b) {
-        return a.errors.total_Pa() < b.errors.total_Pa();
-      });
-      best->is_reference = true;
-      study.reference_Pa = best->value_Pa;
-      study.reference_error_Pa = best->errors.total_Pa();
-      study.reference = fmt::format("overkill run: {}, {} unknowns", best->rung, best->n_dofs);
-    }
-    for (auto& row : rows_) row.true_error_Pa = std::abs(row.value_Pa - study.reference_Pa);
-    std::stable_sort(rows_.begin(), rows_.end(),
-                     [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
-    mark_frontier();
-    choose(study);
     study.rows = std::move(rows_);
     study.effects = std::move(prices_);
+    compare_runs(study, options_.reference_Pa);
     return study;
-  }
-
-  void mark_frontier() {
-    double least = std::numeric_limits<double>::infinity();
-    for (auto& row : rows_)
-      if (!row.is_reference && row.true_error_Pa < least) {
-        row.on_frontier = true;
-        least = row.true_error_Pa;
-      }
-  }
-
-  void choose(AccuracyStudy& study) const {
-    const auto first_within = [&](double error_Pa) {
-      return std::find_if(rows_.begin(), rows_.end(),
-                          [&](const auto& row) { return row.errors.total_Pa() <= error_Pa; });
-    };
-    const auto chosen = first_within(study.tolerance * study.reference_Pa);
-    if (chosen == rows_.end()) {
-      study.next_factor_of_two =
-          fmt::format("no run is known to be within {:g} %; give more time", 100 * study.tolerance);
-      return;
-    }
-    study.chosen = std::size_t(chosen - rows_.begin());
-    const auto next = first_within(0.5 * chosen->errors.total_Pa());
-    study.next_factor_of_two =
-        next == rows_.end()
-            ? fmt::format("the next factor of two in accuracy costs more than this study's time")
-            : fmt::format(
-                  "the next factor of two in accuracy costs {:.2g} seconds ({:.2g} instead of {:.2g})",
-                  next->seconds - chosen->seconds, next->seconds, chosen->seconds);
   }
 
   Scene scene_;
@@ -392,11 +345,6 @@ private:
 };
 
 }  // namespace
-
-double effectivity(const AccuracyRow& row) {
-  return row.true_error_Pa > 0 ? row.errors.total_Pa() / row.true_error_Pa
-                               : std::numeric_limits<double>::infinity();
-}
 
 AccuracyStudy study_accuracy(const Scene& scene, std::size_t body, const AccuracyOptions& options,
                              StageClock& clock) {

@@ -46,6 +46,13 @@ struct AccuracyStudy {
   std::vector<EffectPrice> effects;   ///< of the scene's own mesh
 };
 
+/// Takes a known value as reference, or the run with the smallest estimate; sorts the runs by their seconds,
+/// marks the efficient frontier, chooses the cheapest run within the tolerance and prices the next factor of
+/// two.
+/// @param known_Pa  0: not known
+/// @throws std::runtime_error for a study without runs
+void compare_runs(AccuracyStudy& study, double known_Pa);
+
 struct AccuracyOptions {
   std::filesystem::path directory;  ///< of the body's scratch files
   int n_threads = 0;

@@ -3,15 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
 #include "pipelines/atomic_file.h"
 #include "pipelines/fineness.h"
+#include "pipelines/peak_growth.h"
 #include "pipelines/refinement.h"
 
 namespace pipelines {
@@ -50,43 +49,6 @@ private:
   fs::path directory_;
   std::unique_ptr<AtomicFile> mesh_;
 };
-
-/// The peak's values at one place, mesh after mesh.
-class Growth {
-public:
-  /// @param ratio  of cell sizes from the step before to this one
-  /// @return whether the stress there grows without bound
-  bool at(const BodyAnalysis& analysis, double ratio) {
-    if (!analysis.hot_spots.empty()) return false;  // extrapolated past the toe
-    if (analysis.peak.feature != feature_) {
-      values_.clear();
-      ratios_.clear();
-      feature_ = analysis.peak.feature;
-    } else {
-      ratios_.push_back(ratio);
-    }
-    values_.push_back(analysis.peak.value_Pa);
-    const bool grows = grows_without_bound(values_, ratios_);
-    if (grows) feature_.clear();
-    return grows;
-  }
-
-private:
-  std::string feature_;
-  std::vector<double> values_, ratios_;
-};
-
-double diagonal_m(const fem::Nodes& nodes) {
-  std::array<double, 3> low, high;
-  low.fill(std::numeric_limits<double>::max());
-  high.fill(std::numeric_limits<double>::lowest());
-  for (std::size_t i = 0; i < nodes.n; ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], nodes.xyz_m[3 * i + c]);
-      high[c] = std::max(high[c], nodes.xyz_m[3 * i + c]);
-    }
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-}
 
 class SceneRunner {
 public:
@@ -181,7 +143,7 @@ private:
     BodyAnalysis analysis = analyse(i, files_[i].kept(1));
     double ratio = 1, before_Pa = 0;
     bool stalled = false;
-    Growth growth;
+    PeakGrowth growth;
     while (true) {
       if (growth.at(analysis, ratio)) leave_out(i, analysis);
       auto stress = governing_stress(analysis);

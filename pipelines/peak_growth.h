@@ -1,0 +1,27 @@
+/// Watches the peak of a body from mesh to mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/body_analysis.h"
+
+namespace pipelines {
+
+/// The peak's values at one place, mesh after mesh.
+class PeakGrowth {
+public:
+  /// @param ratio  of cell sizes from the step before to this one
+  /// @return whether the stress there grows without bound (refinement.h); never for hot-spot stresses, which
+  /// are extrapolated past the toe
+  bool at(const BodyAnalysis& analysis, double ratio);
+
+private:
+  std::string feature_;
+  std::vector<double> values_, ratios_;
+};
+
+/// Of the box around a body.
+double diagonal_m(const fem::Nodes& nodes);
+
+}  // namespace pipelines

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include "pipelines/accuracy.h"
+#include "pipelines/accuracy_report.h"
+
+using namespace pipelines;
+
+namespace {
+
+AccuracyRow row(const std::string& rung, double seconds, double value_MPa, double estimate_MPa) {
+  AccuracyRow result;
+  result.rung = rung;
+  result.seconds = seconds;
+  result.value_Pa = 1e6 * value_MPa;
+  result.errors.set_numerical({"discretisation", "", 1e6 * estimate_MPa});
+  return result;
+}
+
+/// True errors against 100 MPa: 10, 2, 4, 0.5.
+AccuracyStudy four_runs() {
+  AccuracyStudy study;
+  study.tolerance = 0.05;
+  study.rows = {row("solid", 8, 100.5, 1), row("beam", 0.1, 90, 15), row("slow", 4, 96, 6),
+                row("coarse", 2, 98, 3)};
+  return study;
+}
+
+}  // namespace
+
+TEST(CompareRuns, CheapestFirstFrontierAndChoice) {
+  auto study = four_runs();
+  compare_runs(study, 100e6);
+  ASSERT_EQ(study.rows.size(), 4u);
+  const char* order[] = {"beam", "coarse", "slow", "solid"};
+  const bool frontier[] = {true, true, false, true};  // "slow" is dearer than "coarse" and worse
+  const double truth[] = {10, 2, 4, 0.5};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(study.rows[i].rung, order[i]);
+    EXPECT_EQ(study.rows[i].on_frontier, frontier[i]) << order[i];
+    EXPECT_NEAR(study.rows[i].true_error_Pa, 1e6 * truth[i], 1e-6);
+    EXPECT_FALSE(study.rows[i].is_reference);
+  }
+  EXPECT_EQ(study.chosen, 1u);  // 3 of 100 MPa is within 5 %, and cheaper than 1
+  EXPECT_NE(study.next_factor_of_two.find("costs 6 seconds (8 instead of 2)"), std::string::npos)
+      << study.next_factor_of_two;
+}
+
+// Without a known value the run with the smallest estimate is it, and its own estimate counts for the others.
+TEST(CompareRuns, TheBestRunIsTheReference) {
+  auto study = four_runs();
+  compare_runs(study, 0);
+  EXPECT_EQ(study.reference_Pa, 100.5e6);
+  EXPECT_EQ(study.reference_error_Pa, 1e6);
+  EXPECT_TRUE(study.rows.back().is_reference);
+  EXPECT_FALSE(study.rows.back().on_frontier);
+  const auto e = effectivities(study);
+  EXPECT_EQ(e.n_runs, 3u);
+  EXPECT_EQ(e.n_bounded, 3u);             // 15 of 10.5, 3 of 2.5, 6 of 4.5
+  EXPECT_NEAR(e.median, 6 / 4.5, 1e-12);  // of 1.2, 1.33, 1.43
+  EXPECT_NEAR(e.smallest, 3 / 2.5, 1e-12);
+}
+
+TEST(CompareRuns, NothingWithinTheToleranceIsSaid) {
+  auto study = four_runs();
+  study.tolerance = 0.005;
+  compare_runs(study, 100e6);
+  EXPECT_FALSE(study.chosen);
+  EXPECT_NE(study.next_factor_of_two.find("no run is known to be within 0.5 %"), std::string::npos);
+  AccuracyStudy none;
+  EXPECT_THROW(compare_runs(none, 1), std::runtime_error);
+}
