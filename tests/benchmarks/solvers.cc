@@ -1,6 +1,7 @@
 /// The solvers of unit responses on the shaft of shaft.toml, refined evenly: twelve load cases directly and
 /// iteratively, and the operator against deal.II's and a sparse matrix. Ratios of one run.
 ///   solver_benchmarks <shaft.toml> [largest number of unknowns, default 700000] [picture.svg]
+///       [largest number for the direct solver, default: what fits into memory]
 #include <unistd.h>
 
 #include <cstdio>
@@ -65,8 +66,8 @@ pipelines::BodyScene extruded(pipelines::BodyScene part) {
   return part;
 }
 
-void run(const char* scene_file, std::size_t most, const std::filesystem::path& picture,
-         const std::filesystem::path& directory) {
+void run(const char* scene_file, std::size_t most, std::size_t most_direct,
+         const std::filesystem::path& picture, const std::filesystem::path& directory) {
   const auto part = pipelines::read_scene(scene_file).bodies.at(0);
   const auto body_of = [&](const pipelines::BodyScene& scene) {
     const auto mesh = pipelines::build_mesh(scene, directory / "shaft.msh");
@@ -83,7 +84,8 @@ void run(const char* scene_file, std::size_t most, const std::filesystem::path& 
   for (const auto& size : refinements) {
     if (size.n_dofs > most) break;
     const auto [body, loads] = body_of(refine(part, size));
-    rows.push_back(measure::compare_solvers(body, loads, size.n_dofs < small ? n_repeats_small : 1, true));
+    rows.push_back(measure::compare_solvers(body, loads, size.n_dofs < small ? n_repeats_small : 1,
+                                            size.n_dofs <= most_direct));
     measure::print_row(rows.back(), loads.size());
   }
   measure::write_solver_plot(picture, rows);
@@ -95,7 +97,8 @@ void run(const char* scene_file, std::size_t most, const std::filesystem::path& 
 int main(int argc, char** argv) {
   if (argc < 2) {
     std::fprintf(stderr,
-                 "usage: solver_benchmarks <shaft.toml> [largest number of unknowns] [picture.svg]\n");
+                 "usage: solver_benchmarks <shaft.toml> [largest number of unknowns] [picture.svg] [largest "
+                 "for the direct solver]\n");
     return 2;
   }
   const fem::Environment environment(argc, argv, n_threads);
@@ -105,6 +108,7 @@ int main(int argc, char** argv) {
   int code = 0;
   try {
     run(argv[1], argc > 2 ? std::size_t(std::atof(argv[2])) : 700000,
+        argc > 4 ? std::size_t(std::atof(argv[4])) : 100000000,
         argc > 3 ? argv[3] : "results/benchmarks/solvers.svg", directory);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
