@@ -1,6 +1,7 @@
 /// The solvers of unit responses on the shaft of shaft.toml, refined evenly: twelve load cases directly and
 /// iteratively, and the operator against deal.II's and a sparse matrix. Ratios of one run.
 ///   solver_benchmarks <shaft.toml> [largest number of unknowns, default 700000] [picture.svg]
+///       [largest number for the direct solver, default: what fits into memory]
 #include <unistd.h>
 
 #include <cstdio>
@@ -38,8 +39,8 @@ pipelines::BodyScene extruded(pipelines::BodyScene part) {
   return part;
 }
 
-void run(const char* scene_file, std::size_t most, const std::filesystem::path& picture,
-         const std::filesystem::path& directory) {
+void run(const char* scene_file, std::size_t most, std::size_t most_direct,
+         const std::filesystem::path& picture, const std::filesystem::path& directory) {
   const auto scene = pipelines::read_scene(scene_file);
   const auto body_of = [&](const pipelines::BodyScene& part) {
     const auto mesh = pipelines::build_mesh(part, directory / "shaft.msh");
@@ -68,7 +69,8 @@ void run(const char* scene_file, std::size_t most, const std::filesystem::path& 
 int main(int argc, char** argv) {
   if (argc < 2) {
     std::fprintf(stderr,
-                 "usage: solver_benchmarks <shaft.toml> [largest number of unknowns] [picture.svg]\n");
+                 "usage: solver_benchmarks <shaft.toml> [largest number of unknowns] [picture.svg] [largest "
+                 "for the direct solver]\n");
     return 2;
   }
   const fem::Environment environment(argc, argv, n_threads);
@@ -78,6 +80,7 @@ int main(int argc, char** argv) {
   int code = 0;
   try {
     run(argv[1], argc > 2 ? std::size_t(std::atof(argv[2])) : 700000,
+        argc > 4 ? std::size_t(std::atof(argv[4])) : 100000000,
         argc > 3 ? argv[3] : "results/benchmarks/solvers.svg", directory);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
