@@ -106,7 +106,7 @@ void factorise(const Work& work) {
   fem::RigidBalance(grid, integrals).balance(loads.force);
   const auto graph = fem::make_node_graph(grid, cells);
   auto matrix = fem::make_matrix(graph);
-  fem::assemble_stiffness(grid, colours, graph, material, matrix);
+  fem::assemble_stiffness(grid, colours, graph, fem::lame(material), matrix);
   const fem::Supports supports(fem::choose_supports(grid), matrix);
   Eigen::MatrixXd force = loads.force;
   supports.clear(force);

@@ -68,7 +68,7 @@ double csr_s(const fem::Grid& grid, const fem::Material& material) {
   const auto cells = fem::cells_of_nodes(grid);
   const auto graph = fem::make_node_graph(grid, cells);
   auto matrix = fem::make_matrix(graph);
-  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, material, matrix);
+  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(material), matrix);
   const Csr csr(matrix);
   matrix = {};
   Csr::Rows x = Csr::Rows::Random(3 * grid.n_nodes, n_loads), y(3 * grid.n_nodes, n_loads);
