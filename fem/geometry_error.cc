@@ -17,6 +17,7 @@ namespace {
 struct Surface {
   std::function<double(const double*)> distance_m;
   double radius_m = 0;
+  bool is_fillet = false;
 };
 
 Coordinates coordinates(const double* x) {
@@ -29,12 +30,12 @@ std::optional<Surface> surface_of(const Grid& grid, const Body& body, const std:
   for (const auto& torus : body.tori)
     if (torus.boundary_id == face.boundary_id)
       return Surface{[&torus](const double* x) { return pull_back(torus, coordinates(x))[0]; },
-                     torus.radius_m};
+                     torus.radius_m, true};
   for (const auto& seat : seats)
     if (seat.kind == LoadSurface::Kind::seat && seat.boundary_id == face.boundary_id)
       return Surface{
           [&seat](const double* x) { return std::hypot(x[0] - seat.centre_m[0], x[1] - seat.centre_m[1]); },
-          seat.radius_m};
+          seat.radius_m, false};
   for (const auto& chart : body.cylinders) {
     if (chart.volume_id != grid.volume_id[face.cell]) continue;
     const auto radius = [&chart](const double* x) { return pull_back(chart, coordinates(x))[0]; };
@@ -43,7 +44,7 @@ std::optional<Surface> surface_of(const Grid& grid, const Body& body, const std:
       low = std::min(low, radius(grid.position(node)));
       high = std::max(high, radius(grid.position(node)));
     }
-    if (high - low <= 1e-9 * high) return Surface{radius, (low + high) / 2};
+    if (high - low <= 1e-9 * high) return Surface{radius, (low + high) / 2, false};
   }
   return std::nullopt;
 }
@@ -58,9 +59,14 @@ GeometryError geometry_error(const Grid& grid, const Body& body, const std::vect
     const auto surface = surface_of(grid, body, seats, face, nodes);
     if (!surface) continue;
     ++worst.n_faces;
+    auto& here = worst.surfaces[face.boundary_id];
     for (int q = 0; q < at.n_points; ++q) {
       const Eigen::Vector3d x = face_point(grid, nodes, at, q).position;
       const double error = std::abs(surface->distance_m(x.data()) - surface->radius_m);
+      // Fillets go around the z axis.
+      const double from_axis_m = surface->is_fillet ? std::hypot(x[0], x[1]) : surface->radius_m;
+      here.of_axis = std::max(here.of_axis, error / from_axis_m);
+      if (surface->is_fillet) here.of_fillet = std::max(here.of_fillet, error / surface->radius_m);
       if (error / surface->radius_m <= worst.relative) continue;
       worst.relative = error / surface->radius_m;
       worst.error_m = error;

@@ -90,8 +90,9 @@ Peak headline(const BodyAnalysis& analysis) {
   const std::size_t n_effects = analysis.loads.history.effects.size();
   const auto shares = analysis.envelope.effect_share.begin() + std::ptrdiff_t(peak.node * n_effects);
   peak.effect_share.assign(shares, shares + std::ptrdiff_t(n_effects));
-  peak.errors = self_estimate({{{peak.node, 1.0}}, peak.instant}, analysis.responses, analysis.loads,
-                              analysis.scene.material, analysis.geometry_error.relative);
+  const StressPoint point{{{peak.node, 1.0}}, peak.instant};
+  peak.errors = self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
+                              geometry_share(analysis.geometry_error, analysis.responses.nodes, point));
   return peak;
 }
 
@@ -204,10 +205,12 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                                 zone_level(scene.zones, analysis.peak.value_Pa, body.yield_strength_Pa),
                                 body.yield_strength_Pa);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
-    if (!analysis.hot_spots.empty())
+    if (!analysis.hot_spots.empty()) {
+      const auto point = stress_point(analysis.hot_spots.front());
       analysis.hot_spot_errors =
-          self_estimate(stress_point(analysis.hot_spots.front()), analysis.responses, analysis.loads,
-                        analysis.scene.material, analysis.geometry_error.relative);
+          self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
+                        geometry_share(analysis.geometry_error, analysis.responses.nodes, point));
+    }
   });
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {

@@ -126,7 +126,7 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 }
 
 ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
-                          const BodyLoads& loads, const fem::Material& material, double geometry_error) {
+                          const BodyLoads& loads, const fem::Material& material, double geometry_share) {
   const auto& values = loads.history.values;
   const Eigen::ArrayXd factors = values.col(point.instant);
   const auto unit = unit_stress_at(responses, point);
@@ -146,10 +146,26 @@ ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& re
         {"discretisation", "recovered stress against single cells around, times a safety factor of 3",
          discretisation_safety * discretisation_error(point, responses, material, factors)});
   ledger.numerical.push_back(
-      {"geometry", "distance of curved faces in radii, times 3", 3 * geometry_error * value});
+      {"geometry", "distance of curved faces around from their surfaces", geometry_share * value});
   ledger.numerical.push_back({"linear_solver", "relative residual, or rounding",
                               std::max(responses.residual, responses.solver.rounding) * value});
   return ledger;
+}
+
+double geometry_share(const fem::GeometryError& error, const fem::Nodes& nodes, const StressPoint& point) {
+  double largest = 0;
+  bool is_curved = false;
+  for (const auto& part : point.parts)
+    for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+      const auto face = nodes.face(f);
+      const auto surface = error.surfaces.find(nodes.face_boundary_id[f]);
+      if (surface == error.surfaces.end() ||
+          std::find(face.begin(), face.end(), std::int32_t(part.node)) == face.end())
+        continue;
+      is_curved = true;
+      largest = std::max(largest, 3 * surface->second.of_axis + surface->second.of_fillet / 2);
+    }
+  return is_curved ? largest : 3 * error.relative;
 }
 
 }  // namespace pipelines

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fem/body.h"
+#include "fem/model.h"
 #include "fem/unit_responses.h"
 #include "pipelines/distribute.h"
 
@@ -57,13 +58,18 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 ///   discretisation      the largest difference between the recovered stress and that of one cell, over the
 ///                       faces around the point, times discretisation_safety: a single cell may agree by
 ///                       chance
-///   geometry            distance of curved faces from their surfaces, in radii, times 3: bending stress goes
-///                       with the third power of a radius
+///   geometry            geometry_share
 ///   linear_solver       relative residual, or rounding if that is more
 /// Responses without cells (cheap models) get no discretisation entry here.
-/// @param geometry_error  relative, fem::GeometryError
+/// @param geometry_share  as of the function of that name
 ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
-                          const BodyLoads& loads, const fem::Material& material, double geometry_error);
+                          const BodyLoads& loads, const fem::Material& material, double geometry_share);
+
+/// What faces beside their surfaces cost at a point, relative: bending stress goes with the third power of
+/// the distance from the axis, a fillet's factor with the square root of its radius at most (sharp notches,
+/// Creager and Paris 1967). The largest over the surfaces around the point, 3 of_axis + of_fillet / 2; three
+/// times the largest error of the body, in radii, where none of them is curved.
+double geometry_share(const fem::GeometryError& error, const fem::Nodes& nodes, const StressPoint& point);
 
 /// True errors were up to this many times the plain estimate on shafts of 2 to 16 cells per fillet quarter.
 inline constexpr double discretisation_safety = 3;

@@ -31,6 +31,16 @@ TEST(GeometryError, of_parabolas_falls_with_the_fourth_power) {
   EXPECT_NEAR(coarse / fine, 16, 2);
 }
 
+// The rod's outside and its two ends' rims have one surface each at most; the flat ends none.
+TEST(GeometryError, is_told_surface_by_surface) {
+  auto rod = fem_tests::rod(8);
+  const auto result = fem::Model(rod.body).geometry_error();
+  ASSERT_EQ(result.surfaces.size(), 1u);
+  EXPECT_EQ(result.surfaces.begin()->first, rod.ports.at("rod").boundary_id);
+  EXPECT_EQ(result.surfaces.begin()->second.of_axis, result.relative);
+  EXPECT_EQ(result.surfaces.begin()->second.of_fillet, 0);
+}
+
 TEST(GeometryError, sees_the_seats_that_it_is_given) {
   auto rod = fem_tests::rod(16);
   auto seat = rod.ports.at("rod");

@@ -80,15 +80,41 @@ TEST(ErrorLedger, PressureHarmonicsAreWhatTheHighestBrings) {
   EXPECT_EQ(first.of("pressure_harmonics"), 0);
 }
 
-// Three radii's worth of relative error: sigma = M r / I ~ r^-3.
+// Three radii's worth of relative error: sigma = M r / I ~ r^-3. Without curved faces around it is the
+// body's worst.
 TEST(ErrorLedger, GeometryGoesWithTheThirdPowerOfTheRadius) {
   const Eigen::ArrayXXd values = Eigen::ArrayXXd::Constant(1, 3, 5.0);
+  const auto responses = at_one_node({{1, 0, 0, 0, 0, 0}});
+  const StressPoint point{{{0, 1.0}}, 0};
+  fem::GeometryError error;
+  error.relative = 1e-3;
   const auto ledger =
-      self_estimate({{{0, 1.0}}, 0}, at_one_node({{1, 0, 0, 0, 0, 0}}), loads_of(values), {}, 1e-3);
+      self_estimate(point, responses, loads_of(values), {}, geometry_share(error, responses.nodes, point));
   const double r = 1, off = 1 + 1e-3;
   EXPECT_NEAR(ledger.of("geometry"), 5 * (1 - std::pow(r / off, 3)), 0.01 * ledger.of("geometry"));
   EXPECT_EQ(ledger.largest(), "geometry");
   EXPECT_EQ(ledger.of("discretisation"), 0);  // no cells, no such estimate
+}
+
+// A coarse fillet far away does not make the peak at another one worse: only surfaces that meet at the point
+// count. A notch's stress goes with the square root of its radius, bending with the third power of the
+// shaft's.
+TEST(ErrorLedger, GeometryIsThatOfTheSurfacesAround) {
+  fem::Nodes nodes;
+  nodes.n = 25;
+  for (int face = 0; face < 2; ++face)
+    for (int i = 0; i < 9; ++i) nodes.faces.push_back(8 * face + i);  // node 8 is in both
+  nodes.face_boundary_id = {1, 2};
+  fem::GeometryError error;
+  error.relative = 0.1;
+  error.surfaces[1] = {1e-3, 4e-3};
+  error.surfaces[2] = {2e-3, 0};
+  const auto at = [&](std::size_t node) { return geometry_share(error, nodes, {{{node, 1.0}}, 0}); };
+  const double thinner = 1 - 1e-3, sharper = 1 - 4e-3;
+  EXPECT_NEAR(at(0), std::pow(thinner, -3) * std::pow(sharper, -0.5) - 1, 0.01 * at(0));
+  EXPECT_NEAR(at(12), 6e-3, 1e-15);
+  EXPECT_NEAR(at(8), 6e-3, 1e-15);
+  EXPECT_NEAR(at(20), 0.3, 1e-15);
 }
 
 // Weights of an extrapolation act on the tensors, before von Mises.
