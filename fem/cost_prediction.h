@@ -13,4 +13,9 @@ namespace fem {
 /// @throws as Model for the mesh; std::runtime_error if no solver would fit into this machine's memory
 SolverReport predict_solver(const Body& body, std::size_t n_loads, const SolverChoice& choice);
 
+/// The same for another number of unknowns in cells of the same shape, degree and material.
+/// @param at_hand  of a mesh of that body
+SolverReport predict_solver(const SolverReport& at_hand, std::size_t n_dofs, int degree, std::size_t n_loads,
+                            const SolverChoice& choice);
+
 }  // namespace fem

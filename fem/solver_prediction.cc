@@ -67,7 +67,7 @@ double largest_aspect(const Grid& grid) {
 
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads) {
   const double n = static_cast<double>(n_dofs) / 2e5;
-  const double factor = 7.0 * std::pow(n, 1.75), solve = 0.03 * std::pow(n, 1.3);
+  const double factor = 10.8 * n + 12.6 * n * n, solve = 0.03 * std::pow(n, 1.3);
   return {factor + solve * static_cast<double>(n_loads), 3.4e9 * std::pow(n, 1.3)};
 }
 
@@ -88,6 +88,10 @@ SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads
     bytes += 1100 * trilinear;
   }
   return {setup + iterations * each, bytes};
+}
+
+bool saves_time(const SolverReport& report) {
+  return report.predicted_iterative.seconds + worth_seconds < report.predicted_direct.seconds;
 }
 
 CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_loads) {
@@ -159,9 +163,8 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
     return take(Solver::iterative, "the factor would not fit into memory: " + cost_text(report));
   if (!iterative_fits)
     return take(Solver::direct, "the vectors would not fit into memory: " + cost_text(report));
-  const bool worth_it = report.predicted_iterative.seconds + worth_seconds < report.predicted_direct.seconds;
-  return worth_it ? take(Solver::iterative, "faster: " + cost_text(report))
-                  : take(Solver::direct, "as fast: " + cost_text(report));
+  return saves_time(report) ? take(Solver::iterative, "faster: " + cost_text(report))
+                            : take(Solver::direct, "as fast: " + cost_text(report));
 }
 
 void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes) {

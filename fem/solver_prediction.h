@@ -12,7 +12,7 @@ double largest_aspect(const Grid& grid);
 
 /// For two threads of a quiet server core of 2023 with AVX2 (AMD EPYC; half the CPU seconds of both threads),
 /// with n unknowns, N = n / 2e5, m = n / degree^3 unknowns of the trilinear level, k load cases:
-///   direct      7 N^1.75 + 0.03 N^1.3 k  s,   3.4e9 N^1.3  bytes
+///   direct      10.8 N + 12.6 N^2 + 0.03 N^1.3 k  s,   3.4e9 N^1.3  bytes
 ///   factorised  2e-6 n + 3 c + (8 + 2.3 aspect) (8e-8 n k + 0.25 c)  s,  c and its bytes as direct of m
 ///   aggregated  2e-6 n + 8e-6 m + 1.1 (8 + 2.3 aspect) 8e-8 n k  s,  1100 m bytes
 /// and 215 n + 48 n (load cases of a block) bytes for both of the latter. Fitted on
@@ -21,6 +21,9 @@ double largest_aspect(const Grid& grid);
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads);
 SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
                              CoarseLevel level);
+
+/// Whether the iterative solver is predicted to save enough to be worth an answer to its tolerance.
+bool saves_time(const SolverReport& report);
 
 /// The one predicted to be faster on cells of ordinary aspect.
 CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_loads);

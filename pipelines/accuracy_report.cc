@@ -119,6 +119,22 @@ Effectivities effectivities(const AccuracyStudy& study) {
   return result;
 }
 
+/// Where `run --tolerance` ends: the first step of the refined mesh whose own estimate is within it.
+std::string where_tolerances_end(const AccuracyStudy& study) {
+  std::string text;
+  for (const double tolerance : {0.05, 0.02, 0.01}) {
+    const auto row = std::find_if(study.rows.begin(), study.rows.end(), [&](const auto& r) {
+      return r.rung == "refined mesh" && r.errors.numerical_Pa() <= tolerance * r.value_Pa;
+    });
+    text += row == study.rows.end()
+                ? fmt::format("    {:g} %: not reached\n", 100 * tolerance)
+                : fmt::format("    {:g} %: {:.2f} MPa after {:.3g} s, {:.2f} % from the reference\n",
+                              100 * tolerance, row->value_Pa / 1e6, row->seconds,
+                              100 * row->true_error_Pa / study.reference_Pa);
+  }
+  return text;
+}
+
 void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
   out << fmt::format("\n{}: {}, what accuracy costs\n  {}\n  reference {:.2f} MPa ({}", study.body,
                      study.quantity, machine_and_versions(), study.reference_Pa / 1e6, study.reference);
@@ -140,7 +156,8 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
              "\n  > chosen: cheapest within {:g} % by its own estimate; * no cheaper run is closer; R "
              "reference\n",
              100 * study.tolerance)
-      << "  " << study.next_factor_of_two << '\n'
+      << "  " << study.next_factor_of_two << "\n  run --tolerance ends with\n"
+      << where_tolerances_end(study)
       << fmt::format(
              "  estimates bound the true error in {} of {} runs; median of estimate over true error {:.2g}\n",
              e.n_bounded, e.n_runs, e.median);

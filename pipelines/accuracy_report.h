@@ -3,11 +3,16 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "pipelines/accuracy.h"
 
 namespace pipelines {
+
+/// A line for each of 5, 2 and 1 %: the stress that `run --tolerance` ends with, its seconds and its distance
+/// from the reference.
+std::string where_tolerances_end(const AccuracyStudy& study);
 
 /// The table on the terminal, with what it ran on.
 void print_accuracy(std::ostream& out, const AccuracyStudy& study);

@@ -194,8 +194,10 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
   require_closure(body.name, analysis.closure);
 
+  const auto start = std::chrono::steady_clock::now();
   analysis.envelope = clock.run(
       "superpose", [&] { return envelope(analysis.loads.history, analysis.responses, threads(n_threads)); });
+  analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   clock.run("zones", [&] {
     analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
                                    analysis.mesh.sharp_edges);

@@ -8,11 +8,10 @@
 #include <memory>
 #include <optional>
 
-#include "fem/cost_prediction.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/body_analysis.h"
 #include "pipelines/calculix_cards.h"
-#include "pipelines/cost_calibration.h"
+#include "pipelines/cost_forecast.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/fem_environment.h"
 #include "pipelines/load_files.h"
@@ -45,42 +44,6 @@ void report(std::ostream& out, const CommandOptions& options, const RunReport& c
     out << summary_json(content);
   else
     print_report(out, content);
-}
-
-/// What this machine needs for one body, by what it has learnt from earlier runs.
-void print_prediction(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
-                      const ChannelHistory& channels, std::size_t n_instants) {
-  fem::SolverChoice choice;
-  choice.solver = body.solver;
-  const auto solver = fem::predict_solver(meshed.body, channels.channels.size(), choice);
-  const auto calibration = read_calibration(calibration_file());
-  const bool iterative = solver.used == fem::Solver::iterative;
-  const double solve_s =
-      solver.predicted().seconds * (iterative ? calibration.iterative : calibration.direct);
-  const std::size_t n_dofs = meshed.model->n_dofs();
-  const double superpose_s =
-      calibration.superposition * predicted_superposition_s(n_dofs / 3, n_instants, channels.channels.size());
-  out << fmt::format(
-             "  {:.0f} k unknowns, {}: about {:.2g} s to solve, {:.2g} s to superpose, {:.2g} GB\n",
-             double(n_dofs) / 1e3, iterative ? "conjugate gradients" : "factorisation", solve_s, superpose_s,
-             (solver.predicted().bytes + 72.0 * double(n_dofs / 3) * double(channels.channels.size())) / 1e9)
-      << (calibration.n_runs > 0
-              ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)
-              : "  (seconds of the machine that the prediction was made on: no run yet on this one)\n");
-}
-
-/// What a run tells about this machine's speed.
-void learn_from(const SceneRun& run) {
-  for (const auto& analysis : run.analyses) {
-    const auto& responses = analysis.responses;
-    const double predicted_s = responses.solver.predicted().seconds;
-    learn_cost(
-        calibration_file(), responses.solver.used,
-        analysis.solve_s > 0 && predicted_s > 0 ? analysis.solve_s / predicted_s : 0,
-        analysis.superpose_s / predicted_superposition_s(responses.nodes.n,
-                                                         std::size_t(analysis.loads.history.values.cols()),
-                                                         responses.channels.size()));
-  }
 }
 
 /// Masses that only a mesh can tell, for commands that need no more of it; the meshes are thrown away.
@@ -255,8 +218,10 @@ void check_command(const CommandOptions& options, std::ostream& out) {
           port.axis_y_m * 1e3);
     const auto history = distribute_body(coarse, body, loads, loaded_body(body, meshed[i]), masses).history;
     const auto& channels = history.channels;
-    print_prediction(out, body, meshed[i], history,
-                     std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn));
+    print_forecast(
+        out, body, meshed[i],
+        {channels.size(), std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn),
+         springs_of(scene)});
     out << fmt::format("  {} channels\n", channels.size());
     for (const auto& channel : channels)
       out << fmt::format("    {}/{} [{}]\n", body.name, channel.name, channel.unit);

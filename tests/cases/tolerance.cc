@@ -60,6 +60,51 @@ TEST(Tolerance, NotMetInTimeKeepsTheResults) {
   EXPECT_TRUE(fs::exists(directory / "out/loads.h5"));
 }
 
+// `check` knows the meshes of a run and of a search to the last unknown, the solver's memory to a factor of
+// two, and multiplies seconds by what earlier runs have taught.
+TEST(Tolerance, CheckForecastsTheRungs) {
+  const results_test::Directory directory;
+  write(directory / "small.toml", stepped_shaft());
+  struct Rung {
+    double unknowns = 0, solve_s = 0, superpose_s = 0, gigabytes = 0;
+  };
+  const auto forecast = [&](const std::string& rung) {
+    const auto check = millstress(directory.path, "check small.toml");
+    EXPECT_EQ(check.exit_code, 0) << check.err;
+    const auto at = check.out.find(rung);
+    EXPECT_NE(at, std::string::npos) << rung << check.out;
+    std::istringstream numbers(check.out.substr(at == std::string::npos ? 0 : at + rung.size()));
+    Rung result;
+    numbers >> result.unknowns >> result.solve_s >> result.superpose_s >> result.gigabytes;
+    return result;
+  };
+  const auto once = forecast("the scene's mesh"), first = forecast("first of a search"),
+             finer = forecast("even mesh, cells 1/2");
+  EXPECT_NEAR(finer.unknowns, 8 * once.unknowns, 8);
+  EXPECT_GT(finer.solve_s, 4 * once.solve_s);
+
+  fs::create_directories(directory / "cache/millstress");
+  std::ofstream(directory / "cache/millstress/costs.json")
+      << R"({"direct": 10, "iterative": 10, "superposition": 4, "runs": 3})";
+  const auto slow = forecast("the scene's mesh");
+  EXPECT_NEAR(slow.solve_s, 10 * once.solve_s, 0.1 * slow.solve_s);  // two digits are printed
+  EXPECT_NEAR(slow.superpose_s, 4 * once.superpose_s, 0.1 * slow.superpose_s);
+
+  ASSERT_EQ(millstress(directory.path, "run small.toml -o once").exit_code, 0);
+  const auto run = shaft_of(summary(directory / "once"));
+  EXPECT_EQ(run["dofs"].get<double>(), once.unknowns);
+  const double used_GB = run["solver"]["bytes"].get<double>() / 1e9;
+  EXPECT_LT(once.gigabytes, 2 * used_GB);
+  EXPECT_GT(once.gigabytes, used_GB / 2);
+  ASSERT_EQ(millstress(directory.path, "run small.toml -o search --tolerance '90 %'").exit_code, 0);
+  EXPECT_EQ(shaft_of(summary(directory / "search"))["search"]["steps"][0]["dofs"].get<double>(),
+            first.unknowns);
+  // Both runs were learnt from: this machine is not ten times slower than predicted.
+  const auto learnt = nlohmann::json::parse(results_test::bytes(directory / "cache/millstress/costs.json"));
+  EXPECT_EQ(learnt["runs"].get<int>(), 5);
+  EXPECT_NE(learnt["superposition"].get<double>(), 4);
+}
+
 // The last mesh of a search is kept with its responses: the same run again solves that mesh no more.
 TEST(Tolerance, SecondRunReusesTheLastMesh) {
   const results_test::Directory directory;

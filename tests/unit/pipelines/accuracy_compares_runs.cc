@@ -69,3 +69,16 @@ TEST(CompareRuns, NothingWithinTheToleranceIsSaid) {
   AccuracyStudy none;
   EXPECT_THROW(compare_runs(none, 1), std::runtime_error);
 }
+
+// A run stops at the first step whose own estimate is within the tolerance, however close it is by luck; other
+// rungs are no steps of it.
+TEST(AccuracyReport, TellsWhereTolerancesEnd) {
+  AccuracyStudy study;
+  study.rows = {row("refined mesh", 3, 99, 6), row("refined mesh", 7, 103, 4), row("even mesh", 1, 100, 0.1),
+                row("refined mesh", 20, 99.5, 1.5)};
+  compare_runs(study, 100e6);
+  EXPECT_EQ(where_tolerances_end(study),
+            "    5 %: 103.00 MPa after 7 s, 3.00 % from the reference\n"
+            "    2 %: 99.50 MPa after 20 s, 0.50 % from the reference\n"
+            "    1 %: not reached\n");
+}
