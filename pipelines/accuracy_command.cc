@@ -1,11 +1,14 @@
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
 
 #include "pipelines/accuracy.h"
 #include "pipelines/accuracy_chart.h"
 #include "pipelines/accuracy_report.h"
+#include "pipelines/atomic_file.h"
 #include "pipelines/commands.h"
 #include "pipelines/fem_environment.h"
+#include "pipelines/html_report.h"
 #include "pipelines/option_value.h"
 
 namespace pipelines {
@@ -44,7 +47,10 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
     if (!options.body.empty() && name != options.body) continue;
     study_options.directory = directory / name;
     studies.push_back(study_accuracy(scene, i, study_options, clock));
-    print_accuracy(out, studies.back());
+    std::ostringstream table;
+    print_accuracy(table, studies.back());
+    out << table.str();
+    write_text_file(directory / (name + ".txt"), table.str());
     write_accuracy_csv(directory / (name + ".csv"), studies.back());
     if (!write_accuracy_chart(studies.back(), scene.title + ": what accuracy costs in time",
                               directory / (name + ".png")))
@@ -53,6 +59,8 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
     std::filesystem::remove(study_options.directory, ignored);
   }
   write_accuracy_h5(directory / "accuracy.h5", studies);
+  if (std::filesystem::exists(directory.parent_path() / "summary.json"))
+    write_html_report(directory.parent_path());
   out << "\n  results in " << directory.string() << '\n';
 }
 

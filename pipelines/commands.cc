@@ -14,6 +14,7 @@
 #include "pipelines/cost_forecast.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/fem_environment.h"
+#include "pipelines/html_report.h"
 #include "pipelines/load_files.h"
 #include "pipelines/load_statistics.h"
 #include "pipelines/mill_reports.h"
@@ -60,6 +61,7 @@ Machine machine_with_masses(const Scene& scene, int n_threads) {
 void finish_run(const CommandOptions& options, std::ostream& out, const std::filesystem::path& directory,
                 const RunReport& content) {
   write_text_file(directory / "summary.json", summary_json(content));
+  write_html_report(directory);
   report(out, options, content);
 }
 
@@ -164,6 +166,11 @@ void springs_command(const CommandOptions& options, std::ostream& out) {
 
 void extremes_command(const CommandOptions& options, std::ostream& out) {
   print_torus_extremes(out, read_scene(options.scene), options.json);
+}
+
+void report_command(const CommandOptions& options, std::ostream& out) {
+  write_html_report(options.output);
+  out << (options.output / "report.html").string() << '\n';
 }
 
 void check_command(const CommandOptions& options, std::ostream& out) {

@@ -64,6 +64,9 @@ void ports_command(const CommandOptions& options, std::ostream& out);
 /// to results/<scene's name>. Solves nothing.
 void calculix_command(const CommandOptions& options, std::ostream& out);
 
+/// `millstress report`: report.html of a result directory (`output`), anew.
+void report_command(const CommandOptions& options, std::ostream& out);
+
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.
 void check_command(const CommandOptions& options, std::ostream& out);

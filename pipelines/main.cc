@@ -100,6 +100,8 @@ int main(int argc, char** argv) {
   auto* calculix = add("calculix", "the bodies' meshes and unit loads as input files of CalculiX");
   calculix->add_option("-o,--output", options.output,
                        "directory of the <body>.inp (default: results/<scene>)");
+  auto* report = app.add_subcommand("report", "report.html of a result directory, anew from its files");
+  report->add_option("directory", options.output, "result directory of a run")->required();
   auto* check =
       add("check",
           "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing");
@@ -131,6 +133,8 @@ int main(int argc, char** argv) {
       pipelines::ports_command(options, std::cout);
     } else if (calculix->parsed()) {
       pipelines::calculix_command(options, std::cout);
+    } else if (report->parsed()) {
+      pipelines::report_command(options, std::cout);
     } else if (check->parsed()) {
       pipelines::check_command(options, std::cout);
     }

@@ -99,7 +99,7 @@ inline Outcome millstress(const fs::path& directory, const std::string& argument
   return outcome;
 }
 
-/// Every file below a directory with its bytes; summary.json without its timing.
+/// Every file below a directory with its bytes; summary.json and report.html without their timing.
 inline std::map<std::string, std::string> contents(const fs::path& directory) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(directory)) {
@@ -110,6 +110,7 @@ inline std::map<std::string, std::string> contents(const fs::path& directory) {
       json.erase("timing");
       text = json.dump();
     }
+    if (entry.path().filename() == "report.html") text.resize(text.find("<h2>Time and memory"));
     files[fs::relative(entry.path(), directory).string()] = std::move(text);
   }
   return files;

@@ -15,6 +15,7 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   const std::set<std::string> wanted{"loads.h5",
                                      "loads.csv",
                                      "summary.json",
+                                     "report.html",
                                      "shaft/mesh.msh",
                                      "shaft/unit_responses.h5",
                                      "shaft/envelope.vtu",
@@ -32,6 +33,21 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
     EXPECT_TRUE(bytes == second.at(name)) << name << " differs between two fresh runs";
   }
   EXPECT_EQ(found, wanted);
+
+  // The page holds the headline stress, and can be made again from the files alone, timing and all.
+  const auto page = results_test::bytes(directory / "first/report.html");
+  char peak[32];
+  std::snprintf(
+      peak, sizeof peak, "%.1f MPa, error",
+      summary(directory / "first")["bodies"]["shaft"]["peak_von_mises"]["value"].get<double>() / 1e6);
+  EXPECT_NE(page.find(peak), std::string::npos) << peak;
+  fs::remove(directory / "first/report.html");
+  ASSERT_EQ(millstress(directory.path, "report first").exit_code, 0);
+  EXPECT_TRUE(results_test::bytes(directory / "first/report.html") == page);
+  const auto nowhere = millstress(directory.path, "report elsewhere");
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_NE(nowhere.err.find("elsewhere/summary.json: there is no such file"), std::string::npos)
+      << nowhere.err;
 
   // A third run into the first directory takes the unit responses that are there.
   const auto before = fs::last_write_time(directory / "first/shaft/unit_responses.h5");

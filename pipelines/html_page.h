@@ -1,0 +1,37 @@
+/// A page of HTML that stands on its own: text, tables, and pictures inside it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pipelines {
+
+/// With & < > " ' as entities.
+std::string html_escaped(const std::string& text);
+
+/// Bytes as text, RFC 4648 section 4.
+std::string base64(const std::string& bytes);
+
+class HtmlPage {
+public:
+  explicit HtmlPage(std::string title) : title_(std::move(title)) {}
+
+  /// @param level  1: the page's title, 2, 3
+  void heading(int level, const std::string& text);
+  void paragraph(const std::string& text);
+  void warning(const std::string& text);
+  /// As it stands, in letters of one width.
+  void preformatted(const std::string& text);
+  /// Cells that begin with a digit or sign stand to the right. Rows without cells are left out.
+  void table(const std::vector<std::string>& titles, const std::vector<std::vector<std::string>>& rows);
+  /// The bytes of a PNG file become part of the page; nothing if there is no such file.
+  void picture(const std::filesystem::path& png, const std::string& what_it_shows);
+
+  std::string text() const;
+
+private:
+  std::string title_, body_;
+};
+
+}  // namespace pipelines
