@@ -9,6 +9,7 @@
 
 #include "fem/body.h"
 #include "fem/grid.h"
+#include "fem/solver_choice.h"
 
 namespace fem {
 
@@ -34,6 +35,7 @@ struct Solution {
   double factor_gigabytes = 0;
   double bytes = 0;  ///< taken by the solver
   int n_iterations = 0;
+  std::vector<RankWork> ranks{};  ///< as SolverReport
 };
 
 }  // namespace fem

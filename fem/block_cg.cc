@@ -16,17 +16,25 @@ constexpr int n_patient = 25;        // iterations
 constexpr double least_progress = 0.9;
 constexpr int n_before_forecast = 30;
 
-/// Sums over all nodes of what a kernel returns for a range; `n` sums per lane.
+/// Sums over all nodes of what a kernel returns for a range; `n` sums per lane. The kernel is called for
+/// nodes that another rank counts, too.
 template <int n, typename Body>
-std::array<Eigen::ArrayXd, n> sum_over_nodes(std::size_t n_nodes, std::size_t n_lanes, const Body& body) {
-  const std::size_t n_chunks = (n_nodes + chunk - 1) / chunk;
+std::array<Eigen::ArrayXd, n> sum_over_nodes(std::size_t n_nodes, const SharedNodes* shared,
+                                             std::size_t n_lanes, const Body& body) {
+  const std::size_t n_counted = shared == nullptr ? n_nodes : shared->n_counted();
+  const std::size_t n_chunks = (n_counted + chunk - 1) / chunk;
   Eigen::MatrixXd partial(n * n_lanes, n_chunks);
   parallel_for(n_chunks, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k)
-      body(k * chunk, std::min(n_nodes, (k + 1) * chunk), partial.col(k).data());
+      body(k * chunk, std::min(n_counted, (k + 1) * chunk), partial.col(k).data());
   });
   Eigen::ArrayXd total = Eigen::ArrayXd::Zero(n * n_lanes);
   for (std::size_t k = 0; k < n_chunks; ++k) total += partial.col(k).array();
+  if (shared != nullptr) {
+    Eigen::ArrayXd elsewhere(n * n_lanes);
+    if (n_counted < n_nodes) body(n_counted, n_nodes, elsewhere.data());
+    total = shared->sum_over_ranks(total);
+  }
   std::array<Eigen::ArrayXd, n> result;
   for (int i = 0; i < n; ++i) result[i] = total.segment(i * n_lanes, n_lanes);
   return result;
@@ -43,6 +51,8 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
                           const kernel::Kernels& kernels, const Lanes& lanes, const BlockCgControl& control,
                           BlockVector<double>& u, BlockVector<double>& r) {
   const std::size_t n_nodes = stiffness.n_nodes(), n_lanes = lanes.n_lanes;
+  const auto* shared = stiffness.shared();
+  const std::size_t n_in_body = shared == nullptr ? n_nodes : shared->n_in_body();
   const Lanes floats = spread_over_lanes<float>(lanes.n_loads, kernels);
   BlockVector<double> p(n_nodes, lanes), q(n_nodes, lanes);
   BlockVector<float> b(n_nodes, floats), z(n_nodes, floats);
@@ -54,7 +64,7 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
 
   Eigen::ArrayXd tolerance = Eigen::ArrayXd::Zero(n_lanes);
   tolerance.head(lanes.n_loads) = control.tolerance;
-  Eigen::ArrayXd rr = sum_over_nodes<1>(n_nodes, n_lanes, [&](auto begin, auto end, double* sum) {
+  Eigen::ArrayXd rr = sum_over_nodes<1>(n_nodes, shared, n_lanes, [&](auto begin, auto end, double* sum) {
     kernels.dot(lanes.view(), n_nodes, begin, end, r.data(), r.data(), sum);
   })[0];
   Eigen::ArrayXd rz_before = Eigen::ArrayXd::Zero(n_lanes), step = rz_before, factor = rz_before,
@@ -86,13 +96,13 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
     ++result.n_iterations;
 
     // The preconditioner sees residuals of size 1, whatever they have fallen to.
-    const double size = std::sqrt(3.0 * double(n_nodes));
+    const double size = std::sqrt(3.0 * double(n_in_body));
     scale = active.select(size / rr.sqrt().max(1e-300), 0.0);
     for_chunks(n_nodes, [&](auto begin, auto end) {
       kernels.to_float(lanes.view(), floats.view(), n_nodes, begin, end, scale.data(), r.data(), b.data());
     });
     preconditioner.apply(floats, b, z, work);
-    const auto dots = sum_over_nodes<2>(n_nodes, n_lanes, [&](auto begin, auto end, double* sums) {
+    const auto dots = sum_over_nodes<2>(n_nodes, shared, n_lanes, [&](auto begin, auto end, double* sums) {
       kernels.dots_with_float(lanes.view(), floats.view(), n_nodes, begin, end, r.data(), q.data(), z.data(),
                               sums, sums + n_lanes);
     });
@@ -102,7 +112,7 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
       kernels.direction(lanes.view(), floats.view(), n_nodes, begin, end, factor.data(), z.data(), p.data());
     });
     stiffness.apply(lanes, p, q, copies);
-    const auto pq = sum_over_nodes<1>(n_nodes, n_lanes, [&](auto begin, auto end, double* sum) {
+    const auto pq = sum_over_nodes<1>(n_nodes, shared, n_lanes, [&](auto begin, auto end, double* sum) {
       kernels.dot(lanes.view(), n_nodes, begin, end, p.data(), q.data(), sum);
     })[0];
     if ((active && !(pq > 0 && dots[0] > 0)).any()) {
@@ -111,7 +121,7 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
     }
     step = active.select(dots[0] / pq, 0.0);
     rz_before = dots[0];
-    rr = sum_over_nodes<1>(n_nodes, n_lanes, [&](auto begin, auto end, double* sum) {
+    rr = sum_over_nodes<1>(n_nodes, shared, n_lanes, [&](auto begin, auto end, double* sum) {
       kernels.advance(lanes.view(), n_nodes, begin, end, step.data(), p.data(), q.data(), u.data(), r.data(),
                       sum);
     })[0];
@@ -127,9 +137,10 @@ Eigen::ArrayXd subtract_image(const ElasticOperator<double>& stiffness, const ke
   for_chunks(3 * n_nodes * lanes.n_lanes, [&](auto begin, auto end) {
     for (auto i = begin; i < end; ++i) r.data()[i] -= image.data()[i];
   });
-  return sum_over_nodes<1>(n_nodes, lanes.n_lanes, [&](auto begin, auto end, double* sum) {
-    kernels.dot(lanes.view(), n_nodes, begin, end, r.data(), r.data(), sum);
-  })[0];
+  return sum_over_nodes<1>(n_nodes, stiffness.shared(), lanes.n_lanes,
+                           [&](auto begin, auto end, double* sum) {
+                             kernels.dot(lanes.view(), n_nodes, begin, end, r.data(), r.data(), sum);
+                           })[0];
 }
 
 }  // namespace fem

@@ -35,6 +35,13 @@ constexpr std::size_t n_parts_at_most = 16, cells_per_part = 200;
 
 }  // namespace
 
+std::vector<std::int32_t> bisect_cells(const std::vector<std::array<double, 3>>& corner_sum) {
+  std::vector<std::int32_t> cell(corner_sum.size());
+  std::iota(cell.begin(), cell.end(), 0);
+  bisect(corner_sum, cell.data(), cell.data() + cell.size());
+  return cell;
+}
+
 CellOrder order_cells(const Grid& grid) {
   const std::size_t n_cells = grid.n_cells();
   const int n_local = grid.nodes_per_cell();
@@ -43,9 +50,7 @@ CellOrder order_cells(const Grid& grid) {
     for (const int i : corner_nodes(grid.shape()))
       for (int d = 0; d < 3; ++d) centre[c][d] += grid.position(grid.nodes_of(c)[i])[d];
   CellOrder order;
-  order.cell.resize(n_cells);
-  std::iota(order.cell.begin(), order.cell.end(), 0);
-  bisect(centre, order.cell.data(), order.cell.data() + n_cells);
+  order.cell = bisect_cells(centre);
   order.node_place.assign(grid.n_nodes, -1);
   std::int32_t next = 0;
   for (const auto c : order.cell)

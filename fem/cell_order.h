@@ -2,6 +2,7 @@
 /// fem.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct CellOrder {
   std::vector<std::size_t> part_begin;   ///< parts are ranges of places; n_parts + 1
 };
 CellOrder order_cells(const Grid& grid);
+
+/// That order of cells alone, by the sums of their corners' places.
+std::vector<std::int32_t> bisect_cells(const std::vector<std::array<double, 3>>& corner_sum);
 
 /// Where the parts add to nodes, so that each part writes places of its own: the first part that meets a node
 /// writes to it, others to copies of it; coded as elastic_kernel.h wants it.

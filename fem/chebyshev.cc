@@ -24,14 +24,14 @@ std::vector<float> invert(const std::vector<double>& blocks) {
 }  // namespace
 
 Chebyshev::Chebyshev(const std::vector<double>& diagonal_blocks, const Control& control, const Apply& apply,
-                     const kernel::Kernels& kernels)
+                     const kernel::Kernels& kernels, const SharedNodes* shared)
     : kernels_(&kernels), control_(control), inverse_blocks_(invert(diagonal_blocks)) {
-  find_largest_eigenvalue(apply);
+  find_largest_eigenvalue(apply, shared);
 }
 
 // Conjugate gradients from noise: their step lengths are the tridiagonal matrix of Lanczos' method, whose
 // largest eigenvalue comes up to that of D^-1 K from below, much faster than powers of it do.
-void Chebyshev::find_largest_eigenvalue(const Apply& apply) {
+void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* shared) {
   constexpr int n_steps = 12;
   constexpr float margin = 1.1f;
   const Lanes lanes = spread_over_lanes<float>(1, *kernels_);  // a register of starts
@@ -42,11 +42,14 @@ void Chebyshev::find_largest_eigenvalue(const Apply& apply) {
     random = random * 1664525u + 1013904223u;
     r.data()[i] = static_cast<float>(random >> 8) / (1 << 23) - 1;
   }
+  if (shared != nullptr) shared->take_from_owner(lanes, r);
+  const std::size_t n_counted = shared == nullptr ? n : 3 * shared->n_counted() * lanes.n_lanes;
   const auto dot = [&](const BlockVector<float>& x, const BlockVector<float>& y) {
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(lanes.n_lanes);
-    for (std::size_t i = 0; i < n; i += lanes.n_lanes)
+    for (std::size_t i = 0; i < n_counted; i += lanes.n_lanes)
       for (std::size_t l = 0; l < lanes.n_lanes; ++l)
         sum[l] += double(x.data()[i + l]) * double(y.data()[i + l]);
+    if (shared != nullptr) sum = shared->sum_over_ranks(sum);
     return sum;
   };
   /// x = a x + b y

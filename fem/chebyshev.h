@@ -7,6 +7,7 @@
 
 #include "fem/block_vector.h"
 #include "fem/elastic_kernel.h"
+#include "fem/shared_nodes.h"
 
 namespace fem {
 
@@ -26,8 +27,9 @@ public:
   /// Estimates the largest eigenvalue from some columns of noise.
   /// @param diagonal_blocks  n_nodes x 9
   /// @param apply  called for lanes of its own choice
+  /// @param shared  nodes that other ranks have, too; none: one rank
   Chebyshev(const std::vector<double>& diagonal_blocks, const Control& control, const Apply& apply,
-            const kernel::Kernels& kernels);
+            const kernel::Kernels& kernels, const SharedNodes* shared = nullptr);
 
   std::size_t n_nodes() const noexcept { return inverse_blocks_.size() / 9; }
   std::size_t bytes() const noexcept { return inverse_blocks_.size() * sizeof(float); }
@@ -44,7 +46,7 @@ public:
                 const BlockVector<float>& x, WorkSpace& work) const;
 
 private:
-  void find_largest_eigenvalue(const Apply& apply);
+  void find_largest_eigenvalue(const Apply& apply, const SharedNodes* shared);
 
   const kernel::Kernels* kernels_;
   Control control_;

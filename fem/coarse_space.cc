@@ -1,8 +1,7 @@
 #include "fem/coarse_space.h"
 
-#include <future>
-#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "fem/cell_geometry.h"
 #include "fem/parallel.h"
@@ -60,15 +59,17 @@ NodeMatrix make_interpolation(const Grid& grid, const CellOrder& order, const Gr
   return matrix;
 }
 
-NodeMatrix transpose(const NodeMatrix& matrix, std::size_t n_columns) {
+/// Of the first rows.
+NodeMatrix transpose(const NodeMatrix& matrix, std::size_t n_rows, std::size_t n_columns) {
   NodeMatrix result;
   result.begin.assign(n_columns + 1, 0);
-  for (const auto c : matrix.column) ++result.begin[c + 1];
+  const auto n_entries = static_cast<std::size_t>(matrix.begin[n_rows]);
+  for (std::size_t k = 0; k < n_entries; ++k) ++result.begin[matrix.column[k] + 1];
   for (std::size_t c = 0; c < n_columns; ++c) result.begin[c + 1] += result.begin[c];
-  result.column.resize(matrix.column.size());
-  result.weight.resize(matrix.column.size());
+  result.column.resize(n_entries);
+  result.weight.resize(n_entries);
   auto next = result.begin;
-  for (std::size_t r = 0; r + 1 < matrix.begin.size(); ++r)
+  for (std::size_t r = 0; r < n_rows; ++r)
     for (auto k = matrix.begin[r]; k < matrix.begin[r + 1]; ++k) {
       const auto at = next[matrix.column[k]]++;
       result.column[at] = static_cast<std::int32_t>(r);
@@ -121,50 +122,43 @@ SymmetricMatrix assemble(const Grid& grid, const CellOrder& order, const std::ve
 }  // namespace
 
 CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
-                         const PerCell<Lame>& elastic, CoarseLevel level, const kernel::Kernels& kernels) {
+                         const PerCell<Lame>& elastic, CoarseLevel level, const kernel::Kernels& kernels,
+                         const SharedNodes* shared) {
   std::vector<std::int32_t> coarse_of_place;
   const Grid coarse = corner_grid(grid, order, coarse_of_place);
   n_nodes_ = coarse.n_nodes;
-  place_.resize(n_nodes_);
-  std::iota(place_.begin(), place_.end(), 0);
   const auto cells = cells_of_nodes(coarse);
   const NodeGraph graph = make_node_graph(coarse, cells);
   interpolation_ = make_interpolation(grid, order, coarse);
-  restriction_ = transpose(interpolation_, n_nodes_);
-  if (level == CoarseLevel::aggregated) {
-    multigrid_ = std::make_unique<AggregationMultigrid>(
-        graph, assemble(grid, order, metric, elastic, coarse, cells, graph), coarse.xyz_m, kernels);
-  } else {
-    auto node_order = std::async(std::launch::async, order_nodes, std::cref(graph));
-    auto matrix = assemble(grid, order, metric, elastic, coarse, cells, graph);
-    supports_ = std::make_unique<Supports>(choose_supports(coarse), matrix);
-    factor_ = std::make_unique<CholmodFactor>(matrix, node_order.get());
-    factor_->factorise(matrix);
-    without_rigid_ = WithoutModes(rigid_modes(coarse, Eigen::Vector3d::Zero()));
+  restriction_ = transpose(interpolation_, shared == nullptr ? grid.n_nodes : shared->n_counted(), n_nodes_);
+  const auto stiffness = [&] { return assemble(grid, order, metric, elastic, coarse, cells, graph); };
+  if (shared == nullptr) {
+    solver_ = std::make_unique<CoarseSolver>(coarse, graph, stiffness, level, kernels);
+    return;
   }
+  std::vector<std::int32_t> corner;
+  for (std::size_t place = 0; place < grid.n_nodes; ++place)
+    if (coarse_of_place[place] >= 0) corner.push_back(shared->body_node()[place]);
+  on_first_rank_ = std::make_unique<CoarseOnFirstRank>(shared->communicator(), coarse, corner, stiffness(),
+                                                       level, kernels);
 }
 
 std::size_t CoarseSpace::bytes() const {
   const auto of = [](const NodeMatrix& m) { return 8 * (m.begin.size() + m.column.size()); };
-  return of(interpolation_) + of(restriction_) +
-         (multigrid_ ? multigrid_->bytes() : static_cast<std::size_t>(1e9 * factor_->gigabytes()));
+  return of(interpolation_) + of(restriction_) + (solver_ ? solver_->bytes() : on_first_rank_->bytes());
 }
 
 CoarseSpace::WorkSpace CoarseSpace::work_space(const Lanes& lanes) const {
-  if (multigrid_) return {multigrid_->work_space(lanes)};
-  return {};
+  if (solver_) return {solver_->work_space(lanes), {}};
+  return {{}, on_first_rank_->work_space(lanes)};
 }
 
 void CoarseSpace::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
                         WorkSpace& work) const {
-  if (multigrid_) return multigrid_->apply(lanes, b, x, work.multigrid);
-  Eigen::MatrixXd columns(3 * n_nodes_, lanes.n_loads);
-  from_block(b, lanes, place_, 0, columns);
-  without_rigid_.apply(columns);
-  supports_->clear(columns);
-  columns = factor_->solve(columns);
-  without_rigid_.apply(columns);
-  to_block(columns, 0, place_, lanes, x);
+  if (solver_)
+    solver_->solve(lanes, b, x, work.alone);
+  else
+    on_first_rank_->solve(lanes, b, x, work.on_first_rank);
 }
 
 }  // namespace fem

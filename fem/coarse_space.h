@@ -6,16 +6,15 @@
 #include <memory>
 #include <vector>
 
-#include "fem/aggregation_multigrid.h"
 #include "fem/block_vector.h"
 #include "fem/cell_order.h"
-#include "fem/cholmod_factor.h"
+#include "fem/coarse_on_first_rank.h"
+#include "fem/coarse_solver.h"
 #include "fem/elastic_kernel.h"
 #include "fem/grid.h"
-#include "fem/rigid_modes.h"
+#include "fem/shared_nodes.h"
 #include "fem/solver_choice.h"
 #include "fem/stiffness.h"
-#include "fem/supports.h"
 
 namespace fem {
 
@@ -32,33 +31,34 @@ struct NodeMatrix {
 class CoarseSpace {
 public:
   /// @param level  factorised or aggregated
-  /// @throws std::runtime_error as CholmodFactor
+  /// @param shared  nodes that other ranks have, too, whose cells' stiffness adds to that of these; none: one
+  /// rank
+  /// @throws std::runtime_error as CoarseSolver
   CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
-              const PerCell<Lame>& elastic, CoarseLevel level, const kernel::Kernels& kernels);
+              const PerCell<Lame>& elastic, CoarseLevel level, const kernel::Kernels& kernels,
+              const SharedNodes* shared = nullptr);
 
   std::size_t n_nodes() const noexcept { return n_nodes_; }
   const NodeMatrix& interpolation() const noexcept { return interpolation_; }  ///< P, rows: nodes in order
-  const NodeMatrix& restriction() const noexcept { return restriction_; }      ///< P'
+  /// P', of the nodes that this rank counts.
+  const NodeMatrix& restriction() const noexcept { return restriction_; }
   std::size_t bytes() const;
 
   struct WorkSpace {
-    AggregationMultigrid::WorkSpace multigrid;
-    std::size_t bytes() const { return multigrid.bytes(); }
+    CoarseSolver::WorkSpace alone;
+    CoarseOnFirstRank::WorkSpace on_first_rank;
+    std::size_t bytes() const { return alone.bytes() + on_first_rank.bytes(); }
   };
   WorkSpace work_space(const Lanes& lanes) const;
 
-  /// x = (P'K P)^-1 b by a statically determinate support, without rigid motion in b and x; or one V-cycle in
-  /// its place.
+  /// x = (P'K P)^-1 b as CoarseSolver; b: what the nodes that this rank counts bring to it.
   void solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x, WorkSpace& work) const;
 
 private:
   std::size_t n_nodes_ = 0;
   NodeMatrix interpolation_, restriction_;
-  std::vector<std::int32_t> place_;  ///< nodes keep their numbers in block vectors
-  WithoutModes without_rigid_;
-  std::unique_ptr<Supports> supports_;
-  std::unique_ptr<CholmodFactor> factor_;
-  std::unique_ptr<AggregationMultigrid> multigrid_;
+  std::unique_ptr<CoarseSolver> solver_;              // one rank
+  std::unique_ptr<CoarseOnFirstRank> on_first_rank_;  // several
 };
 
 }  // namespace fem

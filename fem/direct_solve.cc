@@ -16,11 +16,10 @@
 namespace fem {
 
 namespace {
-
 /// Beyond it displacements are not worth handing on.
 constexpr double most_rounding = 0.01;
+}  // namespace
 
-/// The largest share of a load case's displacement that the correction is; of those cases that need one.
 double rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& correction,
                 const Eigen::MatrixXd& displacement, const BalancedLoads& loads) {
   double worst = 0;
@@ -43,8 +42,6 @@ void refuse_rounding(const Grid& grid, double share) {
          "shorten the body, or check lengths and moduli";
   throw std::runtime_error(message.str());
 }
-
-}  // namespace
 
 Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
                         const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,

@@ -11,4 +11,11 @@ Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
                         const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                         const BalancedLoads& loads, const StepReport& progress);
 
+/// The largest share of a load case's displacement that the correction is; of those cases that need one.
+double rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& correction,
+                const Eigen::MatrixXd& displacement, const BalancedLoads& loads);
+
+/// @throws std::runtime_error naming the remedy if it is more than 1 %
+void refuse_rounding(const Grid& grid, double share);
+
 }  // namespace fem

@@ -83,12 +83,13 @@ std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
 template <typename T>
 ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, const PerCell<Lame>& elastic,
                                     std::vector<double> metric, const kernel::Kernels& kernels,
-                                    std::shared_ptr<const AddTargets> targets)
+                                    std::shared_ptr<const AddTargets> targets, const SharedNodes* shared)
     : kernels_(&kernels),
       n_nodes_(grid.n_nodes),
       part_begin_(order.part_begin),
       has_own_targets_(targets == nullptr),
-      targets_(targets ? std::move(targets) : std::make_shared<const AddTargets>(make_targets(grid, order))) {
+      targets_(targets ? std::move(targets) : std::make_shared<const AddTargets>(make_targets(grid, order))),
+      shared_(shared) {
   if constexpr (std::is_same_v<T, double>)
     metric_ = std::move(metric);
   else
@@ -143,6 +144,7 @@ void ElasticOperator<T>::apply(const Lanes& lanes, const BlockVector<T>& x, Bloc
       for (std::size_t l = 0; l < per_node; ++l)
         to[targets_->copied[k] * per_node + l] += from[targets_->copy[k] * per_node + l];
   }
+  if (shared_ != nullptr) shared_->sum(lanes, y);
 }
 
 template class ElasticOperator<double>;

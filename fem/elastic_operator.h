@@ -9,6 +9,7 @@
 #include "fem/body.h"
 #include "fem/cell_order.h"
 #include "fem/grid.h"
+#include "fem/shared_nodes.h"
 #include "fem/stiffness.h"
 
 namespace fem {
@@ -17,7 +18,7 @@ namespace fem {
 /// cells in the order of CellOrder, 9 numbers per point.
 std::vector<double> cell_metric(const Grid& grid, const CellOrder& order);
 
-/// The 3 x 3 diagonal blocks of K (n_nodes x 9), nodes in order.
+/// The 3 x 3 diagonal blocks of K (n_nodes x 9), nodes in order; of these cells alone.
 std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
                                     const std::vector<double>& metric, const PerCell<Lame>& elastic);
 
@@ -27,12 +28,14 @@ class ElasticOperator {
 public:
   /// @param kernels  one of those of elastic_kernel.h; the machine must have its instructions
   /// @param targets  of another operator on the same cells; none: made here
+  /// @param shared   nodes that other ranks add to, too; none: one rank
   ElasticOperator(const Grid& grid, const CellOrder& order, const PerCell<Lame>& elastic,
                   std::vector<double> metric,
                   const kernel::Kernels& kernels = kernel::kernels_for_this_machine(),
-                  std::shared_ptr<const AddTargets> targets = nullptr);
+                  std::shared_ptr<const AddTargets> targets = nullptr, const SharedNodes* shared = nullptr);
 
   std::size_t n_nodes() const noexcept { return n_nodes_; }
+  const SharedNodes* shared() const noexcept { return shared_; }
   std::shared_ptr<const AddTargets> targets() const noexcept { return targets_; }
   /// Without the targets of another operator.
   std::size_t bytes() const noexcept;
@@ -49,6 +52,7 @@ private:
   bool has_own_targets_;
   std::shared_ptr<const AddTargets> targets_;
   std::vector<T> value_, derivative_, metric_, elastic_;
+  const SharedNodes* shared_;
   kernel::CellRange<T> cells_;  // begin, end and pointers are set by apply
 };
 

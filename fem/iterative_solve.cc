@@ -74,27 +74,22 @@ std::size_t loads_per_block(std::size_t n_dofs) {
   return std::clamp<std::size_t>(vectors_bytes / (per_unknown * n_dofs) / 4 * 4, 4, 16);
 }
 
-std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials& materials,
-                                          const BalancedLoads& loads, const SolverChoice& choice,
-                                          const StepReport& progress, std::string& failure) {
-  progress(0.05, "prepare multigrid");
-  const CellOrder order = order_cells(grid);
+std::optional<Solution> iterate(const Grid& grid, const CellOrder& order, const PerCell<Lame>& elastic,
+                                double modulus_Pa, const BalancedLoads& loads, Eigen::Index width,
+                                const SolverChoice& choice, const StepReport& progress, std::string& failure,
+                                const SharedNodes* shared) {
+  const auto& kernels = kernel::kernels_for_this_machine();
   auto metric = cell_metric(grid, order);
-  // The modulus is taken out: displacements of unit loads on a body of modulus 1.
-  const double modulus_Pa = materials.largest_modulus_Pa();
-  const auto elastic = materials.elastic(modulus_Pa);
-  const PolynomialMultigrid multigrid(grid, order, metric, elastic, choice.coarse_level);
-  const ElasticOperator<double> stiffness(grid, order, elastic, std::move(metric),
-                                          kernel::kernels_for_this_machine(), multigrid.targets());
+  const PolynomialMultigrid multigrid(grid, order, metric, elastic, choice.coarse_level, kernels, shared);
+  const ElasticOperator<double> stiffness(grid, order, elastic, std::move(metric), kernels,
+                                          multigrid.targets(), shared);
   release_free_memory();
 
   const SerialBlas serial;  // the coarse level's solves are too small to share
   const BlockSolver solver(order, stiffness, multigrid, choice);
   Solution solution;
   solution.displacement.resize(loads.force.rows(), loads.force.cols());
-  const Eigen::Index n_loads = loads.force.cols(),
-                     width = static_cast<Eigen::Index>(loads_per_block(3 * grid.n_nodes)),
-                     n_blocks = (n_loads + width - 1) / width;
+  const Eigen::Index n_loads = loads.force.cols(), n_blocks = (n_loads + width - 1) / width;
   // Blocks of even size, in fours: what a register holds.
   const Eigen::Index even = std::min(width, ((n_loads + n_blocks - 1) / n_blocks + 3) / 4 * 4);
   for (Eigen::Index first = 0; first < n_loads; first += even) {
@@ -107,6 +102,15 @@ std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials&
   }
   solution.bytes += static_cast<double>(stiffness.bytes() + multigrid.bytes());
   return solution;
+}
+
+std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials& materials,
+                                          const BalancedLoads& loads, const SolverChoice& choice,
+                                          const StepReport& progress, std::string& failure) {
+  progress(0.05, "prepare multigrid");
+  const double modulus_Pa = materials.largest_modulus_Pa();
+  return iterate(grid, order_cells(grid), materials.elastic(modulus_Pa), modulus_Pa, loads,
+                 static_cast<Eigen::Index>(loads_per_block(3 * grid.n_nodes)), choice, progress, failure);
 }
 
 }  // namespace fem

@@ -9,21 +9,24 @@
 #include "fem/cell_materials.h"
 #include "fem/clamps.h"
 #include "fem/connected_pieces.h"
+#include "fem/direct_on_ranks.h"
 #include "fem/direct_solve.h"
 #include "fem/elastic_supports.h"
 #include "fem/geometry_error.h"
 #include "fem/grid.h"
+#include "fem/helper_ranks.h"
+#include "fem/iterative_on_ranks.h"
 #include "fem/iterative_solve.h"
 #include "fem/material_interfaces.h"
 #include "fem/mesh_reader.h"
 #include "fem/natural_frequencies.h"
 #include "fem/nodes_export.h"
 #include "fem/ranks.h"
+#include "fem/recovery_on_ranks.h"
 #include "fem/rigid_modes.h"
 #include "fem/sections.h"
 #include "fem/solver_prediction.h"
 #include "fem/stiffness.h"
-#include "fem/stress_recovery.h"
 #include "fem/surface_loads.h"
 
 namespace fem {
@@ -40,6 +43,7 @@ struct Seen {
 }  // namespace
 
 struct Model::Impl {
+  MPI_Comm communicator = MPI_COMM_WORLD;
   Body body;
   Grid grid;
   CellsOfNodes cells;
@@ -53,9 +57,12 @@ struct Model::Impl {
 
 Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
     : impl_(std::make_unique<Impl>()) {
-  refuse_several_ranks(n_ranks(communicator));
+  if (this_rank(communicator) != 0)
+    throw std::runtime_error("a model was made on MPI rank " + std::to_string(this_rank(communicator)) +
+                             ": models live on rank 0, every other rank calls help_first_rank");
   refuse_impossible(body.material);
   if (progress) progress(0, "read mesh");
+  impl_->communicator = communicator;
   impl_->body = body;
   impl_->grid = read_grid(body);
   refuse_several_pieces(impl_->grid);
@@ -135,13 +142,23 @@ BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
-               SolverReport& report) {
+               SolverReport& report, MPI_Comm communicator) {
+  const bool alone = n_ranks(communicator) == 1;
+  std::optional<Solution> solution;
   choice.coarse_level = report.coarse_level;
   if (report.used == Solver::iterative) {
     std::string failure;
     try {
-      if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure))
-        return std::move(*solution);
+      if (alone) {
+        solution = solve_iteratively(grid, materials, loads, choice, progress, failure);
+      } else {
+        call_helpers(Task::solve_iteratively, communicator);
+        together(communicator, [&] {
+          solution =
+              solve_iteratively_on_ranks(grid, materials, loads, choice, progress, failure, communicator);
+        });
+      }
+      if (solution) return std::move(*solution);
     } catch (const std::runtime_error& error) {
       failure = error.what();
     }
@@ -149,7 +166,18 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     report.gave_up = true;
     report.reason = failure + "; solved directly";
   }
-  return solve_directly(grid, cells, colours, materials, loads, progress);
+  if (alone) return solve_directly(grid, cells, colours, materials, loads, progress);
+  call_helpers(Task::solve_directly, communicator);
+  together(communicator, [&] {
+    solution = solve_directly_on_ranks(grid, cells, materials, loads, progress, communicator);
+  });
+  return std::move(*solution);
+}
+
+double memory_of_ranks(MPI_Comm communicator) {
+  if (n_ranks(communicator) == 1) return physical_memory();
+  call_helpers(Task::tell_memory, communicator);
+  return memory_of_all_machines(communicator);
 }
 
 /// Boundary groups that any of the loads, springs or clamps acts on.
@@ -201,18 +229,19 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const RigidBalance rigid(grid, impl_->integrals);
     const BalancedLoads balanced = balance(rigid, clamped, std::move(force));
     responses.solver = choose_solver(grid, impl_->materials, static_cast<std::size_t>(balanced.force.cols()),
-                                     choice, physical_memory());
+                                     choice, memory_of_ranks(impl_->communicator));
     if (!clamped.empty()) {
       responses.solver.used = Solver::direct;
       responses.solver.reason = "the body is clamped";
     }
     Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,
-                              responses.solver);
+                              responses.solver, impl_->communicator);
     responses.residual = responses.solver.relative_residual = solution.residual;
     responses.support_reaction = solution.support_reaction;
     responses.solver.rounding = solution.rounding;
     responses.factor_gigabytes = solution.factor_gigabytes;
     responses.solver.used_bytes = solution.bytes;
+    responses.solver.ranks = solution.ranks;
     responses.solver.n_iterations = solution.n_iterations;
     if (clamped.empty()) rigid.remove_motion(solution.displacement);
     solution.displacement.array().rowwise() *= scale.array().inverse();
@@ -231,12 +260,17 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   responses.stress_Pa.resize(seen.n_nodes * n_loads * 6);
   const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), seen.n_nodes, 3 * n_loads);
   Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
-  if (recovery == Recovery::average) {
-    average_stress(seen, seen_cells, elastic, displacement, stress);
+  const bool by_patches = recovery == Recovery::patch;
+  const auto loaded = loaded_groups(loads, impl_->body);
+  if (n_ranks(impl_->communicator) == 1) {
+    recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches, displacement,
+                   stress);
   } else {
-    const auto free = free_faces(seen, loaded_groups(loads, impl_->body));
-    recover_by_patches(seen, seen_cells, impl_->body.cylinders, make_samples(seen, free),
-                       stress_at_samples(seen, free, elastic, displacement), stress);
+    call_helpers(Task::recover_stress, impl_->communicator);
+    together(impl_->communicator, [&] {
+      recover_stress_on_ranks(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches,
+                              displacement, stress, impl_->communicator);
+    });
   }
   responses.nodes = export_nodes(seen, impl_->seen ? impl_->seen->volumes : impl_->integrals);
   respond_on_sections(seen, planes, responses);

@@ -19,10 +19,11 @@
 
 namespace fem {
 
-/// Starts MPI and the threads of deal.II; one object lives as long as the program uses fem.
+/// Starts MPI and the threads of deal.II; one object lives as long as the program uses fem. Further ones
+/// while it lives set the number of threads.
 class Environment {
 public:
-  /// @param n_threads 0: all cores
+  /// @param n_threads of each rank; 0: all cores, shared among the ranks of a machine
   Environment(int& argc, char**& argv, int n_threads);
   ~Environment();
   Environment(const Environment&) = delete;
@@ -60,10 +61,11 @@ struct GeometryError {
 class Model {
 public:
   /// Reads the mesh, attaches the charts, numbers the unknowns.
-  /// @param communicator  whose ranks share the work: one rank so far
+  /// @param communicator  whose ranks share the work: the model lives on rank 0, the others are in
+  /// help_first_rank
   /// @param progress told that reading starts; may be empty
-  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells or several pieces, or the
-  /// communicator has several ranks
+  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells or several pieces, or this is
+  /// not rank 0
   /// @throws std::invalid_argument for impossible material values, or a material of a group without cells
   explicit Model(const Body& body, MPI_Comm communicator = MPI_COMM_WORLD, const Progress& progress = {});
   ~Model();
@@ -79,12 +81,12 @@ public:
   /// @param seats  cylinders known from elsewhere (imported bodies have no charts)
   GeometryError geometry_error(const std::vector<LoadSurface>& seats = {}) const;
 
-  /// The unit loads' responses, all loads as one block: by one factorisation (CHOLMOD) on a statically
-  /// determinate support, or by conjugate gradients on the free body. Every load vector is balanced by a
-  /// rigid-mode body force, f - M R (R'MR)^-1 R'f, so the support carries nothing; displacements have no
-  /// rigid part in the mass norm. The body's elastic supports act on these displacements, and their forces
-  /// close among themselves. A body with clamps is held by them instead, and solved directly: loads act as
-  /// they are, displacements are those in space.
+  /// The unit loads' responses, all loads as one block: by one factorisation (CHOLMOD; MUMPS on several
+  /// ranks) on a statically determinate support, or by conjugate gradients on the free body. Every load
+  /// vector is balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the support carries nothing;
+  /// displacements have no rigid part in the mass norm. The body's elastic supports act on these
+  /// displacements, and their forces close among themselves. A body with clamps is held by them instead, and
+  /// solved directly: loads act as they are, displacements are those in space.
   /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
   /// @param choice of the solver; UnitResponses::solver tells which one was taken and why
   /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces,
@@ -97,7 +99,7 @@ public:
   /// The lowest natural frequencies, ascending, without the rigid motions that nothing holds. Mass and
   /// stiffness are consistent, so frequencies come out from above. Clamps hold the body; elastic supports are
   /// springs to the ground against its whole motion, rigid part included (unlike in unit_responses, where
-  /// inertia carries that part). Same bits for the same body and number of threads.
+  /// inertia carries that part). Rank 0 works alone. Same bits for the same body and number of threads.
   /// @param n_modes  at least 1, at most a tenth of the unknowns that can vibrate: a mesh has no more to say
   /// @throws std::invalid_argument for another number, for clamps that leave a rigid motion, clamps together
   /// with elastic supports

@@ -14,17 +14,21 @@ constexpr std::size_t grain = 2048;  // nodes
 
 PolynomialMultigrid::PolynomialMultigrid(const Grid& grid, const CellOrder& order,
                                          const std::vector<double>& metric, const PerCell<Lame>& elastic,
-                                         CoarseLevel level, const kernel::Kernels& kernels)
+                                         CoarseLevel level, const kernel::Kernels& kernels,
+                                         const SharedNodes* shared)
     : kernels_(&kernels),
-      coarse_(grid, order, metric, elastic, level, kernels),
-      operator_(grid, order, elastic, metric, kernels) {
+      shared_(shared),
+      coarse_(grid, order, metric, elastic, level, kernels, shared),
+      operator_(grid, order, elastic, metric, kernels, nullptr, shared) {
+  auto diagonal = diagonal_blocks(grid, order, metric, elastic);
+  if (shared_ != nullptr) shared_->sum(diagonal, 9);
   smoother_ = std::make_unique<Chebyshev>(
-      diagonal_blocks(grid, order, metric, elastic), smoothing,
+      diagonal, smoothing,
       [&](const Lanes& lanes, const auto& x, auto& y) {
         auto copies = operator_.work_space(lanes);
         operator_.apply(lanes, x, y, copies);
       },
-      kernels);
+      kernels, shared);
 }
 
 PolynomialMultigrid::WorkSpace PolynomialMultigrid::work_space(const Lanes& lanes) const {
@@ -56,6 +60,8 @@ void PolynomialMultigrid::apply(const Lanes& lanes, const BlockVector<float>& b,
     kernels_->combine(lanes.view(), n_nodes, n_coarse, begin, end, coarse_.interpolation().view(), true,
                       work.coarse.data(), x.data());
   });
+  // The cells of two ranks interpolate the same value at a common node, but for rounding.
+  if (shared_ != nullptr) shared_->take_from_owner(lanes, x);
   smoother_->smooth(lanes, stiffness, b, x, false, work.smoothing);
 }
 

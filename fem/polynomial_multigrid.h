@@ -17,10 +17,12 @@ namespace fem {
 class PolynomialMultigrid {
 public:
   /// @param level  how the trilinear displacements are treated: factorised or aggregated
+  /// @param shared  nodes that other ranks have, too; none: one rank
   /// @throws std::runtime_error as CoarseSpace
   PolynomialMultigrid(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
                       const PerCell<Lame>& elastic, CoarseLevel level,
-                      const kernel::Kernels& kernels = kernel::kernels_for_this_machine());
+                      const kernel::Kernels& kernels = kernel::kernels_for_this_machine(),
+                      const SharedNodes* shared = nullptr);
 
   struct WorkSpace {
     Chebyshev::WorkSpace smoothing;
@@ -40,6 +42,7 @@ public:
 
 private:
   const kernel::Kernels* kernels_;
+  const SharedNodes* shared_;
   CoarseSpace coarse_;
   ElasticOperator<float> operator_;
   std::unique_ptr<Chebyshev> smoother_;

@@ -3,13 +3,14 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace fem {
 
 enum class Solver {
   automatic,  ///< of those that suit the body and fit into memory: the iterative one if predicted to save
               ///< more than a second, else the direct one
-  direct,     ///< sparse factorisation (CHOLMOD)
+  direct,     ///< sparse factorisation (CHOLMOD; on several MPI ranks MUMPS)
   iterative,  ///< conjugate gradients with polynomial multigrid; the direct one if that does not converge
 };
 
@@ -35,6 +36,13 @@ struct SolverCost {
   double bytes = 0;
 };
 
+/// The share of one of several MPI ranks.
+struct RankWork {
+  std::size_t n_cells = 0;
+  std::size_t n_unknowns = 0;  ///< that it counts; together all of the body
+  double bytes = 0;            ///< matrix and its part of the factor, or operator, preconditioner and vectors
+};
+
 struct SolverReport {
   Solver used = Solver::direct;
   std::string reason;    ///< why this one; if the iterative one gave up, how
@@ -47,7 +55,8 @@ struct SolverReport {
   /// What a second solve for the residual changed of the largest displacement, relative: how far rounding
   /// may reach, in the matrix too. 0: the residual was too small to ask.
   double rounding = 0;
-  double used_bytes = 0;  ///< matrix and factor, or operator, preconditioner and vectors
+  double used_bytes = 0;  ///< matrix and factor, or operator, preconditioner and vectors; of all ranks
+  std::vector<RankWork> ranks{};  ///< what each of several MPI ranks did; empty: one rank
 
   /// Of the solver used.
   const SolverCost& predicted() const noexcept {

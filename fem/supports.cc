@@ -1,6 +1,7 @@
 #include "fem/supports.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace fem {
@@ -35,9 +36,10 @@ std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
   return unknowns;
 }
 
-Supports::Supports(const std::array<std::int64_t, 6>& unknowns, SymmetricMatrix& matrix)
-    : unknowns_(unknowns), rows_(Eigen::MatrixXd::Zero(6, matrix.n)) {
-  for (int s = 0; s < 6; ++s) {
+Supports::Supports(std::vector<std::int64_t> unknowns, SymmetricMatrix& matrix)
+    : unknowns_(std::move(unknowns)), rows_(Eigen::MatrixXd::Zero(unknowns_.size(), matrix.n)) {
+  const auto n = static_cast<Eigen::Index>(unknowns_.size());
+  for (Eigen::Index s = 0; s < n; ++s) {
     const auto unknown = unknowns_[s];
     // The row left of the diagonal, spread over the columns before it ...
     for (std::int64_t j = 0; j < unknown; ++j) {
@@ -51,7 +53,7 @@ Supports::Supports(const std::array<std::int64_t, 6>& unknowns, SymmetricMatrix&
       rows_(s, matrix.row[k]) = matrix.value[k];
   }
   // Only then are they cleared: the rows of two supports cross.
-  for (int s = 0; s < 6; ++s) {
+  for (Eigen::Index s = 0; s < n; ++s) {
     const auto unknown = unknowns_[s];
     for (std::int64_t j = 0; j < unknown; ++j) {
       if (rows_(s, j) == 0) continue;
@@ -69,8 +71,8 @@ void Supports::clear(Eigen::MatrixXd& vectors) const {
 }
 
 Eigen::MatrixXd Supports::reactions(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const {
-  Eigen::MatrixXd result = rows_ * displacement;
-  for (int r = 0; r < 6; ++r) result.row(r) -= force.row(unknowns_[r]);
+  Eigen::MatrixXd result = images(displacement);
+  for (Eigen::Index r = 0; r < result.rows(); ++r) result.row(r) -= force.row(unknowns_[r]);
   return result;
 }
 

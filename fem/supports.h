@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "fem/grid.h"
 #include "fem/symmetric_matrix.h"
@@ -18,16 +19,25 @@ std::array<std::int64_t, 6> choose_supports(const Grid& grid);
 class Supports {
 public:
   /// Zeroes rows and columns of the unknowns and leaves their diagonal.
-  Supports(const std::array<std::int64_t, 6>& unknowns, SymmetricMatrix& matrix);
+  Supports(const std::array<std::int64_t, 6>& unknowns, SymmetricMatrix& matrix)
+      : Supports(std::vector<std::int64_t>(unknowns.begin(), unknowns.end()), matrix) {}
+  /// Of some of them: those that a part of the body has.
+  Supports(std::vector<std::int64_t> unknowns, SymmetricMatrix& matrix);
 
   /// Sets the supported rows to zero.
   void clear(Eigen::MatrixXd& vectors) const;
 
-  /// K u - f in the supported rows (6 x columns), from the rows taken out.
+  /// The supported rows, ascending.
+  const std::vector<std::int64_t>& unknowns() const noexcept { return unknowns_; }
+
+  /// K u in the supported rows (6 x columns), from the rows taken out.
+  Eigen::MatrixXd images(const Eigen::MatrixXd& displacement) const { return rows_ * displacement; }
+
+  /// K u - f there.
   Eigen::MatrixXd reactions(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const;
 
 private:
-  std::array<std::int64_t, 6> unknowns_;
+  std::vector<std::int64_t> unknowns_;
   Eigen::MatrixXd rows_;  // 6 x n
 };
 

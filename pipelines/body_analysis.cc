@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "fem/helper_ranks.h"
 #include "fem/model.h"
 #include "pipelines/iteration_memory.h"
 #include "pipelines/response_files.h"
@@ -31,7 +32,8 @@ fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body
                                   const RunOptions& options, int n_threads, bool& reused, StageClock& clock) {
   const auto usual = options.directory / "unit_responses.h5";
   const auto file = options.responses.empty() ? usual : options.responses;
-  const auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
+  auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
+  if (const int n = fem::n_ranks(MPI_COMM_WORLD); n > 1) key += "ranks " + std::to_string(n) + '\n';
   if (!options.fresh) {
     for (const auto& place : file == usual ? std::vector{usual} : std::vector{file, usual})
       if (auto kept = clock.run("solve", [&] { return read_unit_responses(place, key); })) {

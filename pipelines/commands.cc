@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "fem/helper_ranks.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/body_analysis.h"
 #include "pipelines/calculix_cards.h"
@@ -30,11 +31,13 @@ namespace pipelines {
 namespace {
 
 /// The envelope as a picture; a machine that cannot draw gets a line instead.
-void draw(const std::filesystem::path& directory, const std::string& title, const std::string& body) {
+/// @param envelope  the .vtu
+void draw(const std::filesystem::path& envelope, const std::filesystem::path& directory,
+          const std::string& title, const std::string& body) {
   PictureOptions options;
   options.scale = 1e-6;
   options.excluded = "excluded";
-  if (!write_picture(directory / "envelope.vtu", "von Mises stress, maximum [Pa]",
+  if (!write_picture(envelope, "von Mises stress, maximum [Pa]",
                      title + ", " + body + ": largest von Mises stress over the cycle", "MPa",
                      directory / "envelope.png", options))
     std::cerr << "no picture: this machine offers no EGL (package libegl1); envelope.vtu opens in ParaView\n";
@@ -102,8 +105,15 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
   const auto channels = run.loaded.channels();
   for (const auto& analysis : run.analyses) {
     const auto place = directory / analysis.scene.name;
-    clock.run("write", [&] { write_body_results(place, run.scene, loads, analysis); });
-    if (scene.pictures) clock.run("pictures", [&] { draw(place, scene.title, analysis.scene.name); });
+    const int n_ranks = fem::n_ranks(MPI_COMM_WORLD);
+    clock.run("write", [&] { write_body_results(place, run.scene, loads, analysis, n_ranks); });
+    if (!scene.pictures) continue;
+    clock.run("pictures", [&] {
+      if (n_ranks == 1) return draw(place / "envelope.vtu", place, scene.title, analysis.scene.name);
+      const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
+      write_whole_envelope(whole.temporary(), run.scene, loads, analysis);
+      draw(whole.temporary(), place, scene.title, analysis.scene.name);
+    });
   }
   clock.run("write", [&] { write_load_results(directory, loads, channels); });
   finish_run(options, out, directory,

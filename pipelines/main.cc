@@ -1,10 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 
+#include "fem/helper_ranks.h"
+#include "fem/model.h"
 #include "pipelines/commands.h"
+#include "pipelines/fem_environment.h"
 #include "pipelines/scene.h"
+#include "pipelines/several_ranks.h"
 #include "pipelines/version.h"
 
 namespace {
@@ -36,9 +41,9 @@ int guarded(Command&& command) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// The program on this rank: rank 0 does what the arguments say, any other one helps it to solve.
+int run(int argc, char** argv) {
+  const bool first = fem::this_rank(MPI_COMM_WORLD) == 0;
   CLI::App app{"From the kinetics of a mill to stress zones in its shaft."};
   app.set_version_flag("--version", std::string("millstress ") + pipelines::version);
   app.require_subcommand(1);
@@ -109,7 +114,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : scene_is_wrong;
+    if (first) return app.exit(error) == 0 ? done : scene_is_wrong;
+  }
+  if (!first) {
+    const pipelines::FemEnvironment threads(options.n_threads);
+    return fem::help_first_rank();
   }
   using pipelines::Verbosity;
   options.verbosity = quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
@@ -139,4 +148,14 @@ int main(int argc, char** argv) {
       pipelines::check_command(options, std::cout);
     }
   });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::optional<fem::Environment> ranks;
+  if (pipelines::started_on_several_ranks()) ranks.emplace(argc, argv, 0);
+  const int code = run(argc, argv);
+  if (ranks && fem::this_rank(MPI_COMM_WORLD) == 0) fem::dismiss_helpers(code);
+  return code;
 }

@@ -130,6 +130,9 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
     out << fmt::format("  solved by factorisation ({})\n", solver.reason);
   out << fmt::format("  the solver took {:.2f} GB, {:.2f} GB were predicted\n", 1e-9 * solver.used_bytes,
                      1e-9 * solver.predicted().bytes);
+  for (std::size_t r = 0; r < solver.ranks.size(); ++r)
+    out << fmt::format("    rank {}: {} of the unknowns, {:.2f} GB\n", r, solver.ranks[r].n_unknowns,
+                       1e-9 * solver.ranks[r].bytes);
   out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
                      analysis.closure.worst_moment());
   print_masses(out, report, analysis);

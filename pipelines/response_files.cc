@@ -111,6 +111,11 @@ fem::UnitResponses read(const Hdf5Reader& in) {
   r.solver.gave_up = in.number_attribute("/", "solver_gave_up") > 0;
   r.solver.used_bytes = in.number_attribute("/", "solver_bytes");
   predicted_of_used(r.solver).bytes = in.number_attribute("/", "solver_bytes_predicted");
+  if (!in.has("/ranks")) return r;
+  const auto ranks = in.numbers("/ranks");
+  for (std::size_t i = 0; i + 2 < ranks.size(); i += 3)
+    r.solver.ranks.push_back(
+        {static_cast<std::size_t>(ranks[i]), static_cast<std::size_t>(ranks[i + 1]), ranks[i + 2]});
   return r;
 }
 
@@ -137,6 +142,11 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
   std::vector<double> rings;
   for (const auto& ring : responses.rings)
     rings.insert(rings.end(), {ring.z_m, ring.radius_m, static_cast<double>(ring.boundary_id)});
+  std::vector<double> ranks;
+  for (const auto& rank : responses.solver.ranks)
+    ranks.insert(ranks.end(), {double(rank.n_cells), double(rank.n_unknowns), rank.bytes});
+  if (!ranks.empty())
+    out.write("/ranks", ranks.data(), {ranks.size() / 3, 3}, {"", "cells, unknowns, bytes of each MPI rank"});
   out.write("/rings", rings.data(), {responses.rings.size(), 3}, {"", "z [m], radius [m], boundary id"});
 
   const Counts n = {responses.nodes.n,         responses.nodes.n_cells(), responses.nodes.n_faces(),

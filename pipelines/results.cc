@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "fem/cell_shares.h"
 #include "pipelines/csv.h"
 #include "pipelines/load_files.h"
 #include "pipelines/statistics.h"
@@ -24,8 +25,18 @@ std::vector<double> flatten(const std::vector<Stress>& tensors) {
   return values;
 }
 
+/// What an earlier run on another number of ranks has left.
+void remove_other_envelopes(const path& directory, int n_pieces) {
+  if (n_pieces > 1)
+    std::filesystem::remove(directory / "envelope.vtu");
+  else
+    std::filesystem::remove(directory / "envelope.pvtu");
+  for (int piece = n_pieces > 1 ? n_pieces : 0;; ++piece)
+    if (!std::filesystem::remove(directory / ("envelope_" + std::to_string(piece) + ".vtu"))) return;
+}
+
 void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                    const BodyAnalysis& analysis) {
+                    const BodyAnalysis& analysis, int n_pieces) {
   const auto& nodes = analysis.responses.nodes;
   const auto& envelope = analysis.envelope;
   const auto& effects = analysis.loads.history.effects;
@@ -53,12 +64,15 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
       nodal_field("drive angle of largest principal stress [deg]", angle_1),
       nodal_field("stress at largest principal stress [Pa]", tensor_1, 6, tensor_components),
       nodal_field("effect share", envelope.effect_share, int(effects.size()), effects)};
-  write_envelope_vtu(file, nodes, fields,
-                     {{"zone", analysis.zones.zone_of_node},
-                      {"turn of maximum", turn},
-                      {"instant of maximum", envelope.von_mises.instant},
-                      {"excluded", std::vector<std::int32_t>(analysis.places.excluded.begin(),
-                                                             analysis.places.excluded.end())}});
+  const std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},
+                                 {"turn of maximum", turn},
+                                 {"instant of maximum", envelope.von_mises.instant},
+                                 {"excluded", std::vector<std::int32_t>(analysis.places.excluded.begin(),
+                                                                        analysis.places.excluded.end())}};
+  if (n_pieces > 1)
+    write_envelope_pieces(file, nodes, fem::shares_of_cells(nodes, n_pieces), n_pieces, fields, ids);
+  else
+    write_envelope_vtu(file, nodes, fields, ids);
 }
 
 /// What an earlier run with other snapshots has left, so that the folder shows one run.
@@ -259,14 +273,21 @@ void write_load_results(const path& directory, const kinetics::LoadHistory& load
 }
 
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                        const BodyAnalysis& analysis) {
-  write_envelope(directory / "envelope.vtu", scene, loads, analysis);
+                        const BodyAnalysis& analysis, int n_pieces) {
+  write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
+                 n_pieces);
+  remove_other_envelopes(directory, n_pieces);
   write_cycle(directory, scene, loads, analysis);
   write_zones(directory / "zones.csv", scene, loads, analysis);
   if (!analysis.hot_spots.empty()) write_hot_spots(directory / "hot_spots.csv", scene, loads, analysis);
   if (!analysis.diagrams) return;
   write_diagrams(directory / "diagrams.csv", analysis);
   write_torsion(directory, loads, analysis);
+}
+
+void write_whole_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
+                          const BodyAnalysis& analysis) {
+  write_envelope(file, scene, loads, analysis, 1);
 }
 
 }  // namespace pipelines

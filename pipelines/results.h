@@ -17,8 +17,14 @@ void write_load_results(const std::filesystem::path& directory, const kinetics::
 /// In `directory`: envelope.vtu, cycle.pvd with cycle_*.vtu, zones.csv; hot_spots.csv for a body with weld
 /// toes; diagrams.csv, torsion.csv, torsion_cycle.csv for a parametric shaft or drum. Snapshots of an earlier
 /// run that this one does not write are removed, so that the folder shows one run.
+/// @param n_pieces  of the envelope, one for each MPI rank: with several of them envelope.pvtu and
+/// envelope_<rank>.vtu stand for envelope.vtu
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,
-                        const kinetics::LoadHistory& loads, const BodyAnalysis& analysis);
+                        const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces = 1);
+
+/// What envelope.vtu has, in one file of any name.
+void write_whole_envelope(const std::filesystem::path& file, const Scene& scene,
+                          const kinetics::LoadHistory& loads, const BodyAnalysis& analysis);
 
 /// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
 struct Moment {

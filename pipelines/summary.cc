@@ -210,6 +210,9 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
                     {"gave_up", solver.gave_up},
                     {"bytes", number(solver.used_bytes)},
                     {"predicted_bytes", number(solver.predicted().bytes)}};
+  for (const auto& rank : solver.ranks)
+    json["solver"]["ranks"].push_back(
+        {{"cells", rank.n_cells}, {"unknowns", rank.n_unknowns}, {"bytes", number(rank.bytes)}});
   return json;
 }
 

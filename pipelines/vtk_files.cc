@@ -51,6 +51,10 @@ bool fits_single_precision(const NodalField& field) {
                           largest > 1e6 * double(std::numeric_limits<float>::min()));
 }
 
+bool is_single(const NodalField& field) {
+  return field.precision == FieldPrecision::float32 && fits_single_precision(field);
+}
+
 void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n_nodes,
                const std::vector<std::int32_t>& chosen) {
   const auto n_components = static_cast<std::size_t>(field.n_components);
@@ -61,7 +65,7 @@ void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n
                                 " components at " + std::to_string(n_nodes) +
                                 " nodes, or the names of the components are not as many");
   vtkSmartPointer<vtkDataArray> array;
-  if (field.precision == FieldPrecision::float32 && fits_single_precision(field))
+  if (is_single(field))
     array = array_of<vtkFloatArray>(field.values, field.n_components, chosen);
   else
     array = array_of<vtkDoubleArray>(field.values, field.n_components, chosen);
@@ -195,6 +199,70 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
   const Cells cells = {tetrahedra ? VTK_QUADRATIC_TETRA : VTK_TRIQUADRATIC_HEXAHEDRON, nodes.nodes_per_cell(),
                        nodes.cells};
   write_grid(path, cells, nodes, all, fields, ids, {}, compression);
+}
+
+namespace {
+
+std::string data_array(const std::string& type, const std::string& name, int n_components,
+                       const std::vector<std::string>& component_names) {
+  std::string text = "      <PDataArray type=\"" + type + "\" Name=\"" + escaped(name) +
+                     "\" NumberOfComponents=\"" + std::to_string(n_components) + "\"";
+  for (std::size_t c = 0; c < component_names.size(); ++c)
+    text += " ComponentName" + std::to_string(c) + "=\"" + escaped(component_names[c]) + "\"";
+  return text + "/>\n";
+}
+
+/// What all pieces have, and where they are.
+std::string joining_text(const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
+                         const std::vector<std::string>& pieces) {
+  std::string at_nodes, at_cells, sources;
+  for (const auto& field : fields)
+    at_nodes += data_array(is_single(field) ? "Float32" : "Float64", field.name, field.n_components,
+                           field.component_names);
+  for (const auto& id : ids)
+    (id.at == IdField::At::nodes ? at_nodes : at_cells) += data_array("Int32", id.name, 1, {});
+  for (const auto& piece : pieces) sources += "    <Piece Source=\"" + escaped(piece) + "\"/>\n";
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
+         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"0\">\n"
+         "    <PPointData>\n" +
+         at_nodes + "    </PPointData>\n    <PCellData>\n" + at_cells + "    </PCellData>\n    <PPoints>\n" +
+         data_array("Float64", "Points", 3, {}) + "    </PPoints>\n" + sources +
+         "  </PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& nodes,
+                           const std::vector<int>& piece_of_cell, int n_pieces,
+                           const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
+                           VtuCompression compression) {
+  const int type =
+      nodes.kind == fem::CellKind::tetrahedra ? VTK_QUADRATIC_TETRA : VTK_TRIQUADRATIC_HEXAHEDRON;
+  std::vector<std::string> names;
+  for (int piece = 0; piece < n_pieces; ++piece) {
+    std::vector<std::int32_t> place(nodes.n, -1), chosen, cells;
+    auto own_ids = ids;
+    for (auto& id : own_ids)
+      if (id.at == IdField::At::cells) id.values.clear();
+    for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+      if (piece_of_cell[c] != piece) continue;
+      for (const auto node : nodes.cell(c)) place[node] = 0;
+      for (std::size_t i = 0; i < ids.size(); ++i)
+        if (ids[i].at == IdField::At::cells) own_ids[i].values.push_back(ids[i].values.at(c));
+    }
+    for (std::size_t node = 0; node < nodes.n; ++node)
+      if (place[node] == 0) {
+        place[node] = static_cast<std::int32_t>(chosen.size());
+        chosen.push_back(static_cast<std::int32_t>(node));
+      }
+    for (std::size_t c = 0; c < nodes.n_cells(); ++c)
+      if (piece_of_cell[c] == piece)
+        for (const auto node : nodes.cell(c)) cells.push_back(place[node]);
+    names.push_back(pvtu.stem().string() + "_" + std::to_string(piece) + ".vtu");
+    write_grid(pvtu.parent_path() / names.back(), {type, nodes.nodes_per_cell(), cells}, nodes, chosen,
+               fields, own_ids, {}, compression);
+  }
+  write_text_file(pvtu, joining_text(fields, ids, names));
 }
 
 void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,

@@ -54,6 +54,16 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
                         const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
                         VtuCompression compression = VtuCompression::zlib);
 
+/// The whole body in pieces, one file each beside the .pvtu that joins them: envelope.pvtu, envelope_0.vtu,
+/// envelope_1.vtu ... Nodes between pieces are in each of them.
+/// @param pvtu  path of the file that joins them
+/// @param piece_of_cell  0 .. n_pieces - 1
+/// @throws as write_envelope_vtu
+void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& nodes,
+                           const std::vector<int>& piece_of_cell, int n_pieces,
+                           const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
+                           VtuCompression compression = VtuCompression::zlib);
+
 /// The surface alone: VTK_BIQUADRATIC_QUAD or VTK_QUADRATIC_TRIANGLE over the nodes that lie on a boundary
 /// face, in ascending order of their numbers; the cell field `boundary_id` is added.
 /// @param fields, ids  at all nodes of the body, as for write_envelope_vtu; ids at cells: one per boundary

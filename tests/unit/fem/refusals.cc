@@ -6,7 +6,6 @@
 #include "fem/cell_geometry.h"
 #include "fem/mesh_reader.h"
 #include "fem/model.h"
-#include "fem/ranks.h"
 #include "fem/surface_loads.h"
 #include "shaft_bodies.h"
 
@@ -92,12 +91,6 @@ TEST_F(Refusals, inverted_cells) {
   for (int d = 0; d < 3; ++d) grid.xyz_m[3 * corner + d] = 1.5 * grid.xyz_m[3 * opposite + d];
   expect_words(message<std::runtime_error>([&] { fem::refuse_inverted_cells(grid); }),
                {"inverted", "volume"});
-}
-
-TEST_F(Refusals, several_ranks) {
-  EXPECT_NO_THROW(fem::refuse_several_ranks(1));
-  expect_words(message<std::runtime_error>([] { fem::refuse_several_ranks(4); }),
-               {"4 MPI ranks", "without mpirun"});
 }
 
 TEST_F(Refusals, a_seat_that_does_not_go_round_its_axis) {

@@ -1,0 +1,28 @@
+/// Several MPI ranks. Rank 0 runs the program; the others help it to solve and to recover stress. No deal.II.
+#pragma once
+
+#include <mpi.h>
+
+namespace fem {
+
+/// Ranks of the communicator; 1 if MPI was not started.
+int n_ranks(MPI_Comm communicator);
+
+/// 0 if MPI was not started.
+int this_rank(MPI_Comm communicator);
+
+/// On every rank but 0: takes part in what the models of rank 0 solve, until it dismisses its helpers. What
+/// fails is thrown on rank 0.
+/// @return the number given to dismiss_helpers
+int help_first_rank(MPI_Comm communicator = MPI_COMM_WORLD);
+
+/// On rank 0, at the end: the others return from help_first_rank. Nothing happens on one rank.
+void dismiss_helpers(int exit_code = 0, MPI_Comm communicator = MPI_COMM_WORLD);
+
+/// What rank 0 can ask for. Internal to fem.
+enum class Task { end, tell_memory, solve_directly, solve_iteratively, recover_stress };
+
+/// Rank 0: the others take part in the task that it begins now. Internal to fem.
+void call_helpers(Task task, MPI_Comm communicator);
+
+}  // namespace fem

@@ -1,0 +1,41 @@
+// A rank recovers the stress of its nodes on a part of the mesh, and takes the same steps as on the whole.
+#include <gtest/gtest.h>
+
+#include "fem/cell_materials.h"
+#include "fem/helper_ranks.h"
+#include "fem/mesh_reader.h"
+#include "fem/recovery_on_ranks.h"
+#include "shaft_bodies.h"
+#include "tetrahedra.h"
+
+namespace {
+
+void expect_same_bits(const fem::Grid& grid, const std::vector<fem::CylinderChart>& charts,
+                      const std::vector<int>& loaded) {
+  const auto cells = fem::cells_of_nodes(grid);
+  const auto elastic = fem::CellMaterials(fem_tests::steel).elastic();
+  const fem::RowMajor displacement = 1e-6 * fem::RowMajor::Random(grid.n_nodes, 6);
+  for (const bool by_patches : {true, false}) {
+    fem::RowMajor one(grid.n_nodes, 12), several(grid.n_nodes, 12);
+    fem::recover_stress(grid, cells, elastic, charts, loaded, by_patches, displacement, one);
+    fem::call_helpers(fem::Task::recover_stress, MPI_COMM_WORLD);
+    fem::recover_stress_on_ranks(grid, cells, elastic, charts, loaded, by_patches, displacement, several,
+                                 MPI_COMM_WORLD);
+    ASSERT_GT(one.norm(), 0);
+    EXPECT_EQ((one - several).norm(), 0) << (by_patches ? "patches" : "averages");
+  }
+}
+
+TEST(Recovery, of_hexahedra_with_charts) {
+  const auto shaft = fem_tests::eccentric_shaft(2);
+  expect_same_bits(fem::read_grid(shaft.body), shaft.body.cylinders, {shaft.ports.at("end_1").boundary_id});
+}
+
+TEST(Recovery, of_tetrahedra) {
+  const auto grid = fem_tests::tetrahedra_block({1, 1, 30}, [](const fem_tests::Point& x) {
+    return fem_tests::Point(x[0], x[1] + 0.2 * x[2] * x[2], 30 * x[2]);
+  });
+  expect_same_bits(grid, {}, {5});
+}
+
+}  // namespace

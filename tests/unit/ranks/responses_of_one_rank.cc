@@ -1,0 +1,193 @@
+// Several ranks give what one rank gives. The same program has both: a communicator of one rank, and that of
+// all ranks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "fem/helper_ranks.h"
+#include "fem/model.h"
+#include "shaft_bodies.h"
+#include "tetrahedra.h"
+
+namespace {
+
+using Component = fem::SurfaceResultant::Component;
+
+/// Of the largest entry of each channel. Both answers are right to their residual times what the stiffness
+/// amplifies: rounding, 1e-16 times a condition of 1e4 to 1e6 for the factor; 1e-12 asked of the iteration.
+constexpr double same_answer = 1e-10;
+
+double difference(const std::vector<double>& a, const std::vector<double>& b, std::size_t n_channels,
+                  std::size_t n_components) {
+  EXPECT_EQ(a.size(), b.size());
+  EXPECT_FALSE(a.empty());
+  double worst = 0;
+  for (std::size_t k = 0; k < n_channels; ++k) {
+    double largest = 0, scale = 0;
+    for (std::size_t i = k * n_components; i < a.size(); i += n_channels * n_components)
+      for (std::size_t c = 0; c < n_components; ++c) {
+        largest = std::max(largest, std::abs(a[i + c] - b[i + c]));
+        scale = std::max(scale, std::abs(b[i + c]));
+      }
+    EXPECT_GT(scale, 0) << "channel " << k;
+    worst = std::max(worst, largest / scale);
+  }
+  return worst;
+}
+
+struct Ranks : testing::Test {
+  static int number() { return fem::n_ranks(MPI_COMM_WORLD); }
+  void SetUp() override { ASSERT_GT(number(), 1) << "to be started by mpirun -n 2"; }
+
+  static fem::UnitResponses solve(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
+                                  fem::Solver solver, MPI_Comm communicator) {
+    fem::SolverChoice choice;
+    choice.solver = solver;
+    choice.relative_tolerance = 1e-12;
+    return fem::Model(body, communicator).unit_responses(loads, {}, fem::Recovery::patch, {}, choice);
+  }
+
+  /// @return of several ranks
+  static fem::UnitResponses expect_same(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
+                                        fem::Solver solver) {
+    const auto one = solve(body, loads, solver, MPI_COMM_SELF);
+    auto several = solve(body, loads, solver, MPI_COMM_WORLD);
+    EXPECT_EQ(one.solver.used, solver) << one.solver.reason;
+    EXPECT_EQ(several.solver.used, solver) << several.solver.reason;
+    EXPECT_TRUE(one.solver.ranks.empty());
+    const double displacement = difference(several.displacement_m, one.displacement_m, loads.size(), 3),
+                 stress = difference(several.stress_Pa, one.stress_Pa, loads.size(), 6);
+    std::cout << "  differences: displacement " << displacement << ", stress " << stress << '\n';
+    EXPECT_LT(displacement, same_answer);
+    EXPECT_LT(stress, same_answer);
+    EXPECT_LT(several.residual, 1e-8);  // as one rank must have it
+    expect_shares(several);
+    return several;
+  }
+
+  /// Every rank has its share: cells to one, unknowns to what the interface between two shares has.
+  static void expect_shares(const fem::UnitResponses& responses) {
+    const auto& ranks = responses.solver.ranks;
+    ASSERT_EQ(int(ranks.size()), number());
+    std::size_t unknowns = 0, most = 0, fewest = std::size_t(-1);
+    for (const auto& rank : ranks) {
+      unknowns += rank.n_unknowns;
+      most = std::max(most, rank.n_cells);
+      fewest = std::min(fewest, rank.n_cells);
+      EXPECT_GT(rank.bytes, 0);
+      EXPECT_LT(double(rank.n_unknowns), 1.3 * double(responses.n_dofs) / number());
+    }
+    EXPECT_EQ(unknowns, responses.n_dofs) << "every unknown is counted once";
+    EXPECT_LE(most - fewest, 1u);
+  }
+};
+
+std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
+  std::vector<fem::UnitLoad> loads;
+  for (const auto c : {Component::fx, Component::fz, Component::torque})
+    for (const auto* port : {"end_1", "end_2"}) loads.push_back(fem_tests::resultant(shaft, port, c));
+  loads.push_back({"volume.omega2", fem::BodyForce{fem::BodyForce::Field::spin}});
+  return loads;
+}
+
+TEST_F(Ranks, hexahedra_directly) {
+  const auto shaft = fem_tests::eccentric_shaft(2);
+  const auto responses = expect_same(shaft.body, some_loads(shaft), fem::Solver::direct);
+  EXPECT_LT(responses.support_reaction, 1e-9) << "balanced loads leave round-off to the support";
+  EXPECT_GT(responses.factor_gigabytes, 0);
+}
+
+TEST_F(Ranks, hexahedra_iteratively) {
+  const auto shaft = fem_tests::eccentric_shaft(2);
+  const auto responses = expect_same(shaft.body, some_loads(shaft), fem::Solver::iterative);
+  EXPECT_GT(responses.solver.n_iterations, 4);
+}
+
+TEST_F(Ranks, cubic_hexahedra_iteratively_with_aggregates) {
+  auto rod = fem_tests::rod(8);
+  rod.body.degree = 3;
+  fem::SolverChoice choice{fem::Solver::iterative, 1e-12, 100, fem::CoarseLevel::aggregated};
+  const auto loads = some_loads(rod);
+  const auto solve = [&](MPI_Comm communicator) {
+    return fem::Model(rod.body, communicator).unit_responses(loads, {}, fem::Recovery::patch, {}, choice);
+  };
+  const auto one = solve(MPI_COMM_SELF), several = solve(MPI_COMM_WORLD);
+  ASSERT_EQ(several.solver.used, fem::Solver::iterative) << several.solver.reason;
+  EXPECT_LT(difference(several.displacement_m, one.displacement_m, loads.size(), 3), same_answer);
+  EXPECT_LE(std::abs(several.solver.n_iterations - one.solver.n_iterations), 2)
+      << "the preconditioner is the same but for the aggregates' order";
+}
+
+TEST_F(Ranks, iteration_repeats_bit_by_bit) {
+  const auto shaft = fem_tests::eccentric_shaft(2);
+  const auto loads = some_loads(shaft);
+  const auto first = solve(shaft.body, loads, fem::Solver::iterative, MPI_COMM_WORLD),
+             second = solve(shaft.body, loads, fem::Solver::iterative, MPI_COMM_WORLD);
+  EXPECT_EQ(first.displacement_m, second.displacement_m);
+  EXPECT_EQ(first.stress_Pa, second.stress_Pa);
+}
+
+TEST_F(Ranks, clamped_rod) {
+  auto rod = fem_tests::rod();
+  rod.body.clamps = {{rod.ports.at("end_1").boundary_id}};
+  const auto responses = expect_same(rod.body,
+                                     {fem_tests::resultant(rod, "end_2", Component::fx),
+                                      fem_tests::resultant(rod, "end_2", Component::torque),
+                                      {"volume.az", fem::BodyForce{fem::BodyForce::Field::translation_z}}},
+                                     fem::Solver::direct);
+  EXPECT_EQ(responses.support_reaction, 0);
+}
+
+TEST_F(Ranks, springs) {
+  for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
+    auto rod = fem_tests::rod();
+    for (const auto* end : {"end_1", "end_2"})
+      rod.body.elastic_supports.push_back({rod.ports.at(end), {1e8, 1e7, 1e9}});
+    expect_same(rod.body, some_loads(rod), solver);
+  }
+}
+
+TEST_F(Ranks, two_materials) {
+  auto rod = fem_tests::rod();
+  const auto group = rod.body.cylinders.front().volume_id;
+  rod.body.material_of_volume[group] = {70e9, 0.33, 2700};
+  expect_same(rod.body, some_loads(rod), fem::Solver::direct);
+}
+
+TEST_F(Ranks, tetrahedra_directly) {
+  const auto rod = fem_tests::rod();  // for its directory
+  const auto grid = fem_tests::tetrahedra_block({2, 2, 8}, [](const fem_tests::Point& x) {
+    return fem_tests::Point(x[0] + 0.05 * x[2] * x[2], x[1], 4 * x[2]);
+  });
+  fem::Body body;
+  body.mesh = rod.body.mesh.parent_path() / "block.msh";
+  std::ofstream(body.mesh) << fem_tests::as_msh(grid);
+  body.material = fem_tests::steel;
+  std::vector<fem::UnitLoad> loads;
+  for (const auto c : {Component::fx, Component::fz, Component::mx})
+    for (const int end : {5, 6}) {
+      fem::LoadSurface face;
+      face.kind = fem::LoadSurface::Kind::face;
+      face.boundary_id = end;
+      loads.push_back({std::to_string(end) + "." + std::to_string(int(c)), fem::SurfaceResultant{face, c}});
+    }
+  expect_same(body, loads, fem::Solver::direct);
+}
+
+// All ranks hear of it, and the helpers are there for the next body.
+TEST_F(Ranks, failures_leave_the_ranks_in_step) {
+  auto rod = fem_tests::rod();
+  const auto loads = some_loads(rod);
+  auto weak = rod.body;
+  weak.material.poisson_ratio = 0.499999;
+  fem::SolverChoice choice{fem::Solver::iterative, 1e-12, 3};
+  const auto handed_over =
+      fem::Model(weak, MPI_COMM_WORLD).unit_responses(loads, {}, fem::Recovery::average, {}, choice);
+  EXPECT_TRUE(handed_over.solver.gave_up) << handed_over.solver.reason;
+  EXPECT_EQ(handed_over.solver.used, fem::Solver::direct);
+  expect_same(rod.body, loads, fem::Solver::direct);
+}
+
+}  // namespace
