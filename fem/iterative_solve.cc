@@ -79,6 +79,7 @@ std::optional<Solution> iterate(const Grid& grid, const CellOrder& order, const 
                                 const SolverChoice& choice, const StepReport& progress, std::string& failure,
                                 const SharedNodes* shared) {
   const auto& kernels = kernel::kernels_for_this_machine();
+  release_free_memory();  // of meshing
   auto metric = cell_metric(grid, order);
   const PolynomialMultigrid multigrid(grid, order, metric, elastic, choice.coarse_level, kernels, shared);
   const ElasticOperator<double> stiffness(grid, order, elastic, std::move(metric), kernels,
@@ -94,6 +95,7 @@ std::optional<Solution> iterate(const Grid& grid, const CellOrder& order, const 
   const Eigen::Index even = std::min(width, ((n_loads + n_blocks - 1) / n_blocks + 3) / 4 * 4);
   for (Eigen::Index first = 0; first < n_loads; first += even) {
     progress(0.2 + 0.65 * double(first) / double(n_loads), "iterate");
+    release_free_memory();  // the vectors of the block before
     const auto end = solver.solve(loads, first, std::min(even, n_loads - first), modulus_Pa, solution);
     if (end != BlockCgEnd::converged || !(solution.residual <= acceptable_residual)) {
       failure = describe(end, solution.n_iterations, solution.residual);
