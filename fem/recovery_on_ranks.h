@@ -20,7 +20,7 @@ void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<L
                     bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress);
 
 /// The same; every rank does the nodes that it counts, on its cells and as many layers around them as these
-/// nodes' patches reach: no bit differs from one rank's work. Called on rank 0, while the others are in
+/// nodes' patches reach: the same steps as on one rank. Called on rank 0, while the others are in
 /// help_to_recover_stress.
 void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
                              const std::vector<CylinderChart>& charts, const std::vector<int>& loaded_groups,

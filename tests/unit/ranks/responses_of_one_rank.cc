@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "fem/helper_ranks.h"
+#include "fem/mesh_reader.h"
 #include "fem/model.h"
+#include "fem/subdomain.h"
 #include "shaft_bodies.h"
 #include "tetrahedra.h"
 
@@ -105,6 +108,24 @@ TEST_F(Ranks, hexahedra_iteratively) {
   EXPECT_GT(responses.solver.n_iterations, 4);
 }
 
+// Four ranks have a quarter of it each, and nodes in the middle that all of them share.
+TEST_F(Ranks, disc_iteratively) {
+  meshes::Shaft shaft;
+  shaft.segments = {{"disc", 0, 0.02, 0.1, 0, true}};
+  meshes::ShaftMeshControl control;
+  control.n_sectors = 8;
+  const auto disc = fem_tests::build(shaft, control);
+  const auto grid = fem::read_grid(disc.body);
+  const auto rank = fem::ranks_of_cells(grid, number());
+  std::vector<std::set<int>> at_node(grid.n_nodes);
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (int i = 0; i < grid.nodes_per_cell(); ++i) at_node[grid.nodes_of(c)[i]].insert(rank[c]);
+  std::size_t most = 0;
+  for (const auto& ranks : at_node) most = std::max(most, ranks.size());
+  EXPECT_EQ(int(most), number());
+  expect_same(disc.body, some_loads(disc), fem::Solver::iterative);
+}
+
 TEST_F(Ranks, cubic_hexahedra_iteratively_with_aggregates) {
   auto rod = fem_tests::rod(8);
   rod.body.degree = 3;
@@ -127,6 +148,9 @@ TEST_F(Ranks, iteration_repeats_bit_by_bit) {
              second = solve(shaft.body, loads, fem::Solver::iterative, MPI_COMM_WORLD);
   EXPECT_EQ(first.displacement_m, second.displacement_m);
   EXPECT_EQ(first.stress_Pa, second.stress_Pa);
+  const auto direct = solve(shaft.body, loads, fem::Solver::direct, MPI_COMM_WORLD),
+             again = solve(shaft.body, loads, fem::Solver::direct, MPI_COMM_WORLD);
+  std::cout << "  MUMPS twice: " << difference(direct.displacement_m, again.displacement_m, loads.size(), 3) << '\n';
 }
 
 TEST_F(Ranks, clamped_rod) {

@@ -10,8 +10,12 @@
 
 namespace {
 
-void expect_same_bits(const fem::Grid& grid, const std::vector<fem::CylinderChart>& charts,
-                      const std::vector<int>& loaded) {
+/// Sums inside Eigen begin where memory is aligned: a few roundings, which random displacements do not
+/// enlarge.
+constexpr double alignment = 1e-14;
+
+void expect_same(const fem::Grid& grid, const std::vector<fem::CylinderChart>& charts,
+                 const std::vector<int>& loaded) {
   const auto cells = fem::cells_of_nodes(grid);
   const auto elastic = fem::CellMaterials(fem_tests::steel).elastic();
   const fem::RowMajor displacement = 1e-6 * fem::RowMajor::Random(grid.n_nodes, 6);
@@ -22,20 +26,20 @@ void expect_same_bits(const fem::Grid& grid, const std::vector<fem::CylinderChar
     fem::recover_stress_on_ranks(grid, cells, elastic, charts, loaded, by_patches, displacement, several,
                                  MPI_COMM_WORLD);
     ASSERT_GT(one.norm(), 0);
-    EXPECT_EQ((one - several).norm(), 0) << (by_patches ? "patches" : "averages");
+    EXPECT_LT((one - several).norm(), alignment * one.norm()) << (by_patches ? "patches" : "averages");
   }
 }
 
 TEST(Recovery, of_hexahedra_with_charts) {
   const auto shaft = fem_tests::eccentric_shaft(2);
-  expect_same_bits(fem::read_grid(shaft.body), shaft.body.cylinders, {shaft.ports.at("end_1").boundary_id});
+  expect_same(fem::read_grid(shaft.body), shaft.body.cylinders, {shaft.ports.at("end_1").boundary_id});
 }
 
 TEST(Recovery, of_tetrahedra) {
   const auto grid = fem_tests::tetrahedra_block({1, 1, 30}, [](const fem_tests::Point& x) {
     return fem_tests::Point(x[0], x[1] + 0.2 * x[2] * x[2], 30 * x[2]);
   });
-  expect_same_bits(grid, {}, {5});
+  expect_same(grid, {}, {5});
 }
 
 }  // namespace
