@@ -1,22 +1,31 @@
 #include "fem/ranks.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <iostream>
 
 #include "fem/solver_prediction.h"
 
 namespace fem {
 
+namespace {
+
+bool mpi_runs() {
+  int started = 0, ended = 0;
+  MPI_Initialized(&started);
+  MPI_Finalized(&ended);
+  return started != 0 && ended == 0;
+}
+
+}  // namespace
+
 int n_ranks(MPI_Comm communicator) {
-  return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(communicator));
+  int n = 1;
+  if (mpi_runs()) MPI_Comm_size(communicator, &n);
+  return n;
 }
 
 int this_rank(MPI_Comm communicator) {
-  int started = 0;
-  MPI_Initialized(&started);
   int rank = 0;
-  if (started != 0) MPI_Comm_rank(communicator, &rank);
+  if (mpi_runs()) MPI_Comm_rank(communicator, &rank);
   return rank;
 }
 
