@@ -11,6 +11,7 @@
 #include "fem/connected_pieces.h"
 #include "fem/direct_solve.h"
 #include "fem/elastic_supports.h"
+#include "fem/energy_error.h"
 #include "fem/geometry_error.h"
 #include "fem/grid.h"
 #include "fem/iterative_solve.h"
@@ -234,10 +235,10 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   if (recovery == Recovery::average) {
     average_stress(seen, seen_cells, elastic, displacement, stress);
   } else {
-    const auto free = free_faces(seen, loaded_groups(loads, impl_->body));
-    recover_by_patches(seen, seen_cells, impl_->body.cylinders, make_samples(seen, free),
-                       stress_at_samples(seen, free, elastic, displacement), stress);
+    recover_stress(seen, seen_cells, impl_->body.cylinders,
+                   free_faces(seen, loaded_groups(loads, impl_->body)), elastic, displacement, stress);
   }
+  responses.energy_error = energy_error(seen, elastic, displacement, stress);
   responses.nodes = export_nodes(seen, impl_->seen ? impl_->seen->volumes : impl_->integrals);
   respond_on_sections(seen, planes, responses);
   respond_on_rings(seen, impl_->body, responses);
