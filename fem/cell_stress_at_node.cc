@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "fem/simplex.h"
+#include "fem/stiffness.h"
 #include "fem/vtk_order.h"
 
 namespace fem {
@@ -69,21 +70,29 @@ std::array<double, 3> gradient_of(const Field& field,
   return gradient;
 }
 
+const Material& material_of(const Nodes& nodes, std::size_t cell, const Material& material,
+                            const std::map<int, Material>& material_of_volume) {
+  if (material_of_volume.empty()) return material;
+  if (nodes.cell_volume_id.size() != nodes.n_cells())
+    throw std::invalid_argument(
+        "cell_stress_at_node_Pa: materials by volume, but the responses do not tell the volumes of cells");
+  const auto own = material_of_volume.find(nodes.cell_volume_id[cell]);
+  return own == material_of_volume.end() ? material : own->second;
+}
+
 }  // namespace
 
-std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(const UnitResponses& responses,
-                                                                       const Material& material,
-                                                                       std::size_t node) {
+std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
+    const UnitResponses& responses, const Material& material, std::size_t node,
+    const std::map<int, Material>& material_of_volume) {
   const std::size_t n_channels = responses.channels.size();
-  const double nu = material.poisson_ratio;
-  const double lambda = material.youngs_modulus_Pa * nu / ((1 + nu) * (1 - 2 * nu));
-  const double mu = material.youngs_modulus_Pa / (2 * (1 + nu));
   std::vector<std::vector<std::array<double, 6>>> stress_Pa;
   const auto& nodes = responses.nodes;
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
     const auto local = local_nodes(nodes.kind, nodes.cell(c));
     const auto found = std::find(local.begin(), local.end(), node);
     if (found == local.end()) continue;
+    const auto [lambda, mu] = lame(material_of(nodes, c, material, material_of_volume));
     auto& of_cell = stress_Pa.emplace_back(n_channels);
     const auto shape_gradients = reference_gradients(nodes.kind, std::size_t(found - local.begin()));
     Matrix3 jacobian;  // d x_i / d reference_j

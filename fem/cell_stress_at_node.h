@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <vector>
 
 #include "fem/body.h"
@@ -10,11 +11,12 @@
 
 namespace fem {
 
-/// @param node  index into responses.nodes
+/// @param material  of the body; of volume groups with a material of their own, that of material_of_volume
+/// @param node      index into responses.nodes
 /// @return for each cell K tensors (xx, yy, zz, xy, yz, xz) [Pa], one per unit load
-/// @throws std::invalid_argument if no cell holds the node
-std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(const UnitResponses& responses,
-                                                                       const Material& material,
-                                                                       std::size_t node);
+/// @throws std::invalid_argument if no cell holds the node, or it is not known which volume a cell belongs to
+std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
+    const UnitResponses& responses, const Material& material, std::size_t node,
+    const std::map<int, Material>& material_of_volume = {});
 
 }  // namespace fem

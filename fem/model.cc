@@ -12,6 +12,7 @@
 #include "fem/direct_on_ranks.h"
 #include "fem/direct_solve.h"
 #include "fem/elastic_supports.h"
+#include "fem/energy_error.h"
 #include "fem/geometry_error.h"
 #include "fem/grid.h"
 #include "fem/helper_ranks.h"
@@ -272,6 +273,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
                               displacement, stress, impl_->communicator);
     });
   }
+  responses.energy_error = energy_error(seen, elastic, displacement, stress);
   responses.nodes = export_nodes(seen, impl_->seen ? impl_->seen->volumes : impl_->integrals);
   respond_on_sections(seen, planes, responses);
   respond_on_rings(seen, impl_->body, responses);

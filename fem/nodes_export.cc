@@ -27,6 +27,7 @@ Nodes export_nodes(const Grid& grid) {
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     for (std::size_t v = 0; v < nodes.nodes_per_cell(); ++v)
       nodes.cells.push_back(grid.nodes_of(c)[as_they_are ? v : vtk_hexahedron_from_lexicographic[v]]);
+  nodes.cell_volume_id.assign(grid.volume_id.begin(), grid.volume_id.end());
   nodes.faces.reserve(grid.boundary.size() * nodes.nodes_per_face());
   for (const auto& face : grid.boundary) {
     const auto local = nodes_of_face(grid, face.cell, face.face);

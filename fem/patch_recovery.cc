@@ -137,25 +137,32 @@ struct PatchOperator {
 };
 
 PatchOperator patch_operator(const Grid& grid, const CellsOfNodes& cells, const PatchGeometry& geometry,
-                             const Patch& patch) {
+                             const PatchRule& rule, const Patch& patch) {
   const auto n_cells = cells.begin[patch.corner + 1] - cells.begin[patch.corner];
+  const int degree = rule.degree > 0 ? rule.degree : grid.degree;
   const Eigen::Map<const Eigen::VectorXd> weights(patch.weights.data(), patch.weights.size());
   PatchOperator result;
   if (grid.kind ==
       CellKind::tetrahedra)  // their patches are of any shape: larger ones where one is too small
     for (int n_layers = 1; n_layers <= 3; ++n_layers) {
       result.samples = geometry.samples_around(patch.corner, n_layers);
-      const auto fit = complete_fit(grid.degree, patch.on_boundary ? surface_concentration : 0,
+      if (result.samples.empty()) break;
+      const auto fit = complete_fit(degree, patch.on_boundary ? surface_concentration : 0,
                                     geometry.points(patch.corner, result.samples, patch.nodes));
       if (fit.size() > 0) {
         result.fit = weights.asDiagonal() * fit;
         return result;
       }
     }
-  result.samples = geometry.samples_around(patch.corner);
+  const bool wide = rule.widens_at_boundary && patch.on_boundary;
+  result.samples = geometry.samples_around(patch.corner, wide ? 2 : 1);
+  if (result.samples.empty()) {
+    result.fit.setZero(weights.size(), 0);
+    return result;
+  }
   result.fit =
       weights.asDiagonal() *
-      fit_operator(grid.degree, n_cells >= 8, geometry.points(patch.corner, result.samples, patch.nodes));
+      fit_operator(degree, n_cells >= 8 && !wide, geometry.points(patch.corner, result.samples, patch.nodes));
   return result;
 }
 
@@ -196,7 +203,8 @@ private:
 }  // namespace
 
 void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const std::vector<CylinderChart>& charts,
-                        const StressSamples& samples, const ConstBlock& values, Eigen::Ref<RowMajor> nodal) {
+                        const StressSamples& samples, const ConstBlock& values, Eigen::Ref<RowMajor> nodal,
+                        const PatchRule& rule) {
   const PatchGeometry geometry(grid, cells, samples, charts);
   const auto patches = make_patches(grid, cells);
   nodal.setZero();
@@ -211,7 +219,7 @@ void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const std::
     const std::size_t n = std::min(batch, patches.size() - first);
     parallel_for(n, 8, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p)
-        operators[p] = patch_operator(grid, cells, geometry, patches[first + p]);
+        operators[p] = patch_operator(grid, cells, geometry, rule, patches[first + p]);
     });
     parallel_for((values.cols() + width - 1) / width, 1, [&](std::size_t begin, std::size_t end) {
       PatchColumns columns(geometry, values, nodal);

@@ -7,6 +7,7 @@
 #include "fem/stress_recovery.h"
 #include "fem/stress_samples.h"
 #include "fem/subdomain.h"
+#include "fem/volumetric_stress.h"
 
 namespace fem {
 
@@ -23,18 +24,18 @@ struct Job {
   std::vector<Lame> elastic;
   std::vector<CylinderChart> charts;
   std::vector<int> loaded_groups;
-  int by_patches = 1;
+  int by_patches = 1, hardly_compresses = 0;
   std::vector<std::int32_t> counted;  // nodes of the part that this rank counts
 };
 
 Message& operator<<(Message& message, const Job& job) {
   return message << job.part << job.elastic << job.charts << job.loaded_groups << job.by_patches
-                 << job.counted;
+                 << job.hardly_compresses << job.counted;
 }
 
 Message& operator>>(Message& message, Job& job) {
   return message >> job.part >> job.elastic >> job.charts >> job.loaded_groups >> job.by_patches >>
-         job.counted;
+         job.hardly_compresses >> job.counted;
 }
 
 /// Called on all ranks.
@@ -46,8 +47,13 @@ void recover_share(MPI_Comm communicator, const Job& job, const NodeExchange& al
   agree(communicator, [&] {
     const auto& grid = job.part.grid;
     RowMajor result(grid.n_nodes, 2 * own.cols());
-    recover_stress(grid, cells_of_nodes(grid), cell_after_cell(job.elastic), job.charts, job.loaded_groups,
-                   job.by_patches != 0, own, result);
+    const auto cells = cells_of_nodes(grid);
+    const auto elastic = cell_after_cell(job.elastic);
+    if (job.by_patches != 0)
+      recover_stress(grid, cells, job.charts, free_faces(grid, job.loaded_groups), elastic,
+                     job.hardly_compresses != 0, own, result);
+    else
+      average_stress(grid, cells, elastic, own, result);
     counted.resize(job.counted.size(), result.cols());
     for (std::size_t i = 0; i < job.counted.size(); ++i) counted.row(i) = result.row(job.counted[i]);
   });
@@ -63,9 +69,8 @@ void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<L
     average_stress(grid, cells, elastic, displacement, stress);
     return;
   }
-  const auto free = free_faces(grid, loaded_groups);
-  recover_by_patches(grid, cells, charts, make_samples(grid, free),
-                     stress_at_samples(grid, free, elastic, displacement), stress);
+  recover_stress(grid, cells, charts, free_faces(grid, loaded_groups), elastic,
+                 any_hardly_compresses(grid, elastic), displacement, stress);
 }
 
 void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
@@ -80,6 +85,7 @@ void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const 
   job.charts = charts;
   job.loaded_groups = loaded_groups;
   job.by_patches = by_patches ? 1 : 0;
+  job.hardly_compresses = any_hardly_compresses(grid, elastic) ? 1 : 0;  // somewhere in the body
   for (int r = n - 1; r >= 0; --r) {
     job.part = make_subdomain(grid, with_layers(grid, cells, cells_of_rank(rank_of_cell, r), n_layers));
     job.elastic = elastic_of(job.part, elastic);

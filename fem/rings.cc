@@ -3,6 +3,7 @@
 #include <map>
 
 #include "fem/cell_geometry.h"
+#include "fem/cell_materials.h"
 #include "fem/sections.h"
 
 namespace fem {
@@ -12,7 +13,7 @@ namespace {
 struct RingNode {
   std::int32_t node = 0;
   double z_m = 0, radius_m = 0;
-  int boundary_id = 0;
+  int boundary_id = 0, material = 0;
 };
 
 bool is_flat(const Grid& grid, const std::vector<std::int32_t>& nodes) {
@@ -35,6 +36,8 @@ std::vector<RingNode> concentric_nodes(const Grid& grid, const Body& body) {
     return std::any_of(body.tori.begin(), body.tori.end(),
                        [id](const auto& torus) { return torus.boundary_id == id; });
   };
+  const CellMaterials materials(grid, body);
+  std::map<std::int32_t, int> material;                // a node belongs to cells of one (SplitGrid)
   std::map<std::int32_t, std::pair<bool, int>> group;  // not a fillet, id: the smallest wins
   for (const auto& face : grid.boundary) {
     const auto nodes = nodes_of_face(grid, face.cell, face.face);
@@ -45,12 +48,13 @@ std::vector<RingNode> concentric_nodes(const Grid& grid, const Body& body) {
     for (const auto node : nodes) {
       const auto known = group.emplace(node, candidate).first;
       known->second = std::min(known->second, candidate);
+      material[node] = materials.kind(std::size_t(face.cell));
     }
   }
   std::vector<RingNode> result;
   for (const auto& [node, id] : group) {
     const double* x = grid.position(node);
-    result.push_back({node, x[2], std::hypot(x[0], x[1]), id.second});
+    result.push_back({node, x[2], std::hypot(x[0], x[1]), id.second, material[node]});
   }
   return result;
 }
@@ -98,7 +102,11 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
       nodes.begin(), nodes.end(), tolerance, [](const RingNode& n) { return n.z_m; },
       [&](Iterator begin, Iterator end) {
         for_each_run(
-            begin, end, tolerance, [](const RingNode& n) { return n.radius_m; }, add_ring);
+            begin, end, tolerance, [](const RingNode& n) { return n.radius_m; },
+            [&](Iterator first, Iterator last) {
+              for_each_run(
+                  first, last, 0.0, [](const RingNode& n) { return n.material; }, add_ring);
+            });
       });
 }
 

@@ -38,6 +38,7 @@ struct Nodes {
   CellKind kind = CellKind::hexahedra;
   /// Cell after cell, in the order of VTK_TRIQUADRATIC_HEXAHEDRON or VTK_QUADRATIC_TETRA (degree 2 only).
   std::vector<std::int32_t> cells;
+  std::vector<std::int32_t> cell_volume_id;  ///< one per cell: its volume group
   /// Boundary faces, in the order of VTK_BIQUADRATIC_QUAD or VTK_QUADRATIC_TRIANGLE.
   std::vector<std::int32_t> faces;
   std::vector<std::int32_t> face_boundary_id;  ///< one per face
@@ -62,11 +63,32 @@ struct SectionResponse {
   std::array<double, 3> rotation_rad{};
 };
 
-/// A ring of surface nodes at one (z, r) of a concentric surface: mean torsional shear over the ring.
+/// A ring of surface nodes at one (z, r) of a concentric surface: mean torsional shear over the ring. Where
+/// materials meet, there is one for each of them.
 struct RimRing {
   double z_m = 0, radius_m = 0;
   std::int32_t boundary_id = 0;
 };
+
+/// What the cells' own stress misses, by the recovered one (Zienkiewicz and Zhu 1987), in the norm of energy:
+/// |s|^2 = integral of s : C^-1 s over the body, twice the strain energy. Any sum of channels has its error
+/// from these: the products of two channels' fields are kept, in units of both norms.
+struct EnergyError {
+  std::vector<double> norm_sqrtJ;  ///< K; |stress of the cells|
+  std::vector<double> energy;      ///< K x K; products of the channels' stresses, 1 on the diagonal
+  std::vector<double> error;       ///< K x K; products of recovered minus cells' stresses
+  std::vector<double> of_cells;    ///< n_cells x K; the cells' parts of the diagonal of `error`
+};
+
+struct EnergyNorms {
+  double solution_sqrtJ = 0, error_sqrtJ = 0;
+  /// Of the exact solution, whose square is the sum of both: they are orthogonal in this norm. 0 without
+  /// stress.
+  double relative() const;
+};
+
+/// Of the sum of all channels times their factors (K).
+EnergyNorms energy_norms(const EnergyError& channels, const std::vector<double>& factors);
 
 struct UnitResponses {
   std::vector<std::string> channels;  ///< K names, the order of all arrays
@@ -80,6 +102,7 @@ struct UnitResponses {
   std::vector<SectionResponse> sections;  ///< n_planes x K
   std::vector<RimRing> rings;
   std::vector<std::array<double, 2>> ring_shear_Pa;  ///< n_rings x K; means of sigma_r_theta, sigma_theta_z
+  EnergyError energy_error;                          ///< empty where no cells were solved (cheap models)
   /// Largest support reaction over all unit loads, relative to the load vector's largest entry: must be
   /// round-off. 0 if clamps hold the body, or the iterative solver left it free.
   double support_reaction = 0;

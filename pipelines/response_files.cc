@@ -13,10 +13,13 @@ namespace pipelines {
 namespace {
 
 /// Of the arrangement of the file: files of another one count as missing.
-constexpr double arrangement = 3;
+constexpr double arrangement = 4;
 
 struct Counts {
   std::size_t nodes, cells, faces, channels, planes, rings;
+  std::size_t volumes;       ///< cells whose volume group is known: all or none
+  std::size_t energy_cells;  ///< cells and channels with energies: all or none
+  std::size_t energy_channels;
 };
 
 // These are written and read as rows of numbers.
@@ -54,6 +57,14 @@ void visit_arrays(fem::UnitResponses& r, const Counts& n, Visit visit) {
   visit("/nodes/faces", r.nodes.faces, Extents{n.faces, r.nodes.nodes_per_face()},
         Hdf5Label{"", tetrahedra ? "VTK_QUADRATIC_TRIANGLE" : "VTK_BIQUADRATIC_QUAD"});
   visit("/nodes/face_boundary_id", r.nodes.face_boundary_id, Extents{n.faces}, Hdf5Label{});
+  visit("/nodes/cell_volume_id", r.nodes.cell_volume_id, Extents{n.volumes}, Hdf5Label{});
+  visit("/energy/norm", r.energy_error.norm_sqrtJ, Extents{n.energy_channels}, Hdf5Label{"J^(1/2)", ""});
+  visit("/energy/products", r.energy_error.energy, Extents{n.energy_channels, n.energy_channels},
+        Hdf5Label{"1", "of the channels' stresses, in units of their norms"});
+  visit("/energy/error", r.energy_error.error, Extents{n.energy_channels, n.energy_channels},
+        Hdf5Label{"1", "of recovered minus cells' stresses, in the same units"});
+  visit("/energy/error_of_cells", r.energy_error.of_cells, Extents{n.energy_cells, n.energy_channels},
+        Hdf5Label{"1", "the cells' parts of the diagonal"});
   visit("/displacement", r.displacement_m, Extents{n.nodes, n.channels, 3}, Hdf5Label{"m", "x y z"});
   visit("/stress", r.stress_Pa, Extents{n.nodes, n.channels, 6}, Hdf5Label{"Pa", "xx yy zz xy yz xz"});
   visit("/resultants", r.resultants, Extents{n.channels, 6}, Hdf5Label{"", "fx fy fz [N], mx my mz [N m]"});
@@ -89,8 +100,15 @@ fem::UnitResponses read(const Hdf5Reader& in) {
   r.nodes.n = in.shape("/nodes/xyz").at(0);
   if (in.shape("/nodes/cells").at(1) == fem::CellShape{fem::CellKind::tetrahedra, 2}.nodes_per_cell())
     r.nodes.kind = fem::CellKind::tetrahedra;
-  const Counts n = {r.nodes.n,         in.shape("/nodes/cells").at(0), in.shape("/nodes/faces").at(0),
-                    r.channels.size(), in.shape("/planes").at(0),      in.shape("/rings").at(0)};
+  const Counts n = {r.nodes.n,
+                    in.shape("/nodes/cells").at(0),
+                    in.shape("/nodes/faces").at(0),
+                    r.channels.size(),
+                    in.shape("/planes").at(0),
+                    in.shape("/rings").at(0),
+                    in.shape("/nodes/cell_volume_id").at(0),
+                    in.shape("/energy/error_of_cells").at(0),
+                    in.shape("/energy/norm").at(0)};
   visit_arrays(r, n, [&](const char* name, auto& values, const auto& extents, const Hdf5Label&) {
     if (in.shape(name) != extents) throw std::runtime_error(std::string(name) + ": unexpected extents");
     resize(values, extents);
@@ -149,15 +167,23 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
     out.write("/ranks", ranks.data(), {ranks.size() / 3, 3}, {"", "cells, unknowns, bytes of each MPI rank"});
   out.write("/rings", rings.data(), {responses.rings.size(), 3}, {"", "z [m], radius [m], boundary id"});
 
-  const Counts n = {responses.nodes.n,         responses.nodes.n_cells(), responses.nodes.n_faces(),
-                    responses.channels.size(), responses.planes.size(),   responses.rings.size()};
+  const auto& energy = responses.energy_error;
+  const Counts n = {responses.nodes.n,
+                    responses.nodes.n_cells(),
+                    responses.nodes.n_faces(),
+                    responses.channels.size(),
+                    responses.planes.size(),
+                    responses.rings.size(),
+                    responses.nodes.cell_volume_id.size(),
+                    energy.norm_sqrtJ.empty() ? 0 : energy.of_cells.size() / energy.norm_sqrtJ.size(),
+                    energy.norm_sqrtJ.size()};
   // The list is shared with the reader, which fills the arrays; here they are only looked at.
   visit_arrays(
       const_cast<fem::UnitResponses&>(responses), n,
       [&](const char* name, auto& values, const auto& extents, const Hdf5Label& label) {
         if (!fits(values, extents))
           throw std::invalid_argument(std::string("unit responses: the size of ") + name +
-                                      " does not fit the number of nodes, channels, planes or rings");
+                                      " does not fit the number of nodes, cells, channels, planes or rings");
         out.write(name, entries(values), extents, label);
       });
   out.close();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "pipelines/energy_errors.h"
 #include "pipelines/response_key.h"
 #include "pipelines/results.h"
 #include "pipelines/statistics.h"
@@ -149,6 +150,14 @@ void add_vibration(const Vibration& vibration, Json& json) {
       {"amplification", number(dynamic.highest.amplification)}};
 }
 
+Json energy_error_json(const BodyAnalysis& analysis) {
+  const auto errors = energy_errors(analysis.responses.energy_error, analysis.loads.history.values);
+  Json json = figure(errors.over_cycle, "1");
+  for (std::size_t k = 0; k < errors.channels.size(); ++k)
+    json["channels"][analysis.responses.channels[k]] = number(errors.channels[k]);
+  return json;
+}
+
 Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& quality = analysis.mesh.quality;
   Json json;
@@ -167,6 +176,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["material"] = analysis.scene.material_name;
   json["yield_strength"] = figure(analysis.scene.yield_strength_Pa, "Pa");
   json["peak_von_mises"] = peak_json(report, analysis);
+  if (!analysis.responses.energy_error.norm_sqrtJ.empty()) json["energy_error"] = energy_error_json(analysis);
   json["peak_principal"] = principal_json(report, analysis);
   json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
   json["zones"] = zones_json(report, analysis);

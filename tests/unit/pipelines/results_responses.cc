@@ -45,6 +45,16 @@ fem::UnitResponses example() {
   r.rings = {{0.15, 0.05, 11}, {0.25, 0.06, 12}};
   r.ring_shear_Pa.resize(2 * 2);
   for (auto& ring : r.ring_shear_Pa) fill(ring);
+  r.nodes.cell_volume_id.resize(r.nodes.n_cells());
+  for (auto& volume : r.nodes.cell_volume_id) volume = std::int32_t(random() % 5);
+  r.energy_error.norm_sqrtJ.resize(2);
+  r.energy_error.energy.resize(4);
+  r.energy_error.error.resize(4);
+  r.energy_error.of_cells.resize(r.nodes.n_cells() * 2);
+  fill(r.energy_error.norm_sqrtJ);
+  fill(r.energy_error.energy);
+  fill(r.energy_error.error);
+  fill(r.energy_error.of_cells);
   r.support_reaction = 1e-13;
   r.residual = 1. / 3e12;
   r.n_dofs = 634047;
@@ -87,6 +97,11 @@ TEST(ResponseFiles, come_back_bit_for_bit) {
     EXPECT_EQ(read->rings[i].boundary_id, written.rings[i].boundary_id);
   }
   EXPECT_TRUE(same_bits(read->ring_shear_Pa, written.ring_shear_Pa));
+  EXPECT_EQ(read->nodes.cell_volume_id, written.nodes.cell_volume_id);
+  EXPECT_TRUE(same_bits(read->energy_error.norm_sqrtJ, written.energy_error.norm_sqrtJ));
+  EXPECT_TRUE(same_bits(read->energy_error.energy, written.energy_error.energy));
+  EXPECT_TRUE(same_bits(read->energy_error.error, written.energy_error.error));
+  EXPECT_TRUE(same_bits(read->energy_error.of_cells, written.energy_error.of_cells));
   EXPECT_EQ(read->support_reaction, written.support_reaction);
   EXPECT_EQ(read->residual, written.residual);
   EXPECT_EQ(read->n_dofs, written.n_dofs);

@@ -35,6 +35,9 @@ Solution solve(const fem::Body& body, const LoadCase& loads, fem::Recovery recov
   solution.n_dofs = r.n_dofs;
   solution.nodes = r.nodes;
   solution.solver = r.solver;
+  std::vector<double> factors;
+  for (const auto& load : loads) factors.push_back(load.second);
+  solution.energy = fem::energy_norms(r.energy_error, factors);
   const auto n = static_cast<Eigen::Index>(r.nodes.n), n_loads = static_cast<Eigen::Index>(loads.size());
   solution.place_m = Eigen::Map<const Eigen::Matrix3Xd>(r.nodes.xyz_m.data(), 3, n);
   solution.displacement_m = Eigen::Matrix3Xd::Zero(3, n);

@@ -24,6 +24,7 @@ struct Solution {
   double seconds = 0;  ///< of reading the mesh, solving and recovering stress
   fem::Nodes nodes;
   fem::SolverReport solver;
+  fem::EnergyNorms energy;
 
   /// The node at a place, to 1e-6 of the body's size.
   /// @throws std::out_of_range if there is none
