@@ -153,12 +153,35 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
 }
 
 void add_loads(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("loads")) return;  // a load table brings channels alone
   Rows rows;
   for (const auto& [name, load] : summary.at("loads").items())
     rows.push_back({name, number(load.at("max")), number(load.at("min")), number(load.at("mean")),
                     number(load.at("rms")), load.at("unit").get<std::string>()});
   page.heading(2, "Loads over the cycle");
   page.table({"load", "max", "min", "mean", "rms", "unit"}, rows);
+}
+
+void add_bearings(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("bearings")) return;
+  Rows rows;
+  for (const auto& [name, bearing] : summary.at("bearings").items())
+    rows.push_back(
+        {name, number(bearing.at("equivalent_load").at("value")),
+         number(bearing.at("largest_load").at("value")),
+         bearing.at("L10h").is_null() ? "-" : number(bearing.at("L10h").at("value"), 1, "{:.0f}")});
+  page.heading(2, "Bearings");
+  page.table({"bearing", "equivalent load N", "largest N", "L10h hours"}, rows);
+}
+
+void add_natural_frequencies(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("torsion")) return;
+  Rows rows;
+  for (const auto& frequency : summary.at("torsion").at("natural_frequencies"))
+    rows.push_back({fmt::format("{}", rows.size() + 1), number(frequency.at("value")),
+                    number(frequency.at("value"), 60 / 6.283185307179586)});
+  page.heading(2, "Torsional natural frequencies");
+  page.table({"mode", "rad/s", "per minute"}, rows);
 }
 
 void add_accuracy(HtmlPage& page, const std::filesystem::path& directory) {
@@ -198,6 +221,8 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory)
   if (summary.contains("bodies"))
     for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);
   add_loads(page, summary);
+  add_bearings(page, summary);
+  add_natural_frequencies(page, summary);
   add_accuracy(page, directory / "accuracy");
   if (summary.contains("timing")) add_timing(page, summary);
   return page.text();
