@@ -59,7 +59,6 @@ vtkSmartPointer<vtkUnstructuredGrid> read(const fs::path& file) {
 /// Headline numbers of the shaft. Places and moments are left out: equal stresses at several nodes are told
 /// apart by rounding.
 void expect_same(const nlohmann::json& one, const nlohmann::json& two) {
-  EXPECT_EQ(one["loads"], two["loads"]);
   const auto &a = one["bodies"]["shaft"], &b = two["bodies"]["shaft"];
   EXPECT_EQ(a["dofs"], b["dofs"]);
   const std::vector<std::string> names{"/peak_von_mises/value", "/peak_principal/value", "/zone_level/value",
@@ -81,6 +80,8 @@ TEST(SeveralRanks, GiveTheResultsOfOne) {
   const auto two = on_two_ranks(directory.path, "run scene.toml -o two --threads 1");
   ASSERT_EQ(two.exit_code, 0) << two.err;
   EXPECT_EQ(count(two.out, "Small shaft"), count(one.out, "Small shaft")) << "told once:\n" << two.out;
+  EXPECT_EQ(results_test::bytes(directory / "one/loads.csv"),
+            results_test::bytes(directory / "two/loads.csv"));
   expect_same(summary(directory / "one"), summary(directory / "two"));
   const auto ranks = summary(directory / "two")["bodies"]["shaft"]["solver"]["ranks"];
   EXPECT_EQ(ranks.size(), 2u);
