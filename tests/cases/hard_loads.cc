@@ -34,7 +34,7 @@ void expect_finite(const fs::path& out, const std::set<std::string>& nulls = {})
 
 /// Largest figures of a run, lengths in units of `unit`.
 struct Figures {
-  double peak, principal, deflection;
+  double peak, principal, deflection, energy_error;
 };
 
 Figures figures(const nlohmann::json& json, const fs::path& out) {
@@ -43,7 +43,7 @@ Figures figures(const nlohmann::json& json, const fs::path& out) {
   const auto diagrams = csv(out / "shaft/diagrams.csv");
   for (const double u : diagrams.at("deflection_max")) deflection = std::max(deflection, u);
   return {shaft["peak_von_mises"]["value"].get<double>(), shaft["peak_principal"]["value"].get<double>(),
-          deflection};
+          deflection, shaft["energy_error"]["value"].get<double>()};
 }
 
 }  // namespace
@@ -59,6 +59,12 @@ TEST(HardLoads, LoadsThatCancelLeaveAZeroAnswer) {
   EXPECT_TRUE(shaft["peak_von_mises"]["safety_against_yield"].is_null())
       << "infinite: JSON has no word for it";
   EXPECT_TRUE(shaft["zones"].empty());
+  EXPECT_EQ(shaft["energy_error"]["value"], 0);
+  ASSERT_EQ(shaft["energy_error"]["channels"].size(), shaft["channels"].size());
+  for (const auto& [channel, error] : shaft["energy_error"]["channels"].items()) {
+    EXPECT_GT(error, 0) << channel << ": the unit loads are there";
+    EXPECT_LT(error, 0.5) << channel;
+  }
   for (const auto& [effect, share] : shaft["peak_von_mises"]["effect_share"].items())
     EXPECT_EQ(share, 0) << effect;
   EXPECT_EQ(shaft["dynamic_amplification"]["value"], 1);
@@ -90,12 +96,14 @@ TEST(HardLoads, StressIsLinearFromTheSmallestToTheLargestNumbers) {
     return figures(json, directory / "out");
   };
   const auto one = with("e0");
+  EXPECT_GT(one.energy_error, 0);
   for (const int decade : {-150, 150}) {
     const auto other = with("e" + std::to_string(decade));
     const double factor = std::pow(10.0, decade);
     EXPECT_NEAR(other.peak / factor, one.peak, 1e-12 * one.peak);
     EXPECT_NEAR(other.principal / factor, one.principal, 1e-12 * one.principal);
     EXPECT_NEAR(other.deflection / factor, one.deflection, 1e-12 * one.deflection);
+    EXPECT_NEAR(other.energy_error, one.energy_error, 1e-12 * one.energy_error);
   }
 }
 
@@ -113,4 +121,6 @@ TEST(HardLoads, LengthsOfMicrometresAndOfManyMetresGiveTheSameStress) {
   EXPECT_NEAR(small.deflection * 1e3, usual.deflection, 1e-8 * usual.deflection);
   EXPECT_NEAR(large.peak, usual.peak, 1e-8 * usual.peak);
   EXPECT_NEAR(large.deflection / 1e2, usual.deflection, 1e-8 * usual.deflection);
+  EXPECT_NEAR(small.energy_error, usual.energy_error, 1e-8 * usual.energy_error);
+  EXPECT_NEAR(large.energy_error, usual.energy_error, 1e-8 * usual.energy_error);
 }

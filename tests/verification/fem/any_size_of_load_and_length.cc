@@ -78,6 +78,9 @@ TEST(Scaling, loads_are_linear_over_three_hundred_decades) {
       EXPECT_EQ(other.solver.used, solver) << other.solver.reason;
       for (std::size_t i = 0; i < usual.stress_Pa.size(); ++i)
         ASSERT_EQ(std::ldexp(other.stress_Pa[i], -exponent), usual.stress_Pa[i]) << exponent;
+      EXPECT_EQ(other.energy_error.error, usual.energy_error.error) << exponent;
+      for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_EQ(std::ldexp(other.energy_error.norm_sqrtJ[k], -exponent), usual.energy_error.norm_sqrtJ[k]);
     }
   }
 }
@@ -93,6 +96,9 @@ TEST(Scaling, no_load_gives_zero_by_both_solvers) {
                                        {}, fem::Recovery::patch, {}, {solver, 1e-10, 100});
     EXPECT_EQ(r.solver.used, solver) << r.solver.reason;
     EXPECT_TRUE(std::isfinite(r.residual));
+    EXPECT_EQ(r.energy_error.norm_sqrtJ[0], 0);
+    EXPECT_EQ(r.energy_error.error[0], 0);
+    EXPECT_GT(r.energy_error.error[3], 0);
     for (std::size_t i = 0; i < r.nodes.n; ++i) {
       for (std::size_t c = 0; c < 6; ++c) ASSERT_EQ(r.stress_Pa[12 * i + c], 0);
       for (std::size_t d = 0; d < 3; ++d) ASSERT_EQ(r.displacement_m[6 * i + d], 0);

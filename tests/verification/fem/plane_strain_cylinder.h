@@ -22,10 +22,10 @@ struct PlaneStrainCylinder {
 
   fem::Material material() const { return {210e9, poisson_ratio, 7850}; }
 
-  /// @param n  cells along the radius and around; a quarter of it along the axis
+  /// @param n  cells along the radius and around; an eighth of it along the axis
   fem::Body body(int n) const {
     Block block;
-    block.cells = {n, n, std::max(1, n / 4)};
+    block.cells = {n, n, std::max(1, n / 8)};
     block.map = [c = *this](const Point& at) {
       const Point d(at[0] + c.distortion * at[0] * (1 - at[0]) * std::sin(6 * at[1]),
                     at[1] + c.distortion * at[1] * (1 - at[1]) * std::sin(6 * at[0]), at[2]);
