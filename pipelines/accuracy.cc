@@ -8,6 +8,7 @@
 
 #include "fem/beam_responses.h"
 #include "pipelines/cheap_rungs.h"
+#include "pipelines/effect_choice.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/fineness.h"
 #include "pipelines/refinement.h"
@@ -70,6 +71,7 @@ public:
     for (const auto& one : scene_.bodies)
       others_.push_back(clock_.run(
           "meshes", [&] { return mesh_body(one, scratch() / (one.name + ".msh"), springs_of(scene_)); }));
+    scene_ = with_effects_chosen(scene_, others_, negligible_share(tolerance()));
   }
   ~Ladder() {
     std::error_code ignored;

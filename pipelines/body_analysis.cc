@@ -10,6 +10,7 @@
 #include "fem/helper_ranks.h"
 #include "fem/model.h"
 #include "pipelines/iteration_memory.h"
+#include "pipelines/load_patch.h"
 #include "pipelines/response_files.h"
 #include "pipelines/response_key.h"
 
@@ -216,6 +217,7 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                         geometry_share(analysis.geometry_error, analysis.responses.nodes, point));
     }
   });
+  clock.run("superpose", [&] { add_load_patch_error(analysis); });
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {
       return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
@@ -231,7 +233,7 @@ void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics:
     return vibration(scene, analysis.scene, meshed, history, stress_over_cycle(analysis, analysis.peak.node));
   });
   const double more = analysis.vibration->amplification.factor - 1;
-  analysis.peak.errors.model.push_back(
+  analysis.peak.errors.set_model(
       {"quasi_static", "dynamic amplification of the harmonics of the peak", more * analysis.peak.value_Pa});
 }
 

@@ -38,6 +38,19 @@ struct Peak {
   ErrorLedger errors;
 };
 
+/// How far an effect that is off could move the governing stress of a body at most.
+struct EffectBound {
+  std::string effect;
+  double bound_Pa = 0;
+  double estimated_Pa = 0;  ///< part of it from channels that were not solved (effect_bounds.h)
+};
+
+/// Of the effects that `effects = "auto"` has switched off.
+struct DroppedBounds {
+  std::vector<EffectBound> effects;
+  EffectBound together;  ///< its effect has no name
+};
+
 struct BodyAnalysis {
   BodyScene scene;
   meshes::BodyMesh mesh;
@@ -58,6 +71,7 @@ struct BodyAnalysis {
   std::optional<Diagrams> diagrams;      ///< parametric shafts and drums only
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
   std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
+  std::optional<DroppedBounds> dropped;  ///< where effects = "auto" has dropped any
 };
 
 /// Where a run keeps its files and what it may use.

@@ -10,6 +10,7 @@
 #include "pipelines/body_analysis.h"
 #include "pipelines/calculix_model.h"
 #include "pipelines/commands.h"
+#include "pipelines/effect_choice.h"
 #include "pipelines/fem_environment.h"
 #include "pipelines/load_stage.h"
 
@@ -33,7 +34,7 @@ void refuse_what_has_no_equal(const Scene& scene) {
 }  // namespace
 
 void calculix_command(const CommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene);
   refuse_what_has_no_equal(scene);
   const auto directory =
       options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
@@ -45,6 +46,7 @@ void calculix_command(const CommandOptions& options, std::ostream& out) {
         std::filesystem::temp_directory_path() /
         ("millstress_calculix_" + scene.file.stem().string() + "_" + body.name + ".msh")));
   const auto meshed = clock.run("mesh", [&] { return mesh_bodies(scene, scratch); });
+  scene = with_effects_chosen(scene, meshed, negligible_share(scene.wish.tolerance));
   const auto masses = agree_masses(scene, meshed);
   // Unit loads do not depend on the instants; one turn tells which there are.
   auto coarse = scene;

@@ -7,12 +7,14 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "fem/helper_ranks.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/body_analysis.h"
 #include "pipelines/calculix_cards.h"
 #include "pipelines/cost_forecast.h"
+#include "pipelines/effect_choice.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/fem_environment.h"
 #include "pipelines/html_report.h"
@@ -68,8 +70,30 @@ void finish_run(const CommandOptions& options, std::ostream& out, const std::fil
   report(out, options, content);
 }
 
-void run_load_stage(const CommandOptions& options, std::ostream& out, const Scene& scene,
+SearchWish wish_of(const CommandOptions& options, const Scene& scene) {
+  SearchWish wish = scene.wish;
+  if (!options.tolerance.empty()) wish.tolerance = option_in_si("--tolerance", options.tolerance, "1");
+  if (!options.time_limit.empty()) wish.time_limit_s = option_in_si("--time-limit", options.time_limit, "s");
+  if (wish.tolerance < 0 || wish.tolerance > 1)
+    throw std::invalid_argument("--tolerance " + options.tolerance + ": must lie between 0 and 100 %");
+  if (wish.time_limit_s < 0)
+    throw std::invalid_argument("--time-limit " + options.time_limit + ": is negative");
+  return wish;
+}
+
+/// Without a mesh at hand effects = "auto" looks at the loads alone.
+/// @param machine  with the masses that the scene leaves to a mesh
+Scene chosen_by_loads(Scene scene, const Machine& machine, double tolerance) {
+  if (!scene.effect_choice.open) return scene;
+  auto given = std::exchange(scene.machine, machine);
+  scene = with_effects_chosen(std::move(scene), {}, negligible_share(tolerance));
+  scene.machine = std::move(given);
+  return scene;
+}
+
+void run_load_stage(const CommandOptions& options, std::ostream& out, const Scene& given,
                     const std::filesystem::path& directory, StageClock& clock) {
+  const Scene scene = chosen_by_loads(given, given.machine, wish_of(options, given).tolerance);
   const auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
   std::filesystem::create_directories(directory);
@@ -82,17 +106,6 @@ void run_load_stage(const CommandOptions& options, std::ostream& out, const Scen
   if (options.json) return;
   if (torsion) print_torsion(out, scene, *torsion);
   out << "\n  results in " << directory.string() << '\n';
-}
-
-SearchWish wish_of(const CommandOptions& options, const Scene& scene) {
-  SearchWish wish = scene.wish;
-  if (!options.tolerance.empty()) wish.tolerance = option_in_si("--tolerance", options.tolerance, "1");
-  if (!options.time_limit.empty()) wish.time_limit_s = option_in_si("--time-limit", options.time_limit, "s");
-  if (wish.tolerance < 0 || wish.tolerance > 1)
-    throw std::invalid_argument("--tolerance " + options.tolerance + ": must lie between 0 and 100 %");
-  if (wish.time_limit_s < 0)
-    throw std::invalid_argument("--time-limit " + options.time_limit + ": is negative");
-  return wish;
 }
 
 void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& scene,
@@ -133,9 +146,10 @@ void run_command(const CommandOptions& options, std::ostream& out) {
 }
 
 void loads_command(const CommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene);
   StageClock clock(progress_on_stderr(options.verbosity));
   const Machine machine = clock.run("mesh", [&] { return machine_with_masses(scene, options.n_threads); });
+  scene = chosen_by_loads(std::move(scene), machine, scene.wish.tolerance);
   const auto loads = clock.run("loads", [&] { return load_stage(scene, machine); });
   std::vector<BearingScene> bearings;  // those at a port of a body need `run`
   for (const auto& bearing : scene.bearings)
@@ -151,8 +165,10 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
 }
 
 void effects_command(const CommandOptions& options, std::ostream& out) {
-  const double threshold = option_in_si("--threshold", options.threshold, "1");
   const Scene scene = read_scene(options.scene);
+  const double usual = scene.effect_choice.open ? negligible_share(scene.wish.tolerance) : 0.01;
+  const double threshold =
+      options.threshold.empty() ? usual : option_in_si("--threshold", options.threshold, "1");
   const EffectReport worth = report_effects(scene, threshold);
   if (options.json)
     out << effects_json(scene, worth);
@@ -184,7 +200,7 @@ void report_command(const CommandOptions& options, std::ostream& out) {
 }
 
 void check_command(const CommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene);
   out << scene.file.string() << ": the scene is valid\n\neffects\n";
   for (const auto& effect : effects_of(scene.machine))
     out << fmt::format("  {:<4}{:<24}{} ({})\n", scene.has_effect(effect.name) ? "on" : "off", effect.name,
@@ -197,7 +213,11 @@ void check_command(const CommandOptions& options, std::ostream& out) {
   for (const auto& d : scene.defaults) out << fmt::format("  {} = {}  ({})\n", d.key, d.value, d.reason);
   if (scene.defaults.empty()) out << "  none\n";
   for (const auto& warning : scene.warnings) out << "warning: " << warning << '\n';
-  if (scene.bodies.empty()) return;
+  if (scene.bodies.empty()) {
+    scene = chosen_by_loads(std::move(scene), scene.machine, scene.wish.tolerance);
+    print_effect_choice(out, scene, {});
+    return;
+  }
 
   // The mesh is a second's work and the only honest answer to what will be solved; it is made aside and
   // thrown away.
@@ -209,6 +229,8 @@ void check_command(const CommandOptions& options, std::ostream& out) {
         ("millstress_check_" + scene.file.stem().string() + "_" + body.name + ".msh")));
   const auto meshed = mesh_bodies(scene, scratch);
   const auto masses = agree_masses(scene, meshed);
+  scene = with_effects_chosen(std::move(scene), meshed, negligible_share(scene.wish.tolerance));
+  print_effect_choice(out, scene, {});
   auto coarse = scene;
   if (!std::holds_alternative<kinetics::LoadTable>(scene.machine)) coarse.sampling.turns = 1;
   const auto loads = load_stage(coarse, masses.machine);

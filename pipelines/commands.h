@@ -15,10 +15,11 @@ struct CommandOptions {
   std::filesystem::path scene;
   std::filesystem::path
       output;  ///< run, ports, calculix: directory; loads: .h5 file; empty: the default or none (loads)
-  std::filesystem::path csv;          ///< loads only; empty: none
-  std::filesystem::path calculix;     ///< loads only: prefix of the files of cards; empty: none
-  std::filesystem::path statistics;   ///< loads only: directory of statistics; empty: none
-  std::string threshold = "1 %";      ///< effects only: what may change when effects are left out
+  std::filesystem::path csv;         ///< loads only; empty: none
+  std::filesystem::path calculix;    ///< loads only: prefix of the files of cards; empty: none
+  std::filesystem::path statistics;  ///< loads only: directory of statistics; empty: none
+  std::string threshold;             ///< effects only: what may change when effects are left out; empty: 1 %,
+                                     ///< for a scene with effects = "auto" what it allows
   std::string tolerance, time_limit;  ///< run, accuracy: override the scene's; empty: the scene's
   std::string body, reference;        ///< accuracy: of this body alone; a known stress; empty: all, none
   int n_repeats = 1;                  ///< accuracy: of each run

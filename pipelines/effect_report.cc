@@ -66,27 +66,6 @@ double change(const Load& load, const std::vector<Load>& others) {
   return other ? largest(load.values - other->values) : largest(load.values);
 }
 
-struct Change {
-  double share = 0;
-  std::string load;
-};
-
-/// The load that changes most. A load that is nothing but round-off (the torque of a joint that carries none)
-/// does not count.
-Change worst_change(const LoadHistory& all, const LoadHistory& other) {
-  const auto loads = loads_of(all), others = loads_of(other);
-  Change worst;
-  double scale = 0;
-  for (const auto& load : loads) scale = std::max(scale, largest(load.values));
-  for (const auto& load : loads) {
-    const double size = largest(load.values);
-    if (size <= 1e-12 * scale) continue;
-    const double share = change(load, others) / size;
-    if (share > worst.share || worst.load.empty()) worst = {share, load.name};
-  }
-  return worst;
-}
-
 std::vector<LoadShare> shares_of(const std::string& effect, const LoadHistory& all,
                                  const LoadHistory* other) {
   const auto parts = loads_of(all, effect);
@@ -137,6 +116,20 @@ Trial try_without(const Scene& scene, const std::vector<std::string>& off) {
 
 }  // namespace
 
+LoadChange largest_change(const LoadHistory& all, const LoadHistory& other) {
+  const auto loads = loads_of(all), others = loads_of(other);
+  LoadChange worst;
+  double scale = 0;
+  for (const auto& load : loads) scale = std::max(scale, largest(load.values));
+  for (const auto& load : loads) {
+    const double size = largest(load.values);
+    if (size <= 1e-12 * scale) continue;
+    const double share = change(load, others) / size;
+    if (share > worst.share || worst.load.empty()) worst = {share, load.name};
+  }
+  return worst;
+}
+
 EffectReport report_effects(const Scene& scene, double threshold, bool timed) {
   if (!(threshold > 0 && threshold < 1))
     throw std::invalid_argument("threshold = " + std::to_string(threshold) +
@@ -153,8 +146,8 @@ EffectReport report_effects(const Scene& scene, double threshold, bool timed) {
     worth.effect = info;
     worth.indispensable = trial.refusal;
     worth.shares = shares_of(info.name, all, trial.refusal.empty() ? &trial.history : nullptr);
-    const Change worst = trial.refusal.empty() ? worst_change(all, trial.history)
-                                               : Change{std::numeric_limits<double>::quiet_NaN(), ""};
+    const LoadChange worst = trial.refusal.empty() ? largest_change(all, trial.history)
+                                                   : LoadChange{std::numeric_limits<double>::quiet_NaN(), ""};
     worth.if_off = worst.share;
     worth.worst_load = worst.load;
     if (timed && trial.refusal.empty())
@@ -173,7 +166,7 @@ EffectReport report_effects(const Scene& scene, double threshold, bool timed) {
     off.push_back(worth->effect.name);
     const Trial trial = try_without(scene, off);
     if (!trial.refusal.empty()) continue;
-    const Change worst = worst_change(all, trial.history);
+    const LoadChange worst = largest_change(all, trial.history);
     if (worst.share >= threshold) continue;
     report.dispensable = off;
     report.if_all_off = worst.share;

@@ -46,6 +46,10 @@ struct EffectReport {
 /// @param timed      false: no seconds are measured (they are zero), for tests of repeatability
 EffectReport report_effects(const Scene& scene, double threshold, bool timed = true);
 
+/// The load that changes most from one history to another. One that is nothing but round-off (the torque of a
+/// joint that carries none) does not count.
+LoadChange largest_change(const kinetics::LoadHistory& all, const kinetics::LoadHistory& other);
+
 void print_effects(std::ostream& out, const Scene& scene, const EffectReport& report);
 std::string effects_json(const Scene& scene, const EffectReport& report);
 

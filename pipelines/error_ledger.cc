@@ -16,6 +16,15 @@ double sum_of(const std::vector<ErrorEntry>& entries) {
   return sum;
 }
 
+void set(std::vector<ErrorEntry>& entries, const ErrorEntry& entry) {
+  const auto same = std::find_if(entries.begin(), entries.end(),
+                                 [&](const auto& other) { return other.source == entry.source; });
+  if (same == entries.end())
+    entries.push_back(entry);
+  else
+    *same = entry;
+}
+
 /// The highest harmonic n > 1 among the channels, and whether channel k belongs to it.
 std::vector<bool> highest_harmonic(const std::vector<fem::UnitLoad>& loads) {
   int highest = 0;
@@ -99,12 +108,11 @@ double ErrorLedger::of(const std::string& source) const {
 }
 
 void ErrorLedger::set_numerical(const ErrorEntry& entry) {
-  const auto same = std::find_if(numerical.begin(), numerical.end(),
-                                 [&](const auto& other) { return other.source == entry.source; });
-  if (same == numerical.end())
-    numerical.push_back(entry);
-  else
-    *same = entry;
+  set(numerical, entry);
+}
+
+void ErrorLedger::set_model(const ErrorEntry& entry) {
+  set(model, entry);
 }
 
 std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& responses,

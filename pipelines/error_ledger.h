@@ -30,8 +30,9 @@ struct ErrorLedger {
   std::string largest() const;
   /// 0 if the ledger has no such entry.
   double of(const std::string& source) const;
-  /// Replaces the entry of that source, or adds it.
+  // Replace the entry of that source, or add it.
   void set_numerical(const ErrorEntry& entry);
+  void set_model(const ErrorEntry& entry);
 };
 
 /// Where a headline stress comes from: the weighted sum of the stress at some nodes (one node for a peak, two

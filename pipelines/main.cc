@@ -77,8 +77,10 @@ int run(int argc, char** argv) {
   loads->add_flag("--json", options.json, "print the summary as JSON instead of the table");
   auto* effects =
       add("effects", "each effect's share of the loads, what leaving it out changes, what it costs");
-  effects->add_option("--threshold", options.threshold,
-                      "what may change when effects are left out (default: \"1 %\")");
+  effects->add_option(
+      "--threshold", options.threshold,
+      "what may change when effects are left out (default: \"1 %\"; with effects = \"auto\" a tenth "
+      "of the tolerance)");
   effects->add_flag("--json", options.json, "print JSON instead of the table");
   auto* torsion = add("torsion", "natural frequencies, forced response and resonances of a drive train");
   torsion->add_option("-o,--output", options.output,

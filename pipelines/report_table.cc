@@ -198,6 +198,7 @@ void print_report(std::ostream& out, const RunReport& report) {
                      report.scene.sampling.instants_per_turn);
   print_loads(out, report);
   for (const auto& analysis : report.bodies) print_body(out, report, analysis);
+  print_effect_choice(out, report.scene, report.bodies);
   print_resampling(out, report);
   print_bearings(out, report);
   double total = 0;

@@ -71,12 +71,34 @@ struct DefaultUsed {
   std::string key, value, reason;
 };
 
+/// A load of the load stage, "<role>.force", "<role>.torque", and how much it changes.
+struct LoadChange {
+  double share = 0;  ///< largest change over the cycle over its largest magnitude
+  std::string load;
+};
+
+/// What `effects = "auto"` has come to.
+struct EffectChoice {
+  struct Dropped {
+    std::string effect;
+    double share = 0;  ///< of the loads that changes when it alone is switched off (effect_choice.h)
+  };
+  std::vector<std::string> offered;     ///< in order; empty: the scene names its effects
+  bool open = false;                    ///< nothing is switched off yet: all that are offered are on
+  double limit = 0;                     ///< of what may change: a tenth of the tolerance
+  std::vector<Dropped> dropped;         ///< from the least to the most telling
+  double share = 0;                     ///< of the loads, all of these together
+  LoadChange load_change;               ///< of the load that changes most, whether a body feels it or not
+  std::vector<std::string> taken_back;  ///< dropped at first, but its bound after the solve was too large
+};
+
 struct Scene {
   std::filesystem::path file;
   std::string title;
   Machine machine;
   std::optional<MillingSpace> milling_space;  ///< empty if the scene does not give it
-  std::vector<std::string> effects;           ///< as named in the scene; each known, none twice
+  std::vector<std::string> effects;           ///< those that are on; each known, none twice
+  EffectChoice effect_choice;                 ///< of effects = "auto"
   kinetics::TimeGrid sampling;
   std::vector<BodyScene> bodies;          ///< none: the load stage only
   TorsionScene torsion;                   ///< for a drive train

@@ -29,6 +29,31 @@ std::string remedy_for_unknown(const std::string& name, const std::vector<std::s
                          : "unknown effect; did you mean \"" + nearest + "\"?";
 }
 
+/// Every effect that the scene has data for.
+std::vector<std::string> offered_effects(const EffectRules& rules) {
+  std::vector<std::string> offered;
+  for (const auto& effect : rules.known)
+    if (find_refusal(rules, effect) == nullptr && !contains(rules.lacking, effect)) offered.push_back(effect);
+  return offered;
+}
+
+/// "all" or "auto".
+void read_word(SceneTable& root, const EffectRules& rules, Scene& scene) {
+  const std::string word = root.text("effects");
+  if (word != "all" && word != "auto") {
+    const std::string nearest = nearest_name(word, {"all", "auto"});
+    if (!word.empty())
+      root.refuse("effects", "is no list of effects; write names such as [\"" + rules.known.front() +
+                                 "\"], or \"all\", or \"auto\" for those that matter" +
+                                 (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+    return;
+  }
+  scene.effects = offered_effects(rules);
+  if (word == "all") return;
+  scene.effect_choice.offered = scene.effects;
+  scene.effect_choice.open = true;
+}
+
 }  // namespace
 
 EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft) {
@@ -73,10 +98,12 @@ void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std
 }
 
 EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects) {
-  return {names_of(effects), {}, {}};
+  return {names_of(effects), {}, {}, {}};
 }
 
-std::vector<std::string> read_effects(SceneTable& root, const EffectRules& rules, SceneFindings& findings) {
+void read_effects(SceneTable& root, const EffectRules& rules, Scene& scene, SceneFindings& findings) {
+  if (root.has("effects") && !root.has_list("effects")) return read_word(root, rules, scene);
+
   const std::vector<TextAt> listed_effects = root.texts("effects");
   if (root.has("effects") && listed_effects.empty())
     root.refuse("effects",
@@ -103,7 +130,7 @@ std::vector<std::string> read_effects(SceneTable& root, const EffectRules& rules
       if (effect.text == need.effect && !contains(names, need.needed))
         refuse(effect, "needs the effect \"" + need.needed + "\": " + need.reason +
                            "; add that one or remove this one");
-  return names;
+  scene.effects = names;
 }
 
 }  // namespace pipelines

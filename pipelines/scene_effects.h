@@ -24,6 +24,8 @@ struct EffectRules {
   std::vector<std::string> known;
   std::vector<EffectNeed> needs;
   std::vector<EffectRefusal> refused;
+  std::vector<std::string>
+      lacking{};  ///< the scene does not give their data: "all" and "auto" pass over them
 };
 
 /// Effects of kinetics under the convention, then those that come from the shaft's mesh; what is known under
@@ -39,8 +41,9 @@ void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std
 /// Any of the names, each by itself.
 EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects);
 
-/// Reads `effects` of the root table.
-/// @return the names as written, each known, none twice; errors go to the findings
-std::vector<std::string> read_effects(SceneTable& root, const EffectRules& rules, SceneFindings& findings);
+/// Reads `effects` of the root table into scene.effects: a list of names, as written, each known, none twice;
+/// or "all", every effect that the scene has data for; or "auto", the same with the choice left open
+/// (effect_choice.h). Errors go to the findings.
+void read_effects(SceneTable& root, const EffectRules& rules, Scene& scene, SceneFindings& findings);
 
 }  // namespace pipelines

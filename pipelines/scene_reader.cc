@@ -58,65 +58,6 @@ TomlNode parse(const std::filesystem::path& file) {
 
 const std::string machine_types = "\"vibratory_mill\", \"planetary_mill\", \"drive_train\", \"load_table\"";
 
-/// "50 % of peak", "40 % of yield"
-SearchWish read_wish(SceneTable& root) {
-  SearchWish wish;
-  for (const char* key : {"tolerance", "time_limit"}) root.know(key);
-  if (root.has("tolerance")) wish.tolerance = root.quantity("tolerance", "1", between(1e-4, 0.5));
-  if (root.has("time_limit")) wish.time_limit_s = root.quantity("time_limit", "s", positive(1e7));
-  return wish;
-}
-
-ZoneRule read_zones(SceneTable zones) {
-  ZoneRule rule;
-  const std::string level = zones.text_or("level", "50 % of peak", "where a zone begins");
-  if (!level.empty()) {
-    const std::string remedy =
-        "is no level; write a share above 0 and up to 100 %, such as \"50 % of peak\" or \"40 % of yield\"";
-    const auto of = level.find(" of ");
-    const std::string whole = of == std::string::npos ? "" : level.substr(of + 4);
-    try {
-      rule.share = to_si(level.substr(0, of), "1");
-      if (!(rule.share > 0 && rule.share <= 1) || (whole != "peak" && whole != "yield"))
-        zones.refuse("level", remedy);
-    } catch (const UnitError&) {
-      zones.refuse("level", remedy);
-    }
-    rule.reference = whole == "yield" ? ZoneRule::Reference::yield : ZoneRule::Reference::peak;
-  }
-  zones.finish();
-  return rule;
-}
-
-std::vector<BearingScene> read_bearings(SceneTable& root) {
-  std::vector<BearingScene> bearings;
-  root.know("bearings");
-  if (!root.has("bearings")) return bearings;
-  for (SceneTable& table : root.tables("bearings")) {
-    BearingScene bearing;
-    bearing.name = table.text("name");
-    bearing.load = table.text("load");
-    bearing.share = table.quantity_or("share", "1", {0, 1, true}, 1, "the bearing carries the whole load");
-    bearing.dynamic_rating_N = table.quantity("dynamic_rating", "N", positive(1e9));
-    const std::string element = table.text("element");
-    if (element == "roller")
-      bearing.element = kinetics::RollingElement::roller;
-    else if (!element.empty() && element != "ball")
-      table.refuse("element", "unknown rolling element; write \"ball\" or \"roller\"");
-    table.know("speed");
-    if (table.has("speed")) bearing.speed_rad_s = table.quantity("speed", "rad/s", positive(1e6));
-    table.finish();
-    bearings.push_back(std::move(bearing));
-  }
-  return bearings;
-}
-
-void read_results(SceneTable results, Scene& scene) {
-  scene.snapshots = results.count_or("snapshots", 0, 3600, 24, "over the turn that contains the peak");
-  scene.pictures = results.flag_or("pictures", true, "of the envelope, as PNG");
-  results.finish();
-}
-
 /// The published formulas leave out terms that a body would feel as a resultant without a counterpart.
 void refuse_open_balance(SceneTable& machine, const kinetics::VibratoryMill& mill) {
   const double omega2 = mill.speed_rad_s * mill.speed_rad_s;
@@ -174,7 +115,12 @@ std::vector<SceneTable> read_bodies(SceneTable& root, const std::string& machine
 
 void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   const auto convention = read_convention(machine);
-  scene.effects = read_effects(root, vibratory_mill_rules(convention, root.has("shaft")), findings);
+  EffectRules rules = vibratory_mill_rules(convention, root.has("shaft"));
+  if (!machine.has("charge") || !machine.table("charge").has("lag")) rules.lacking = {"charge_lag"};
+  if (!machine.has("springs"))
+    for (const char* effect : {"springs", "spring_damping", "pitch", "charge_follows_pitch"})
+      rules.lacking.push_back(effect);
+  read_effects(root, rules, scene, findings);
   scene.run_up = read_run_up(machine);
   auto mill = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space,
                                   root.has("chamber") ? &scene.masses_from_mesh : nullptr);
@@ -190,7 +136,11 @@ void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& sce
   EffectRules rules = planetary_mill_rules(convention);
   add_own_effects(rules, BodyRole::drum, root.has("drum"), "[drum]");
   add_own_effects(rules, BodyRole::stub_axle, root.has("axle"), "[axle]");
-  scene.effects = read_effects(root, rules, findings);
+  for (const auto& effect : rules.known)
+    if ((effect == "belt" && !machine.has("belt")) ||
+        (effect.rfind("charge_", 0) == 0 && !machine.has("charge")))
+      rules.lacking.push_back(effect);
+  read_effects(root, rules, scene, findings);
   bool from_mesh = false;
   scene.machine =
       read_planetary_mill(machine, convention, scene.effects, scene.drum_axes, root.has("drum"), from_mesh);
@@ -224,7 +174,7 @@ void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene,
     add_own_effects(rules, BodyRole::train_shaft, root.has("shaft"), "[shaft]");
     for (const auto& body : scene.bodies)
       for (const auto& force : body.train.forces) rules.known.push_back(force.effect);
-    scene.effects = read_effects(root, rules, findings);
+    read_effects(root, rules, scene, findings);
   } catch (const std::invalid_argument& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
@@ -234,7 +184,7 @@ void read_load_table_scene(SceneTable& root, SceneTable& machine, Scene& scene, 
   auto table = read_load_table(machine, scene.file.parent_path(), findings);
   root.know("effects");
   if (!table.loads.empty())
-    scene.effects = read_effects(root, plain_rules(kinetics::load_table_effects(table)), findings);
+    read_effects(root, plain_rules(kinetics::load_table_effects(table)), scene, findings);
   scene.machine = std::move(table);
 }
 

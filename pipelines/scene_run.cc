@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/effect_bounds.h"
+#include "pipelines/effect_choice.h"
 #include "pipelines/fineness.h"
 #include "pipelines/peak_growth.h"
 #include "pipelines/refinement.h"
@@ -65,6 +67,9 @@ public:
     std::vector<MeshedBody> meshed;
     for (std::size_t i = 0; i < n_bodies(); ++i)
       meshed.push_back(is_wanted(i) ? mesh(i) : options_.others.at(i));
+    if (run_.scene.effect_choice.open)
+      run_.scene = clock_.run(
+          "effects", [&] { return with_effects_chosen(run_.scene, meshed, negligible_share(tolerance())); });
     load(std::move(meshed));
     const auto first_sampling = run_.scene.sampling.instants_per_turn;
     for (const auto i : wanted()) {
@@ -79,6 +84,9 @@ public:
   }
 
 private:
+  double tolerance() const {
+    return options_.wish.tolerance > 0 ? options_.wish.tolerance : run_.scene.wish.tolerance;
+  }
   std::size_t n_bodies() const { return run_.scene.bodies.size(); }
   bool is_wanted(std::size_t i) const { return !options_.only || *options_.only == i; }
   std::vector<std::size_t> wanted() const {
@@ -110,6 +118,7 @@ private:
     if (analysis.vibration)
       if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
         warnings_.push_back(warning);
+    clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
     files_[i].finish(analysis, run_.loaded.meshed[i], last_step);
     run_.loaded.meshed[i].model.reset();
   }
@@ -249,6 +258,7 @@ private:
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);
       set_errors(after, errors);
+      bound_dropped_effects(run_.scene, i, run_.loaded, after);
     }
   }
 
@@ -267,7 +277,15 @@ bool SceneRun::met() const {
 }
 
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock) {
-  return SceneRunner(scene, options, clock).run();
+  Scene with_choice = scene;
+  while (true) {
+    SceneRun run = SceneRunner(with_choice, options, clock).run();
+    const auto back = effect_to_take_back(run.scene, run.analyses);
+    if (back.empty()) return run;
+    with_choice.effects = run.scene.effects;
+    with_choice.effect_choice = run.scene.effect_choice;
+    with_choice = with_effect_back(with_choice, back);
+  }
 }
 
 }  // namespace pipelines

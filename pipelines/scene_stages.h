@@ -12,6 +12,18 @@ namespace pipelines {
 /// @param scene  with its machine read
 kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneFindings& findings);
 
+/// `tolerance` and `time_limit` of the root.
+SearchWish read_wish(SceneTable& root);
+
+/// [zones]
+ZoneRule read_zones(SceneTable zones);
+
+/// [[bearings]]
+std::vector<BearingScene> read_bearings(SceneTable& root);
+
+/// [results]
+void read_results(SceneTable results, Scene& scene);
+
 /// What the stages themselves refuse (resonances, springs that cannot carry the weights, shafts that cannot
 /// be meshed) is better said now, with a line, than after the first stage: a few instants cost next to
 /// nothing. Masses that only the mesh knows put that off.

@@ -226,6 +226,28 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   return json;
 }
 
+/// What effects = "auto" has switched off: shares of the loads, bounds of the governing stresses.
+Json choice_json(const RunReport& report) {
+  const auto& choice = report.scene.effect_choice;
+  Json json{{"limit", choice.limit},
+            {"share_of_loads", number(choice.share)},
+            {"load_change", {{"load", choice.load_change.load}, {"share", number(choice.load_change.share)}}},
+            {"taken_back", choice.taken_back},
+            {"effects", Json::object()}};
+  for (const auto& dropped : choice.dropped)
+    json["effects"][dropped.effect]["share_of_loads"] = number(dropped.share);
+  for (const auto& analysis : report.bodies) {
+    if (!analysis.dropped) continue;
+    const auto bound = [&](const EffectBound& b) {
+      return Json{{"bound_Pa", number(b.bound_Pa)}, {"estimated_Pa", number(b.estimated_Pa)}};
+    };
+    for (const auto& effect : analysis.dropped->effects)
+      json["effects"][effect.effect]["bodies"][analysis.scene.name] = bound(effect);
+    json["bodies"][analysis.scene.name] = bound(analysis.dropped->together);
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string summary_json(const RunReport& report) {
@@ -239,6 +261,7 @@ std::string summary_json(const RunReport& report) {
                    {"effects", report.scene.effects},
                    {"turns", report.scene.sampling.turns},
                    {"instants_per_turn", report.scene.sampling.instants_per_turn}};
+  if (!report.scene.effect_choice.offered.empty()) json["dropped_effects"] = choice_json(report);
   json["warnings"] = report.loads.warnings;
   for (const auto& warning : report.scene.warnings) json["warnings"].push_back(warning);
   for (const auto& quantity : report.loads.quantities) {

@@ -26,6 +26,10 @@ struct RunReport {
 /// The text of summary.json. Everything but `timing` is the same from run to run.
 std::string summary_json(const RunReport& report);
 
+/// What effects = "auto" has switched off, and what that could change at most; nothing for other scenes.
+/// @param bodies  solved; none: nothing is known of stresses
+void print_effect_choice(std::ostream& out, const Scene& scene, const std::vector<BodyAnalysis>& bodies);
+
 /// The table for a person: loads, peak stress with place and moment, zones, torsion, seconds per stage.
 void print_report(std::ostream& out, const RunReport& report);
 

@@ -95,7 +95,7 @@ TEST(NaturalFrequencies, CostNothingUnlessAskedFor) {
     stripped["bodies"]["shaft"].erase("natural_frequencies");
     stripped["bodies"]["shaft"].erase("dynamic_amplification");
     auto& error = stripped["bodies"]["shaft"]["peak_von_mises"]["error"];  // the ledger has an entry of it
-    error["total"] = error["numerical"];
+    error["total"] = error["numerical"].get<double>() + error.value("load_patches", 0.0);
     error["methods"].erase("quasi_static");
     EXPECT_EQ(error.erase("quasi_static"), 1u);
     EXPECT_EQ(stripped, without);
