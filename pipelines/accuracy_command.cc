@@ -19,6 +19,7 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
   AccuracyOptions study_options;
   study_options.n_threads = options.n_threads;
   study_options.n_repeats = options.n_repeats;
+  study_options.grid_convergence = options.grid_convergence;
   if (!options.time_limit.empty())
     study_options.time_limit_s = option_in_si("--time-limit", options.time_limit, "s");
   if (!options.tolerance.empty())
@@ -46,6 +47,7 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
     studies.push_back(study_accuracy(scene, i, study_options, clock));
     print_accuracy(out, studies.back());
     write_accuracy_csv(directory / (name + ".csv"), studies.back());
+    if (studies.back().grid) write_grid_csv(directory / (name + "_gci.csv"), *studies.back().grid);
     if (!write_accuracy_chart(studies.back(), scene.title + ": what accuracy costs in time",
                               directory / (name + ".png")))
       std::cerr << "no chart: this machine offers no EGL (package libegl1); the CSV has the same figures\n";
