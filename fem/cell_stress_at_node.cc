@@ -1,6 +1,7 @@
 #include "fem/cell_stress_at_node.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "fem/simplex.h"
@@ -10,8 +11,26 @@
 namespace fem {
 namespace {
 
-/// Derivative at node i of the quadratic Lagrange polynomial of node j on {0, 1/2, 1}.
-constexpr double derivative[3][3] = {{-3, 4, -1}, {-1, 0, 1}, {1, -4, 3}};
+/// Where a cell of the degree has its nodes along an edge: Gauss-Lobatto points.
+std::vector<double> nodes_on_edge(int degree) {
+  if (degree == 1) return {0, 1};
+  if (degree == 2) return {0, 0.5, 1};
+  const double inner = 0.5 - 0.5 / std::sqrt(5.0);
+  return {0, inner, 1 - inner, 1};
+}
+
+/// Derivative at node i of the Lagrange polynomial of node j.
+double lagrange_derivative(const std::vector<double>& x, std::size_t i, std::size_t j) {
+  double sum = 0;
+  for (std::size_t left_out = 0; left_out < x.size(); ++left_out) {
+    if (left_out == j) continue;
+    double product = 1 / (x[j] - x[left_out]);
+    for (std::size_t m = 0; m < x.size(); ++m)
+      if (m != j && m != left_out) product *= (x[i] - x[m]) / (x[j] - x[m]);
+    sum += product;
+  }
+  return sum;
+}
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
@@ -32,29 +51,32 @@ Matrix3 inverse(const Matrix3& m) {
 }
 
 /// Nodes of a cell in the order of grid.h.
-std::vector<std::size_t> local_nodes(CellKind kind, const NodeList& cell) {
+std::vector<std::size_t> local_nodes(CellShape shape, const NodeList& cell) {
+  const int* order = vtk_hexahedron_order(shape.degree);
   std::vector<std::size_t> nodes(cell.size());
   for (std::size_t v = 0; v < cell.size(); ++v)
-    nodes[kind == CellKind::tetrahedra ? v : std::size_t(vtk_hexahedron_from_lexicographic[v])] =
-        std::size_t(cell[v]);
+    nodes[shape.is_tetrahedron() ? v : std::size_t(order[v])] = std::size_t(cell[v]);
   return nodes;
 }
 
 /// Gradients of all shape functions in reference coordinates, at one node.
-std::vector<std::array<double, 3>> reference_gradients(CellKind kind, std::size_t node) {
+std::vector<std::array<double, 3>> reference_gradients(CellShape shape, std::size_t node) {
   std::vector<std::array<double, 3>> gradients;
-  if (kind == CellKind::tetrahedra) {
-    for (const auto& shape : quadratic_tetrahedron(tetrahedron_nodes()[node]))
-      gradients.push_back(shape.gradient);
+  if (shape.is_tetrahedron()) {
+    for (const auto& function : quadratic_tetrahedron(tetrahedron_nodes()[node]))
+      gradients.push_back(function.gradient);
     return gradients;
   }
-  gradients.resize(27);
-  const std::array<std::size_t, 3> at{node % 3, node / 3 % 3, node / 9};
+  const auto x = nodes_on_edge(shape.degree);
+  const std::size_t n = x.size();
+  gradients.resize(n * n * n);
+  const std::array<std::size_t, 3> at{node % n, node / n % n, node / (n * n)};
   for (std::size_t direction = 0; direction < 3; ++direction)
-    for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t j = 0; j < n; ++j) {
       auto index = at;
       index[direction] = j;
-      gradients[index[0] + 3 * index[1] + 9 * index[2]][direction] += derivative[at[direction]][j];
+      gradients[index[0] + n * index[1] + n * n * index[2]][direction] +=
+          lagrange_derivative(x, at[direction], j);
     }
   return gradients;
 }
@@ -89,12 +111,13 @@ std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
   std::vector<std::vector<std::array<double, 6>>> stress_Pa;
   const auto& nodes = responses.nodes;
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
-    const auto local = local_nodes(nodes.kind, nodes.cell(c));
+    const auto cell = nodes.cell(c);
+    if (std::find(cell.begin(), cell.end(), std::int32_t(node)) == cell.end()) continue;
+    const auto local = local_nodes(nodes.shape(), cell);
     const auto found = std::find(local.begin(), local.end(), node);
-    if (found == local.end()) continue;
     const auto [lambda, mu] = lame(material_of(nodes, c, material, material_of_volume));
     auto& of_cell = stress_Pa.emplace_back(n_channels);
-    const auto shape_gradients = reference_gradients(nodes.kind, std::size_t(found - local.begin()));
+    const auto shape_gradients = reference_gradients(nodes.shape(), std::size_t(found - local.begin()));
     Matrix3 jacobian;  // d x_i / d reference_j
     for (int i = 0; i < 3; ++i)
       jacobian[i] = gradient_of([&](std::size_t n) { return nodes.xyz_m[3 * local[n] + std::size_t(i)]; },

@@ -19,20 +19,20 @@ Nodes export_nodes(const Grid& grid) {
   Nodes nodes;
   nodes.n = grid.n_nodes;
   nodes.xyz_m = grid.xyz_m;
-  if (grid.degree != 2) return nodes;
-
   nodes.kind = grid.kind;
+  nodes.degree = grid.degree;
+  const int *hexahedron = vtk_hexahedron_order(grid.degree), *quad = vtk_quad_order(grid.degree);
   const bool as_they_are = grid.kind == CellKind::tetrahedra;
   nodes.cells.reserve(grid.cell_nodes.size());
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     for (std::size_t v = 0; v < nodes.nodes_per_cell(); ++v)
-      nodes.cells.push_back(grid.nodes_of(c)[as_they_are ? v : vtk_hexahedron_from_lexicographic[v]]);
+      nodes.cells.push_back(grid.nodes_of(c)[as_they_are ? v : std::size_t(hexahedron[v])]);
   nodes.cell_volume_id.assign(grid.volume_id.begin(), grid.volume_id.end());
   nodes.faces.reserve(grid.boundary.size() * nodes.nodes_per_face());
   for (const auto& face : grid.boundary) {
     const auto local = nodes_of_face(grid, face.cell, face.face);
     for (std::size_t v = 0; v < nodes.nodes_per_face(); ++v)
-      nodes.faces.push_back(local[as_they_are ? v : vtk_quad_from_lexicographic[v]]);
+      nodes.faces.push_back(local[as_they_are ? v : std::size_t(quad[v])]);
     nodes.face_boundary_id.push_back(face.boundary_id);
   }
   return nodes;

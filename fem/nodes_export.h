@@ -7,7 +7,7 @@
 
 namespace fem {
 
-/// Cells and faces in VTK's order (degree 2 only, empty otherwise).
+/// Cells and faces in VTK's order (vtk_order.h).
 Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals);
 
 /// The same without the nodes' volumes.

@@ -36,15 +36,20 @@ struct Nodes {
   std::vector<double> xyz_m;      ///< n x 3
   std::vector<double> volume_m3;  ///< n; integral of the node's shape function, sums to the body's volume
   CellKind kind = CellKind::hexahedra;
-  /// Cell after cell, in the order of VTK_TRIQUADRATIC_HEXAHEDRON or VTK_QUADRATIC_TETRA (degree 2 only).
+  int degree = 2;  ///< of displacement and geometry; 2 for tetrahedra
+  /// Cell after cell, in the order of VTK_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON or VTK_LAGRANGE_HEXAHEDRON
+  /// (degrees 1 to 3), or of VTK_QUADRATIC_TETRA. Nodes of degree 3 lie at Gauss-Lobatto points of their
+  /// cell.
   std::vector<std::int32_t> cells;
   std::vector<std::int32_t> cell_volume_id;  ///< one per cell: its volume group
-  /// Boundary faces, in the order of VTK_BIQUADRATIC_QUAD or VTK_QUADRATIC_TRIANGLE.
+  /// Boundary faces, in the order of VTK_QUAD, VTK_BIQUADRATIC_QUAD or VTK_LAGRANGE_QUADRILATERAL, or of
+  /// VTK_QUADRATIC_TRIANGLE; corners counter-clockwise seen from outside.
   std::vector<std::int32_t> faces;
   std::vector<std::int32_t> face_boundary_id;  ///< one per face
 
-  std::size_t nodes_per_cell() const noexcept { return std::size_t(CellShape{kind, 2}.nodes_per_cell()); }
-  std::size_t nodes_per_face() const noexcept { return std::size_t(CellShape{kind, 2}.nodes_per_face()); }
+  CellShape shape() const noexcept { return {kind, degree}; }
+  std::size_t nodes_per_cell() const noexcept { return std::size_t(shape().nodes_per_cell()); }
+  std::size_t nodes_per_face() const noexcept { return std::size_t(shape().nodes_per_face()); }
   std::size_t n_cells() const noexcept { return cells.size() / nodes_per_cell(); }
   std::size_t n_faces() const noexcept { return faces.size() / nodes_per_face(); }
   NodeList cell(std::size_t i) const { return {cells.data() + i * nodes_per_cell(), nodes_per_cell()}; }

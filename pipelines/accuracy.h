@@ -9,6 +9,7 @@
 
 #include "pipelines/effect_prices.h"
 #include "pipelines/error_ledger.h"
+#include "pipelines/grid_convergence.h"
 #include "pipelines/scene.h"
 #include "pipelines/stage_clock.h"
 
@@ -16,7 +17,9 @@ namespace pipelines {
 
 /// One run on one rung.
 struct AccuracyRow {
-  std::string rung;      ///< "beam", "axisymmetric", "even mesh", "refined mesh", "fewer instants"
+  /// "beam", "axisymmetric", "shell", "Q1 solid", "even mesh" (Q2 solid), "Q3 solid", "systematic mesh",
+  /// "refined mesh", "fewer instants"
+  std::string rung;
   std::string fineness;  ///< in words
   int instants_per_turn = 0;
   std::size_t n_dofs = 0;
@@ -29,6 +32,18 @@ struct AccuracyRow {
   double true_error_Pa = 0;          ///< |value - reference|
   bool is_reference = false;
   bool on_frontier = false;  ///< no cheaper run is closer to the reference
+};
+
+/// Up to three systematic meshes of one body, coarsest first, and what they say together.
+struct GridStudy {
+  struct Mesh {
+    std::string fineness;
+    std::size_t n_dofs = 0;
+    double size_m = 0;  ///< of its cells (systematic_meshes.h)
+    double value_Pa = 0;
+  };
+  std::vector<Mesh> meshes;
+  GridConvergence convergence;  ///< of fewer than two meshes: refused
 };
 
 /// Estimated over true error; infinite where the run meets the reference exactly.
@@ -44,6 +59,7 @@ struct AccuracyStudy {
   std::optional<std::size_t> chosen;  ///< cheapest row whose estimate is within the tolerance
   std::string next_factor_of_two;     ///< a sentence
   std::vector<EffectPrice> effects;   ///< of the scene's own mesh
+  std::optional<GridStudy> grid;      ///< where it was asked for
 };
 
 /// Takes a known value as reference, or the run with the smallest estimate; sorts the runs by their seconds,
@@ -56,17 +72,19 @@ void compare_runs(AccuracyStudy& study, double known_Pa);
 struct AccuracyOptions {
   std::filesystem::path directory;  ///< of the body's scratch files
   int n_threads = 0;
-  double time_limit_s = 600;  ///< of the study of one body; finer runs are left out
-  double tolerance = 0;       ///< 0: the scene's, or 5 %
-  int n_repeats = 1;          ///< of every run that takes less than a tenth of the time
-  double reference_Pa = 0;    ///< a known value; 0: an overkill run
+  double time_limit_s = 600;      ///< of the study of one body; finer runs are left out
+  double tolerance = 0;           ///< 0: the scene's, or 5 %
+  int n_repeats = 1;              ///< of every run that takes less than a tenth of the time
+  double reference_Pa = 0;        ///< a known value; 0: an overkill run
+  bool grid_convergence = false;  ///< three systematic meshes too
 };
 
 /// Runs the ladder for one body, cheapest first: beam and axisymmetric harmonics (round shafts), the scene's
 /// mesh from half as fine to several times finer, with fewer instants, and meshes refined where stress asks
-/// for it. It ends at a tenth of the tolerance, by the estimates, or when the
-/// time is up; the run with the smallest estimate is what the others are compared with, unless a value is
-/// known. Needs an fem::Environment.
+/// for it; where asked for, systematic meshes, the finest of which has the grid convergence index as its
+/// discretisation error. It ends at a tenth of the tolerance, by the estimates, or when the time is up; the
+/// run with the smallest estimate is what the others are compared with, unless a value is known. Needs an
+/// fem::Environment.
 AccuracyStudy study_accuracy(const Scene& scene, std::size_t body, const AccuracyOptions& options,
                              StageClock& clock);
 

@@ -23,9 +23,9 @@ namespace {
 constexpr int width = 1500, height = 950, font = 22, small_font = 18;
 constexpr double left = 130, right = 1130, bottom = 110, top = 800, disc_radius = 8;
 
-/// Told apart by hue and by lightness (after Okabe and Ito).
-const std::vector<Colour> colours{
-    {0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}};
+/// Told apart by hue and by lightness (the first six after Okabe and Ito).
+const std::vector<Colour> colours{{0, 114, 178},  {213, 94, 0},  {0, 158, 115},   {204, 121, 167},
+                                  {86, 180, 233}, {230, 159, 0}, {110, 110, 110}, {125, 75, 30}};
 const Colour pale{225, 225, 225}, frontier_grey{190, 190, 190};
 
 /// A logarithmic axis over whole decades, or parts of one where the values need less.

@@ -22,6 +22,7 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
   AccuracyOptions study_options;
   study_options.n_threads = options.n_threads;
   study_options.n_repeats = options.n_repeats;
+  study_options.grid_convergence = options.grid_convergence;
   if (!options.time_limit.empty())
     study_options.time_limit_s = option_in_si("--time-limit", options.time_limit, "s");
   if (!options.tolerance.empty())
@@ -52,6 +53,7 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
     out << table.str();
     write_text_file(directory / (name + ".txt"), table.str());
     write_accuracy_csv(directory / (name + ".csv"), studies.back());
+    if (studies.back().grid) write_grid_csv(directory / (name + "_gci.csv"), *studies.back().grid);
     if (!write_accuracy_chart(studies.back(), scene.title + ": what accuracy costs in time",
                               directory / (name + ".png")))
       std::cerr << "no chart: this machine offers no EGL (package libegl1); the CSV has the same figures\n";

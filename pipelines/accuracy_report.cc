@@ -161,6 +161,7 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
       << fmt::format(
              "  estimates bound the true error in {} of {} runs; median of estimate over true error {:.2g}\n",
              e.n_bounded, e.n_runs, e.median);
+  if (study.grid) print_grid_study(out, *study.grid);
 }
 
 void write_accuracy_csv(const std::filesystem::path& file, const AccuracyStudy& study) {
@@ -180,6 +181,13 @@ void write_accuracy_h5(const std::filesystem::path& file, const std::vector<Accu
     writer.attribute(group, "reference_error_Pa", study.reference_error_Pa);
     writer.attribute(group, "tolerance", study.tolerance);
     writer.attribute(group, "next_factor_of_two", study.next_factor_of_two);
+    if (study.grid) {
+      const auto& c = study.grid->convergence;
+      writer.attribute(group, "grid_convergence_order", c.observed_order);
+      writer.attribute(group, "grid_convergence_extrapolated_Pa", c.extrapolated);
+      writer.attribute(group, "grid_convergence_index_Pa", c.index_21);
+      writer.attribute(group, "grid_convergence_refusal", c.refusal);
+    }
     for (const auto& column : columns(study)) {
       const std::string object = group + "/" + column.name;
       if (const auto* text = std::get_if<std::vector<std::string>>(&column.cells))

@@ -17,12 +17,20 @@ std::string where_tolerances_end(const AccuracyStudy& study);
 /// The table on the terminal, with what it ran on.
 void print_accuracy(std::ostream& out, const AccuracyStudy& study);
 
+/// The systematic meshes, with order, extrapolated value and index, or why there is none.
+void print_grid_study(std::ostream& out, const GridStudy& study);
+
+/// One row per systematic mesh: mesh, unknowns, cell size, stress.
+/// @throws std::runtime_error naming the file if it cannot be written
+void write_grid_csv(const std::filesystem::path& file, const GridStudy& study);
+
 /// One row per run: rung, mesh, unknowns, stress, every entry of the ledger, true error, seconds per stage,
 /// memory.
 /// @throws std::runtime_error naming the file if it cannot be written
 void write_accuracy_csv(const std::filesystem::path& file, const AccuracyStudy& study);
 
-/// /<body>/<series>, the columns of the CSV; reference, tolerance, machine and versions are attributes.
+/// /<body>/<series>, the columns of the CSV; reference, tolerance, machine and versions are attributes, and
+/// so is the grid convergence index (grid_convergence_*).
 /// @throws std::runtime_error naming the file if it cannot be written
 void write_accuracy_h5(const std::filesystem::path& file, const std::vector<AccuracyStudy>& studies);
 

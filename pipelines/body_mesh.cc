@@ -81,6 +81,7 @@ MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
   auto& edges = result.mesh.sharp_edges;
   edges.insert(edges.end(), body.singular.begin(), body.singular.end());
   result.body = to_fem_body(result.mesh, body.material);
+  result.body.degree = body.degree;
   if (body.elastic_feet) result.body.elastic_supports = elastic_feet(result.mesh, springs);
   result.model = std::make_shared<const fem::Model>(result.body);
   result.masses = result.model->mass_properties();

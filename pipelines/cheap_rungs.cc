@@ -1,6 +1,8 @@
 #include "pipelines/cheap_rungs.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "fem/axisymmetric_responses.h"
 #include "fem/beam_responses.h"
@@ -58,6 +60,39 @@ std::optional<fem::UnitResponses> beam_responses(const BodyScene& body, const me
   const auto beam = beam_shaft(body, mesh);
   if (!beam) return std::nullopt;
   return fem::beam_responses(*beam, loads);
+}
+
+double ring_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads) {
+  struct Harmonic {
+    double per_N = 0;  // hoop stress
+    Eigen::ArrayXd squares;
+  };
+  std::map<int, std::map<int, Harmonic>> seats;  // by boundary and order
+  for (std::size_t k = 0; k < loads.unit_loads.size(); ++k) {
+    const auto* pressure = std::get_if<fem::SeatPressure>(&loads.unit_loads[k].shape);
+    if (pressure == nullptr || pressure->harmonic == 1) continue;
+    const auto& surface = pressure->surface;
+    const auto segment = std::find_if(shaft.segments.begin(), shaft.segments.end(),
+                                      [&](const auto& s) { return surface.centre_m[2] < s.end_m; });
+    if (segment == shaft.segments.end() || segment->bore_radius_m == 0) continue;
+    const double wall_m = segment->radius_m - segment->bore_radius_m;
+    const double mean_m = (segment->radius_m + segment->bore_radius_m) / 2;
+    const int n = pressure->harmonic;
+    const double ring =
+        n == 0 ? surface.radius_m / wall_m : 6 * surface.radius_m * mean_m / ((n * n - 1) * wall_m * wall_m);
+    auto& harmonic = seats[surface.boundary_id][n];
+    harmonic.per_N = ring * std::abs(pressure->coefficient) / (M_PI * surface.radius_m * surface.length_m);
+    const Eigen::ArrayXd values = loads.history.values.row(Eigen::Index(k)).transpose();
+    if (harmonic.squares.size() == 0) harmonic.squares = Eigen::ArrayXd::Zero(values.size());
+    harmonic.squares += values.square();  // cosine and sine
+  }
+  double largest_Pa = 0;
+  for (const auto& [boundary, harmonics] : seats) {
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(loads.history.values.cols());
+    for (const auto& [n, harmonic] : harmonics) sum += harmonic.per_N * harmonic.squares.sqrt();
+    if (sum.size() > 0) largest_Pa = std::max(largest_Pa, sum.maxCoeff());
+  }
+  return largest_Pa;
 }
 
 std::optional<AxisymmetricRung> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,

@@ -22,6 +22,12 @@ std::optional<fem::BeamShaft> beam_shaft(const BodyScene& body, const meshes::Bo
 std::optional<fem::UnitResponses> beam_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
                                                  const std::vector<fem::UnitLoad>& loads);
 
+/// What a beam leaves out of a bored seat under one-sided pressure: the section goes oval. Each harmonic p_n
+/// of the pressure on a ring of mean radius r, wall t, loaded at the radius R: hoop bending 6 p_n R r / ((n^2
+/// - 1) t^2), and p_0 R / t (Roark's Formulas, 7th ed., table 9.2). Harmonics add up without their phases.
+/// @return largest over seats and instants [Pa]; 0 for a solid shaft
+double ring_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads);
+
 /// Unit responses and what the model behind them leaves out.
 struct AxisymmetricRung {
   fem::UnitResponses responses;

@@ -22,6 +22,7 @@ struct CommandOptions {
                                      ///< for a scene with effects = "auto" what it allows
   std::string tolerance, time_limit;  ///< run, accuracy: override the scene's; empty: the scene's
   std::string body, reference;        ///< accuracy: of this body alone; a known stress; empty: all, none
+  bool grid_convergence = false;      ///< accuracy: systematic meshes too
   int n_repeats = 1;                  ///< accuracy: of each run
   int n_threads = 0;                  ///< 0: all cores
   bool fresh = false;

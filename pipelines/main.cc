@@ -98,6 +98,8 @@ int run(int argc, char** argv) {
   accuracy->add_option("--time-limit", options.time_limit, "for each body (default: \"600 s\")");
   accuracy->add_option("--reference", options.reference,
                        "a known stress, like \"104.8 MPa\" (default: an overkill run)");
+  accuracy->add_flag("--gci", options.grid_convergence,
+                     "three systematic meshes too: observed order and grid convergence index");
   accuracy->add_option("--repeats", options.n_repeats, "of every run, for the spread of its seconds")
       ->check(CLI::Range(1, 100));
   accuracy->add_option("--threads", options.n_threads, "threads to use (default: all cores)")

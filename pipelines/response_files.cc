@@ -1,9 +1,11 @@
 #include "pipelines/response_files.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "pipelines/atomic_file.h"
@@ -43,6 +45,23 @@ double* entries(std::vector<fem::SectionResponse>& v) {
   return reinterpret_cast<double*>(v.data());
 }
 
+/// Of the orders of nodes in cells and faces.
+std::array<const char*, 2> vtk_names(const fem::CellShape& shape) {
+  if (shape.is_tetrahedron()) return {"VTK_QUADRATIC_TETRA", "VTK_QUADRATIC_TRIANGLE"};
+  if (shape.degree == 1) return {"VTK_HEXAHEDRON", "VTK_QUAD"};
+  if (shape.degree == 2) return {"VTK_TRIQUADRATIC_HEXAHEDRON", "VTK_BIQUADRATIC_QUAD"};
+  return {"VTK_LAGRANGE_HEXAHEDRON", "VTK_LAGRANGE_QUADRILATERAL"};
+}
+
+/// The shape of cells with so many nodes.
+fem::CellShape shape_of(std::size_t nodes_per_cell) {
+  if (nodes_per_cell == 10) return {fem::CellKind::tetrahedra, 2};
+  for (const int degree : {1, 2, 3})
+    if (std::size_t(fem::CellShape{fem::CellKind::hexahedra, degree}.nodes_per_cell()) == nodes_per_cell)
+      return {fem::CellKind::hexahedra, degree};
+  throw std::runtime_error("/nodes/cells: no cells have " + std::to_string(nodes_per_cell) + " nodes");
+}
+
 /// Every array of the responses with its name, its extents and its label: the one list that writer and reader
 /// share.
 template <class Visit>
@@ -51,11 +70,9 @@ void visit_arrays(fem::UnitResponses& r, const Counts& n, Visit visit) {
   visit("/nodes/xyz", r.nodes.xyz_m, Extents{n.nodes, 3}, Hdf5Label{"m", ""});
   visit("/nodes/volume", r.nodes.volume_m3, Extents{n.nodes},
         Hdf5Label{"m3", "integral of the shape function"});
-  const bool tetrahedra = r.nodes.kind == fem::CellKind::tetrahedra;
-  visit("/nodes/cells", r.nodes.cells, Extents{n.cells, r.nodes.nodes_per_cell()},
-        Hdf5Label{"", tetrahedra ? "VTK_QUADRATIC_TETRA" : "VTK_TRIQUADRATIC_HEXAHEDRON"});
-  visit("/nodes/faces", r.nodes.faces, Extents{n.faces, r.nodes.nodes_per_face()},
-        Hdf5Label{"", tetrahedra ? "VTK_QUADRATIC_TRIANGLE" : "VTK_BIQUADRATIC_QUAD"});
+  const auto order = vtk_names(r.nodes.shape());
+  visit("/nodes/cells", r.nodes.cells, Extents{n.cells, r.nodes.nodes_per_cell()}, Hdf5Label{"", order[0]});
+  visit("/nodes/faces", r.nodes.faces, Extents{n.faces, r.nodes.nodes_per_face()}, Hdf5Label{"", order[1]});
   visit("/nodes/face_boundary_id", r.nodes.face_boundary_id, Extents{n.faces}, Hdf5Label{});
   visit("/nodes/cell_volume_id", r.nodes.cell_volume_id, Extents{n.volumes}, Hdf5Label{});
   visit("/energy/norm", r.energy_error.norm_sqrtJ, Extents{n.energy_channels}, Hdf5Label{"J^(1/2)", ""});
@@ -98,8 +115,9 @@ fem::UnitResponses read(const Hdf5Reader& in) {
   fem::UnitResponses r;
   r.channels = in.texts("/channels");
   r.nodes.n = in.shape("/nodes/xyz").at(0);
-  if (in.shape("/nodes/cells").at(1) == fem::CellShape{fem::CellKind::tetrahedra, 2}.nodes_per_cell())
-    r.nodes.kind = fem::CellKind::tetrahedra;
+  const auto shape = shape_of(in.shape("/nodes/cells").at(1));
+  r.nodes.kind = shape.kind;
+  r.nodes.degree = shape.degree;
   const Counts n = {r.nodes.n,
                     in.shape("/nodes/cells").at(0),
                     in.shape("/nodes/faces").at(0),

@@ -21,7 +21,8 @@ constexpr std::array<std::array<std::size_t, 8>, 6> face_parents = {{{0, 3, 7, 4
 }  // namespace
 
 Serendipity::Serendipity(const fem::Nodes& nodes) : kept_(nodes.n, 1) {
-  if (nodes.cells.empty()) throw std::invalid_argument("only cells of degree 2 have an equal of 20 nodes");
+  if (nodes.cells.empty() || nodes.degree != 2)
+    throw std::invalid_argument("only cells of degree 2 have an equal of 20 nodes");
   if (nodes.kind == fem::CellKind::tetrahedra) return;
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
     const auto cell = nodes.cell(c);

@@ -167,6 +167,18 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
   file.commit();
 }
 
+int cell_type(const fem::CellShape& shape) {
+  if (shape.is_tetrahedron()) return VTK_QUADRATIC_TETRA;
+  return shape.degree == 1   ? VTK_HEXAHEDRON
+         : shape.degree == 2 ? VTK_TRIQUADRATIC_HEXAHEDRON
+                             : VTK_LAGRANGE_HEXAHEDRON;
+}
+
+int face_type(const fem::CellShape& shape) {
+  if (shape.is_tetrahedron()) return VTK_QUADRATIC_TRIANGLE;
+  return shape.degree == 1 ? VTK_QUAD : shape.degree == 2 ? VTK_BIQUADRATIC_QUAD : VTK_LAGRANGE_QUADRILATERAL;
+}
+
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) switch (c) {
@@ -195,9 +207,7 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
                         VtuCompression compression) {
   std::vector<std::int32_t> all(nodes.n);
   std::iota(all.begin(), all.end(), 0);
-  const bool tetrahedra = nodes.kind == fem::CellKind::tetrahedra;
-  const Cells cells = {tetrahedra ? VTK_QUADRATIC_TETRA : VTK_TRIQUADRATIC_HEXAHEDRON, nodes.nodes_per_cell(),
-                       nodes.cells};
+  const Cells cells = {cell_type(nodes.shape()), nodes.nodes_per_cell(), nodes.cells};
   write_grid(path, cells, nodes, all, fields, ids, {}, compression);
 }
 
@@ -279,9 +289,7 @@ void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::No
   for (std::int32_t& node : faces) node = place[static_cast<std::size_t>(node)];
   auto with_boundary = ids;
   with_boundary.push_back({"boundary_id", nodes.face_boundary_id, IdField::At::cells});
-  const bool tetrahedra = nodes.kind == fem::CellKind::tetrahedra;
-  const Cells cells = {tetrahedra ? VTK_QUADRATIC_TRIANGLE : VTK_BIQUADRATIC_QUAD, nodes.nodes_per_face(),
-                       faces};
+  const Cells cells = {face_type(nodes.shape()), nodes.nodes_per_face(), faces};
   write_grid(path, cells, nodes, chosen, fields, with_boundary, names, compression);
 }
 

@@ -47,7 +47,10 @@ struct NameList {
 
 enum class VtuCompression { none, zlib };
 
-/// The whole body: VTK_TRIQUADRATIC_HEXAHEDRON or VTK_QUADRATIC_TETRA, all nodes in their order.
+/// The whole body: VTK_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON or
+/// VTK_QUADRATIC_TETRA, all nodes in their order. VTK takes the nodes of cubic cells as evenly spaced in the
+/// cell's own coordinates, where they are Gauss-Lobatto points: exact at the nodes, a little off between
+/// them.
 /// @throws std::invalid_argument naming the field if its size does not fit the nodes or cells;
 ///         std::runtime_error naming the file if it cannot be written
 void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
@@ -64,7 +67,7 @@ void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& 
                            const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
                            VtuCompression compression = VtuCompression::zlib);
 
-/// The surface alone: VTK_BIQUADRATIC_QUAD or VTK_QUADRATIC_TRIANGLE over the nodes that lie on a boundary
+/// The surface alone: the faces of these cells over the nodes that lie on a boundary
 /// face, in ascending order of their numbers; the cell field `boundary_id` is added.
 /// @param fields, ids  at all nodes of the body, as for write_envelope_vtu; ids at cells: one per boundary
 /// face

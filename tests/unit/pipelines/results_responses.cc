@@ -119,6 +119,29 @@ TEST(ResponseFiles, two_writes_give_the_same_bytes) {
   EXPECT_EQ(bytes(at / "a.h5"), bytes(at / "b.h5"));
 }
 
+TEST(ResponseFiles, every_degree_comes_back) {
+  const Directory at;
+  for (const int degree : {1, 2, 3}) {
+    fem::UnitResponses written;
+    written.channels = {"seat.fx"};
+    written.resultants.resize(1);
+    written.nodes.degree = degree;
+    const auto n = std::int32_t(written.nodes.nodes_per_cell());
+    for (std::int32_t i = 0; i < n; ++i) written.nodes.cells.push_back(n - 1 - i);
+    for (std::int32_t i = 0; i < std::int32_t(written.nodes.nodes_per_face()); ++i)
+      written.nodes.faces.push_back(i);
+    written.nodes.face_boundary_id = {7};
+    write_unit_responses(at / "r.h5", "key", written);
+    const auto read = read_unit_responses(at / "r.h5", "key");
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->nodes.degree, degree);
+    EXPECT_EQ(read->nodes.n_cells(), 1u);
+    EXPECT_EQ(read->nodes.n_faces(), 1u);
+    EXPECT_EQ(read->nodes.cells, written.nodes.cells);
+    EXPECT_EQ(read->nodes.faces, written.nodes.faces);
+  }
+}
+
 TEST(ResponseFiles, an_axisymmetric_or_empty_body_comes_back) {
   const Directory at;
   fem::UnitResponses written;
