@@ -70,7 +70,8 @@ struct Ranks : testing::Test {
     return several;
   }
 
-  /// Every rank has its share: cells to one, unknowns to what the interface between two shares has.
+  /// Every rank has its share: cells to one, unknowns to what the interfaces have, which go to the first of
+  /// their ranks: a third of a quarter of the disc.
   static void expect_shares(const fem::UnitResponses& responses) {
     const auto& ranks = responses.solver.ranks;
     ASSERT_EQ(int(ranks.size()), number());
@@ -80,7 +81,7 @@ struct Ranks : testing::Test {
       most = std::max(most, rank.n_cells);
       fewest = std::min(fewest, rank.n_cells);
       EXPECT_GT(rank.bytes, 0);
-      EXPECT_LT(double(rank.n_unknowns), 1.3 * double(responses.n_dofs) / number());
+      EXPECT_LT(double(rank.n_unknowns), 1.5 * double(responses.n_dofs) / number());
     }
     EXPECT_EQ(unknowns, responses.n_dofs) << "every unknown is counted once";
     EXPECT_LE(most - fewest, 1u);
@@ -150,7 +151,8 @@ TEST_F(Ranks, iteration_repeats_bit_by_bit) {
   EXPECT_EQ(first.stress_Pa, second.stress_Pa);
   const auto direct = solve(shaft.body, loads, fem::Solver::direct, MPI_COMM_WORLD),
              again = solve(shaft.body, loads, fem::Solver::direct, MPI_COMM_WORLD);
-  std::cout << "  MUMPS twice: " << difference(direct.displacement_m, again.displacement_m, loads.size(), 3) << '\n';
+  std::cout << "  MUMPS twice: " << difference(direct.displacement_m, again.displacement_m, loads.size(), 3)
+            << '\n';
 }
 
 TEST_F(Ranks, clamped_rod) {
