@@ -174,6 +174,8 @@ void effects_command(const CommandOptions& options, std::ostream& out) {
     out << effects_json(scene, worth);
   else
     print_effects(out, scene, worth);
+  if (!options.json && scene.effect_choice.open && !scene.bodies.empty())
+    out << "  effects = \"auto\" is judged by the loads on the bodies in a run; `check` lists what goes\n";
 }
 
 void torsion_command(const CommandOptions& options, std::ostream& out) {

@@ -143,6 +143,10 @@ TEST(EffectChoice, TheThresholdDecides) {
   EXPECT_LT(more.effect_choice.share, 0.1);
   EXPECT_GT(more.effect_choice.share, next.share);
   EXPECT_EQ(more.effects.size() + more.effect_choice.dropped.size(), scene.effects.size());
+  // A limit that each of them keeps, but not all together: others go.
+  const double tight = more.effect_choice.share * (1 - 1e-6);
+  for (const auto& effect : more.effect_choice.dropped) ASSERT_LT(effect.share, tight) << effect.effect;
+  EXPECT_LT(chosen(scene, tight).effect_choice.share, tight);
 }
 
 // Once chosen it stays so, and the same each time: no clock takes part.
