@@ -107,12 +107,17 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
                                 " channels");
   Closure closure;
   const auto& values = loads.history.values;
+  double force_made_of_N = 0, moment_made_of_Nm = 0;
   std::array<Eigen::ArrayXd, 6> sums, sizes;
   for (std::size_t c = 0; c < 6; ++c) sums[c] = sizes[c] = Eigen::ArrayXd::Zero(values.cols());
   for (std::size_t k = 0; k < mesh_resultants.size(); ++k) {
     const auto wanted = wanted_resultant(loads.unit_loads[k], regions);
     const Eigen::ArrayXd a = values.row(Eigen::Index(k)).transpose();
     const Scale scale = std::visit(ScaleOf{regions}, loads.unit_loads[k].shape);
+    if (a.size() > 0) {
+      force_made_of_N = std::max(force_made_of_N, a.abs().maxCoeff() * scale.force);
+      moment_made_of_Nm = std::max(moment_made_of_Nm, a.abs().maxCoeff() * scale.moment);
+    }
     for (std::size_t c = 0; c < 6; ++c) {
       sums[c] += a * mesh_resultants[k][c];
       sizes[c] += (a * mesh_resultants[k][c]).abs();
@@ -136,6 +141,10 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
     if (const auto* resultant = std::get_if<fem::SurfaceResultant>(&load.shape))
       arm_m = std::max(arm_m, ScaleOf::arm(resultant->surface));
   if (arm_m > 0) force_size = std::max(force_size, moment_size / arm_m);
+  // A load that balances itself (spin) leaves nothing but round-off: of what it is made of.
+  constexpr double round_off = 1e-9;
+  if (force_size < round_off * force_made_of_N) force_size = force_made_of_N;
+  if (moment_size < round_off * moment_made_of_Nm) moment_size = moment_made_of_Nm;
   for (std::size_t c = 0; c < 3 && values.cols() > 0; ++c) {
     const auto relative = [](double residual, double own, double common) {
       return residual == 0 ? 0.0 : residual / (own > 1e-6 * common ? own : common);

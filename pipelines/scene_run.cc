@@ -14,6 +14,7 @@
 #include "pipelines/fineness.h"
 #include "pipelines/peak_growth.h"
 #include "pipelines/refinement.h"
+#include "pipelines/singular_edge.h"
 
 namespace pipelines {
 namespace {
@@ -186,17 +187,22 @@ private:
   }
 
   /// A stress that grows with every refinement has no peak to report: its place joins the sharp edges, which
-  /// are left out by a distance fixed in the geometry, and the search goes on for the rest.
+  /// are left out by a distance fixed in the geometry, and the search goes on for the rest. On a concave edge
+  /// the whole edge is left out: else the peak would only move along it.
   void leave_out(std::size_t i, BodyAnalysis& analysis) {
     const auto& p = analysis.peak.position_m;
+    const auto& nodes = analysis.responses.nodes;
+    auto edge = concave_edge_through(nodes, analysis.peak.node);
+    const bool is_edge = !edge.empty();
+    if (!is_edge) edge = {{p, p}};
     const meshes::SharpEdge spot{"stress grows without bound at " + analysis.peak.feature,
-                                 share_left_out * diagonal_m(analysis.responses.nodes),
-                                 {{p, p}}};
+                                 share_left_out * diagonal_m(nodes), std::move(edge)};
     warnings_.push_back(
-        fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} "
-                    "mm around ({:.1f}, {:.1f}, {:.1f}) mm are left out of the peak",
-                    analysis.scene.name, analysis.peak.feature, 1e3 * spot.distance_m, 1e3 * p[0], 1e3 * p[1],
-                    1e3 * p[2]));
+        fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} mm "
+                    "around {}({:.1f}, "
+                    "{:.1f}, {:.1f}) mm are left out of the peak",
+                    analysis.scene.name, analysis.peak.feature, 1e3 * spot.distance_m,
+                    is_edge ? "the edge through " : "", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]));
     run_.scene.bodies[i].singular.push_back(spot);
     run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
     BodyAnalysis before = std::move(analysis);
