@@ -78,10 +78,10 @@ SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads
   const double trilinear = n / (degree * degree * degree);
   double iterations = 8 + 2.3 * aspect, setup = 2e-6 * n, each = 8e-8 * n * k, bytes = n * (215 + 48 * lanes);
   if (level == CoarseLevel::factorised) {
-    const SolverCost factor = predict_direct(static_cast<std::size_t>(trilinear), 0);
-    setup += 3 * factor.seconds;
-    each += 0.25 * factor.seconds;
-    bytes += factor.bytes;
+    const double factor_s = 7 * std::pow(trilinear / 2e5, 1.75);
+    setup += 3 * factor_s;
+    each += 0.25 * factor_s;
+    bytes += predict_direct(static_cast<std::size_t>(trilinear), 0).bytes;
   } else {
     iterations *= 1.1;
     setup += 8e-6 * trilinear;

@@ -13,8 +13,8 @@ double largest_aspect(const Grid& grid);
 /// For two threads of a quiet server core of 2023 with AVX2 (AMD EPYC; half the CPU seconds of both threads),
 /// with n unknowns, N = n / 2e5, m = n / degree^3 unknowns of the trilinear level, k load cases:
 ///   direct      10.8 N + 12.6 N^2 + 0.03 N^1.3 k  s,   3.4e9 N^1.3  bytes
-///   factorised  2e-6 n + 3 c + (8 + 2.3 aspect) (8e-8 n k + 0.25 c)  s,  c and its bytes as direct of m
-///   aggregated  2e-6 n + 8e-6 m + 1.1 (8 + 2.3 aspect) 8e-8 n k  s,  1100 m bytes
+///   factorised  2e-6 n + 3 c + (8 + 2.3 aspect) (8e-8 n k + 0.25 c)  s,  c = 7 (m / 2e5)^1.75, its bytes as
+///   direct of m aggregated  2e-6 n + 8e-6 m + 1.1 (8 + 2.3 aspect) 8e-8 n k  s,  1100 m bytes
 /// and 215 n + 48 n (load cases of a block) bytes for both of the latter. Fitted on
 /// tests/benchmarks/shaft.toml and stretched rods, aspect 2.7 to 7, 50 k to 4 M unknowns (direct: 50 k to 700
 /// k). On slower machines the seconds of all grow alike, and the choice stays.
