@@ -7,6 +7,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "pipelines/markup.h"
+
 namespace pipelines {
 namespace {
 
@@ -27,30 +29,6 @@ bool is_number(const std::string& cell) {
 
 }  // namespace
 
-std::string html_escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  return result;
-}
-
 std::string base64(const std::string& bytes) {
   constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string result;
@@ -66,19 +44,19 @@ std::string base64(const std::string& bytes) {
 }
 
 void HtmlPage::heading(int level, const std::string& text) {
-  body_ += fmt::format("<h{0}>{1}</h{0}>\n", level, html_escaped(text));
+  body_ += fmt::format("<h{0}>{1}</h{0}>\n", level, escaped(text));
 }
 
 void HtmlPage::paragraph(const std::string& text) {
-  body_ += "<p>" + html_escaped(text) + "</p>\n";
+  body_ += "<p>" + escaped(text) + "</p>\n";
 }
 
 void HtmlPage::warning(const std::string& text) {
-  body_ += "<p class=\"warning\">" + html_escaped(text) + "</p>\n";
+  body_ += "<p class=\"warning\">" + escaped(text) + "</p>\n";
 }
 
 void HtmlPage::preformatted(const std::string& text) {
-  body_ += "<pre>" + html_escaped(text) + "</pre>\n";
+  body_ += "<pre>" + escaped(text) + "</pre>\n";
 }
 
 void HtmlPage::table(const std::vector<std::string>& titles,
@@ -88,13 +66,13 @@ void HtmlPage::table(const std::vector<std::string>& titles,
   for (std::size_t i = 0; i < titles.size(); ++i)
     body_ +=
         fmt::format("<th{}>{}</th>", i < rows[0].size() && is_number(rows[0][i]) ? " class=\"number\"" : "",
-                    html_escaped(titles[i]));
+                    escaped(titles[i]));
   body_ += "</tr>\n";
   for (const auto& row : rows) {
     if (row.empty()) continue;
     body_ += "<tr>";
     for (const auto& cell : row)
-      body_ += fmt::format("<td{}>{}</td>", is_number(cell) ? " class=\"number\"" : "", html_escaped(cell));
+      body_ += fmt::format("<td{}>{}</td>", is_number(cell) ? " class=\"number\"" : "", escaped(cell));
     body_ += "</tr>\n";
   }
   body_ += "</table>\n";
@@ -106,14 +84,14 @@ void HtmlPage::picture(const std::filesystem::path& png, const std::string& what
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   body_ += fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-      html_escaped(what_it_shows), base64(bytes));
+      escaped(what_it_shows), base64(bytes));
 }
 
 std::string HtmlPage::text() const {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n<style>{}"
       "</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      html_escaped(title_), style, body_);
+      escaped(title_), style, body_);
 }
 
 }  // namespace pipelines

@@ -7,9 +7,6 @@
 
 namespace pipelines {
 
-/// With & < > " ' as entities.
-std::string html_escaped(const std::string& text);
-
 /// Bytes as text, RFC 4648 section 4.
 std::string base64(const std::string& bytes);
 

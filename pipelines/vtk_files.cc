@@ -25,6 +25,7 @@
 
 #include "pipelines/atomic_file.h"
 #include "pipelines/csv.h"
+#include "pipelines/markup.h"
 
 namespace pipelines {
 namespace {
@@ -177,27 +178,6 @@ int cell_type(const fem::CellShape& shape) {
 int face_type(const fem::CellShape& shape) {
   if (shape.is_tetrahedron()) return VTK_QUADRATIC_TRIANGLE;
   return shape.degree == 1 ? VTK_QUAD : shape.degree == 2 ? VTK_BIQUADRATIC_QUAD : VTK_LAGRANGE_QUADRILATERAL;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  return result;
 }
 
 }  // namespace
