@@ -57,7 +57,7 @@ TEST(Accuracy, EveryRungBoundsItsError) {
   const results_test::Directory directory;
   write(directory / "small.toml", stepped_shaft());
   const auto outcome = millstress(
-      directory.path, "accuracy small.toml -o out --threads 1 --tolerance '50 %' --time-limit '200 s'");
+      directory.path, "accuracy small.toml -o out --threads 1 --tolerance '20 %' --time-limit '200 s'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("the next factor of two in accuracy costs"), std::string::npos) << outcome.out;
   const auto files = directory / "out/accuracy";
