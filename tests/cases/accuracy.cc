@@ -56,8 +56,8 @@ private:
 TEST(Accuracy, EveryRungBoundsItsError) {
   const results_test::Directory directory;
   write(directory / "small.toml", stepped_shaft());
-  const auto outcome = millstress(
-      directory.path, "accuracy small.toml -o out --threads 1 --tolerance '20 %' --time-limit '200 s'");
+  const auto outcome =
+      millstress(directory.path, "accuracy small.toml -o out --tolerance '20 %' --time-limit '200 s'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("the next factor of two in accuracy costs"), std::string::npos) << outcome.out;
   const auto files = directory / "out/accuracy";
@@ -125,8 +125,8 @@ TEST(Accuracy, AThinShellBoundsAChambersHotSpot) {
   const results_test::Directory directory;
   write(directory / "mill.toml", chamber_alone({{"instants_per_turn = 120", "instants_per_turn = 24"},
                                                 {"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}}));
-  const auto outcome = millstress(
-      directory.path, "accuracy mill.toml -o out --threads 1 --tolerance '50 %' --time-limit '60 s'");
+  const auto outcome =
+      millstress(directory.path, "accuracy mill.toml -o out --tolerance '50 %' --time-limit '60 s'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto files = directory / "out/accuracy";
   const auto rungs = first_column(files / "chamber.csv");

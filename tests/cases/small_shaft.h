@@ -47,7 +47,7 @@ inline std::string small_shaft(const std::vector<SmallLoad>& loads, const std::s
 inline nlohmann::json run_small(const fs::path& directory, const std::string& scene,
                                 std::string* out = nullptr) {
   write(directory / "scene.toml", scene);
-  const auto outcome = millstress(directory, "run scene.toml -o out --threads 1");
+  const auto outcome = millstress(directory, "run scene.toml -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   if (out != nullptr) *out = outcome.out;
   return outcome.exit_code == 0 ? summary(directory / "out") : nlohmann::json();

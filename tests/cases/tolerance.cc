@@ -22,8 +22,8 @@ TEST(Tolerance, EachIsMetAgainstTheStrictest) {
   write(directory / "small.toml", stepped_shaft());
   std::map<std::string, nlohmann::json> results;
   for (const std::string percent : {"20", "3"}) {
-    const auto run = millstress(
-        directory.path, "run small.toml -o " + percent + " --threads 1 --tolerance '" + percent + " %'");
+    const auto run =
+        millstress(directory.path, "run small.toml -o " + percent + " --tolerance '" + percent + " %'");
     ASSERT_EQ(run.exit_code, 0) << run.err << run.out;
     results[percent] = summary(directory / percent);
     const auto& search = shaft_of(results[percent])["search"];
@@ -50,7 +50,7 @@ TEST(Tolerance, EachIsMetAgainstTheStrictest) {
 TEST(Tolerance, NotMetInTimeKeepsTheResults) {
   const results_test::Directory directory;
   write(directory / "small.toml", stepped_shaft("tolerance = \"0.01 %\"\ntime_limit = \"3 s\""));
-  const auto run = millstress(directory.path, "run small.toml -o out --threads 1");
+  const auto run = millstress(directory.path, "run small.toml -o out");
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_NE(run.err.find("tolerance is not met"), std::string::npos) << run.err;
   EXPECT_NE(run.out.find("the next step needs about"), std::string::npos) << run.out;
@@ -109,9 +109,9 @@ TEST(Tolerance, CheckForecastsTheRungs) {
 TEST(Tolerance, SecondRunReusesTheLastMesh) {
   const results_test::Directory directory;
   write(directory / "small.toml", stepped_shaft("tolerance = \"20 %\""));
-  ASSERT_EQ(millstress(directory.path, "run small.toml -o out --threads 1").exit_code, 0);
+  ASSERT_EQ(millstress(directory.path, "run small.toml -o out").exit_code, 0);
   const auto first = contents(directory / "out");
-  const auto run = millstress(directory.path, "run small.toml -o out --threads 1");
+  const auto run = millstress(directory.path, "run small.toml -o out");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.out.find("responses of an earlier run"), std::string::npos) << run.out;
   EXPECT_EQ(contents(directory / "out"), first);
