@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/parallel.h"
+
 namespace fem {
 
 std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
@@ -82,6 +84,7 @@ CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<st
   order.reserve(3 * node_order.size());
   for (const auto node : node_order)
     for (int d = 0; d < 3; ++d) order.push_back(3 * SuiteSparse_long(node) + d);
+  const SerialOpenMp serial;
   auto a = Impl::view(matrix);
   impl_->factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &impl_->common);
   impl_->check("analyse");
@@ -90,6 +93,7 @@ CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<st
 CholmodFactor::~CholmodFactor() = default;
 
 void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
+  const SerialOpenMp serial;
   auto a = Impl::view(matrix);
   cholmod_l_factorize(&a, impl_->factor, &impl_->common);
   impl_->check("factorise");
@@ -101,6 +105,7 @@ void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
 }
 
 Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  const SerialOpenMp serial;
   constexpr Eigen::Index block = 32;  // CHOLMOD's work space is twice the block
   Eigen::MatrixXd solution(right_hand_sides.rows(), right_hand_sides.cols());
   cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;

@@ -10,14 +10,15 @@ namespace fem {
 
 namespace {
 
-// Looked up at run time: the reference BLAS has no such functions, and both go by the name libblas.so.3.
+// Looked up at run time: the reference BLAS has no such functions, and both go by the name libblas.so.3; an
+// OpenMP library comes with CHOLMOD only.
 template <typename Function>
-Function* blas_function(const char* name) {
+Function* library_function(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
 int blas_threads() {
-  const auto get = blas_function<int()>("openblas_get_num_threads");
+  const auto get = library_function<int()>("openblas_get_num_threads");
   return get != nullptr ? get() : 1;
 }
 
@@ -36,7 +37,7 @@ void release_free_memory() {
 }
 
 void set_blas_threads(int n_threads) {
-  if (const auto set = blas_function<void(int)>("openblas_set_num_threads")) set(n_threads);
+  if (const auto set = library_function<void(int)>("openblas_set_num_threads")) set(n_threads);
 }
 
 SerialBlas::SerialBlas() : n_threads_before_(blas_threads()) {
@@ -45,6 +46,16 @@ SerialBlas::SerialBlas() : n_threads_before_(blas_threads()) {
 
 SerialBlas::~SerialBlas() {
   set_blas_threads(n_threads_before_);
+}
+
+SerialOpenMp::SerialOpenMp() {
+  const auto get = library_function<int()>("omp_get_max_active_levels");
+  levels_before_ = get != nullptr ? get() : 1;
+  if (const auto set = library_function<void(int)>("omp_set_max_active_levels")) set(0);
+}
+
+SerialOpenMp::~SerialOpenMp() {
+  if (const auto set = library_function<void(int)>("omp_set_max_active_levels")) set(levels_before_);
 }
 
 }  // namespace fem

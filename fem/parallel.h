@@ -25,6 +25,19 @@ private:
   int n_threads_before_;
 };
 
+/// While it lives, OpenMP loops that the calling thread comes to stay on it. CHOLMOD hands each of its many
+/// short loops to four threads, however few the cores: waking them costs more than they do.
+class SerialOpenMp {
+public:
+  SerialOpenMp();
+  ~SerialOpenMp();
+  SerialOpenMp(const SerialOpenMp&) = delete;
+  SerialOpenMp& operator=(const SerialOpenMp&) = delete;
+
+private:
+  int levels_before_;
+};
+
 /// Gives memory that is free, but kept for later, back to the system: before something large.
 void release_free_memory();
 
