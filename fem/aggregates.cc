@@ -1,9 +1,10 @@
 #include "fem/aggregates.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "fem/dense_algebra.h"
 
 namespace fem {
 
@@ -117,16 +118,14 @@ AggregateMotions span_motions(const Aggregates& aggregates, const std::vector<do
     Eigen::MatrixXd of_aggregate(3 * n, 6);
     for (Eigen::Index i = 0; i < n; ++i)
       of_aggregate.middleRows<3>(3 * i) = Eigen::Map<const Motions>(&motions[18 * std::size_t(nodes[a][i])]);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of_aggregate);
-    qr.setThreshold(least_motion);
-    const auto rank = qr.rank();
+    const Eigen::MatrixXd span = orthonormal_basis(of_aggregate, least_motion);
     Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(3 * n, 6);
-    basis.leftCols(rank) = qr.householderQ() * Eigen::MatrixXd::Identity(3 * n, rank);
+    basis.leftCols(span.cols()) = span;
     for (Eigen::Index i = 0; i < n; ++i)
       Eigen::Map<Motions>(result.basis.data() + 18 * std::size_t(nodes[a][i])) = basis.middleRows<3>(3 * i);
     Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(result.motion.data() + 36 * a) =
-        basis.transpose() * of_aggregate;
-    result.rank.push_back(static_cast<int>(rank));
+        transposed_product(basis, of_aggregate);
+    result.rank.push_back(static_cast<int>(span.cols()));
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "fem/axial_profile.h"
+#include "fem/dense_algebra.h"
 
 namespace fem {
 namespace {
@@ -188,7 +189,7 @@ Wrench6 BeamLine::total(const UnitLoad& load) const {
 
 WrenchAlong BeamLine::internal(const UnitLoad& load) const {
   WrenchAlong along = below(load);
-  const Wrench6 acceleration = -mass_.ldlt().solve(total(load));
+  const Wrench6 acceleration = -solve_symmetric(mass_, total(load));
   Wrench6 inertia = Wrench6::Zero();
   WrenchAlong balancing(6, along.cols());
   for (std::size_t k = 0; k < intervals_.size(); ++k) {
@@ -234,7 +235,7 @@ WrenchAlong BeamLine::motion(const WrenchAlong& internal) const {
   const auto z_of = [&](Index i) { return intervals_[std::size_t(i / points)].z_m(int(i % points)); };
   for (Index i = 0; i < internal.cols(); ++i)
     momentum.col(i) = mass_columns_.middleCols<6>(6 * i) * to_origin(motion.col(i), z_of(i));
-  const Wrench6 rigid = mass_.ldlt().solve(sum(momentum));
+  const Wrench6 rigid = solve_symmetric(mass_, sum(momentum));
   for (Index i = 0; i < internal.cols(); ++i) motion.col(i) -= to_origin(rigid, -z_of(i));
   return motion;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "fem/dense_algebra.h"
 #include "fem/parallel.h"
 
 namespace fem {
@@ -84,11 +85,9 @@ void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* s
     combine(one, r, -step, q);
   }
   for (std::size_t l = 0; l < lanes.n_lanes; ++l) {
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
     const Eigen::VectorXd middle = diagonal.row(l), side = beside.row(l).head(n_steps - 1);
-    solver.computeFromTridiagonal(middle, side, Eigen::EigenvaluesOnly);
-    largest_eigenvalue_ =
-        std::max(largest_eigenvalue_, margin * static_cast<float>(solver.eigenvalues().maxCoeff()));
+    largest_eigenvalue_ = std::max(
+        largest_eigenvalue_, margin * static_cast<float>(largest_eigenvalue_of_tridiagonal(middle, side)));
   }
 }
 

@@ -1,6 +1,5 @@
 #include "fem/clamps.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -8,6 +7,7 @@
 #include <string>
 
 #include "fem/cell_geometry.h"
+#include "fem/dense_algebra.h"
 
 namespace fem {
 
@@ -56,11 +56,11 @@ void refuse_rigid_motion(const Grid& grid, const std::vector<std::int64_t>& unkn
     row << axis, ((nodes.col(unknown / 3) - centre) / size).cross(axis);
     gram += row * row.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> modes(gram);
+  const Eigenpairs modes = symmetric_eigenpairs(gram);
   constexpr double negligible =
       1e-6;  // the share of the best held motion: displacements on a line, as meshed
-  if (modes.eigenvalues()[0] > negligible * negligible * modes.eigenvalues()[5]) return;
-  Vector6 motion = modes.eigenvectors().col(0);
+  if (modes.value[0] > negligible * negligible * modes.value[5]) return;
+  Vector6 motion = modes.vector.col(0);
   Eigen::Index largest = 0;
   motion.cwiseAbs().maxCoeff(&largest);
   motion = ((motion / motion[largest]) * 1000).array().round() / 1000 + 0.0;  // + 0.0: no -0

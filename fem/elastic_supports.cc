@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/dense_algebra.h"
 #include "fem/rigid_modes.h"
 #include "fem/surface_loads.h"
 
@@ -18,11 +19,9 @@ Eigen::MatrixXd closing_forces(const Grid& grid, const Eigen::MatrixXd& forces) 
   const double size_m = (nodes.colwise() - centre).colwise().norm().maxCoeff();
   Eigen::MatrixXd sums = resultants(grid, forces, centre);
   sums.bottomRows<3>() /= size_m;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(sums, Eigen::ComputeFullV);
   constexpr double negligible = 1e-9;  // of the largest singular value: feet in one line to that precision
-  Eigen::Index rank = 0;
-  for (const double value : svd.singularValues()) rank += value > negligible * svd.singularValues()[0];
-  return svd.matrixV().rightCols(forces.cols() - rank);
+  const RowSpace space = row_space(sums, negligible);
+  return space.vector.rightCols(forces.cols() - space.rank);
 }
 
 }  // namespace
@@ -53,11 +52,11 @@ Eigen::MatrixXd ElasticSupports::apply(const Eigen::MatrixXd& displacement) cons
   Eigen::MatrixXd result = displacement.leftCols(n_loads);
   if (closed_.cols() == 0) return result;
   const auto of_forces = displacement.rightCols(n_springs);
-  Eigen::MatrixXd flexibility = forces_.transpose() * of_forces;
+  Eigen::MatrixXd flexibility = transposed_product(forces_, of_forces);
   flexibility.diagonal() += stiffness_N_m_.cwiseInverse();
-  const Eigen::MatrixXd small = closed_.transpose() * flexibility * closed_;
-  const Eigen::MatrixXd wanted = closed_.transpose() * (forces_.transpose() * result);
-  result -= of_forces * (closed_ * small.ldlt().solve(wanted));
+  const Eigen::MatrixXd small = product(transposed_product(closed_, flexibility), closed_);
+  const Eigen::MatrixXd wanted = transposed_product(closed_, transposed_product(forces_, result));
+  subtract_product(of_forces, product(closed_, solve_symmetric(small, wanted)), result);
   return result;
 }
 

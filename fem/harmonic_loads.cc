@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fem/axial_profile.h"
+#include "fem/dense_algebra.h"
 #include "fem/harmonic_strain.h"
 
 namespace fem {
@@ -95,8 +96,8 @@ HarmonicLoads::Basis HarmonicLoads::basis(const std::vector<const SectionPoint*>
     own_0.col(k) = integrate(points, 0, raw[std::size_t(k)]);
     own_1.col(k) = integrate(points, 1, raw[std::size_t(2 + k)]);
   }
-  own_0 = (own_0 * (rigid_0.transpose() * own_0).inverse()).eval();
-  own_1 = (own_1 * (rigid_1.transpose() * own_1).inverse()).eval();
+  own_0 = product(own_0, inverse(transposed_product(rigid_0, own_0)));
+  own_1 = product(own_1, inverse(transposed_product(rigid_1, own_1)));
   return {own_0.col(0), own_0.col(1), own_1.col(0), own_1.col(1)};
 }
 
@@ -249,7 +250,7 @@ std::array<double, 6> HarmonicLoads::resultant(const HarmonicForces& forces) con
   std::array<double, 6> sum{};
   for (const auto& part : forces) {
     if (part.m > 1) continue;
-    const Eigen::Vector2d r = modes_[std::size_t(part.m)].transpose() * part.force;
+    const Eigen::Vector2d r = transposed_product(modes_[std::size_t(part.m)], part.force);
     if (part.m == 0) {
       sum[2] += r[0];
       sum[5] += r[1];
@@ -267,13 +268,14 @@ std::array<double, 6> HarmonicLoads::resultant(const HarmonicForces& forces) con
 void HarmonicLoads::balance(int m, Eigen::VectorXd& force) const {
   if (m > 1) return;
   const auto &rigid = modes_[std::size_t(m)], &mass = mass_modes_[std::size_t(m)];
-  force -= mass * (rigid.transpose() * mass).inverse() * (rigid.transpose() * force);
+  subtract_product(mass, solve(transposed_product(rigid, mass), transposed_product(rigid, force)), force);
 }
 
 void HarmonicLoads::remove_motion(int m, Eigen::MatrixXd& displacement) const {
   if (m > 1) return;
   const auto &rigid = modes_[std::size_t(m)], &mass = mass_modes_[std::size_t(m)];
-  displacement -= rigid * (rigid.transpose() * mass).inverse() * (mass.transpose() * displacement);
+  subtract_product(rigid, solve(transposed_product(rigid, mass), transposed_product(mass, displacement)),
+                   displacement);
 }
 
 }  // namespace fem

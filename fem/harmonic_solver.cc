@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fem/dense_algebra.h"
 #include "fem/harmonic_strain.h"
 
 namespace fem {
@@ -72,7 +73,7 @@ void HarmonicSolver::assemble(int m, const std::vector<char>& held) {
       stress.middleRows<6>(6 * Eigen::Index(q)).noalias() =
           angle_integral(m) * points[q].r_m * points[q].weight * elasticity * b;
     }
-    const Eigen::MatrixXd stiffness = strain.transpose() * stress;
+    const Eigen::MatrixXd stiffness = transposed_product(strain, stress);
     for (std::size_t a = 0; a < nodes.size(); ++a)
       for (std::size_t b = 0; b < nodes.size(); ++b) {
         const std::int64_t row = nodes[a], column = nodes[b];

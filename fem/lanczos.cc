@@ -38,7 +38,7 @@ struct Basis {
   Eigen::MatrixXd extend(Eigen::MatrixXd w, const BlockOperator& mass, double negligible) {
     Eigen::MatrixXd share = Eigen::MatrixXd::Identity(w.cols(), w.cols());
     for (int pass = 0; pass < 3; ++pass) {  // once, and twice against the rounding of short remainders
-      w -= vectors() * (masses().transpose() * w);
+      subtract_product(vectors(), transposed_product(masses(), w), w);
       const Eigen::MatrixXd mass_w = mass(w);
       Eigen::MatrixXd kept(w.rows(), 0), mass_kept(w.rows(), 0);
       Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(w.cols(), w.cols());
@@ -46,9 +46,9 @@ struct Basis {
         const auto k = kept.cols();
         Eigen::VectorXd x = w.col(c), mx = mass_w.col(c);
         for (int again = 0; again < 2; ++again) {
-          const Eigen::VectorXd along = mass_kept.transpose() * x;
-          x -= kept * along;
-          mx -= mass_kept * along;
+          const Eigen::VectorXd along = transposed_product(mass_kept, x);
+          subtract_product(kept, along, x);
+          subtract_product(mass_kept, along, mx);
           coefficients.col(c).head(k) += along;
         }
         const double norm = std::sqrt(std::max(0.0, x.dot(mx)));
@@ -60,7 +60,7 @@ struct Basis {
         mass_kept.col(k) = mx / norm;
       }
       w = kept;
-      share = Eigen::MatrixXd(coefficients.topRows(w.cols()) * share);
+      share = product(coefficients.topRows(w.cols()), share);
     }
     vector.conservativeResize(w.rows(), n + w.cols());
     mass_times.conservativeResize(w.rows(), n + w.cols());
@@ -78,27 +78,27 @@ Eigenpairs largest_eigenpairs(Eigen::Index n_rows, int n_wanted, const BlockOper
   const Eigen::Index largest_basis = 40 * Eigen::Index(n_wanted) + 200;
   Basis basis(n_rows);
   const Eigen::MatrixXd start = inverse(pseudo_random(n_rows, block_width));
-  const double start_norm = std::sqrt((start.transpose() * mass(start)).diagonal().maxCoeff());
+  const double start_norm = std::sqrt(start.cwiseProduct(mass(start)).colwise().sum().maxCoeff());
   basis.extend(start, mass, dependent * start_norm);
   Eigen::MatrixXd projected;  // V'M A M V
   for (Eigen::Index first = 0;;) {
     const auto width = basis.n - first;
     const Eigen::MatrixXd w = inverse(basis.mass_times.rightCols(width));
-    const Eigen::MatrixXd along = basis.masses().transpose() * w;
+    const Eigen::MatrixXd along = transposed_product(basis.masses(), w);
     projected.conservativeResize(basis.n, basis.n);
     projected.rightCols(width) = along;
     projected.bottomRows(width) = along.transpose();
     first = basis.n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(projected);  // ascending
-    const double largest = ritz.eigenvalues()[first - 1];
+    const Eigenpairs ritz = symmetric_eigenpairs(projected);  // ascending
+    const double largest = ritz.value[first - 1];
     const Eigen::MatrixXd beyond = basis.extend(w, mass, dependent * largest);
     const auto n_pairs = std::min<Eigen::Index>(n_wanted, first);
-    const Eigen::MatrixXd pairs = ritz.eigenvectors().rightCols(n_pairs).rowwise().reverse();
-    const Eigen::VectorXd values = ritz.eigenvalues().tail(n_pairs).reverse();
-    const Eigen::VectorXd rest = (beyond * pairs.bottomRows(width)).colwise().norm().transpose();
+    const Eigen::MatrixXd pairs = ritz.vector.rightCols(n_pairs).rowwise().reverse();
+    const Eigen::VectorXd values = ritz.value.tail(n_pairs).reverse();
+    const Eigen::VectorXd rest = product(beyond, pairs.bottomRows(width)).colwise().norm().transpose();
     const bool exhausted = basis.n == first;
     if (exhausted || (n_pairs == n_wanted && (rest.array() <= converged * values.array()).all()))
-      return {values, basis.vector.leftCols(first) * pairs};
+      return {values, product(basis.vector.leftCols(first), pairs)};
     if (basis.n > largest_basis)
       throw std::runtime_error("the natural frequencies do not converge: " + std::to_string(first) +
                                " vectors were not enough for " + std::to_string(n_wanted) +

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/dense_algebra.h"
 #include "fem/lanczos.h"
 
 namespace fem {
@@ -42,11 +43,11 @@ Eigenpairs improve(const VibratingBody& body, const Eigenpairs& pairs) {
   Eigen::MatrixXd inertia = body.mass(pairs.vector) * pairs.value.cwiseInverse().asDiagonal();
   Eigen::MatrixXd shapes = body.inverse(inertia);
   shapes += body.inverse(inertia - body.stiffness(shapes));
-  const Eigen::MatrixXd stiffness = shapes.transpose() * body.stiffness(shapes),
-                        mass = shapes.transpose() * body.mass(shapes);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
-      (stiffness + stiffness.transpose()) / 2, (mass + mass.transpose()) / 2);
-  return {ritz.eigenvalues(), shapes * ritz.eigenvectors()};
+  const Eigen::MatrixXd stiffness = transposed_product(shapes, body.stiffness(shapes)),
+                        mass = transposed_product(shapes, body.mass(shapes));
+  const Eigenpairs ritz =
+      symmetric_eigenpairs((stiffness + stiffness.transpose()) / 2, (mass + mass.transpose()) / 2);
+  return {ritz.value, product(shapes, ritz.vector)};
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "fem/dense_algebra.h"
+
 namespace fem {
 
 namespace {
@@ -76,10 +78,11 @@ Eigen::MatrixXd fit_in(const Exponents& space, const Scaled& samples, const Scal
   const Eigen::VectorXd norm = at_samples.colwise().norm();
   if (!(norm.minCoeff() > 0)) return {};
   const Eigen::MatrixXd scaled = at_samples * norm.cwiseInverse().asDiagonal();
-  const Eigen::LDLT<Eigen::MatrixXd> gram(scaled.transpose() * scaled);
-  if (!(gram.vectorD().minCoeff() > smallest_pivot)) return {};
+  const auto from_samples =
+      solve_symmetric(transposed_product(scaled, scaled), scaled.transpose(), smallest_pivot);
+  if (!from_samples) return {};
   const Eigen::MatrixXd at_targets = basis(space, targets) * norm.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd fit = at_targets * gram.solve(scaled.transpose());
+  const Eigen::MatrixXd fit = product(at_targets, *from_samples);
   return weights.size() > 0 ? Eigen::MatrixXd(fit * weights.asDiagonal()) : fit;
 }
 

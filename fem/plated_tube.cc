@@ -1,10 +1,11 @@
 #include "fem/plated_tube.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "fem/dense_algebra.h"
 
 namespace fem {
 namespace {
@@ -60,7 +61,7 @@ public:
         of_band +=
             per_w * at_point * flexibility_m3_N(n, m) * along_.col(m - 1).transpose() * (2 / length_m_);
       }
-      result += of_band * around(n, point.angle_rad);
+      result += product(of_band, around(n, point.angle_rad));
     }
     return result;
   }
@@ -157,7 +158,7 @@ private:
           pull * std::sin(plate.middle_rad);  // minus what the tangential traction brings
       right(row + 1, column + 2) = -pull * std::cos(plate.middle_rad);
     }
-    traction_N_m_ = matrix.fullPivLu().solve(right).topRows(n_pieces);
+    traction_N_m_ = solve_with_full_pivoting(matrix, right).topRows(n_pieces);
   }
 
   /// Makes rigid motions unknowns of the size of tractions.
@@ -169,7 +170,7 @@ private:
     for (int n = 0; n <= n_around_; ++n) {
       Eigen::VectorXd weight(n_along_);
       for (int m = 1; m <= n_along_; ++m) weight[m - 1] = 2 / length_m_ * flexibility_m3_N(n, m);
-      result.push_back(along_ * weight.asDiagonal() * along_.transpose());
+      result.push_back(product(along_ * weight.asDiagonal(), along_.transpose()));
     }
     return result;
   }

@@ -1,10 +1,12 @@
 #include "fem/rigid_modes.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "fem/cell_geometry.h"
+#include "fem/dense_algebra.h"
 #include "fem/parallel.h"
 #include "fem/reference_cell.h"
 
@@ -57,7 +59,7 @@ MassProperties mass_properties(const Grid& grid, const NodeIntegrals& integrals,
   body.volume_m3 = integrals.col(0).sum();
   body.mass_kg = density_kg_m3 * body.volume_m3;
   for (int d = 0; d < 3; ++d) body.first_moment_kg_m[d] = density_kg_m3 * integrals.col(1 + d).sum();
-  const Eigen::Matrix3d second = density_kg_m3 * x.transpose() * integrals.rightCols<3>();
+  const Eigen::Matrix3d second = density_kg_m3 * x.transpose().lazyProduct(integrals.rightCols<3>());
   body.second_moments_kg_m2 = {second(0, 0), second(1, 1), second(2, 2),
                                second(0, 1), second(1, 2), second(0, 2)};
   return body;
@@ -75,7 +77,7 @@ Eigen::MatrixXd rigid_modes(const Grid& grid, const Eigen::Vector3d& centre) {
 }
 
 Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const Eigen::Vector3d& centre) {
-  return rigid_modes(grid, centre).transpose() * force;
+  return transposed_product(rigid_modes(grid, centre), force);
 }
 
 RigidBalance::RigidBalance(const Grid& grid, const NodeIntegrals& integrals) {
@@ -92,7 +94,7 @@ RigidBalance::RigidBalance(const Grid& grid, const NodeIntegrals& integrals) {
       inertia.col(mode).head<3>() += moved;
       inertia.col(mode).tail<3>() += place_m_.col(i).cross(moved);
     }
-  inverse_ = inertia.inverse();
+  inverse_ = inverse(inertia);
 }
 
 namespace {
@@ -144,13 +146,11 @@ void RigidBalance::remove_motion(Eigen::MatrixXd& displacement) const {
 }
 
 WithoutModes::WithoutModes(const Eigen::MatrixXd& modes) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(modes);
-  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(modes.rows(), qr.rank());
+  basis_ = orthonormal_basis(modes, std::numeric_limits<double>::epsilon() * double(modes.cols()));
 }
 
 void WithoutModes::apply(Eigen::MatrixXd& vectors) const {
-  const Eigen::MatrixXd along = basis_.transpose() * vectors;
-  vectors.noalias() -= basis_ * along;
+  subtract_product(basis_, transposed_product(basis_, vectors), vectors);
 }
 
 }  // namespace fem

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "fem/cell_geometry.h"
+#include "fem/dense_algebra.h"
 
 namespace fem {
 
@@ -146,7 +147,7 @@ SectionResponse respond(const Grid& grid, const SectionPlane& plane, const Secti
                                  grid.position(node)[1] - plane.axis_y_m, stress(node));
     for (int c = 0; c < 2; ++c) r.mean_rim_shear_Pa[c] += shear[c] / double(section.rim.size());
   }
-  motion = section.rigid.ldlt().solve(motion).eval();
+  motion = solve_symmetric(section.rigid, motion);
   for (int d = 0; d < 3; ++d) {
     r.translation_m[d] = motion[d];
     r.rotation_rad[d] = motion[3 + d];

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "fem/dense_algebra.h"
+
 namespace fem {
 
 std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
@@ -68,6 +70,10 @@ Supports::Supports(std::vector<std::int64_t> unknowns, SymmetricMatrix& matrix)
 
 void Supports::clear(Eigen::MatrixXd& vectors) const {
   for (const auto i : unknowns_) vectors.row(i).setZero();
+}
+
+Eigen::MatrixXd Supports::images(const Eigen::MatrixXd& displacement) const {
+  return product(rows_, displacement);
 }
 
 Eigen::MatrixXd Supports::reactions(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const {

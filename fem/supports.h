@@ -31,7 +31,7 @@ public:
   const std::vector<std::int64_t>& unknowns() const noexcept { return unknowns_; }
 
   /// K u in the supported rows (6 x columns), from the rows taken out.
-  Eigen::MatrixXd images(const Eigen::MatrixXd& displacement) const { return rows_ * displacement; }
+  Eigen::MatrixXd images(const Eigen::MatrixXd& displacement) const;
 
   /// K u - f there.
   Eigen::MatrixXd reactions(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const;

@@ -7,6 +7,7 @@
 
 #include "fem/axial_profile.h"
 #include "fem/cell_geometry.h"
+#include "fem/dense_algebra.h"
 #include "fem/reference_cell.h"
 
 namespace fem {
@@ -64,14 +65,12 @@ LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : gri
   basis_.resize(3 * nodes_.size(), 6);
   for (int k = 0; k < 6; ++k) basis_.col(k) = integrate(raw[k]);
   basis_.colwise().normalize();
-  const Eigen::FullPivLU<Eigen::MatrixXd> own(about_centre(basis_));
-  if (!own.isInvertible())
+  if (!is_invertible(about_centre(basis_)))
     throw std::runtime_error(
         "the faces of boundary group " + std::to_string(surface.boundary_id) +
         " cannot carry six independent resultants: a seat must go all the way round its axis");
   // Twice: the second pass takes out what rounding left in the first.
-  basis_ = (basis_ * own.inverse()).eval();
-  basis_ = (basis_ * about_centre(basis_).inverse()).eval();
+  for (int pass = 0; pass < 2; ++pass) basis_ = product(basis_, inverse(about_centre(basis_)));
 }
 
 Eigen::VectorXd LoadedSurface::integrate(const Traction& traction) const {
@@ -129,7 +128,7 @@ Eigen::VectorXd LoadedSurface::pressure(const SeatPressure& load) const {
         return -scale * profile(p[2]) * (sine ? std::sin(n * theta) : std::cos(n * theta)) * normal;
       });
   if (load.keeps_resultants) return force;
-  for (int pass = 0; pass < 2; ++pass) force -= basis_ * about_centre(force);
+  for (int pass = 0; pass < 2; ++pass) subtract_product(basis_, about_centre(force), force);
   return force;
 }
 

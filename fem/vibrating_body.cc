@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "fem/clamps.h"
+#include "fem/dense_algebra.h"
 #include "fem/rigid_modes.h"
 #include "fem/stiffness.h"
 
@@ -36,8 +37,8 @@ VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
   const Eigen::Map<const Eigen::Matrix3Xd> nodes(grid.xyz_m.data(), 3, grid.n_nodes);
   rigid_ = rigid_modes(grid, nodes.rowwise().mean());
   for (int pass = 0; pass < 2; ++pass) {  // the second one mends the rounding of the first
-    const Eigen::MatrixXd gram = rigid_.transpose() * mass(rigid_);
-    rigid_ = gram.llt().matrixU().solve<Eigen::OnTheRight>(rigid_);
+    const Eigen::MatrixXd gram = transposed_product(rigid_, mass(rigid_));
+    rigid_ = orthonormal_by(gram, rigid_);
   }
   mass_rigid_ = mass(rigid_);
   if (springs_.unit_forces().cols() > 0) put_on_springs();
@@ -49,21 +50,19 @@ VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
 void VibratingBody::put_on_springs() {
   const auto& forces = springs_.unit_forces();
   const auto n = forces.cols();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
-      springs_.stiffness_N_m().cwiseSqrt().asDiagonal() * (forces.transpose() * rigid_), Eigen::ComputeFullV);
   constexpr double negligible = 1e-9;  // of the largest singular value: springs in line to that precision
-  for (const double value : svd.singularValues())
-    n_held_by_springs_ += value > negligible * svd.singularValues()[0];
-  rigid_ *= svd.matrixV();
-  mass_rigid_ *= svd.matrixV();
+  const RowSpace held = row_space(
+      springs_.stiffness_N_m().cwiseSqrt().asDiagonal() * transposed_product(forces, rigid_), negligible);
+  n_held_by_springs_ = held.rank;
+  rigid_ = product(rigid_, held.vector);
+  mass_rigid_ = product(mass_rigid_, held.vector);
   answers_ = free_inverse(forces);
-  const Eigen::MatrixXd coupling = forces.transpose() * rigid_.leftCols(n_held_by_springs_);
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + n_held_by_springs_, n + n_held_by_springs_);
-  system.topLeftCorner(n, n) = forces.transpose() * answers_;
-  system.diagonal().head(n) += springs_.stiffness_N_m().cwiseInverse();
-  system.topRightCorner(n, n_held_by_springs_) = -coupling;
-  system.bottomLeftCorner(n_held_by_springs_, n) = coupling.transpose();
-  spring_system_.compute(system);
+  const Eigen::MatrixXd coupling = transposed_product(forces, rigid_.leftCols(n_held_by_springs_));
+  spring_system_ = Eigen::MatrixXd::Zero(n + n_held_by_springs_, n + n_held_by_springs_);
+  spring_system_.topLeftCorner(n, n) = transposed_product(forces, answers_);
+  spring_system_.diagonal().head(n) += springs_.stiffness_N_m().cwiseInverse();
+  spring_system_.topRightCorner(n, n_held_by_springs_) = -coupling;
+  spring_system_.bottomLeftCorner(n_held_by_springs_, n) = coupling.transpose();
 }
 
 Eigen::Index VibratingBody::n_vibrating() const noexcept {
@@ -79,14 +78,14 @@ Eigen::MatrixXd VibratingBody::stiffness(const Eigen::MatrixXd& motion) const {
   Eigen::MatrixXd force = multiply(matrix_, motion);
   clear_clamped(force);
   const auto& springs = springs_.unit_forces();
-  force += springs * (springs_.stiffness_N_m().asDiagonal() * (springs.transpose() * motion));
+  force += product(springs, springs_.stiffness_N_m().asDiagonal() * transposed_product(springs, motion));
   return force;
 }
 
 double VibratingBody::rounding_of_rigid_part(const Eigen::VectorXd& motion) const {
   constexpr double of_a_row = 16;  // its terms, some hundred, round independently
   if (!clamped_.empty()) return 0;
-  const Eigen::VectorXd rigid = rigid_ * (mass_rigid_.transpose() * motion);
+  const Eigen::VectorXd rigid = product(rigid_, transposed_product(mass_rigid_, motion));
   double sum = 0;
   for (Eigen::Index i = 0; i < motion.size(); ++i) {
     const double term = matrix_.value[matrix_.column_begin[i]] * rigid[i];
@@ -96,10 +95,10 @@ double VibratingBody::rounding_of_rigid_part(const Eigen::VectorXd& motion) cons
 }
 
 Eigen::MatrixXd VibratingBody::free_inverse(const Eigen::MatrixXd& force) const {
-  Eigen::MatrixXd balanced = force - mass_rigid_ * (rigid_.transpose() * force);
+  Eigen::MatrixXd balanced = force - product(mass_rigid_, transposed_product(rigid_, force));
   supports_->clear(balanced);
   Eigen::MatrixXd motion = factor_->solve(balanced);
-  motion -= rigid_ * (mass_rigid_.transpose() * motion);
+  motion -= product(rigid_, transposed_product(mass_rigid_, motion));
   return motion;
 }
 
@@ -113,9 +112,10 @@ Eigen::MatrixXd VibratingBody::inverse(const Eigen::MatrixXd& force) const {
   if (answers_.cols() == 0) return motion;
   const auto held = rigid_.leftCols(n_held_by_springs_);
   Eigen::MatrixXd wanted(answers_.cols() + n_held_by_springs_, force.cols());
-  wanted << springs_.unit_forces().transpose() * motion, held.transpose() * force;
-  const Eigen::MatrixXd found = spring_system_.solve(wanted);
-  motion += held * found.bottomRows(n_held_by_springs_) - answers_ * found.topRows(answers_.cols());
+  wanted << transposed_product(springs_.unit_forces(), motion), transposed_product(held, force);
+  const Eigen::MatrixXd found = solve(spring_system_, wanted);
+  motion += product(held, found.bottomRows(n_held_by_springs_));
+  subtract_product(answers_, found.topRows(answers_.cols()), motion);
   return motion;
 }
 

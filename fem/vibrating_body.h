@@ -2,7 +2,7 @@
 /// motions that it resists. Internal to fem.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -57,8 +57,8 @@ private:
   std::optional<CholmodFactor> factor_;
   Eigen::MatrixXd rigid_, mass_rigid_;  // R, M R: those that springs hold first, Z last
   Eigen::Index n_held_by_springs_ = 0;
-  Eigen::MatrixXd answers_;                             // of the springs' unit forces on the free body
-  Eigen::PartialPivLU<Eigen::MatrixXd> spring_system_;  // unknowns: springs' forces, rigid motions they hold
+  Eigen::MatrixXd answers_;        // of the springs' unit forces on the free body
+  Eigen::MatrixXd spring_system_;  // unknowns: springs' forces, rigid motions they hold
 };
 
 }  // namespace fem

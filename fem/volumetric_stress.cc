@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fem/dense_algebra.h"
 #include "fem/parallel.h"
 #include "fem/reference_cell.h"
 
@@ -62,9 +63,10 @@ public:
       places.col(q) = degree_ == 0 ? middle : position(grid_, cell, to_, q);
     const Eigen::Matrix3d to_unit = jacobian(grid_, cell, centre_, 0).inverse();
     const Eigen::MatrixXd basis = monomials(to_unit * (points.colwise() - middle), degree_);
-    const Eigen::MatrixXd weighted = basis.transpose() * volume.asDiagonal();
-    const Eigen::MatrixXd projected = monomials(to_unit * (places.colwise() - middle), degree_) *
-                                      (weighted * basis).eval().ldlt().solve(weighted * volumetric_);
+    const Eigen::MatrixXd weighted = volume.asDiagonal() * basis;
+    const Eigen::MatrixXd projected = product(
+        monomials(to_unit * (places.colwise() - middle), degree_),
+        solve_symmetric(transposed_product(weighted, basis), transposed_product(weighted, volumetric_)));
     values.setZero();
     for (Eigen::Index q = 0; q < projected.rows(); ++q)
       for (Eigen::Index k = 0; k < projected.cols(); ++k)

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#if __has_include(<Eigen/Core>)
-#include <Eigen/Core>
+#if __has_include(<Eigen/Dense>)
+#include <Eigen/Dense>
 #endif
 #if __has_include(<nlohmann/json.hpp>)
 #include <nlohmann/json.hpp>

@@ -1,11 +1,10 @@
 /// The paper's own tables, errata included (kinetics/README.md, errata 1-6).
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
 #include "kinetics/drive_train.h"
 #include "kinetics/torsion/checks.h"
+#include "kinetics/torsion/dense_algebra.h"
 #include "kinetics/torsion/reduced.h"
 #include "kinetics/wrong_input.h"
 
@@ -75,12 +74,12 @@ PublishedTable solve(const Chain& chain, double sign) {
   for (Index e = 0; e + 1 < n; ++e)
     K.block<2, 2>(e, e) += chain.stiffness[e] * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
   const MatrixXd J = chain.inertia.matrix().asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(K, J);
+  const auto modes = torsion::symmetric_eigenpairs(K, J);
   PublishedTable table;
-  table.frequency_rad_s = modes.eigenvalues().tail(n - 1).reverse().array().sqrt();
-  table.mode = modes.eigenvectors().rightCols(n - 1).rowwise().reverse().colwise().normalized().array();
+  table.frequency_rad_s = modes.value.tail(n - 1).reverse().array().sqrt();
+  table.mode = modes.vector.rightCols(n - 1).rowwise().reverse().colwise().normalized().array();
   const MatrixXd dynamic = K + sign * chain.frequency * chain.frequency * J;
-  table.forced_angle_rad = -sign * dynamic.fullPivLu().solve(chain.torque.matrix()).array();
+  table.forced_angle_rad = -sign * torsion::solve_with_full_pivoting(dynamic, chain.torque.matrix()).array();
   return table;
 }
 

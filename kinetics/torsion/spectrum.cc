@@ -1,11 +1,11 @@
 #include "kinetics/torsion/spectrum.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "kinetics/torsion/bidiagonal.h"
+#include "kinetics/torsion/dense_algebra.h"
 #include "kinetics/torsion/jacobi.h"
 
 namespace kinetics::torsion {
@@ -84,9 +84,7 @@ double mode_damping(const ReducedTrain& reduced, const Spectrum& spectrum, Index
   const Eigen::ArrayXd loss = reduced.loss_factor + reduced.edge_damping * w / reduced.stiffness;
   const auto node = spectrum.node_vectors.middleCols(first, last - first + 1);
   const auto edge = spectrum.edge_vectors.middleCols(first, last - first + 1);
-  const Eigen::MatrixXd form = node.transpose() * (drag / (2 * w)).matrix().asDiagonal() * node +
-                               edge.transpose() * (loss / 2).matrix().asDiagonal() * edge;
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(form, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return smallest_eigenvalue(weighted_gram(node, drag / (2 * w)) + weighted_gram(edge, loss / 2));
 }
 
 }  // namespace kinetics::torsion

@@ -1,8 +1,8 @@
 #include "kinetics/torsion/steady.h"
 
-#include <Eigen/LU>
 #include <complex>
 
+#include "kinetics/torsion/dense_algebra.h"
 #include "kinetics/torsion/tree_solver.h"
 
 namespace kinetics::torsion {
@@ -44,23 +44,23 @@ HarmonicState in_modes(const ReducedTrain& r, const Spectrum& spectrum, double z
   ArrayXcd own(m + rigid);
   if (rigid) own[0] = -w * w;
   own.tail(m) = w_k * w_k - w * w + 2.0 * zeta * i_unit * w * w_k.cast<Complex>();
-  const ArrayXcd loss = i_unit * (r.loss_factor + w * r.edge_damping / r.stiffness).cast<Complex>();
+  const ArrayXd loss = r.loss_factor + w * r.edge_damping / r.stiffness;
   const Eigen::MatrixXd twist = spectrum.edge_vectors * w_k.matrix().asDiagonal();  // C^(1/2) theta
   const Eigen::VectorXcd f = V.transpose() * (weight * load).matrix();
   Eigen::VectorXcd y;
   if (r.damped()) {
     Eigen::MatrixXcd Z = own.matrix().asDiagonal();
-    const ArrayXcd drag = i_unit * w * (r.damping * weight.square()).cast<Complex>();
-    Z += V.transpose() * drag.matrix().asDiagonal() * V;
-    Z.bottomRightCorner(m, m) += twist.transpose() * loss.matrix().asDiagonal() * twist;
-    y = Z.partialPivLu().solve(f);
+    Z.imag() += weighted_gram(V, w * r.damping * weight.square());
+    Z.imag().bottomRightCorner(m, m) += weighted_gram(twist, loss);
+    y = solve(Z, f);
   } else {
     y = f.array() / own;
   }
   const ArrayXcd elastic = (twist * y.tail(m)).array();
   const ArrayXcd modal =
       (spectrum.edge_vectors * (2.0 * zeta * i_unit * w * y.tail(m).array()).matrix()).array();
-  return {weight * (V * y).array(), r.stiffness.sqrt() * (elastic * (1.0 + loss) + modal)};
+  return {weight * (V * y).array(),
+          r.stiffness.sqrt() * (elastic * (1.0 + i_unit * loss.cast<Complex>()) + modal)};
 }
 
 }  // namespace

@@ -18,16 +18,15 @@ Stepper::Stepper(const ReducedTrain& reduced, const Spectrum& spectrum, double m
   }
   const Index m = reduced.n_edges();
   const MatrixXd root = reduced.stiffness.sqrt().matrix().asDiagonal() * spectrum.edge_vectors;
-  modal_ =
-      root * (2 * modal_damping_ratio / spectrum.frequency_rad_s).matrix().asDiagonal() * root.transpose();
+  modal_ = weighted_gram(root.transpose(), 2 * modal_damping_ratio / spectrum.frequency_rad_s);
   full_.emplace(modal_ + MatrixXd(edge_.matrix().asDiagonal()));
-  MatrixXd flexibility = full_->solve(MatrixXd::Identity(m, m));
+  MatrixXd flexibility = full_->inverse();
   ArrayXd compliance = node_.inverse();
   if (reduced.held) compliance[*reduced.held] = 0;
   MatrixXd incidence = MatrixXd::Zero(m, reduced.n_nodes());
   for (Index e = 0; e < m; ++e)
     incidence(e, reduced.edges[e].first) = 1, incidence(e, reduced.edges[e].second) = -1;
-  flexibility += incidence * compliance.matrix().asDiagonal() * incidence.transpose();
+  flexibility += weighted_gram(incidence.transpose(), compliance);
   flexibility_.emplace(flexibility);
 }
 

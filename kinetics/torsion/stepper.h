@@ -6,9 +6,10 @@
 /// The twist theta of every element is a state of its own, so that a train that turns for long loses nothing.
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <optional>
 
+#include "kinetics/torsion/dense_algebra.h"
 #include "kinetics/torsion/reduced.h"
 #include "kinetics/torsion/spectrum.h"
 #include "kinetics/torsion/tree_solver.h"
@@ -47,9 +48,9 @@ private:
   const ReducedTrain& reduced_;
   double time_step_s_;
   Eigen::ArrayXd viscous_, node_, edge_;
-  std::optional<TreeSolver<double>> tree_;  ///< without modal damping
-  Eigen::MatrixXd modal_;                   ///< edge x edge; empty without modal damping
-  std::optional<Eigen::LLT<Eigen::MatrixXd>> full_, flexibility_;  ///< with it: its edges; T_m from loads
+  std::optional<TreeSolver<double>> tree_;      ///< without modal damping
+  Eigen::MatrixXd modal_;                       ///< edge x edge; empty without modal damping
+  std::optional<Cholesky> full_, flexibility_;  ///< with it: its edges; T_m from loads
 };
 
 }  // namespace kinetics::torsion
