@@ -68,6 +68,14 @@ struct BodyScene {
   TrainShaftOptions train;
   TableBodyOptions table;
 
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  BodyScene();
+  BodyScene(const BodyScene&);
+  BodyScene(BodyScene&&) noexcept;
+  BodyScene& operator=(const BodyScene&);
+  BodyScene& operator=(BodyScene&&) noexcept;
+  ~BodyScene();
+
   const ShaftShape* shaft() const { return std::get_if<ShaftShape>(&shape); }
 };
 

@@ -25,6 +25,20 @@ std::string SceneError::text() const {
 SceneErrors::SceneErrors(std::vector<SceneError> errors)
     : std::runtime_error(all_texts(errors)), errors_(std::move(errors)) {}
 
+BodyScene::BodyScene() = default;
+BodyScene::BodyScene(const BodyScene&) = default;
+BodyScene::BodyScene(BodyScene&&) noexcept = default;
+BodyScene& BodyScene::operator=(const BodyScene&) = default;
+BodyScene& BodyScene::operator=(BodyScene&&) noexcept = default;
+BodyScene::~BodyScene() = default;
+
+Scene::Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
 std::vector<std::string> Scene::kinetics_effects() const {
   std::vector<std::string> of_bodies;
   for (const auto& body : bodies) {

@@ -116,6 +116,14 @@ struct Scene {
   /// inertia.
   std::vector<std::string> masses_from_mesh;
 
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
   /// The scene's effects that kinetics evaluates: all but those that the bodies add.
   std::vector<std::string> kinetics_effects() const;
   bool has_effect(const std::string& name) const;
