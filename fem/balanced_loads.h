@@ -33,6 +33,7 @@ struct Solution {
   double rounding = 0;          ///< as SolverReport
   double support_reaction = 0;  ///< largest, over the load vector's largest entry; 0 without supports
   double factor_gigabytes = 0;
+  FactorSize factor{};
   double bytes = 0;  ///< taken by the solver
   int n_iterations = 0;
   std::vector<RankWork> ranks{};  ///< as SolverReport

@@ -38,6 +38,7 @@ std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
 }
 
 struct CholmodFactor::Impl {
+  double matrix_bytes = 0;
   mutable cholmod_common common{};
   cholmod_factor* factor = nullptr;
 
@@ -86,6 +87,7 @@ CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<st
     for (int d = 0; d < 3; ++d) order.push_back(3 * SuiteSparse_long(node) + d);
   const SerialOpenMp serial;
   auto a = Impl::view(matrix);
+  impl_->matrix_bytes = 16.0 * static_cast<double>(matrix.value.size());
   impl_->factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &impl_->common);
   impl_->check("analyse");
 }
@@ -137,6 +139,11 @@ double CholmodFactor::gigabytes() const {
   const auto& l = *impl_->factor;
   return 1e-9 *
          (8.0 * double(l.xsize) + 8.0 * double(l.ssize) + 24.0 * double(l.nsuper) + 16.0 * double(l.n));
+}
+
+FactorSize CholmodFactor::size() const {
+  const auto& l = *impl_->factor;
+  return {l.n, double(l.xsize), impl_->common.fl, 1e9 * gigabytes() + impl_->matrix_bytes};
 }
 
 }  // namespace fem

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/solver_choice.h"
 #include "fem/symmetric_matrix.h"
 
 namespace fem {
@@ -30,6 +31,9 @@ public:
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
 
   double gigabytes() const;
+
+  /// What the analysis found.
+  FactorSize size() const;
 
 private:
   struct Impl;

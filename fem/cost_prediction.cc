@@ -1,22 +1,31 @@
 #include "fem/cost_prediction.h"
 
 #include "fem/cell_materials.h"
+#include "fem/direct_solve.h"
 #include "fem/mesh_reader.h"
 #include "fem/solver_prediction.h"
 
 namespace fem {
 
 SolverReport predict_solver(const Body& body, std::size_t n_loads, const SolverChoice& choice) {
+  constexpr std::size_t most_analysed = 600'000;  // seconds
   const Grid grid = read_grid(body);
-  return choose_solver(grid, CellMaterials(grid, body), n_loads, choice, physical_memory());
+  auto report = choose_solver(grid, CellMaterials(grid, body), n_loads, choice, physical_memory());
+  if (report.used == Solver::direct && 3 * grid.n_nodes <= most_analysed) {
+    report.factor = analyse_factor(grid, cells_of_nodes(grid));
+    report.predicted_direct = predict_direct(report.factor, n_loads);
+  }
+  return report;
 }
 
 SolverReport predict_solver(const SolverReport& at_hand, std::size_t n_dofs, int degree, std::size_t n_loads,
                             const SolverChoice& choice) {
   SolverReport report = at_hand;
   const bool iterative_is_faster = saves_time(at_hand);
-  report.predicted_direct = predict_direct(n_dofs, n_loads);
-  if (at_hand.predicted_iterative.seconds == 0) return report;  // it does not suit the cells
+  if (at_hand.factor.n_dofs > 0) report.factor = scaled(at_hand.factor, n_dofs);
+  report.predicted_direct =
+      at_hand.factor.n_dofs > 0 ? predict_direct(report.factor, n_loads) : predict_direct(n_dofs, n_loads);
+  if (at_hand.predicted_iterative.seconds == 0 || !suits_multigrid(at_hand.largest_aspect)) return report;
   if (choice.coarse_level == CoarseLevel::automatic)
     report.coarse_level = cheaper_coarse_level(n_dofs, degree, n_loads);
   report.predicted_iterative =

@@ -9,6 +9,7 @@
 
 #include "fem/cholmod_factor.h"
 #include "fem/clamps.h"
+#include "fem/parallel.h"
 #include "fem/solver_prediction.h"
 #include "fem/stiffness.h"
 #include "fem/supports.h"
@@ -43,6 +44,11 @@ void refuse_rounding(const Grid& grid, double share) {
   throw std::runtime_error(message.str());
 }
 
+FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells) {
+  const NodeGraph graph = make_node_graph(grid, cells);
+  return CholmodFactor(make_matrix(graph), order_nodes(graph)).size();
+}
+
 Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
                         const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                         const BalancedLoads& loads, const StepReport& progress) {
@@ -62,10 +68,13 @@ Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
   CholmodFactor factor(matrix, order.get());
   refuse_large_factor(1e9 * factor.gigabytes(), static_cast<std::size_t>(matrix.n), physical_memory());
   progress(0.25, "factorise");
+  std::optional<SerialBlas> serial;
+  if (factor.size().flops < flops_worth_threads) serial.emplace();
   factor.factorise(matrix);
   Solution solution;
   solution.factor_gigabytes = factor.gigabytes();
-  solution.bytes = 1e9 * solution.factor_gigabytes + 16.0 * static_cast<double>(matrix.value.size());
+  solution.factor = factor.size();
+  solution.bytes = solution.factor.bytes;
 
   progress(0.75, "solve");
   Eigen::MatrixXd free_force = loads.force;

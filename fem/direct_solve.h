@@ -6,6 +6,9 @@
 
 namespace fem {
 
+/// Of the stiffness, without computing it.
+FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells);
+
 /// @throws std::runtime_error as CholmodFactor, or if rounding reaches more than 1 % of displacements
 Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
                         const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,

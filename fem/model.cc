@@ -244,6 +244,11 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     responses.solver.used_bytes = solution.bytes;
     responses.solver.ranks = solution.ranks;
     responses.solver.n_iterations = solution.n_iterations;
+    if (solution.factor.n_dofs > 0) {
+      responses.solver.factor = solution.factor;
+      responses.solver.predicted_direct =
+          predict_direct(solution.factor, static_cast<std::size_t>(balanced.force.cols()));
+    }
     if (clamped.empty()) rigid.remove_motion(solution.displacement);
     solution.displacement.array().rowwise() *= scale.array().inverse();
     const Eigen::MatrixXd displacement = springs.apply(solution.displacement);

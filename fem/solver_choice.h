@@ -36,6 +36,15 @@ struct SolverCost {
   double bytes = 0;
 };
 
+/// Of a sparse Cholesky factor, by analysis of the matrix's pattern: known before it is computed, for a body
+/// of any shape.
+struct FactorSize {
+  std::size_t n_dofs = 0;  ///< of the matrix; 0: not analysed
+  double entries = 0;      ///< with the zeros that blocks of columns store
+  double flops = 0;        ///< of the factorisation
+  double bytes = 0;        ///< factor and matrix
+};
+
 /// The share of one of several MPI ranks.
 struct RankWork {
   std::size_t n_cells = 0;
@@ -48,6 +57,8 @@ struct SolverReport {
   std::string reason;    ///< why this one; if the iterative one gave up, how
   bool gave_up = false;  ///< the iterative one stalled, here or before (SolverChoice::gave_up_before)
   SolverCost predicted_direct, predicted_iterative;
+  FactorSize
+      factor{};  ///< of the direct one, once its matrix was analysed: then what is predicted follows from it
   CoarseLevel coarse_level = CoarseLevel::factorised;  ///< of the iterative one, decided
   double largest_aspect = 0;                           ///< of the cells; 0: not looked at (tetrahedra)
   int n_iterations = 0;                                ///< most of all blocks; 0: direct

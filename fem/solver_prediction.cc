@@ -17,7 +17,7 @@ namespace {
 
 // What is saved has to be worth an answer to 1e-10 instead of rounding.
 constexpr double worth_seconds = 1;
-// Cells more stretched than that cost more iterations than they save (the smoother is pointwise).
+// Cells more stretched than that cost more iterations than they save.
 constexpr double most_stretched = 12;
 // Beyond it the smoother loses its grip on motions that keep volume.
 constexpr double most_incompressible = 0.45;
@@ -71,6 +71,20 @@ SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads) {
   return {factor + solve * static_cast<double>(n_loads), 3.4e9 * std::pow(n, 1.3)};
 }
 
+SolverCost predict_direct(const FactorSize& factor, std::size_t n_loads) {
+  constexpr double s_per_dof = 1.4e-5, s_per_flop_alone = 6e-11, s_per_flop_shared = 3.5e-11,
+                   s_per_entry = 2.3e-10, s_per_response = 2.4e-7;
+  const double n = double(factor.n_dofs), k = double(n_loads);
+  const double s_per_flop = factor.flops < flops_worth_threads ? s_per_flop_alone : s_per_flop_shared;
+  return {s_per_dof * n + s_per_flop * factor.flops + (s_per_entry * factor.entries + s_per_response * n) * k,
+          factor.bytes};
+}
+
+FactorSize scaled(const FactorSize& factor, std::size_t n_dofs) {
+  const double ratio = double(n_dofs) / double(factor.n_dofs), larger = std::pow(ratio, 4.0 / 3);
+  return {n_dofs, factor.entries * larger, factor.flops * ratio * ratio, factor.bytes * larger};
+}
+
 SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
                              CoarseLevel level) {
   const double n = double(n_dofs), k = double(n_loads);
@@ -88,6 +102,10 @@ SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads
     bytes += 1100 * trilinear;
   }
   return {setup + iterations * each, bytes};
+}
+
+bool suits_multigrid(double aspect) {
+  return aspect <= most_stretched;
 }
 
 bool saves_time(const SolverReport& report) {
@@ -143,7 +161,7 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
   const double room = memory_bytes - bytes_beside_solver(n_dofs, n_loads);
   const bool direct_fits = report.predicted_direct.bytes < room;
   const bool iterative_fits = report.predicted_iterative.bytes < room;
-  const bool compact = report.largest_aspect <= most_stretched;
+  const bool compact = suits_multigrid(report.largest_aspect);
   // Thin bodies have small factors: what they need the analysis of their matrix will tell.
   if (!direct_fits && !iterative_fits && compact)
     refuse(n_dofs,

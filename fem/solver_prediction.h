@@ -19,8 +19,24 @@ double largest_aspect(const Grid& grid);
 /// tests/benchmarks/shaft.toml and stretched rods, aspect 2.7 to 7, 50 k to 4 M unknowns (direct: 50 k to 700
 /// k). On slower machines the seconds of all grow alike, and the choice stays.
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads);
+
+/// Factorisations below stay on one thread: CHOLMOD's many small products gain little from more, and BLAS
+/// threads wait for each other by yielding, which beside any other program costs five to ten times the
+/// seconds.
+constexpr double flops_worth_threads = 3e11;
+
+/// The same of a matrix that was analysed, for a body of any shape, with recovery: 1.4e-5 n + 6e-11 flops
+/// (3.5e-11 where threads share them) + (2.3e-10 entries + 2.4e-7 n) k seconds; its bytes. Fitted on shafts,
+/// drums and chambers, 67 k to 335 k unknowns.
+SolverCost predict_direct(const FactorSize& factor, std::size_t n_loads);
+
+/// Of n_dofs unknowns in a body of the same shape: flops grow as n^2, entries as n^(4/3).
+FactorSize scaled(const FactorSize& factor, std::size_t n_dofs);
 SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
                              CoarseLevel level);
+
+/// Whether the cells are compact enough for the smoother, which is pointwise.
+bool suits_multigrid(double aspect);
 
 /// Whether the iterative solver is predicted to save enough to be worth an answer to its tolerance.
 bool saves_time(const SolverReport& report);

@@ -26,23 +26,29 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
   return result;
 }
 
+std::string key_of(const fem::Body& body, const BodyLoads& loads,
+                   const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
+  auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
+  if (const int n = fem::n_ranks(MPI_COMM_WORLD); n > 1) key += "ranks " + std::to_string(n) + '\n';
+  return key;
+}
+
+std::filesystem::path kept_responses(const RunOptions& options) {
+  return options.directory / "unit_responses.h5";
+}
+
 /// The seconds of factorising depend on what a run before has left; results do not: where the iteration gives
 /// up, the direct solver takes over, and it is the direct solver from the start in the next run.
 fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body, const BodyLoads& loads,
                                   const std::vector<fem::SectionPlane>& planes, fem::Solver solver,
                                   const RunOptions& options, int n_threads, bool& reused, StageClock& clock) {
-  const auto usual = options.directory / "unit_responses.h5";
-  const auto file = options.responses.empty() ? usual : options.responses;
-  auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
-  if (const int n = fem::n_ranks(MPI_COMM_WORLD); n > 1) key += "ranks " + std::to_string(n) + '\n';
-  if (!options.fresh) {
-    for (const auto& place : file == usual ? std::vector{usual} : std::vector{file, usual})
-      if (auto kept = clock.run("solve", [&] { return read_unit_responses(place, key); })) {
-        reused = true;
-        return std::move(*kept);
-      }
-  }
+  const auto key = key_of(body, loads, planes, solver, n_threads);
   reused = false;
+  if (!options.fresh)
+    if (auto kept = clock.run("solve", [&] { return read_unit_responses(kept_responses(options), key); })) {
+      reused = true;
+      return std::move(*kept);
+    }
   auto responses = clock.run("solve", [&] {
     fem::SolverChoice choice;
     choice.solver = solver;
@@ -51,10 +57,7 @@ fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body
         loads.unit_loads, planes, fem::Recovery::patch,
         [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
-  clock.run("write", [&] {
-    remember_iteration(options.directory, body_key(body), responses.solver.gave_up);
-    if (options.keep) write_unit_responses(file, key, responses);
-  });
+  remember_iteration(options.directory, body_key(body), responses.solver.gave_up);
   return responses;
 }
 
@@ -224,6 +227,16 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                               body.material.density_kg_m3, supporting_ports(body));
     });
   return analysis;
+}
+
+void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+                    const RunOptions& options, StageClock& clock) {
+  if (analysis.responses_reused) return;
+  clock.run("write", [&] {
+    const auto key = key_of(meshed.body, analysis.loads, to_fem_planes(meshed.mesh.sections), body.solver,
+                            threads(options.n_threads));
+    write_unit_responses(kept_responses(options), key, analysis.responses);
+  });
 }
 
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,

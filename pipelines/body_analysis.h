@@ -76,11 +76,9 @@ struct BodyAnalysis {
 
 /// Where a run keeps its files and what it may use.
 struct RunOptions {
-  std::filesystem::path directory;    ///< of this body
-  int n_threads = 0;                  ///< 0: all cores
-  bool fresh = false;                 ///< do not reuse unit responses of an earlier run
-  bool keep = true;                   ///< unit responses, for the next run
-  std::filesystem::path responses{};  ///< file that keeps them; empty: unit_responses.h5 in the directory
+  std::filesystem::path directory;  ///< of this body
+  int n_threads = 0;                ///< 0: all cores
+  bool fresh = false;               ///< do not reuse unit responses of an earlier run
 };
 
 /// The loads of one body of a scene, by its role.
@@ -92,10 +90,14 @@ BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinet
 /// @throws std::runtime_error if forces or moments miss 1e-9 of their scale
 void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions);
 
-/// Solves and superposes. Writes the unit responses, nothing else.
+/// Solves and superposes. Writes no results.
 /// @throws std::runtime_error if the solve fails, or if the loads do not close to 1e-9 on the mesh
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                           BodyLoads loads, const RunOptions& options, StageClock& clock);
+
+/// Leaves the unit responses in unit_responses.h5 for the next run.
+void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+                    const RunOptions& options, StageClock& clock);
 
 /// The second half of analyse_body: everything that follows from unit responses.
 /// @throws std::runtime_error if the loads do not close to 1e-9 on the mesh

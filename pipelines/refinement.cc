@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
-constexpr double share_of_own_estimate = 0.5;  // a floor: two meshes may agree by chance
+constexpr double toe_step = 1.75, elsewhere_step = 1.1;
 constexpr double smallest_exponent = 0.1, kept_exponent = 0.75;
 constexpr double spot_shrinkage = 0.6, spot_radius_cells = 3;
 
@@ -43,9 +43,15 @@ std::vector<std::size_t> fillets_that_may_lead(const BodyAnalysis& analysis, dou
   return result;
 }
 
-Refinement refine_evenly(BodyScene& body) {
-  body = with_fineness(body, step_factor);
-  return {true, true, step_factor};
+/// Whether cells are half or twice as large away from the toes moves the hot-spot stress of a tube by 1 %, at
+/// the toes by 4 %, through the wall by 3 %.
+Refinement refine_chamber(BodyScene& body) {
+  const auto before = std::get<ChamberShape>(body.shape).mesh;
+  body = with_fineness(body, elsewhere_step);
+  auto& mesh = std::get<ChamberShape>(body.shape).mesh;
+  mesh.cells_through_wall = before.cells_through_wall + 1;
+  mesh.toe_walls = before.toe_walls / toe_step;
+  return {true, true, double(mesh.cells_through_wall) / before.cells_through_wall};
 }
 
 Refinement refine_shaft(BodyScene& body, const BodyAnalysis& analysis, bool stalled) {
@@ -131,7 +137,7 @@ Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis,
   }
   const auto* shaft = body.shaft();
   if (shaft != nullptr && shaft->keyways.empty()) return refine_shaft(body, analysis, stalled);
-  if (std::holds_alternative<ChamberShape>(body.shape)) return refine_evenly(body);
+  if (std::holds_alternative<ChamberShape>(body.shape)) return refine_chamber(body);
   return refine_solid(body, analysis);
 }
 
@@ -145,18 +151,23 @@ bool grows_without_bound(const std::vector<double>& values, const std::vector<do
          exponent(n - 3) > 0;
 }
 
-void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio) {
+void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes) {
   if (!(ratio > 1)) return;
   const double missing_Pa = std::abs(change_Pa) / (ratio * ratio - 1);
-  const double own_Pa = share_of_own_estimate * ledger.of("discretisation") / discretisation_safety;
+  const double share = n_meshes <= 2 ? 1 : n_meshes == 3 ? 0.5 : 0.25;
+  const double own_Pa = share * ledger.of("discretisation") / discretisation_safety;
   if (missing_Pa > own_Pa)
     ledger.set_numerical(
         {"discretisation", "change from the coarser mesh over (ratio of cell sizes)^2 - 1", missing_Pa});
   else
-    ledger.set_numerical({"discretisation",
-                          "half of recovered stress against single cells around: the change from the coarser "
-                          "mesh is smaller",
-                          own_Pa});
+    ledger.set_numerical(
+        {"discretisation",
+         std::string(n_meshes <= 2   ? ""
+                     : n_meshes == 3 ? "half of "
+                                     : "a quarter of ") +
+             "recovered stress against single cells around: the change from the coarser mesh is "
+             "smaller",
+         own_Pa});
 }
 
 }  // namespace pipelines

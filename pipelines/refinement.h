@@ -36,8 +36,10 @@ BodyScene coarsest(const BodyScene& body);
 
 /// Mends what dominates the governing stress's ledger: more instants, more pressure harmonics, or smaller
 /// cells. Cells of a shaft become smaller on those fillets only whose stress with its error could be the
-/// peak; all round once that no longer helps. Bodies of tetrahedra get a fine spot at the peak. The sequence
-/// of meshes does not depend on a tolerance, so that a stricter one never costs less.
+/// peak; all round once that no longer helps. Chambers get one more cell through their walls, and cells at
+/// the weld toes, to which the stress is most sensitive, shrink faster than elsewhere. Bodies of tetrahedra
+/// get a fine spot at the peak. The sequence of meshes does not depend on a tolerance, so that a stricter one
+/// never costs less.
 /// @param stalled  the last step of this kind brought less than a quarter
 Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, bool stalled);
 
@@ -49,7 +51,10 @@ bool grows_without_bound(const std::vector<double>& values, const std::vector<do
 
 /// Two meshes tell more than one. If cells became `ratio` times smaller and the stress changed by d, about
 /// d / (ratio^2 - 1) is missing still (second order; recovered stress of quadratic cells does better). The
-/// discretisation entry becomes that, or half of what single cells differ by if that is more.
-void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio);
+/// discretisation entry becomes that, or a share of what single cells differ by if that is more: two meshes
+/// may agree by chance, each further one makes that less likely.
+/// @param n_meshes  tried so far: all of what single cells differ by for two, half for three, a quarter
+/// beyond
+void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3);
 
 }  // namespace pipelines

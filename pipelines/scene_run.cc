@@ -31,21 +31,18 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The files of one body: what becomes its mesh, and what is kept of the search.
+/// What becomes the mesh of one body.
 class BodyFiles {
 public:
   explicit BodyFiles(const fs::path& directory)
       : directory_(directory), mesh_(std::make_unique<AtomicFile>(directory / "mesh.msh")) {}
 
   const fs::path& mesh() const { return mesh_->temporary(); }
-  fs::path kept(int step) const { return directory_ / ("search_" + std::to_string(step) + ".h5"); }
 
-  /// The mesh gets its name; responses of the last step become those of the body, the others go.
-  void finish(BodyAnalysis& analysis, MeshedBody& meshed, int last_step) {
+  /// The mesh gets its name.
+  void finish(BodyAnalysis& analysis, MeshedBody& meshed) {
     mesh_->commit();
     analysis.mesh.file = meshed.mesh.file = meshed.body.mesh = directory_ / "mesh.msh";
-    if (last_step > 0 && fs::exists(kept(last_step)))
-      fs::rename(kept(last_step), directory_ / "unit_responses.h5");
   }
 
 private:
@@ -74,8 +71,8 @@ public:
     load(std::move(meshed));
     const auto first_sampling = run_.scene.sampling.instants_per_turn;
     for (const auto i : wanted()) {
-      run_.analyses.push_back(search ? search_mesh(i) : analyse(i, {}));
-      if (!search) finish(i, run_.analyses.back(), 0);
+      run_.analyses.push_back(search ? search_mesh(i) : analyse(i));
+      finish(i, run_.analyses.back());
     }
     if (search && !options_.only &&
         (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
@@ -106,21 +103,24 @@ private:
     run_.loaded = load_bodies(run_.scene, std::move(meshed), clock_);
   }
 
-  BodyAnalysis analyse(std::size_t i, const fs::path& responses) {
-    const auto& body = run_.scene.bodies[i];
-    return analyse_body(
-        run_.scene, body, run_.loaded.meshed[i], run_.loaded.body_loads[i],
-        {options_.directory / body.name, options_.n_threads, options_.fresh, options_.keep, responses},
-        clock_);
+  RunOptions options_of(std::size_t i) const {
+    return {options_.directory / run_.scene.bodies[i].name, options_.n_threads, options_.fresh};
   }
 
-  void finish(std::size_t i, BodyAnalysis& analysis, int last_step) {
+  BodyAnalysis analyse(std::size_t i) {
+    return analyse_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                        options_of(i), clock_);
+  }
+
+  void finish(std::size_t i, BodyAnalysis& analysis) {
+    if (options_.keep)
+      keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
     add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
     if (analysis.vibration)
       if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
         warnings_.push_back(warning);
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
-    files_[i].finish(analysis, run_.loaded.meshed[i], last_step);
+    files_[i].finish(analysis, run_.loaded.meshed[i]);
     run_.loaded.meshed[i].model.reset();
   }
 
@@ -150,14 +150,15 @@ private:
     search.tolerance = options_.wish.tolerance;
     search.time_limit_s = options_.wish.time_limit_s;
     auto step_start = Clock::now();
-    BodyAnalysis analysis = analyse(i, files_[i].kept(1));
+    BodyAnalysis analysis = analyse(i);
     double ratio = 1, before_Pa = 0;
     bool stalled = false;
     PeakGrowth growth;
     while (true) {
       if (growth.at(analysis, ratio)) leave_out(i, analysis);
       auto stress = governing_stress(analysis);
-      if (!search.steps.empty()) learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio);
+      if (!search.steps.empty())
+        learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio, int(search.steps.size()) + 1);
       set_errors(analysis, stress.errors);
       const double seconds = seconds_since(step_start);
       search.quantity = stress.name;
@@ -180,9 +181,7 @@ private:
       stalled = refinement.new_mesh && changed > 0.75 * error_before_Pa;
     }
     search.met = search.tolerance == 0 || governing_stress(analysis).relative_error() <= search.tolerance;
-    const int last = int(search.steps.size());
     analysis.search = std::move(search);
-    finish(i, analysis, last);
     return analysis;
   }
 
@@ -237,10 +236,7 @@ private:
     auto meshed = std::move(run_.loaded.meshed);
     meshed[i] = std::move(finer);
     load(std::move(meshed));
-    const int step = int(search.steps.size());
-    analysis = analyse(i, files_[i].kept(step + 1));
-    std::error_code ignored;
-    fs::remove(files_[i].kept(step), ignored);
+    analysis = analyse(i);
     return true;
   }
 

@@ -149,8 +149,12 @@ TEST(LearnFromChange, KeepsAFloorOfTheMeshesOwnEstimate) {
   ErrorLedger same = ledger;
   learn_from_change(same, 3.0, 1.0);
   EXPECT_EQ(same.of("discretisation"), 6);
-  learn_from_change(ledger, 0.0, 2.0);
-  EXPECT_NEAR(ledger.of("discretisation"), 0.5 * 6 / discretisation_safety, 1e-14);
+  for (const auto& [n_meshes, share] :
+       {std::pair(2, 1.0), std::pair(3, 0.5), std::pair(4, 0.25), std::pair(9, 0.25)}) {
+    ErrorLedger learnt = ledger;
+    learn_from_change(learnt, 0.0, 2.0, n_meshes);
+    EXPECT_NEAR(learnt.of("discretisation"), share * 6 / discretisation_safety, 1e-14) << n_meshes;
+  }
 }
 
 TEST(ErrorLedger, AddsUpWithoutSigns) {
