@@ -58,6 +58,14 @@ struct Body {
   /// By volume group, where it is not `material`. Stress jumps where materials meet: the nodes there appear
   /// once for each of them in UnitResponses::nodes, and no recovery looks across.
   std::map<int, Material> material_of_volume{};
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  Body();
+  Body(const Body&);
+  Body(Body&&) noexcept;
+  Body& operator=(const Body&);
+  Body& operator=(Body&&) noexcept;
+  ~Body();
 };
 
 /// Mass, first moment and inertia of the meshed body by the quadrature of its load vectors, about the origin.

@@ -116,6 +116,14 @@ struct UnitResponses {
   std::size_t n_dofs = 0;
   double factor_gigabytes = 0;  ///< 0: solved iteratively
   SolverReport solver;
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  UnitResponses();
+  UnitResponses(const UnitResponses&);
+  UnitResponses(UnitResponses&&) noexcept;
+  UnitResponses& operator=(const UnitResponses&);
+  UnitResponses& operator=(UnitResponses&&) noexcept;
+  ~UnitResponses();
 };
 
 }  // namespace fem

@@ -110,6 +110,14 @@ struct BodyMesh {
   std::vector<SharpEdge> sharp_edges;
   std::vector<HotSpot> hot_spots;
   MeshQuality quality;
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  BodyMesh();
+  BodyMesh(const BodyMesh&);
+  BodyMesh(BodyMesh&&) noexcept;
+  BodyMesh& operator=(const BodyMesh&);
+  BodyMesh& operator=(BodyMesh&&) noexcept;
+  ~BodyMesh();
 };
 
 }  // namespace meshes

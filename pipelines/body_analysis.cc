@@ -112,6 +112,13 @@ int threads(int wanted) {
 
 }  // namespace
 
+BodyAnalysis::BodyAnalysis() = default;
+BodyAnalysis::BodyAnalysis(const BodyAnalysis&) = default;
+BodyAnalysis::BodyAnalysis(BodyAnalysis&&) noexcept = default;
+BodyAnalysis& BodyAnalysis::operator=(const BodyAnalysis&) = default;
+BodyAnalysis& BodyAnalysis::operator=(BodyAnalysis&&) noexcept = default;
+BodyAnalysis::~BodyAnalysis() = default;
+
 LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed) {
   LoadedBody loaded{scene.name, meshed.mesh.ports, meshed.regions, scene.pressures};
   for (const auto& port : meshed.mesh.ports) {

@@ -72,6 +72,14 @@ struct BodyAnalysis {
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
   std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
   std::optional<DroppedBounds> dropped;  ///< where effects = "auto" has dropped any
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  BodyAnalysis();
+  BodyAnalysis(const BodyAnalysis&);
+  BodyAnalysis(BodyAnalysis&&) noexcept;
+  BodyAnalysis& operator=(const BodyAnalysis&);
+  BodyAnalysis& operator=(BodyAnalysis&&) noexcept;
+  ~BodyAnalysis();
 };
 
 /// Where a run keeps its files and what it may use.

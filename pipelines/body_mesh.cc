@@ -52,6 +52,13 @@ std::vector<fem::LoadSurface> round_ports(const meshes::BodyMesh& mesh) {
 
 }  // namespace
 
+MeshedBody::MeshedBody() = default;
+MeshedBody::MeshedBody(const MeshedBody&) = default;
+MeshedBody::MeshedBody(MeshedBody&&) noexcept = default;
+MeshedBody& MeshedBody::operator=(const MeshedBody&) = default;
+MeshedBody& MeshedBody::operator=(MeshedBody&&) noexcept = default;
+MeshedBody::~MeshedBody() = default;
+
 meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file) {
   try {
     return std::visit(Build{file}, body.shape);

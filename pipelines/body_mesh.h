@@ -19,6 +19,14 @@ struct MeshedBody {
   fem::GeometryError geometry_error;
   std::vector<RegionMass> regions;  ///< "structure" and "exciter" of a chamber; otherwise the whole body. A
                                     ///< chamber of one piece is all structure: its exciter is an added mass
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  MeshedBody();
+  MeshedBody(const MeshedBody&);
+  MeshedBody(MeshedBody&&) noexcept;
+  MeshedBody& operator=(const MeshedBody&);
+  MeshedBody& operator=(MeshedBody&&) noexcept;
+  ~MeshedBody();
 };
 
 /// The mesh alone, written to `file`.

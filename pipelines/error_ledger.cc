@@ -86,6 +86,13 @@ double discretisation_error(const StressPoint& point, const fem::UnitResponses& 
 
 }  // namespace
 
+ErrorLedger::ErrorLedger() = default;
+ErrorLedger::ErrorLedger(const ErrorLedger&) = default;
+ErrorLedger::ErrorLedger(ErrorLedger&&) noexcept = default;
+ErrorLedger& ErrorLedger::operator=(const ErrorLedger&) = default;
+ErrorLedger& ErrorLedger::operator=(ErrorLedger&&) noexcept = default;
+ErrorLedger::~ErrorLedger() = default;
+
 double ErrorLedger::numerical_Pa() const {
   return sum_of(numerical);
 }

@@ -24,6 +24,14 @@ struct ErrorLedger {
   std::vector<ErrorEntry> numerical;  ///< of the calculation: finer runs make them smaller
   std::vector<ErrorEntry> model;      ///< of assumptions that no mesh mends
 
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  ErrorLedger();
+  ErrorLedger(const ErrorLedger&);
+  ErrorLedger(ErrorLedger&&) noexcept;
+  ErrorLedger& operator=(const ErrorLedger&);
+  ErrorLedger& operator=(ErrorLedger&&) noexcept;
+  ~ErrorLedger();
+
   double numerical_Pa() const;
   double total_Pa() const;
   /// Source of the largest numerical entry; empty without any.

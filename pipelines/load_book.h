@@ -61,6 +61,14 @@ struct BodyLoads {
   Eigen::ArrayXd drive_torque_Nm;      ///< vibratory shaft: clockwise positive, own mass included
   Eigen::ArrayXd carried_moment_Nm;    ///< of a named guide (`pitch_guide`), counter-clockwise; empty: none
   double carried_moment_scale_Nm = 0;  ///< the sum of the moments' sizes that it is judged by
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  BodyLoads();
+  BodyLoads(const BodyLoads&);
+  BodyLoads(BodyLoads&&) noexcept;
+  BodyLoads& operator=(const BodyLoads&);
+  BodyLoads& operator=(BodyLoads&&) noexcept;
+  ~BodyLoads();
 };
 
 /// Rows fx, fy, fz [N], mx, my, mz [N m] about the origin; a column per instant.

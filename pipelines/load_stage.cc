@@ -17,6 +17,13 @@ void add_turning_trunnions(kinetics::LoadHistory& loads) {
 
 }  // namespace
 
+LoadedScene::LoadedScene() = default;
+LoadedScene::LoadedScene(const LoadedScene&) = default;
+LoadedScene::LoadedScene(LoadedScene&&) noexcept = default;
+LoadedScene& LoadedScene::operator=(const LoadedScene&) = default;
+LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
+LoadedScene::~LoadedScene() = default;
+
 kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
   if (scene.run_up)
     return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);

@@ -30,6 +30,14 @@ struct LoadedScene {
   std::vector<BodyLoads> body_loads;
   std::vector<BearingResult> bearings;
 
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  LoadedScene();
+  LoadedScene(const LoadedScene&);
+  LoadedScene(LoadedScene&&) noexcept;
+  LoadedScene& operator=(const LoadedScene&);
+  LoadedScene& operator=(LoadedScene&&) noexcept;
+  ~LoadedScene();
+
   BodyChannels channels() const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "pipelines/energy_errors.h"
@@ -15,28 +16,40 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Keys as pointers: to the library's own lists every length of a text is a type to compile anew.
+struct Member {
+  const char* key;
+  Json value;
+};
+
+Json object(std::initializer_list<Member> members) {
+  Json json = Json::object();
+  for (const Member& member : members) json[member.key] = member.value;
+  return json;
+}
+
 /// JSON has no infinity: a figure that is not finite is null.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 Json figure(double value, const std::string& unit) {
-  return {{"value", number(value)}, {"unit", unit}};
+  return object({{"value", number(value)}, {"unit", unit}});
 }
 
 Json place_and_moment(const RunReport& report, const std::array<double, 3>& position,
                       const std::string& feature, Place place, std::int32_t instant) {
   const auto moment = moment_of(report.scene, report.loads, instant);
-  return {{"feature", feature},
-          {"place", to_string(place)},
-          {"position_m", position},
-          {"turn", moment.turn},
-          {"drive_angle_rad", moment.angle_rad}};
+  return object({{"feature", feature},
+                 {"place", to_string(place)},
+                 {"position_m", position},
+                 {"turn", moment.turn},
+                 {"drive_angle_rad", moment.angle_rad}});
 }
 
 /// "total" of all sources, "numerical" of those that a finer run would mend.
 Json ledger_json(const ErrorLedger& ledger) {
-  Json json{{"total", number(ledger.total_Pa())}, {"numerical", number(ledger.numerical_Pa())}};
+  Json json = object({{"total", number(ledger.total_Pa())}, {"numerical", number(ledger.numerical_Pa())}});
   for (const auto* entries : {&ledger.numerical, &ledger.model})
     for (const auto& entry : *entries) {
       json[entry.source] = number(entry.value_Pa);
@@ -47,18 +60,18 @@ Json ledger_json(const ErrorLedger& ledger) {
 
 /// Seconds are no part of it: they change from run to run.
 Json search_json(const Search& search) {
-  Json json{{"quantity", search.quantity},
-            {"tolerance", number(search.tolerance)},
-            {"met", search.met},
-            {"ended", search.ended}};
+  Json json = object({{"quantity", search.quantity},
+                      {"tolerance", number(search.tolerance)},
+                      {"met", search.met},
+                      {"ended", search.ended}});
   for (const auto& step : search.steps)
-    json["steps"].push_back({{"mesh", step.fineness},
-                             {"instants_per_turn", step.instants_per_turn},
-                             {"pressure_harmonics", step.pressure_harmonics},
-                             {"dofs", step.n_dofs},
-                             {"value_Pa", number(step.value_Pa)},
-                             {"error", ledger_json(step.errors)},
-                             {"dominated_by", step.errors.largest()}});
+    json["steps"].push_back(object({{"mesh", step.fineness},
+                                    {"instants_per_turn", step.instants_per_turn},
+                                    {"pressure_harmonics", step.pressure_harmonics},
+                                    {"dofs", step.n_dofs},
+                                    {"value_Pa", number(step.value_Pa)},
+                                    {"error", ledger_json(step.errors)},
+                                    {"dominated_by", step.errors.largest()}}));
   return json;
 }
 
@@ -92,10 +105,10 @@ Json principal_json(const RunReport& report, const BodyAnalysis& analysis) {
 Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
   Json json = Json::array();
   for (const Zone& zone : analysis.zones.zones) {
-    Json entry{{"peak_von_mises_Pa", number(zone.peak_Pa)},
-               {"safety_against_yield", number(zone.safety)},
-               {"volume_m3", number(zone.volume_m3)},
-               {"nodes", zone.n_nodes}};
+    Json entry = object({{"peak_von_mises_Pa", number(zone.peak_Pa)},
+                         {"safety_against_yield", number(zone.safety)},
+                         {"volume_m3", number(zone.volume_m3)},
+                         {"nodes", zone.n_nodes}});
     entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
     json.push_back(entry);
   }
@@ -127,10 +140,10 @@ Json torsion_json(const BodyAnalysis& analysis) {
 Json carried_json(const BodyLoads& loads) {
   if (loads.carried_moment_Nm.size() == 0) return 0.0;
   const double most = loads.carried_moment_Nm.abs().maxCoeff();
-  return {{"effect", "pitch_guide"},
-          {"max_Nm", number(most)},
-          {"rms_Nm", number(std::sqrt(loads.carried_moment_Nm.square().mean()))},
-          {"share", number(most / loads.carried_moment_scale_Nm)}};
+  return object({{"effect", "pitch_guide"},
+                 {"max_Nm", number(most)},
+                 {"rms_Nm", number(std::sqrt(loads.carried_moment_Nm.square().mean()))},
+                 {"share", number(most / loads.carried_moment_scale_Nm)}});
 }
 
 /// How the quasi-static stress is meant: dynamic_amplification is the factor that resonance is expected to
@@ -143,11 +156,11 @@ void add_vibration(const Vibration& vibration, Json& json) {
   json["dynamic_amplification"] = figure(dynamic.factor, "1");
   json["dynamic_amplification"]["held"] = vibration.held;
   json["dynamic_amplification"]["limit"] = amplification_limit;
-  json["dynamic_amplification"]["highest_harmonic"] = {
-      {"order", dynamic.highest.order},
-      {"frequency_Hz", dynamic.highest.frequency_Hz},
-      {"share", number(dynamic.highest.share)},
-      {"amplification", number(dynamic.highest.amplification)}};
+  json["dynamic_amplification"]["highest_harmonic"] =
+      object({{"order", dynamic.highest.order},
+              {"frequency_Hz", dynamic.highest.frequency_Hz},
+              {"share", number(dynamic.highest.share)},
+              {"amplification", number(dynamic.highest.amplification)}});
 }
 
 Json energy_error_json(const BodyAnalysis& analysis) {
@@ -166,9 +179,9 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["min_scaled_jacobian"] = number(quality.min_scaled_jacobian);
   json["median_scaled_jacobian"] = number(quality.median_scaled_jacobian);
   json["max_aspect"] = number(quality.max_aspect);
-  json["geometry_error"] = {{"relative", number(analysis.geometry_error.relative)},
-                            {"faces", analysis.geometry_error.n_faces},
-                            {"position_m", analysis.geometry_error.place_m}};
+  json["geometry_error"] = object({{"relative", number(analysis.geometry_error.relative)},
+                                   {"faces", analysis.geometry_error.n_faces},
+                                   {"position_m", analysis.geometry_error.place_m}});
   json["mass"] = figure(analysis.masses.mass_kg, "kg");
   json["unbalance"] =
       figure(std::hypot(analysis.masses.first_moment_kg_m[0], analysis.masses.first_moment_kg_m[1]), "kg m");
@@ -185,61 +198,63 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   if (analysis.diagrams) {
     json["torsion"] = torsion_json(analysis);
     for (const auto& seat : analysis.diagrams->seats)
-      json["seats"][seat.port] = {{"z_m", seat.z_m},
-                                  {"max_deflection_m", seat.max_deflection_m},
-                                  {"max_slope_rad", seat.max_slope_rad}};
-    json["stress_against_statics"] = {{"force", number(analysis.diagrams->force_mismatch)},
-                                      {"bending", number(analysis.diagrams->bending_mismatch)},
-                                      {"torque", number(analysis.diagrams->torque_mismatch)}};
+      json["seats"][seat.port] = object({{"z_m", seat.z_m},
+                                         {"max_deflection_m", seat.max_deflection_m},
+                                         {"max_slope_rad", seat.max_slope_rad}});
+    json["stress_against_statics"] = object({{"force", number(analysis.diagrams->force_mismatch)},
+                                             {"bending", number(analysis.diagrams->bending_mismatch)},
+                                             {"torque", number(analysis.diagrams->torque_mismatch)}});
   }
   for (const auto& spot : analysis.hot_spots)
-    json["hot_spots"].push_back({{"name", spot.name},
-                                 {"von_mises_Pa", number(spot.von_mises_Pa)},
-                                 {"normal_max_Pa", number(spot.max_normal_Pa)},
-                                 {"normal_min_Pa", number(spot.min_normal_Pa)},
-                                 {"position_m", spot.toe_m}});
+    json["hot_spots"].push_back(object({{"name", spot.name},
+                                        {"von_mises_Pa", number(spot.von_mises_Pa)},
+                                        {"normal_max_Pa", number(spot.max_normal_Pa)},
+                                        {"normal_min_Pa", number(spot.min_normal_Pa)},
+                                        {"position_m", spot.toe_m}}));
   if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = ledger_json(analysis.hot_spot_errors);
   for (const auto& edge : analysis.mesh.sharp_edges)
-    json["singular"].push_back({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}});
+    json["singular"].push_back(object({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}}));
   for (const auto& figure : report.masses)
     if (figure.body == analysis.scene.name)
-      json["masses"].push_back({{"name", figure.name},
-                                {"unit", figure.unit},
-                                {"machine", figure.given},
-                                {"mesh", figure.mesh},
-                                {"from_mesh", figure.from_mesh},
-                                {"difference", figure.share()}});
+      json["masses"].push_back(object({{"name", figure.name},
+                                       {"unit", figure.unit},
+                                       {"machine", figure.given},
+                                       {"mesh", figure.mesh},
+                                       {"from_mesh", figure.from_mesh},
+                                       {"difference", figure.share()}}));
   const auto& solver = analysis.responses.solver;
-  json["solver"] = {{"used", solver.used == fem::Solver::iterative ? "iterative" : "direct"},
-                    {"reason", solver.reason},
-                    {"iterations", solver.used == fem::Solver::iterative ? solver.n_iterations : 0},
-                    {"residual", number(analysis.responses.residual)},
-                    {"rounding", number(solver.rounding)},
-                    {"support_reaction", number(analysis.responses.support_reaction)},
-                    {"factor_gigabytes", number(analysis.responses.factor_gigabytes)},
-                    {"gave_up", solver.gave_up},
-                    {"bytes", number(solver.used_bytes)},
-                    {"predicted_bytes", number(solver.predicted().bytes)}};
+  json["solver"] = object({{"used", solver.used == fem::Solver::iterative ? "iterative" : "direct"},
+                           {"reason", solver.reason},
+                           {"iterations", solver.used == fem::Solver::iterative ? solver.n_iterations : 0},
+                           {"residual", number(analysis.responses.residual)},
+                           {"rounding", number(solver.rounding)},
+                           {"support_reaction", number(analysis.responses.support_reaction)},
+                           {"factor_gigabytes", number(analysis.responses.factor_gigabytes)},
+                           {"gave_up", solver.gave_up},
+                           {"bytes", number(solver.used_bytes)},
+                           {"predicted_bytes", number(solver.predicted().bytes)}});
   for (const auto& rank : solver.ranks)
     json["solver"]["ranks"].push_back(
-        {{"cells", rank.n_cells}, {"unknowns", rank.n_unknowns}, {"bytes", number(rank.bytes)}});
+        object({{"cells", rank.n_cells}, {"unknowns", rank.n_unknowns}, {"bytes", number(rank.bytes)}}));
   return json;
 }
 
 /// What effects = "auto" has switched off: shares of the loads, bounds of the governing stresses.
 Json choice_json(const RunReport& report) {
   const auto& choice = report.scene.effect_choice;
-  Json json{{"limit", choice.limit},
-            {"share_of_loads", number(choice.share)},
-            {"load_change", {{"load", choice.load_change.load}, {"share", number(choice.load_change.share)}}},
-            {"taken_back", choice.taken_back},
-            {"effects", Json::object()}};
+  Json json =
+      object({{"limit", choice.limit},
+              {"share_of_loads", number(choice.share)},
+              {"load_change",
+               object({{"load", choice.load_change.load}, {"share", number(choice.load_change.share)}})},
+              {"taken_back", choice.taken_back},
+              {"effects", Json::object()}});
   for (const auto& dropped : choice.dropped)
     json["effects"][dropped.effect]["share_of_loads"] = number(dropped.share);
   for (const auto& analysis : report.bodies) {
     if (!analysis.dropped) continue;
     const auto bound = [&](const EffectBound& b) {
-      return Json{{"bound_Pa", number(b.bound_Pa)}, {"estimated_Pa", number(b.estimated_Pa)}};
+      return object({{"bound_Pa", number(b.bound_Pa)}, {"estimated_Pa", number(b.estimated_Pa)}});
     };
     for (const auto& effect : analysis.dropped->effects)
       json["effects"][effect.effect]["bodies"][analysis.scene.name] = bound(effect);
@@ -252,26 +267,26 @@ Json choice_json(const RunReport& report) {
 
 std::string summary_json(const RunReport& report) {
   Json json;
-  json["program"] = {{"name", "millstress"}, {"version", version}};
-  json["input"] = {{"scene", report.scene.file.filename().string()},
-                   {"title", report.scene.title},
-                   {"hash", content_hash(report.scene.file)},
-                   {"machine", report.loads.machine},
-                   {"convention", report.loads.convention},
-                   {"effects", report.scene.effects},
-                   {"turns", report.scene.sampling.turns},
-                   {"instants_per_turn", report.scene.sampling.instants_per_turn}};
+  json["program"] = object({{"name", "millstress"}, {"version", version}});
+  json["input"] = object({{"scene", report.scene.file.filename().string()},
+                          {"title", report.scene.title},
+                          {"hash", content_hash(report.scene.file)},
+                          {"machine", report.loads.machine},
+                          {"convention", report.loads.convention},
+                          {"effects", report.scene.effects},
+                          {"turns", report.scene.sampling.turns},
+                          {"instants_per_turn", report.scene.sampling.instants_per_turn}});
   if (!report.scene.effect_choice.offered.empty()) json["dropped_effects"] = choice_json(report);
   json["warnings"] = report.loads.warnings;
   for (const auto& warning : report.scene.warnings) json["warnings"].push_back(warning);
   for (const auto& quantity : report.loads.quantities) {
     if (!quantity.has_statistics) continue;
     const auto s = statistics(quantity.values);
-    json["loads"][quantity.name] = {{"max", number(s.max)},
-                                    {"min", number(s.min)},
-                                    {"mean", number(s.mean)},
-                                    {"rms", number(s.rms)},
-                                    {"unit", quantity.unit}};
+    json["loads"][quantity.name] = object({{"max", number(s.max)},
+                                           {"min", number(s.min)},
+                                           {"mean", number(s.mean)},
+                                           {"rms", number(s.rms)},
+                                           {"unit", quantity.unit}});
   }
   if (const auto* train = std::get_if<kinetics::DriveTrain>(&report.scene.machine))
     for (const double w : kinetics::natural_modes(*train, kinetics::Shapes::none).frequency_rad_s)
@@ -279,27 +294,28 @@ std::string summary_json(const RunReport& report) {
   for (const auto& analysis : report.bodies) {
     json["bodies"][analysis.scene.name] = body_json(report, analysis);
     const Closure& closure = analysis.closure;
-    json["closure"][analysis.scene.name] = {{"force", number(closure.worst_force())},
-                                            {"moment", number(closure.worst_moment())},
-                                            {"carried_moment", carried_json(analysis.loads)},
-                                            {"force_scale_N", closure.force_scale_N},
-                                            {"moment_scale_Nm", closure.moment_scale_Nm},
-                                            {"channel_resultant", number(closure.channel_resultant)}};
+    json["closure"][analysis.scene.name] = object({{"force", number(closure.worst_force())},
+                                                   {"moment", number(closure.worst_moment())},
+                                                   {"carried_moment", carried_json(analysis.loads)},
+                                                   {"force_scale_N", closure.force_scale_N},
+                                                   {"moment_scale_Nm", closure.moment_scale_Nm},
+                                                   {"channel_resultant", number(closure.channel_resultant)}});
   }
   for (const auto& e : resampling_errors(report.scene.machine, report.scene.sampling))
-    json["resampling"][e.effect + "/" + e.port + "." + e.component] = {
-        {"largest", e.largest}, {"jump", e.jump}, {"between_samples", e.between}};
+    json["resampling"][e.effect + "/" + e.port + "." + e.component] =
+        object({{"largest", e.largest}, {"jump", e.jump}, {"between_samples", e.between}});
   for (const auto& bearing : report.bearings) {
     Json& entry = json["bearings"][bearing.name];
-    entry = {{"load", bearing.load},
-             {"equivalent_load", figure(bearing.equivalent_load_N, "N")},
-             {"largest_load", figure(bearing.largest_load_N, "N")},
-             {"speed", figure(bearing.speed_rad_s, "rad/s")}};
+    entry = object({{"load", bearing.load},
+                    {"equivalent_load", figure(bearing.equivalent_load_N, "N")},
+                    {"largest_load", figure(bearing.largest_load_N, "N")},
+                    {"speed", figure(bearing.speed_rad_s, "rad/s")}});
     entry["L10"] = bearing.life ? Json(bearing.life->million_revolutions * 1e6) : Json(nullptr);
     entry["L10h"] = bearing.life ? figure(bearing.life->hours, "h") : Json(nullptr);
   }
   for (const auto& cost : report.costs)
-    json["timing"][cost.stage] = {{"seconds", cost.seconds}, {"peak_memory_gigabytes", cost.peak_gigabytes}};
+    json["timing"][cost.stage] =
+        object({{"seconds", cost.seconds}, {"peak_memory_gigabytes", cost.peak_gigabytes}});
   return json.dump(2) + "\n";
 }
 

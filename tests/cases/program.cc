@@ -1,0 +1,116 @@
+#include "tests/cases/program.h"
+
+#include <sys/wait.h>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace cases {
+
+fs::path shipped(const std::string& name) {
+  return fs::path(SOURCE_DIR) / "pipelines/scenes" / name;
+}
+
+std::string with_edits(std::string text, const Edits& edits) {
+  for (const auto& [from, to] : edits) {
+    const auto at = text.find(from);
+    if (at == std::string::npos || text.find(from, at + 1) != std::string::npos)
+      throw std::runtime_error("not exactly one place for: " + from);
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+std::string edited(const std::string& scene, const Edits& edits) {
+  return with_edits(results_test::bytes(shipped(scene)), edits);
+}
+
+std::string without(const std::string& scene, const std::string& from, const std::string& to) {
+  std::string text = results_test::bytes(shipped(scene));
+  const auto begin = text.find("\n" + from + "\n"), end = text.find("\n" + to + "\n");
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw std::runtime_error(scene + ": no lines " + from + " .. " + to);
+  return text.erase(begin, end - begin);
+}
+
+std::string shaft_alone(const Edits& edits) {
+  return with_edits(without("vibratory_mill.toml", "[chamber]", "[zones]"), edits);
+}
+
+std::string chamber_alone(const Edits& edits) {
+  return with_edits(without("vibratory_mill.toml", "[shaft]", "[chamber]"), edits);
+}
+
+Edits coarse() {
+  return {{"cells_per_fillet_quarter = 8", "cells_per_fillet_quarter = 2"},
+          {"sectors = 16", "sectors = 8"},
+          {"snapshots = 24", "snapshots = 2"},
+          {"instants_per_turn = 120", "instants_per_turn = 24"}};
+}
+
+Edits operator+(Edits a, const Edits& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+fs::path write(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+  return file;
+}
+
+Outcome millstress(const fs::path& directory, std::string arguments) {
+  const bool solves = arguments.rfind("run ", 0) == 0 || arguments.rfind("accuracy ", 0) == 0;
+  if (solves && arguments.find("--threads") == std::string::npos) arguments += " --threads 1";
+  const auto out = directory / "stdout.txt", err = directory / "stderr.txt";
+  const std::string command = "cd '" + directory.string() + "' && XDG_CACHE_HOME='" +
+                              (directory / "cache").string() + "' '" + MILLSTRESS + "' " + arguments +
+                              " > '" + out.string() + "' 2> '" + err.string() + "'";
+  const int status = std::system(command.c_str());
+  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, results_test::bytes(out),
+                  results_test::bytes(err)};
+  fs::remove(out);
+  fs::remove(err);
+  return outcome;
+}
+
+std::map<std::string, std::string> contents(const fs::path& directory) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    if (!entry.is_regular_file()) continue;
+    std::string text = results_test::bytes(entry.path());
+    if (entry.path().filename() == "summary.json") {
+      auto json = nlohmann::ordered_json::parse(text);
+      json.erase("timing");
+      text = json.dump();
+    }
+    if (entry.path().filename() == "report.html") text.resize(text.find("<h2>Time and memory"));
+    files[fs::relative(entry.path(), directory).string()] = std::move(text);
+  }
+  return files;
+}
+
+nlohmann::json summary(const fs::path& results) {
+  return nlohmann::json::parse(results_test::bytes(results / "summary.json"));
+}
+
+std::map<std::string, std::vector<double>> csv(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line, cell;
+  std::vector<std::string> names;
+  std::getline(in, line);
+  for (std::istringstream header(line); std::getline(header, cell, ',');)
+    names.push_back(cell.substr(0, cell.find(" [")));
+  std::map<std::string, std::vector<double>> columns;
+  while (std::getline(in, line)) {
+    std::istringstream row(line);
+    for (const auto& name : names) {
+      std::getline(row, cell, ',');
+      columns[name].push_back(std::strtod(cell.c_str(), nullptr));
+    }
+  }
+  return columns;
+}
+
+}  // namespace cases
