@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/cost_prediction.h"
+#include "fem/direct_solve.h"
 #include "fem/iterative_solve.h"
 #include "fem/solver_prediction.h"
 #include "shaft_bodies.h"
@@ -87,6 +89,37 @@ TEST(SolverMemory, blocks_of_load_cases_are_bounded) {
   EXPECT_EQ(fem::loads_per_block(100'000), 16u);
   EXPECT_EQ(fem::loads_per_block(4'000'000), 8u);
   EXPECT_EQ(fem::loads_per_block(100'000'000), 4u);
+}
+
+// The matrix of one cell is full: column j of its factor has n - j entries, and takes as many squared flops.
+TEST(FactorSize, of_a_full_matrix) {
+  const auto cell = one_cell(27);
+  const auto size = fem::analyse_factor(cell, fem::cells_of_nodes(cell));
+  constexpr double n = 81;
+  EXPECT_EQ(size.n_dofs, std::size_t(n));
+  EXPECT_EQ(size.flops, n * (n + 1) * (2 * n + 1) / 6);
+  EXPECT_GE(size.entries, n * (n + 1) / 2);
+  EXPECT_LE(size.entries, n * n);
+  EXPECT_GE(size.bytes, 8 * size.entries);
+}
+
+// Seconds follow from what was analysed: two bodies with as many unknowns need not cost the same.
+TEST(FactorSize, tells_seconds_and_bytes) {
+  const fem::FactorSize thin{100'000, 5e7, 4e10, 5e8}, compact{100'000, 2e8, 5e11, 2e9};
+  EXPECT_LT(3 * fem::predict_direct(thin, 12).seconds, fem::predict_direct(compact, 12).seconds);
+  EXPECT_EQ(fem::predict_direct(compact, 12).bytes, compact.bytes);
+  const auto larger = fem::scaled(compact, 200'000);
+  EXPECT_EQ(larger.n_dofs, 200'000u);
+  EXPECT_DOUBLE_EQ(larger.flops, 4 * compact.flops);
+}
+
+// Cells too long for the smoother stay so on a finer mesh, however many they are.
+TEST(FactorSize, finer_meshes_of_stretched_cells_stay_direct) {
+  for (const double length : {3.0, 40.0}) {
+    auto at_hand = choose(50'000, {}, 1e13, length);
+    const auto finer = fem::predict_solver(at_hand, 6'000'000, 2, 12, {});
+    EXPECT_EQ(finer.used, length < 12 ? fem::Solver::iterative : fem::Solver::direct) << length;
+  }
 }
 
 }  // namespace
