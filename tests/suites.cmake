@@ -1,11 +1,12 @@
 # Run by ctest before it starts: one test per suite of an executable, named EXECUTABLE/SUITE. Programs that link deal.II take half
 # a second to start, so that hundreds of short tests would spend most of their time with starting.
-# NAME, EXECUTABLE, LABEL and DIRECTORY are set by the file that includes this one.
+# NAME, EXECUTABLE, LABEL, LONG and DIRECTORY are set by the file that includes this one. Tests that fit the filter LONG are left
+# out of their suites and run one after the other as EXECUTABLE/long.
 if(NOT EXISTS "${EXECUTABLE}")
   add_test("${NAME}/not_built" "${EXECUTABLE}")
   return()
 endif()
-execute_process(COMMAND "${EXECUTABLE}" --gtest_list_tests OUTPUT_VARIABLE listing RESULT_VARIABLE outcome)
+execute_process(COMMAND "${EXECUTABLE}" --gtest_list_tests "--gtest_filter=-${LONG}" OUTPUT_VARIABLE listing RESULT_VARIABLE outcome)
 if(NOT outcome EQUAL 0)
   add_test("${NAME}/lists_no_tests" "${EXECUTABLE}" --gtest_list_tests)
   return()
@@ -14,7 +15,11 @@ string(REGEX MATCHALL "[^\n]+" lines "${listing}")
 foreach(line IN LISTS lines)
   if(line MATCHES "^([A-Za-z0-9_/]+)\\.( |$)")
     set(suite "${CMAKE_MATCH_1}")
-    add_test("${NAME}/${suite}" "${EXECUTABLE}" "--gtest_filter=${suite}.*")
+    add_test("${NAME}/${suite}" "${EXECUTABLE}" "--gtest_filter=${suite}.*-${LONG}")
     set_tests_properties("${NAME}/${suite}" PROPERTIES LABELS "${LABEL}" TIMEOUT 900 WORKING_DIRECTORY "${DIRECTORY}")
   endif()
 endforeach()
+if(LONG)
+  add_test("${NAME}/long" "${EXECUTABLE}" "--gtest_filter=${LONG}")
+  set_tests_properties("${NAME}/long" PROPERTIES LABELS "${LABEL}_full" TIMEOUT 3600 WORKING_DIRECTORY "${DIRECTORY}")
+endif()
