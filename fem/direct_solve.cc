@@ -17,6 +17,8 @@
 namespace fem {
 
 namespace {
+/// Of one unknown under one load: four columns of the solver, displacement and stress.
+constexpr double bytes_per_response = 56;
 /// Beyond it displacements are not worth handing on.
 constexpr double most_rounding = 0.01;
 }  // namespace
@@ -66,7 +68,10 @@ Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
 
   progress(0.1, "order");
   CholmodFactor factor(matrix, order.get());
-  refuse_large_factor(1e9 * factor.gigabytes(), static_cast<std::size_t>(matrix.n), physical_memory());
+  // CHOLMOD turns the matrix into its own order; displacements, stress and what becomes of them follow.
+  const double more = 16.0 * static_cast<double>(matrix.value.size()) +
+                      bytes_per_response * static_cast<double>(loads.force.size());
+  refuse_large_factor(1e9 * factor.gigabytes() + more, static_cast<std::size_t>(matrix.n), free_memory());
   progress(0.25, "factorise");
   std::optional<SerialBlas> serial;
   if (factor.size().flops < flops_worth_threads) serial.emplace();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -124,6 +125,14 @@ double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
+double free_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string key;
+  for (double kilobytes = 0; file >> key; file.ignore(80, '\n'))
+    if (key == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
+  return physical_memory();
+}
+
 double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads) {
   constexpr double program = 2e8, grid = 40, load_and_displacement = 16;
   return program + double(n_dofs) * (grid + load_and_displacement * double(n_loads));
@@ -187,7 +196,9 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
 
 void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes) {
   if (factor_bytes > memory_bytes)
-    refuse(n_dofs, "its factor needs " + gigabytes(factor_bytes), memory_bytes);
+    throw std::runtime_error(
+        "a body of " + std::to_string(n_dofs) + " unknowns does not fit into memory: its factor needs " +
+        gigabytes(factor_bytes) + ", " + gigabytes(memory_bytes) + " are left; " + remedy);
 }
 
 }  // namespace fem

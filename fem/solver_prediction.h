@@ -57,7 +57,12 @@ double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes);
 
+/// What the machine has left for this process [bytes]: files that it keeps in mind give way. All of it where
+/// the system does not tell.
+double free_memory();
+
 /// @param factor_bytes  known, not predicted: CHOLMOD's analysis of the matrix tells it before it factorises
+/// @param memory_bytes  that are left for it
 /// @throws std::runtime_error naming unknowns, bytes, memory and remedy if it does not fit into memory
 void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipelines/contains.h"
 #include "pipelines/distribute.h"
 
 namespace pipelines {
@@ -12,10 +13,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 namespace {
-
-bool contains(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
-}
 
 /// -s'' of the translation on the circle: s = ecc e(phi), e(phi) = (cos phi, -sin phi), phi clockwise.
 Array2Xd inertial_translation(const kinetics::LoadHistory& loads, double eccentricity_m) {

@@ -3,6 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipelines/contains.h"
 #include "pipelines/distribute.h"
 
 namespace pipelines {
@@ -13,10 +14,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 namespace {
-
-bool contains(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
-}
 
 /// Conventions that leave a residual are not for bodies; where the two readings agree they may.
 void require_equilibrium(const kinetics::LoadHistory& loads) {

@@ -9,6 +9,7 @@
 
 #include "pipelines/body_analysis.h"
 #include "pipelines/closure.h"
+#include "pipelines/contains.h"
 #include "pipelines/effect_report.h"
 #include "pipelines/load_stage.h"
 #include "pipelines/scene_effects.h"
@@ -20,10 +21,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr double usual_tolerance = 0.05, tenth = 0.1;
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 std::vector<std::string> without(const std::vector<std::string>& names, const std::vector<std::string>& off) {
   std::vector<std::string> left;

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
+#include "pipelines/contains.h"
 #include "pipelines/nearest.h"
 
 namespace pipelines {
 namespace {
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& effects) {
   std::vector<std::string> names;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/contains.h"
+
 namespace pipelines {
 namespace {
 
@@ -16,10 +18,6 @@ Eigen::Vector2d pair(SceneTable& table, const std::string& name, const std::stri
                      const Range& range) {
   const std::vector<double> values = table.quantities(name, unit, range, 2);
   return {values[0], values[1]};
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 /// A mass may be 0 only where no effect that is on builds on it.

@@ -6,8 +6,8 @@
 namespace pipelines {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double most_length_m = 100;
+constexpr double half_turn_rad = 3.14159265358979323846;
+constexpr double longest_m = 100;
 
 using kinetics::PlanetaryConvention;
 using kinetics::PlanetaryMill;
@@ -30,9 +30,9 @@ void read_geometry(SceneTable geometry, PlanetaryMill& mill) {
     geometry.refuse_missing("", "mixes the ratios k, b, c with lengths; keep one of the two sets");
   } else if (has_any(lengths)) {
     kinetics::PlanetaryLengths l;
-    l.carrier_m = geometry.quantity("carrier_length", "m", positive(most_length_m));
-    l.central_pulley_m = geometry.quantity("central_pulley_radius", "m", positive(most_length_m));
-    l.drum_pulley_m = geometry.quantity("drum_pulley_radius", "m", positive(most_length_m));
+    l.carrier_m = geometry.quantity("carrier_length", "m", positive(longest_m));
+    l.central_pulley_m = geometry.quantity("central_pulley_radius", "m", positive(longest_m));
+    l.drum_pulley_m = geometry.quantity("drum_pulley_radius", "m", positive(longest_m));
     mill.geometry = l;
   } else {
     kinetics::PlanetaryRatios r;
@@ -46,7 +46,8 @@ void read_geometry(SceneTable geometry, PlanetaryMill& mill) {
 
 void read_charge(SceneTable charge, PlanetaryMill& mill) {
   mill.charge.bulk_density_kg_m3 = charge.quantity("bulk_density", "kg/m3", positive(3e4));
-  mill.charge.segment_angle_rad = charge.quantity("segment_angle", "rad", between(-pi, pi));
+  mill.charge.segment_angle_rad =
+      charge.quantity("segment_angle", "rad", between(-half_turn_rad, half_turn_rad));
   std::vector<std::string> given;
   for (const char* name : {"filling", "void", "half_angle"}) {
     charge.know(name);
@@ -60,7 +61,7 @@ void read_charge(SceneTable charge, PlanetaryMill& mill) {
   } else if (given.size() > 1) {
     charge.refuse(given[1], "says the same as " + given[0] + "; keep one of the two");
   } else if (given[0] == "half_angle") {
-    mill.charge.half_angle_rad = charge.quantity("half_angle", "rad", between(0, pi));
+    mill.charge.half_angle_rad = charge.quantity("half_angle", "rad", between(0, half_turn_rad));
   } else {
     (given[0] == "void" ? mill.charge.void_fraction : mill.charge.filling) =
         charge.quantity(given[0], "1", between(0, 1));
@@ -115,8 +116,8 @@ PlanetaryMill read_planetary_mill(SceneTable& machine, PlanetaryConvention conve
   mill.initial_angle_rad = carrier.quantity_or("initial_angle", "rad", {}, 0, "OA is level at first");
   carrier.finish();
   SceneTable drum = machine.table("drum");
-  mill.drum_radius_m = drum.quantity("inner_radius", "m", positive(most_length_m));
-  mill.drum_length_m = drum.quantity("length", "m", positive(most_length_m));
+  mill.drum_radius_m = drum.quantity("inner_radius", "m", positive(longest_m));
+  mill.drum_length_m = drum.quantity("length", "m", positive(longest_m));
   if (drum.has("mass") || !has_drum_body) {
     mill.drum_mass_kg = drum.quantity("mass", "kg", not_negative(1e6));
   } else {

@@ -3,16 +3,13 @@
 
 #include "meshes/chamber_checks.h"
 #include "meshes/shaft_checks.h"
+#include "pipelines/contains.h"
 #include "pipelines/nearest.h"
 #include "pipelines/scene_body.h"
 #include "pipelines/scene_stages.h"
 
 namespace pipelines {
 namespace {
-
-bool contains(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
-}
 
 /// The planetary mill's conventions of the paper leave a resultant, unless they agree with the consistent
 /// one.

@@ -211,7 +211,7 @@ private:
     analysis.responses_reused = before.responses_reused;
   }
 
-  /// Takes the next step, unless it would not end in time or cannot be meshed.
+  /// Takes the next step, unless it would not end in time or cannot be meshed or solved.
   bool take(Scene next, std::size_t i, const Refinement& refinement, Search& search, BodyAnalysis& analysis,
             double seconds_before) {
     const Scene previous = std::exchange(run_.scene, std::move(next));
@@ -233,11 +233,23 @@ private:
       if (refinement.new_mesh) run_.loaded.meshed[i] = mesh(i);
       return false;
     }
-    auto meshed = std::move(run_.loaded.meshed);
-    meshed[i] = std::move(finer);
-    load(std::move(meshed));
-    analysis = analyse(i);
+    exchange_mesh(i, std::move(finer));
+    try {
+      analysis = analyse(i);
+    } catch (const std::runtime_error& error) {  // too large for the memory that is left
+      search.ended = std::string("a finer mesh could not be solved: ") + error.what();
+      run_.scene = previous;
+      exchange_mesh(i, refinement.new_mesh ? mesh(i) : MeshedBody(run_.loaded.meshed[i]));
+      return false;
+    }
     return true;
+  }
+
+  /// Loads all bodies anew, one of them on another mesh.
+  void exchange_mesh(std::size_t i, MeshedBody other) {
+    auto meshed = std::move(run_.loaded.meshed);
+    meshed[i] = std::move(other);
+    load(std::move(meshed));
   }
 
   static void set_errors(BodyAnalysis& analysis, const ErrorLedger& errors) {

@@ -1,14 +1,11 @@
 #include <algorithm>
 
+#include "pipelines/contains.h"
 #include "pipelines/nearest.h"
 #include "pipelines/scene_body_parts.h"
 
 namespace pipelines {
 namespace {
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 /// @return whether the train has it, and it turns freely
 bool read_inertia(SceneTable& table, const kinetics::DriveTrain& train, TrainShaftOptions& shaft) {
