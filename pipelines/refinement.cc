@@ -154,7 +154,7 @@ bool grows_without_bound(const std::vector<double>& values, const std::vector<do
 void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes) {
   if (!(ratio > 1)) return;
   const double missing_Pa = std::abs(change_Pa) / (ratio * ratio - 1);
-  const double share = n_meshes <= 2 ? 1 : n_meshes == 3 ? 0.5 : 0.25;
+  const double share = n_meshes <= 2 ? 1 : 0.5;
   const double own_Pa = share * ledger.of("discretisation") / discretisation_safety;
   if (missing_Pa > own_Pa)
     ledger.set_numerical(
@@ -162,9 +162,7 @@ void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int 
   else
     ledger.set_numerical(
         {"discretisation",
-         std::string(n_meshes <= 2   ? ""
-                     : n_meshes == 3 ? "half of "
-                                     : "a quarter of ") +
+         std::string(n_meshes <= 2 ? "" : "half of ") +
              "recovered stress against single cells around: the change from the coarser mesh is "
              "smaller",
          own_Pa});
