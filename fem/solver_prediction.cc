@@ -41,8 +41,8 @@ constexpr const char* remedy =
     "mesh with larger cells, take a lower degree, or use a machine with more memory";
 
 [[noreturn]] void refuse(std::size_t n_dofs, const std::string& needs, double memory_bytes) {
-  throw std::runtime_error("a body of " + std::to_string(n_dofs) + " unknowns does not fit into memory: " +
-                           needs + ", the machine has " + gigabytes(memory_bytes) + "; " + remedy);
+  throw DoesNotFit("a body of " + std::to_string(n_dofs) + " unknowns does not fit into memory: " + needs +
+                   ", the machine has " + gigabytes(memory_bytes) + "; " + remedy);
 }
 
 }  // namespace
@@ -196,9 +196,9 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
 
 void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes) {
   if (factor_bytes > memory_bytes)
-    throw std::runtime_error(
-        "a body of " + std::to_string(n_dofs) + " unknowns does not fit into memory: its factor needs " +
-        gigabytes(factor_bytes) + ", " + gigabytes(memory_bytes) + " are left; " + remedy);
+    throw DoesNotFit("a body of " + std::to_string(n_dofs) +
+                     " unknowns does not fit into memory: its factor needs " + gigabytes(factor_bytes) +
+                     ", " + gigabytes(memory_bytes) + " are left; " + remedy);
 }
 
 }  // namespace fem

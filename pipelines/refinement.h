@@ -53,8 +53,7 @@ bool grows_without_bound(const std::vector<double>& values, const std::vector<do
 /// d / (ratio^2 - 1) is missing still (second order; recovered stress of quadratic cells does better). The
 /// discretisation entry becomes that, or a share of what single cells differ by if that is more: two meshes
 /// may agree by chance, each further one makes that less likely.
-/// @param n_meshes  tried so far: all of what single cells differ by for two, half for three, a quarter
-/// beyond
+/// @param n_meshes  tried so far: all of what single cells differ by for two, half beyond
 void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3);
 
 }  // namespace pipelines

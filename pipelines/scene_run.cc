@@ -236,7 +236,7 @@ private:
     exchange_mesh(i, std::move(finer));
     try {
       analysis = analyse(i);
-    } catch (const std::runtime_error& error) {  // too large for the memory that is left
+    } catch (const fem::DoesNotFit& error) {
       search.ended = std::string("a finer mesh could not be solved: ") + error.what();
       run_.scene = previous;
       exchange_mesh(i, refinement.new_mesh ? mesh(i) : MeshedBody(run_.loaded.meshed[i]));

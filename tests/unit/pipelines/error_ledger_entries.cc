@@ -150,7 +150,7 @@ TEST(LearnFromChange, KeepsAFloorOfTheMeshesOwnEstimate) {
   learn_from_change(same, 3.0, 1.0);
   EXPECT_EQ(same.of("discretisation"), 6);
   for (const auto& [n_meshes, share] :
-       {std::pair(2, 1.0), std::pair(3, 0.5), std::pair(4, 0.25), std::pair(9, 0.25)}) {
+       {std::pair(2, 1.0), std::pair(3, 0.5), std::pair(4, 0.5), std::pair(9, 0.5)}) {
     ErrorLedger learnt = ledger;
     learn_from_change(learnt, 0.0, 2.0, n_meshes);
     EXPECT_NEAR(learnt.of("discretisation"), share * 6 / discretisation_safety, 1e-14) << n_meshes;
