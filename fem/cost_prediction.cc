@@ -2,6 +2,7 @@
 
 #include "fem/cell_materials.h"
 #include "fem/direct_solve.h"
+#include "fem/memory.h"
 #include "fem/mesh_reader.h"
 #include "fem/solver_prediction.h"
 

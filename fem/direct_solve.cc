@@ -9,6 +9,7 @@
 
 #include "fem/cholmod_factor.h"
 #include "fem/clamps.h"
+#include "fem/memory.h"
 #include "fem/parallel.h"
 #include "fem/solver_prediction.h"
 #include "fem/stiffness.h"

@@ -19,6 +19,7 @@
 #include "fem/iterative_on_ranks.h"
 #include "fem/iterative_solve.h"
 #include "fem/material_interfaces.h"
+#include "fem/memory.h"
 #include "fem/mesh_reader.h"
 #include "fem/natural_frequencies.h"
 #include "fem/nodes_export.h"

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "fem/solver_prediction.h"
+#include "fem/memory.h"
 
 namespace fem {
 

@@ -1,10 +1,7 @@
 #include "fem/solver_prediction.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -42,7 +39,7 @@ constexpr const char* remedy =
 
 [[noreturn]] void refuse(std::size_t n_dofs, const std::string& needs, double memory_bytes) {
   throw DoesNotFit("a body of " + std::to_string(n_dofs) + " unknowns does not fit into memory: " + needs +
-                   ", the machine has " + gigabytes(memory_bytes) + "; " + remedy);
+                   ", there are " + gigabytes(memory_bytes) + "; " + remedy);
 }
 
 }  // namespace
@@ -119,18 +116,6 @@ CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_l
   };
   return seconds(CoarseLevel::aggregated) < seconds(CoarseLevel::factorised) ? CoarseLevel::aggregated
                                                                              : CoarseLevel::factorised;
-}
-
-double physical_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-}
-
-double free_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string key;
-  for (double kilobytes = 0; file >> key; file.ignore(80, '\n'))
-    if (key == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
-  return physical_memory();
 }
 
 double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads) {

@@ -44,9 +44,6 @@ bool saves_time(const SolverReport& report);
 /// The one predicted to be faster on cells of ordinary aspect.
 CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_loads);
 
-/// Of the machine [bytes].
-double physical_memory();
-
 /// Of a run, beside the solver's own: mesh, loads and displacements [bytes].
 double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
 
@@ -56,10 +53,6 @@ double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
 /// predicted to fit into memory, or the one asked for not even into a machine that holds nothing else
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes);
-
-/// What the machine has left for this process [bytes]: files that it keeps in mind give way. All of it where
-/// the system does not tell.
-double free_memory();
 
 /// @param factor_bytes  known, not predicted: CHOLMOD's analysis of the matrix tells it before it factorises
 /// @param memory_bytes  that are left for it

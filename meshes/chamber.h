@@ -3,6 +3,7 @@
 /// Frame: origin E' on the exciter housing's axis, z = 0 in the middle of the chamber, front is +z.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -72,11 +73,19 @@ struct Chamber {
   std::vector<ChamberFoot> feet;
 };
 
+/// A place on a weld toe. Toes of all plates that pass it within 1.5 walls get smaller cells than the others.
+struct FineToe {
+  std::array<double, 3> at_m{};
+  double walls = 0;  ///< size of the cells, in walls of the tube
+};
+
 struct ChamberMeshControl {
-  int cells_through_wall = 2;
-  double size_m = 0;                 ///< of cells away from weld toes; 0: 0.15 of the tube's outer radius
-  double growth = 0.7;               ///< slope of the cell size away from the weld toes
-  double toe_walls = 0.6;            ///< size of the cells at the weld toes, in walls of the tube
+  int cells_through_wall =
+      2;                   ///< thinner towards the outside where toe cells are small, at most twice a cell
+  double size_m = 0;       ///< of cells away from weld toes; 0: 0.15 of the tube's outer radius
+  double growth = 0.7;     ///< slope of the cell size away from the weld toes
+  double toe_walls = 0.6;  ///< size of the cells at the weld toes, in walls of the tube
+  std::vector<FineToe> fine_toes;
   double min_scaled_jacobian = 0.3;  ///< refused below
 };
 

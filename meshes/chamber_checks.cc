@@ -125,6 +125,9 @@ void check_control(const ChamberMeshControl& control) {
                    " must lie between 1 and 20");
   if (!(control.toe_walls > 0 && control.toe_walls <= 2))
     refuse_control("toe_walls = " + std::to_string(control.toe_walls) + " must lie between 0 and 2");
+  for (const FineToe& toe : control.fine_toes)
+    if (!(toe.walls > 0 && toe.walls <= 2))
+      refuse_control("walls = " + std::to_string(toe.walls) + " of a fine toe must lie between 0 and 2");
   if (!std::isfinite(control.size_m) || control.size_m < 0)
     refuse_control("size_m = " + std::to_string(control.size_m) + " must be positive, or 0");
   if (!std::isfinite(control.growth) || control.growth <= 0)

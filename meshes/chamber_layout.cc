@@ -9,9 +9,11 @@ namespace meshes {
 
 namespace {
 
+const double pi = 3.14159265358979323846;
 const double largest_share_of_housing = 0.8;  // half the web's height there, of the housing's radius
 const double chosen_size_share = 0.15;        // of the tube's outer radius
 const double closest_walls = 0.05;
+const double fine_reach_walls = 1.5;
 
 WebLayout lay_out_webs(const Chamber& chamber, double tube_outer_m) {
   const double to_tube_rad = std::atan2(chamber.tube.axis_y_m, chamber.tube.axis_x_m);
@@ -68,7 +70,39 @@ ChamberLayout lay_out(const Chamber& chamber, const ChamberMeshControl& control)
   for (std::size_t i = 0; i < chamber.feet.size(); ++i)
     layout.feet.push_back(lay_out_foot(chamber, i, layout.tube_outer_m));
   layout.plates = plates_of(chamber, layout);
+  layout.fine_reach_m = fine_reach_walls * chamber.tube.wall_m;
+  for (const FineToe& toe : control.fine_toes) {
+    const double angle_rad =
+        std::atan2(toe.at_m[1] - chamber.tube.axis_y_m, toe.at_m[0] - chamber.tube.axis_x_m);
+    layout.fine_places.push_back({angle_rad * layout.tube_outer_m, toe.at_m[2],
+                                  std::min(toe.walls * chamber.tube.wall_m, layout.toe_size_m)});
+  }
   return layout;
+}
+
+double ChamberLayout::toe_size_at_z(double z_m) const {
+  double size_m = toe_size_m;
+  for (const FinePlace& place : fine_places)
+    if (std::abs(place.z_m - z_m) <= fine_reach_m) size_m = std::min(size_m, place.size_m);
+  return size_m;
+}
+
+double ChamberLayout::toe_size_within(double first_rad, double last_rad) const {
+  double size_m = toe_size_m;
+  for (const FinePlace& place : fine_places) {
+    const double from_middle_rad =
+        std::remainder(place.arc_m / tube_outer_m - 0.5 * (first_rad + last_rad), 2 * pi);
+    if (std::abs(from_middle_rad) * tube_outer_m <=
+        0.5 * (last_rad - first_rad) * tube_outer_m + fine_reach_m)
+      size_m = std::min(size_m, place.size_m);
+  }
+  return size_m;
+}
+
+double ChamberLayout::finest_toe_m() const {
+  double size_m = toe_size_m;
+  for (const FinePlace& place : fine_places) size_m = std::min(size_m, place.size_m);
+  return size_m;
 }
 
 PlanePoint on_circle(double centre_x_m, double centre_y_m, double radius_m, double angle_rad) {

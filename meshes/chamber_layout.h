@@ -42,15 +42,33 @@ struct Plate {
   double begin_m = 0, end_m = 0;       ///< range in z
 };
 
+/// A place on the tube's outside, near which weld toes get cells of their own size.
+struct FinePlace {
+  double arc_m = 0;  ///< from the direction +x
+  double z_m = 0;
+  double size_m = 0;
+};
+
 struct ChamberLayout {
   double tube_outer_m = 0;
   double size_m = 0;          ///< away from the weld toes
-  double toe_size_m = 0;      ///< at the weld toes
+  double toe_size_m = 0;      ///< at the weld toes, but for fine places
   double closest_m = 0;       ///< smallest distance of edges and stations
   double flange_begin_m = 0;  ///< inner face of the flange at the front
   WebLayout web;
   std::vector<FootLayout> feet;
   std::vector<Plate> plates;  ///< webs, then the lugs of each foot, front and back
+  std::vector<FinePlace> fine_places;
+  double fine_reach_m = 0;  ///< of the fine places
+
+  /// Size of the cells across a toe that runs around the tube at z_m.
+  double toe_size_at_z(double z_m) const;
+
+  /// Size of the cells across the toes that run along the tube within a range of angles.
+  double toe_size_within(double first_rad, double last_rad) const;
+
+  /// Smallest of all.
+  double finest_toe_m() const;
 };
 
 /// @param chamber with sizes in their ranges

@@ -28,7 +28,7 @@ public:
         layout_(layout),
         stations_(stations),
         surfaces_(surfaces),
-        sizes_{layout.toe_size_m, layout.size_m, control.growth},
+        sizes_{layout.toe_size_m, layout.toe_size_m, layout.size_m, control.growth},
         n_wall_(control.cells_through_wall) {}
 
   Plan build() {
@@ -42,9 +42,7 @@ private:
   void add_tube_and_flanges() {
     const std::array<double, 2> centre_m = {chamber_.tube.axis_x_m, chamber_.tube.axis_y_m};
     const double end_m = 0.5 * chamber_.tube.length_m, inner_m = layout_.flange_begin_m;
-    const auto wall =
-        add_circles(plan_, centre_m, equal_steps(chamber_.tube.inner_radius_m, layout_.tube_outer_m, n_wall_),
-                    stations_.angles_rad);
+    const auto wall = add_circles(plan_, centre_m, wall_radii(), stations_.angles_rad);
     PlanBlock tube;
     add_quads(tube, wall, true, surfaces_.inner_wall, 0);
     tube.slabs = {
@@ -62,9 +60,20 @@ private:
     plan_.blocks.push_back(flange);
   }
 
+  /// Cells grow from the weld toes inwards.
+  std::vector<double> wall_radii() const {
+    const double wall_m = chamber_.tube.wall_m;
+    const double first = std::max(layout_.finest_toe_m() / wall_m, 1 / (std::exp2(n_wall_) - 1));
+    std::vector<double> radii;
+    for (const double share : geometric_fractions(n_wall_, first))
+      radii.insert(radii.begin(), layout_.tube_outer_m - share * wall_m);
+    radii.front() = chamber_.tube.inner_radius_m;
+    return radii;
+  }
+
   /// Fine at the tube.
   std::vector<double> flange_radii(double outer_m) const {
-    const AxialSize size{{{layout_.tube_outer_m, sizes_.toe_m}}, sizes_.largest_m, sizes_.growth};
+    const AxialSize size{{{layout_.tube_outer_m, sizes_.begin_m}}, sizes_.largest_m, sizes_.growth};
     return axial_stations(layout_.tube_outer_m, outer_m, size, 2);
   }
 
@@ -121,7 +130,9 @@ private:
     for (std::size_t j = 0; j < n; ++j) housing_row.push_back(ring.back()[n - 1 - j]);
     const double length_m = 0.5 * (distance_m(tube.points[0], housing_row[0]) +
                                    distance_m(tube.points[n / 2], housing_row[n / 2]));
-    std::vector<double> shares = between_toes(0, length_m, sizes_, 2);
+    ToeSizes along = sizes_;
+    along.begin_m = layout_.toe_size_within(web.first_rad, web.last_rad);
+    std::vector<double> shares = between_toes(0, length_m, along, 2);
     for (double& share : shares) share /= length_m;
     PlanBlock webs;
     add_quads(webs, add_ruled_rows(plan_, tube.points, housing_row, shares), false, 0, 0);
@@ -139,8 +150,10 @@ private:
     std::vector<double> columns_rad;
     for (const double angle : tube.from_first_rad)
       columns_rad.push_back(angle - 0.5 * (foot.last_rad - foot.first_rad));
+    ToeSizes along = sizes_;
+    along.begin_m = layout_.toe_size_within(foot.first_rad, foot.last_rad);
     FootBlocks blocks =
-        add_foot(plan_, chamber_, layout_, i, tube.points, columns_rad, sizes_, surfaces_.soles[i]);
+        add_foot(plan_, chamber_, layout_, i, tube.points, columns_rad, along, surfaces_.soles[i]);
     const double half_lug_m = 0.5 * chamber_.lugs.thickness_m, half_pad_m = 0.5 * chamber_.pads.size_z_m;
     for (const double z_m : {-chamber_.lugs.z_m, chamber_.lugs.z_m}) {
       const int lug = surfaces_.lugs[i], pad = surfaces_.pads[i];

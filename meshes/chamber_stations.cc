@@ -80,6 +80,21 @@ double limit_at_web(const ChamberLayout& layout, double arc_m) {
              : std::numeric_limits<double>::infinity();
 }
 
+/// Around the tube, under plates: the arc of a cell rises by a fifth of their first row's height at most, or
+/// that row, whose other side is straight, would vanish in its middle.
+double limit_under_plates(const ChamberLayout& layout, double arc_m) {
+  constexpr double largest_rise = 0.2;  // a^2 / (8 R) of an arc of length a
+  double limit_m = std::numeric_limits<double>::infinity();
+  for (const Plate& plate : layout.plates) {
+    const double from_middle_rad =
+        std::remainder(arc_m / layout.tube_outer_m - 0.5 * (plate.first_rad + plate.last_rad), 2 * pi);
+    if (std::abs(from_middle_rad) >= 0.5 * (plate.last_rad - plate.first_rad)) continue;
+    const double row_m = layout.toe_size_within(plate.first_rad, plate.last_rad);
+    limit_m = std::min(limit_m, std::sqrt(8 * layout.tube_outer_m * largest_rise * row_m));
+  }
+  return limit_m;
+}
+
 /// A chamber that is symmetrical in z gets stations that are so to the last bit.
 void make_symmetrical(std::vector<double>& stations, double tolerance_m) {
   const std::size_t n = stations.size();
@@ -95,7 +110,7 @@ void make_symmetrical(std::vector<double>& stations, double tolerance_m) {
 }  // namespace
 
 std::vector<double> between_toes(double begin_m, double end_m, const ToeSizes& sizes, int n_min) {
-  const AxialSize size{{{begin_m, sizes.toe_m}, {end_m, sizes.toe_m}}, sizes.largest_m, sizes.growth};
+  const AxialSize size{{{begin_m, sizes.begin_m}, {end_m, sizes.end_m}}, sizes.largest_m, sizes.growth};
   return axial_stations(begin_m, end_m, size, n_min);
 }
 
@@ -111,10 +126,12 @@ ChamberStations place_stations(const Chamber& chamber, const ChamberLayout& layo
       {{-layout.flange_begin_m, toe_m}, {layout.flange_begin_m, toe_m}}, layout.size_m, control.growth};
   AxialSize around{{}, layout.size_m, control.growth};
   for (const Plate& plate : layout.plates) {
-    for (const double z_m : {plate.begin_m, plate.end_m}) along.sources.push_back({z_m, toe_m});
+    for (const double z_m : {plate.begin_m, plate.end_m})
+      along.sources.push_back({z_m, layout.toe_size_at_z(z_m)});
     for (const double angle_rad : {plate.first_rad, plate.last_rad})
       for (const int turn : {-1, 0, 1, 2})
-        around.sources.push_back({angle_rad * layout.tube_outer_m + turn * period_m, toe_m});
+        around.sources.push_back({angle_rad * layout.tube_outer_m + turn * period_m,
+                                  layout.toe_size_within(angle_rad, angle_rad)});
   }
   const auto unlimited = [](double) { return std::numeric_limits<double>::infinity(); };
   result.z_m = subdivide(z_breaks.sorted(), along, unlimited);
@@ -122,7 +139,9 @@ ChamberStations place_stations(const Chamber& chamber, const ChamberLayout& layo
 
   std::vector<double> closed = arcs.sorted();
   closed.push_back(closed.front() + period_m);
-  const auto limit = [&](double arc_m) { return limit_at_web(layout, arc_m); };
+  const auto limit = [&](double arc_m) {
+    return std::min(limit_at_web(layout, arc_m), limit_under_plates(layout, arc_m));
+  };
   for (double arc_m : subdivide(closed, around, limit)) {
     if (arc_m >= period_m) arc_m -= period_m;
     result.angles_rad.push_back(arc_m / layout.tube_outer_m);

@@ -13,12 +13,12 @@ struct ChamberStations {
   std::vector<HotSpot> hot_spots;  ///< all their points are on stations and angles
 };
 
-/// The wanted cell size: toe_size_m at the sources, growing to `largest_m`.
+/// The wanted cell size: `begin_m` and `end_m` at the ends of a line, growing to `largest_m`.
 struct ToeSizes {
-  double toe_m = 0, largest_m = 0, growth = 0;
+  double begin_m = 0, end_m = 0, largest_m = 0, growth = 0;
 };
 
-/// Cell boundaries from begin to end, fine at both ends. At least n_min cells.
+/// Cell boundaries from begin to end. At least n_min cells.
 std::vector<double> between_toes(double begin_m, double end_m, const ToeSizes& sizes, int n_min);
 
 /// @throws std::invalid_argument if edges or faces come closer than layout.closest_m without meeting

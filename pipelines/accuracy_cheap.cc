@@ -15,8 +15,7 @@ namespace {
 /// Cells become half as large from one size of harmonics to the next. Ends of loaded zones let stress
 /// converge with first order only: of a change d, d is missing still, and 2 d on the coarser mesh. As
 /// learn_from_change takes it:
-constexpr double finer_of_two = 1.4142135623730951,
-                 first_of_two = 1.224744871391589;  // squares less 1: 1 and 1/2
+constexpr double finer_of_two = 2, first_of_two = 1.5, harmonics_order = 1;
 
 /// Of the beam's own estimate: it knows nothing of loads beside a fillet, nor of short segments.
 constexpr double beam_safety = 3;
@@ -93,7 +92,8 @@ void learn_from_sizes(std::vector<AccuracyRow>& rows) {
     auto& row = rows[i];
     const double other_Pa = rows[i > 0 ? i - 1 : std::min<std::size_t>(1, rows.size() - 1)].value_Pa;
     row.errors.set_numerical({"discretisation", "", 0});
-    learn_from_change(row.errors, row.value_Pa - other_Pa, i > 0 ? finer_of_two : first_of_two);
+    learn_from_change(row.errors, row.value_Pa - other_Pa, i > 0 ? finer_of_two : first_of_two, 3,
+                      harmonics_order);
     if (i > 0) row.seconds += rows[i - 1].seconds;
   }
 }

@@ -21,6 +21,13 @@ double usual_size_m(const meshes::Chamber& chamber) {
   return 0.15 * (chamber.tube.inner_radius_m + chamber.tube.wall_m);
 }
 
+/// "0.07 and " with the size of the finest weld toes, where some have their own.
+std::string fine_toes_text(const meshes::ChamberMeshControl& mesh) {
+  double walls = mesh.toe_walls;
+  for (const auto& toe : mesh.fine_toes) walls = std::min(walls, toe.walls);
+  return walls < mesh.toe_walls ? fmt::format("{:.2g} and ", walls) : "";
+}
+
 struct Refine {
   double factor;
 
@@ -40,6 +47,7 @@ struct Refine {
     mesh.cells_through_wall = std::clamp(int(std::lround(factor * mesh.cells_through_wall)), 1, 20);
     mesh.growth = std::min(steepest_growth, mesh.growth / factor);
     mesh.toe_walls /= factor;
+    for (auto& toe : mesh.fine_toes) toe.walls /= factor;
   }
   void operator()(meshes::Import& import) const { (*this)(import.control); }
   void operator()(meshes::SolidControl& control) const {
@@ -75,8 +83,8 @@ std::vector<std::string> fillets_of(const BodyScene& body) {
 std::string fineness_text(const BodyScene& body) {
   if (const auto* chamber = std::get_if<ChamberShape>(&body.shape))
     return fmt::format(
-        "{} cells through the wall, {:.2g} walls at the weld toes, {:.3g} mm elsewhere",
-        chamber->mesh.cells_through_wall, chamber->mesh.toe_walls,
+        "{} cells through the wall, {}{:.2g} walls at the weld toes, {:.3g} mm elsewhere",
+        chamber->mesh.cells_through_wall, fine_toes_text(chamber->mesh), chamber->mesh.toe_walls,
         1e3 * (chamber->mesh.size_m > 0 ? chamber->mesh.size_m : usual_size_m(chamber->geometry)));
   const auto* shaft = body.shaft();
   if (shaft == nullptr || !shaft->keyways.empty()) {

@@ -28,6 +28,7 @@ struct Refinement {
   bool possible = false;
   bool new_mesh = false;
   double ratio = 1;  ///< of cell sizes at the governing place, before : after
+  double order = 2;  ///< at least, with which the governing stress converges with that size
 };
 
 /// The coarsest mesh that a search begins with: 2 cells on every fillet quarter and 8 sectors; cells half as
@@ -36,10 +37,12 @@ BodyScene coarsest(const BodyScene& body);
 
 /// Mends what dominates the governing stress's ledger: more instants, more pressure harmonics, or smaller
 /// cells. Cells of a shaft become smaller on those fillets only whose stress with its error could be the
-/// peak; all round once that no longer helps. Chambers get one more cell through their walls, and cells at
-/// the weld toes, to which the stress is most sensitive, shrink faster than elsewhere. Bodies of tetrahedra
-/// get a fine spot at the peak. The sequence of meshes does not depend on a tolerance, so that a stricter one
-/// never costs less.
+/// peak; all round once that no longer helps. Chambers get one more cell through their walls, and cells half
+/// as large at the weld toes whose hot-spot stress with its error could be the largest; elsewhere cells
+/// shrink a little. The order is 1 there: at a right re-entrant corner stress grows like r^(lambda - 1), and
+/// what that does to places further away falls like h^(2 lambda), lambda = 0.544. Bodies of tetrahedra get a
+/// fine spot at the peak. The sequence of meshes does not depend on a tolerance, so that a stricter one never
+/// costs less.
 /// @param stalled  the last step of this kind brought less than a quarter
 Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, bool stalled);
 
@@ -50,10 +53,12 @@ Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, 
 bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios);
 
 /// Two meshes tell more than one. If cells became `ratio` times smaller and the stress changed by d, about
-/// d / (ratio^2 - 1) is missing still (second order; recovered stress of quadratic cells does better). The
+/// d / (ratio^order - 1) is missing still (order 2 or better for recovered stress of quadratic cells on round
+/// fillets). The
 /// discretisation entry becomes that, or a share of what single cells differ by if that is more: two meshes
 /// may agree by chance, each further one makes that less likely.
 /// @param n_meshes  tried so far: all of what single cells differ by for two, half beyond
-void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3);
+void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3,
+                       double order = 2);
 
 }  // namespace pipelines

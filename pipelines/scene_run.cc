@@ -151,14 +151,15 @@ private:
     search.time_limit_s = options_.wish.time_limit_s;
     auto step_start = Clock::now();
     BodyAnalysis analysis = analyse(i);
-    double ratio = 1, before_Pa = 0;
+    double ratio = 1, order = 2, before_Pa = 0;
     bool stalled = false;
     PeakGrowth growth;
     while (true) {
       if (growth.at(analysis, ratio)) leave_out(i, analysis);
       auto stress = governing_stress(analysis);
       if (!search.steps.empty())
-        learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio, int(search.steps.size()) + 1);
+        learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio, int(search.steps.size()) + 1,
+                          order);
       set_errors(analysis, stress.errors);
       const double seconds = seconds_since(step_start);
       search.quantity = stress.name;
@@ -175,6 +176,7 @@ private:
         break;
       }
       ratio = refinement.ratio;
+      order = refinement.order;
       const double error_before_Pa = stress.errors.numerical_Pa();
       if (!take(std::move(next), i, refinement, search, analysis, seconds)) break;
       const auto changed = governing_stress(analysis).errors.numerical_Pa();

@@ -7,6 +7,7 @@
 
 #include "fem/direct_solve.h"
 #include "fem/iterative_solve.h"
+#include "fem/memory.h"
 #include "fem/mesh_reader.h"
 #include "fem/rigid_modes.h"
 #include "fem/solver_prediction.h"

@@ -60,11 +60,11 @@ fs::path write(const fs::path& file, const std::string& text) {
   return file;
 }
 
-Outcome millstress(const fs::path& directory, std::string arguments) {
+Outcome millstress(const fs::path& directory, std::string arguments, const std::string& before) {
   const bool solves = arguments.rfind("run ", 0) == 0 || arguments.rfind("accuracy ", 0) == 0;
   if (solves && arguments.find("--threads") == std::string::npos) arguments += " --threads 1";
   const auto out = directory / "stdout.txt", err = directory / "stderr.txt";
-  const std::string command = "cd '" + directory.string() + "' && XDG_CACHE_HOME='" +
+  const std::string command = "cd '" + directory.string() + "' && " + before + " && XDG_CACHE_HOME='" +
                               (directory / "cache").string() + "' '" + MILLSTRESS + "' " + arguments +
                               " > '" + out.string() + "' 2> '" + err.string() + "'";
   const int status = std::system(command.c_str());

@@ -53,7 +53,8 @@ struct Outcome {
 /// Runs `millstress ARGUMENTS` in `directory`; what it learns of the machine's speed stays in there. Stresses
 /// are computed on one thread unless the arguments say otherwise: tests run two at a time, and the threads of
 /// BLAS wait for each other by yielding, which beside another program costs many times the seconds.
-Outcome millstress(const fs::path& directory, std::string arguments);
+/// @param before  a command of the shell that sets the stage
+Outcome millstress(const fs::path& directory, std::string arguments, const std::string& before = "true");
 
 /// Every file below a directory with its bytes; summary.json and report.html without their timing.
 std::map<std::string, std::string> contents(const fs::path& directory);

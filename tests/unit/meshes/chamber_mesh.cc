@@ -31,7 +31,10 @@ TEST(ChamberMesh, is_watertight_with_every_free_face_in_exactly_one_group) {
   coarse.size_m = 0.1;
   coarse.growth = 3;
   coarse.cells_through_wall = 1;
-  for (const auto& control : {meshes::ChamberMeshControl(), fine, coarse})
+  meshes::ChamberMeshControl local;
+  local.cells_through_wall = 4;
+  local.fine_toes = {{{0.15, 0.05, 0.04}, 0.1}};
+  for (const auto& control : {meshes::ChamberMeshControl(), fine, coarse, local})
     for (const auto& chamber : {laboratory_chamber(), lopsided_chamber()})
       expect_watertight(meshes::build_chamber(chamber, control, temporary_msh("chamber")));
 }

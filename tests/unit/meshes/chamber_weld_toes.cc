@@ -57,6 +57,46 @@ void expect_hot_spots_in_place(const meshes::Chamber& chamber) {
   }
 }
 
+/// Shortest edge on the tube's outside from a vertex of it.
+double shortest_edge_m(const MeshFile& mesh, const Point& from) {
+  double shortest_m = 1e300;
+  for (const auto& quad : mesh.quads) {
+    if (mesh.boundary_names.at(quad.group) != "tube outside") continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto &a = mesh.points[quad.nodes[i]], &b = mesh.points[quad.nodes[(i + 1) % 4]];
+      if (distance_m(a, from) < 1e-12 || distance_m(b, from) < 1e-12)
+        shortest_m = std::min(shortest_m, distance_m(a, b));
+    }
+  }
+  return shortest_m;
+}
+
+// Cells shrink at the toes beside a fine place and through the wall there, not at those of other plates; the
+// hot spots stay where they are.
+TEST(FineToes, get_small_cells_where_they_are) {
+  const auto chamber = laboratory_chamber();
+  const double wall_m = chamber.tube.wall_m;
+  const auto usual = meshes::build_chamber(chamber, {}, temporary_msh("usual_toes"));
+  meshes::ChamberMeshControl control;
+  control.cells_through_wall = 4;
+  control.fine_toes = {{usual.hot_spots.front().toe_m, 0.1}};
+  const auto fine = meshes::build_chamber(chamber, control, temporary_msh("fine_toes"));
+  const MeshFile before = read_mesh_file(usual.file), after = read_mesh_file(fine.file);
+  ASSERT_EQ(usual.hot_spots.size(), fine.hot_spots.size());
+  for (std::size_t i = 0; i < usual.hot_spots.size(); ++i) {
+    const auto& spot = usual.hot_spots[i];
+    SCOPED_TRACE(spot.name);
+    EXPECT_LT(distance_m(spot.toe_m, fine.hot_spots[i].toe_m), 1e-12);
+    const double shortest_m = shortest_edge_m(after, spot.toe_m);
+    if (on_surface_m(chamber, spot.toe_m, usual.hot_spots.front().toe_m) < wall_m) {
+      EXPECT_LT(shortest_m, 0.15 * wall_m);  // it grows within the first cell already
+    } else if (spot.name.rfind("lug", 0) == 0) {
+      EXPECT_GT(shortest_m, 0.9 * shortest_edge_m(before, spot.toe_m));
+    }
+  }
+  EXPECT_LT(fine.quality.n_cells, 4 * usual.quality.n_cells);  // two of the four are the wall's
+}
+
 TEST(HotSpots, are_vertices_at_the_weld_toes) {
   expect_hot_spots_in_place(laboratory_chamber());
   expect_hot_spots_in_place(lopsided_chamber());

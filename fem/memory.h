@@ -1,0 +1,14 @@
+/// How much memory there is, and how much of it is left.
+#pragma once
+
+namespace fem {
+
+/// What this process may have [bytes]: that of the machine, or less by its own limits (ulimit -v, ulimit -d)
+/// or by those of the control groups (version 2) that it is in.
+double physical_memory();
+
+/// What is left of it for this process [bytes]: files that the system keeps in mind give way. All of it where
+/// the system does not tell.
+double free_memory();
+
+}  // namespace fem
