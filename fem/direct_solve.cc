@@ -72,6 +72,7 @@ Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
   // CHOLMOD turns the matrix into its own order; displacements, stress and what becomes of them follow.
   const double more = 16.0 * static_cast<double>(matrix.value.size()) +
                       bytes_per_response * static_cast<double>(loads.force.size());
+  release_free_memory();  // of meshing, of the mesh before
   refuse_large_factor(1e9 * factor.gigabytes() + more, static_cast<std::size_t>(matrix.n), free_memory());
   progress(0.25, "factorise");
   std::optional<SerialBlas> serial;

@@ -73,10 +73,11 @@ struct Chamber {
   std::vector<ChamberFoot> feet;
 };
 
-/// A place on a weld toe. Toes of all plates that pass it within 1.5 walls get smaller cells than the others.
+/// A place on a weld toe. Toes of all plates that pass it within 1.5 walls get smaller cells than the others,
+/// but none smaller than a tenth of their distance.
 struct FineToe {
   std::array<double, 3> at_m{};
-  double walls = 0;  ///< size of the cells, in walls of the tube
+  double walls = 0;  ///< size of the cells across toes at the place itself, in walls of the tube
 };
 
 struct ChamberMeshControl {

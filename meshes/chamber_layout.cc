@@ -13,7 +13,7 @@ const double pi = 3.14159265358979323846;
 const double largest_share_of_housing = 0.8;  // half the web's height there, of the housing's radius
 const double chosen_size_share = 0.15;        // of the tube's outer radius
 const double closest_walls = 0.05;
-const double fine_reach_walls = 1.5;
+const double fine_reach_walls = 1.5, fine_share_of_distance = 0.1;
 
 WebLayout lay_out_webs(const Chamber& chamber, double tube_outer_m) {
   const double to_tube_rad = std::atan2(chamber.tube.axis_y_m, chamber.tube.axis_x_m);
@@ -80,10 +80,15 @@ ChamberLayout lay_out(const Chamber& chamber, const ChamberMeshControl& control)
   return layout;
 }
 
+double ChamberLayout::toe_size_at_distance(const FinePlace& place, double distance_m) const {
+  if (distance_m > fine_reach_m) return toe_size_m;
+  return std::min(toe_size_m, std::max(place.size_m, fine_share_of_distance * distance_m));
+}
+
 double ChamberLayout::toe_size_at_z(double z_m) const {
   double size_m = toe_size_m;
   for (const FinePlace& place : fine_places)
-    if (std::abs(place.z_m - z_m) <= fine_reach_m) size_m = std::min(size_m, place.size_m);
+    size_m = std::min(size_m, toe_size_at_distance(place, std::abs(place.z_m - z_m)));
   return size_m;
 }
 
@@ -92,9 +97,8 @@ double ChamberLayout::toe_size_within(double first_rad, double last_rad) const {
   for (const FinePlace& place : fine_places) {
     const double from_middle_rad =
         std::remainder(place.arc_m / tube_outer_m - 0.5 * (first_rad + last_rad), 2 * pi);
-    if (std::abs(from_middle_rad) * tube_outer_m <=
-        0.5 * (last_rad - first_rad) * tube_outer_m + fine_reach_m)
-      size_m = std::min(size_m, place.size_m);
+    const double beyond_rad = std::max(0.0, std::abs(from_middle_rad) - 0.5 * (last_rad - first_rad));
+    size_m = std::min(size_m, toe_size_at_distance(place, beyond_rad * tube_outer_m));
   }
   return size_m;
 }

@@ -69,6 +69,9 @@ struct ChamberLayout {
 
   /// Smallest of all.
   double finest_toe_m() const;
+
+private:
+  double toe_size_at_distance(const FinePlace& place, double distance_m) const;
 };
 
 /// @param chamber with sizes in their ranges

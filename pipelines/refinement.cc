@@ -14,6 +14,9 @@ namespace {
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
 constexpr double toe_step = 2, other_toes_step = 1.1, elsewhere_step = 1.05, toe_order = 1;
+/// Entries that large beside the largest one are mended in the same step.
+constexpr double mended_along = 1.0 / 3;
+constexpr int most_pressure_harmonics = 64;
 constexpr double smallest_exponent = 0.1, kept_exponent = 0.75;
 constexpr double spot_shrinkage = 0.6, spot_radius_cells = 3;
 
@@ -139,15 +142,18 @@ Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis,
   const auto ledger = governing_stress(analysis).errors;
   const double discretisation = ledger.of("discretisation") + ledger.of("geometry");
   const double harmonics = ledger.of("pressure_harmonics"), sampling = ledger.of("time_sampling");
-  if (sampling > std::max(discretisation, harmonics)) {
+  const double largest = std::max({discretisation, harmonics, sampling});
+  bool possible = false;
+  if (sampling > mended_along * largest) {
     scene.sampling.instants_per_turn *= 2;
-    return {true, false, 1};
+    possible = true;
   }
-  if (harmonics > discretisation) {
+  if (harmonics > mended_along * largest && body.pressure_harmonics < most_pressure_harmonics) {
     body.pressure_harmonics += 2;
     for (auto& [port, pressure] : body.pressures) pressure.highest_harmonic += 2;
-    return {body.pressure_harmonics <= 64, false, 1};
+    possible = true;
   }
+  if (discretisation < largest) return {possible, false, 1};
   const auto* shaft = body.shaft();
   if (shaft != nullptr && shaft->keyways.empty()) return refine_shaft(body, analysis, stalled);
   if (std::holds_alternative<ChamberShape>(body.shape)) return refine_chamber(body, analysis);
@@ -162,6 +168,11 @@ bool grows_without_bound(const std::vector<double>& values, const std::vector<do
   };
   return exponent(n - 2) > smallest_exponent && exponent(n - 2) >= kept_exponent * exponent(n - 3) &&
          exponent(n - 3) > 0;
+}
+
+void keep_discretisation(ErrorLedger& ledger, const ErrorLedger& before) {
+  for (const auto& entry : before.numerical)
+    if (entry.source == "discretisation") ledger.set_numerical(entry);
 }
 
 void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes, double order) {

@@ -35,14 +35,14 @@ struct Refinement {
 /// large again as the scene's on other bodies.
 BodyScene coarsest(const BodyScene& body);
 
-/// Mends what dominates the governing stress's ledger: more instants, more pressure harmonics, or smaller
-/// cells. Cells of a shaft become smaller on those fillets only whose stress with its error could be the
-/// peak; all round once that no longer helps. Chambers get one more cell through their walls, and cells half
-/// as large at the weld toes whose hot-spot stress with its error could be the largest; elsewhere cells
-/// shrink a little. The order is 1 there: at a right re-entrant corner stress grows like r^(lambda - 1), and
-/// what that does to places further away falls like h^(2 lambda), lambda = 0.544. Bodies of tetrahedra get a
-/// fine spot at the peak. The sequence of meshes does not depend on a tolerance, so that a stricter one never
-/// costs less.
+/// Mends what dominates the governing stress's ledger, and what reaches a third of that: more instants, more
+/// pressure harmonics, smaller cells. Cells of a shaft become smaller on those fillets only whose stress with
+/// its error could be the peak; all round once that no longer helps. Chambers get one more cell through their
+/// walls, and cells half as large at the weld toes whose hot-spot stress with its error could be the largest;
+/// elsewhere cells shrink a little. The order is 1 there: at a right re-entrant corner stress grows like
+/// r^(lambda - 1), and what that does to places further away falls like h^(2 lambda), lambda = 0.544. Bodies
+/// of tetrahedra get a fine spot at the peak. The sequence of meshes does not depend on a tolerance, so that
+/// a stricter one never costs less.
 /// @param stalled  the last step of this kind brought less than a quarter
 Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, bool stalled);
 
@@ -51,6 +51,10 @@ Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, 
 /// converges with second order falls by ratio^2 at each step.
 /// @param values, ratios  of the steps so far at one place; ratios[i] leads from values[i] to values[i + 1]
 bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios);
+
+/// What earlier meshes have told of the discretisation holds on the same mesh with more instants or
+/// harmonics.
+void keep_discretisation(ErrorLedger& ledger, const ErrorLedger& before);
 
 /// Two meshes tell more than one. If cells became `ratio` times smaller and the stress changed by d, about
 /// d / (ratio^order - 1) is missing still (order 2 or better for recovered stress of quadratic cells on round

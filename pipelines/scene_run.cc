@@ -152,14 +152,17 @@ private:
     auto step_start = Clock::now();
     BodyAnalysis analysis = analyse(i);
     double ratio = 1, order = 2, before_Pa = 0;
-    bool stalled = false;
+    bool stalled = false, new_mesh = true;
+    int n_meshes = 1;
     PeakGrowth growth;
     while (true) {
-      if (growth.at(analysis, ratio)) leave_out(i, analysis);
+      const bool elsewhere = growth.at(analysis, ratio);
+      if (elsewhere) leave_out(i, analysis);
       auto stress = governing_stress(analysis);
-      if (!search.steps.empty())
-        learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio, int(search.steps.size()) + 1,
-                          order);
+      if (!search.steps.empty() && !new_mesh && !elsewhere)
+        keep_discretisation(stress.errors, search.steps.back().errors);
+      else if (!search.steps.empty())
+        learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio, ++n_meshes, order);
       set_errors(analysis, stress.errors);
       const double seconds = seconds_since(step_start);
       search.quantity = stress.name;
@@ -177,6 +180,7 @@ private:
       }
       ratio = refinement.ratio;
       order = refinement.order;
+      new_mesh = refinement.new_mesh;
       const double error_before_Pa = stress.errors.numerical_Pa();
       if (!take(std::move(next), i, refinement, search, analysis, seconds)) break;
       const auto changed = governing_stress(analysis).errors.numerical_Pa();
