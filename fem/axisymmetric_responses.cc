@@ -4,14 +4,13 @@
 #include <map>
 #include <stdexcept>
 
+#include "fem/constants.h"
 #include "fem/harmonic_loads.h"
 #include "fem/harmonic_solver.h"
 #include "fem/harmonic_strain.h"
 
 namespace fem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// What one harmonic adds to one channel: nine columns of the harmonic's amplitudes.
 struct Part {

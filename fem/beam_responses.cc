@@ -6,12 +6,12 @@
 #include <string>
 
 #include "fem/beam_statics.h"
+#include "fem/constants.h"
 #include "fem/fillet_factors.h"
 
 namespace fem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 const double peak_angle = pi / 12;  // up the arc of a fillet
 
 /// A fillet seen from its thinner segment.

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "fem/constants.h"
+
 namespace fem {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// sigma = mean + slope . (x - centroid); torque about the centroid.
 struct Sectional {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "fem/parallel.h"
 
@@ -106,32 +107,56 @@ void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
         "cells");
 }
 
-Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
+namespace {
+
+/// Some columns of a solution, on the calling thread with a work space of its own: it reads the factor alone.
+/// @return empty, or what went wrong
+std::string solve_columns(cholmod_factor* factor, Eigen::Ref<const Eigen::MatrixXd> right_hand_sides,
+                          Eigen::Ref<Eigen::MatrixXd> solution) {
   const SerialOpenMp serial;
-  constexpr Eigen::Index block = 32;  // CHOLMOD's work space is twice the block
-  Eigen::MatrixXd solution(right_hand_sides.rows(), right_hand_sides.cols());
-  cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
-  const auto release = [&] {
-    for (auto* dense : {&x, &y, &e}) cholmod_l_free_dense(dense, &impl_->common);
-  };
-  for (Eigen::Index first = 0; first < right_hand_sides.cols(); first += block) {
-    const auto columns = std::min(block, right_hand_sides.cols() - first);
-    cholmod_dense b{};
-    b.nrow = b.d = right_hand_sides.rows();
-    b.ncol = columns;
-    b.nzmax = b.nrow * b.ncol;
-    b.x = const_cast<double*>(right_hand_sides.data() + first * right_hand_sides.rows());
-    b.xtype = CHOLMOD_REAL;
-    b.dtype = CHOLMOD_DOUBLE;
-    if (!cholmod_l_solve2(CHOLMOD_A, impl_->factor, &b, nullptr, &x, nullptr, &y, &e, &impl_->common)) {
-      release();
-      impl_->check("solve with");
-      throw std::runtime_error("CHOLMOD could not solve");
+  cholmod_common common{};
+  cholmod_l_start(&common);
+  common.print = 0;
+  cholmod_dense b{}, *x = nullptr, *y = nullptr, *e = nullptr;
+  b.nrow = std::size_t(right_hand_sides.rows());
+  b.d = std::size_t(right_hand_sides.outerStride());
+  b.ncol = std::size_t(right_hand_sides.cols());
+  b.nzmax = b.d * b.ncol;
+  b.x = const_cast<double*>(right_hand_sides.data());
+  b.xtype = CHOLMOD_REAL;
+  b.dtype = CHOLMOD_DOUBLE;
+  const bool solved = cholmod_l_solve2(CHOLMOD_A, factor, &b, nullptr, &x, nullptr, &y, &e, &common) != 0;
+  std::string failure;
+  if (solved)
+    solution =
+        Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), solution.rows(), solution.cols());
+  else
+    failure = common.status == CHOLMOD_OUT_OF_MEMORY
+                  ? "not enough memory to solve with the stiffness: use a coarser mesh"
+                  : "CHOLMOD could not solve (status " + std::to_string(common.status) + ")";
+  for (auto* dense : {&x, &y, &e}) cholmod_l_free_dense(dense, &common);
+  cholmod_l_finish(&common);
+  return failure;
+}
+
+}  // namespace
+
+Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  const SerialBlas serial;
+  constexpr Eigen::Index most_columns = 16;  // whatever the threads: the sums stay the same
+  const auto n = right_hand_sides.cols();
+  const auto n_blocks = std::size_t((n + most_columns - 1) / most_columns);
+  Eigen::MatrixXd solution(right_hand_sides.rows(), n);
+  std::vector<std::string> failures(n_blocks);
+  parallel_for(n_blocks, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Eigen::Index first = most_columns * Eigen::Index(k), columns = std::min(most_columns, n - first);
+      failures[k] = solve_columns(impl_->factor, right_hand_sides.middleCols(first, columns),
+                                  solution.middleCols(first, columns));
     }
-    solution.middleCols(first, columns) =
-        Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), x->nrow, columns);
-  }
-  release();
+  });
+  for (const auto& failure : failures)
+    if (!failure.empty()) throw std::runtime_error(failure);
   return solution;
 }
 

@@ -4,13 +4,13 @@
 #include <string>
 
 #include "fem/axial_profile.h"
+#include "fem/constants.h"
 #include "fem/dense_algebra.h"
 #include "fem/harmonic_strain.h"
 
 namespace fem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 using Eigen::Vector3d;
 
 /// Adds to the harmonic that is there, or a new one.

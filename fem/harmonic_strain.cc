@@ -1,5 +1,7 @@
 #include "fem/harmonic_strain.h"
 
+#include "fem/constants.h"
+
 namespace fem {
 
 StrainMatrix strain_matrix(const SectionPoint& at, int m) {
@@ -33,7 +35,6 @@ Eigen::Matrix<double, 6, 6> elasticity_matrix(const Material& material) {
 }
 
 double angle_integral(int m) {
-  constexpr double pi = 3.14159265358979323846;
   return m == 0 ? 2 * pi : pi;
 }
 

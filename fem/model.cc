@@ -33,18 +33,14 @@
 
 namespace fem {
 
-namespace {
-
-/// Where stress lives, if not on the nodes of displacement.
-struct Seen {
-  SplitGrid split;
-  CellsOfNodes cells;
-  NodeIntegrals volumes;
-};
-
-}  // namespace
-
 struct Model::Impl {
+  /// Where stress lives, if not on the nodes of displacement.
+  struct Seen {
+    SplitGrid split;
+    CellsOfNodes cells;
+    NodeIntegrals volumes;
+  };
+
   MPI_Comm communicator = MPI_COMM_WORLD;
   Body body;
   Grid grid;

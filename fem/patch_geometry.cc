@@ -6,13 +6,12 @@
 
 #include "fem/cell_geometry.h"
 #include "fem/charts.h"
+#include "fem/constants.h"
 #include "fem/parallel.h"
 
 namespace fem {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Eigen::Vector3d in_chart(const CylinderChart& chart, const Eigen::Vector3d& x) {
   const auto c = pull_back(chart, Coordinates{x[0], x[1], x[2]});

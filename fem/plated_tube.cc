@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/constants.h"
 #include "fem/dense_algebra.h"
 
 namespace fem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double thickest_wall = 0.3;
 constexpr int most_pieces = 24;
 /// Waves of the series per wall thickness, around and along: half a wave of the shortest is one wall.

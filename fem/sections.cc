@@ -7,13 +7,13 @@
 #include <stdexcept>
 
 #include "fem/cell_geometry.h"
+#include "fem/constants.h"
 #include "fem/dense_algebra.h"
 
 namespace fem {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double relative_tolerance =
     1e-6;  // of the radius: coordinates in the file carry 16 digits, charts 15
 

@@ -7,14 +7,13 @@
 
 #include "fem/axial_profile.h"
 #include "fem/cell_geometry.h"
+#include "fem/constants.h"
 #include "fem/dense_algebra.h"
 #include "fem/reference_cell.h"
 
 namespace fem {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void refuse_impossible(const LoadSurface& surface) {
   const bool seat = surface.kind == LoadSurface::Kind::seat;

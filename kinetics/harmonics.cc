@@ -5,12 +5,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "kinetics/constants.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 void require_all_finite(const std::string& name, const Eigen::ArrayXd& values) {
   for (Eigen::Index i = 0; i < values.size(); ++i)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "kinetics/constants.h"
 #include "kinetics/vibratory/balance.h"
 #include "kinetics/vibratory/checks.h"
 #include "kinetics/vibratory/drive_motion.h"
@@ -21,8 +22,6 @@ using vibratory::Instants;
 using vibratory::NamedEffect;
 using vibratory::PitchOscillator;
 using vibratory::PitchTransient;
-
-const double pi = std::acos(-1.0);
 
 void check_run(const VibratoryMill& mill, const RunUp& run) {
   if (mill.convention == Convention::published)

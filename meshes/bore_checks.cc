@@ -4,13 +4,13 @@
 #include <cmath>
 #include <set>
 
+#include "meshes/constants.h"
 #include "meshes/refusal.h"
 
 namespace meshes {
 
 namespace {
 
-const double tiny = 1e-9;
 const double smallest_bore_share = 0.01;   // of the diameter
 const double smallest_wall_share = 0.01;   // of the diameter
 const double smallest_wall_fillets = 0.5;  // wall under a fillet, in fillets

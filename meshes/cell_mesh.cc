@@ -2,13 +2,12 @@
 
 #include <gmsh.h>
 
+#include "meshes/constants.h"
 #include "meshes/gmsh_session.h"
 
 namespace meshes {
 
 namespace {
-
-const int gmsh_quadrangle = 3, gmsh_hexahedron = 5, gmsh_triangle_6 = 9, gmsh_tetrahedron_10 = 11;
 
 void add_groups(int dimension, const std::map<int, std::string>& names) {
   for (const auto& [id, name] : names) {

@@ -5,28 +5,23 @@
 #include <stdexcept>
 #include <string>
 
+#include "meshes/refusal.h"
+
 namespace meshes {
 
 namespace {
 
-std::string mm(double length_m) {
-  std::ostringstream text;
-  text.precision(12);
-  text << length_m * 1e3 << " mm";
-  return text.str();
-}
-
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_chamber(const std::string& what) {
   throw std::invalid_argument("chamber: " + what);
 }
 
 void require_positive(double value_m, const std::string& what) {
   if (!std::isfinite(value_m) || !(value_m > 0))
-    refuse(what + " = " + mm(value_m) + " must be positive and finite");
+    refuse_chamber(what + " = " + mm(value_m) + " must be positive and finite");
 }
 
 void require_finite(double value_m, const std::string& what) {
-  if (!std::isfinite(value_m)) refuse(what + " = " + mm(value_m) + " must be finite");
+  if (!std::isfinite(value_m)) refuse_chamber(what + " = " + mm(value_m) + " must be finite");
 }
 
 /// @param reason what the limits are made of, with the remedy
@@ -34,8 +29,8 @@ void require_between(double value_m, double least_m, double most_m, const std::s
                      const std::string& reason) {
   const double rounding_m = 1e-9 * std::abs(most_m);
   if (value_m < least_m - rounding_m || value_m > most_m + rounding_m)
-    refuse(what + " = " + mm(value_m) + " must lie between " + mm(least_m) + " and " + mm(most_m) + ": " +
-           reason);
+    refuse_chamber(what + " = " + mm(value_m) + " must lie between " + mm(least_m) + " and " + mm(most_m) +
+                   ": " + reason);
 }
 
 void check_rings(const Chamber& chamber) {
@@ -69,7 +64,7 @@ void check_webs(const Chamber& chamber) {
   const ChamberWebs& webs = chamber.webs;
   const double wall_m = chamber.tube.wall_m, outer_m = chamber.tube.inner_radius_m + wall_m;
   if (webs.z_m.empty() || webs.z_m.size() > 8)
-    refuse("there are " + std::to_string(webs.z_m.size()) + " webs; give 1 to 8");
+    refuse_chamber("there are " + std::to_string(webs.z_m.size()) + " webs; give 1 to 8");
   require_positive(webs.thickness_m, "the webs' thickness");
   require_positive(webs.height_m, "the webs' height");
   require_between(webs.thickness_m, 0.5 * wall_m, 0.5 * chamber.housing.length_m, "the webs' thickness",
@@ -93,7 +88,7 @@ void check_feet(const Chamber& chamber) {
   const ChamberPads& pads = chamber.pads;
   const double wall_m = chamber.tube.wall_m, outer_m = chamber.tube.inner_radius_m + wall_m;
   if (chamber.feet.empty() || chamber.feet.size() > 4)
-    refuse("there are " + std::to_string(chamber.feet.size()) + " feet; give 1 to 4");
+    refuse_chamber("there are " + std::to_string(chamber.feet.size()) + " feet; give 1 to 4");
   for (std::size_t i = 0; i < chamber.feet.size(); ++i) {
     require_finite(chamber.feet[i].x_m, "x of foot " + std::to_string(i + 1));
     require_finite(chamber.feet[i].y_m, "y of foot " + std::to_string(i + 1));

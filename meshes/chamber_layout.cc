@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/constants.h"
 #include "meshes/pad_contact.h"
 
 namespace meshes {
 
 namespace {
 
-const double pi = 3.14159265358979323846;
 const double largest_share_of_housing = 0.8;  // half the web's height there, of the housing's radius
 const double chosen_size_share = 0.15;        // of the tube's outer radius
 const double closest_walls = 0.05;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/constants.h"
 #include "meshes/foot_plan.h"
 #include "meshes/grading.h"
 #include "meshes/plan_blocks.h"
@@ -10,8 +11,6 @@
 namespace meshes {
 
 namespace {
-
-const double pi = 3.14159265358979323846;
 
 std::vector<double> equal_steps(double begin_m, double end_m, int n) {
   std::vector<double> result;

@@ -7,13 +7,12 @@
 
 #include "meshes/break_points.h"
 #include "meshes/chamber_hot_spots.h"
+#include "meshes/constants.h"
 #include "meshes/grading.h"
 
 namespace meshes {
 
 namespace {
-
-const double pi = 3.14159265358979323846;
 
 void add_both_sides(BreakPoints& stations, double z_m, const std::string& what) {
   stations.add(-z_m, what + " at the back");

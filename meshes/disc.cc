@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/constants.h"
+
 namespace meshes {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 // Chosen for the largest smallest angle of the cells at 8 to 32 sectors.
 const double corner_radius = 0.68;  // of the rounded square

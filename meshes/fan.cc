@@ -3,11 +3,11 @@
 #include <cmath>
 #include <utility>
 
+#include "meshes/constants.h"
+
 namespace meshes {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 using Grid = std::vector<std::vector<int>>;
 

@@ -11,31 +11,20 @@
 #include <utility>
 #include <vector>
 
+#include "meshes/constants.h"
+#include "meshes/vectors.h"
+
 namespace meshes {
 namespace {
 
-using Vector = std::array<double, 3>;
 using Cell = std::array<std::size_t, 4>;
 using Edge = std::pair<std::size_t, std::size_t>;
 using Face = std::array<std::size_t, 3>;
 
-constexpr int tetrahedron = 4, triangle = 2;  // gmsh's numbers of element types
 constexpr double least_opening_cosine =
     -0.423;                  // faces that meet at more than 115 degrees may be one surface
 constexpr int n_passes = 4;  // a cell with three such faces is split more than once
 
-Vector minus(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-double length(const Vector& a) {
-  return std::sqrt(dot(a, a));
-}
 Edge edge(std::size_t a, std::size_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
@@ -55,7 +44,7 @@ public:
     gmsh::model::mesh::getNodes(all, x, parametric);
     for (std::size_t i = 0; i < all.size(); ++i) place_[all[i]] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
     std::vector<std::size_t> elements, nodes;
-    gmsh::model::mesh::getElementsByType(tetrahedron, elements, nodes, tag);
+    gmsh::model::mesh::getElementsByType(gmsh_tetrahedron, elements, nodes, tag);
     for (std::size_t i = 0; i < nodes.size(); i += 4)
       cells_.push_back({nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3]});
     read_boundary();
@@ -78,7 +67,7 @@ public:
     gmsh::model::mesh::addNodes(3, tag_, own_nodes_, own_places_);
     std::vector<std::size_t> nodes;
     for (const auto& cell : cells_) nodes.insert(nodes.end(), cell.begin(), cell.end());
-    gmsh::model::mesh::addElementsByType(tag_, tetrahedron, {}, nodes);
+    gmsh::model::mesh::addElementsByType(tag_, gmsh_tetrahedron, {}, nodes);
   }
 
 private:
@@ -87,7 +76,7 @@ private:
     gmsh::model::getBoundary({{3, tag_}}, surfaces, true, false);
     for (const auto& surface : surfaces) {
       std::vector<std::size_t> elements, nodes;
-      gmsh::model::mesh::getElementsByType(triangle, elements, nodes, surface.second);
+      gmsh::model::mesh::getElementsByType(gmsh_triangle, elements, nodes, surface.second);
       for (std::size_t i = 0; i < nodes.size(); i += 3)
         boundary_.insert(face(nodes[i], nodes[i + 1], nodes[i + 2]));
     }

@@ -5,11 +5,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "meshes/constants.h"
+
 namespace meshes {
 
 namespace {
 
-const double tiny = 1e-9;
 const double steepest_line = 0.8;  // radius over length
 
 /// Radius of the bore step at which the segment is the narrow one with a face left below it; 0: none.

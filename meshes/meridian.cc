@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "meshes/constants.h"
 #include "meshes/fan.h"
 #include "meshes/grading.h"
 #include "meshes/radii.h"
@@ -13,7 +14,6 @@ namespace meshes {
 
 namespace {
 
-const double pi = std::acos(-1.0);
 // First cell beside the foot of a fillet, in cells of the arc: at 3 the stress recovered at the foot of a
 // small fillet suffers from the jump in size, below 2.5 nothing is gained.
 const double cell_at_foot = 2.5;

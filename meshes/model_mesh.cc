@@ -7,13 +7,12 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "meshes/constants.h"
 #include "meshes/inner_nodes.h"
 
 namespace meshes {
 
 namespace {
-
-const int gmsh_hexahedron = 5, gmsh_tetrahedron_10 = 11;
 
 /// The group of each entity of a dimension; entities that are in none are groups of their own.
 class Groups {

@@ -5,13 +5,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "meshes/constants.h"
 #include "meshes/gmsh_session.h"
 
 namespace meshes {
 
 namespace {
-
-const int gmsh_quadrangle = 3, gmsh_hexahedron = 5;  // gmsh's numbers for the linear elements
 
 /// Elements of one group.
 struct Elements {

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/constants.h"
 #include "meshes/grading.h"
 
 namespace meshes {
 
 namespace {
-
-const double tiny = 1e-9;
 
 /// A row whose radius is fixed.
 struct Break {

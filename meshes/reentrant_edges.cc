@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/vectors.h"
+
 namespace meshes {
 
 namespace {
@@ -11,18 +13,6 @@ constexpr double cosine_of_limit = 0.5;  // 60 degrees
 
 Point corner(const CellMesh& mesh, std::size_t face, std::size_t i) {
   return mesh.points[mesh.face(face)[i % mesh.corners_per_face()]];
-}
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Point minus(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 Point unit_normal(const CellMesh& mesh, std::size_t face) {

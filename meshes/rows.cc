@@ -4,13 +4,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "meshes/constants.h"
 #include "meshes/grading.h"
 
 namespace meshes {
 
 namespace {
 
-const double tiny = 1e-9;
 const double first_above = 13;  // first of the rows above a fan, in cells of the arc
 const double first_below = 7;   // first of the rows below a fan, in the fan's last cell
 const double thin_wall = 0.3;   // of the radius: no more than two rows are asked for

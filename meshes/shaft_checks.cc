@@ -6,6 +6,7 @@
 #include <string>
 
 #include "meshes/bore_checks.h"
+#include "meshes/constants.h"
 #include "meshes/refusal.h"
 #include "meshes/shaft_layout.h"
 
@@ -13,7 +14,6 @@ namespace meshes {
 
 namespace {
 
-const double tiny = 1e-9;  // of a length, for comparisons that rounding may blur
 // Of the length of the segment that carries fillets: one beside a shoulder down at the other end (whose fan
 // takes up to 30 %), one of a groove or beside a free end, both of a groove together.
 const double largest_fillet_share = 0.6;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/constants.h"
 #include "meshes/grading.h"
 #include "meshes/lines.h"
 #include "meshes/rows.h"
@@ -10,8 +11,6 @@
 namespace meshes {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 const double core_share = 0.6;        // of the smallest radius of the solid segments side by side
 const double core_share_limit = 0.7;  // up to this the core is as wide as the bore it closes

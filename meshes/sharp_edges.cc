@@ -4,17 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "meshes/vectors.h"
+
 namespace meshes {
 
 namespace {
-
-Point minus(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// A boundary quad's middle and unit outward normal (of the plane through its edges' middles).
 struct Facet {

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "meshes/refusal.h"
+
 namespace meshes {
 
 namespace {
@@ -12,13 +14,6 @@ namespace {
 constexpr double widest = 0.6;        // of the diameter
 constexpr double smallest_web = 0.1;  // below the floor, of the diameter
 constexpr double smallest_wall = 0.01;
-
-std::string mm(double length_m) {
-  std::ostringstream text;
-  text.precision(12);
-  text << length_m * 1e3 << " mm";
-  return text.str();
-}
 
 void check_keyway(const Keyway& keyway, const SolidSegment& segment, double bore_radius_m, bool is_first,
                   bool is_last) {

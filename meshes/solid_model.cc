@@ -10,7 +10,7 @@ namespace meshes {
 namespace {
 
 namespace occ = gmsh::model::occ;
-constexpr double mm = 1e3;
+constexpr double to_mm = 1e3;
 
 /// A closed line in the plane y = 0 (or any), drawn point by point in m.
 class Outline {
@@ -34,7 +34,7 @@ public:
   }
 
 private:
-  static int add(const Point& p) { return occ::addPoint(mm * p[0], mm * p[1], mm * p[2]); }
+  static int add(const Point& p) { return occ::addPoint(to_mm * p[0], to_mm * p[1], to_mm * p[2]); }
   bool same(const Point& p) const {
     return std::abs(p[0] - at_[0]) + std::abs(p[1] - at_[1]) + std::abs(p[2] - at_[2]) < 1e-12;
   }
@@ -49,7 +49,7 @@ private:
 
 gmsh::vectorpair turned_round(int surface, double axis_x_m, double axis_y_m) {
   gmsh::vectorpair parts, volumes;
-  occ::revolve({{2, surface}}, mm * axis_x_m, mm * axis_y_m, 0, 0, 0, 1, 2 * std::acos(-1.0), parts);
+  occ::revolve({{2, surface}}, to_mm * axis_x_m, to_mm * axis_y_m, 0, 0, 0, 1, 2 * std::acos(-1.0), parts);
   for (const auto& part : parts)
     if (part.first == 3) volumes.push_back(part);
   return volumes;
@@ -89,8 +89,8 @@ gmsh::vectorpair eccentric_disc(const SolidLayout& layout, const SolidSegment& s
   outline.line_to({x, y, segment.end_m});
   const auto disc = turned_round(outline.close(), x, y);
   if (layout.bore_radius_m == 0) return disc;
-  const int hole = occ::addCylinder(0, 0, mm * segment.begin_m, 0, 0, mm * (segment.end_m - segment.begin_m),
-                                    mm * layout.bore_radius_m);
+  const int hole = occ::addCylinder(0, 0, to_mm * segment.begin_m, 0, 0,
+                                    to_mm * (segment.end_m - segment.begin_m), to_mm * layout.bore_radius_m);
   gmsh::vectorpair result;
   std::vector<gmsh::vectorpair> map;
   occ::cut(disc, {{3, hole}}, result, map);
@@ -118,8 +118,8 @@ std::pair<int, int> cutter(const Keyway& keyway, const SolidSegment& segment) {
     outline.line_to(at(-half, end));
   }
   gmsh::vectorpair parts;
-  occ::extrude({{2, outline.close()}}, mm * height * std::cos(keyway.angle_rad),
-               mm * height * std::sin(keyway.angle_rad), 0, parts);
+  occ::extrude({{2, outline.close()}}, to_mm * height * std::cos(keyway.angle_rad),
+               to_mm * height * std::sin(keyway.angle_rad), 0, parts);
   for (const auto& part : parts)
     if (part.first == 3) return part;
   throw std::string("a keyway has no volume");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinetics/constants.h"
 #include "kinetics/planetary/checks.h"
 
 namespace kinetics::planetary {
@@ -14,7 +15,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr Index block_size = 256;
-const double pi = std::acos(-1.0);
 
 ArrayXd turned_rad(const TimeGrid& grid, Index first, Index count) {
   return ArrayXd::LinSpaced(count, double(first), double(first + count - 1)) *

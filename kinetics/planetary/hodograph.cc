@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kinetics/constants.h"
 #include "kinetics/planetary/belt.h"
 #include "kinetics/planetary/effect.h"
 
@@ -13,8 +14,6 @@ double PlanetaryHodograph::Component::amplitude_N() const {
 
 namespace planetary {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 /// mean + cosine cos(phi) + sine sin(phi), in N or N m.
 using Harmonics = PlanetaryHodograph::Component;

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "kinetics/constants.h"
 #include "kinetics/planetary/segment.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 void require_positive(const std::string& parameter, double value) {
   require_finite(parameter, value);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinetics/constants.h"
+
 namespace kinetics::planetary {
 namespace {
 
-const double pi = std::acos(-1.0);
 constexpr double pi_beyond_double = 1.2246467991473532e-16;  // what the double `pi` lacks
 
 /// 6 (x - sin x) / x^3 = 1 - x^2/20 (1 - x^2/42 (1 - x^2/72 (...))); for x < 1.5 ten terms are exact.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinetics/constants.h"
 #include "kinetics/torsion/checks.h"
 #include "kinetics/torsion/effects.h"
 #include "kinetics/torsion/forced.h"
@@ -12,8 +13,6 @@ namespace {
 using Eigen::Array3Xd;
 using Eigen::ArrayXd;
 using Eigen::Index;
-
-constexpr double pi = 3.14159265358979323846;
 
 /// One excitation and the motion that it brings alone.
 struct Part {

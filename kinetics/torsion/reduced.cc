@@ -5,13 +5,12 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "kinetics/constants.h"
 #include "kinetics/torsion/checks.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics::torsion {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Sets of vertices that are already connected.
 class Pieces {

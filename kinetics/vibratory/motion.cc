@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "kinetics/constants.h"
+
 namespace kinetics::vibratory {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 constexpr Eigen::ArrayXd Instants::*members[] = {&Instants::phi_rad,
                                                  &Instants::chi_rad,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "kinetics/constants.h"
 #include "kinetics/vibratory/springs.h"
 #include "kinetics/wrong_input.h"
 
@@ -16,8 +17,6 @@ using Complex = std::complex<double>;
 // points to a turn resolve degree 3.
 constexpr int points = 8;
 constexpr int highest = 3;
-
-const double pi = std::acos(-1.0);
 
 Instants torus(const VibratoryMill& mill) {
   Eigen::ArrayXd phi_rad(points * points), chi_rad(points * points);

@@ -19,12 +19,12 @@ const Edits quiet{{"snapshots = 24", "snapshots = 0"}, {"pictures = true", "pict
 const Edits coarse_shaft{{"cells_per_fillet_quarter = 8", "cells_per_fillet_quarter = 2"},
                          {"sectors = 16", "sectors = 8"},
                          {"instants_per_turn = 120", "instants_per_turn = 24"}};
-const Edits coarse_chamber{{"cells_through_wall = 2", "cells_through_wall = 1"},
-                           {"# size = \"20 mm\"", "size = \"40 mm\" #"},
-                           {"instants_per_turn = 120", "instants_per_turn = 24"}};
-const Edits coarse_drum{{"cells_per_fillet_quarter = 6", "cells_per_fillet_quarter = 2"},
-                        {"sectors = 24", "sectors = 12"},
-                        {"instants_per_turn = 360", "instants_per_turn = 72"}};
+const Edits small_chamber{{"cells_through_wall = 2", "cells_through_wall = 1"},
+                          {"# size = \"20 mm\"", "size = \"40 mm\" #"},
+                          {"instants_per_turn = 120", "instants_per_turn = 24"}};
+const Edits small_drum{{"cells_per_fillet_quarter = 6", "cells_per_fillet_quarter = 2"},
+                       {"sectors = 24", "sectors = 12"},
+                       {"instants_per_turn = 360", "instants_per_turn = 72"}};
 
 nlohmann::json run(const fs::path& directory, const std::string& scene, const std::string& options,
                    std::string* out = nullptr) {
@@ -35,7 +35,7 @@ nlohmann::json run(const fs::path& directory, const std::string& scene, const st
   return outcome.exit_code == 0 ? summary(directory / "out") : nlohmann::json();
 }
 
-std::set<std::string> names(const nlohmann::json& list) {
+std::set<std::string> set_of_names(const nlohmann::json& list) {
   return {list.begin(), list.end()};
 }
 
@@ -85,7 +85,7 @@ void expect_within_the_bound(const Pair& runs, const std::string& body, double t
     const double alone = choice["effects"][effect]["bodies"][body]["bound_Pa"].get<double>();
     EXPECT_GE(alone, 0) << effect;
     EXPECT_LE(alone, 0.1 * tolerance * stress) << effect;
-    EXPECT_EQ(names(runs.chosen["input"]["effects"]).count(effect), 0u) << effect;
+    EXPECT_EQ(set_of_names(runs.chosen["input"]["effects"]).count(effect), 0u) << effect;
   }
 }
 
@@ -114,8 +114,9 @@ TEST(EffectsAuto, WhatIsOffIsNotSolved) {
   EXPECT_EQ(off.count("gravity_shaft") + off.count("gravity_debalance"), 2u);
   const auto& all = runs.all["bodies"]["shaft"];
   const auto& chosen = runs.chosen["bodies"]["shaft"];
-  auto missing = names(all["channels"]);
-  for (const auto& channel : names(chosen["channels"])) EXPECT_EQ(missing.erase(channel), 1u) << channel;
+  auto missing = set_of_names(all["channels"]);
+  for (const auto& channel : set_of_names(chosen["channels"]))
+    EXPECT_EQ(missing.erase(channel), 1u) << channel;
   EXPECT_EQ(missing, (std::set<std::string>{"volume.ax", "volume.ay", "debalance_1.fy", "debalance_2.fy",
                                             "debalance_1.torque", "debalance_2.torque"}));
   // An acceleration of the whole shaft makes no stress; the debalance's couple was not solved, and is
@@ -140,19 +141,19 @@ TEST(EffectsAuto, WhatIsOffIsNotSolved) {
 
 // The loads let more go than the worst weld toe allows: one effect is taken back after the solve.
 TEST(EffectsAuto, OnTheChamber) {
-  const auto runs = run_both(chamber_alone(coarse_chamber + quiet), "--tolerance '90 %'");
+  const auto runs = run_both(chamber_alone(small_chamber + quiet), "--tolerance '90 %'");
   expect_within_the_bound(runs, "chamber", 0.9);
-  const auto back = names(runs.chosen["dropped_effects"]["taken_back"]);
+  const auto back = set_of_names(runs.chosen["dropped_effects"]["taken_back"]);
   EXPECT_FALSE(back.empty());
   for (const auto& effect : back) {
-    EXPECT_EQ(names(runs.chosen["input"]["effects"]).count(effect), 1u) << effect;
+    EXPECT_EQ(set_of_names(runs.chosen["input"]["effects"]).count(effect), 1u) << effect;
     EXPECT_EQ(dropped(runs.chosen).count(effect), 0u) << effect;
   }
 }
 
 TEST(EffectsAuto, OnTheDrum) {
   const auto runs =
-      run_both(edited("planetary_mill.toml", coarse_drum) + "[results]\nsnapshots = 0\npictures = false\n",
+      run_both(edited("planetary_mill.toml", small_drum) + "[results]\nsnapshots = 0\npictures = false\n",
                "--tolerance '50 %'");
   expect_within_the_bound(runs, "drum", 0.5);
   EXPECT_EQ(dropped(runs.chosen).count("drum_gravity"), 1u);
@@ -184,6 +185,6 @@ TEST(EffectsAuto, TheLoadStageAloneJudgesByItsLoads) {
     const auto json = nlohmann::json::parse(outcome.out);
     // Gravity changes the load of the drum by 1.2 %: below a tenth of 20 %, above that of 5 %.
     EXPECT_EQ(dropped(json).count("drum_gravity"), loose ? 1u : 0u);
-    EXPECT_EQ(names(json["input"]["effects"]).count("drum_gravity"), loose ? 0u : 1u);
+    EXPECT_EQ(set_of_names(json["input"]["effects"]).count("drum_gravity"), loose ? 0u : 1u);
   }
 }

@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "fem/beam_responses.h"
+#include "fem/constants.h"
 #include "fem/fillet_factors.h"
 #include "shaft_bodies.h"
 
 namespace {
 
 using Component = fem::SurfaceResultant::Component;
-constexpr double pi = 3.14159265358979323846;
+using fem::pi;
 const fem::Material steel = fem_tests::steel;
 
 fem::LoadSurface seat(double z, double length, double radius, double x = 0, double y = 0) {

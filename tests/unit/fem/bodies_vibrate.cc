@@ -8,6 +8,7 @@
 
 #include "fem/body_nodes.h"
 #include "fem/cell_geometry.h"
+#include "fem/constants.h"
 #include "fem/mass_matrix.h"
 #include "fem/mesh_reader.h"
 #include "fem/model.h"
@@ -20,7 +21,8 @@
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, length_m = 0.2;
+using fem::pi;
+constexpr double length_m = 0.2;
 
 fem::MassMatrix mass_matrix(const fem::Grid& grid, double density_kg_m3) {
   const auto cells = fem::cells_of_nodes(grid);

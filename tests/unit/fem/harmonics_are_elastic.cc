@@ -7,13 +7,14 @@
 #include <cstdio>
 
 #include "fem/axisymmetric_responses.h"
+#include "fem/constants.h"
 #include "shaft_bodies.h"
 
 namespace {
 
 using Component = fem::SurfaceResultant::Component;
 using Phase = fem::SeatPressure::Phase;
-constexpr double pi = 3.14159265358979323846;
+using fem::pi;
 
 enum Id { left = 1, right = 2, outside = 3, inside = 4 };
 
@@ -207,17 +208,18 @@ TEST(Harmonics, body_forces) {
   }
 }
 
-struct Case {
+struct FilletCase {
   double D, r;  // over d
   double torsion, bending, tension;
 };
 // Public verification cases P08 and P09: an independent spectral element program, 5 to 6 digits.
-constexpr Case cases[] = {{1.1, 0.05, 1.432942, 1.89369, 2.01310}, {1.2, 0.05, 1.527733, 2.08932, 2.31102},
-                          {1.2, 0.10, 1.333653, 1.70551, 1.88236}, {1.5, 0.05, 1.615949, 2.27198, 2.69193},
-                          {1.5, 0.10, 1.379884, 1.80024, 2.11426}, {1.5, 0.20, 1.223835, 1.47689, 1.70313},
-                          {2.0, 0.05, 1.641986, 2.32778, 2.89307}, {2.0, 0.10, 1.393175, 1.82423, 2.22890}};
+constexpr FilletCase cases[] = {
+    {1.1, 0.05, 1.432942, 1.89369, 2.01310}, {1.2, 0.05, 1.527733, 2.08932, 2.31102},
+    {1.2, 0.10, 1.333653, 1.70551, 1.88236}, {1.5, 0.05, 1.615949, 2.27198, 2.69193},
+    {1.5, 0.10, 1.379884, 1.80024, 2.11426}, {1.5, 0.20, 1.223835, 1.47689, 1.70313},
+    {2.0, 0.05, 1.641986, 2.32778, 2.89307}, {2.0, 0.10, 1.393175, 1.82423, 2.22890}};
 
-class FilletOfHarmonics : public testing::TestWithParam<Case> {};
+class FilletOfHarmonics : public testing::TestWithParam<FilletCase> {};
 
 TEST_P(FilletOfHarmonics, has_the_stress_concentration_of_the_elastic_solution) {
   const auto c = GetParam();
@@ -234,7 +236,7 @@ TEST_P(FilletOfHarmonics, has_the_stress_concentration_of_the_elastic_solution) 
       loads.push_back({std::string(end) + std::to_string(int(component)),
                        fem::SurfaceResultant{ports.at(end), component}});
   const auto r = fem::axisymmetric_responses(body, loads);
-  Case peak{c.D, c.r, 0, 0, 0};
+  FilletCase peak{c.D, c.r, 0, 0, 0};
   for (std::size_t f = 0; f < r.nodes.n_faces(); ++f) {
     if (r.nodes.face_boundary_id[f] != body.tori.at(0).boundary_id) continue;
     for (const auto node : r.nodes.face(f)) {

@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "fem/constants.h"
 #include "fem/model.h"
 #include "shaft_bodies.h"
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using fem::pi;
 
 double volume_error(int n_sectors, int degree) {
   auto rod = fem_tests::rod(n_sectors);

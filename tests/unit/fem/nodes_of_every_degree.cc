@@ -12,8 +12,6 @@
 #include "fem/model.h"
 #include "shaft_bodies.h"
 
-namespace {
-
 using fem_tests::steel;
 
 struct EveryDegree : testing::TestWithParam<int> {
@@ -44,6 +42,8 @@ struct EveryDegree : testing::TestWithParam<int> {
     return r;
   }
 };
+
+namespace {
 
 /// Hooke's law for the displacement gradient, VTK's order.
 std::array<double, 6> stress_of(const Eigen::Matrix3d& gradient) {

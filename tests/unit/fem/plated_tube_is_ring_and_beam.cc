@@ -6,12 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/constants.h"
 #include "fem/plated_tube.h"
 
 namespace {
 
+using fem::pi;
 using fem::PlateLoad;
-constexpr double pi = 3.14159265358979323846;
 constexpr fem::Material steel{206e9, 0.3, 7850};
 
 fem::PlatedTube tube(double length_m, double wall_m, const std::vector<fem::TubePlate>& plates) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "fem/constants.h"
 #include "fem/model.h"
 #include "shaft_bodies.h"
 
@@ -12,7 +13,8 @@ namespace {
 
 using Component = fem::SurfaceResultant::Component;
 using Tensor = std::array<double, 6>;
-constexpr double pi = 3.14159265358979323846, radius = 0.025;
+using fem::pi;
+constexpr double radius = 0.025;
 
 struct Rod : testing::Test {
   static void SetUpTestSuite() {

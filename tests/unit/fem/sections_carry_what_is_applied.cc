@@ -4,13 +4,14 @@
 
 #include <cmath>
 
+#include "fem/constants.h"
 #include "fem/model.h"
 #include "shaft_bodies.h"
 
 namespace {
 
 using Component = fem::SurfaceResultant::Component;
-constexpr double pi = 3.14159265358979323846;
+using fem::pi;
 
 struct Sections : testing::Test {
   static void SetUpTestSuite() {

@@ -12,7 +12,7 @@ namespace {
 
 using Component = fem::SurfaceResultant::Component;
 
-std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
+std::vector<fem::UnitLoad> three_loads(const fem_tests::ShaftBody& shaft) {
   std::vector<fem::UnitLoad> loads;
   for (const auto c : {Component::fx, Component::fz, Component::torque})
     for (const auto* port : {"end_1", "end_2"}) loads.push_back(fem_tests::resultant(shaft, port, c));
@@ -22,7 +22,7 @@ std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
 }
 
 fem::UnitResponses solve(const fem_tests::ShaftBody& shaft, const fem::SolverChoice& choice) {
-  return fem::Model(shaft.body).unit_responses(some_loads(shaft), {}, fem::Recovery::patch, {}, choice);
+  return fem::Model(shaft.body).unit_responses(three_loads(shaft), {}, fem::Recovery::patch, {}, choice);
 }
 
 /// Largest difference of a channel's entries over its largest entry; channels without response left out.
@@ -148,7 +148,7 @@ TEST(SolverChoice, follows_prediction_memory_and_kind_of_cell) {
 }
 
 /// One cell of degree 2 with edges 1, 1 and `length`, in a mesh that claims so many nodes.
-fem::Grid one_cell(std::size_t n_nodes, double length) {
+fem::Grid stretched_cell(std::size_t n_nodes, double length) {
   fem::Grid grid;
   grid.n_nodes = n_nodes;
   for (int i = 0; i < 27; ++i) {
@@ -162,7 +162,7 @@ fem::Grid one_cell(std::size_t n_nodes, double length) {
 TEST(SolverChoice, large_bodies_of_compact_cells_are_iterated) {
   const auto steel = fem_tests::steel;
   const auto used = [&](double length) {
-    return fem::choose_solver(one_cell(200000, length), steel, 12, {}, 1e12).used;
+    return fem::choose_solver(stretched_cell(200000, length), steel, 12, {}, 1e12).used;
   };
   EXPECT_EQ(used(2), fem::Solver::iterative);
   EXPECT_EQ(used(1 / 2.0), fem::Solver::iterative);
@@ -171,7 +171,7 @@ TEST(SolverChoice, large_bodies_of_compact_cells_are_iterated) {
 }
 
 TEST(SolverChoice, aspect_is_that_of_the_longest_cell) {
-  EXPECT_DOUBLE_EQ(fem::largest_aspect(one_cell(27, 7)), 7);
+  EXPECT_DOUBLE_EQ(fem::largest_aspect(stretched_cell(27, 7)), 7);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "fem/cell_geometry.h"
 #include "fem/cell_stress_at_node.h"
+#include "fem/constants.h"
 #include "fem/mesh_reader.h"
 #include "fem/model.h"
 #include "fem/rigid_modes.h"
@@ -16,7 +17,7 @@ namespace {
 
 using fem_tests::Point;
 using Component = fem::SurfaceResultant::Component;
-constexpr double pi = 3.14159265358979323846;
+using fem::pi;
 
 /// A .msh in the directory for temporary files, which goes with the object.
 struct MeshFile {

@@ -1,4 +1,5 @@
 #include "kinetics/bearing_life.h"
+#include "kinetics/constants.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ using kinetics::RollingElement;
 
 constexpr auto ball = RollingElement::ball;
 constexpr auto roller = RollingElement::roller;
-const double pi = std::acos(-1.0);
+using kinetics::pi;
 
 // Closed forms; powers and their roots leave a few roundings.
 constexpr double round_off = 1e-14;

@@ -1,4 +1,5 @@
 #include "kinetics/harmonics.h"
+#include "kinetics/constants.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace {
 using Eigen::ArrayXd;
 using kinetics::line_spectrum;
 
-const double pi = std::acos(-1.0);
+using kinetics::pi;
 
 ArrayXd angles(int turns, int n) {
   return ArrayXd::LinSpaced(n, 0, n - 1) * (2 * pi * turns / n);

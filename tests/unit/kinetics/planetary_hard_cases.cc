@@ -15,10 +15,10 @@ using kinetics::PlanetaryMill;
 using kinetics::PlanetaryRatios;
 using machines::effects_without;
 
-const kinetics::TimeGrid one_turn{1, 36};
+const kinetics::TimeGrid a_turn{1, 36};
 
 LoadHistory all_effects(const PlanetaryMill& mill) {
-  return compute_loads(mill, effects_without(mill, {}), one_turn);
+  return compute_loads(mill, effects_without(mill, {}), a_turn);
 }
 
 void expect_finite(const LoadHistory& loads) {
@@ -63,7 +63,7 @@ TEST(PlanetaryHardCases, pulleys_of_one_size_are_no_special_case) {
 // abs in (5) leaves a kink of the slope at c = 1; the signed sine does not.
 TEST(PlanetaryHardCases, signed_belt_angle_has_no_kink) {
   const auto Y = [](double c, PlanetaryConvention convention) {
-    return compute_loads(with_c(c, convention), {"charge_transport", "belt"}, one_turn)
+    return compute_loads(with_c(c, convention), {"charge_transport", "belt"}, a_turn)
         .quantity("Y_A")
         .values[0];
   };
@@ -117,7 +117,7 @@ TEST(PlanetaryHardCases, carrier_that_hardly_turns) {
   mill.speed_rad_s = 1e-9;
   const auto loads = all_effects(mill);
   expect_finite(loads);
-  const auto without_belt = compute_loads(mill, effects_without(mill, {"belt"}), one_turn);
+  const auto without_belt = compute_loads(mill, effects_without(mill, {"belt"}), a_turn);
   const double weight_N = 9.81 * (79.47 + planetary_charge_body(mill).mass_kg);
   EXPECT_LE((without_belt.quantity("R_A").values / weight_N - 1).abs().maxCoeff(), 1e-13);
   EXPECT_GE(loads.quantity("T1").values.minCoeff(), 0);

@@ -5,8 +5,6 @@
 
 namespace machines {
 
-const double pi = std::acos(-1.0);
-
 kinetics::PlanetaryMill printed_planetary() {
   kinetics::PlanetaryMill mill;
   mill.speed_rad_s = 30;

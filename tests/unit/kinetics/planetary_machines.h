@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "kinetics/constants.h"
 #include "kinetics/planetary_mill.h"
 
 namespace machines {
 
-extern const double pi;
+using kinetics::pi;
 
 /// Set B of the documentation: the printed data, buildable; c = 0.5, half full, at 30 rad/s.
 kinetics::PlanetaryMill printed_planetary();

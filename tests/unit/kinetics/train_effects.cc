@@ -3,11 +3,12 @@
 
 #include <cmath>
 
+#include "kinetics/constants.h"
 #include "trains.h"
 
 namespace {
 
-const double pi = std::acos(-1.0);
+using kinetics::pi;
 
 double largest(const Eigen::ArrayXXd& values) {
   return values.abs().maxCoeff();

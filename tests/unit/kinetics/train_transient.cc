@@ -4,11 +4,12 @@
 #include <cmath>
 #include <iostream>
 
+#include "kinetics/constants.h"
 #include "trains.h"
 
 namespace {
 
-const double pi = std::acos(-1.0);
+using kinetics::pi;
 
 /// P19: 2 kg m2 on 800 N m/rad against a held end.
 kinetics::DriveTrain oscillator() {

@@ -13,7 +13,7 @@ using machines::largest;
 
 // All powers are trigonometric polynomials of low degree: equidistant instants over the whole period of 20
 // turns average them exactly, up to round-off of the largest power.
-constexpr double tolerance = 1e-12;
+constexpr double energy_tolerance = 1e-12;
 const kinetics::TimeGrid period{20, 120};
 
 void expect_balance(const kinetics::VibratoryMill& mill, const std::vector<std::string>& without) {
@@ -22,8 +22,8 @@ void expect_balance(const kinetics::VibratoryMill& mill, const std::vector<std::
   const auto& charge = loads.quantity("charge_power").values;
   const auto& damping = loads.quantity("damping_power").values;
   const double scale = std::max({largest(drive), largest(charge), largest(damping)});
-  EXPECT_NEAR(drive.mean(), damping.mean() + charge.mean(), tolerance * scale);
-  EXPECT_GT(damping.minCoeff(), -tolerance * scale);  // a damper takes energy at every instant
+  EXPECT_NEAR(drive.mean(), damping.mean() + charge.mean(), energy_tolerance * scale);
+  EXPECT_GT(damping.minCoeff(), -energy_tolerance * scale);  // a damper takes energy at every instant
   EXPECT_GT(damping.mean(), 1) << "nothing to balance";
 }
 
@@ -50,9 +50,9 @@ TEST(VibratoryEnergy, charge_lag_raises_the_mean_drive_power_by_the_grinding_pow
   const auto without_lag = power_with({"pitch", "charge_follows_pitch", "charge_lag"});
   mill.charge_lag.grinding_power_W = 750;
   const auto with_lag = power_with(held);
-  EXPECT_NEAR(with_lag.mean() - without_lag.mean(), 750, tolerance * largest(with_lag));
+  EXPECT_NEAR(with_lag.mean() - without_lag.mean(), 750, energy_tolerance * largest(with_lag));
 
   // The same by the angle: P = m ecc^2 omega^3 sin(eta).
   mill.charge_lag = {std::asin(750 / (20 * 0.004 * 0.004 * std::pow(151.844, 3))), std::nullopt};
-  EXPECT_LE(largest(power_with(held) - with_lag), tolerance * largest(with_lag));
+  EXPECT_LE(largest(power_with(held) - with_lag), energy_tolerance * largest(with_lag));
 }

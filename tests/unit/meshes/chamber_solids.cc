@@ -1,4 +1,5 @@
 #include "tests/unit/meshes/chamber_solids.h"
+#include "meshes/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@ namespace {
 
 using Corner = std::array<double, 2>;
 
-const double pi = std::acos(-1.0);
+using meshes::pi;
 
 double tube_outer_m(const meshes::Chamber& chamber) {
   return chamber.tube.inner_radius_m + chamber.tube.wall_m;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 
+#include "meshes/constants.h"
 #include "meshes/gmsh_session.h"
 #include "meshes/imported.h"
 #include "tests/unit/meshes/example_shafts.h"
@@ -20,7 +21,7 @@ using meshes::Import;
 using meshes::ImportPort;
 using meshes::Port;
 namespace occ = gmsh::model::occ;
-const double pi = std::acos(-1.0);
+using meshes::pi;
 constexpr int n_around = 10;  // cells: coarse, for speed
 
 /// Runs a construction in a session of its own and writes what it left.

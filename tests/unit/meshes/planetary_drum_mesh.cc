@@ -4,13 +4,14 @@
 #include <map>
 #include <set>
 
+#include "meshes/constants.h"
 #include "tests/unit/meshes/example_shafts.h"
 #include "tests/unit/meshes/mesh_file.h"
 #include "tests/unit/meshes/shaft_volume.h"
 
 namespace {
 
-const double pi = std::acos(-1.0);
+using meshes::pi;
 
 meshes::ShaftMeshControl drum_control() {
   meshes::ShaftMeshControl control;

@@ -12,7 +12,7 @@ namespace {
 using meshes::Chamber;
 using meshes::ChamberMeshControl;
 
-struct Refusal {
+struct RefusedChamber {
   std::string what;
   std::function<void(Chamber&, ChamberMeshControl&)> spoil;
   std::vector<std::string> expected;  ///< parts of the message
@@ -20,7 +20,7 @@ struct Refusal {
 
 const double mm = 1e-3;
 
-std::vector<Refusal> size_refusals() {
+std::vector<RefusedChamber> size_refusals() {
   return {
       {"no radius", [](auto& c, auto&) { c.tube.inner_radius_m = 0; }, {"inner radius = 0 mm", "positive"}},
       {"nan",
@@ -57,7 +57,7 @@ std::vector<Refusal> size_refusals() {
   };
 }
 
-std::vector<Refusal> clearance_refusals() {
+std::vector<RefusedChamber> clearance_refusals() {
   return {
       {"housing in the tube",
        [](auto& c, auto&) { c.tube.axis_x_m = 200 * mm; },
@@ -124,7 +124,7 @@ std::vector<Refusal> clearance_refusals() {
   };
 }
 
-void expect_refused(const std::vector<Refusal>& refusals) {
+void expect_chambers_refused(const std::vector<RefusedChamber>& refusals) {
   for (const auto& refusal : refusals) {
     SCOPED_TRACE(refusal.what);
     Chamber chamber = laboratory_chamber();
@@ -144,11 +144,11 @@ void expect_refused(const std::vector<Refusal>& refusals) {
 }
 
 TEST(RefusedChambers, have_sizes_out_of_range) {
-  expect_refused(size_refusals());
+  expect_chambers_refused(size_refusals());
 }
 
 TEST(RefusedChambers, have_parts_in_each_others_way) {
-  expect_refused(clearance_refusals());
+  expect_chambers_refused(clearance_refusals());
 }
 
 TEST(RefusedChambers, name_the_worst_cell) {

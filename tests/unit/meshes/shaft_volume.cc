@@ -1,10 +1,11 @@
 #include "tests/unit/meshes/shaft_volume.h"
+#include "meshes/constants.h"
 
 #include <cmath>
 
 namespace {
 
-const double pi = std::acos(-1.0);
+using meshes::pi;
 
 /// Adds up cylinders(radius, length) and fillets(small radius, fillet).
 template <typename Cylinder, typename Fillet>

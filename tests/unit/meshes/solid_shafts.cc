@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "meshes/constants.h"
 #include "meshes/solid_shaft.h"
 #include "tests/unit/meshes/example_shafts.h"
 #include "tests/unit/meshes/shaft_volume.h"
@@ -13,8 +14,8 @@
 namespace {
 
 using meshes::Keyway;
+using meshes::pi;
 using meshes::SolidControl;
-const double pi = std::acos(-1.0);
 
 meshes::Shaft keyed_shaft(double bore_m = 0) {
   meshes::Shaft shaft;

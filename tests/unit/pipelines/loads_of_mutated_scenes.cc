@@ -100,9 +100,9 @@ int n_mutations() {
   return text ? std::atoi(text) : 400;
 }
 
-class MutatedScene : public testing::TestWithParam<std::string> {};
-
 }  // namespace
+
+class MutatedScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(MutatedScene, IsRefusedOrHasFiniteLoads) {
   const results_test::Directory directory;

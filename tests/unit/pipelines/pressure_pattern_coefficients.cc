@@ -12,7 +12,7 @@ namespace {
 using pipelines::pattern_coefficient;
 using pipelines::pattern_value;
 using pipelines::PressurePattern;
-using Kind = PressurePattern::Kind;
+using Shape = PressurePattern::Kind;
 
 constexpr double degree = M_PI / 180;
 
@@ -30,7 +30,7 @@ double integral(const std::function<double(double)>& f, double from, double to) 
 }
 
 std::string name_of(const testing::TestParamInfo<PressurePattern>& info) {
-  return std::string(info.param.kind == Kind::cosine ? "cosine" : "uniform") +
+  return std::string(info.param.kind == Shape::cosine ? "cosine" : "uniform") +
          std::to_string(std::lround(info.param.half_angle_rad / degree));
 }
 
@@ -73,19 +73,22 @@ TEST_P(Pattern, TruncationIsWhatTheHarmonicsLeave) {
     kept += std::pow(pattern_coefficient(pattern, n), 2) / (n == 0 ? 1 : 2);
     if (n < 1) continue;
     // A jump's harmonics fall as 1/n: beyond 4096 they hold less than c_0^2 / 4096.
-    const double beyond = pattern.kind == Kind::uniform ? whole / 4096 : 1e-9 * whole;
+    const double beyond = pattern.kind == Shape::uniform ? whole / 4096 : 1e-9 * whole;
     EXPECT_NEAR(std::pow(pipelines::truncation_rms(pattern, n), 2), whole - kept, beyond) << n;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    angles, Pattern,
-    testing::Values(PressurePattern{Kind::cosine, 90 * degree}, PressurePattern{Kind::cosine, 30 * degree},
-                    PressurePattern{Kind::cosine, 60 * degree}, PressurePattern{Kind::cosine, 120 * degree},
-                    PressurePattern{Kind::cosine, 170 * degree}, PressurePattern{Kind::cosine, 180 * degree},
-                    PressurePattern{Kind::uniform, 30 * degree}, PressurePattern{Kind::uniform, 90 * degree},
-                    PressurePattern{Kind::uniform, 150 * degree}),
-    name_of);
+INSTANTIATE_TEST_SUITE_P(angles, Pattern,
+                         testing::Values(PressurePattern{Shape::cosine, 90 * degree},
+                                         PressurePattern{Shape::cosine, 30 * degree},
+                                         PressurePattern{Shape::cosine, 60 * degree},
+                                         PressurePattern{Shape::cosine, 120 * degree},
+                                         PressurePattern{Shape::cosine, 170 * degree},
+                                         PressurePattern{Shape::cosine, 180 * degree},
+                                         PressurePattern{Shape::uniform, 30 * degree},
+                                         PressurePattern{Shape::uniform, 90 * degree},
+                                         PressurePattern{Shape::uniform, 150 * degree}),
+                         name_of);
 
 // coupling.md section 1: p = p0 [1/pi + cos(t)/2 + (2/(3 pi)) cos 2t - (2/(15 pi)) cos 4t + ...].
 TEST(PressurePattern, HalfCosineIsTheTextbooks) {
@@ -99,7 +102,7 @@ TEST(PressurePattern, HalfCosineIsTheTextbooks) {
 
 // A pressure all round, 1 + cos t, has two harmonics and leaves nothing out.
 TEST(PressurePattern, AllRoundHasTwoHarmonics) {
-  const PressurePattern all_round{Kind::cosine, M_PI};
+  const PressurePattern all_round{Shape::cosine, M_PI};
   EXPECT_NEAR(pattern_coefficient(all_round, 0), 1, 1e-14);
   for (int n = 2; n < 9; ++n) EXPECT_EQ(pattern_coefficient(all_round, n), 0) << n;
   EXPECT_EQ(pipelines::truncation_bound(all_round, 4), 0);
@@ -107,15 +110,15 @@ TEST(PressurePattern, AllRoundHasTwoHarmonics) {
 }
 
 TEST(PressurePattern, JumpsHaveNoBound) {
-  EXPECT_TRUE(std::isinf(pipelines::truncation_bound({Kind::uniform, 1}, 64)));
+  EXPECT_TRUE(std::isinf(pipelines::truncation_bound({Shape::uniform, 1}, 64)));
 }
 
 TEST(PressurePattern, RefusesWhatHasNoResultant) {
-  EXPECT_THROW(pattern_coefficient({Kind::cosine, 0}, 2), std::invalid_argument);
-  EXPECT_THROW(pattern_coefficient({Kind::cosine, 3.2}, 2), std::invalid_argument);
-  EXPECT_THROW(pattern_value({Kind::uniform, M_PI}, 0), std::invalid_argument);
+  EXPECT_THROW(pattern_coefficient({Shape::cosine, 0}, 2), std::invalid_argument);
+  EXPECT_THROW(pattern_coefficient({Shape::cosine, 3.2}, 2), std::invalid_argument);
+  EXPECT_THROW(pattern_value({Shape::uniform, M_PI}, 0), std::invalid_argument);
   EXPECT_THROW(pattern_coefficient({}, -1), std::invalid_argument);
-  EXPECT_THROW(pattern_coefficient({Kind::cosine, std::nan("")}, 2), std::invalid_argument);
+  EXPECT_THROW(pattern_coefficient({Shape::cosine, std::nan("")}, 2), std::invalid_argument);
 }
 
 }  // namespace

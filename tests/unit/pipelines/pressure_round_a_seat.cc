@@ -14,7 +14,7 @@ using pipelines::BodyLoads;
 using pipelines::LoadBook;
 using pipelines::LoadedBody;
 
-constexpr double degree = M_PI / 180;
+constexpr double degree_rad = M_PI / 180;
 constexpr int n_directions = 16;
 
 /// A seat and a bore under the same pattern.
@@ -94,7 +94,7 @@ class PressureRound : public testing::TestWithParam<Case> {};
 
 TEST_P(PressureRound, IsTheExactOneButForTheHarmonicsLeftOut) {
   const auto [port, half_angle_deg, highest] = GetParam();
-  const double a = half_angle_deg * degree;
+  const double a = half_angle_deg * degree_rad;
   const bool is_seat = std::string(port) == "outside";
   const auto loaded = body(a, highest);
   const auto loads = loads_at(loaded, port);
@@ -133,8 +133,8 @@ INSTANTIATE_TEST_SUITE_P(ports, PressureRound,
 // Odd harmonics turn over with the port's kind, even ones do not: they must not be left out where the arc is
 // not half the circle.
 TEST(PressureShares, OddHarmonicsExistBesideAHalfCircleOnly) {
-  EXPECT_FALSE(bodies::has(loads_at(body(90 * degree, 5), "outside"), "outside.p3c"));
-  const auto wide = loads_at(body(120 * degree, 5), "outside");
+  EXPECT_FALSE(bodies::has(loads_at(body(90 * degree_rad, 5), "outside"), "outside.p3c"));
+  const auto wide = loads_at(body(120 * degree_rad, 5), "outside");
   EXPECT_TRUE(bodies::has(wide, "outside.p3c"));
   EXPECT_TRUE(bodies::has(wide, "outside.p5s"));
   EXPECT_FALSE(bodies::has(wide, "outside.p6c"));
@@ -143,7 +143,7 @@ TEST(PressureShares, OddHarmonicsExistBesideAHalfCircleOnly) {
 
 // |F| cos(n beta) is not linear in the effects; the shares still add up, and each is F_e . f.
 TEST(PressureShares, AddUpExactly) {
-  const auto loads = loads_at(body(60 * degree, 6), "inside");
+  const auto loads = loads_at(body(60 * degree_rad, 6), "inside");
   const auto& h = loads.history;
   Eigen::ArrayXXd sum = Eigen::ArrayXXd::Zero(h.values.rows(), h.values.cols());
   for (const auto& part : h.by_effect) sum += part;
@@ -159,7 +159,7 @@ TEST(PressureShares, AddUpExactly) {
 
 // Where no force acts there is no direction either: nothing is pushed, nothing is NaN.
 TEST(PressureShares, NoForceNoPressure) {
-  const auto loaded = body(90 * degree, 4);
+  const auto loaded = body(90 * degree_rad, 4);
   Array2Xd f = pointing(directions(), sizes());
   f.col(3).setZero();
   LoadBook book(loaded, {"a"}, n_directions, 1000);

@@ -174,7 +174,7 @@ TEST(SeenPorts, are_pointed_at_inside) {
 }
 
 /// A round bar along z, 1 m long, with ports on its mantle (ids 0 to 3 are its quarters) and at both ends.
-meshes::BodyMesh write_bar(const std::filesystem::path& vtu) {
+meshes::BodyMesh write_bar_with_ports(const std::filesystem::path& vtu) {
   const auto nodes = results_test::mapped_cube(2, 2, 10, [](results_test::Point p) -> results_test::Point {
     const double u = 2 * p[0] - 1, v = 2 * p[1] - 1;
     return {0.1 * u * std::sqrt(1 - v * v / 2), 0.1 * v * std::sqrt(1 - u * u / 2), p[2]};
@@ -210,7 +210,7 @@ double share_of(const std::filesystem::path& png, const Colour& colour) {
 
 TEST(PortPicture, shows_each_port_in_its_colour) {
   const Directory at;
-  write_bar(at / "ports.vtu");
+  write_bar_with_ports(at / "ports.vtu");
   ASSERT_TRUE(write_port_picture(at / "ports.vtu", "A bar", at / "ports.png"))
       << "no EGL: pipelines/setup installs it";
   // Far more than a label's swatch, which has 16 x 16 pixels: 2e-4.
@@ -235,7 +235,7 @@ TEST(PortPicture, tells_what_is_missing) {
 
 TEST(PortPictureDeathTest, without_egl_nothing_is_drawn_and_nothing_ends) {
   const Directory at;
-  write_bar(at / "ports.vtu");
+  write_bar_with_ports(at / "ports.vtu");
   testing::FLAGS_gtest_death_test_style = "threadsafe";  // a fresh process: EGL is found once per process
   EXPECT_EXIT(
       {

@@ -15,7 +15,7 @@ using results_test::Directory;
 namespace {
 
 /// Every field filled with numbers of its own, among them some that only exact storage keeps.
-fem::UnitResponses example() {
+fem::UnitResponses example_responses() {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> number(-1, 1);
   fem::UnitResponses r;
@@ -73,7 +73,7 @@ bool same_bits(const std::vector<Element>& a, const std::vector<Element>& b) {
 
 TEST(ResponseFiles, come_back_bit_for_bit) {
   const Directory at;
-  const auto written = example();
+  const auto written = example_responses();
   write_unit_responses(at / "unit_responses.h5", "key 1", written);
   const auto read = read_unit_responses(at / "unit_responses.h5", "key 1");
   ASSERT_TRUE(read);
@@ -114,8 +114,8 @@ TEST(ResponseFiles, come_back_bit_for_bit) {
 
 TEST(ResponseFiles, two_writes_give_the_same_bytes) {
   const Directory at;
-  write_unit_responses(at / "a.h5", "key", example());
-  write_unit_responses(at / "b.h5", "key", example());
+  write_unit_responses(at / "a.h5", "key", example_responses());
+  write_unit_responses(at / "b.h5", "key", example_responses());
   EXPECT_EQ(bytes(at / "a.h5"), bytes(at / "b.h5"));
 }
 
@@ -158,7 +158,7 @@ TEST(ResponseFiles, what_does_not_fit_counts_as_missing) {
   const Directory at;
   EXPECT_FALSE(read_unit_responses(at / "none.h5", "key"));
   EXPECT_FALSE(read_unit_responses(at.path, "key"));
-  write_unit_responses(at / "r.h5", "key", example());
+  write_unit_responses(at / "r.h5", "key", example_responses());
   EXPECT_TRUE(read_unit_responses(at / "r.h5", "key"));
   EXPECT_FALSE(read_unit_responses(at / "r.h5", "key 2"));
   const std::string whole = bytes(at / "r.h5");
@@ -172,9 +172,9 @@ TEST(ResponseFiles, what_does_not_fit_counts_as_missing) {
 
 TEST(ResponseFiles, sizes_that_do_not_fit_are_refused_and_the_old_file_stays) {
   const Directory at;
-  write_unit_responses(at / "r.h5", "key", example());
+  write_unit_responses(at / "r.h5", "key", example_responses());
   const std::string old = bytes(at / "r.h5");
-  auto wrong = example();
+  auto wrong = example_responses();
   wrong.stress_Pa.pop_back();
   try {
     write_unit_responses(at / "r.h5", "key", wrong);

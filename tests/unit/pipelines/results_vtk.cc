@@ -28,7 +28,7 @@ using results_test::quadratic_map;
 
 namespace {
 
-vtkSmartPointer<vtkUnstructuredGrid> read(const std::filesystem::path& path) {
+vtkSmartPointer<vtkUnstructuredGrid> read_vtk(const std::filesystem::path& path) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -65,7 +65,7 @@ TEST(EnvelopeVtu, vtk_interpolates_the_map_the_nodes_came_from) {
   const int nx = 2, ny = 1, nz = 2;
   const auto nodes = mapped_cube(nx, ny, nz, quadratic_map);
   write_envelope_vtu(at / "e.vtu", nodes, {});
-  const auto grid = read(at / "e.vtu");
+  const auto grid = read_vtk(at / "e.vtu");
   ASSERT_EQ(grid->GetNumberOfCells(), nx * ny * nz);
   ASSERT_EQ(grid->GetNumberOfPoints(), 5 * 3 * 5);
   for (int c = 0; c < nx * ny * nz; ++c) {
@@ -118,7 +118,7 @@ TEST(EnvelopeVtu, cells_have_the_volume_of_the_body) {
   };
   write_envelope_vtu(at / "e.vtu", mapped_cube(1, 8, 1, ring), {});
   // Quadratic arcs of 11 degrees miss the circle by 1e-6 of the radius; straight ones would by 1e-2.
-  EXPECT_NEAR(volume(*read(at / "e.vtu")), 3.0 / 8 * std::acos(-1.), 1e-5);
+  EXPECT_NEAR(volume(*read_vtk(at / "e.vtu")), 3.0 / 8 * std::acos(-1.), 1e-5);
 }
 
 TEST(EnvelopeVtu, fields_come_back_in_the_precision_asked_for) {
@@ -135,7 +135,7 @@ TEST(EnvelopeVtu, fields_come_back_in_the_precision_asked_for) {
     write_envelope_vtu(at / "e.vtu", nodes,
                        {nodal_field("stress [Pa]", stress, 6, {"xx", "yy", "zz", "xy", "yz", "xz"}), exact},
                        {{"zone", zone}, {"cell", cell, IdField::At::cells}}, compression);
-    const auto grid = read(at / "e.vtu");
+    const auto grid = read_vtk(at / "e.vtu");
     auto* points = grid->GetPointData();
     ASSERT_EQ(points->GetNumberOfArrays(), 3);
     auto* read_stress = points->GetArray("stress [Pa]");
@@ -162,7 +162,7 @@ TEST(EnvelopeVtu, fields_beyond_single_precision_are_doubles) {
   for (const double size : {1e-150, 0.0, 1.0, 1e150}) {
     const std::vector<double> values(nodes.n, size);
     write_envelope_vtu(at / "e.vtu", nodes, {nodal_field("load", values)});
-    const auto grid = read(at / "e.vtu");
+    const auto grid = read_vtk(at / "e.vtu");
     auto* array = grid->GetPointData()->GetArray("load");
     ASSERT_NE(array, nullptr);
     EXPECT_EQ(array->GetTuple1(5), size);
@@ -177,7 +177,7 @@ TEST(SurfaceSnapshotVtu, faces_follow_the_map_over_their_own_nodes) {
   std::vector<double> x(nodes.n);
   for (std::size_t i = 0; i < nodes.n; ++i) x[i] = nodes.xyz_m[3 * i];
   write_surface_snapshot_vtu(at / "s.vtu", nodes, {nodal_field("x", x)});
-  const auto grid = read(at / "s.vtu");
+  const auto grid = read_vtk(at / "s.vtu");
   ASSERT_EQ(grid->GetNumberOfCells(), 2 * (nx * ny + ny * nz + nz * nx));
   EXPECT_EQ(grid->GetNumberOfPoints(), 7 * 5 * 5 - 5 * 3 * 3);
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)

@@ -10,7 +10,7 @@ namespace {
 using edited::has_default;
 
 /// Conversions multiply by one factor that is exact to the last digit.
-void expect_same(double value, double expected) {
+void expect_same_number(double value, double expected) {
   EXPECT_NEAR(value, expected, 1e-14 * std::abs(expected));
 }
 
@@ -22,50 +22,50 @@ TEST(SceneChamber, HasTheLaboratorySizes) {
   EXPECT_EQ(body->role, pipelines::BodyRole::chamber);
   EXPECT_EQ(body->shaft(), nullptr);
   const auto& [g, mesh] = std::get<pipelines::ChamberShape>(body->shape);
-  expect_same(g.tube.inner_radius_m, 0.13);
-  expect_same(g.tube.length_m, 0.28);
-  expect_same(g.tube.wall_m, 0.006);
-  expect_same(g.tube.axis_x_m, 0.28);
-  expect_same(g.tube.axis_y_m, 0.04);
-  expect_same(g.flanges.outer_radius_m, 0.175);
-  expect_same(g.flanges.thickness_m, 0.012);
-  expect_same(g.housing.outer_radius_m, 0.065);
-  expect_same(g.housing.bore_radius_m, 0.0475);
-  expect_same(g.housing.length_m, 0.105);
-  expect_same(g.webs.thickness_m, 0.014);
-  expect_same(g.webs.height_m, 0.14);
+  expect_same_number(g.tube.inner_radius_m, 0.13);
+  expect_same_number(g.tube.length_m, 0.28);
+  expect_same_number(g.tube.wall_m, 0.006);
+  expect_same_number(g.tube.axis_x_m, 0.28);
+  expect_same_number(g.tube.axis_y_m, 0.04);
+  expect_same_number(g.flanges.outer_radius_m, 0.175);
+  expect_same_number(g.flanges.thickness_m, 0.012);
+  expect_same_number(g.housing.outer_radius_m, 0.065);
+  expect_same_number(g.housing.bore_radius_m, 0.0475);
+  expect_same_number(g.housing.length_m, 0.105);
+  expect_same_number(g.webs.thickness_m, 0.014);
+  expect_same_number(g.webs.height_m, 0.14);
   ASSERT_EQ(g.webs.z_m.size(), 2u);
-  expect_same(g.webs.z_m[0], -0.045);
-  expect_same(g.webs.z_m[1], 0.045);
-  expect_same(g.lugs.thickness_m, 0.008);
-  expect_same(g.lugs.width_m, 0.04);
-  expect_same(g.lugs.z_m, 0.1);
-  expect_same(g.pads.size_x_m, 0.05);
-  expect_same(g.pads.size_y_m, 0.03);
-  expect_same(g.pads.size_z_m, 0.03);
+  expect_same_number(g.webs.z_m[0], -0.045);
+  expect_same_number(g.webs.z_m[1], 0.045);
+  expect_same_number(g.lugs.thickness_m, 0.008);
+  expect_same_number(g.lugs.width_m, 0.04);
+  expect_same_number(g.lugs.z_m, 0.1);
+  expect_same_number(g.pads.size_x_m, 0.05);
+  expect_same_number(g.pads.size_y_m, 0.03);
+  expect_same_number(g.pads.size_z_m, 0.03);
   ASSERT_EQ(g.feet.size(), 2u);
-  expect_same(g.feet[0].x_m, 0.1);
-  expect_same(g.feet[1].x_m, 0.46);
-  for (const auto& foot : g.feet) expect_same(foot.y_m, -0.18);
+  expect_same_number(g.feet[0].x_m, 0.1);
+  expect_same_number(g.feet[1].x_m, 0.46);
+  for (const auto& foot : g.feet) expect_same_number(foot.y_m, -0.18);
   EXPECT_EQ(mesh.cells_through_wall, 2);
   EXPECT_EQ(mesh.size_m, 0);
 
   EXPECT_EQ(body->material_name, "S235");
-  expect_same(body->yield_strength_Pa, 235e6);
+  expect_same_number(body->yield_strength_Pa, 235e6);
   EXPECT_EQ(body->difference_port, "covers");
   EXPECT_EQ(body->pitch_guide, pipelines::PitchGuide::body);
   EXPECT_FALSE(body->elastic_feet);
   const auto& wall = body->pressures.at("inner_wall");
   EXPECT_EQ(wall.pattern.kind, pipelines::PressurePattern::Kind::cosine);
-  expect_same(wall.pattern.half_angle_rad, M_PI / 2);
+  expect_same_number(wall.pattern.half_angle_rad, M_PI / 2);
   EXPECT_EQ(wall.highest_harmonic, 4);
   EXPECT_EQ(wall.axial_profile, std::vector<double>{1});
   ASSERT_EQ(body->added_masses.size(), 2u);
   const auto &covers = body->added_masses[0], &rings = body->added_masses[1];
   EXPECT_EQ(covers.port, "covers");
   EXPECT_EQ(covers.region, "structure");
-  expect_same(covers.mass_kg, 6.04);
-  expect_same(covers.polar_inertia_kg_m2, 0.0925);
+  expect_same_number(covers.mass_kg, 6.04);
+  expect_same_number(covers.polar_inertia_kg_m2, 0.0925);
   EXPECT_EQ(rings.port, "housing_bore");
   EXPECT_EQ(rings.region, "exciter") << "it rides on the bore";
   EXPECT_TRUE(scene.masses_from_mesh.empty());
@@ -105,17 +105,17 @@ TEST(SceneChamber, TakesItsOptions) {
   EXPECT_EQ(body.pitch_guide, pipelines::PitchGuide::feet);
   EXPECT_TRUE(body.elastic_feet);
   const auto& shape = std::get<pipelines::ChamberShape>(body.shape);
-  expect_same(shape.geometry.tube.inner_radius_m, 0.131);
-  expect_same(shape.geometry.tube.length_m, 0.3);
-  expect_same(shape.mesh.size_m, 0.02);
+  expect_same_number(shape.geometry.tube.inner_radius_m, 0.131);
+  expect_same_number(shape.geometry.tube.length_m, 0.3);
+  expect_same_number(shape.mesh.size_m, 0.02);
   const auto& wall = body.pressures.at("inner_wall");
   EXPECT_EQ(wall.pattern.kind, pipelines::PressurePattern::Kind::uniform);
-  expect_same(wall.pattern.half_angle_rad, M_PI / 3);
+  expect_same_number(wall.pattern.half_angle_rad, M_PI / 3);
   EXPECT_EQ(wall.highest_harmonic, 7);
   EXPECT_EQ(wall.axial_profile, (std::vector<double>{1, 3, 0}));
   EXPECT_EQ(body.added_masses[0].region, "exciter");
-  expect_same(body.added_masses[0].centre_m[0], 0.01);
-  expect_same(body.added_masses[0].centre_m[1], -0.005);
+  expect_same_number(body.added_masses[0].centre_m[0], 0.01);
+  expect_same_number(body.added_masses[0].centre_m[1], -0.005);
 }
 
 // A parabola by straight lines: 1 - s^2 at its points, nothing at the rims.
@@ -142,7 +142,7 @@ TEST(SceneChamber, LeavesMassesToTheMesh) {
   EXPECT_TRUE(has_default(scene, "machine.exciter", "from the mesh"));
   scene = edited::scene("vibratory_mill", {{exciter, ""}});
   EXPECT_EQ(scene.masses_from_mesh, std::vector<std::string>{"exciter"});
-  expect_same(scene.vibratory_mill().structure_mass_kg, 30);
+  expect_same_number(scene.vibratory_mill().structure_mass_kg, 30);
 }
 
 // The chamber needs no [machine.chamber] sizes if it has its own.
@@ -154,8 +154,8 @@ TEST(SceneChamber, HasItsOwnSizesWhereTheMachineHasNone) {
        {"wall = \"6 mm\"", "wall = \"6 mm\"\ninner_radius = \"120 mm\"\nlength = \"0.25 m\""}});
   EXPECT_FALSE(scene.milling_space);
   const auto& shape = std::get<pipelines::ChamberShape>(scene.body("chamber")->shape);
-  expect_same(shape.geometry.tube.inner_radius_m, 0.12);
-  expect_same(shape.geometry.tube.length_m, 0.25);
+  expect_same_number(shape.geometry.tube.inner_radius_m, 0.12);
+  expect_same_number(shape.geometry.tube.length_m, 0.25);
 }
 
 }  // namespace

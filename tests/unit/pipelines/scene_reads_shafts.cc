@@ -11,7 +11,7 @@ using edited::has_default;
 using pipelines::BodyRole;
 using pipelines::Scene;
 
-void expect_same(double value, double expected) {
+void expect_same_size(double value, double expected) {
   EXPECT_NEAR(value, expected, 1e-14 * std::abs(expected));
 }
 
@@ -43,15 +43,15 @@ TEST(SceneDrum, HasSetB) {
     const auto& s = segment(body, e.name);
     EXPECT_NEAR(s.begin_m, e.begin_mm / 1e3, 1e-15) << e.name;  // sums of lengths: rounding of 1 m
     EXPECT_NEAR(s.end_m, e.end_mm / 1e3, 1e-15) << e.name;
-    expect_same(s.diameter_m, e.diameter_mm / 1e3);
-    expect_same(s.bore_m, e.bore_mm / 1e3);
+    expect_same_size(s.diameter_m, e.diameter_mm / 1e3);
+    expect_same_size(s.bore_m, e.bore_mm / 1e3);
     EXPECT_EQ(s.is_port, e.is_port) << e.name;
   }
   EXPECT_EQ(segment(body, "shell").bore_port, "inner_wall");
   EXPECT_EQ(body.shaft()->geometry.fillets_m, (std::vector<double>{0.003, 0.01, 0, 0, 0.01, 0.003, 0.003}));
   EXPECT_EQ(body.difference_port, "pulley_seat");
   ASSERT_EQ(body.added_masses.size(), 1u);
-  expect_same(body.added_masses[0].mass_kg, 21.1);
+  expect_same_size(body.added_masses[0].mass_kg, 21.1);
   EXPECT_EQ(body.added_masses[0].region, "");
   EXPECT_EQ(body.shaft()->mesh.n_sectors, 24);
   EXPECT_TRUE(has_default(scene, "drum.pressure_harmonics", "4"));
@@ -75,7 +75,7 @@ TEST(SceneDrum, BeltWrapsThePulleysSeat) {
                           "harmonics = 9\n\n[[drum.added_masses]]"}});
   const auto& seat = scene.body("drum")->pressures.at("pulley_seat");
   EXPECT_EQ(seat.pattern.kind, pipelines::PressurePattern::Kind::uniform);
-  expect_same(seat.pattern.half_angle_rad, 80 * M_PI / 180);
+  expect_same_size(seat.pattern.half_angle_rad, 80 * M_PI / 180);
   EXPECT_EQ(seat.highest_harmonic, 9);
 }
 
@@ -83,12 +83,12 @@ TEST(SceneAxle, HasTheStub) {
   const Scene scene = edited::scene("stub_axle", {});
   const auto& body = *scene.body("axle");
   EXPECT_EQ(body.role, BodyRole::stub_axle);
-  expect_same(body.stub_axle.bearing_span_m, 1.12);
-  expect_same(body.stub_axle.pulley_plane_m, 0.629);
-  expect_same(body.stub_axle.pulley_mass_kg, 21.1);
+  expect_same_size(body.stub_axle.bearing_span_m, 1.12);
+  expect_same_size(body.stub_axle.pulley_plane_m, 0.629);
+  expect_same_size(body.stub_axle.pulley_mass_kg, 21.1);
   EXPECT_FALSE(body.stub_axle.pulley_side) << "the plain side carries more";
   EXPECT_EQ(body.shaft()->geometry.segments.front().begin_m, 0) << "from the clamped end";
-  expect_same(segment(body, "bearing").end_m, 0.13);
+  expect_same_size(segment(body, "bearing").end_m, 0.13);
   EXPECT_TRUE(has_default(scene, "axle.begin", "0 m"));
   EXPECT_TRUE(body.added_masses.empty());
   const auto of_kinetics = scene.kinetics_effects();
@@ -122,7 +122,7 @@ TEST(SceneTrainShaft, HasThePeelers) {
   EXPECT_EQ(train.forces[2].force_N, (std::array<double, 3>{0, 0, -118}));
   EXPECT_TRUE(has_default(scene, "shaft.forces[1].turns_with_shaft", "false"));
   EXPECT_EQ(scene.masses_from_mesh, std::vector<std::string>{"working_shaft"});
-  expect_same(segment(body, "disc_seat").end_m, 0.184);
+  expect_same_size(segment(body, "disc_seat").end_m, 0.184);
   // Its own effects and its forces are no business of the train.
   EXPECT_EQ(scene.kinetics_effects(), (std::vector<std::string>{"motor_torque", "peeling_torque"}));
 }
@@ -178,9 +178,9 @@ TEST(ScenePart, TakesAnyPortAndItsSupports) {
   EXPECT_EQ(body.table.bearings, (std::vector<std::string>{"bearing_1", "bearing_2"}));
   EXPECT_EQ(body.table.axial_support, "end_1");
   EXPECT_EQ(body.table.torque_support, "bearing_2");
-  expect_same(body.shaft()->geometry.segments.front().begin_m, -0.02);
+  expect_same_size(body.shaft()->geometry.segments.front().begin_m, -0.02);
   EXPECT_EQ(segment(body, "pulley_seat").bore_port, "inside");
-  expect_same(body.shaft()->mesh.largest_cell_m, 0.005);
+  expect_same_size(body.shaft()->mesh.largest_cell_m, 0.005);
   EXPECT_EQ(body.difference_port, "") << "a table has no masses of its own";
 }
 

@@ -12,10 +12,12 @@
 
 #include "pipelines/scene.h"
 #include "pipelines/scene_machine.h"
+#include "tests/unit/pipelines/edited_scene.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using edited::has_default;
 using pipelines::Scene;
 
 const fs::path default_scene = fs::path(SOURCE_DIR) / "pipelines/scenes/vibratory_mill.toml";
@@ -44,11 +46,6 @@ Scene read_without(const std::vector<std::string>& words) {
   const Scene scene = pipelines::read_scene(file);
   fs::remove_all(file.parent_path());
   return scene;
-}
-
-bool has_default(const Scene& scene, const std::string& key, const std::string& value) {
-  return std::any_of(scene.defaults.begin(), scene.defaults.end(),
-                     [&](const auto& d) { return d.key == key && d.value == value && !d.reason.empty(); });
 }
 
 TEST(default_scene, has_the_laboratory_mill) {

@@ -12,13 +12,13 @@ namespace {
 using pipelines::Stress;
 
 /// Two nodes, two channels, three instants, two effects.
-struct Problem {
+struct SizedProblem {
   pipelines::ChannelHistory loads;
   fem::UnitResponses responses;
 };
 
-Problem problem(double size) {
-  Problem p;
+SizedProblem problem(double size) {
+  SizedProblem p;
   p.loads.channels = {{"a.fx", "N"}, {"a.fy", "N"}};
   p.responses.channels = {"a.fx", "a.fy"};
   p.responses.nodes.n = 2;
