@@ -95,6 +95,23 @@ double ring_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads) {
   return largest_Pa;
 }
 
+double spin_stress_Pa(const fem::BeamShaft& shaft, const fem::Material& material, const BodyLoads& loads) {
+  const double nu = material.poisson_ratio / (1 - material.poisson_ratio);
+  double per_rad2_s2 = 0;
+  for (const auto& s : shaft.segments) {
+    const double a = s.bore_radius_m, b = s.radius_m;
+    const double squares = a > 0 ? ((3 + nu) * b * b + (1 - nu) * a * a) / 4 : (3 + nu) * b * b / 8;
+    per_rad2_s2 = std::max(per_rad2_s2, material.density_kg_m3 * squares);
+  }
+  double largest_rad2_s2 = 0;
+  for (std::size_t k = 0; k < loads.unit_loads.size(); ++k) {
+    const auto* force = std::get_if<fem::BodyForce>(&loads.unit_loads[k].shape);
+    if (force == nullptr || force->field != fem::BodyForce::Field::spin) continue;
+    largest_rad2_s2 = std::max(largest_rad2_s2, loads.history.values.row(Eigen::Index(k)).maxCoeff());
+  }
+  return per_rad2_s2 * largest_rad2_s2;
+}
+
 std::optional<AxisymmetricRung> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
                                                        const std::vector<fem::UnitLoad>& loads) {
   const auto beam = beam_shaft(body, mesh);

@@ -70,15 +70,18 @@ Refinement refine_chamber(BodyScene& body, const BodyAnalysis& analysis) {
   return {true, true, toe_step, toe_order};
 }
 
-Refinement refine_shaft(BodyScene& body, const BodyAnalysis& analysis, bool stalled) {
+Refinement refine_shaft(BodyScene& body, const BodyAnalysis& analysis, const Remainders& known) {
   auto& mesh = std::get<ShaftShape>(body.shape).mesh;
   const bool on_fillet = analysis.peak.feature.rfind("fillet ", 0) == 0;
   const auto leading = fillets_that_may_lead(analysis, analysis.peak.value_Pa);
-  if (!on_fillet || stalled || leading.empty()) {
+  const bool can_be_finer = std::any_of(leading.begin(), leading.end(), [&](std::size_t f) {
+    return next_cells(mesh.cells_at(int(f))) > mesh.cells_at(int(f));
+  });
+  if (!on_fillet || !can_be_finer || known.next() == MeshPart::around) {
     mesh.n_sectors = with_fineness(body, step_factor).shaft()->mesh.n_sectors;
     mesh.growth /= step_factor;
     mesh.largest_cell_m /= step_factor;
-    return {true, true, step_factor};
+    return {true, true, step_factor, 2, MeshPart::around};
   }
   mesh.fillet_cells.resize(fillets_of(body).size(), 0);
   double ratio = 1;
@@ -87,7 +90,7 @@ Refinement refine_shaft(BodyScene& body, const BodyAnalysis& analysis, bool stal
     mesh.fillet_cells[f] = after;
     ratio = std::max(ratio, double(after) / before);
   }
-  return {ratio > 1, true, ratio};
+  return {true, true, ratio, 2, MeshPart::fillets};
 }
 
 /// Mean edge of the cells around a node.
@@ -127,6 +130,24 @@ GoverningStress governing_stress(const BodyAnalysis& analysis) {
   return {"hot-spot stress", spot.name, spot.von_mises_Pa, analysis.hot_spot_errors};
 }
 
+void Remainders::learn(MeshPart part, double missing_Pa) {
+  if (part == MeshPart::fillets) {
+    fillets_Pa = missing_Pa;
+    ++n_fillet_steps;
+  }
+  if (part == MeshPart::around) around_Pa = missing_Pa;
+}
+
+double Remainders::of_others(MeshPart part) const {
+  if (part == MeshPart::fillets) return around_Pa.value_or(0);
+  return part == MeshPart::around ? fillets_Pa.value_or(0) : 0;
+}
+
+MeshPart Remainders::next() const {
+  if (n_fillet_steps < 2) return MeshPart::fillets;
+  return !around_Pa || *around_Pa > *fillets_Pa ? MeshPart::around : MeshPart::fillets;
+}
+
 BodyScene coarsest(const BodyScene& body) {
   BodyScene result = body;
   auto* shaft = std::get_if<ShaftShape>(&result.shape);
@@ -137,7 +158,7 @@ BodyScene coarsest(const BodyScene& body) {
   return result;
 }
 
-Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis, bool stalled) {
+Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis, const Remainders& known) {
   BodyScene& body = scene.bodies[index];
   const auto ledger = governing_stress(analysis).errors;
   const double discretisation = ledger.of("discretisation") + ledger.of("geometry");
@@ -155,7 +176,7 @@ Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis,
   }
   if (discretisation < largest) return {possible, false, 1};
   const auto* shaft = body.shaft();
-  if (shaft != nullptr && shaft->keyways.empty()) return refine_shaft(body, analysis, stalled);
+  if (shaft != nullptr && shaft->keyways.empty()) return refine_shaft(body, analysis, known);
   if (std::holds_alternative<ChamberShape>(body.shape)) return refine_chamber(body, analysis);
   return refine_solid(body, analysis);
 }
@@ -175,15 +196,17 @@ void keep_discretisation(ErrorLedger& ledger, const ErrorLedger& before) {
     if (entry.source == "discretisation") ledger.set_numerical(entry);
 }
 
-void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes, double order) {
-  if (!(ratio > 1)) return;
-  const double missing_Pa = std::abs(change_Pa) / (std::pow(ratio, order) - 1);
+double learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes, double order,
+                         double others_Pa) {
+  if (!(ratio > 1)) return 0;
+  const double told_Pa = std::abs(change_Pa) / (std::pow(ratio, order) - 1), missing_Pa = told_Pa + others_Pa;
   const double share = n_meshes <= 2 ? 1 : 0.5;
   const double own_Pa = share * ledger.of("discretisation") / discretisation_safety;
   if (missing_Pa > own_Pa)
-    ledger.set_numerical(
-        {"discretisation",
-         fmt::format("change from the coarser mesh over (ratio of cell sizes)^{} - 1", order), missing_Pa});
+    ledger.set_numerical({"discretisation",
+                          fmt::format("change from the coarser mesh over (ratio of cell sizes)^{} - 1{}",
+                                      order, others_Pa > 0 ? ", on the fillets and around" : ""),
+                          missing_Pa});
   else
     ledger.set_numerical(
         {"discretisation",
@@ -191,6 +214,7 @@ void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int 
              "recovered stress against single cells around: the change from the coarser mesh is "
              "smaller",
          own_Pa});
+  return told_Pa;
 }
 
 }  // namespace pipelines

@@ -2,6 +2,7 @@
 /// refined, everything else stays coarse.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +24,29 @@ struct GoverningStress {
 };
 GoverningStress governing_stress(const BodyAnalysis& analysis);
 
+/// What of a mesh a step makes finer.
+enum class MeshPart { all, fillets, around };
+
+/// What is missing still of a shaft's stress for want of cells on its fillets, and of cells around and along
+/// it: each as its own last change has told.
+struct Remainders {
+  std::optional<double> fillets_Pa, around_Pa;
+  int n_fillet_steps = 0;  ///< in which cells of fillets became smaller
+
+  void learn(MeshPart part, double missing_Pa);
+  /// Of the other parts than that one; 0 where nothing is known.
+  double of_others(MeshPart part) const;
+  /// What is worth a step: fillets for two steps, then what is around them once, then what has more missing.
+  MeshPart next() const;
+};
+
 /// What the next step changes.
 struct Refinement {
   bool possible = false;
   bool new_mesh = false;
   double ratio = 1;  ///< of cell sizes at the governing place, before : after
   double order = 2;  ///< at least, with which the governing stress converges with that size
+  MeshPart part = MeshPart::all;
 };
 
 /// The coarsest mesh that a search begins with: 2 cells on every fillet quarter and 8 sectors; cells half as
@@ -43,8 +61,7 @@ BodyScene coarsest(const BodyScene& body);
 /// r^(lambda - 1), and what that does to places further away falls like h^(2 lambda), lambda = 0.544. Bodies
 /// of tetrahedra get a fine spot at the peak. The sequence of meshes does not depend on a tolerance, so that
 /// a stricter one never costs less.
-/// @param stalled  the last step of this kind brought less than a quarter
-Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, bool stalled);
+Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, const Remainders& known);
 
 /// Whether a stress keeps growing like a power of the cell size: over the last two refinements its exponent,
 /// ln(v2 / v1) / ln(ratio), has fallen by less than a quarter and is above 0.1. That of a stress that
@@ -62,7 +79,9 @@ void keep_discretisation(ErrorLedger& ledger, const ErrorLedger& before);
 /// discretisation entry becomes that, or a share of what single cells differ by if that is more: two meshes
 /// may agree by chance, each further one makes that less likely.
 /// @param n_meshes  tried so far: all of what single cells differ by for two, half beyond
-void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3,
-                       double order = 2);
+/// @param others_Pa  missing for want of other things than those that became smaller: added
+/// @return what is missing as the change tells it, without that
+double learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3,
+                         double order = 2, double others_Pa = 0);
 
 }  // namespace pipelines

@@ -152,8 +152,10 @@ private:
     auto step_start = Clock::now();
     BodyAnalysis analysis = analyse(i);
     double ratio = 1, order = 2, before_Pa = 0;
-    bool stalled = false, new_mesh = true;
+    bool new_mesh = true;
     int n_meshes = 1;
+    MeshPart part = MeshPart::all;
+    Remainders known;
     PeakGrowth growth;
     while (true) {
       const bool elsewhere = growth.at(analysis, ratio);
@@ -162,7 +164,8 @@ private:
       if (!search.steps.empty() && !new_mesh && !elsewhere)
         keep_discretisation(stress.errors, search.steps.back().errors);
       else if (!search.steps.empty())
-        learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio, ++n_meshes, order);
+        known.learn(part, learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio, ++n_meshes,
+                                            order, known.of_others(part)));
       set_errors(analysis, stress.errors);
       const double seconds = seconds_since(step_start);
       search.quantity = stress.name;
@@ -173,7 +176,7 @@ private:
       step_start = Clock::now();
       before_Pa = stress.value_Pa;
       Scene next = run_.scene;
-      const auto refinement = refine(next, i, analysis, stalled);
+      const auto refinement = refine(next, i, analysis, known);
       if (!refinement.possible) {
         search.ended = "the mesh cannot be refined further";
         break;
@@ -181,10 +184,8 @@ private:
       ratio = refinement.ratio;
       order = refinement.order;
       new_mesh = refinement.new_mesh;
-      const double error_before_Pa = stress.errors.numerical_Pa();
+      part = refinement.part;
       if (!take(std::move(next), i, refinement, search, analysis, seconds)) break;
-      const auto changed = governing_stress(analysis).errors.numerical_Pa();
-      stalled = refinement.new_mesh && changed > 0.75 * error_before_Pa;
     }
     search.met = search.tolerance == 0 || governing_stress(analysis).relative_error() <= search.tolerance;
     analysis.search = std::move(search);

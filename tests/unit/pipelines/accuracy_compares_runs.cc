@@ -70,8 +70,8 @@ TEST(CompareRuns, NothingWithinTheToleranceIsSaid) {
   EXPECT_THROW(compare_runs(none, 1), std::runtime_error);
 }
 
-// A run stops at the first step whose own estimate is within the tolerance, however close it is by luck; other
-// rungs are no steps of it.
+// A run stops at the first step whose own estimate is within the tolerance, however close it is by luck;
+// other rungs are no steps of it.
 TEST(AccuracyReport, TellsWhereTolerancesEnd) {
   AccuracyStudy study;
   study.rows = {row("refined mesh", 3, 99, 6), row("refined mesh", 7, 103, 4), row("even mesh", 1, 100, 0.1),

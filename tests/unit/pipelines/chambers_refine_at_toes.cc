@@ -31,7 +31,7 @@ TEST(Refine, AChamberWhereItsHotSpotsFeelIt) {
   double finest = mesh_of(scene.bodies[chamber]).toe_walls;
   for (int step = 0; step < 4; ++step) {
     const auto before = mesh_of(scene.bodies[chamber]);
-    const auto refinement = refine(scene, chamber, analysis, false);
+    const auto refinement = refine(scene, chamber, analysis, {});
     const auto& after = mesh_of(scene.bodies[chamber]);
     EXPECT_TRUE(refinement.possible && refinement.new_mesh);
     EXPECT_EQ(refinement.ratio, 2);
@@ -63,11 +63,11 @@ TEST(Refine, AChambersToesKeepTheirCells) {
   analysis.hot_spots[0].toe_m = {0.1, 0, 0};
   analysis.hot_spots[1].von_mises_Pa = 20e6;
   analysis.hot_spots[1].toe_m = {0.2, 0, 0};
-  refine(scene, chamber, analysis, false);
+  refine(scene, chamber, analysis, {});
   const double once = mesh_of(scene.bodies[chamber]).fine_toes.at(0).walls;
   const double others = mesh_of(scene.bodies[chamber]).toe_walls;
   std::swap(analysis.hot_spots[0].toe_m, analysis.hot_spots[1].toe_m);
-  refine(scene, chamber, analysis, false);
+  refine(scene, chamber, analysis, {});
   const auto& toes = mesh_of(scene.bodies[chamber]).fine_toes;
   ASSERT_EQ(toes.size(), 2U);
   EXPECT_EQ(toes[0].walls, once);

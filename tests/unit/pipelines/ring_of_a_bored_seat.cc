@@ -44,3 +44,25 @@ TEST(RingOfASeat, GoesOvalByRoark) {
   EXPECT_NEAR(pipelines::ring_stress_Pa(shaft(bore), loads), second, 1e-12 * second);
   EXPECT_EQ(pipelines::ring_stress_Pa(shaft(0), loads), 0);  // solid
 }
+
+// By hand, with nu / (1 - nu) = 3 / 7 in the thin disc's formulas; a hollow shaft has twice as much at a
+// small bore as a solid one in its middle. Other channels do not count.
+TEST(SpinOfAShaft, IsThatOfALongCylinder) {
+  pipelines::BodyLoads loads;
+  loads.unit_loads = {{"volume.spin", fem::BodyForce{fem::BodyForce::Field::spin}},
+                      {"volume.ax", fem::BodyForce{}}};
+  loads.history.values.resize(2, 2);
+  loads.history.values << 100, 400,  //
+      1e9, 1e9;
+  fem::Material steel{206e9, 0.3, 7850};
+  const double nu = 0.3 / 0.7;
+  const double hollow = 7850 * 400 * ((3 + nu) * 0.05 * 0.05 + (1 - nu) * 0.02 * 0.02) / 4;
+  auto one = shaft(0.02);
+  for (auto& segment : one.segments) segment.radius_m = 0.05;
+  EXPECT_NEAR(pipelines::spin_stress_Pa(one, steel, loads), hollow, 1e-12 * hollow);
+  for (auto& segment : one.segments) segment.bore_radius_m = 0;
+  const double solid = 7850 * 400 * (3 + nu) * 0.05 * 0.05 / 8;
+  EXPECT_NEAR(pipelines::spin_stress_Pa(one, steel, loads), solid, 1e-12 * solid);
+  loads.history.values.row(0).setZero();
+  EXPECT_EQ(pipelines::spin_stress_Pa(one, steel, loads), 0);
+}
