@@ -81,8 +81,8 @@ struct FineToe {
 };
 
 struct ChamberMeshControl {
-  int cells_through_wall =
-      2;                   ///< thinner towards the outside where toe cells are small, at most twice a cell
+  /// Thinner towards the outside where toe cells are small, each at most twice the one outside it.
+  int cells_through_wall = 2;
   double size_m = 0;       ///< of cells away from weld toes; 0: 0.15 of the tube's outer radius
   double growth = 0.7;     ///< slope of the cell size away from the weld toes
   double toe_walls = 0.6;  ///< size of the cells at the weld toes, in walls of the tube
