@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -11,7 +10,7 @@
 namespace pipelines {
 namespace {
 
-/// Time factors in the kernel's order, padded with zero load: n_blocks x K x block.
+/// Time factors in the kernel's order, padded with the last instant: n_blocks x K x block.
 struct PackedFactors {
   std::size_t n_channels, n_instants, n_blocks;
   std::vector<double> values;
@@ -20,13 +19,39 @@ struct PackedFactors {
       : n_channels(std::size_t(loads.values.rows())),
         n_instants(std::size_t(loads.values.cols())),
         n_blocks((n_instants + kernel::block - 1) / kernel::block),
-        values(n_blocks * n_channels * kernel::block, 0.0) {
-    for (std::size_t i = 0; i < n_instants; ++i)
+        values(n_blocks * n_channels * kernel::block) {
+    for (std::size_t i = 0; i < n_blocks * kernel::block; ++i)
       for (std::size_t k = 0; k < n_channels; ++k)
         values[((i / kernel::block) * n_channels + k) * kernel::block + i % kernel::block] =
-            loads.values(Eigen::Index(k), Eigen::Index(i));
+            loads.values(Eigen::Index(k), Eigen::Index(std::min(i, n_instants - 1)));
   }
 };
+
+/// cos(acos(c) / 3) = cos(2/3 acos(s)) with s = sqrt((1 + c) / 2) is analytic but at s = -1: its Chebyshev
+/// series over s in [0, 1], t = 2 s - 1, falls by six with each term and is 1e-15 exact; in powers of t,
+/// whose coefficients fall as well, nothing cancels.
+std::array<double, kernel::n_lode_terms> lode_polynomial() {
+  constexpr std::size_t n = kernel::n_lode_terms, n_points = 64;
+  std::array<double, n> powers{}, before{}, chebyshev{};  // of T_(k-1) and of T_k
+  chebyshev[0] = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    double coefficient = 0;
+    for (std::size_t j = 0; j < n_points; ++j) {
+      const double angle = M_PI * (double(j) + 0.5) / double(n_points);
+      coefficient +=
+          std::cos(2.0 / 3.0 * std::acos(0.5 + 0.5 * std::cos(angle))) * std::cos(double(k) * angle);
+    }
+    coefficient *= (k == 0 ? 1.0 : 2.0) / double(n_points);
+    std::array<double, n> next{};  // T_(k+1) = 2 t T_k - T_(k-1), T_1 = t
+    for (std::size_t i = 0; i < n; ++i) {
+      powers[i] += coefficient * chebyshev[i];
+      next[i] = (i > 0 ? (k == 0 ? 1.0 : 2.0) * chebyshev[i - 1] : 0.0) - before[i];
+    }
+    before = chebyshev;
+    chebyshev = next;
+  }
+  return powers;
+}
 
 /// The unit stresses of a node, K x 6.
 const double* unit_stress(const fem::UnitResponses& responses, std::size_t node) {
@@ -38,52 +63,6 @@ Stress combine(const double* unit, const Eigen::ArrayXXd& factors, Eigen::Index 
   for (Eigen::Index k = 0; k < factors.rows(); ++k)
     for (std::size_t c = 0; c < 6; ++c) s[c] += factors(k, instant) * unit[6 * std::size_t(k) + c];
   return s;
-}
-
-/// Stress of a node over one block of instants: six components of `block` values.
-std::array<std::array<double, kernel::block>, 6> stress_of_block(const double* unit,
-                                                                 const PackedFactors& factors,
-                                                                 std::size_t b) {
-  std::array<std::array<double, kernel::block>, 6> stress{};
-  const double* a = factors.values.data() + b * factors.n_channels * kernel::block;
-  for (std::size_t k = 0; k < factors.n_channels; ++k, a += kernel::block, unit += 6)
-    for (std::size_t c = 0; c < 6; ++c)
-      for (std::size_t i = 0; i < kernel::block; ++i) stress[c][i] += unit[c] * a[i];
-  return stress;
-}
-
-/// Largest principal stress over the cycle, best-first: blocks in descending order of their bound until the
-/// bound of the next one cannot beat what has been found.
-void find_principal(const double* unit, const PackedFactors& factors, const double* bounds,
-                    std::size_t n_blocks, std::vector<std::size_t>& order, double& value,
-                    std::int32_t& instant, Stress& tensor) {
-  order.resize(n_blocks);
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  const auto by_bound = [&](std::size_t a, std::size_t b) {
-    return bounds[a] < bounds[b] || (bounds[a] == bounds[b] && a > b);
-  };
-  std::make_heap(order.begin(), order.end(), by_bound);
-  value = -HUGE_VAL;
-  while (!order.empty()) {
-    std::pop_heap(order.begin(), order.end(), by_bound);
-    const std::size_t b = order.back();
-    order.pop_back();
-    // The bound holds up to rounding; the slack keeps a tie from being lost.
-    if (bounds[b] < value - 1e-12 * std::abs(value)) break;
-    const auto stress = stress_of_block(unit, factors, b);
-    for (std::size_t i = 0; i < kernel::block && b * kernel::block + i < factors.n_instants; ++i) {
-      const Stress s{stress[0][i], stress[1][i], stress[2][i], stress[3][i], stress[4][i], stress[5][i]};
-      const double mean = (s[0] + s[1] + s[2]) / 3;
-      if (mean + 2.0 / 3.0 * von_mises_Pa(s) < value - 1e-12 * std::abs(value)) continue;
-      const double principal = largest_principal_Pa(s);
-      const auto at = std::int32_t(b * kernel::block + i);
-      if (principal > value || (principal == value && at < instant)) {
-        value = principal;
-        instant = at;
-        tensor = s;
-      }
-    }
-  }
 }
 
 /// Shares of the effects in the von Mises stress of a node at one instant.
@@ -194,26 +173,26 @@ Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& respons
   result.effect_share.assign(n_nodes * n_effects, 0.0);
 
   kernel::Walk& walk = kernel::walk_for_this_machine();
+  static const auto lode = lode_polynomial();
   const auto work = [&](std::size_t begin, std::size_t end) {
-    std::vector<double> bounds(kernel::batch * factors.n_blocks);
     std::array<kernel::NodeMaximum, kernel::batch> found;
-    std::vector<std::size_t> order;
     for (std::size_t first = begin; first < end; first += kernel::batch) {
       const std::size_t n = std::min(kernel::batch, end - first);
       walk(unit_stress(responses, first), n, factors.n_channels, factors.values.data(), factors.n_blocks,
-           found.data(), bounds.data());
+           lode.data(), found.data());
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t node = first + i;
         const double* unit = unit_stress(responses, node);
-        const auto instant = std::min(found[i].instant, long(factors.n_instants) - 1);
-        const Stress stress = combine(unit, loads.values, instant);
-        result.von_mises.instant[node] = std::int32_t(instant);
-        result.von_mises.stress_Pa[node] = stress;
-        result.von_mises.value_Pa[node] = von_mises_Pa(stress);
-        find_principal(unit, factors, bounds.data() + i * factors.n_blocks, factors.n_blocks, order,
-                       result.principal.value_Pa[node], result.principal.instant[node],
-                       result.principal.stress_Pa[node]);
-        find_shares(unit, loads, stress, instant, result.effect_share.data() + node * n_effects);
+        const auto keep = [&](NodalMaximum& maximum, Eigen::Index instant, auto&& measure) {
+          const Stress stress = combine(unit, loads.values, instant);
+          maximum.instant[node] = std::int32_t(instant);
+          maximum.stress_Pa[node] = stress;
+          maximum.value_Pa[node] = measure(stress);
+        };
+        keep(result.von_mises, found[i].von_mises_instant, von_mises_Pa);
+        keep(result.principal, found[i].principal_instant, largest_principal_Pa);
+        find_shares(unit, loads, result.von_mises.stress_Pa[node], found[i].von_mises_instant,
+                    result.effect_share.data() + node * n_effects);
       }
     }
   };

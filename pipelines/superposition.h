@@ -43,8 +43,8 @@ Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& load
 ///
 /// An effect's share is 3/2 sigma_e : s / sigma_v^2 with s the deviator of the whole stress: it adds up to
 /// one over the effects, is negative for an effect that relieves the place, and is zero where nothing is
-/// stressed. The principal stress is exact at every instant that can hold the maximum: instants are ruled out
-/// by the bound sigma_1 <= mean + 2/3 sigma_v.
+/// stressed. The walk compares all instants to rounding; of equal ones the first counts. What is kept is
+/// computed once more from the stress of that instant.
 /// @throws std::invalid_argument if the channels of the two do not agree
 Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& responses, int n_threads);
 

@@ -21,40 +21,74 @@ using Indices = long __attribute__((vector_size(8 * n_lanes)));
 constexpr std::size_t n_registers = 2, group = n_registers * n_lanes;
 static_assert(block % group == 0);
 
+/// Of each lane the largest value so far, and in which group of instants it was first.
 struct Best {
   Lanes value[n_registers];
   Indices group[n_registers];
+
+  void start(double below_all) {
+    for (std::size_t r = 0; r < n_registers; ++r) {
+      value[r] = Lanes{} + below_all;
+      group[r] = Indices{};
+    }
+  }
+  void take(std::size_t r, Lanes candidate, long of_group) {
+    const auto larger = candidate > value[r];
+    value[r] = larger ? candidate : value[r];
+    group[r] = larger ? Indices{} + of_group : group[r];
+  }
+  void largest(double& largest, long& instant) const {
+    largest = value[0][0];
+    instant = instant_of(0, 0);
+    for (std::size_t r = 0; r < n_registers; ++r)
+      for (std::size_t i = 0; i < n_lanes; ++i)
+        if (value[r][i] > largest || (value[r][i] == largest && instant_of(r, i) < instant)) {
+          largest = value[r][i];
+          instant = instant_of(r, i);
+        }
+  }
+
+private:
+  long instant_of(std::size_t r, std::size_t i) const {
+    return group[r][i] * long(n_registers * n_lanes) + long(r * n_lanes + i);
+  }
 };
 
 /// Keeps the quotient of an unstressed place from being 0/0; far below the cube of any stress that counts.
 constexpr double smallest = 1e-280;
 
-/// Not less than cos(acos(c) / 3) for c in [-1, 1], and at most 3 % above it. As a function of c it is
-/// concave, so that each of its tangents lies above it; f is where the tangent touches, c = 4 f^3 - 3 f.
-inline Lanes lode_bound(Lanes c) {
-  Lanes least = Lanes{} + 1.0;
-  constexpr double touches[] = {0.97, 0.88, 0.75, 0.62, 0.53}, round_off = 1e-12;
-#pragma GCC unroll 5
-  for (const double f : touches) {
-    const Lanes tangent = (c - (4 * f * f * f - 3 * f)) * (1 / (12 * f * f - 3)) + (f + round_off);
-    least = tangent < least ? tangent : least;
+inline Lanes square_root(Lanes x) {
+  Lanes root;
+  for (std::size_t i = 0; i < n_lanes; ++i) root[i] = __builtin_sqrt(x[i]);
+  return root;
+}
+
+/// cos(acos(c) / 3) for c in [-1, 1]; rounding may have left the interval.
+inline Lanes lode_cosine(Lanes c, const double* term) {
+  c = c > -1.0 ? c : Lanes{} - 1.0;
+  c = c < 1.0 ? c : Lanes{} + 1.0;
+  const Lanes t = 2.0 * square_root(0.5 + 0.5 * c) - 1.0, square = t * t;
+  Lanes even = Lanes{} + term[n_lode_terms - 1], odd = Lanes{} + term[n_lode_terms - 2];
+#pragma GCC unroll 8
+  for (std::size_t k = n_lode_terms - 3; k > 1; k -= 2) {
+    even = even * square + term[k];
+    odd = odd * square + term[k - 1];
   }
-  return least;
+  even = even * square + term[0];
+  return even + t * odd;
 }
 
 }  // namespace
 
 void walk(const double* unit_stress, std::size_t n_nodes, std::size_t n_channels, const double* factors,
-          std::size_t n_blocks, NodeMaximum* maximum, double* block_bound) {
-  Best best[batch];
-  for (std::size_t node = 0; node < n_nodes; ++node)
-    for (std::size_t r = 0; r < n_registers; ++r) {
-      best[node].value[r] = Lanes{} - 1.0;
-      best[node].group[r] = Indices{};
-    }
+          std::size_t n_blocks, const double* lode, NodeMaximum* maximum) {
+  Best von_mises[batch], principal[batch];
+  for (std::size_t node = 0; node < n_nodes; ++node) {
+    von_mises[node].start(-1);
+    principal[node].start(-__builtin_huge_val());
+  }
   for (std::size_t b = 0; b < n_blocks; ++b)
-    for (std::size_t node = 0; node < n_nodes; ++node) {
-      Lanes bound = Lanes{} - __builtin_huge_val();
+    for (std::size_t node = 0; node < n_nodes; ++node)
       for (std::size_t g = 0; g < block / group; ++g) {
         const double* a = factors + b * n_channels * block + g * group;
         const double* unit = unit_stress + node * n_channels * 6;
@@ -75,32 +109,19 @@ void walk(const double* unit_stress, std::size_t n_nodes, std::size_t n_channels
           const Lanes dx = s[0][r] - mean, dy = s[1][r] - mean, dz = s[2][r] - mean;
           const Lanes q = 1.5 * (dx * dx + dy * dy + dz * dz) +
                           3.0 * (s[3][r] * s[3][r] + s[4][r] * s[4][r] + s[5][r] * s[5][r]);
-          const auto larger = q > best[node].value[r];
-          best[node].value[r] = larger ? q : best[node].value[r];
-          best[node].group[r] = larger ? Indices{} + long(b * (block / group) + g) : best[node].group[r];
-          Lanes root;
-          for (std::size_t i = 0; i < n_lanes; ++i) root[i] = __builtin_sqrt(q[i]);
+          const Lanes root = square_root(q);
           const Lanes third = dx * (dy * dz - s[4][r] * s[4][r]) -
                               s[3][r] * (s[3][r] * dz - s[4][r] * s[5][r]) +
                               s[5][r] * (s[3][r] * s[4][r] - dy * s[5][r]);
-          const Lanes sum = mean + 2.0 / 3.0 * root * lode_bound(13.5 * third / (q * root + smallest));
-          bound = sum > bound ? sum : bound;
+          const Lanes cosine = lode_cosine(13.5 * third / (q * root + smallest), lode);
+          const long of_group = long(b * (block / group) + g);
+          von_mises[node].take(r, q, of_group);
+          principal[node].take(r, mean + 2.0 / 3.0 * root * cosine, of_group);
         }
       }
-      double largest = bound[0];
-      for (std::size_t i = 1; i < n_lanes; ++i) largest = bound[i] > largest ? bound[i] : largest;
-      block_bound[node * n_blocks + b] = largest;
-    }
   for (std::size_t node = 0; node < n_nodes; ++node) {
-    maximum[node] = {-1, 0};
-    for (std::size_t r = 0; r < n_registers; ++r)
-      for (std::size_t i = 0; i < n_lanes; ++i) {
-        const long instant = best[node].group[r][i] * long(group) + long(r * n_lanes + i);
-        const double q = best[node].value[r][i];
-        if (q > maximum[node].von_mises_squared ||
-            (q == maximum[node].von_mises_squared && instant < maximum[node].instant))
-          maximum[node] = {q, instant};
-      }
+    von_mises[node].largest(maximum[node].von_mises_squared, maximum[node].von_mises_instant);
+    principal[node].largest(maximum[node].principal, maximum[node].principal_instant);
   }
 }
 

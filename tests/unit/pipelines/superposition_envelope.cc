@@ -6,6 +6,7 @@
 #include <random>
 
 #include "pipelines/superposition.h"
+#include "pipelines/superposition_kernel.h"
 
 namespace {
 
@@ -76,6 +77,74 @@ TEST(Superposition, PureCompressionKeepsItsSign) {
   EXPECT_NEAR(envelope.principal.value_Pa[0], -3, 1e-14);
   EXPECT_EQ(envelope.principal.instant[0], 2);
   EXPECT_EQ(envelope.von_mises.instant[0], 0) << "the first of equal instants";
+}
+
+/// One node whose stress is the time factors themselves.
+Problem given_stresses(const std::vector<Stress>& stresses) {
+  auto p = random_problem(1, 6, Eigen::Index(stresses.size()));
+  p.responses.stress_Pa.assign(36, 0.0);
+  for (std::size_t c = 0; c < 6; ++c) p.responses.stress_Pa[7 * c] = 1;
+  for (std::size_t i = 0; i < stresses.size(); ++i)
+    for (std::size_t c = 0; c < 6; ++c) p.loads.values(Eigen::Index(c), Eigen::Index(i)) = stresses[i][c];
+  p.loads.by_effect = {p.loads.values, 0 * p.loads.values, 0 * p.loads.values};
+  return p;
+}
+
+// From tension along one axis to tension along two, the largest principal stress is told apart to 1e-11, in
+// any order; at the end itself, where the angle's cosine is known to the root of the rounding, to 1e-7.
+TEST(Superposition, PrincipalStressIsComparedAtEveryLodeAngle) {
+  const std::size_t n = 61;
+  for (const double end : {59.5, 60.0}) {
+    const double gap = end < 60 ? 1e-11 : 1e-7;
+    for (std::size_t winner = 0; winner < n; winner += 4) {
+      std::vector<Stress> stresses;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double lode = M_PI / 180 * end * double(i) / double(n - 1), third = 2 * M_PI / 3;
+        const double size = (i == winner ? 1 + gap : 1) / std::cos(lode);
+        stresses.push_back(
+            {size * std::cos(lode + third), size * std::cos(lode), size * std::cos(lode - third), 0, 0, 0});
+      }
+      const auto p = given_stresses(stresses);
+      EXPECT_EQ(pipelines::envelope(p.loads, p.responses, 1).principal.instant[0], std::int32_t(winner));
+    }
+  }
+}
+
+// A shaft that turns with its load: the stress of all instants is the same, and the first counts.
+TEST(Superposition, OfSteadyStressTheFirstInstantCounts) {
+  const auto p = given_stresses(std::vector<Stress>(50, Stress{3, -1, 2, 0.5, -4, 1}));
+  const auto envelope = pipelines::envelope(p.loads, p.responses, 1);
+  EXPECT_EQ(envelope.von_mises.instant[0], 0);
+  EXPECT_EQ(envelope.principal.instant[0], 0);
+}
+
+// All that this machine can run; they differ by the order of rounding alone.
+TEST(Superposition, InstructionSetsAgree) {
+  namespace kernel = pipelines::kernel;
+  std::vector<kernel::Walk*> walks{&kernel::generic::walk};
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) walks.push_back(&kernel::avx2::walk);
+#endif
+  if (&kernel::walk_for_this_machine() != walks.back()) walks.push_back(&kernel::walk_for_this_machine());
+  const std::size_t n_nodes = 13, n_channels = 5, n_blocks = 7;
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  std::vector<double> unit(n_nodes * n_channels * 6), factors(n_blocks * n_channels * kernel::block);
+  for (auto* values : {&unit, &factors})
+    for (double& value : *values) value = normal(random);
+  std::array<double, kernel::n_lode_terms> lode{0.9, 0.1};  // any will do
+  std::vector<kernel::NodeMaximum> first(n_nodes), other(n_nodes);
+  walks.front()(unit.data(), n_nodes, n_channels, factors.data(), n_blocks, lode.data(), first.data());
+  for (auto* walk : walks) {
+    walk(unit.data(), n_nodes, n_channels, factors.data(), n_blocks, lode.data(), other.data());
+    for (std::size_t node = 0; node < n_nodes; ++node) {
+      EXPECT_NEAR(other[node].von_mises_squared, first[node].von_mises_squared,
+                  1e-13 * first[node].von_mises_squared);
+      EXPECT_NEAR(other[node].principal, first[node].principal, 1e-13 * first[node].principal);
+      EXPECT_EQ(other[node].von_mises_instant, first[node].von_mises_instant);
+      EXPECT_EQ(other[node].principal_instant, first[node].principal_instant);
+    }
+  }
 }
 
 TEST(Superposition, EffectSharesAddUpToOne) {
