@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/parallel.h"
 #include "pipelines/accuracy.h"
 #include "pipelines/scene_run.h"
 
@@ -49,6 +50,7 @@ public:
   template <typename Work>
   auto timed(const std::string& name, Work&& work) {
     return clock_.run(name, [&] {
+      fem::release_free_memory();  // of the run before
       forget_peak_memory();
       return work();
     });

@@ -124,7 +124,6 @@ std::vector<AccuracyRow> refined_meshes(AccuracyBench& bench) {
   StageClock own;
   const auto run = bench.timed("refined meshes", [&] { return run_scene(bench.scene(), options, own); });
   AccuracyRow row = row_of("refined mesh", run);
-  row.gigabytes = peak_memory_gigabytes();
   for (const auto& step : run.analyses.front().search.steps) {
     row.fineness = step.fineness;
     row.instants_per_turn = step.instants_per_turn;
@@ -133,6 +132,7 @@ std::vector<AccuracyRow> refined_meshes(AccuracyBench& bench) {
     row.errors = step.errors;
     row.principal_Pa = step.principal_Pa;
     row.seconds += step.seconds;
+    row.gigabytes = step.gigabytes;
     row.stages = {{"all steps so far", row.seconds, row.gigabytes}};
     rows.push_back(row);
   }

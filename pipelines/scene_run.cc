@@ -133,7 +133,8 @@ private:
             stress.value_Pa,
             stress.errors,
             analysis.envelope.principal.value_Pa[analysis.principal_node],
-            seconds};
+            seconds,
+            peak_memory_gigabytes()};
   }
 
   /// Why no further step is taken; empty: one is.
@@ -198,17 +199,18 @@ private:
   void leave_out(std::size_t i, BodyAnalysis& analysis) {
     const auto& p = analysis.peak.position_m;
     const auto& nodes = analysis.responses.nodes;
-    auto edge = concave_edge_through(nodes, analysis.peak.node);
+    const double distance_m = share_left_out * diagonal_m(nodes);
+    auto edge = concave_edge_through(nodes, analysis.peak.node, distance_m);
     const bool is_edge = !edge.empty();
     if (!is_edge) edge = {{p, p}};
-    const meshes::SharpEdge spot{"stress grows without bound at " + analysis.peak.feature,
-                                 share_left_out * diagonal_m(nodes), std::move(edge)};
+    const meshes::SharpEdge spot{"stress grows without bound at " + analysis.peak.feature, distance_m,
+                                 std::move(edge)};
     warnings_.push_back(
         fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} mm "
                     "around {}({:.1f}, "
                     "{:.1f}, {:.1f}) mm are left out of the peak",
                     analysis.scene.name, analysis.peak.feature, 1e3 * spot.distance_m,
-                    is_edge ? "the edge through " : "", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]));
+                    is_edge ? "the edge at " : "", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]));
     run_.scene.bodies[i].singular.push_back(spot);
     run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
     BodyAnalysis before = std::move(analysis);

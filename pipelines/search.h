@@ -17,6 +17,7 @@ struct SearchStep {
   ErrorLedger errors;       ///< likewise
   double principal_Pa = 0;  ///< largest principal stress outside the exclusion distances
   double seconds = 0;       ///< of this step
+  double gigabytes = 0;     ///< the program's largest memory up to the end of this step
 };
 
 struct Search {

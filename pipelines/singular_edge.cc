@@ -54,7 +54,7 @@ bool is_concave(const fem::Nodes& nodes, const Side& one, const Side& other) {
 }  // namespace
 
 std::vector<std::array<std::array<double, 3>, 2>> concave_edge_through(const fem::Nodes& nodes,
-                                                                       std::size_t node) {
+                                                                       std::size_t node, double reach_m) {
   if (nodes.nodes_per_face() != 9 && nodes.nodes_per_face() != 6) return {};
   const std::size_t n_sides = nodes.nodes_per_face() == 9 ? 4 : 3;
   std::map<std::int32_t, Side> first;  // by the middle, which two faces share
@@ -70,7 +70,14 @@ std::vector<std::array<std::array<double, 3>, 2>> concave_edge_through(const fem
     for (const auto n : {side.begin, side.middle, side.end}) at.emplace(n, &side);
 
   std::set<const Side*> taken;
-  std::vector<std::int32_t> open{std::int32_t(node)};
+  std::vector<std::int32_t> open;
+  double nearest = reach_m;
+  for (const auto& entry : at) {
+    const double distance = (position(nodes, entry.first) - position(nodes, std::int32_t(node))).norm();
+    if (distance > nearest || (distance == nearest && !open.empty())) continue;
+    nearest = distance;
+    open = {entry.first};
+  }
   std::vector<std::array<std::array<double, 3>, 2>> segments;
   while (!open.empty()) {
     const auto [begin, end] = at.equal_range(open.back());

@@ -108,6 +108,12 @@ std::int32_t nearest_feature(const fem::Nodes& nodes, const NodePlaces& places, 
 
 }  // namespace
 
+double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& edge) {
+  double nearest = std::numeric_limits<double>::max();
+  for (const auto& piece : edge.pieces) nearest = std::min(nearest, distance_to_piece(point.data(), piece));
+  return nearest;
+}
+
 std::string to_string(Place place) {
   switch (place) {
     case Place::loaded_seat:

@@ -28,6 +28,9 @@ struct NodePlaces {
 NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Feature>& features,
                         const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges);
 
+/// From a point to the nearest of the edge's pieces.
+double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& edge);
+
 /// One zone.
 struct Zone {
   std::size_t peak_node = 0;

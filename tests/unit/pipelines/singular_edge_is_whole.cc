@@ -74,6 +74,8 @@ TEST(SingularEdge, IsTheWholeConcaveEdge) {
       for (const auto& segment : edge) EXPECT_NEAR(segment[0][1], 1, 1e-15);
     }
     EXPECT_TRUE(concave_edge_through(nodes, nearest(nodes, {1.5, 0.5, 0})).empty());
+    EXPECT_EQ(concave_edge_through(nodes, nearest(nodes, {1.5, 0.5, 0}), 0.51).size(), 8u) << "within reach";
+    EXPECT_TRUE(concave_edge_through(nodes, nearest(nodes, {1.5, 0.5, 0}), 0.49).empty());
     EXPECT_TRUE(concave_edge_through(nodes, 4 * 9 + 3).empty()) << "the convex edge on top";
   }
   EXPECT_TRUE(concave_edge_through(step(10), nearest(step(10), {1.5, 1, 0})).empty())
