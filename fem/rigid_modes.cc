@@ -80,21 +80,27 @@ Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const
   return transposed_product(rigid_modes(grid, centre), force);
 }
 
-RigidBalance::RigidBalance(const Grid& grid, const NodeIntegrals& integrals) {
-  const Eigen::Vector3d centre =
-      integrals.rightCols<3>().colwise().sum().transpose() / integrals.col(0).sum();
-  mass_ = integrals.col(0);
-  place_m_ = Eigen::Map<const Eigen::Matrix3Xd>(grid.xyz_m.data(), 3, grid.n_nodes).colwise() - centre;
-  moment_ = integrals.rightCols<3>().transpose() - centre * mass_.transpose();
+RigidBalance::RigidBalance(const Grid& grid, const NodeIntegrals& integrals)
+    : grid_(grid),
+      integrals_(integrals),
+      centre_m_(integrals.rightCols<3>().colwise().sum().transpose() / integrals.col(0).sum()) {
   Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Zero();
-  for (Eigen::Index i = 0; i < mass_.size(); ++i)
+  for (Eigen::Index i = 0; i < integrals.rows(); ++i)
     for (int mode = 0; mode < 6; ++mode) {
-      const Eigen::Vector3d moved = mode < 3 ? Eigen::Vector3d(mass_[i] * Eigen::Vector3d::Unit(mode))
-                                             : Eigen::Vector3d::Unit(mode - 3).cross(moment_.col(i));
+      const Eigen::Vector3d moved = mode < 3 ? Eigen::Vector3d(mass(i) * Eigen::Vector3d::Unit(mode))
+                                             : Eigen::Vector3d::Unit(mode - 3).cross(moment(i));
       inertia.col(mode).head<3>() += moved;
-      inertia.col(mode).tail<3>() += place_m_.col(i).cross(moved);
+      inertia.col(mode).tail<3>() += place_m(i).cross(moved);
     }
   inverse_ = inverse(inertia);
+}
+
+Eigen::Vector3d RigidBalance::place_m(Eigen::Index node) const {
+  return Eigen::Map<const Eigen::Vector3d>(grid_.position(std::size_t(node))) - centre_m_;
+}
+
+Eigen::Vector3d RigidBalance::moment(Eigen::Index node) const {
+  return integrals_.row(node).tail<3>().transpose() - mass(node) * centre_m_;
 }
 
 namespace {
@@ -118,14 +124,14 @@ Eigen::Matrix<double, 6, 1> sum_in_pieces(Eigen::Index n, const Item& add) {
 void RigidBalance::balance(Eigen::MatrixXd& force) const {
   parallel_for(force.cols(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
-      Eigen::Map<Eigen::Matrix3Xd> f(force.col(k).data(), 3, mass_.size());
+      Eigen::Map<Eigen::Matrix3Xd> f(force.col(k).data(), 3, integrals_.rows());
       const auto resultant = sum_in_pieces(f.cols(), [&](Eigen::Index i, auto& sum) {
         sum.template head<3>() += f.col(i);
-        sum.template tail<3>() += place_m_.col(i).cross(f.col(i));
+        sum.template tail<3>() += place_m(i).cross(f.col(i));
       });
       const Eigen::Matrix<double, 6, 1> acceleration = inverse_ * resultant;
       const Eigen::Vector3d along = acceleration.head<3>(), about = acceleration.tail<3>();
-      for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) -= mass_[i] * along + about.cross(moment_.col(i));
+      for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) -= mass(i) * along + about.cross(moment(i));
     }
   });
 }
@@ -133,14 +139,14 @@ void RigidBalance::balance(Eigen::MatrixXd& force) const {
 void RigidBalance::remove_motion(Eigen::MatrixXd& displacement) const {
   parallel_for(displacement.cols(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
-      Eigen::Map<Eigen::Matrix3Xd> u(displacement.col(k).data(), 3, mass_.size());
+      Eigen::Map<Eigen::Matrix3Xd> u(displacement.col(k).data(), 3, integrals_.rows());
       const auto momentum = sum_in_pieces(u.cols(), [&](Eigen::Index i, auto& sum) {
-        sum.template head<3>() += mass_[i] * u.col(i);
-        sum.template tail<3>() += moment_.col(i).cross(u.col(i));
+        sum.template head<3>() += mass(i) * u.col(i);
+        sum.template tail<3>() += moment(i).cross(u.col(i));
       });
       const Eigen::Matrix<double, 6, 1> motion = inverse_ * momentum;
       const Eigen::Vector3d along = motion.head<3>(), about = motion.tail<3>();
-      for (Eigen::Index i = 0; i < u.cols(); ++i) u.col(i) -= along + about.cross(place_m_.col(i));
+      for (Eigen::Index i = 0; i < u.cols(); ++i) u.col(i) -= along + about.cross(place_m(i));
     }
   });
 }

@@ -32,17 +32,23 @@ Eigen::MatrixXd rigid_modes(const Grid& grid, const Eigen::Vector3d& centre);
 /// fx, fy, fz, mx, my, mz about `centre` of each column of nodal forces (6 x columns).
 Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const Eigen::Vector3d& centre);
 
-/// Takes resultants out of loads and rigid motion out of displacements, both by the mass (of density 1).
+/// Takes resultants out of loads and rigid motion out of displacements, both by the mass (of density 1). Grid
+/// and integrals are referred to, not copied.
 class RigidBalance {
 public:
   RigidBalance(const Grid& grid, const NodeIntegrals& integrals);
+  RigidBalance(const Grid& grid, NodeIntegrals&& integrals) = delete;  // would be gone
   void balance(Eigen::MatrixXd& force) const;               ///< f - M R (R'MR)^-1 R'f
   void remove_motion(Eigen::MatrixXd& displacement) const;  ///< u - R (R'MR)^-1 R'M u
 
 private:
-  Eigen::Matrix3Xd place_m_;             // from the centre of mass
-  Eigen::Matrix3Xd moment_;              // of the nodes' masses about it: integral of N_i x
-  Eigen::VectorXd mass_;                 // integral of N_i
+  Eigen::Vector3d place_m(Eigen::Index node) const;  // from the centre of mass
+  Eigen::Vector3d moment(Eigen::Index node) const;   // of its mass about it: integral of N_i x
+  double mass(Eigen::Index node) const { return integrals_(node, 0); }  // integral of N_i
+
+  const Grid& grid_;
+  const NodeIntegrals& integrals_;
+  Eigen::Vector3d centre_m_;
   Eigen::Matrix<double, 6, 6> inverse_;  // (R'MR)^-1
 };
 

@@ -9,6 +9,7 @@
 #include "fem/iterative_solve.h"
 #include "fem/memory.h"
 #include "fem/mesh_reader.h"
+#include "fem/parallel.h"
 #include "fem/rigid_modes.h"
 #include "fem/solver_prediction.h"
 #include "fem/surface_loads.h"
@@ -21,6 +22,7 @@ namespace {
 template <typename Solve>
 std::pair<fem::Solution, SolverFigures> run(const fem::SolverCost& predicted, const Solve& solve) {
   SolverFigures figures;
+  fem::release_free_memory();  // of the solver before
   reset_peak();
   figures.bytes_before = memory_bytes("VmRSS:");
   const double wall = wall_s(), cpu = cpu_s();
@@ -76,7 +78,8 @@ SolverRow compare_solvers(const fem::Body& body, const std::vector<fem::UnitLoad
     return fem::solve_directly(grid, cells, colours, body.material, loads, silent);
   });
   row.direct = figures;
-  const fem::RigidBalance rigid(grid, fem::integrate_nodes(grid, colours));
+  const auto integrals = fem::integrate_nodes(grid, colours);
+  const fem::RigidBalance rigid(grid, integrals);
   rigid.remove_motion(answer);
   rigid.remove_motion(direct.displacement);
   row.difference =
