@@ -38,8 +38,8 @@ class RigidBalance {
 public:
   RigidBalance(const Grid& grid, const NodeIntegrals& integrals);
   RigidBalance(const Grid& grid, NodeIntegrals&& integrals) = delete;  // would be gone
-  void balance(Eigen::MatrixXd& force) const;               ///< f - M R (R'MR)^-1 R'f
-  void remove_motion(Eigen::MatrixXd& displacement) const;  ///< u - R (R'MR)^-1 R'M u
+  void balance(Eigen::MatrixXd& force) const;                          ///< f - M R (R'MR)^-1 R'f
+  void remove_motion(Eigen::MatrixXd& displacement) const;             ///< u - R (R'MR)^-1 R'M u
 
 private:
   Eigen::Vector3d place_m(Eigen::Index node) const;  // from the centre of mass
