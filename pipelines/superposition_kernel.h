@@ -19,8 +19,7 @@ struct NodeMaximum {
   long von_mises_instant = 0, principal_instant = 0;
 };
 
-/// Terms of the polynomial for cos(acos(c) / 3), the cosine of the Lode angle, in t = 2 sqrt((1 + c) / 2)
-/// - 1.
+/// Terms of the polynomial for the Lode angle's cosine, cos(acos(c) / 3), in t = 2 sqrt((1 + c) / 2) - 1.
 constexpr std::size_t n_lode_terms = 17;
 
 /// For each of up to `batch` nodes: sigma = sum_k S_k a_k over n_blocks blocks of instants; the largest
