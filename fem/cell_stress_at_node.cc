@@ -4,33 +4,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fem/lagrange.h"
 #include "fem/simplex.h"
 #include "fem/stiffness.h"
 #include "fem/vtk_order.h"
 
 namespace fem {
 namespace {
-
-/// Where a cell of the degree has its nodes along an edge: Gauss-Lobatto points.
-std::vector<double> nodes_on_edge(int degree) {
-  if (degree == 1) return {0, 1};
-  if (degree == 2) return {0, 0.5, 1};
-  const double inner = 0.5 - 0.5 / std::sqrt(5.0);
-  return {0, inner, 1 - inner, 1};
-}
-
-/// Derivative at node i of the Lagrange polynomial of node j.
-double lagrange_derivative(const std::vector<double>& x, std::size_t i, std::size_t j) {
-  double sum = 0;
-  for (std::size_t left_out = 0; left_out < x.size(); ++left_out) {
-    if (left_out == j) continue;
-    double product = 1 / (x[j] - x[left_out]);
-    for (std::size_t m = 0; m < x.size(); ++m)
-      if (m != j && m != left_out) product *= (x[i] - x[m]) / (x[j] - x[m]);
-    sum += product;
-  }
-  return sum;
-}
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
@@ -76,7 +56,7 @@ std::vector<std::array<double, 3>> reference_gradients(CellShape shape, std::siz
       auto index = at;
       index[direction] = j;
       gradients[index[0] + n * index[1] + n * n * index[2]][direction] +=
-          lagrange_derivative(x, at[direction], j);
+          lagrange(x, x[at[direction]])[j].derivative;
     }
   return gradients;
 }

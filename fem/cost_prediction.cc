@@ -15,6 +15,7 @@ SolverReport predict_solver(const Body& body, std::size_t n_loads, const SolverC
   if (report.used == Solver::direct && 3 * grid.n_nodes <= most_analysed) {
     report.factor = analyse_factor(grid, cells_of_nodes(grid));
     report.predicted_direct = predict_direct(report.factor, n_loads);
+    if (is_too_dear(report.factor, report, n_loads)) report.used = Solver::iterative;
   }
   return report;
 }
@@ -26,11 +27,17 @@ SolverReport predict_solver(const SolverReport& at_hand, std::size_t n_dofs, int
   if (at_hand.factor.n_dofs > 0) report.factor = scaled(at_hand.factor, n_dofs);
   report.predicted_direct =
       at_hand.factor.n_dofs > 0 ? predict_direct(report.factor, n_loads) : predict_direct(n_dofs, n_loads);
-  if (at_hand.predicted_iterative.seconds == 0 || !suits_multigrid(at_hand.largest_aspect)) return report;
+  const bool suits = suits_multigrid(at_hand.largest_aspect);
+  if (at_hand.predicted_iterative.seconds == 0 || !(suits || at_hand.by_analysis)) return report;
   if (choice.coarse_level == CoarseLevel::automatic)
     report.coarse_level = cheaper_coarse_level(n_dofs, degree, n_loads);
   report.predicted_iterative =
       predict_iterative(n_dofs, degree, n_loads, report.largest_aspect, report.coarse_level);
+  if (at_hand.by_analysis) {
+    const bool dear = report.factor.n_dofs > 0 && is_too_dear(report.factor, report, n_loads);
+    report.used = dear ? Solver::iterative : Solver::direct;
+    return report;
+  }
   const bool cost_decided = (at_hand.used == Solver::iterative) == iterative_is_faster;
   if (choice.solver == Solver::automatic && cost_decided)
     report.used = saves_time(report) ? Solver::iterative : Solver::direct;

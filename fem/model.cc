@@ -135,41 +135,64 @@ BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>
   return loads;
 }
 
-/// By the solver that the report names; by the direct one if the iterative one gives up, which the report
-/// then tells.
+/// Nothing if it gives up, which the report then tells.
+std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& materials,
+                                        const BalancedLoads& loads, const SolverChoice& choice,
+                                        const Progress& progress, SolverReport& report,
+                                        MPI_Comm communicator) {
+  std::string failure;
+  try {
+    if (n_ranks(communicator) == 1) {
+      if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure))
+        return solution;
+    } else {
+      std::optional<Solution> solution;
+      call_helpers(Task::solve_iteratively, communicator);
+      together(communicator, [&] {
+        solution =
+            solve_iteratively_on_ranks(grid, materials, loads, choice, progress, failure, communicator);
+      });
+      if (solution) return solution;
+    }
+  } catch (const std::runtime_error& error) {
+    failure = error.what();
+  }
+  report.used = Solver::direct;
+  report.gave_up = true;
+  report.reason = failure + "; solved directly";
+  return std::nullopt;
+}
+
+/// By the solver that the report names; by the other one if the iterative one gives up, or if the factor
+/// turns out too dear for cells of middling stretch; the report then tells.
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
                SolverReport& report, MPI_Comm communicator) {
   const bool alone = n_ranks(communicator) == 1;
-  std::optional<Solution> solution;
   choice.coarse_level = report.coarse_level;
-  if (report.used == Solver::iterative) {
-    std::string failure;
-    try {
-      if (alone) {
-        solution = solve_iteratively(grid, materials, loads, choice, progress, failure);
-      } else {
-        call_helpers(Task::solve_iteratively, communicator);
-        together(communicator, [&] {
-          solution =
-              solve_iteratively_on_ranks(grid, materials, loads, choice, progress, failure, communicator);
-        });
-      }
-      if (solution) return std::move(*solution);
-    } catch (const std::runtime_error& error) {
-      failure = error.what();
-    }
-    report.used = Solver::direct;
-    report.gave_up = true;
-    report.reason = failure + "; solved directly";
+  const auto iterate = [&] {
+    return try_iteratively(grid, materials, loads, choice, progress, report, communicator);
+  };
+  if (report.used == Solver::iterative)
+    if (auto solution = iterate()) return std::move(*solution);
+  if (!alone) {
+    std::optional<Solution> solution;
+    call_helpers(Task::solve_directly, communicator);
+    together(communicator, [&] {
+      solution = solve_directly_on_ranks(grid, cells, materials, loads, progress, communicator);
+    });
+    return std::move(*solution);
   }
-  if (alone) return solve_directly(grid, cells, colours, materials, loads, progress);
-  call_helpers(Task::solve_directly, communicator);
-  together(communicator, [&] {
-    solution = solve_directly_on_ranks(grid, cells, materials, loads, progress, communicator);
-  });
-  return std::move(*solution);
+  const auto is_dear = [&](const FactorSize& factor) {
+    return is_too_dear(factor, report, std::size_t(loads.force.cols()));
+  };
+  if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, is_dear))
+    return std::move(*solution);
+  report.used = Solver::iterative;
+  report.reason += ", but the factor is dear";
+  if (auto solution = iterate()) return std::move(*solution);
+  return *solve_directly(grid, cells, colours, materials, loads, progress);
 }
 
 double memory_of_ranks(MPI_Comm communicator) {
@@ -230,6 +253,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
                                      choice, memory_of_ranks(impl_->communicator));
     if (!clamped.empty()) {
       responses.solver.used = Solver::direct;
+      responses.solver.by_analysis = false;
       responses.solver.reason = "the body is clamped";
     }
     Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,

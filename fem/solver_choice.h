@@ -10,7 +10,8 @@ namespace fem {
 
 enum class Solver {
   automatic,  ///< of those that suit the body and fit into memory: the iterative one if predicted to save
-              ///< more than a second, else the direct one
+              ///< more than a second, else the direct one. Where cells are stretched more than 1 : 12 and no
+              ///< more than 1 : 25 the analysis of the matrix decides
   direct,     ///< sparse factorisation (CHOLMOD; on several MPI ranks MUMPS)
   iterative,  ///< conjugate gradients with polynomial multigrid; the direct one if that does not converge
 };
@@ -60,8 +61,9 @@ struct RankWork {
 
 struct SolverReport {
   Solver used = Solver::direct;
-  std::string reason;    ///< why this one; if the iterative one gave up, how
-  bool gave_up = false;  ///< the iterative one stalled, here or before (SolverChoice::gave_up_before)
+  std::string reason;        ///< why this one; if the iterative one gave up, how
+  bool gave_up = false;      ///< the iterative one stalled, here or before (SolverChoice::gave_up_before)
+  bool by_analysis = false;  ///< direct, unless the analysed factor turns out too dear
   SolverCost predicted_direct, predicted_iterative;
   FactorSize
       factor{};  ///< of the direct one, once its matrix was analysed: then what is predicted follows from it

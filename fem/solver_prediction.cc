@@ -17,6 +17,10 @@ namespace {
 constexpr double worth_seconds = 1;
 // Cells more stretched than that cost more iterations than they save.
 constexpr double most_stretched = 12;
+// Up to this they do not where the factor is dear (77 iterations at 1 : 17); beyond it the iteration may not
+// end.
+constexpr double stretched_at_all = 25;
+constexpr double stretched_safety = 2;
 // Beyond it the smoother loses its grip on motions that keep volume.
 constexpr double most_incompressible = 0.45;
 
@@ -85,8 +89,8 @@ FactorSize scaled(const FactorSize& factor, std::size_t n_dofs) {
 
 SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
                              CoarseLevel level) {
-  const double n = double(n_dofs), k = double(n_loads);
-  const double lanes = std::min(double(loads_per_block(n_dofs)), 4 * std::ceil(k / 4));
+  const double n = double(n_dofs), k = 4 * std::ceil(double(n_loads) / 4);
+  const double lanes = std::min(double(loads_per_block(n_dofs)), k);
   const double trilinear = n / (degree * degree * degree);
   double iterations = 8 + 2.3 * aspect, setup = 2e-6 * n, each = 8e-8 * n * k, bytes = n * (215 + 48 * lanes);
   if (level == CoarseLevel::factorised) {
@@ -104,6 +108,11 @@ SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads
 
 bool suits_multigrid(double aspect) {
   return aspect <= most_stretched;
+}
+
+bool is_too_dear(const FactorSize& factor, const SolverReport& report, std::size_t n_loads) {
+  return report.by_analysis && stretched_safety * report.predicted_iterative.seconds + worth_seconds <
+                                   predict_direct(factor, n_loads).seconds;
 }
 
 bool saves_time(const SolverReport& report) {
@@ -164,6 +173,8 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
   if (!compact) {
     std::ostringstream text;
     text << "cells are stretched up to 1 : " << std::setprecision(3) << report.largest_aspect;
+    report.by_analysis = report.largest_aspect <= stretched_at_all && iterative_fits &&
+                         materials.largest_poisson_ratio() <= most_incompressible;
     return take(Solver::direct, text.str());
   }
   if (materials.largest_poisson_ratio() > most_incompressible) {

@@ -13,11 +13,12 @@ double largest_aspect(const Grid& grid);
 /// For two threads of a quiet server core of 2023 with AVX2 (AMD EPYC; half the CPU seconds of both threads),
 /// with n unknowns, N = n / 2e5, m = n / degree^3 unknowns of the trilinear level, k load cases:
 ///   direct      10.8 N + 12.6 N^2 + 0.03 N^1.3 k  s,   3.4e9 N^1.3  bytes
-///   factorised  2e-6 n + 3 c + (8 + 2.3 aspect) (8e-8 n k + 0.25 c)  s,  c = 7 (m / 2e5)^1.75, its bytes as
-///   direct of m aggregated  2e-6 n + 8e-6 m + 1.1 (8 + 2.3 aspect) 8e-8 n k  s,  1100 m bytes
-/// and 215 n + 48 n (load cases of a block) bytes for both of the latter. Fitted on
-/// tests/benchmarks/shaft.toml and stretched rods, aspect 2.7 to 7, 50 k to 4 M unknowns (direct: 50 k to 700
-/// k). On slower machines the seconds of all grow alike, and the choice stays.
+///   factorised  2e-6 n + 3 c + (8 + 2.3 aspect) (8e-8 n K + 0.25 c)  s,  c = 7 (m / 2e5)^1.75, its bytes as
+///   direct of m aggregated  2e-6 n + 8e-6 m + 1.1 (8 + 2.3 aspect) 8e-8 n K  s,  1100 m bytes
+/// and 215 n + 48 n (load cases of a block) bytes for both of the latter; K is k filled up to a multiple of
+/// 4, which the operator works on at once. Fitted on tests/benchmarks/shaft.toml and stretched rods,
+/// aspect 2.7 to 7, 50 k to 4 M unknowns (direct: 50 k to 700 k). On slower machines the seconds of all grow
+/// alike, and the choice stays.
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads);
 
 /// Factorisations below stay on one thread: CHOLMOD's many small products gain little from more, and BLAS
@@ -37,6 +38,10 @@ SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads
 
 /// Whether the cells are compact enough for the smoother, which is pointwise.
 bool suits_multigrid(double aspect);
+
+/// Whether an analysed factor is predicted to cost more than twice what the iteration does on cells of
+/// middling stretch, whose number of iterations is known less well.
+bool is_too_dear(const FactorSize& factor, const SolverReport& report, std::size_t n_loads);
 
 /// Whether the iterative solver is predicted to save enough to be worth an answer to its tolerance.
 bool saves_time(const SolverReport& report);

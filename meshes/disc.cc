@@ -63,10 +63,11 @@ Point2 square_inside(int a, int b, int k, int n_sectors) {
 
 }  // namespace
 
-Disc build_disc(int n_sectors) {
+Disc build_disc(int n_sectors, int subdivisions) {
   const int k = n_sectors / 4;
-  const int n_rings = std::max(1, k / 3);
+  const int n_rings = subdivisions * std::max(1, k / subdivisions / 3);
   Disc disc;
+  disc.n_sectors = n_sectors;
   for (int ring = 0; ring <= n_rings; ++ring)
     for (int j = 0; j < n_sectors; ++j)
       disc.points.push_back(

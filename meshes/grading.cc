@@ -50,7 +50,8 @@ double AxialSize::at(double z_m) const {
   return size_m;
 }
 
-std::vector<double> axial_stations(double begin_m, double end_m, const AxialSize& size, int n_min) {
+std::vector<double> axial_stations(double begin_m, double end_m, const AxialSize& size, int n_min,
+                                   int subdivisions) {
   const int n_samples = 4000;
   const double step_m = (end_m - begin_m) / n_samples;
   std::vector<double> cells(n_samples + 1);  // number of cells from begin up to each sample
@@ -58,7 +59,7 @@ std::vector<double> axial_stations(double begin_m, double end_m, const AxialSize
     cells[i + 1] = cells[i] + step_m / size.at(begin_m + (i + 0.5) * step_m);
 
   const double wanted = cells.back();
-  const int n = std::max(n_min, static_cast<int>(std::ceil(wanted - 0.5)));
+  const int n = subdivisions * std::max(n_min, static_cast<int>(std::ceil(wanted - 0.5)));
   std::vector<double> stations(n + 1);
   stations.front() = begin_m;
   stations.back() = end_m;
@@ -70,6 +71,29 @@ std::vector<double> axial_stations(double begin_m, double end_m, const AxialSize
     stations[i] = begin_m + step_m * (sample + (target - below) / (*above - below));
   }
   return stations;
+}
+
+std::vector<double> subdivided(const std::vector<double>& values, int n) {
+  if (n == 1 || values.size() < 2) return values;
+  const std::size_t n_steps = values.size() - 1;
+  std::vector<double> steps(n_steps), slopes(n_steps + 1);
+  for (std::size_t i = 0; i < n_steps; ++i) steps[i] = values[i + 1] - values[i];
+  for (std::size_t i = 1; i < n_steps; ++i)
+    slopes[i] = std::copysign(std::sqrt(steps[i - 1] * steps[i]), steps[i]);
+  slopes.front() = n_steps > 1 ? steps.front() * steps.front() / slopes[1] : steps.front();
+  slopes.back() = n_steps > 1 ? steps.back() * steps.back() / slopes[n_steps - 1] : steps.back();
+
+  std::vector<double> result = {values.front()};
+  for (std::size_t i = 0; i < n_steps; ++i) {
+    for (int k = 1; k < n; ++k) {
+      const double t = double(k) / n, both = t * (1 - t);
+      const double share = (steps[i] * t * t + slopes[i] * both) /
+                           (steps[i] + (slopes[i] + slopes[i + 1] - 2 * steps[i]) * both);
+      result.push_back(values[i] + steps[i] * share);
+    }
+    result.push_back(values[i + 1]);
+  }
+  return result;
 }
 
 }  // namespace meshes

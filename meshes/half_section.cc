@@ -47,8 +47,9 @@ HalfSection build_half_section(const Shaft& shaft, const ShaftMeshControl& contr
   check_shaft(shaft);
   Shaft concentric = shaft;
   for (ShaftSegment& segment : concentric.segments) segment.eccentricity_m = 0;
-  const ShaftLayout layout = lay_out(concentric, control);
-  const Meridian meridian = build_meridian(layout, name_surfaces(concentric, layout), control);
+  const ShaftMeshControl before = before_subdivision(control);
+  const ShaftLayout layout = lay_out(concentric, before);
+  const Meridian meridian = build_meridian(layout, name_surfaces(concentric, layout), before);
   HalfSection half{meridian.points, meridian.quads, meridian.edges};
   for (const CoreLine& core : meridian.cores)
     fill_core(core, layout, std::max(2, control.n_sectors / 8), half);

@@ -82,9 +82,11 @@ std::vector<double> column_stations(const ShaftLayout& layout, int index, const 
   const double column_m = breaks.back() - breaks.front();
   std::vector<double> stations = {breaks.front()};
   for (std::size_t i = 1; i < breaks.size(); ++i) {
-    const int n_wanted = segment.is_short() && !segment.is_port ? 1 : 4;
+    const int n_usual = control.subdivisions > 1 ? 2 : 4;
+    const int n_wanted = segment.is_short() && !segment.is_port ? 1 : n_usual;
     const int n_min = static_cast<int>(std::ceil(n_wanted * (breaks[i] - breaks[i - 1]) / column_m - 0.5));
-    const auto piece = axial_stations(breaks[i - 1], breaks[i], size, std::max(1, n_min));
+    const auto piece =
+        axial_stations(breaks[i - 1], breaks[i], size, std::max(1, n_min), control.subdivisions);
     stations.insert(stations.end(), piece.begin() + 1, piece.end());
   }
   return stations;
@@ -162,12 +164,13 @@ std::vector<CoreLine> core_lines(const BlockMesh& mesh, const ShaftLayout& layou
 Meridian build_meridian(const ShaftLayout& layout, const SurfaceTable& surfaces,
                         const ShaftMeshControl& control) {
   const auto n = static_cast<int>(layout.segments.size());
-  const RadiiPlan plan = plan_radii(layout);
+  const RadiiPlan plan = subdivided(plan_radii(layout), control.subdivisions);
+  const ShaftLayout fine = subdivided(layout, control.subdivisions);
   BlockMesh mesh;
   std::vector<Faces> faces(n);
   faces.front().begin = mesh.add_line(layout.segments.front().begin_m, plan.first);
   for (int i = 0; i + 1 < n; ++i) {
-    JunctionFaces built = build_junction(mesh, layout, plan, i, surfaces);
+    JunctionFaces built = build_junction(mesh, fine, plan, i, surfaces);
     faces[i].end = std::move(built.left);
     faces[i + 1].begin = std::move(built.right);
   }

@@ -49,6 +49,7 @@ struct Meridian {
 };
 
 /// Blocks: one column per segment, a fan of five at each fillet; transfinite inside, shared edges built once.
+/// @param layout, control before subdivision
 Meridian build_meridian(const ShaftLayout& layout, const SurfaceTable& surfaces,
                         const ShaftMeshControl& control);
 

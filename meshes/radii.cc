@@ -264,6 +264,13 @@ Radii spread(double from, double to, const std::vector<double>& fractions) {
   return values;
 }
 
+RadiiPlan subdivided(const RadiiPlan& plan, int n) {
+  RadiiPlan fine = {subdivided(plan.first, n), subdivided(plan.last, n), {}};
+  for (const PlaneRadii& plane : plan.planes)
+    fine.planes.push_back({subdivided(plane.below, n), subdivided(plane.above, n)});
+  return fine;
+}
+
 int rows_below_step(const ShaftLayout& layout, const Junction& junction) {
   const SegmentLayout& narrow = layout.segments[junction.narrow];
   return narrow.base_radius_m < junction.step_radius_m * (1 - tiny) ? narrow.n_inner_rows : 0;

@@ -23,6 +23,9 @@ struct RadiiPlan {
 /// Rows of short segments follow what the fan at their other end prescribes, so that they run straight.
 RadiiPlan plan_radii(const ShaftLayout& layout);
 
+/// Each row cut into n.
+RadiiPlan subdivided(const RadiiPlan& plan, int n);
+
 /// from + (to - from) * fractions, exact at the ends
 Radii spread(double from, double to, const std::vector<double>& fractions);
 

@@ -1,7 +1,5 @@
 #include "meshes/revolve.h"
 
-#include "meshes/disc.h"
-
 namespace meshes {
 
 namespace {
@@ -26,11 +24,11 @@ std::vector<std::array<double, 2>> shifts_of(const Meridian& meridian, const Sha
 /// point.
 class CoreNodes {
 public:
-  CoreNodes(const Disc& disc, const Meridian& meridian, const CoreLine& core, int n_sectors, HexMesh& mesh)
-      : core_(core), n_sectors_(n_sectors) {
+  CoreNodes(const Disc& disc, const Meridian& meridian, const CoreLine& core, HexMesh& mesh)
+      : core_(core), n_sectors_(disc.n_sectors) {
     for (const int point : core.points) {
       first_inner_.push_back(static_cast<int>(mesh.points.size()));
-      for (std::size_t i = n_sectors; i < disc.points.size(); ++i)
+      for (std::size_t i = n_sectors_; i < disc.points.size(); ++i)
         mesh.points.push_back({core.radius_m * disc.points[i][0], core.radius_m * disc.points[i][1],
                                meridian.points[point].z_m});
     }
@@ -73,8 +71,8 @@ void add_core(const Disc& disc, const CoreNodes& nodes, const CoreLine& core, in
 }  // namespace
 
 HexMesh revolve(const Meridian& meridian, const ShaftLayout& layout, const SurfaceTable& surfaces,
-                int n_sectors) {
-  const Disc disc = build_disc(n_sectors);
+                const Disc& disc) {
+  const int n_sectors = disc.n_sectors;
   const std::vector<std::array<double, 2>> shifts = shifts_of(meridian, layout);
   HexMesh mesh;
   for (std::size_t i = 0; i < meridian.points.size(); ++i) {
@@ -87,7 +85,7 @@ HexMesh revolve(const Meridian& meridian, const ShaftLayout& layout, const Surfa
     }
   }
   for (const CoreLine& core : meridian.cores)
-    add_core(disc, CoreNodes(disc, meridian, core, n_sectors, mesh), core, surfaces.core_id, mesh);
+    add_core(disc, CoreNodes(disc, meridian, core, mesh), core, surfaces.core_id, mesh);
 
   const auto node = [&](int point, int j) { return point * n_sectors + j % n_sectors; };
   for (const MeridianQuad& quad : meridian.quads)

@@ -13,23 +13,22 @@ namespace {
 
 const double first_above = 13;  // first of the rows above a fan, in cells of the arc
 const double first_below = 7;   // first of the rows below a fan, in the fan's last cell
-const double thin_wall = 0.3;   // of the radius: no more than two rows are asked for
+const double thin_wall = 0.3;   // of the radius: no more than the least rows are asked for
 
-int usual_rows(double thickness_m, double radius_m, int n_sectors) {
-  return thickness_m < thin_wall * radius_m ? 2 : std::max(2, n_sectors / 8);
-}
-
-void set_smallest_rows(SegmentLayout& segment, int n_sectors) {
-  const int usual = std::max(2, n_sectors / 8);
+void set_smallest_rows(SegmentLayout& segment, int n_sectors, int n_least) {
+  const int usual = std::max(n_least, n_sectors / 8);
+  const auto usual_rows = [&](double thickness_m) {
+    return thickness_m < thin_wall * segment.radius_m ? n_least : usual;
+  };
   segment.n_inner_rows = usual;
   if (segment.is_eccentric())
     segment.n_outer_rows = usual;
   else if (segment.has_line()) {
     const double line_m = std::min(segment.line_begin_m, segment.line_end_m);
-    segment.n_inner_rows = usual_rows(line_m - segment.base_radius_m, segment.radius_m, n_sectors);
-    segment.n_outer_rows = usual_rows(segment.radius_m - line_m, segment.radius_m, n_sectors);
+    segment.n_inner_rows = usual_rows(line_m - segment.base_radius_m);
+    segment.n_outer_rows = usual_rows(segment.radius_m - line_m);
   } else if (segment.is_bored()) {
-    segment.n_inner_rows = usual_rows(segment.wall_m(), segment.radius_m, n_sectors);
+    segment.n_inner_rows = usual_rows(segment.wall_m());
   }
 }
 
@@ -164,8 +163,8 @@ void set_rows_at_fans(ShaftLayout& layout, const Junction& junction) {
 
 }  // namespace
 
-void set_rows(ShaftLayout& layout, int n_sectors) {
-  for (SegmentLayout& segment : layout.segments) set_smallest_rows(segment, n_sectors);
+void set_rows(ShaftLayout& layout, int n_sectors, int n_least) {
+  for (SegmentLayout& segment : layout.segments) set_smallest_rows(segment, n_sectors, n_least);
   for (const Junction& junction : layout.junctions) set_rows_at_fans(layout, junction);
   // Counts only ever rise, and the junctions form a chain, so this ends.
   const int n_junctions = static_cast<int>(layout.junctions.size());

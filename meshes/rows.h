@@ -6,7 +6,8 @@
 namespace meshes {
 
 /// Fills n_inner_rows and n_outer_rows so that the rows of neighbours fit at every junction.
-void set_rows(ShaftLayout& layout, int n_sectors);
+/// @param n_least rows of a wall
+void set_rows(ShaftLayout& layout, int n_sectors, int n_least);
 
 /// Cells grow by at most this from row to row, away from the arcs: stress varies slowly there, and every row
 /// runs on into the thicker segments.

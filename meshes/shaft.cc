@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "meshes/disc.h"
 #include "meshes/meridian.h"
 #include "meshes/msh_writer.h"
 #include "meshes/quality.h"
@@ -55,10 +56,12 @@ void require_quality(const MeshQuality& quality, double wanted) {
 BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file) {
   check_control(control);
   check_shaft(shaft);
-  const ShaftLayout layout = lay_out(shaft, control);
+  const ShaftMeshControl before = before_subdivision(control);
+  const ShaftLayout layout = lay_out(shaft, before);
   const SurfaceTable surfaces = name_surfaces(shaft, layout);
-  const Meridian meridian = build_meridian(layout, surfaces, control);
-  const HexMesh mesh = revolve(meridian, layout, surfaces, control.n_sectors);
+  const Meridian meridian = build_meridian(layout, surfaces, before);
+  const Disc disc = build_disc(control.n_sectors, control.subdivisions);
+  const HexMesh mesh = revolve(meridian, layout, surfaces, disc);
 
   BodyMesh body;
   body.file = file;
@@ -67,7 +70,7 @@ BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const 
   body.cylinders = cylinders_of(layout, surfaces);
   body.tori = tori_of(layout, surfaces);
   body.sections = sections_of(shaft, layout, meridian);
-  body.sharp_edges = sharp_edges_of(shaft, layout, control.n_sectors);
+  body.sharp_edges = sharp_edges_of(shaft, layout, disc);
   body.quality = measure_quality(mesh);
   require_quality(body.quality, control.min_scaled_jacobian);
   write_msh(mesh, group_names(shaft, surfaces), file);

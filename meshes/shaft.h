@@ -44,7 +44,8 @@ struct ShaftSegment {
 ///   left around the wider bore. The segment with the narrow bore is long enough for a row of cells to climb,
 ///   at a slope below 0.8, from the bore step to the fan of a fillet at its other end or to the bore step
 ///   there.
-/// - Every wall has at least two cells through it. In a thin one cells are at most 64 walls / n_sectors long,
+/// - Every wall has at least two cells through it (or as many as subdivisions, where these are more than 1).
+/// In a thin one cells are at most 64 walls / n_sectors long,
 ///   but not shorter than around, and grow half as fast as control.growth.
 struct Shaft {
   std::vector<ShaftSegment> segments;
@@ -58,6 +59,11 @@ struct ShaftMeshControl {
   double growth = 1.0;  ///< slope of the axial cell size away from fillets; cells grow by at most e^growth
   double largest_cell_m = 0;         ///< axial; 0: chosen from diameters and walls
   double min_scaled_jacobian = 0.3;  ///< refused below
+  /// The blocks are laid out for cells this many times larger, each of which is then cut into as many along
+  /// every edge. Divides n_sectors / 4 and half of the cells of each fillet; n_sectors >= 8 subdivisions.
+  /// Meshes whose counts are in proportion to it, and growth and largest_cell_m to its reciprocal, are
+  /// systematic: all their cells shrink alike.
+  int subdivisions = 1;
 
   /// On a quarter of one of Shaft::fillets_m.
   int cells_at(int fillet) const {
@@ -70,9 +76,9 @@ struct ShaftMeshControl {
 /// Ports: every segment with is_port, the bore of every segment with bore_port (all of it), and the end faces
 /// "end_1" (smallest z) and "end_2", which are rings where the segment is bored.
 /// Features: besides those of the outside "bore <segment>", and "shoulder bore <left>/<right>" for the face
-/// of a bore step. Beside a fillet, with 2 cells per quarter, the bores of two segments meet at the end of
-/// the fan nearest to the shoulder's plane instead of in it. Volumes: "core" where the shaft is solid
-/// (without a chart) and "ring_<segment>". Sharp edges: every outer shoulder without a fillet
+/// of a bore step. Beside a fillet, with 2 cells per quarter before subdivision, the bores of two segments
+/// meet at the end of the fan nearest to the shoulder's plane instead of in it. Volumes: "core" where the
+/// shaft is solid (without a chart) and "ring_<segment>". Sharp edges: every outer shoulder without a fillet
 /// ("<left>/<right>", within 0.1 of the smaller diameter) and every bore step ("bore <left>/<right>", within
 /// the thickness of the wall around the wider bore). One call at a time in a process: gmsh is global.
 /// @throws std::invalid_argument with the offending numbers: gaps, sizes that are not positive, repeated

@@ -16,12 +16,13 @@ const double core_share = 0.6;        // of the smallest radius of the solid seg
 const double core_share_limit = 0.7;  // up to this the core is as wide as the bore it closes
 const double fan_depth = 3;           // in fillets, where there is room
 const double fan_ratio = 1.6;         // growth of the cells from the arc into the fan
+const double fan_ratio_before = 3;    // of cells that are cut up later
 
 /// Cell boundaries of the fan from the arc outwards; a boundary at `must` (a fraction, 0: none) is forced.
-std::vector<double> fan_fractions(double first, double must) {
-  const int n = geometric_count(1, first, fan_ratio);
+std::vector<double> fan_fractions(double first, double must, double ratio) {
+  const int n = geometric_count(1, first, ratio);
   if (must <= 0 || must >= 1) return geometric_fractions(n, first);
-  const int n_near = geometric_count(must, first, fan_ratio);
+  const int n_near = geometric_count(must, first, ratio);
   const int n_far = std::max(1, n - n_near);
   std::vector<double> fractions;
   for (const double x : geometric_fractions(n_near, first / must)) fractions.push_back(must * x);
@@ -104,12 +105,12 @@ int floor_cells_before_plane(const Junction& junction) {
   return std::clamp(static_cast<int>(std::lround(n * share)), 1, n - 1);
 }
 
-void set_fan(Junction& junction, const ShaftLayout& layout, double base_m) {
+void set_fan(Junction& junction, const ShaftLayout& layout, double base_m, double ratio) {
   const SegmentLayout& big = layout.segments[junction.big];
   const double zone_offset_m = zone_offset_of(junction, big);
   junction.depth_m = depth_of(junction, big, base_m, zone_offset_m);
   junction.depth_fractions =
-      fan_fractions(junction.first_cell_m / junction.depth_m, zone_offset_m / junction.depth_m);
+      fan_fractions(junction.first_cell_m / junction.depth_m, zone_offset_m / junction.depth_m, ratio);
 }
 
 void set_bore_border(Junction& junction, const ShaftLayout& layout) {
@@ -160,7 +161,7 @@ Junction junction_of(const ShaftLayout& layout, const Shaft& shaft, int left, in
 }
 
 /// In a short groove the rows must lie alike at both ends: the fans get one depth and one division.
-void match_fans_of_grooves(ShaftLayout& layout) {
+void match_fans_of_grooves(ShaftLayout& layout, double ratio) {
   for (std::size_t i = 1; i + 1 < layout.segments.size(); ++i) {
     const SegmentLayout& groove = layout.segments[i];
     Junction& left = layout.junctions[i - 1];
@@ -179,7 +180,7 @@ void match_fans_of_grooves(ShaftLayout& layout) {
     for (Junction* junction : {&left, &right}) {
       junction->depth_m = depth_m;
       const double own = must_of(*junction, depth_m);
-      junction->depth_fractions = fan_fractions(first, own > 0 ? own : must);
+      junction->depth_fractions = fan_fractions(first, own > 0 ? own : must, ratio);
     }
   }
 }
@@ -213,7 +214,35 @@ double lone_inner_radius(const ShaftSegment& segment) {
   return 0.5 * (base_m + 0.3 * (segment.diameter_m - base_m));
 }
 
+ShaftMeshControl before_subdivision(const ShaftMeshControl& control) {
+  const int n = control.subdivisions;
+  ShaftMeshControl before = control;
+  before.cells_per_fillet_quarter /= n;
+  for (int& cells : before.fillet_cells) cells /= n;
+  before.n_sectors /= n;
+  before.growth *= n;
+  before.largest_cell_m *= n;
+  return before;
+}
+
+ShaftLayout subdivided(const ShaftLayout& layout, int n) {
+  ShaftLayout fine = layout;
+  for (SegmentLayout& segment : fine.segments) {
+    segment.n_inner_rows *= n;
+    segment.n_outer_rows *= n;
+  }
+  for (Junction& junction : fine.junctions) {
+    junction.first_cell_m /= n;
+    junction.step_cell_m /= n;
+    junction.n_half_arc *= n;
+    junction.n_floor_before_plane *= n;
+    if (junction.has_fan()) junction.depth_fractions = subdivided(junction.depth_fractions, n);
+  }
+  return fine;
+}
+
 ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
+  const double ratio = control.subdivisions > 1 ? fan_ratio_before : fan_ratio;
   ShaftLayout layout;
   layout.segments = segments_of(shaft);
   set_base_radii(layout.segments);
@@ -221,12 +250,13 @@ ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
   for (int i = 0; i < n_junctions; ++i)
     layout.junctions.push_back(junction_of(layout, shaft, i, control.cells_at(i) / 2));
   for (int i = 0; i < n_junctions; ++i)
-    if (layout.junctions[i].has_fan()) set_fan(layout.junctions[i], layout, radius_below_fan(layout, i));
-  match_fans_of_grooves(layout);
+    if (layout.junctions[i].has_fan())
+      set_fan(layout.junctions[i], layout, radius_below_fan(layout, i), ratio);
+  match_fans_of_grooves(layout, ratio);
   for (Junction& junction : layout.junctions) set_bore_border(junction, layout);
   set_columns_and_shifts(layout, shaft);
   set_lines(layout);
-  set_rows(layout, control.n_sectors);
+  set_rows(layout, control.n_sectors, control.subdivisions > 1 ? 1 : 2);
   return layout;
 }
 

@@ -79,7 +79,14 @@ struct ShaftLayout {
 /// Radius inside which nothing is shifted where the eccentric segment is the whole shaft.
 double lone_inner_radius(const ShaftSegment& segment);
 
-/// @param shaft, control have passed check_shaft
+/// The mesh that control.subdivisions cuts up: counts divided, sizes multiplied by it; it keeps
+/// control.subdivisions.
+ShaftMeshControl before_subdivision(const ShaftMeshControl& control);
+
+/// Counts and fractions of the same blocks, each cell cut into n along every edge.
+ShaftLayout subdivided(const ShaftLayout& layout, int n);
+
+/// @param shaft, control have passed check_shaft; control.subdivisions > 1: control is before_subdivision
 /// @throws std::invalid_argument if a bore step lies so close to a shoulder that no row can reach from one to
 ///         the other
 ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control);

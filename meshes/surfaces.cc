@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "meshes/disc.h"
-
 namespace meshes {
 
 namespace {
@@ -124,15 +122,14 @@ std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const 
   return ports;
 }
 
-std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout, int n_sectors) {
-  const Disc disc = build_disc(n_sectors);  // its circle has the nodes of the mesh
+std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout, const Disc& disc) {
   const auto circle = [&](const std::string& name, double z_m, double radius_m, double distance_m) {
     SharpEdge edge{name, distance_m, {}};
     const auto at = [&](int j) -> std::array<double, 3> {
-      const auto& p = disc.points[j % n_sectors];
+      const auto& p = disc.points[j % disc.n_sectors];
       return {radius_m * p[0], radius_m * p[1], z_m};
     };
-    for (int j = 0; j < n_sectors; ++j) edge.pieces.push_back({at(j), at(j + 1)});
+    for (int j = 0; j < disc.n_sectors; ++j) edge.pieces.push_back({at(j), at(j + 1)});
     return edge;
   };
   std::vector<SharpEdge> edges;

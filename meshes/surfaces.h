@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "meshes/disc.h"
 #include "meshes/shaft_layout.h"
 
 namespace meshes {
@@ -36,10 +37,10 @@ struct SurfaceTable {
 SurfaceTable name_surfaces(const Shaft& shaft, const ShaftLayout& layout);
 
 std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const SurfaceTable& surfaces);
-/// Circles in which the model has a sharp re-entrant corner, as polygons of n_sectors pieces: outer shoulders
-/// without a fillet, within 0.1 of the smaller diameter, and bore steps, within the thickness of the wall of
-/// the wider bore.
-std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout, int n_sectors);
+/// Circles in which the model has a sharp re-entrant corner, as polygons through the nodes on the disc's
+/// circle: outer shoulders without a fillet, within 0.1 of the smaller diameter, and bore steps, within the
+/// thickness of the wall of the wider bore.
+std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout, const Disc& disc);
 
 std::vector<CylinderChart> cylinders_of(const ShaftLayout& layout, const SurfaceTable& surfaces);
 std::vector<TorusChart> tori_of(const ShaftLayout& layout, const SurfaceTable& surfaces);

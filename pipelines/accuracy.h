@@ -39,11 +39,16 @@ struct GridStudy {
   struct Mesh {
     std::string fineness;
     std::size_t n_dofs = 0;
-    double size_m = 0;  ///< of its cells (systematic_meshes.h)
-    double value_Pa = 0;
+    double size_m = 0;    ///< of its cells (systematic_meshes.h)
+    double value_Pa = 0;  ///< largest stress, between nodes too; or the hot-spot stress
   };
   std::vector<Mesh> meshes;
   GridConvergence convergence;  ///< of fewer than two meshes: refused
+  /// By how much it exceeds the finest mesh's peak, which is that at a node; 0 for hot spots.
+  double between_nodes_Pa = 0;
+
+  /// How far the finest mesh's peak may be from the largest stress of an infinitely fine mesh.
+  double index_Pa() const { return convergence.index_21 + between_nodes_Pa; }
 };
 
 /// Estimated over true error; infinite where the run meets the reference exactly.

@@ -185,7 +185,8 @@ void write_accuracy_h5(const std::filesystem::path& file, const std::vector<Accu
       const auto& c = study.grid->convergence;
       writer.attribute(group, "grid_convergence_order", c.observed_order);
       writer.attribute(group, "grid_convergence_extrapolated_Pa", c.extrapolated);
-      writer.attribute(group, "grid_convergence_index_Pa", c.index_21);
+      writer.attribute(group, "grid_convergence_index_Pa", study.grid->index_Pa());
+      writer.attribute(group, "grid_convergence_between_nodes_Pa", study.grid->between_nodes_Pa);
       writer.attribute(group, "grid_convergence_refusal", c.refusal);
     }
     for (const auto& column : columns(study)) {

@@ -20,14 +20,13 @@ int multiple(int count, int unit) {
 }
 
 void refine_shaft(meshes::ShaftMeshControl& mesh, int level) {
+  mesh.subdivisions = level;
   const auto cells = [&](int of_scene) { return 2 * level * multiple(of_scene, 2 * scene_level); };
   mesh.cells_per_fillet_quarter = cells(mesh.cells_per_fillet_quarter);
   for (int& own : mesh.fillet_cells)
     if (own > 0) own = cells(own);
   mesh.n_sectors = 8 * level * multiple(mesh.n_sectors, 8 * scene_level);
-  // The coarsest level has the steepest slope that the mesher takes.
-  const double coarsest = systematic_levels[0];
-  mesh.growth = std::min(steepest_growth, mesh.growth * scene_level / coarsest) * coarsest / level;
+  mesh.growth = std::min(steepest_growth, mesh.growth * scene_level) / level;
   mesh.largest_cell_m *= double(scene_level) / level;
 }
 

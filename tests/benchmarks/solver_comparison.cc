@@ -75,7 +75,7 @@ SolverRow compare_solvers(const fem::Body& body, const std::vector<fem::UnitLoad
   const auto cells = fem::cells_of_nodes(grid);
   const auto colours = fem::colour_cells(grid, cells);
   auto [direct, figures] = run(report.predicted_direct, [&] {
-    return fem::solve_directly(grid, cells, colours, body.material, loads, silent);
+    return *fem::solve_directly(grid, cells, colours, body.material, loads, silent);
   });
   row.direct = figures;
   const auto integrals = fem::integrate_nodes(grid, colours);
