@@ -10,6 +10,7 @@
 #include "fem/body_nodes.h"
 #include "fem/cell_stress_at_node.h"
 #include "fem/model.h"
+#include "fem/surface_stress.h"
 #include "shaft_bodies.h"
 
 using fem_tests::steel;
@@ -146,6 +147,59 @@ TEST_P(EveryDegree, straight_cells_know_the_stress_of_a_quadratic_field) {
         ASSERT_NEAR(of_cell[0][c], expected[c], 1e-11 * steel.youngs_modulus_Pa) << x.transpose();
   }
   EXPECT_GT(n_checked, 10);
+}
+
+// Stress that is the place itself: what is found between the nodes are the points of the faces. Around the
+// axis, on the end face, faces are straight: their points are bilinear in the corners.
+TEST_P(EveryDegree, stress_between_nodes_is_that_of_the_faces) {
+  constexpr int n = 4;
+  fem::UnitResponses r;
+  r.channels = {"place", "twice"};
+  r.nodes = nodes;
+  std::size_t centre = 0;
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    const Eigen::Vector3d x = at(std::int32_t(i));
+    for (const double factor : {1, 2})
+      r.stress_Pa.insert(r.stress_Pa.end(), {factor * x[0], factor * x[1], factor * x[2], 0, 0, factor});
+    const Eigen::Vector3d least = at(std::int32_t(centre));
+    const double nearer = x[2] - least[2] + 0.1 * (std::hypot(x[0], x[1]) - std::hypot(least[0], least[1]));
+    if (nearer < 0) centre = i;
+  }
+  const std::vector<char> none(nodes.n, 0);
+  const auto found = fem::stress_on_faces_around_Pa(r, centre, n, none);
+  std::size_t k = 0;
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    if (std::find(face.begin(), face.end(), std::int32_t(centre)) == face.end()) continue;
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i, ++k) {
+        ASSERT_LT(k, found.size());
+        const double u = double(i) / n, v = double(j) / n;
+        const Eigen::Vector3d expected = (1 - u) * (1 - v) * at(face[0]) + u * (1 - v) * at(face[1]) +
+                                         u * v * at(face[2]) + (1 - u) * v * at(face[3]);
+        for (int d = 0; d < 3; ++d) {
+          ASSERT_NEAR(found[k][0][std::size_t(d)], expected[d], 1e-15);  // rounding of millimetres
+          ASSERT_NEAR(found[k][1][std::size_t(d)], 2 * expected[d], 1e-15);
+        }
+        ASSERT_NEAR(found[k][1][5], 2, 1e-14) << "shape functions add up to 1";
+      }
+  }
+  EXPECT_EQ(k, found.size());
+  EXPECT_EQ(k, 4u * (n + 1) * (n + 1)) << "four faces meet at the axis";
+
+  auto some = none;
+  const auto faces = nodes.n_faces();
+  for (std::size_t f = 0; f < faces; ++f) {
+    const auto face = nodes.face(f);
+    if (std::find(face.begin(), face.end(), std::int32_t(centre)) == face.end()) continue;
+    some[std::size_t(*std::find_if(face.begin(), face.begin() + 4, [&](auto i) {
+      return (at(i) - at(std::int32_t(centre))).norm() > 1e-6;
+    }))] = 1;
+    break;
+  }
+  const auto fewer = fem::stress_on_faces_around_Pa(r, centre, n, some).size();
+  EXPECT_LT(fewer, found.size()) << "faces with a node that is left out";
+  EXPECT_GT(fewer, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Q, EveryDegree, testing::Values(1, 2, 3));

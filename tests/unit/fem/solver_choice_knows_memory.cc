@@ -23,6 +23,20 @@ fem::Grid one_cell(std::size_t n_nodes, double length = 1) {
   return grid;
 }
 
+/// Twenty such cells, one of them with an edge of `length`.
+fem::Grid few_stretched(double length) {
+  fem::Grid grid = one_cell(200'000);
+  const auto compact = grid;
+  const auto stretched = one_cell(200'000, length);
+  for (int cell = 1; cell < 20; ++cell) {
+    const auto& added = cell == 7 ? stretched : compact;
+    for (const auto node : added.cell_nodes) grid.cell_nodes.push_back(27 * cell + node);
+    grid.xyz_m.insert(grid.xyz_m.end(), added.xyz_m.begin(), added.xyz_m.end());
+    grid.volume_id.push_back(1);
+  }
+  return grid;
+}
+
 fem::SolverReport choose(std::size_t n_nodes, const fem::SolverChoice& choice, double memory_bytes,
                          double length = 1) {
   return fem::choose_solver(one_cell(n_nodes, length), fem_tests::steel, 12, choice, memory_bytes);
@@ -111,6 +125,44 @@ TEST(FactorSize, tells_seconds_and_bytes) {
   const auto larger = fem::scaled(compact, 200'000);
   EXPECT_EQ(larger.n_dofs, 200'000u);
   EXPECT_DOUBLE_EQ(larger.flops, 4 * compact.flops);
+}
+
+// Cells of middling stretch take more iterations than is known: the factor has to be twice as dear.
+TEST(FactorSize, decides_where_cells_are_of_middling_stretch) {
+  auto report = fem::choose_solver(few_stretched(18), fem_tests::steel, 12, {}, 1e13);
+  EXPECT_EQ(report.used, fem::Solver::direct);
+  ASSERT_TRUE(report.by_analysis);
+  const double iterative_s = report.predicted_iterative.seconds;
+  fem::FactorSize factor{600'000, 1e8, 0, 1e9};
+  const auto with_seconds = [&](double seconds) {
+    const double rest_s = fem::predict_direct(factor, 12).seconds;
+    auto dear = factor;
+    dear.flops = (seconds - rest_s) / 3.5e-11;
+    EXPECT_NEAR(fem::predict_direct(dear, 12).seconds, seconds, 1e-9 * seconds);
+    return fem::is_too_dear(dear, report, 12);
+  };
+  EXPECT_TRUE(with_seconds(2.1 * iterative_s + 1));
+  EXPECT_FALSE(with_seconds(1.9 * iterative_s + 1));
+  report.by_analysis = false;
+  EXPECT_FALSE(with_seconds(100 * iterative_s));
+}
+
+TEST(FactorSize, does_not_decide_elsewhere) {
+  const auto by_analysis = [](const fem::Grid& grid, const fem::SolverChoice& choice = {},
+                              const fem::Material& material = fem_tests::steel) {
+    return fem::choose_solver(grid, material, 12, choice, 1e13).by_analysis;
+  };
+  EXPECT_TRUE(by_analysis(few_stretched(18)));
+  EXPECT_FALSE(by_analysis(few_stretched(3))) << "compact: decided without it";
+  EXPECT_FALSE(by_analysis(few_stretched(40))) << "the iteration may not end";
+  EXPECT_FALSE(by_analysis(one_cell(200'000, 18))) << "all cells are stretched";
+  fem::SolverChoice choice;
+  choice.solver = fem::Solver::direct;
+  EXPECT_FALSE(by_analysis(few_stretched(18), choice)) << "asked for";
+  choice = {};
+  choice.gave_up_before = true;
+  EXPECT_FALSE(by_analysis(few_stretched(18), choice));
+  EXPECT_FALSE(by_analysis(few_stretched(18), {}, fem::Material{206e9, 0.4999, 7850}));
 }
 
 // Cells too long for the smoother stay so on a finer mesh, however many they are.

@@ -103,6 +103,27 @@ TEST(Solvers, stretched_cells_are_right_either_way) {
   EXPECT_NE(automatic.solver.reason.find("stretched"), std::string::npos) << automatic.solver.reason;
 }
 
+// A shoulder between long plain cylinders, 94 k unknowns: one cell in fourteen is stretched more than 1 : 12,
+// up to 1 : 17, and the analysed factor is dear.
+TEST(Solvers, few_cells_of_middling_stretch_are_iterated_where_the_factor_is_dear) {
+  meshes::Shaft shaft;
+  shaft.segments = {{"left", 0, 0.06, 0.04, 0, true},
+                    {"thin", 0.06, 0.14, 0.04},
+                    {"thick", 0.14, 0.24, 0.06},
+                    {"right", 0.24, 0.3, 0.06, 0, true}};
+  shaft.fillets_m = {0, 0.004, 0};
+  meshes::ShaftMeshControl control;
+  control.subdivisions = 2;
+  control.cells_per_fillet_quarter = 4;
+  control.growth = 0.5;
+  const auto body = fem_tests::build(shaft, control);
+  const auto automatic = solve(body, {});
+  EXPECT_GT(automatic.solver.largest_aspect, 12);
+  EXPECT_EQ(automatic.solver.used, fem::Solver::iterative);
+  EXPECT_NE(automatic.solver.reason.find("the factor is dear"), std::string::npos) << automatic.solver.reason;
+  EXPECT_LT(automatic.residual, 1e-9) << "the updated residual drifts from the true one by rounding";
+}
+
 TEST(Solvers, stall_falls_back_to_the_direct_solver_and_says_so) {
   const auto rod = fem_tests::rod(8);
   const auto direct = solve(rod, directly), stalled = solve(rod, {fem::Solver::iterative, 1e-10, 3});

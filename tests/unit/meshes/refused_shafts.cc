@@ -110,6 +110,21 @@ std::vector<Refusal> refusals() {
        [](auto&, ShaftMeshControl& c) { c.cells_per_fillet_quarter = 0; },
        {"cells_per_fillet_quarter = 0"}},
       {"sectors", [](auto&, ShaftMeshControl& c) { c.n_sectors = 18; }, {"n_sectors = 18", "multiple of 4"}},
+      {"subdivisions of sectors",
+       [](auto&, ShaftMeshControl& c) {
+         c.subdivisions = 4;
+         c.n_sectors = 24;
+       },
+       {"subdivisions = 4", "quarter of the sectors", "at least 8"}},
+      {"subdivisions of a fillet",
+       [](auto&, ShaftMeshControl& c) {
+         c.subdivisions = 2;
+         c.fillet_cells = {6};
+       },
+       {"subdivisions = 2", "half of the cells"}},
+      {"no subdivisions",
+       [](auto&, ShaftMeshControl& c) { c.subdivisions = 0; },
+       {"subdivisions = 0", "at least 1"}},
       {"few sectors", [](auto&, ShaftMeshControl& c) { c.n_sectors = 4; }, {"n_sectors = 4", "at least 8"}},
       {"growth", [](auto&, ShaftMeshControl& c) { c.growth = 0; }, {"growth = 0"}},
       {"largest cell", [](auto&, ShaftMeshControl& c) { c.largest_cell_m = -1; }, {"largest_cell_m = -1"}},
