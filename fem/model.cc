@@ -187,8 +187,17 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
   const auto is_dear = [&](const FactorSize& factor) {
     return is_too_dear(factor, report, std::size_t(loads.force.cols()));
   };
-  if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, is_dear))
-    return std::move(*solution);
+  try {
+    if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, is_dear))
+      return std::move(*solution);
+  } catch (const DoesNotFit&) {
+    if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) throw;
+    report.used = Solver::iterative;
+    report.reason += ", but the factor does not fit into memory";
+    choice.max_iterations *= patience;
+    if (auto solution = iterate()) return std::move(*solution);
+    throw;
+  }
   report.used = Solver::iterative;
   report.reason += ", but the factor is dear";
   if (auto solution = iterate()) return std::move(*solution);

@@ -73,6 +73,12 @@ double largest_aspect(const Grid& grid) {
   return all.empty() ? 1 : *std::max_element(all.begin(), all.end());
 }
 
+double share_stretched(const Grid& grid) {
+  const auto all = aspects(grid);
+  const auto n = std::count_if(all.begin(), all.end(), [](double a) { return !suits_multigrid(a); });
+  return all.empty() ? 0 : double(n) / double(all.size());
+}
+
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads) {
   const double n = static_cast<double>(n_dofs) / 2e5;
   const double factor = 10.8 * n + 12.6 * n * n, solve = 0.03 * std::pow(n, 1.3);
@@ -119,6 +125,13 @@ bool suits_multigrid(double aspect) {
 bool is_too_dear(const FactorSize& factor, const SolverReport& report, std::size_t n_loads) {
   return report.by_analysis && stretched_safety * report.predicted_iterative.seconds + worth_seconds <
                                    predict_direct(factor, n_loads).seconds;
+}
+
+bool may_be_iterated(const Grid& grid, const CellMaterials& materials, const SolverChoice& choice,
+                     const SolverReport& report, double memory_bytes) {
+  return choice.solver == Solver::automatic && !report.gave_up && !grid.shape().is_tetrahedron() &&
+         grid.degree > 1 && materials.largest_poisson_ratio() <= most_incompressible &&
+         share_stretched(grid) <= 0.5 && report.predicted_iterative.bytes < memory_bytes;
 }
 
 bool saves_time(const SolverReport& report) {
@@ -179,11 +192,8 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
   if (!compact) {
     std::ostringstream text;
     text << "cells are stretched up to 1 : " << std::setprecision(3) << report.largest_aspect;
-    const auto all = aspects(grid);
-    const auto n_stretched =
-        std::count_if(all.begin(), all.end(), [](double a) { return !suits_multigrid(a); });
     report.by_analysis = report.largest_aspect <= stretched_at_all &&
-                         double(n_stretched) <= most_stretched_cells * double(all.size()) && iterative_fits &&
+                         share_stretched(grid) <= most_stretched_cells && iterative_fits &&
                          materials.largest_poisson_ratio() <= most_incompressible;
     return take(Solver::direct, text.str());
   }

@@ -13,6 +13,9 @@ namespace fem {
 /// empty for tetrahedra.
 std::vector<double> aspects(const Grid& grid);
 
+/// Of all cells: those that suits_multigrid refuses.
+double share_stretched(const Grid& grid);
+
 /// The largest of them; 1 without cells, 0 for tetrahedra.
 double largest_aspect(const Grid& grid);
 
@@ -48,6 +51,14 @@ bool suits_multigrid(double aspect);
 /// Whether an analysed factor is predicted to cost more than twice what the iteration does on cells of
 /// middling stretch, whose number of iterations is known less well.
 bool is_too_dear(const FactorSize& factor, const SolverReport& report, std::size_t n_loads);
+
+/// Whether stretched cells may be iterated where the factor does not fit into memory: at most half of them
+/// beyond 1 : 12 (a third of a stepped shaft's cells, up to 1 : 39: 95 iterations), so that it may take up to
+/// patience times SolverChoice::max_iterations.
+/// @param memory_bytes  that are left
+bool may_be_iterated(const Grid& grid, const CellMaterials& materials, const SolverChoice& choice,
+                     const SolverReport& report, double memory_bytes);
+inline constexpr int patience = 3;
 
 /// Whether the iterative solver is predicted to save enough to be worth an answer to its tolerance.
 bool saves_time(const SolverReport& report);

@@ -51,8 +51,9 @@ HalfSection build_half_section(const Shaft& shaft, const ShaftMeshControl& contr
   const ShaftLayout layout = lay_out(concentric, before);
   const Meridian meridian = build_meridian(layout, name_surfaces(concentric, layout), before);
   HalfSection half{meridian.points, meridian.quads, meridian.edges};
+  const int n = control.subdivisions, n_rows = n * std::max(n > 1 ? 1 : 2, before.n_sectors / 8);
   for (const CoreLine& core : meridian.cores)
-    fill_core(core, layout, std::max(2, control.n_sectors / 8), half);
+    fill_core(core, layout, n_rows, half);
   return half;
 }
 

@@ -60,9 +60,9 @@ struct ShaftMeshControl {
   double largest_cell_m = 0;         ///< axial; 0: chosen from diameters and walls
   double min_scaled_jacobian = 0.3;  ///< refused below
   /// The blocks are laid out for cells this many times larger, each of which is then cut into as many along
-  /// every edge. Divides n_sectors / 4 and half of the cells of each fillet; n_sectors >= 8 subdivisions.
-  /// Meshes whose counts are in proportion to it, and growth and largest_cell_m to its reciprocal, are
-  /// systematic: all their cells shrink alike.
+  /// every edge. Divides n_sectors / 4 and half of the cells of each fillet. Meshes whose counts are in
+  /// proportion to it, and growth and largest_cell_m to its reciprocal, are systematic: all their cells
+  /// shrink alike.
   int subdivisions = 1;
 
   /// On a quarter of one of Shaft::fillets_m.

@@ -156,11 +156,9 @@ void check_control(const ShaftMeshControl& control) {
   const auto can_be_cut = [&](int cells) { return cells % (2 * n) == 0; };
   if (n < 1) refuse_control("subdivisions = " + std::to_string(n) + " must be at least 1");
   if (!can_be_cut(control.cells_per_fillet_quarter) || control.n_sectors % (4 * n) != 0 ||
-      control.n_sectors < 8 * n ||
       !std::all_of(control.fillet_cells.begin(), control.fillet_cells.end(), can_be_cut))
     refuse_control("subdivisions = " + std::to_string(n) +
-                   " must divide half of the cells of every fillet and a quarter of the sectors, of which it "
-                   "leaves at least 8");
+                   " must divide half of the cells of every fillet and a quarter of the sectors");
   if (!std::isfinite(control.growth) || control.growth <= 0)
     refuse_control("growth = " + std::to_string(control.growth) + " must be positive");
   if (!std::isfinite(control.largest_cell_m) || control.largest_cell_m < 0)

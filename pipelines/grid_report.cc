@@ -25,6 +25,10 @@ void print_grid_study(std::ostream& out, const GridStudy& study) {
         c.observed_order != 0 ? "; " : "    ", c.extrapolated / 1e6, c.index_21 / 1e6, c.safety, c.order);
   if (c.asymptotic_ratio != 0) out << fmt::format("; GCI_32 / (r^p GCI_21) = {:.3f}", c.asymptotic_ratio);
   if (c.observed_order != 0 || c.order > 0) out << '\n';
+  if (study.between_nodes_Pa > 0)
+    out << fmt::format(
+        "    values are those between nodes too: the finest's peak, at a node, is {:.3f} MPa less\n",
+        study.between_nodes_Pa / 1e6);
   if (!c.usable()) out << "    index refused: " << c.refusal << '\n';
 }
 

@@ -12,10 +12,10 @@ namespace pipelines {
 inline constexpr int systematic_levels[] = {2, 3, 4, 6};
 
 /// The body's mesh at a level. Shafts: 2 n cells on fillet quarters and 8 n sectors, or a whole multiple of
-/// these where level 4 would be coarser than the scene, and axial cells that grow by slopes in proportion to
-/// 1 / n; walls thinner than the mesher counts as thick keep two cells. Chambers: n / 2 of the scene's cells
-/// through the wall, at the toes and elsewhere (odd levels need an even number of cells through the wall: it
-/// becomes one). Tetrahedra: sizes in proportion to 4 / n of the scene's.
+/// these where level 4 would be coarser than the scene; all of one layout, whose cells are cut into n along
+/// every edge (meshes::ShaftMeshControl::subdivisions), so that the numbers of cells are as n^3. Chambers: n
+/// / 2 of the scene's cells through the wall, at the toes and elsewhere (odd levels need an even number of
+/// cells through the wall: it becomes one). Tetrahedra: sizes in proportion to 4 / n of the scene's.
 BodyScene systematic_mesh(const BodyScene& body, int level);
 
 /// (volume / number of cells)^(1/3) [m].

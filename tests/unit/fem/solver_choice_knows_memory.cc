@@ -165,6 +165,26 @@ TEST(FactorSize, does_not_decide_elsewhere) {
   EXPECT_FALSE(by_analysis(few_stretched(18), {}, fem::Material{206e9, 0.4999, 7850}));
 }
 
+// What does not fit as a factor is iterated rather than refused, unless that cannot be hoped to end.
+TEST(SolverMemory, stretched_bodies_may_be_iterated_where_the_factor_does_not_fit) {
+  const auto may = [](const fem::Grid& grid, double memory_bytes = 1e13, const fem::SolverChoice& choice = {},
+                      const fem::Material& material = fem_tests::steel) {
+    const auto report = fem::choose_solver(grid, material, 12, choice, 1e13);
+    EXPECT_EQ(report.used, fem::Solver::direct);
+    return fem::may_be_iterated(grid, material, choice, report, memory_bytes);
+  };
+  EXPECT_TRUE(may(few_stretched(40)));
+  EXPECT_FALSE(may(one_cell(200'000, 40))) << "all cells are stretched";
+  EXPECT_FALSE(may(few_stretched(40), 1e6)) << "does not fit either";
+  EXPECT_FALSE(may(few_stretched(40), 1e13, {}, {206e9, 0.4999, 7850}));
+  fem::SolverChoice choice;
+  choice.gave_up_before = true;
+  EXPECT_FALSE(may(few_stretched(40), 1e13, choice));
+  choice = {};
+  choice.solver = fem::Solver::direct;
+  EXPECT_FALSE(may(few_stretched(40), 1e13, choice)) << "asked for";
+}
+
 // Cells too long for the smoother stay so on a finer mesh, however many they are.
 TEST(FactorSize, finer_meshes_of_stretched_cells_stay_direct) {
   for (const double length : {3.0, 40.0}) {

@@ -115,7 +115,7 @@ std::vector<Refusal> refusals() {
          c.subdivisions = 4;
          c.n_sectors = 24;
        },
-       {"subdivisions = 4", "quarter of the sectors", "at least 8"}},
+       {"subdivisions = 4", "quarter of the sectors"}},
       {"subdivisions of a fillet",
        [](auto&, ShaftMeshControl& c) {
          c.subdivisions = 2;

@@ -26,6 +26,7 @@ TEST(SystematicMeshes, ShaftsScaleAllCounts) {
       const auto mesh = pipelines::systematic_mesh(body, level).shaft()->mesh;
       EXPECT_EQ(2 * mesh.cells_per_fillet_quarter, level * coarsest.cells_per_fillet_quarter);
       EXPECT_EQ(2 * mesh.n_sectors, level * coarsest.n_sectors);
+      EXPECT_EQ(mesh.subdivisions, level) << "one layout, cut into ever more cells";
       EXPECT_EQ(mesh.fillet_cells, (std::vector<int>{0, 4 * level}));
       EXPECT_EQ(mesh.cells_per_fillet_quarter % 2, 0);
       EXPECT_EQ(mesh.n_sectors % 8, 0);
