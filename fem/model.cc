@@ -163,8 +163,8 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
   return std::nullopt;
 }
 
-/// By the solver that the report names; by the other one if the iterative one gives up, or if the factor
-/// turns out too dear for cells of middling stretch; the report then tells.
+/// By the solver that the report names; by the other one if the iterative one gives up, if the factor does not
+/// fit into memory, or if it turns out too dear for cells of middling stretch; the report then tells.
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
