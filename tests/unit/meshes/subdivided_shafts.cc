@@ -84,6 +84,25 @@ TEST(SubdividedShafts, have_as_many_cells_as_their_level_says) {
   }
 }
 
+// Each face of the drawing and each part of the body for itself, so that none shrinks faster than another.
+TEST(SubdividedShafts, shrink_alike_on_every_face_and_in_every_part) {
+  for (const auto& shaft : shafts()) {
+    SCOPED_TRACE(text(shaft));
+    const auto counts = [&](int n) {
+      const auto mesh =
+          read_mesh_file(meshes::build_shaft(shaft, cut_into(n, 4), temporary_msh("subdivided")).file);
+      std::map<std::string, int> result;
+      for (const auto& quad : mesh.quads) ++result[mesh.boundary_names.at(quad.group)];
+      for (const auto& hex : mesh.hexes) ++result["volume " + mesh.volume_names.at(hex.group)];
+      return result;
+    };
+    const auto two = counts(2), four = counts(4);
+    ASSERT_EQ(two.size(), four.size());
+    for (const auto& [name, n] : two)
+      EXPECT_EQ(four.at(name), n * (name.rfind("volume ", 0) == 0 ? 8 : 4)) << name;
+  }
+}
+
 TEST(SubdividedShafts, are_watertight_and_have_the_right_volume) {
   for (const auto& shaft : shafts())
     for (const auto& [n, cells, sectors] : {std::array{2, 2, 4}, {3, 2, 4}, {4, 2, 8}, {2, 4, 12}}) {
