@@ -44,9 +44,9 @@ struct ShaftSegment {
 ///   left around the wider bore. The segment with the narrow bore is long enough for a row of cells to climb,
 ///   at a slope below 0.8, from the bore step to the fan of a fillet at its other end or to the bore step
 ///   there.
-/// - Every wall has at least two cells through it, with subdivisions at least as many. In a thin one cells
-/// are
-///   at most 64 walls / n_sectors long, but not shorter than around, and grow half as fast as control.growth.
+/// - Every wall has at least two cells through it, with subdivisions at least as many. In a thin one
+///   cells are at most 64 walls / n_sectors long, but not shorter than around, and grow half as fast as
+///   control.growth.
 struct Shaft {
   std::vector<ShaftSegment> segments;
   std::vector<double> fillets_m;
