@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "pipelines/accuracy_report.h"
@@ -136,7 +137,35 @@ private:
     const double y = y_.at(100 * study_.tolerance);
     for (double x = left; x < right; x += 24) line.line(x, y, x + 12, y);
     line.put(renderer_, ink, 1.5);
-    words(fmt::format("{:g} % wanted", 100 * study_.tolerance), small_font, right - 130, y + 8);
+    words(fmt::format("{:g} % wanted", 100 * study_.tolerance), small_font,
+          free_x(y - disc_radius, y + 30 + disc_radius, 120), y + 8);
+  }
+
+  /// Where no mark, bar or curve lies between two heights over a width: as far to the right as there is room,
+  /// else at the right end.
+  double free_x(double low, double high, double wide) const {
+    const auto is_crossed = [&](double from) {
+      const auto meets = [&](double x, double y, double other_x, double other_y) {
+        const double first = std::clamp(y, low, high), last = std::clamp(other_y, low, high);
+        if (std::max(y, other_y) < low || std::min(y, other_y) > high) return false;
+        const double slope = y == other_y ? 0 : (other_x - x) / (other_y - y);
+        const double begin = x + slope * (first - y), end = y == other_y ? other_x : x + slope * (last - y);
+        return std::max(begin, end) > from - disc_radius && std::min(begin, end) < from + wide + disc_radius;
+      };
+      std::map<std::string, const AccuracyRow*> before;
+      for (const auto& row : study_.rows) {
+        const double x = x_.at(row.seconds), y = shown_y(row);
+        if (meets(x, y, x, y_of(row.errors.total_Pa()))) return true;
+        const auto*& last = before[row.rung];
+        if (last && meets(x_.at(last->seconds), shown_y(*last), x, y)) return true;
+        last = &row;
+      }
+      return false;
+    };
+    const double furthest = right - wide - 10;
+    for (double x = furthest; x > left; x -= 10)
+      if (!is_crossed(x)) return x;
+    return furthest;
   }
 
   void draw_frontier() {
