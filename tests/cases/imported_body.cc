@@ -249,7 +249,8 @@ TEST(ImportedBody, AnEdgeAtWhichStressGrowsIsLeftOutWhole) {
   EXPECT_GT(foot_m, 0.97 * left_out_m[0]) << "the edge's segments are chords of a circle";
   EXPECT_LT(foot_m, 3 * left_out_m[0]) << "its stress is still the largest";
   double largest = 0;
-  for (const auto& step : part["search"]["steps"]) largest = std::max(largest, step["value_Pa"].get<double>());
+  for (const auto& step : part["search"]["steps"])
+    largest = std::max(largest, step["value_Pa"].get<double>());
   EXPECT_LT(peak_json["value"].get<double>(), 0.97 * largest)
       << "more was found before the edge was left out";
 }
