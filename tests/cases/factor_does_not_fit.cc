@@ -2,8 +2,8 @@
 
 using namespace cases;
 
-// A long shaft of 99 k unknowns, cells stretched up to 1 : 26: its factor of 1.05 GB does not fit
-// not fit into 0.7 GB, where the iteration finds the same stress.
+// A long shaft of 99 k unknowns, cells stretched up to 1 : 26: its factor of 1.05 GB does not fit into 0.7
+// GB, where the iteration finds the same stress.
 TEST(Runs, IterateWhereTheFactorDoesNotFit) {
   const results_test::Directory directory;
   write(
