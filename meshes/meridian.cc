@@ -37,10 +37,10 @@ double usual_cell(const SegmentLayout& segment, int n_sectors) {
 AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshControl& control) {
   const SegmentLayout& segment = layout.segments[index];
   AxialSize size;
-  const double usual_m = usual_cell(segment, control.n_sectors);
-  const bool is_thin = usual_m < 6 * pi * segment.radius_m / control.n_sectors;
+  const double chosen_m = usual_cell(segment, control.n_sectors);
+  const bool is_thin = chosen_m < 6 * pi * segment.radius_m / control.n_sectors;
   size.growth = is_thin ? growth_in_shells * control.growth : control.growth;
-  size.largest_m = control.largest_cell_m > 0 ? control.largest_cell_m : usual_m;
+  size.largest_m = control.largest_cell_m > 0 ? control.largest_cell_m : control.axial_share * chosen_m;
   for (const Junction& junction : layout.junctions) {
     if (junction.is_bore_step && (junction.small == index || junction.big == index))
       size.sources.push_back({junction.z_m, junction.step_cell_m});

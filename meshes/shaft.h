@@ -58,6 +58,7 @@ struct ShaftMeshControl {
   int n_sectors = 16;                ///< around, a multiple of 4, >= 8
   double growth = 1.0;  ///< slope of the axial cell size away from fillets; cells grow by at most e^growth
   double largest_cell_m = 0;         ///< axial; 0: chosen from diameters and walls
+  double axial_share = 1;            ///< of the axial size that is chosen where largest_cell_m is 0
   double min_scaled_jacobian = 0.3;  ///< refused below
   /// The blocks are laid out for cells this many times larger, each of which is then cut into as many along
   /// every edge. Divides n_sectors / 4 and half of the cells of each fillet. Meshes whose counts are in

@@ -16,6 +16,7 @@
 #include "pipelines/error_ledger.h"
 #include "pipelines/hot_spots.h"
 #include "pipelines/machine_masses.h"
+#include "pipelines/place_stress.h"
 #include "pipelines/scene.h"
 #include "pipelines/search.h"
 #include "pipelines/stage_clock.h"
@@ -69,6 +70,7 @@ struct BodyAnalysis {
   std::vector<HotSpotStress> hot_spots;  ///< descending
   ErrorLedger hot_spot_errors;           ///< of the first
   std::optional<Diagrams> diagrams;      ///< parametric shafts and drums only
+  std::vector<PlaceStress> place_stresses;  ///< what is known of every place that may govern, with its error
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
   std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
   std::optional<DroppedBounds> dropped;  ///< where effects = "auto" has dropped any

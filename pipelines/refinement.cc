@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
+/// Cells on a fillet quarter and sectors of a shaft's first mesh; the later ones where the mesher refuses one.
+constexpr std::array<std::array<int, 2>, 4> first_shaft_meshes = {{{2, 8}, {4, 8}, {4, 12}, {6, 16}}};
+/// Of the largest stress: fillets above are resolved from the start, above the second one half as well.
+constexpr double leading_share = 0.8, minor_share = 0.5;
 constexpr double toe_step = 2, other_toes_step = 1.1, elsewhere_step = 1.05, toe_order = 1;
 /// Entries that large beside the largest one are mended in the same step.
 constexpr double mended_along = 1.0 / 3;
@@ -25,41 +29,35 @@ int next_cells(int cells) {
   return next == cells_on_quarters.end() ? cells : *next;
 }
 
-/// Index among the shaft's fillets of each one that may hold the peak, by its own stress and error.
-std::vector<std::size_t> fillets_that_may_lead(const BodyAnalysis& analysis, double leading_Pa) {
-  const auto names = fillets_of(analysis.scene);
-  const auto& places = analysis.places;
-  const auto& maximum = analysis.envelope.von_mises;
+/// Index among the shaft's fillets of each one that may hold the largest stress, by its own stress and error.
+std::vector<std::size_t> fillets_that_may_lead(const BodyScene& body, const std::vector<PlaceStress>& judged) {
+  const auto names = fillets_of(body);
+  const double leading_Pa = judged[judge(judged).governing].value_Pa;
   std::vector<std::size_t> result;
-  for (std::size_t f = 0; f < names.size(); ++f) {
-    const auto feature = std::find(places.feature_names.begin(), places.feature_names.end(), names[f]);
-    if (names[f].empty() || feature == places.feature_names.end()) continue;
-    const auto index = std::int32_t(feature - places.feature_names.begin());
-    std::size_t node = maximum.value_Pa.size();
-    for (std::size_t i = 0; i < maximum.value_Pa.size(); ++i)
-      if (places.feature[i] == index && !places.excluded[i] &&
-          (node == maximum.value_Pa.size() || maximum.value_Pa[i] > maximum.value_Pa[node]))
-        node = i;
-    if (node == maximum.value_Pa.size()) continue;
-    const auto errors = self_estimate({{{node, 1.0}}, maximum.instant[node]}, analysis.responses,
-                                      analysis.loads, analysis.scene.material, 0);
-    if (maximum.value_Pa[node] + errors.of("discretisation") >= leading_Pa) result.push_back(f);
-  }
+  for (std::size_t f = 0; f < names.size(); ++f)
+    for (const auto& place : judged)
+      if (!names[f].empty() && place.feature == names[f] && place.value_Pa + place.error_Pa >= leading_Pa)
+        result.push_back(f);
   return result;
 }
 
 /// Whether cells are half or twice as large away from the toes moves the hot-spot stress of a tube by 1 %, at
 /// the toes by 4 %, through the wall, beside them, by 3 %.
-Refinement refine_chamber(BodyScene& body, const BodyAnalysis& analysis) {
+MeshStep refine_chamber(BodyScene& body, const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
   const auto before = std::get<ChamberShape>(body.shape).mesh;
   body = with_fineness(body, elsewhere_step);
   auto& mesh = std::get<ChamberShape>(body.shape).mesh;
   mesh.cells_through_wall = before.cells_through_wall + 1;
   mesh.toe_walls = before.toe_walls / other_toes_step;
   mesh.fine_toes = before.fine_toes;
-  const double relative_error = governing_stress(analysis).relative_error();
+  MeshStep step{MeshPart::all, toe_step, toe_order, {}};
   for (const auto& spot : analysis.hot_spots) {
-    if (spot.von_mises_Pa * (1 + relative_error) < analysis.hot_spots.front().von_mises_Pa) continue;
+    const auto place =
+        std::find_if(judged.begin(), judged.end(), [&](const auto& p) { return p.feature == spot.name; });
+    if (place == judged.end() ||
+        place->value_Pa + place->error_Pa < analysis.hot_spots.front().von_mises_Pa)
+      continue;
+    step.features.push_back(spot.name);
     const auto same = [&](const meshes::FineToe& toe) { return toe.at_m == spot.toe_m; };
     const auto fine = std::find_if(mesh.fine_toes.begin(), mesh.fine_toes.end(), same);
     if (fine != mesh.fine_toes.end())
@@ -67,30 +65,38 @@ Refinement refine_chamber(BodyScene& body, const BodyAnalysis& analysis) {
     else
       mesh.fine_toes.push_back({spot.toe_m, before.toe_walls / toe_step});
   }
-  return {true, true, toe_step, toe_order};
+  return step;
 }
 
-Refinement refine_shaft(BodyScene& body, const BodyAnalysis& analysis, const Remainders& known) {
+std::optional<MeshStep> refine_fillets(BodyScene& body, const std::vector<PlaceStress>& judged) {
   auto& mesh = std::get<ShaftShape>(body.shape).mesh;
-  const bool on_fillet = analysis.peak.feature.rfind("fillet ", 0) == 0;
-  const auto leading = fillets_that_may_lead(analysis, analysis.peak.value_Pa);
-  const bool can_be_finer = std::any_of(leading.begin(), leading.end(), [&](std::size_t f) {
-    return next_cells(mesh.cells_at(int(f))) > mesh.cells_at(int(f));
-  });
-  if (!on_fillet || !can_be_finer || known.next() == MeshPart::around) {
-    mesh.n_sectors = with_fineness(body, step_factor).shaft()->mesh.n_sectors;
-    mesh.growth /= step_factor;
-    mesh.largest_cell_m /= step_factor;
-    return {true, true, step_factor, 2, MeshPart::around};
-  }
-  mesh.fillet_cells.resize(fillets_of(body).size(), 0);
-  double ratio = 1;
-  for (const auto f : leading) {
+  const auto names = fillets_of(body);
+  mesh.fillet_cells.resize(names.size(), 0);
+  MeshStep step{MeshPart::fillets, 1, 2, {}};
+  for (const auto f : fillets_that_may_lead(body, judged)) {
     const int before = mesh.cells_at(int(f)), after = next_cells(before);
+    if (after == before) continue;
     mesh.fillet_cells[f] = after;
-    ratio = std::max(ratio, double(after) / before);
+    step.features.push_back(names[f]);
+    step.ratio = std::max(step.ratio, double(after) / before);
   }
-  return {true, true, ratio, 2, MeshPart::fillets};
+  return step.features.empty() ? std::nullopt : std::optional<MeshStep>(step);
+}
+
+std::optional<MeshStep> refine_shaft(BodyScene& body, const std::vector<PlaceStress>& judged, MeshPart part) {
+  auto& mesh = std::get<ShaftShape>(body.shape).mesh;
+  if (part == MeshPart::fillets) return refine_fillets(body, judged);
+  if (part == MeshPart::around) {
+    const int before = mesh.n_sectors;
+    mesh.n_sectors = with_fineness(body, step_factor).shaft()->mesh.n_sectors;
+    // Cells are as long as they are wide by default: around alone means that they keep their length.
+    mesh.axial_share *= double(mesh.n_sectors) / before;
+    return MeshStep{part, double(mesh.n_sectors) / before, 2, {}};
+  }
+  mesh.growth /= step_factor;
+  mesh.axial_share /= step_factor;
+  mesh.largest_cell_m /= step_factor;
+  return MeshStep{part, step_factor, 2, {}};
 }
 
 /// Mean edge of the cells around a node.
@@ -110,15 +116,15 @@ double cell_size_m(const fem::Nodes& nodes, std::size_t node) {
   return n > 0 ? sum_m / n : 0;
 }
 
-Refinement refine_solid(BodyScene& body, const BodyAnalysis& analysis) {
+std::optional<MeshStep> refine_solid(BodyScene& body, const BodyAnalysis& analysis) {
   auto* shaft = std::get_if<ShaftShape>(&body.shape);
   auto& control = shaft ? shaft->solid : std::get<meshes::Import>(body.shape).control;
   const double size_m = cell_size_m(analysis.responses.nodes, analysis.peak.node);
-  if (!can_be_refined(body) || size_m == 0) return {};
+  if (!can_be_refined(body) || size_m == 0) return std::nullopt;
   control.fine_spots.push_back(
       {analysis.peak.position_m, spot_radius_cells * size_m, spot_shrinkage * size_m});
   control.smallest_size_m = std::min(control.smallest_size_m, spot_shrinkage * size_m);
-  return {true, true, 1 / spot_shrinkage};
+  return MeshStep{MeshPart::all, 1 / spot_shrinkage, 2, {analysis.peak.feature}};
 }
 
 }  // namespace
@@ -130,54 +136,77 @@ GoverningStress governing_stress(const BodyAnalysis& analysis) {
   return {"hot-spot stress", spot.name, spot.von_mises_Pa, analysis.hot_spot_errors};
 }
 
-void Remainders::learn(MeshPart part, double missing_Pa) {
-  if (part == MeshPart::fillets) {
-    fillets_Pa = missing_Pa;
-    ++n_fillet_steps;
+bool is_block_shaft(const BodyScene& body) {
+  return body.shaft() != nullptr && body.shaft()->keyways.empty();
+}
+
+std::vector<MeshPart> mesh_parts(const BodyScene& body) {
+  if (is_block_shaft(body)) return {MeshPart::fillets, MeshPart::around, MeshPart::along};
+  return {MeshPart::all};
+}
+
+std::vector<BodyScene> first_meshes(const BodyScene& body) {
+  std::vector<BodyScene> meshes;
+  if (!is_block_shaft(body)) {
+    meshes = {with_fineness(body, coarser_start)};
+  } else {
+    for (const auto& [cells, sectors] : first_shaft_meshes) {
+      meshes.push_back(body);
+      auto& mesh = std::get<ShaftShape>(meshes.back().shape).mesh;
+      mesh.cells_per_fillet_quarter = cells;
+      mesh.fillet_cells.clear();
+      mesh.n_sectors = sectors;
+    }
   }
-  if (part == MeshPart::around) around_Pa = missing_Pa;
-}
-
-double Remainders::of_others(MeshPart part) const {
-  if (part == MeshPart::fillets) return around_Pa.value_or(0);
-  return part == MeshPart::around ? fillets_Pa.value_or(0) : 0;
-}
-
-MeshPart Remainders::next() const {
-  if (n_fillet_steps < 2) return MeshPart::fillets;
-  return !around_Pa || *around_Pa > *fillets_Pa ? MeshPart::around : MeshPart::fillets;
+  meshes.push_back(body);
+  return meshes;
 }
 
 BodyScene coarsest(const BodyScene& body) {
+  return first_meshes(body).front();
+}
+
+BodyScene guided_by(const SecondModel& model, const BodyScene& body) {
   BodyScene result = body;
-  auto* shaft = std::get_if<ShaftShape>(&result.shape);
-  if (shaft == nullptr || !shaft->keyways.empty()) return with_fineness(body, coarser_start);
-  shaft->mesh.cells_per_fillet_quarter = 2;
-  shaft->mesh.fillet_cells.clear();
-  shaft->mesh.n_sectors = 8;
+  if (!is_block_shaft(body) || model.places.empty()) return result;
+  auto& mesh = std::get<ShaftShape>(result.shape).mesh;
+  const auto names = fillets_of(body);
+  const double largest_Pa = model.places[judge(model.places).governing].value_Pa;
+  mesh.fillet_cells.resize(names.size(), 0);
+  for (std::size_t f = 0; f < names.size(); ++f)
+    for (const auto& place : model.places) {
+      if (names[f].empty() || place.feature != names[f]) continue;
+      const double share = (place.value_Pa + place.error_Pa) * (1 + model.model_error) / largest_Pa;
+      const int wanted = share > leading_share ? 6 : share > minor_share ? 4 : 2;
+      mesh.fillet_cells[f] = std::max(wanted, mesh.cells_at(int(f)));
+    }
   return result;
 }
 
-Refinement refine(Scene& scene, std::size_t index, const BodyAnalysis& analysis, const Remainders& known) {
+OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const ErrorLedger& errors) {
   BodyScene& body = scene.bodies[index];
-  const auto ledger = governing_stress(analysis).errors;
-  const double discretisation = ledger.of("discretisation") + ledger.of("geometry");
-  const double harmonics = ledger.of("pressure_harmonics"), sampling = ledger.of("time_sampling");
-  const double largest = std::max({discretisation, harmonics, sampling});
-  bool possible = false;
+  const double mesh = errors.of("discretisation") + errors.of("geometry") + errors.of("other_places");
+  const double harmonics = errors.of("pressure_harmonics"), sampling = errors.of("time_sampling");
+  const double largest = std::max({mesh, harmonics, sampling});
+  OtherRefinement result;
   if (sampling > mended_along * largest) {
     scene.sampling.instants_per_turn *= 2;
-    possible = true;
+    result.possible = true;
   }
   if (harmonics > mended_along * largest && body.pressure_harmonics < most_pressure_harmonics) {
     body.pressure_harmonics += 2;
     for (auto& [port, pressure] : body.pressures) pressure.highest_harmonic += 2;
-    possible = true;
+    result.possible = true;
   }
-  if (discretisation < largest) return {possible, false, 1};
-  const auto* shaft = body.shaft();
-  if (shaft != nullptr && shaft->keyways.empty()) return refine_shaft(body, analysis, known);
-  if (std::holds_alternative<ChamberShape>(body.shape)) return refine_chamber(body, analysis);
+  result.mesh_matters = mesh >= largest;
+  return result;
+}
+
+std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysis,
+                                    const std::vector<PlaceStress>& judged, MeshPart part) {
+  if (judged.empty()) return std::nullopt;
+  if (is_block_shaft(body)) return refine_shaft(body, judged, part);
+  if (std::holds_alternative<ChamberShape>(body.shape)) return refine_chamber(body, analysis, judged);
   return refine_solid(body, analysis);
 }
 
@@ -191,21 +220,14 @@ bool grows_without_bound(const std::vector<double>& values, const std::vector<do
          exponent(n - 3) > 0;
 }
 
-void keep_discretisation(ErrorLedger& ledger, const ErrorLedger& before) {
-  for (const auto& entry : before.numerical)
-    if (entry.source == "discretisation") ledger.set_numerical(entry);
-}
-
-double learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes, double order,
-                         double others_Pa) {
-  if (!(ratio > 1)) return 0;
-  const double told_Pa = std::abs(change_Pa) / (std::pow(ratio, order) - 1), missing_Pa = told_Pa + others_Pa;
+void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes, double order) {
+  if (!(ratio > 1)) return;
+  const double missing_Pa = std::abs(change_Pa) / (std::pow(ratio, order) - 1);
   const double share = n_meshes <= 2 ? 1 : 0.5;
   const double own_Pa = share * ledger.of("discretisation") / discretisation_safety;
   if (missing_Pa > own_Pa)
     ledger.set_numerical({"discretisation",
-                          fmt::format("change from the coarser mesh over (ratio of cell sizes)^{} - 1{}",
-                                      order, others_Pa > 0 ? ", on the fillets and around" : ""),
+                          fmt::format("change from the coarser mesh over (ratio of cell sizes)^{} - 1", order),
                           missing_Pa});
   else
     ledger.set_numerical(
@@ -214,7 +236,6 @@ double learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, in
              "recovered stress against single cells around: the change from the coarser mesh is "
              "smaller",
          own_Pa});
-  return told_Pa;
 }
 
 }  // namespace pipelines

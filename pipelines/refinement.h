@@ -1,12 +1,14 @@
-/// Running a body again and again until its headline stress is known well enough: what dominates the error is
-/// refined, everything else stays coarse.
+/// What a search makes finer next: where the place is that keeps the error of the whole body large, and what of
+/// its mesh promises most there.
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "pipelines/body_analysis.h"
+#include "pipelines/place_history.h"
 #include "pipelines/scene.h"
 
 namespace pipelines {
@@ -24,44 +26,41 @@ struct GoverningStress {
 };
 GoverningStress governing_stress(const BodyAnalysis& analysis);
 
-/// What of a mesh a step makes finer.
-enum class MeshPart { all, fillets, around };
+/// Whether a body is a parametric shaft of hexahedra.
+bool is_block_shaft(const BodyScene& body);
 
-/// What is missing still of a shaft's stress for want of cells on its fillets, and of cells around and along
-/// it: each as its own last change has told.
-struct Remainders {
-  std::optional<double> fillets_Pa, around_Pa;
-  int n_fillet_steps = 0;  ///< in which cells of fillets became smaller
+/// The parts of a body's mesh that a search varies one at a time.
+std::vector<MeshPart> mesh_parts(const BodyScene& body);
 
-  void learn(MeshPart part, double missing_Pa);
-  /// Of the other parts than that one; 0 where nothing is known.
-  double of_others(MeshPart part) const;
-  /// What is worth a step: fillets for two steps, then what is around them once, then what has more missing.
-  MeshPart next() const;
-};
+/// Meshes that a search may begin with, the first one that the mesher takes: shafts with 2 cells on every fillet
+/// quarter and 8 sectors, then with more sectors and cells; other bodies with cells half as large again as the
+/// scene's; the scene's own mesh last.
+std::vector<BodyScene> first_meshes(const BodyScene& body);
 
-/// What the next step changes.
-struct Refinement {
-  bool possible = false;
-  bool new_mesh = false;
-  double ratio = 1;  ///< of cell sizes at the governing place, before : after
-  double order = 2;  ///< at least, with which the governing stress converges with that size
-  MeshPart part = MeshPart::all;
-};
-
-/// The coarsest mesh that a search begins with: 2 cells on every fillet quarter and 8 sectors; cells half as
-/// large again as the scene's on other bodies.
+/// The first of them, whether the mesher takes it or not.
 BodyScene coarsest(const BodyScene& body);
 
-/// Mends what dominates the governing stress's ledger, and what reaches a third of that: more instants, more
-/// pressure harmonics, smaller cells. Cells of a shaft become smaller on those fillets only whose stress with
-/// its error could be the peak; all round once that no longer helps. Chambers get one more cell through their
-/// walls, and cells half as large at the weld toes whose hot-spot stress with its error could be the largest;
-/// elsewhere cells shrink a little. The order is 1 there: at a right re-entrant corner stress grows like
-/// r^(lambda - 1), and what that does to places further away falls like h^(2 lambda), lambda = 0.544. Bodies
-/// of tetrahedra get a fine spot at the peak. The sequence of meshes does not depend on a tolerance, so that
-/// a stricter one never costs less.
-Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, const Remainders& known);
+/// A shaft's first mesh with 6 cells on the fillets that a second model finds to be stressed most, 4 on those with
+/// more than half of that stress.
+BodyScene guided_by(const SecondModel& model, const BodyScene& body);
+
+/// More instants and more pressure harmonics where these dominate the governing stress's error budget, or reach a
+/// third of its largest entry.
+struct OtherRefinement {
+  bool possible = false;    ///< something of the two became finer
+  bool mesh_matters = true;  ///< the mesh dominates
+};
+OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t body, const ErrorLedger& errors);
+
+/// Makes the mesh finer where the place that holds the error back feels it most: `part` of a shaft's mesh (on those
+/// fillets only whose stress with its error could be the largest); weld toes of a chamber, half as large where the
+/// hot-spot stress with its error could be the largest, and one more cell through its walls; a fine spot at the
+/// peak of a body of tetrahedra. The order is 1 for a chamber: at a right re-entrant corner stress grows like
+/// r^(lambda - 1), and what that does to places further away falls like h^(2 lambda), lambda = 0.544.
+/// @param judged  the places with all that is known of their errors
+/// @return nothing if that part cannot be finer
+std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysis,
+                                    const std::vector<PlaceStress>& judged, MeshPart part);
 
 /// Whether a stress keeps growing like a power of the cell size: over the last two refinements its exponent,
 /// ln(v2 / v1) / ln(ratio), has fallen by less than a quarter and is above 0.1. That of a stress that
@@ -69,19 +68,11 @@ Refinement refine(Scene& scene, std::size_t body, const BodyAnalysis& analysis, 
 /// @param values, ratios  of the steps so far at one place; ratios[i] leads from values[i] to values[i + 1]
 bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios);
 
-/// What earlier meshes have told of the discretisation holds on the same mesh with more instants or
-/// harmonics.
-void keep_discretisation(ErrorLedger& ledger, const ErrorLedger& before);
-
 /// Two meshes tell more than one. If cells became `ratio` times smaller and the stress changed by d, about
 /// d / (ratio^order - 1) is missing still (order 2 or better for recovered stress of quadratic cells on round
-/// fillets). The
-/// discretisation entry becomes that, or a share of what single cells differ by if that is more: two meshes
-/// may agree by chance, each further one makes that less likely.
+/// fillets). The discretisation entry becomes that, or a share of what single cells differ by if that is more: two
+/// meshes may agree by chance, each further one makes that less likely.
 /// @param n_meshes  tried so far: all of what single cells differ by for two, half beyond
-/// @param others_Pa  missing for want of other things than those that became smaller: added
-/// @return what is missing as the change tells it, without that
-double learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3,
-                         double order = 2, double others_Pa = 0);
+void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3, double order = 2);
 
 }  // namespace pipelines

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "pipelines/atomic_file.h"
@@ -13,7 +14,10 @@
 #include "pipelines/effect_choice.h"
 #include "pipelines/fineness.h"
 #include "pipelines/peak_growth.h"
+#include "pipelines/place_errors.h"
+#include "pipelines/place_history.h"
 #include "pipelines/refinement.h"
+#include "pipelines/second_model.h"
 #include "pipelines/singular_edge.h"
 
 namespace pipelines {
@@ -22,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int most_steps = 12;
+constexpr int most_steps = 16;
 constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
 /// A step is taken if it is predicted to end in time; predictions are rough.
 constexpr double growth_of_seconds = 1.5;  // with the number of unknowns, for the direct solver
@@ -60,18 +64,16 @@ public:
 
   SceneRun run() {
     const bool search = options_.wish.any();
-    if (search)
-      for (const auto i : wanted()) run_.scene.bodies[i] = coarsest(run_.scene.bodies[i]);
     std::vector<MeshedBody> meshed;
     for (std::size_t i = 0; i < n_bodies(); ++i)
-      meshed.push_back(is_wanted(i) ? mesh(i) : options_.others.at(i));
+      meshed.push_back(!is_wanted(i) ? options_.others.at(i) : search ? first_mesh(i) : mesh(i));
     if (run_.scene.effect_choice.open)
       run_.scene = clock_.run(
           "effects", [&] { return with_effects_chosen(run_.scene, meshed, negligible_share(tolerance())); });
     load(std::move(meshed));
     const auto first_sampling = run_.scene.sampling.instants_per_turn;
     for (const auto i : wanted()) {
-      run_.analyses.push_back(search ? search_mesh(i) : analyse(i));
+      run_.analyses.push_back(search ? search_mesh(i) : solve_once(i));
       finish(i, run_.analyses.back());
     }
     if (search && !options_.only &&
@@ -127,6 +129,8 @@ private:
   SearchStep record(std::size_t i, const GoverningStress& stress, const BodyAnalysis& analysis,
                     double seconds) const {
     return {fineness_text(run_.scene.bodies[i]),
+            "",
+            stress.place,
             run_.scene.sampling.instants_per_turn,
             run_.scene.bodies[i].pressure_harmonics,
             analysis.responses.n_dofs,
@@ -137,9 +141,92 @@ private:
             peak_memory_gigabytes()};
   }
 
+  /// The first of a search's meshes that the mesher takes; the scene's own mesh is refused as in a plain run.
+  MeshedBody first_mesh(std::size_t i) {
+    auto candidates = first_meshes(run_.scene.bodies[i]);
+    const BodyScene own = std::move(candidates.back());
+    candidates.pop_back();
+    for (auto& candidate : candidates) {
+      run_.scene.bodies[i] = std::move(candidate);
+      try {
+        return mesh(i);
+      } catch (const std::runtime_error&) {  // too coarse for the mesher's demands on quality
+      }
+    }
+    run_.scene.bodies[i] = own;
+    return mesh(i);
+  }
+
+  /// The scene's own mesh.
+  BodyAnalysis solve_once(std::size_t i) {
+    auto analysis = analyse(i);
+    PlaceHistory history(mesh_parts(run_.scene.bodies[i]));
+    history.add(places_of_one_mesh(analysis), std::nullopt);
+    take_place_errors(analysis, history.judged(), "single cells around, times a safety factor of 3");
+    return analysis;
+  }
+
+  std::optional<SecondModel> second_model(std::size_t i) {
+    if (!options_.second_model) return std::nullopt;
+    return clock_.run("second model", [&] {
+      return axisymmetric_second_model(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                                       options_.n_threads);
+    });
+  }
+
+  /// All that a search of one body knows.
+  struct SearchState {
+    explicit SearchState(const BodyScene& body) : history(mesh_parts(body)) {}
+    Search search;
+    PlaceHistory history;
+    PeakGrowth growth;
+    std::optional<MeshStep> step;  ///< that led to the present mesh
+    std::set<MeshPart> exhausted;  ///< parts that cannot be finer
+    double end_s = 0;              ///< when the time is up, from the start of the run; 0: never
+    Clock::time_point step_start = Clock::now();
+  };
+
+  /// What is left of the time, shared evenly among the bodies that wait.
+  double end_of(std::size_t i) const {
+    const double limit_s = options_.wish.time_limit_s, now_s = seconds_since(start_);
+    if (limit_s <= 0) return 0;
+    const auto bodies = wanted();
+    const auto waiting = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t b) { return b >= i; });
+    return std::max(1e-3, now_s + (limit_s - now_s) / double(waiting));
+  }
+
+  /// A second model tells a shaft's mesh where to be fine.
+  void guide(std::size_t i, SearchState& state) {
+    if (auto model = second_model(i)) {
+      const Scene unguided = run_.scene;
+      run_.scene.bodies[i] = guided_by(*model, run_.scene.bodies[i]);
+      state.history.compare_with(std::move(*model));
+      try {
+        exchange_mesh(i, mesh(i));
+      } catch (const std::runtime_error&) {  // the first mesh will do
+        run_.scene = unguided;
+      }
+    }
+  }
+
+  /// Enters the present mesh into what is known.
+  void take_stock(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
+    if (state.growth.at(analysis, state.step ? state.step->ratio : 1)) leave_out(i, analysis);
+    state.history.add(places_of_one_mesh(analysis), state.step);
+    take_place_errors(analysis, state.history.judged(),
+                      state.history.second_model()
+                          ? "changes of the stress with the mesh, and harmonics around the axis beside it"
+                          : "changes of the stress with the mesh, or single cells around");
+    const auto stress = governing_stress(analysis);
+    state.search.quantity = stress.name;
+    state.search.steps.push_back(record(i, stress, analysis, seconds_since(state.step_start)));
+    state.search.steps.back().refined = state.step ? to_string(state.step->part) : "";
+    state.search.met = state.search.tolerance == 0 || stress.relative_error() <= state.search.tolerance;
+  }
+
   /// Why no further step is taken; empty: one is.
-  std::string reason_to_end(const Search& search, const GoverningStress& stress) const {
-    if (search.tolerance > 0 && stress.relative_error() <= search.tolerance) return "the tolerance is met";
+  static std::string reason_to_end(const Search& search, const GoverningStress& stress) {
+    if (search.tolerance > 0 && search.met) return "the tolerance is met";
     if (stress.value_Pa == 0) return "nothing is stressed";
     if (int(search.steps.size()) >= most_steps) return "too many steps";
     return {};
@@ -147,50 +234,63 @@ private:
 
   /// Runs body i until its governing stress is good enough, or nothing more can be done.
   BodyAnalysis search_mesh(std::size_t i) {
-    Search search;
-    search.tolerance = options_.wish.tolerance;
-    search.time_limit_s = options_.wish.time_limit_s;
-    auto step_start = Clock::now();
+    SearchState state(run_.scene.bodies[i]);
+    state.search.tolerance = options_.wish.tolerance;
+    state.search.time_limit_s = options_.wish.time_limit_s;
+    state.end_s = end_of(i);
+    guide(i, state);
     BodyAnalysis analysis = analyse(i);
-    double ratio = 1, order = 2, before_Pa = 0;
-    bool new_mesh = true;
-    int n_meshes = 1;
-    MeshPart part = MeshPart::all;
-    Remainders known;
-    PeakGrowth growth;
     while (true) {
-      const bool elsewhere = growth.at(analysis, ratio);
-      if (elsewhere) leave_out(i, analysis);
-      auto stress = governing_stress(analysis);
-      if (!search.steps.empty() && !new_mesh && !elsewhere)
-        keep_discretisation(stress.errors, search.steps.back().errors);
-      else if (!search.steps.empty())
-        known.learn(part, learn_from_change(stress.errors, stress.value_Pa - before_Pa, ratio, ++n_meshes,
-                                            order, known.of_others(part)));
-      set_errors(analysis, stress.errors);
-      const double seconds = seconds_since(step_start);
-      search.quantity = stress.name;
-      search.steps.push_back(record(i, stress, analysis, seconds));
-      search.ended = reason_to_end(search, stress);
-      if (!search.ended.empty()) break;
-
-      step_start = Clock::now();
-      before_Pa = stress.value_Pa;
-      Scene next = run_.scene;
-      const auto refinement = refine(next, i, analysis, known);
-      if (!refinement.possible) {
-        search.ended = "the mesh cannot be refined further";
-        break;
-      }
-      ratio = refinement.ratio;
-      order = refinement.order;
-      new_mesh = refinement.new_mesh;
-      part = refinement.part;
-      if (!take(std::move(next), i, refinement, search, analysis, seconds)) break;
+      take_stock(i, state, analysis);
+      state.search.ended = reason_to_end(state.search, governing_stress(analysis));
+      if (!state.search.ended.empty() || !next_step(i, state, analysis)) break;
     }
-    search.met = search.tolerance == 0 || governing_stress(analysis).relative_error() <= search.tolerance;
-    analysis.search = std::move(search);
+    analysis.search = std::move(state.search);
     return analysis;
+  }
+
+  /// Takes the step that promises most.
+  /// @return false if none can be taken: search.ended says why
+  bool next_step(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
+    state.step_start = Clock::now();
+    const double seconds_before = state.search.steps.back().seconds;
+    Scene next = run_.scene;
+    const auto other = refine_sampling_and_harmonics(next, i, governing_stress(analysis).errors);
+    if (other.possible && !other.mesh_matters) {
+      state.step.reset();
+      return take(std::move(next), i, run_.loaded.meshed[i], state, analysis, seconds_before);
+    }
+    const auto judged = analysis.place_stresses;
+    const auto& target = judged[judge(judged).holding_back].feature;
+    std::string refusal;
+    for (const auto part : state.history.by_promise(target)) {
+      if (state.exhausted.count(part)) continue;
+      Scene finer = next;
+      auto step = refine_mesh(finer.bodies[i], analysis, judged, part);
+      auto mesh = step ? try_to_mesh(i, finer, refusal) : std::nullopt;
+      if (!mesh) {
+        state.exhausted.insert(part);
+        continue;
+      }
+      state.step = std::move(step);
+      return take(std::move(finer), i, std::move(*mesh), state, analysis, seconds_before);
+    }
+    state.search.ended = "the mesh cannot be refined further" + (refusal.empty() ? "" : ": " + refusal);
+    if (!refusal.empty()) restore_mesh(i);
+    return false;
+  }
+
+  /// The body's mesh in another version of the scene; nothing if the mesher refuses it.
+  std::optional<MeshedBody> try_to_mesh(std::size_t i, const Scene& scene, std::string& refusal) {
+    const Scene present = std::exchange(run_.scene, scene);
+    std::optional<MeshedBody> result;
+    try {
+      result = mesh(i);
+    } catch (const std::runtime_error& error) {
+      refusal = error.what();
+    }
+    run_.scene = present;
+    return result;
   }
 
   /// A stress that grows with every refinement has no peak to report: its place joins the sharp edges, which
@@ -220,38 +320,37 @@ private:
     analysis.responses_reused = before.responses_reused;
   }
 
-  /// Takes the next step, unless it would not end in time or cannot be meshed or solved.
-  bool take(Scene next, std::size_t i, const Refinement& refinement, Search& search, BodyAnalysis& analysis,
+  /// Solves the next version of the scene, unless that would not end in time or does not fit into memory.
+  bool take(Scene next, std::size_t i, MeshedBody finer, SearchState& state, BodyAnalysis& analysis,
             double seconds_before) {
-    const Scene previous = std::exchange(run_.scene, std::move(next));
-    MeshedBody finer = run_.loaded.meshed[i];
-    if (refinement.new_mesh) {
-      try {
-        finer = mesh(i);
-      } catch (const std::runtime_error& error) {
-        run_.scene = previous;
-        search.ended = std::string("a finer mesh failed: ") + error.what();
-        return false;
-      }
-    }
+    auto& search = state.search;
     const double growth = double(finer.model->n_dofs()) / double(analysis.responses.n_dofs);
     search.next_seconds = seconds_before * std::pow(growth, growth_of_seconds);
-    if (search.time_limit_s > 0 && seconds_since(start_) + search.next_seconds > search.time_limit_s) {
-      run_.scene = previous;
+    if (state.end_s > 0 && seconds_since(start_) + search.next_seconds > state.end_s) {
       search.ended = "the time is up";
-      if (refinement.new_mesh) run_.loaded.meshed[i] = mesh(i);
+      restore_mesh(i);
       return false;
     }
+    const Scene previous = std::exchange(run_.scene, std::move(next));
     exchange_mesh(i, std::move(finer));
     try {
       analysis = analyse(i);
     } catch (const fem::DoesNotFit& error) {
       search.ended = std::string("a finer mesh could not be solved: ") + error.what();
       run_.scene = previous;
-      exchange_mesh(i, refinement.new_mesh ? mesh(i) : MeshedBody(run_.loaded.meshed[i]));
+      exchange_mesh(i, mesh(i));
       return false;
     }
+    const bool same_loads = previous.sampling.instants_per_turn == run_.scene.sampling.instants_per_turn &&
+                            previous.bodies[i].pressure_harmonics == run_.scene.bodies[i].pressure_harmonics;
+    if (!same_loads && state.history.second_model())
+      if (auto model = second_model(i)) state.history.compare_with(std::move(*model));
     return true;
+  }
+
+  /// The file of the present mesh was replaced by that of one that is not taken.
+  void restore_mesh(std::size_t i) {
+    run_.loaded.meshed[i] = mesh(i);
   }
 
   /// Loads all bodies anew, one of them on another mesh.
@@ -261,10 +360,6 @@ private:
     load(std::move(meshed));
   }
 
-  static void set_errors(BodyAnalysis& analysis, const ErrorLedger& errors) {
-    (analysis.hot_spots.empty() ? analysis.peak.errors : analysis.hot_spot_errors) = errors;
-  }
-
   /// Masses and instants may have changed after a body was done: its loads are computed and superposed again,
   /// with the responses it has.
   void agree_at_last() {
@@ -272,7 +367,6 @@ private:
     load(std::move(meshed));
     for (std::size_t i = 0; i < n_bodies(); ++i) {
       BodyAnalysis before = std::move(run_.analyses[i]);
-      const auto errors = governing_stress(before).errors;
       auto& after = run_.analyses[i];
       after =
           superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
@@ -280,7 +374,7 @@ private:
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);
-      set_errors(after, errors);
+      take_place_errors(after, before.place_stresses, "as found by the body's search");
       bound_dropped_effects(run_.scene, i, run_.loaded, after);
     }
   }

@@ -11,6 +11,8 @@ namespace pipelines {
 /// One run on the way.
 struct SearchStep {
   std::string fineness;  ///< of the mesh, in words
+  std::string refined;   ///< what became finer before it: "around", "fillets"; empty: the first mesh
+  std::string place;     ///< that governs
   int instants_per_turn = 0, pressure_harmonics = 0;
   std::size_t n_dofs = 0;
   double value_Pa = 0;      ///< of the governing stress

@@ -35,6 +35,7 @@ double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& e
 struct Zone {
   std::size_t peak_node = 0;
   double peak_Pa = 0;
+  double error_Pa = 0;  ///< of the peak, numerical; 0: not known
   std::array<double, 3> peak_m{};
   std::int32_t instant = 0;  ///< of the peak
   Stress stress_Pa{};        ///< tensor at the peak and instant

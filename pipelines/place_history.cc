@@ -1,0 +1,117 @@
+#include "pipelines/place_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "pipelines/contains.h"
+
+namespace pipelines {
+namespace {
+
+/// Of what a single mesh says of itself, once every part has been varied.
+constexpr double kept_share = 0.1;
+
+bool is_fillet(const std::string& feature) {
+  return feature.rfind("fillet ", 0) == 0;
+}
+
+double order_at(const std::string& feature, const MeshStep& step) {
+  if (step.part == MeshPart::all) return step.order;
+  return is_fillet(feature) ? 2 : 1;
+}
+
+bool refines(const MeshStep& step, const std::string& feature) {
+  return step.ratio > 1 && (step.features.empty() || contains(step.features, feature));
+}
+
+const PlaceStress* find(const std::vector<PlaceStress>& places, const std::string& feature) {
+  const auto place =
+      std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.feature == feature; });
+  return place == places.end() ? nullptr : &*place;
+}
+
+/// What a second model makes of an error.
+double bounded_by(const SecondModel& model, const PlaceStress& place, double error_Pa) {
+  const auto* other = find(model.places, place.feature);
+  if (other == nullptr) return error_Pa;
+  if (model.model_error > 0)
+    return std::max(error_Pa, (1 - model.model_error) * other->value_Pa - other->error_Pa - place.value_Pa);
+  const double difference_Pa = std::abs(place.value_Pa - other->value_Pa);
+  return std::clamp(error_Pa, std::max(0.0, difference_Pa - other->error_Pa), difference_Pa + other->error_Pa);
+}
+
+}  // namespace
+
+std::string to_string(MeshPart part) {
+  switch (part) {
+    case MeshPart::fillets:
+      return "fillets";
+    case MeshPart::around:
+      return "around";
+    case MeshPart::along:
+      return "along";
+    case MeshPart::all:
+      return "all";
+  }
+  throw std::logic_error("unknown part of a mesh");
+}
+
+void PlaceHistory::add(const std::vector<PlaceStress>& now, const std::optional<MeshStep>& step) {
+  order_.clear();
+  for (const auto& place : now) {
+    order_.push_back(place.feature);
+    const auto known = records_.find(place.feature);
+    if (known == records_.end()) {
+      records_[place.feature].now = place;
+      continue;
+    }
+    auto& record = known->second;
+    if (step && refines(*step, place.feature))
+      record.missing_Pa[step->part] = std::abs(place.value_Pa - record.now.value_Pa) /
+                                      (std::pow(step->ratio, order_at(place.feature, *step)) - 1);
+    record.now = place;
+  }
+}
+
+std::vector<MeshPart> PlaceHistory::parts_of(const std::string& feature) const {
+  std::vector<MeshPart> parts;
+  for (const auto part : parts_)
+    if (part != MeshPart::fillets || is_fillet(feature)) parts.push_back(part);
+  return parts;
+}
+
+double PlaceHistory::from_changes(const Record& record) const {
+  double missing_Pa = 0;
+  for (const auto& [part, part_Pa] : record.missing_Pa) missing_Pa += part_Pa;
+  const auto parts = parts_of(record.now.feature);
+  const bool all_varied = std::all_of(parts.begin(), parts.end(),
+                                      [&](MeshPart part) { return record.missing_Pa.count(part) > 0; });
+  return std::max(missing_Pa, (all_varied ? kept_share : 1) * record.now.error_Pa);
+}
+
+std::vector<PlaceStress> PlaceHistory::judged() const {
+  std::vector<PlaceStress> places;
+  for (const auto& feature : order_) {
+    const Record& record = records_.at(feature);
+    places.push_back(record.now);
+    places.back().error_Pa = from_changes(record);
+    if (second_) places.back().error_Pa = bounded_by(*second_, record.now, places.back().error_Pa);
+  }
+  return places;
+}
+
+std::vector<MeshPart> PlaceHistory::by_promise(const std::string& feature) const {
+  const auto found = records_.find(feature);
+  auto parts = parts_of(feature);
+  if (found == records_.end()) return parts;
+  const auto worth = [&](MeshPart part) {
+    const auto known = found->second.missing_Pa.find(part);
+    return known == found->second.missing_Pa.end() ? std::numeric_limits<double>::infinity() : known->second;
+  };
+  std::stable_sort(parts.begin(), parts.end(), [&](MeshPart a, MeshPart b) { return worth(a) > worth(b); });
+  return parts;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,20 @@
+/// Harmonics around the axis as a second model beside a shaft of solid cells: it tells where the mesh has to be
+/// fine before anything is solved, and what the solid's stresses have to agree with.
+#pragma once
+
+#include <optional>
+
+#include "pipelines/body_mesh.h"
+#include "pipelines/distribute.h"
+#include "pipelines/place_history.h"
+
+namespace pipelines {
+
+/// Stresses of all places of a shaft from two sections, one half as fine as the other: the values of the finer
+/// one, with what the change says is missing (second order on fillets, first order elsewhere) and what nodes at
+/// a distance around the axis can miss of a peak between them.
+/// @return nothing for bodies that are no parametric shafts, or whose loads are not axisymmetric ones
+std::optional<SecondModel> axisymmetric_second_model(const BodyScene& body, const MeshedBody& meshed,
+                                                     const BodyLoads& loads, int n_threads);
+
+}  // namespace pipelines
