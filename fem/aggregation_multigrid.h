@@ -17,7 +17,7 @@ class AggregationMultigrid {
 public:
   /// @param matrix  of a free body
   /// @param xyz_m   of the nodes, 3 each
-  /// @throws std::runtime_error as CholmodFactor
+  /// @throws SolveFailed as CholmodFactor
   AggregationMultigrid(const NodeGraph& graph, SymmetricMatrix matrix, const std::vector<double>& xyz_m,
                        const kernel::Kernels& kernels);
 

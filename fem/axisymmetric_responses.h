@@ -25,7 +25,7 @@ namespace fem {
 /// empty, nodal volumes zero.
 /// @throws std::invalid_argument for an empty list, what is not axisymmetric (a surface that is not in the
 /// section, a body force on a part) naming the channel, and as meridian_grid.h
-/// @throws std::runtime_error if a factorisation fails
+/// @throws SolveFailed if a factorisation fails
 UnitResponses axisymmetric_responses(const MeridianBody& body, const std::vector<UnitLoad>& loads);
 
 }  // namespace fem

@@ -1,7 +1,8 @@
 #include "fem/cell_geometry.h"
 
 #include <sstream>
-#include <stdexcept>
+
+#include "fem/errors.h"
 
 namespace fem {
 
@@ -69,7 +70,7 @@ void refuse_inverted_cells(const Grid& grid) {
           message << "the mesh has an inverted or degenerate cell in volume " << grid.volume_id[c]
                   << " (number " << c + 1 << " of all cells) near (" << x[0] << ", " << x[1] << ", " << x[2]
                   << ") m: refine the mesh there or check its geometry";
-          throw std::runtime_error(message.str());
+          throw MeshUnusable(message.str());
         }
 }
 

@@ -35,7 +35,7 @@ FacePoint face_point(const Grid& grid, const std::vector<std::int32_t>& nodes, c
 /// Global nodes of a face in the order of face_nodes.
 std::vector<std::int32_t> nodes_of_face(const Grid& grid, std::size_t cell, int face);
 
-/// @throws std::runtime_error naming volume and centre of the first cell whose Jacobian is not positive
+/// @throws MeshUnusable naming volume and centre of the first cell whose Jacobian is not positive
 /// everywhere it
 ///         is looked at (its nodes and Gauss points)
 void refuse_inverted_cells(const Grid& grid);

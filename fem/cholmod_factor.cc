@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "fem/errors.h"
 #include "fem/parallel.h"
 
 namespace fem {
@@ -34,7 +34,7 @@ std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
   std::vector<idx_t> order(n), place(n);
   if (METIS_NodeND(&n, begin.data(), neighbour.data(), nullptr, options, order.data(), place.data()) !=
       METIS_OK)
-    throw std::runtime_error("METIS could not order the " + std::to_string(n) + " nodes of the mesh");
+    throw SolveFailed("METIS could not order the " + std::to_string(n) + " nodes of the mesh");
   return {order.begin(), order.end()};
 }
 
@@ -56,11 +56,10 @@ struct CholmodFactor::Impl {
   }
   void check(const char* step) const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
-      throw std::runtime_error(std::string("not enough memory to ") + step +
-                               " the stiffness: use a coarser mesh");
+      throw SolveFailed(std::string("not enough memory to ") + step + " the stiffness: use a coarser mesh");
     if (common.status < CHOLMOD_OK)
-      throw std::runtime_error(std::string("CHOLMOD could not ") + step + " the stiffness (status " +
-                               std::to_string(common.status) + ")");
+      throw SolveFailed(std::string("CHOLMOD could not ") + step + " the stiffness (status " +
+                        std::to_string(common.status) + ")");
   }
   /// The matrix as CHOLMOD sees it; nothing is copied, and CHOLMOD does not write to it.
   static cholmod_sparse view(const SymmetricMatrix& matrix) {
@@ -101,7 +100,7 @@ void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
   cholmod_l_factorize(&a, impl_->factor, &impl_->common);
   impl_->check("factorise");
   if (impl_->common.status == CHOLMOD_NOT_POSDEF || impl_->factor->minor < impl_->factor->n)
-    throw std::runtime_error(
+    throw SolveFailed(
         "the stiffness is not positive definite: the mesh may fall into parts that do not touch, or has "
         "degenerate "
         "cells");
@@ -156,7 +155,7 @@ Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) co
     }
   });
   for (const auto& failure : failures)
-    if (!failure.empty()) throw std::runtime_error(failure);
+    if (!failure.empty()) throw SolveFailed(failure);
   return solution;
 }
 

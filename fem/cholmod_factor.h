@@ -12,19 +12,19 @@
 namespace fem {
 
 /// Nested dissection of the nodes: position p of the new order is node result[p].
-/// @throws std::runtime_error if METIS fails
+/// @throws SolveFailed if METIS fails
 std::vector<std::int32_t> order_nodes(const NodeGraph& graph);
 
 class CholmodFactor {
 public:
   /// Finds the shape of the factor. The matrix has to outlive factorise() only.
-  /// @throws std::runtime_error if memory does not suffice
+  /// @throws SolveFailed if memory does not suffice
   CholmodFactor(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& node_order);
   ~CholmodFactor();
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 
-  /// @throws std::runtime_error if the matrix is not positive definite or memory does not suffice
+  /// @throws SolveFailed if the matrix is not positive definite or memory does not suffice
   void factorise(const SymmetricMatrix& matrix);
 
   /// All columns, in blocks that bound the memory.

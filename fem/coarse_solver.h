@@ -21,7 +21,7 @@ public:
   /// @param coarse    the mesh of corners, of degree 1
   /// @param assemble  its stiffness; called while its nodes are being ordered
   /// @param level     factorised or aggregated
-  /// @throws std::runtime_error as CholmodFactor
+  /// @throws SolveFailed as CholmodFactor
   CoarseSolver(const Grid& coarse, const NodeGraph& graph, const std::function<SymmetricMatrix()>& assemble,
                CoarseLevel level, const kernel::Kernels& kernels);
 

@@ -33,7 +33,7 @@ public:
   /// @param level  factorised or aggregated
   /// @param shared  nodes that other ranks have, too, whose cells' stiffness adds to that of these; none: one
   /// rank
-  /// @throws std::runtime_error as CoarseSolver
+  /// @throws SolveFailed as CoarseSolver
   CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
               const PerCell<Lame>& elastic, CoarseLevel level, const kernel::Kernels& kernels,
               const SharedNodes* shared = nullptr);

@@ -5,11 +5,11 @@
 #include <map>
 #include <numeric>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "fem/cell_geometry.h"
+#include "fem/errors.h"
 
 namespace fem {
 
@@ -87,7 +87,7 @@ void refuse_several_pieces(const Grid& grid) {
   }
   if (pieces.size() > shown) message << " and others";
   message << "; join them (one solid, or volumes that share their surfaces), or make a body of each";
-  throw std::runtime_error(message.str());
+  throw MeshUnusable(message.str());
 }
 
 }  // namespace fem

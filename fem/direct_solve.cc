@@ -5,10 +5,10 @@
 #include <future>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 
 #include "fem/cholmod_factor.h"
 #include "fem/clamps.h"
+#include "fem/errors.h"
 #include "fem/memory.h"
 #include "fem/parallel.h"
 #include "fem/solver_prediction.h"
@@ -44,7 +44,7 @@ void refuse_rounding(const Grid& grid, double share) {
       << largest_aspect(grid)
       << ") or its materials too unlike for a solution in double precision; use cells of a more equal shape, "
          "shorten the body, or check lengths and moduli";
-  throw std::runtime_error(message.str());
+  throw SolveFailed(message.str());
 }
 
 FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells) {

@@ -13,7 +13,7 @@ namespace fem {
 FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells);
 
 /// @param is_too_dear asked once the matrix is analysed: if so, nothing is solved and nothing returned
-/// @throws std::runtime_error as CholmodFactor, or if rounding reaches more than 1 % of displacements
+/// @throws SolveFailed as CholmodFactor, or if rounding reaches more than 1 % of displacements
 std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
                                        const std::vector<std::vector<std::int32_t>>& colours,
                                        const CellMaterials& materials, const BalancedLoads& loads,
@@ -24,7 +24,7 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
 double rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& correction,
                 const Eigen::MatrixXd& displacement, const BalancedLoads& loads);
 
-/// @throws std::runtime_error naming the remedy if it is more than 1 %
+/// @throws SolveFailed naming the remedy if it is more than 1 %
 void refuse_rounding(const Grid& grid, double share);
 
 }  // namespace fem

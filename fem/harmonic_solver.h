@@ -19,7 +19,7 @@ public:
   /// and get some rigid motion. On the axis displacements are single-valued: U = V = 0 at m = 0, U + V = W =
   /// 0 at m = 1, none beyond.
   /// @param residual  becomes the larger of itself and the largest |K u - f| / |f|
-  /// @throws std::runtime_error if the factorisation fails
+  /// @throws SolveFailed if the factorisation fails
   Eigen::MatrixXd solve(int m, const Eigen::MatrixXd& force, double& residual);
 
 private:

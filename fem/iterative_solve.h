@@ -29,7 +29,7 @@ std::optional<Solution> iterate(const Grid& grid, const CellOrder& order, const 
 /// @param choice   its coarse level must have been decided (not automatic)
 /// @param failure  filled if there is no solution: what happened
 /// @return nothing if the iteration stalls or leaves a residual that is not acceptable
-/// @throws std::runtime_error as CoarseSpace
+/// @throws SolveFailed as CoarseSpace
 std::optional<Solution> solve_iteratively(const Grid& grid, const CellMaterials& materials,
                                           const BalancedLoads& loads, const SolverChoice& choice,
                                           const StepReport& progress, std::string& failure);

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
-#include <stdexcept>
 #include <string>
+
+#include "fem/errors.h"
 
 namespace fem {
 
@@ -100,9 +101,9 @@ Eigenpairs largest_eigenpairs(Eigen::Index n_rows, int n_wanted, const BlockOper
     if (exhausted || (n_pairs == n_wanted && (rest.array() <= converged * values.array()).all()))
       return {values, product(basis.vector.leftCols(first), pairs)};
     if (basis.n > largest_basis)
-      throw std::runtime_error("the natural frequencies do not converge: " + std::to_string(first) +
-                               " vectors were not enough for " + std::to_string(n_wanted) +
-                               "; ask for fewer or check the mesh for degenerate cells");
+      throw SolveFailed("the natural frequencies do not converge: " + std::to_string(first) +
+                        " vectors were not enough for " + std::to_string(n_wanted) +
+                        "; ask for fewer or check the mesh for degenerate cells");
   }
 }
 

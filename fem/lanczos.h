@@ -18,7 +18,7 @@ using BlockOperator = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
 /// @param n_wanted  >= 1
 /// @param mass      X -> M X
 /// @param inverse   F -> A F
-/// @throws std::runtime_error if the pairs do not converge
+/// @throws SolveFailed if the pairs do not converge
 Eigenpairs largest_eigenpairs(Eigen::Index n_rows, int n_wanted, const BlockOperator& mass,
                               const BlockOperator& inverse);
 

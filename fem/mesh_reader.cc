@@ -15,6 +15,7 @@
 #include <string>
 
 #include "fem/cell_geometry.h"
+#include "fem/errors.h"
 #include "fem/manifolds.h"
 #include "fem/msh_file.h"
 #include "fem/tetrahedra_reader.h"
@@ -26,10 +27,10 @@ namespace {
 /// deal.II's reader trusts the file: one that was cut off makes it write out of bounds.
 std::string read_whole(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot open the mesh file " + path.string());
+  if (!file) throw MeshUnusable("cannot open the mesh file " + path.string());
   std::string text((std::istreambuf_iterator<char>(file)), {});
   if (text.find("$EndElements") == std::string::npos)
-    throw std::runtime_error("the mesh file " + path.string() + " is cut off: it has no $EndElements");
+    throw MeshUnusable("the mesh file " + path.string() + " is cut off: it has no $EndElements");
   return text;
 }
 
@@ -40,11 +41,11 @@ void read_mesh(const std::filesystem::path& path, const std::string& content,
   try {
     reader.read_msh(text);  // the overload for file names would end the program's own gmsh session
   } catch (const dealii::ExceptionBase& error) {
-    throw std::runtime_error("cannot read the mesh file " + path.string() +
-                             " (a .msh of linear hexahedra is expected): " + error.what());
+    throw MeshUnusable("cannot read the mesh file " + path.string() +
+                       " (a .msh of linear hexahedra is expected): " + error.what());
   }
   if (!mesh.all_reference_cells_are_hyper_cube())
-    throw std::runtime_error("the mesh file " + path.string() + " has cells that are no hexahedra");
+    throw MeshUnusable("the mesh file " + path.string() + " has cells that are no hexahedra");
 }
 
 Grid read_tetrahedra(const Body& body, const std::string& text) {

@@ -13,6 +13,7 @@
 #include "fem/direct_solve.h"
 #include "fem/elastic_supports.h"
 #include "fem/energy_error.h"
+#include "fem/errors.h"
 #include "fem/geometry_error.h"
 #include "fem/grid.h"
 #include "fem/helper_ranks.h"
@@ -56,8 +57,8 @@ struct Model::Impl {
 Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
     : impl_(std::make_unique<Impl>()) {
   if (this_rank(communicator) != 0)
-    throw std::runtime_error("a model was made on MPI rank " + std::to_string(this_rank(communicator)) +
-                             ": models live on rank 0, every other rank calls help_first_rank");
+    throw std::logic_error("a model was made on MPI rank " + std::to_string(this_rank(communicator)) +
+                           ": models live on rank 0, every other rank calls help_first_rank");
   refuse_impossible(body.material);
   if (progress) progress(0, "read mesh");
   impl_->communicator = communicator;
@@ -154,7 +155,7 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
       });
       if (solution) return solution;
     }
-  } catch (const std::runtime_error& error) {
+  } catch (const SolveFailed& error) {
     failure = error.what();
   }
   report.used = Solver::direct;
@@ -163,8 +164,8 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
   return std::nullopt;
 }
 
-/// By the solver that the report names; by the other one if the iterative one gives up, if the factor does not
-/// fit into memory, or if it turns out too dear for cells of middling stretch; the report then tells.
+/// By the solver that the report names; by the other one if the iterative one gives up, if the factor does
+/// not fit into memory, or if it turns out too dear for cells of middling stretch; the report then tells.
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                const BalancedLoads& loads, SolverChoice choice, const Progress& progress,

@@ -64,7 +64,7 @@ public:
   /// @param communicator  whose ranks share the work: the model lives on rank 0, the others are in
   /// help_first_rank
   /// @param progress told that reading starts; may be empty
-  /// @throws std::runtime_error if the mesh cannot be read, has inverted cells or several pieces, or this is
+  /// @throws MeshUnusable if the mesh cannot be read, has inverted cells or several pieces, or this is
   /// not rank 0
   /// @throws std::invalid_argument for impossible material values, or a material of a group without cells
   explicit Model(const Body& body, MPI_Comm communicator = MPI_COMM_WORLD, const Progress& progress = {});
@@ -91,7 +91,7 @@ public:
   /// @param choice of the solver; UnitResponses::solver tells which one was taken and why
   /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces,
   /// clamps that leave a rigid motion, clamps together with elastic supports
-  /// @throws std::runtime_error if the factorisation fails, or rounding reaches 1 % of displacements
+  /// @throws SolveFailed if the factorisation fails, or rounding reaches 1 % of displacements
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
                                Recovery recovery = Recovery::patch, const Progress& progress = {},
                                const SolverChoice& choice = {}) const;
@@ -103,7 +103,7 @@ public:
   /// @param n_modes  at least 1, at most a tenth of the unknowns that can vibrate: a mesh has no more to say
   /// @throws std::invalid_argument for another number, for clamps that leave a rigid motion, clamps together
   /// with elastic supports
-  /// @throws std::runtime_error if the factorisation fails, or a mode leaves more than 1e-6 of its inertia
+  /// @throws SolveFailed if the factorisation fails, or a mode leaves more than 1e-6 of its inertia
   /// forces unbalanced and rounding does not explain it
   std::vector<NaturalMode> natural_frequencies(int n_modes) const;
 

@@ -1,7 +1,8 @@
 #include "fem/msh_file.h"
 
 #include <cstdlib>
-#include <stdexcept>
+
+#include "fem/errors.h"
 
 namespace fem {
 
@@ -46,10 +47,9 @@ public:
   Section(const std::string& text, const std::string& name, const std::string& file)
       : name_(name), file_(file) {
     const auto begin = text.find("$" + name), end = text.find("$End" + name);
-    if (begin == std::string::npos)
-      throw std::runtime_error("the mesh file " + file + " has no section $" + name);
+    if (begin == std::string::npos) throw MeshUnusable("the mesh file " + file + " has no section $" + name);
     if (end == std::string::npos || end < begin)
-      throw std::runtime_error("the mesh file " + file + " is cut off: it has no $End" + name);
+      throw MeshUnusable("the mesh file " + file + " is cut off: it has no $End" + name);
     at_ = text.c_str() + begin + name.size() + 1;
     end_ = text.c_str() + end;
   }
@@ -75,8 +75,8 @@ public:
     for (std::size_t i = 0; i < n; ++i) number();
   }
   [[noreturn]] void fail() const {
-    throw std::runtime_error("the mesh file " + file_ + ": the section $" + name_ +
-                             " is damaged: write the mesh again");
+    throw MeshUnusable("the mesh file " + file_ + ": the section $" + name_ +
+                       " is damaged: write the mesh again");
   }
 
 private:
@@ -93,9 +93,9 @@ void refuse_other_versions(const std::string& text, const std::string& name) {
   const double version = format.number();
   const auto binary = format.integer();
   if (version != 4.1 || binary != 0)
-    throw std::runtime_error("the mesh file " + name +
-                             " must be .msh of version 4.1 in text form; convert it with gmsh -save "
-                             "-format msh41");
+    throw MeshUnusable("the mesh file " + name +
+                       " must be .msh of version 4.1 in text form; convert it with gmsh -save "
+                       "-format msh41");
 }
 
 void read_groups(const std::string& text, const std::string& name, MshFile& mesh) {
@@ -110,9 +110,8 @@ void read_groups(const std::string& text, const std::string& name, MshFile& mesh
       for (std::size_t g = 0; g < n_groups; ++g) {
         const auto group = static_cast<int>(std::llabs(in.integer()));
         if (!mesh.group.emplace(std::pair(dimension, entity), group).second && dimension >= 2)
-          throw std::runtime_error("the mesh file " + name + ": " +
-                                   (dimension == 2 ? "surface " : "volume ") + std::to_string(entity) +
-                                   " is in several physical groups; give it one");
+          throw MeshUnusable("the mesh file " + name + ": " + (dimension == 2 ? "surface " : "volume ") +
+                             std::to_string(entity) + " is in several physical groups; give it one");
       }
       if (dimension > 0) in.skip(in.count());
     }
@@ -145,9 +144,9 @@ MshFile::Elements read_block(Section& in, const std::string& name) {
   block.type = static_cast<int>(in.integer());
   block.nodes_per_element = nodes_of_type(block.type);
   if (block.nodes_per_element == 0)
-    throw std::runtime_error("the mesh file " + name + " has elements of gmsh's type " +
-                             std::to_string(block.type) +
-                             ": linear hexahedra or tetrahedra of 10 nodes are expected");
+    throw MeshUnusable("the mesh file " + name + " has elements of gmsh's type " +
+                       std::to_string(block.type) +
+                       ": linear hexahedra or tetrahedra of 10 nodes are expected");
   const std::size_t n = in.count();
   block.nodes.reserve(n * block.nodes_per_element);
   for (std::size_t e = 0; e < n; ++e) {
@@ -171,8 +170,8 @@ MshFile parse_msh(const std::string& text, const std::string& name) {
   for (const auto& block : mesh.elements)
     for (const auto node : block.nodes)
       if (mesh.place_of_node.count(node) == 0)
-        throw std::runtime_error("the mesh file " + name + ": an element has the node " +
-                                 std::to_string(node) + ", which the file does not have");
+        throw MeshUnusable("the mesh file " + name + ": an element has the node " + std::to_string(node) +
+                           ", which the file does not have");
   return mesh;
 }
 
@@ -184,7 +183,7 @@ std::vector<int> element_types(const std::string& text) {
     const std::size_t n_blocks = in.count();
     in.skip(3);
     for (std::size_t b = 0; b < n_blocks; ++b) types.push_back(read_block(in, "").type);
-  } catch (const std::runtime_error&) {  // whoever reads the file will say what is wrong
+  } catch (const MeshUnusable&) {  // whoever reads the file will say what is wrong
   }
   return types;
 }

@@ -25,7 +25,7 @@ struct MshFile {
 
 /// @param text  of the file
 /// @param name  of the file, for messages
-/// @throws std::runtime_error if the text is cut off, binary, of another version, or does not fit together
+/// @throws MeshUnusable if the text is cut off, binary, of another version, or does not fit together
 MshFile parse_msh(const std::string& text, const std::string& name);
 
 /// Types of the elements in the text, as far as it can be read; none if it is no .msh 4.1 text.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "fem/dense_algebra.h"
+#include "fem/errors.h"
 #include "fem/lanczos.h"
 
 namespace fem {
@@ -23,7 +23,7 @@ void refuse_number(const VibratingBody& body, int n_modes) {
   std::ostringstream message;
   message << "natural frequencies: " << n_modes << " asked for; ask for 1 to " << most
           << ", a tenth of the mesh's unknowns, or refine the mesh";
-  throw std::invalid_argument(message.str());
+  throw TooManyModes(message.str());
 }
 
 /// @param rounding  share of the inertia forces that rounding alone may leave
@@ -33,7 +33,7 @@ void refuse_unbalanced(const NaturalMode& mode, std::size_t number, double round
   message << "natural frequency " << number << " of " << mode.frequency_Hz << " Hz leaves a share of "
           << mode.residual << " of its inertia forces unbalanced, " << acceptable_residual
           << " at most are accepted: check the mesh for degenerate cells, or use a coarser one";
-  throw std::runtime_error(message.str());
+  throw SolveFailed(message.str());
 }
 
 /// One step of inverse iteration, mended for the rounding of the solve; then the best of its span (Ritz).
@@ -59,8 +59,8 @@ std::vector<NaturalMode> natural_frequencies(const VibratingBody& body, int n_mo
       body.n_unknowns(), n_sought, [&](const Eigen::MatrixXd& x) { return body.mass(x); },
       [&](const Eigen::MatrixXd& f) { return body.inverse(f); });
   if (pairs.value.size() < n_modes)
-    throw std::runtime_error("natural frequencies: only " + std::to_string(pairs.value.size()) + " of " +
-                             std::to_string(n_modes) + " found; ask for fewer");
+    throw SolveFailed("natural frequencies: only " + std::to_string(pairs.value.size()) + " of " +
+                      std::to_string(n_modes) + " found; ask for fewer");
   pairs = improve(body, pairs);
 
   Eigen::MatrixXd inertia = body.mass(pairs.vector) * pairs.value.asDiagonal();

@@ -9,8 +9,8 @@
 namespace fem {
 
 /// The lowest ones, ascending, without the rigid motions that nothing holds.
-/// @throws std::invalid_argument unless n_modes is at least 1 and at most a tenth of what vibrates
-/// @throws std::runtime_error if a mode leaves more than 1e-6 of its inertia forces unbalanced
+/// @throws TooManyModes unless n_modes is at least 1 and at most a tenth of what vibrates
+/// @throws SolveFailed if a mode leaves more than 1e-6 of its inertia forces unbalanced
 std::vector<NaturalMode> natural_frequencies(const VibratingBody& body, int n_modes);
 
 }  // namespace fem

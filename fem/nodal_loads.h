@@ -21,7 +21,7 @@ struct NodalLoads {
 /// @param loads  each balanced as Model::unit_responses balances it, f - M R (R'MR)^-1 R'f
 /// @throws std::invalid_argument for a body with clamps or elastic supports, whose forces are no load vector;
 /// for the loads as Model::unit_responses
-/// @throws std::runtime_error as Model, for the mesh
+/// @throws MeshUnusable as Model, for the mesh
 NodalLoads nodal_loads(const Body& body, const std::vector<UnitLoad>& loads);
 
 }  // namespace fem

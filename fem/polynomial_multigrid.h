@@ -18,7 +18,7 @@ class PolynomialMultigrid {
 public:
   /// @param level  how the trilinear displacements are treated: factorised or aggregated
   /// @param shared  nodes that other ranks have, too; none: one rank
-  /// @throws std::runtime_error as CoarseSpace
+  /// @throws SolveFailed as CoarseSpace
   PolynomialMultigrid(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
                       const PerCell<Lame>& elastic, CoarseLevel level,
                       const kernel::Kernels& kernels = kernel::kernels_for_this_machine(),

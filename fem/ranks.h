@@ -8,19 +8,19 @@
 
 #include <Eigen/Dense>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "fem/errors.h"
 #include "fem/helper_ranks.h"
 #include "fem/solver_choice.h"
 
 namespace fem {
 
 /// A failure that all ranks know of: they stay in step.
-class FailedTogether : public std::runtime_error {
+class FailedTogether : public SolveFailed {
 public:
-  using std::runtime_error::runtime_error;
+  using SolveFailed::SolveFailed;
 };
 
 /// A step of one's own that may fail. Called on all ranks.

@@ -23,7 +23,7 @@ BlockMatrix<double> galerkin_product(const BlockMatrix<double>& stiffness,
                                      const BlockMatrix<float>& interpolation);
 
 /// Its factor with one aggregate held fast, which leaves a free body no rigid motion.
-/// @throws std::runtime_error as CholmodFactor
+/// @throws SolveFailed as CholmodFactor
 std::unique_ptr<CholmodFactor> factorise_held(const BlockMatrix<double>& stiffness, std::int32_t held);
 
 }  // namespace fem

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "fem/errors.h"
 
 namespace fem {
 
@@ -30,11 +31,6 @@ struct SolverChoice {
   CoarseLevel coarse_level = CoarseLevel::automatic;
   bool gave_up_before =
       false;  ///< the iteration is known to stall on this mesh and material: not tried again
-};
-
-/// A body too large for the memory that a machine has, or has left; the message names figures and remedy.
-struct DoesNotFit : std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 /// What a solver is expected to need on a machine like the one that was measured (solver_prediction.h).

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
+#include "fem/errors.h"
 #include "fem/iterative_solve.h"
 
 namespace fem {

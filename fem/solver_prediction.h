@@ -71,14 +71,14 @@ double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
 
 /// Takes the choice, or makes it: fills used, reason, coarse level, predictions, aspect.
 /// @param memory_bytes  of the machine
-/// @throws std::runtime_error naming unknowns, predicted bytes, memory and remedy if neither solver is
+/// @throws DoesNotFit naming unknowns, predicted bytes, memory and remedy if neither solver is
 /// predicted to fit into memory, or the one asked for not even into a machine that holds nothing else
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes);
 
 /// @param factor_bytes  known, not predicted: CHOLMOD's analysis of the matrix tells it before it factorises
 /// @param memory_bytes  that are left for it
-/// @throws std::runtime_error naming unknowns, bytes, memory and remedy if it does not fit into memory
+/// @throws DoesNotFit naming unknowns, bytes, memory and remedy if it does not fit into memory
 void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes);
 
 }  // namespace fem

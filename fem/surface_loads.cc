@@ -9,6 +9,7 @@
 #include "fem/cell_geometry.h"
 #include "fem/constants.h"
 #include "fem/dense_algebra.h"
+#include "fem/errors.h"
 #include "fem/reference_cell.h"
 
 namespace fem {
@@ -65,9 +66,8 @@ LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : gri
   for (int k = 0; k < 6; ++k) basis_.col(k) = integrate(raw[k]);
   basis_.colwise().normalize();
   if (!is_invertible(about_centre(basis_)))
-    throw std::runtime_error(
-        "the faces of boundary group " + std::to_string(surface.boundary_id) +
-        " cannot carry six independent resultants: a seat must go all the way round its axis");
+    throw MeshUnusable("the faces of boundary group " + std::to_string(surface.boundary_id) +
+                       " cannot carry six independent resultants: a seat must go all the way round its axis");
   // Twice: the second pass takes out what rounding left in the first.
   for (int pass = 0; pass < 2; ++pass) basis_ = product(basis_, inverse(about_centre(basis_)));
 }

@@ -23,7 +23,7 @@ struct SurfaceForces {
 class LoadedSurface {
 public:
   /// @throws std::invalid_argument if the group has no faces, or the sizes of the surface are not positive
-  /// @throws std::runtime_error if its faces cannot carry six independent resultants
+  /// @throws MeshUnusable if its faces cannot carry six independent resultants
   LoadedSurface(const Grid& grid, const LoadSurface& surface);
 
   const LoadSurface& surface() const noexcept { return surface_; }

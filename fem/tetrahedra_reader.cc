@@ -4,7 +4,8 @@
 #include <array>
 #include <map>
 #include <sstream>
-#include <stdexcept>
+
+#include "fem/errors.h"
 
 namespace fem {
 
@@ -22,7 +23,7 @@ Corners sorted(Corners corners) {
 }
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
-  throw std::runtime_error("the mesh file " + name + what);
+  throw MeshUnusable("the mesh file " + name + what);
 }
 
 int group_of(const MshFile& mesh, const MshFile::Elements& block, const std::string& name) {

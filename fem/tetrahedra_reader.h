@@ -13,7 +13,7 @@ bool has_tetrahedra(const std::vector<int>& element_types);
 
 /// Cells and nodes as they are in the file, groups as ids. Triangles inside the body are passed over.
 /// @param name  of the file, for messages
-/// @throws std::runtime_error for cells that are no tetrahedra of 10 nodes, a volume without a physical
+/// @throws MeshUnusable for cells that are no tetrahedra of 10 nodes, a volume without a physical
 /// group, a face of the surface without a triangle of 6 nodes in one
 Grid tetrahedra_grid(const MshFile& mesh, const std::string& name);
 

@@ -24,7 +24,7 @@ class VibratingBody {
 public:
   /// Assembles and factorises.
   /// @throws std::invalid_argument for clamps that leave a rigid motion or come with elastic supports
-  /// @throws std::runtime_error if the factorisation fails
+  /// @throws SolveFailed if the factorisation fails
   VibratingBody(const Grid& grid, const CellsOfNodes& cells,
                 const std::vector<std::vector<std::int32_t>>& colours, const Body& body,
                 const CellMaterials& materials);

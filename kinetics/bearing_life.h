@@ -18,12 +18,12 @@ double life_exponent(RollingElement element);
 /// @param force_N  force at equidistant instants of a shaft that turns steadily, at least one; the sign does
 ///                 not count
 /// @return P [N], zero only if the bearing is never loaded
-/// @throws std::invalid_argument if the history is empty, or holds NaN or infinity
+/// @throws MachineRefused if the history is empty, or holds NaN or infinity
 double equivalent_load_N(const Eigen::ArrayXd& force_N, RollingElement element);
 
 /// The same where the instants stand for unequal numbers of revolutions (run-up, load spectrum).
 /// @param revolutions  weight of each force, >= 0, their sum positive; any common factor cancels
-/// @throws std::invalid_argument as above, or if the sizes differ, a weight is negative or all are zero
+/// @throws MachineRefused as above, or if the sizes differ, a weight is negative or all are zero
 double equivalent_load_N(const Eigen::ArrayXd& force_N, const Eigen::ArrayXd& revolutions,
                          RollingElement element);
 
@@ -39,7 +39,7 @@ struct RatingLife {
 /// @param speed_rad_s        of the inner against the outer ring, > 0
 /// @return empty where no life follows: without load a bearing does not fatigue (and the same for a load so
 ///         small that the life exceeds what a double can hold); never infinity
-/// @throws std::invalid_argument if an argument is not finite or out of its range
+/// @throws MachineRefused if an argument is not finite or out of its range
 std::optional<RatingLife> rating_life(double dynamic_rating_N, double equivalent_load_N,
                                       RollingElement element, double speed_rad_s);
 
@@ -54,7 +54,7 @@ struct WeibullLife {
 };
 
 /// Multiples x_D of 1e6 revolutions that a required life amounts to.
-/// @throws std::invalid_argument if an argument is not positive
+/// @throws MachineRefused if an argument is not positive
 double required_million_revolutions(double hours, double speed_rad_s);
 
 /// Dynamic rating that reaches a required life with a required reliability,
@@ -62,13 +62,13 @@ double required_million_revolutions(double hours, double speed_rad_s);
 /// @param load_N               F >= 0, equivalent load with its application factor
 /// @param million_revolutions  x_D > 0
 /// @param reliability          R, 0 < R <= 1; 1 only if the law has a guaranteed life
-/// @throws std::invalid_argument if an argument is not finite or out of its range
+/// @throws MachineRefused if an argument is not finite or out of its range
 double required_rating_N(double load_N, double million_revolutions, double reliability,
                          const WeibullLife& law = {});
 
 /// Reliability of a bearing of a given rating, the inverse of required_rating_N; 1 below the guaranteed life.
 /// @param rating_N  C10 > 0
-/// @throws std::invalid_argument if an argument is not finite or out of its range
+/// @throws MachineRefused if an argument is not finite or out of its range
 double reliability(double load_N, double million_revolutions, double rating_N, const WeibullLife& law = {});
 
 }  // namespace kinetics

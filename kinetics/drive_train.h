@@ -99,7 +99,7 @@ struct DriveTrain {
 };
 
 /// Mean speed of an inertia's shaft: that of the reference shaft times its ratio.
-/// @throws std::invalid_argument if the train has no such inertia, and as natural_modes
+/// @throws MachineRefused if the train has no such inertia, and as natural_modes
 double mean_speed_rad_s(const DriveTrain& train, const std::string& inertia);
 
 enum class Shapes { none, all };
@@ -116,7 +116,7 @@ struct NaturalModes {
 
 /// Frequencies are the singular values of C^(1/2) B J^(-1/2) (B: incidence), (9)-(11): each is accurate
 /// relative to itself, whatever the spread of inertias and stiffnesses.
-/// @throws std::invalid_argument naming parameter, value and remedy, for a train that is no connected tree,
+/// @throws MachineRefused naming parameter, value and remedy, for a train that is no connected tree,
 /// has
 ///         an inertia or stiffness that is not positive, shaft lines with contradictory ratios, unknown names
 NaturalModes natural_modes(const DriveTrain& train, Shapes shapes = Shapes::all);
@@ -140,7 +140,7 @@ struct ForcedResponse {
 };
 
 /// (16)-(18) with the right sign, damping included.
-/// @throws std::invalid_argument as natural_modes, for an unknown inertia or order_of, and for an excitation
+/// @throws MachineRefused as natural_modes, for an unknown inertia or order_of, and for an excitation
 /// at a
 ///         natural frequency whose mode nothing damps: it names both frequencies
 ForcedResponse forced_response(const DriveTrain& train);
@@ -165,7 +165,7 @@ struct TransientLoad {
 /// Torque that jumps from zero to torque_Nm at start_s.
 std::function<double(double)> torque_step(double start_s, double torque_Nm);
 /// Torque by straight lines between the entries, constant outside.
-/// @throws std::invalid_argument if sizes differ, are zero, or time does not increase
+/// @throws MachineRefused if sizes differ, are zero, or time does not increase
 std::function<double(double)> torque_table(std::vector<double> time_s, std::vector<double> torque_Nm);
 
 struct TransientRun {
@@ -186,7 +186,7 @@ struct Transient {
 
 /// Average-acceleration Newmark method (trapezoidal rule): unconditionally stable, second order, and the
 /// energy balance holds to round-off with the work of the mean torque on the midpoint speed.
-/// @throws std::invalid_argument as natural_modes, and for a step that is not positive, wrong sizes, initial
+/// @throws MachineRefused as natural_modes, and for a step that is not positive, wrong sizes, initial
 ///         values that contradict a rigid element or a held inertia, a loss factor without its frequency
 Transient transient(const DriveTrain& train, const TransientRun& run);
 
@@ -214,7 +214,7 @@ struct CampbellTable {
 
 /// Excitation lines against natural frequencies.
 /// @param orders  further orders of the reference shaft, beside those of the excitations
-/// @throws std::invalid_argument as natural_modes, and unless 0 <= slowest < fastest and n_speeds >= 2
+/// @throws MachineRefused as natural_modes, and unless 0 <= slowest < fastest and n_speeds >= 2
 CampbellTable campbell_table(const DriveTrain& train, double slowest_rad_s, double fastest_rad_s,
                              int n_speeds, const std::vector<double>& orders = {});
 
@@ -244,7 +244,7 @@ DriveTrain with_effects(const DriveTrain& train, const std::vector<std::string>&
 /// <element>.reduced_torque, <element>.shear_stress where a diameter is given, rigid_acceleration, closure.
 /// Resultants (torque only): "<element>_on_<inertia>" for both inertias of each element; where there is one,
 /// "excitation_on_<inertia>" and "damping_on_<inertia>". All that act on one inertia add up to J phi''.
-/// @throws std::invalid_argument as forced_response, for an effect unknown or named twice, or a wrong grid
+/// @throws MachineRefused as forced_response, for an effect unknown or named twice, or a wrong grid
 LoadHistory compute_loads(const DriveTrain& train, const std::vector<std::string>& effects,
                           const TimeGrid& grid);
 
@@ -260,7 +260,7 @@ struct PublishedTable {
 ///   Table 7: reduced to the last shaft, masses in reverse order, a = (K - w^2 J)^-1 M, w times that ratio.
 /// The belt's stiffness is the same number in both, torques are not reduced, w is the number of Hz of the one
 /// harmonic of the excitations taken as rad/s, M has their amplitudes (in Table 7 with reversed sign).
-/// @throws std::invalid_argument for a train with branches, rigid elements or without exactly one frequency
+/// @throws MachineRefused for a train with branches, rigid elements or without exactly one frequency
 PublishedTable published_table_4(const DriveTrain& train);
 PublishedTable published_table_7(const DriveTrain& train);
 

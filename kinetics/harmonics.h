@@ -28,7 +28,7 @@ struct LineSpectrum {
 /// @param n_lines   lines asked for, 0 .. n / 2: orders 1/turns, 2/turns, ... The one at n / 2 is known by
 /// its
 ///                  cosine alone (sampled at its peaks).
-/// @throws std::invalid_argument if the series is empty or not finite, or turns or n_lines out of range
+/// @throws MachineRefused if the series is empty or not finite, or turns or n_lines out of range
 LineSpectrum line_spectrum(const Eigen::ArrayXd& values, int turns, int n_lines);
 
 /// A force over time as a polar plot draws it.
@@ -38,7 +38,7 @@ struct PolarSeries {
 };
 
 /// Components in the fixed frame (x right, y up) to magnitude and direction.
-/// @throws std::invalid_argument if the sizes differ or a component is not finite
+/// @throws MachineRefused if the sizes differ or a component is not finite
 PolarSeries polar(const Eigen::ArrayXd& fx, const Eigen::ArrayXd& fy);
 
 }  // namespace kinetics

@@ -17,7 +17,7 @@ struct TimeGrid {
   int instants_per_turn = 120;  ///< n, >= 4
 };
 
-/// @throws std::invalid_argument if turns < 1 or instants_per_turn < 4
+/// @throws MachineRefused if turns < 1 or instants_per_turn < 4
 void check_grid(const TimeGrid& grid);
 
 /// One scalar of the machine over time: no load by itself, or a derived load figure (theta, T, R_E ...).

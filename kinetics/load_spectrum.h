@@ -25,18 +25,18 @@ struct RangeBin {
 
 /// Peaks and valleys in order, with the first and the last value; equal neighbours count as one. A constant
 /// series has a single one.
-/// @throws std::invalid_argument if the series is empty, or holds NaN or infinity (naming its index)
+/// @throws MachineRefused if the series is empty, or holds NaN or infinity (naming its index)
 Eigen::ArrayXd turning_points(const Eigen::ArrayXd& series);
 
 /// Half and full cycles of a series that does not repeat, E1049 5.4.4: a range that holds the starting point,
 /// or that is left at the end, counts half. In the order in which they are counted; none for a constant
 /// series.
-/// @throws std::invalid_argument as turning_points
+/// @throws MachineRefused as turning_points
 std::vector<LoadCycle> rainflow(const Eigen::ArrayXd& series);
 
 /// Full cycles of one period of a series that repeats, E1049 5.4.5: counted from one largest value to the
 /// next. It does not matter where the period was cut, nor whether its first value is repeated at its end.
-/// @throws std::invalid_argument as turning_points
+/// @throws MachineRefused as turning_points
 std::vector<LoadCycle> rainflow_repeating(const Eigen::ArrayXd& period);
 
 /// Exact spectrum: equal (range, mean) merged, their counts summed; by falling range, then rising mean.
@@ -45,7 +45,7 @@ std::vector<LoadCycle> spectrum(std::vector<LoadCycle> cycles);
 /// Spectrum by classes of equal width from zero to the largest range; every cycle falls in exactly one.
 /// @param n_bins  number of classes, >= 1
 /// @return n_bins classes by rising range; none if there are no cycles
-/// @throws std::invalid_argument if n_bins < 1
+/// @throws MachineRefused if n_bins < 1
 std::vector<RangeBin> binned(const std::vector<LoadCycle>& cycles, int n_bins);
 
 /// Amplitude of that constant-amplitude load which does the same damage by Miner's rule with a life curve
@@ -53,7 +53,7 @@ std::vector<RangeBin> binned(const std::vector<LoadCycle>& cycles, int n_bins);
 /// @param exponent            m > 0; 3 to 5 for welds and notches, 8 to 15 for smooth steel
 /// @param n_reference_cycles  n > 0; zero: the sum of the counts
 /// @return amplitude (half a range); zero if there are no cycles
-/// @throws std::invalid_argument if the exponent is not positive, or n is negative, or one is not finite
+/// @throws MachineRefused if the exponent is not positive, or n is negative, or one is not finite
 double equivalent_amplitude(const std::vector<LoadCycle>& cycles, double exponent,
                             double n_reference_cycles = 0);
 

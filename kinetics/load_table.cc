@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "kinetics/table/periodic_cubic.h"
 #include "kinetics/wrong_input.h"
 
@@ -23,11 +23,10 @@ std::string name_of(const TableLoad& load) {
 void check_samples(const std::string& name, const SampledCourse& samples, double period_rad) {
   const Index n = samples.angle_rad.size();
   if (n < 4)
-    throw std::invalid_argument(name + " has " + std::to_string(n) +
-                                " samples; give at least four over the period");
+    throw MachineRefused(name + " has " + std::to_string(n) + " samples; give at least four over the period");
   if (samples.values.size() != n)
-    throw std::invalid_argument(name + " has " + std::to_string(n) + " angles and " +
-                                std::to_string(samples.values.size()) + " values; give one for each");
+    throw MachineRefused(name + " has " + std::to_string(n) + " angles and " +
+                         std::to_string(samples.values.size()) + " values; give one for each");
   for (Index i = 0; i < n; ++i) {
     require_finite(name + " at sample " + std::to_string(i + 1), samples.values[i]);
     require_finite(name + ".angle at sample " + std::to_string(i + 1), samples.angle_rad[i]);
@@ -66,8 +65,8 @@ void check_effects(const std::vector<std::string>& effects, const LoadTable& tab
   for (const auto& effect : load_table_effects(table)) known.push_back(effect.name);
   for (const auto& effect : effects)
     if (std::find(known.begin(), known.end(), effect) == known.end())
-      throw std::invalid_argument("effect \"" + effect + "\" is unknown; did you mean \"" +
-                                  nearest(effect, known) + "\"? The table has: " + listed(known));
+      throw MachineRefused("effect \"" + effect + "\" is unknown; did you mean \"" + nearest(effect, known) +
+                           "\"? The table has: " + listed(known));
 }
 
 void check(const LoadTable& table, const TimeGrid& grid) {
@@ -75,13 +74,13 @@ void check(const LoadTable& table, const TimeGrid& grid) {
   if (table.speed_rad_s <= 0)
     refuse("speed_rad_s", table.speed_rad_s, "must be positive: it ties time and angle together");
   check_grid(grid);
-  if (table.loads.empty()) throw std::invalid_argument("the load table is empty; give at least one load");
+  if (table.loads.empty()) throw MachineRefused("the load table is empty; give at least one load");
   for (std::size_t i = 0; i < table.loads.size(); ++i) {
     const TableLoad& load = table.loads[i];
     for (std::size_t j = 0; j < i; ++j)
       if (table.loads[j].effect == load.effect && name_of(table.loads[j]) == name_of(load))
-        throw std::invalid_argument(name_of(load) + " is given twice for the effect \"" + load.effect +
-                                    "\"; remove one, or name another effect for it");
+        throw MachineRefused(name_of(load) + " is given twice for the effect \"" + load.effect +
+                             "\"; remove one, or name another effect for it");
     if (const auto* samples = std::get_if<SampledCourse>(&load.course))
       check_samples(name_of(load), *samples, grid.turns * turn_rad);
     else

@@ -62,7 +62,7 @@ std::vector<ResamplingError> resampling_errors(const LoadTable& table, const Tim
 /// side. One resultant per port, one contribution per effect; other components become quantities
 /// "<port>.<component>". Samples are not turned: they mean the frame that their port means. A jump at the
 /// seam above 1 % of the largest value, and interpolation above 1 %, are warned of.
-/// @throws std::invalid_argument naming parameter, value and remedy: no load, an unknown effect, NaN or
+/// @throws MachineRefused naming parameter, value and remedy: no load, an unknown effect, NaN or
 ///         infinity, fewer than four samples, angles that do not ascend or span more than the period, samples
 ///         that leave more than half a turn uncovered, an order that does not fit the period, speed not
 ///         positive, the same load twice in one effect

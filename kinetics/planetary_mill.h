@@ -95,7 +95,7 @@ struct PlanetaryGeometry {
   double relative_speed_ratio = 0;  ///< spin of the drum against the carrier / Omega, -1 / c
 };
 
-/// @throws std::invalid_argument if a length or ratio is not a positive finite number, or k is not below 1
+/// @throws MachineRefused if a length or ratio is not a positive finite number, or k is not below 1
 PlanetaryGeometry planetary_geometry(const PlanetaryMill& mill);
 
 /// What follows from the charge's filling.
@@ -108,7 +108,7 @@ struct PlanetaryChargeBody {
 };
 
 /// Exact to a few roundings for fillings from 1e-300 to 1 - 1e-300 (as void_fraction).
-/// @throws std::invalid_argument unless exactly one filling is given, within its range
+/// @throws MachineRefused unless exactly one filling is given, within its range
 PlanetaryChargeBody planetary_charge_body(const PlanetaryMill& mill);
 
 /// The effects that the machine knows under a convention, in the order of summation.
@@ -136,7 +136,7 @@ const std::vector<EffectInfo>& planetary_mill_effects(PlanetaryConvention conven
 /// charge_power at every instant.
 /// @param effects  names in any order; they are summed in the order of planetary_mill_effects. All but `belt`
 ///                 are independent of each other; the belt balances the M_A of those that are on
-/// @throws std::invalid_argument naming parameter, value and remedy: NaN or infinity, what must be positive,
+/// @throws MachineRefused naming parameter, value and remedy: NaN or infinity, what must be positive,
 ///         a mass or filling that an effect lacks, more than one filling, an unknown effect (with the
 ///         nearest known one), a machine that cannot be built under `consistent` (a warning under the other
 ///         two), a belt beyond geometry
@@ -158,7 +158,7 @@ struct PlanetaryHodograph {
 
 /// Closed form of the axle's load over all angles, for the named effects.
 /// @return empty if it is no ellipse: T1 - T2 changes its sign in a turn and the belt's model swaps strands
-/// @throws std::invalid_argument as compute_loads does
+/// @throws MachineRefused as compute_loads does
 std::optional<PlanetaryHodograph> hodograph(const PlanetaryMill& mill,
                                             const std::vector<std::string>& effects);
 

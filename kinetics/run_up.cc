@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "kinetics/constants.h"
+#include "kinetics/machine_refused.h"
 #include "kinetics/vibratory/balance.h"
 #include "kinetics/vibratory/checks.h"
 #include "kinetics/vibratory/drive_motion.h"
@@ -25,7 +25,7 @@ using vibratory::PitchTransient;
 
 void check_run(const VibratoryMill& mill, const RunUp& run) {
   if (mill.convention == Convention::published)
-    throw std::invalid_argument(
+    throw MachineRefused(
         "convention \"published\": knows steady running only; choose the convention \"consistent\"");
   if (run.time_s.size() < 2)
     refuse("number of run.time_s", double(run.time_s.size()),

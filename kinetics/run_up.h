@@ -43,14 +43,14 @@ RunUp ramp(double from_rad_s, double to_rad_s, double duration_s, double hold_s 
 /// longer equidistant where segments differ. An instant at an entry of the table has the acceleration after
 /// it. With pitch also, in J since the start: pitch_energy, I theta'^2 / 2 + k_theta theta^2 / 2; pitch_work,
 /// of M at the midpoints of the steps; pitch_dissipation; pitch_energy_residual, what these leave: round-off.
-/// @throws std::invalid_argument as compute_loads; for the convention `published`, which knows no unsteady
+/// @throws MachineRefused as compute_loads; for the convention `published`, which knows no unsteady
 ///         motion; for a malformed table or step, or more than 2 million steps; if the default start is a
 ///         resonance, or finds a moment at rest that no stiffness resists
 LoadHistory compute_run_up(const VibratoryMill& mill, const std::vector<std::string>& effects,
                            const RunUp& run);
 
 /// Refuses what compute_run_up would refuse before it integrates.
-/// @throws std::invalid_argument as compute_run_up does for effects, parameters and the run's table
+/// @throws MachineRefused as compute_run_up does for effects, parameters and the run's table
 void check_run_up(const VibratoryMill& mill, const std::vector<std::string>& effects, const RunUp& run);
 
 }  // namespace kinetics

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "kinetics/vibratory/affine_optimum.h"
 #include "kinetics/vibratory/checks.h"
 #include "kinetics/vibratory/effect.h"
@@ -24,7 +24,7 @@ double check(const VibratoryMill& mill, const std::vector<std::string>& effects,
   vibratory::check_parameters(mill, effects);
   check_grid(grid);
   if (!vibratory::contains(effects, "springs"))
-    throw std::invalid_argument("springs: the effect is off, so there are none to choose; add it");
+    throw MachineRefused("springs: the effect is off, so there are none to choose; add it");
   if (mill.eccentricity_m == 0)
     refuse("eccentricity_m", 0,
            "without eccentricity the springs do not move and no stiffness is better than another; give the "
@@ -83,7 +83,7 @@ SpringChoice choose_springs(const VibratoryMill& mill, const std::vector<std::st
     try {
       const Eigen::Array2Xd R_N = scalable.reaction_N(scale);
       return aim == SpringAim::rms ? vibratory::rms_norm(R_N) : vibratory::peak_norm(R_N);
-    } catch (const std::invalid_argument&) {  // all input is checked: an undamped resonance
+    } catch (const MachineRefused&) {  // all input is checked: an undamped resonance
       return std::numeric_limits<double>::infinity();
     }
   };

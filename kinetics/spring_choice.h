@@ -46,7 +46,7 @@ struct SpringChoice {
 ///   pitch on:  several local minima between resonances: log-spaced scan, each minimum refined.
 /// Spring damping is not scaled. Means and maxima are those of the grid's instants.
 /// @param effects  must hold `springs`
-/// @throws std::invalid_argument as compute_loads; without eccentricity (the springs then do not move),
+/// @throws MachineRefused as compute_loads; without eccentricity (the springs then do not move),
 /// without
 ///         the effect `springs` or vertical stiffness, for a malformed search; if every scale is a resonance
 SpringChoice choose_springs(const VibratoryMill& mill, const std::vector<std::string>& effects,

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "kinetics/vibratory/balance.h"
 #include "kinetics/vibratory/checks.h"
 #include "kinetics/vibratory/pitch.h"
@@ -107,8 +107,8 @@ void require_torus_quantity(const LoadHistory& loads, const std::string& name) {
   for (const Quantity& quantity : loads.quantities)
     if (quantity.name != "chi" && quantity.has_statistics) known.push_back(quantity.name);
   if (!vibratory::contains(known, name))
-    throw std::invalid_argument("quantity " + name + ": has no extremes with these effects; did you mean " +
-                                nearest(name, known) + "? Known: " + listed(known));
+    throw MachineRefused("quantity " + name + ": has no extremes with these effects; did you mean " +
+                         nearest(name, known) + "? Known: " + listed(known));
 }
 
 }  // namespace

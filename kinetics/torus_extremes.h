@@ -29,7 +29,7 @@ struct TorusExtremes {
 /// extremes of the grid is refined until the angles' step is 1e-8 rad. Not for phi, chi and what has poles.
 /// @param quantities  names; none: R_E, B, T, theta, spring_force and the springs' forces, as far as the
 ///                    effects make them
-/// @throws std::invalid_argument as compute_loads, or for a quantity that these effects do not give
+/// @throws MachineRefused as compute_loads, or for a quantity that these effects do not give
 std::vector<TorusExtremes> torus_extremes(const VibratoryMill& mill, const std::vector<std::string>& effects,
                                           std::vector<std::string> quantities = {});
 

@@ -91,7 +91,7 @@ const std::vector<EffectInfo>& vibratory_mill_effects(Convention convention);
 /// Without `springs`' preload given, it is the static balance of those weights that are in effect, the
 /// charge's centre taken at C.
 /// @param effects  names in any order; they are summed in the order of vibratory_mill_effects
-/// @throws std::invalid_argument naming parameter, value and remedy: NaN or infinity, a negative mass,
+/// @throws MachineRefused naming parameter, value and remedy: NaN or infinity, a negative mass,
 ///         one that is missing for an effect, speed not positive, I_E < m1 |l|^2, an unknown effect (with the
 ///         nearest known one) or one that lacks the effect it builds on, an undamped pitch resonance,
 ///         k_theta = 0 with a mean moment, sin(eta) above 1, charge_lag without angle or power, `published`

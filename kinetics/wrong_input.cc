@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numeric>
 #include <sstream>
-#include <stdexcept>
+
+#include "kinetics/machine_refused.h"
 
 namespace kinetics {
 namespace {
@@ -35,7 +36,7 @@ std::string number(double value) {
 }
 
 void refuse(const std::string& parameter, double value, const std::string& remedy) {
-  throw std::invalid_argument(parameter + " = " + number(value) + ": " + remedy);
+  throw MachineRefused(parameter + " = " + number(value) + ": " + remedy);
 }
 
 void require_finite(const std::string& parameter, double value) {

@@ -9,11 +9,11 @@ namespace kinetics {
 /// A number as it reads best in a message: up to 12 significant digits.
 std::string number(double value);
 
-/// @throws std::invalid_argument, always: "<parameter> = <value>: <remedy>"
+/// @throws MachineRefused, always: "<parameter> = <value>: <remedy>"
 [[noreturn]] void refuse(const std::string& parameter, double value, const std::string& remedy);
 
 /// Lets numbers through and refuses NaN and infinity.
-/// @throws std::invalid_argument if the value is not finite
+/// @throws MachineRefused if the value is not finite
 void require_finite(const std::string& parameter, double value);
 
 /// The known word that takes the fewest inserted, deleted or replaced letters to reach; empty if `known` is.

@@ -6,7 +6,7 @@
 namespace meshes {
 
 /// Names, sizes and the chain of segments have been checked before.
-/// @throws std::invalid_argument with the offending numbers (mm) and what to change
+/// @throws GeometryRefused with the offending numbers (mm) and what to change
 void check_bores(const Shaft& shaft);
 
 }  // namespace meshes

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
+
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -47,7 +48,7 @@ void BreakPoints::add(double at_m, const std::string& what) {
     text << "chamber: " << near->what << " and " << what << " are " << distance_m(near->at_m, at_m) * 1e3
          << " mm apart; at least " << closest_m_ * 1e3
          << " mm can be meshed: move one of them, or make them coincide";
-    throw std::invalid_argument(text.str());
+    throw GeometryRefused(text.str());
   }
   insert(at_m, what);
 }

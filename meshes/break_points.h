@@ -13,7 +13,7 @@ public:
 
   /// An edge of the geometry. One that coincides with an earlier one is that one.
   /// @param what names it in messages
-  /// @throws std::invalid_argument if it comes closer than closest_m to another without meeting it
+  /// @throws GeometryRefused if it comes closer than closest_m to another without meeting it
   void add(double at_m, const std::string& what);
 
   /// A point that may move: the break point within closest_m if there is one, else a new one.

@@ -36,7 +36,7 @@ struct CellMesh {
 const std::vector<std::vector<int>>& local_faces(CellKind kind);
 
 /// Writes to a temporary name beside `file`, then renames. The same mesh gives the same bytes.
-/// @throws std::runtime_error if the directory is missing or the file cannot be written
+/// @throws MeshRefused if the directory is missing or the file cannot be written
 void write_msh(const CellMesh& mesh, const GroupNames& names, const std::filesystem::path& file);
 
 }  // namespace meshes

@@ -1,7 +1,6 @@
 #include "meshes/chamber.h"
 
 #include <sstream>
-#include <stdexcept>
 
 #include "meshes/chamber_checks.h"
 #include "meshes/chamber_layout.h"
@@ -10,6 +9,7 @@
 #include "meshes/chamber_surfaces.h"
 #include "meshes/msh_writer.h"
 #include "meshes/quality.h"
+#include "meshes/refused.h"
 #include "meshes/sharp_edges.h"
 #include "meshes/swept_plan.h"
 
@@ -25,7 +25,7 @@ void require_quality(const MeshQuality& quality, double wanted) {
        << quality.worst_z_m * 1e3 << ") mm, wanted " << wanted
        << "; change the plate that lies there (lower webs, lugs as wide as their pads, feet further away), "
           "or lower min_scaled_jacobian";
-  throw std::runtime_error(text.str());
+  throw MeshRefused(text.str());
 }
 
 }  // namespace

@@ -100,9 +100,9 @@ struct ChamberMeshControl {
 /// plate or flange covers or approaches within 0.4 walls is left out, and so is one whose points would come
 /// closer than 0.05 walls to another edge, station or point without meeting it.
 /// One call at a time in a process: gmsh is global.
-/// @throws std::invalid_argument with the offending numbers: sizes outside the ranges above, parts too close
+/// @throws GeometryRefused with the offending numbers: sizes outside the ranges above, parts too close
 ///         to each other, edges or faces closer than 0.05 walls that do not coincide, bad controls
-/// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian (place and value named),
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian (place and value named),
 ///         or the file cannot be written
 BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control,
                        const std::filesystem::path& file);

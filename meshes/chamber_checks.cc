@@ -2,17 +2,17 @@
 
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "meshes/refusal.h"
+#include "meshes/refused.h"
 
 namespace meshes {
 
 namespace {
 
 [[noreturn]] void refuse_chamber(const std::string& what) {
-  throw std::invalid_argument("chamber: " + what);
+  throw GeometryRefused("chamber: " + what);
 }
 
 void require_positive(double value_m, const std::string& what) {
@@ -112,9 +112,7 @@ void check_feet(const Chamber& chamber) {
 }  // namespace
 
 void check_control(const ChamberMeshControl& control) {
-  const auto refuse_control = [](const std::string& what) {
-    throw std::invalid_argument("mesh control: " + what);
-  };
+  const auto refuse_control = [](const std::string& what) { throw GeometryRefused("mesh control: " + what); };
   if (control.cells_through_wall < 1 || control.cells_through_wall > 20)
     refuse_control("cells_through_wall = " + std::to_string(control.cells_through_wall) +
                    " must lie between 1 and 20");

@@ -7,13 +7,13 @@
 namespace meshes {
 
 /// Sizes on their own: positive, finite, within the ranges that chamber.h states.
-/// @throws std::invalid_argument with the offending numbers (mm) and what to change
+/// @throws GeometryRefused with the offending numbers (mm) and what to change
 void check_sizes(const Chamber& chamber);
 void check_control(const ChamberMeshControl& control);
 
 /// Parts against each other: they keep clear where they share a range of z; edges of plates taper by at most
 /// 1 in 2.
-/// @throws std::invalid_argument naming the parts, their distance and the least one, or the taper
+/// @throws GeometryRefused naming the parts, their distance and the least one, or the taper
 void check_clearances(const Chamber& chamber, const ChamberLayout& layout);
 
 }  // namespace meshes

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <stdexcept>
 
 #include "meshes/chamber_checks.h"
 #include "meshes/convex.h"
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -93,7 +93,7 @@ void check_taper(const std::string& edge, double shift_m, double run_m, const st
   std::ostringstream text;
   text << "chamber: " << edge << " shifts by " << shift_m * 1e3 << " mm over its length of " << run_m * 1e3
        << " mm; 1 in 2 is the most: " << remedy;
-  throw std::invalid_argument(text.str());
+  throw GeometryRefused(text.str());
 }
 
 void check_tapers(const Chamber& chamber, const ChamberLayout& layout) {
@@ -140,7 +140,7 @@ void check_clearances(const Chamber& chamber, const ChamberLayout& layout) {
            << std::max(in_plane_m, 0.0) * 1e3 << " mm apart in the cross-section and "
            << std::max(in_z_m, 0.0) * 1e3 << " mm in z; one of the two must be at least " << least_m * 1e3
            << " mm, the tube's wall: move them apart or make them smaller";
-      throw std::invalid_argument(text.str());
+      throw GeometryRefused(text.str());
     }
   check_tapers(chamber, layout);
 }

@@ -21,7 +21,7 @@ struct ToeSizes {
 /// Cell boundaries from begin to end. At least n_min cells.
 std::vector<double> between_toes(double begin_m, double end_m, const ToeSizes& sizes, int n_min);
 
-/// @throws std::invalid_argument if edges or faces come closer than layout.closest_m without meeting
+/// @throws GeometryRefused if edges or faces come closer than layout.closest_m without meeting
 ChamberStations place_stations(const Chamber& chamber, const ChamberLayout& layout,
                                const ChamberMeshControl& control);
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 #include "meshes/quality.h"
+#include "meshes/refused.h"
 #include "meshes/vectors.h"
 
 namespace meshes {
@@ -105,7 +105,7 @@ void require_quality(const MeshQuality& quality, double wanted, const std::strin
   text << "mesh: the smallest scaled Jacobian is " << quality.min_scaled_jacobian << " at (x, y, z) = ("
        << quality.worst_x_m * 1e3 << ", " << quality.worst_y_m * 1e3 << ", " << quality.worst_z_m * 1e3
        << ") mm, wanted " << wanted << "; " << remedy;
-  throw std::runtime_error(text.str());
+  throw MeshRefused(text.str());
 }
 
 }  // namespace meshes

@@ -14,7 +14,7 @@ double scaled_jacobian(const CellMesh& mesh, std::size_t cell);
 /// Counts, the smallest and the median scaled Jacobian, where the worst cell lies, the largest aspect.
 MeshQuality measure_quality(const CellMesh& mesh);
 
-/// @throws std::runtime_error naming value and place if the worst cell is below what is wanted
+/// @throws MeshRefused naming value and place if the worst cell is below what is wanted
 void require_quality(const MeshQuality& quality, double wanted, const std::string& remedy);
 
 }  // namespace meshes

@@ -5,6 +5,8 @@
 
 #include <system_error>
 
+#include "meshes/refused.h"
+
 namespace meshes {
 
 GmshSession::GmshSession() {
@@ -31,8 +33,7 @@ void write_msh_file(const std::filesystem::path& file, const std::function<void(
   std::error_code error;
   std::filesystem::rename(temporary, file, error);
   if (error)
-    throw std::runtime_error(purpose + ": " + error.message() +
-                             "; check that the directory exists and is writable");
+    throw MeshRefused(purpose + ": " + error.message() + "; check that the directory exists and is writable");
 }
 
 }  // namespace meshes

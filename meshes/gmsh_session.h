@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "meshes/refused.h"
+
 namespace meshes {
 
 class GmshSession {
@@ -18,19 +20,19 @@ public:
   GmshSession& operator=(const GmshSession&) = delete;
 };
 
-/// Runs an action in a session of its own; gmsh's errors, which are plain strings, become std::runtime_error.
+/// Runs an action in a session of its own; gmsh's errors, which are plain strings, become MeshRefused.
 template <typename Action>
 void with_gmsh(const std::string& purpose, Action action) {
   try {
     const GmshSession session;
     action();
   } catch (const std::string& message) {
-    throw std::runtime_error(purpose + ": gmsh says: " + message);
+    throw MeshRefused(purpose + ": gmsh says: " + message);
   }
 }
 
 /// Fills a model in a session of its own and writes it as .msh 4.1, through a temporary name.
-/// @throws std::runtime_error naming the file
+/// @throws MeshRefused naming the file
 void write_msh_file(const std::filesystem::path& file, const std::function<void()>& fill_model);
 
 }  // namespace meshes

@@ -16,7 +16,7 @@ struct HalfSection {
 
 /// The blocks of build_shaft with the core filled down to the axis, and with its boundary ids. Eccentric
 /// segments are made concentric. Makes no file.
-/// @throws std::invalid_argument as build_shaft
+/// @throws GeometryRefused as build_shaft
 HalfSection build_half_section(const Shaft& shaft, const ShaftMeshControl& control);
 
 }  // namespace meshes

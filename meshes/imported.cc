@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 
 #include "meshes/curved_quality.h"
 #include "meshes/gmsh_session.h"
 #include "meshes/port_selection.h"
 #include "meshes/reentrant_edges.h"
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -23,7 +23,7 @@ Format format_of(const std::filesystem::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
   if (extension == ".step" || extension == ".stp") return Format::step;
   if (extension == ".msh") return Format::msh;
-  throw std::invalid_argument("the geometry " + file.string() + " must be a .step, .stp or .msh file");
+  throw GeometryRefused("the geometry " + file.string() + " must be a .step, .stp or .msh file");
 }
 
 void import_solids(const std::filesystem::path& file) {
@@ -31,8 +31,7 @@ void import_solids(const std::filesystem::path& file) {
   gmsh::model::occ::importShapes(file.string(), shapes, true, "step");
   gmsh::model::occ::synchronize();
   gmsh::model::getEntities(volumes, 3);
-  if (volumes.empty())
-    throw std::invalid_argument("it has no solid, surfaces at most: export the part as a solid");
+  if (volumes.empty()) throw GeometryRefused("it has no solid, surfaces at most: export the part as a solid");
   if (volumes.size() == 1) return;
   std::vector<gmsh::vectorpair> map;  // solids that touch share their surfaces afterwards
   gmsh::model::occ::fragment({volumes.front()}, {volumes.begin() + 1, volumes.end()}, fragments, map);
@@ -53,7 +52,7 @@ void set_order_of_cells() {
     tetrahedra = tetrahedra || n_primary == 4;
     highest = std::max(highest, order);
   }
-  if (types.empty()) throw std::invalid_argument("it has no cells, only a surface: mesh its volumes");
+  if (types.empty()) throw GeometryRefused("it has no cells, only a surface: mesh its volumes");
   const int wanted = tetrahedra ? 2 : 1;
   if (highest != wanted) gmsh::model::mesh::setOrder(wanted);
 }
@@ -62,7 +61,7 @@ ModelMesh load(const Import& import, double scale_to_m) {
   ModelMesh model;
   const std::string name = import.geometry.string();
   if (!std::filesystem::is_regular_file(import.geometry))
-    throw std::invalid_argument("the geometry " + name + " is no file; check the path");
+    throw GeometryRefused("the geometry " + name + " is no file; check the path");
   try {
     const GmshSession session;
     if (format_of(import.geometry) == Format::step) {
@@ -74,13 +73,13 @@ ModelMesh load(const Import& import, double scale_to_m) {
       model = collect_model(scale_to_m);
     }
   } catch (const std::string& message) {
-    throw std::invalid_argument("the geometry " + name + " cannot be read or meshed: gmsh says: " + message);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("the geometry " + name + ": " + error.what());
+    throw GeometryRefused("the geometry " + name + " cannot be read or meshed: gmsh says: " + message);
+  } catch (const GeometryRefused& error) {
+    throw GeometryRefused("the geometry " + name + ": " + error.what());
   }
   if (const int n = n_separate_parts(model.mesh); n > 1)
-    throw std::invalid_argument("the geometry " + name + " has " + std::to_string(n) +
-                                " parts that do not touch: join them, or import one");
+    throw GeometryRefused("the geometry " + name + " has " + std::to_string(n) +
+                          " parts that do not touch: join them, or import one");
   return model;
 }
 
@@ -145,8 +144,8 @@ BodyMesh build_imported(const Import& import, const std::filesystem::path& file)
   const double default_scale = format_of(import.geometry) == Format::step ? 1e-3 : 1;
   const double scale_to_m = import.scale_to_m == 0 ? default_scale : import.scale_to_m;
   if (!std::isfinite(scale_to_m) || !(scale_to_m > 0))
-    throw std::invalid_argument("scale_to_m = " + std::to_string(import.scale_to_m) +
-                                " must be positive: the length of the file's unit");
+    throw GeometryRefused("scale_to_m = " + std::to_string(import.scale_to_m) +
+                          " must be positive: the length of the file's unit");
   ModelMesh model = load(import, scale_to_m);
   BodyMesh body;
   GroupNames names;

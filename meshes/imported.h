@@ -49,10 +49,10 @@ struct Import {
 /// its groups of volumes regions if there are several. Every boundary face belongs to one feature: that of a
 /// port, or of its group, or "surface <n>", n the surface's number in the CAD. Sharp edges: where faces meet
 /// at more than 60 degrees re-entrant. One call at a time in a process: gmsh is global.
-/// @throws std::invalid_argument naming file or port and the remedy: a file that is missing, cannot be read
+/// @throws GeometryRefused naming file or port and the remedy: a file that is missing, cannot be read
 /// or has no solid, solids that do not touch, a port without surfaces (what there is, is listed), a surface
 /// that two ports claim, a seat or bore that is no cylinder, a surface that sticks out of the range of z
-/// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian, or the file cannot be
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian, or the file cannot be
 /// written
 BodyMesh build_imported(const Import& import, const std::filesystem::path& file);
 

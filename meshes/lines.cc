@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 #include "meshes/constants.h"
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -51,7 +51,7 @@ double at_junction(const Junction& junction, int segment, double radius_m) {
        << std::max(from_m, to_m) * 1e3 << " mm within "
        << (segment.column_end_m - segment.column_begin_m) * 1e3
        << " mm; make the segment longer, the fillet smaller, or move the bore step away from the shoulder";
-  throw std::invalid_argument(text.str());
+  throw GeometryRefused(text.str());
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace meshes {
 double radius_below_fan(const ShaftLayout& layout, int junction);
 
 /// Fills line_begin_m and line_end_m.
-/// @throws std::invalid_argument if a line would have to climb too steeply from a bore step to a shoulder
+/// @throws GeometryRefused if a line would have to climb too steeply from a bore step to a shoulder
 void set_lines(ShaftLayout& layout);
 
 }  // namespace meshes

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <stdexcept>
 
 #include "meshes/constants.h"
 #include "meshes/inner_nodes.h"
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -25,8 +25,8 @@ public:
       gmsh::model::getEntitiesForPhysicalGroup(dimension, group.second, entities);
       for (const int entity : entities)
         if (!group_of_.emplace(entity, group.second).second)
-          throw std::invalid_argument(std::string(dimension == 2 ? "surface " : "volume ") +
-                                      std::to_string(entity) + " is in several physical groups; give it one");
+          throw GeometryRefused(std::string(dimension == 2 ? "surface " : "volume ") +
+                                std::to_string(entity) + " is in several physical groups; give it one");
     }
   }
   /// Place of an entity's group in `pieces`, added at its first call.
@@ -54,7 +54,7 @@ private:
 CellKind kind_of_cells() {
   std::vector<int> types;
   gmsh::model::mesh::getElementTypes(types, 3);
-  if (types.empty()) throw std::invalid_argument("it has no cells: mesh the volumes, or give a solid");
+  if (types.empty()) throw GeometryRefused("it has no cells: mesh the volumes, or give a solid");
   if (types.size() > 1 || (types[0] != gmsh_tetrahedron_10 && types[0] != gmsh_hexahedron)) {
     std::string names;
     for (const int type : types) {
@@ -64,8 +64,8 @@ CellKind kind_of_cells() {
       gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_nodes, coordinates, n_primary);
       names += (names.empty() ? "" : ", ") + name;
     }
-    throw std::invalid_argument("its cells are " + names +
-                                ": all must be tetrahedra, or all hexahedra; mesh it again");
+    throw GeometryRefused("its cells are " + names +
+                          ": all must be tetrahedra, or all hexahedra; mesh it again");
   }
   return types[0] == gmsh_hexahedron ? CellKind::hexahedra : CellKind::tetrahedra;
 }

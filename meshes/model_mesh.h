@@ -25,7 +25,7 @@ struct ModelMesh {
 /// Tetrahedra of 10 nodes or hexahedra of 8 with the faces that bound them; surfaces inside are passed over,
 /// and a part of the boundary on no surface is a piece without a tag. Cells that are inside out are turned.
 /// @param unit_m  length of the model's unit
-/// @throws std::invalid_argument if there are no cells, or others, or both kinds, or a surface or volume is
+/// @throws GeometryRefused if there are no cells, or others, or both kinds, or a surface or volume is
 /// in several groups
 ModelMesh collect_model(double unit_m);
 

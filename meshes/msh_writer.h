@@ -16,7 +16,7 @@ struct GroupNames {
 
 /// Writes to a temporary name beside `file`, then renames: a reader never sees half a mesh. The same mesh
 /// gives the same bytes.
-/// @throws std::runtime_error if the directory is missing or the file cannot be written
+/// @throws MeshRefused if the directory is missing or the file cannot be written
 void write_msh(const HexMesh& mesh, const GroupNames& names, const std::filesystem::path& file);
 
 }  // namespace meshes

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <set>
 #include <sstream>
-#include <stdexcept>
+
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -15,7 +16,7 @@ constexpr double same_share = 1e-3;   // of the radius: surfaces on one and the 
 constexpr double range_share = 1e-3;  // of the length asked for, in z
 
 [[noreturn]] void refuse(const ImportPort& port, const std::string& what) {
-  throw std::invalid_argument("port " + port.name + ": " + what);
+  throw GeometryRefused("port " + port.name + ": " + what);
 }
 
 std::string name_of(const Piece& piece) {
@@ -106,9 +107,9 @@ struct Select {
 };
 
 void check_values(const ImportPort& port, std::set<std::string>& names) {
-  if (port.name.empty()) throw std::invalid_argument("a port of the imported body has no name; give it one");
+  if (port.name.empty()) throw GeometryRefused("a port of the imported body has no name; give it one");
   if (!names.insert(port.name).second)
-    throw std::invalid_argument("two ports are called '" + port.name + "'; names must be unique");
+    throw GeometryRefused("two ports are called '" + port.name + "'; names must be unique");
   if (const auto* box = std::get_if<BoxSelection>(&port.selection))
     for (int d = 0; d < 3; ++d)
       if (!(box->low_m[d] <= box->high_m[d])) refuse(port, "its box has a low corner above the high one");
@@ -135,8 +136,8 @@ std::vector<int> assign_ports(const std::vector<ImportPort>& ports, const ModelM
   }
   for (std::size_t i = 0; i < model.pieces.size(); ++i)
     if (port_of[i] < 0 && names.count(model.pieces[i].name) > 0)
-      throw std::invalid_argument("port " + model.pieces[i].name +
-                                  " has the name of a group of surfaces that it does not take; rename it");
+      throw GeometryRefused("port " + model.pieces[i].name +
+                            " has the name of a group of surfaces that it does not take; rename it");
   return port_of;
 }
 

@@ -10,12 +10,12 @@
 namespace meshes {
 
 /// The port of every piece, by its place in `ports`; -1: none.
-/// @throws std::invalid_argument as build_imported
+/// @throws GeometryRefused as build_imported
 std::vector<int> assign_ports(const std::vector<ImportPort>& ports, const ModelMesh& model,
                               const std::vector<PieceShape>& shapes);
 
 /// Values of a port that takes some of the pieces.
-/// @throws std::invalid_argument if a seat or bore is no cylinder parallel to z, or the material is on the
+/// @throws GeometryRefused if a seat or bore is no cylinder parallel to z, or the material is on the
 /// wrong side
 Port make_port(const ImportPort& port, const ModelMesh& model, const std::vector<PieceShape>& shapes,
                const std::vector<int>& port_of_piece, int index, int boundary_id);

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <sstream>
-#include <stdexcept>
 #include <string>
+
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -15,7 +16,7 @@ inline std::string mm(double length_m) {
 }
 
 [[noreturn]] inline void refuse(const std::string& what) {
-  throw std::invalid_argument("shaft: " + what);
+  throw GeometryRefused("shaft: " + what);
 }
 
 }  // namespace meshes

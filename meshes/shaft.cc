@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <sstream>
-#include <stdexcept>
 
 #include "meshes/disc.h"
 #include "meshes/meridian.h"
 #include "meshes/msh_writer.h"
 #include "meshes/quality.h"
+#include "meshes/refused.h"
 #include "meshes/revolve.h"
 #include "meshes/shaft_checks.h"
 #include "meshes/shaft_layout.h"
@@ -48,7 +48,7 @@ void require_quality(const MeshQuality& quality, double wanted) {
        << quality.worst_x_m * 1e3 << ", " << quality.worst_y_m * 1e3 << ", " << quality.worst_z_m * 1e3
        << ") mm, wanted " << wanted
        << "; change the fillet or the eccentricity there, or lower min_scaled_jacobian";
-  throw std::runtime_error(text.str());
+  throw MeshRefused(text.str());
 }
 
 }  // namespace

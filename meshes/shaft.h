@@ -82,12 +82,12 @@ struct ShaftMeshControl {
 /// shaft is solid (without a chart) and "ring_<segment>". Sharp edges: every outer shoulder without a fillet
 /// ("<left>/<right>", within 0.1 of the smaller diameter) and every bore step ("bore <left>/<right>", within
 /// the thickness of the wall around the wider bore). One call at a time in a process: gmsh is global.
-/// @throws std::invalid_argument with the offending numbers: gaps, sizes that are not positive, repeated
+/// @throws GeometryRefused with the offending numbers: gaps, sizes that are not positive, repeated
 /// names,
 ///         a fillet that does not fit its step (eccentric: r < (D - d)/2 - ecc) or its segment's length,
 ///         a port without room, an eccentricity that leaves the neighbour outside or the shifted ring flat,
 ///         a bore, bore step or bore_port outside what is said at Shaft, bad controls
-/// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian (place and value named),
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian (place and value named),
 ///         or the file cannot be written
 BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file);
 

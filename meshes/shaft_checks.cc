@@ -8,6 +8,7 @@
 #include "meshes/bore_checks.h"
 #include "meshes/constants.h"
 #include "meshes/refusal.h"
+#include "meshes/refused.h"
 #include "meshes/shaft_layout.h"
 
 namespace meshes {
@@ -139,9 +140,7 @@ void check_shift(const ShaftSegment& segment, double inner_radius_m) {
 }  // namespace
 
 void check_control(const ShaftMeshControl& control) {
-  const auto refuse_control = [](const std::string& what) {
-    throw std::invalid_argument("mesh control: " + what);
-  };
+  const auto refuse_control = [](const std::string& what) { throw GeometryRefused("mesh control: " + what); };
   if (control.cells_per_fillet_quarter < 2 || control.cells_per_fillet_quarter % 2 != 0)
     refuse_control("cells_per_fillet_quarter = " + std::to_string(control.cells_per_fillet_quarter) +
                    " must be even and at least 2");

@@ -5,7 +5,7 @@
 
 namespace meshes {
 
-/// @throws std::invalid_argument with the offending numbers (mm) and what to change
+/// @throws GeometryRefused with the offending numbers (mm) and what to change
 void check_shaft(const Shaft& shaft);
 void check_control(const ShaftMeshControl& control);
 

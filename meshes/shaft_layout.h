@@ -87,7 +87,7 @@ ShaftMeshControl before_subdivision(const ShaftMeshControl& control);
 ShaftLayout subdivided(const ShaftLayout& layout, int n);
 
 /// @param shaft, control have passed check_shaft; control.subdivisions > 1: control is before_subdivision
-/// @throws std::invalid_argument if a bore step lies so close to a shoulder that no row can reach from one to
+/// @throws GeometryRefused if a bore step lies so close to a shoulder that no row can reach from one to
 ///         the other
 ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control);
 

@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "meshes/flat_cells.h"
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -78,7 +78,7 @@ void limit_growth(const std::vector<FineSpot>& fine_spots, double unit_m) {
 }  // namespace
 
 void check_control(const SolidControl& control) {
-  const auto refuse = [](const std::string& what) { throw std::invalid_argument("mesh control: " + what); };
+  const auto refuse = [](const std::string& what) { throw GeometryRefused("mesh control: " + what); };
   const auto check_length = [&](const char* name, double value) {
     if (!std::isfinite(value) || value < 0)
       refuse(std::string(name) + " = " + std::to_string(value) + " must be positive, or 0");

@@ -26,7 +26,7 @@ struct SolidControl {
   double exclusion_m = 0;  ///< no stress is reported closer to re-entrant edges; 0: 1 % of the diagonal
 };
 
-/// @throws std::invalid_argument naming the value that is out of range
+/// @throws GeometryRefused naming the value that is out of range
 void check_control(const SolidControl& control);
 
 /// Meshes the volumes of gmsh's current model, as imported or built: second order with the nodes on the

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 #include "meshes/refusal.h"
+#include "meshes/refused.h"
 
 namespace meshes {
 
@@ -18,7 +18,7 @@ constexpr double smallest_wall = 0.01;
 void check_keyway(const Keyway& keyway, const SolidSegment& segment, double bore_radius_m, bool is_first,
                   bool is_last) {
   const std::string who = "keyway on " + keyway.segment + ": ";
-  const auto refuse = [&](const std::string& what) { throw std::invalid_argument(who + what); };
+  const auto refuse = [&](const std::string& what) { throw GeometryRefused(who + what); };
   const double diameter_m = 2 * segment.radius_m;
   for (const auto& [name, value] : {std::pair("width", keyway.width_m), std::pair("depth", keyway.depth_m),
                                     std::pair("length", keyway.length_m)})
@@ -74,9 +74,9 @@ bool cross(const Keyway& a, const Keyway& b, const SolidSegment& segment) {
 void check_pair(const Keyway& a, const Keyway& b, const SolidSegment& segment) {
   const bool apart = a.begin_m > b.begin_m + b.length_m || b.begin_m > a.begin_m + a.length_m;
   if (apart || !cross(a, b, segment)) return;
-  throw std::invalid_argument("two keyways on " + a.segment + " meet, at angles of " +
-                              std::to_string(a.angle_rad) + " and " + std::to_string(b.angle_rad) +
-                              " rad: turn or move one, or make them shallower");
+  throw GeometryRefused("two keyways on " + a.segment + " meet, at angles of " + std::to_string(a.angle_rad) +
+                        " and " + std::to_string(b.angle_rad) +
+                        " rad: turn or move one, or make them shallower");
 }
 
 }  // namespace
@@ -107,14 +107,14 @@ SolidLayout lay_out_solid(const Shaft& shaft) {
     segment.zone_end_m = from.is_port ? segment.end_m - rim_m : segment.bare_end_m;
     layout.segments.push_back(segment);
     if (from.bore_m != shaft.segments.front().bore_m)
-      throw std::invalid_argument("shaft: the bore of " + from.name + ", " + mm(from.bore_m) +
-                                  ", differs from that of " + shaft.segments.front().name + ", " +
-                                  mm(shaft.segments.front().bore_m) +
-                                  "; with keyways the bore has one diameter from end to end");
+      throw GeometryRefused("shaft: the bore of " + from.name + ", " + mm(from.bore_m) +
+                            ", differs from that of " + shaft.segments.front().name + ", " +
+                            mm(shaft.segments.front().bore_m) +
+                            "; with keyways the bore has one diameter from end to end");
     const double wall_m = segment.radius_m - std::hypot(segment.axis_x_m, segment.axis_y_m) - from.bore_m / 2;
     if (!(from.bore_m >= 0) || wall_m < smallest_wall * from.diameter_m)
-      throw std::invalid_argument("shaft: the bore of " + mm(from.bore_m) + " leaves a wall of " +
-                                  mm(wall_m) + " in " + from.name + "; make it smaller");
+      throw GeometryRefused("shaft: the bore of " + mm(from.bore_m) + " leaves a wall of " + mm(wall_m) +
+                            " in " + from.name + "; make it smaller");
   }
   layout.bore_radius_m = shaft.segments.front().bore_m / 2;
   return layout;
@@ -138,8 +138,8 @@ std::size_t segment_of(const Keyway& keyway, const Shaft& shaft) {
     if (shaft.segments[i].name == keyway.segment) return i;
     names += (i > 0 ? ", " : "") + shaft.segments[i].name;
   }
-  throw std::invalid_argument("keyway on \"" + keyway.segment + "\": the shaft has no such segment; it has " +
-                              names);
+  throw GeometryRefused("keyway on \"" + keyway.segment + "\": the shaft has no such segment; it has " +
+                        names);
 }
 
 void check_keyways(const Shaft& shaft, const SolidLayout& layout, const std::vector<Keyway>& keyways) {

@@ -23,7 +23,7 @@ struct SolidLayout {
 };
 
 /// @param shaft  has passed check_shaft
-/// @throws std::invalid_argument if the bore is not the same everywhere or leaves no wall
+/// @throws GeometryRefused if the bore is not the same everywhere or leaves no wall
 SolidLayout lay_out_solid(const Shaft& shaft);
 
 /// Place of a point seen from a keyway: across its middle line, along z, and from the segment's axis towards
@@ -32,10 +32,10 @@ Point in_keyway(const Keyway& keyway, const SolidSegment& segment, const Point& 
 Point from_keyway(const Keyway& keyway, const SolidSegment& segment, const Point& local);
 
 /// Place in shaft.segments of a keyway's segment.
-/// @throws std::invalid_argument if there is none
+/// @throws GeometryRefused if there is none
 std::size_t segment_of(const Keyway& keyway, const Shaft& shaft);
 
-/// @throws std::invalid_argument as build_solid_shaft
+/// @throws GeometryRefused as build_solid_shaft
 void check_keyways(const Shaft& shaft, const SolidLayout& layout, const std::vector<Keyway>& keyways);
 
 /// Builds the solid in gmsh's current model, lengths in mm; one volume.

@@ -11,6 +11,7 @@
 #include "meshes/gmsh_session.h"
 #include "meshes/model_mesh.h"
 #include "meshes/reentrant_edges.h"
+#include "meshes/refused.h"
 #include "meshes/shaft_checks.h"
 #include "meshes/solid_layout.h"
 #include "meshes/surface_pieces.h"
@@ -55,7 +56,7 @@ public:
   int id_at(const std::vector<Point>& points) const {
     for (const auto& surface : all)
       if (std::all_of(points.begin(), points.end(), surface.holds)) return surface.feature.boundary_id;
-    throw std::runtime_error(
+    throw MeshRefused(
         "solid shaft: a surface of the solid near z = " + std::to_string(points.front()[2] * 1e3) +
         " mm belongs to no part of the drawing: change the keyways there");
   }

@@ -23,7 +23,7 @@ struct Keyway {
 };
 
 /// What build_solid_shaft refuses before it meshes.
-/// @throws std::invalid_argument as build_solid_shaft
+/// @throws GeometryRefused as build_solid_shaft
 void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, const SolidControl& control);
 
 /// Meshes the shaft with its keyways and writes `file` (through a temporary name). Ports, and features of
@@ -31,12 +31,12 @@ void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, c
 /// leaves of a seat is the port. Keyway surfaces are "keyway <segment>", further ones on the segment "keyway
 /// <segment> 2" ... The bore has one diameter from end to end. Volume: "shaft". Sharp edges: shoulders
 /// without fillet and the floors of keyways.
-/// @throws std::invalid_argument with the offending numbers: as build_shaft for the shaft; a bore that is not
+/// @throws GeometryRefused with the offending numbers: as build_shaft for the shaft; a bore that is not
 /// the same everywhere; a keyway on no segment, wider than 0.6 of the diameter, shallower than its own edges
 /// or so deep that less than a tenth of the diameter is left to the axis or the bore, out of the bare
 /// cylinder of its segment (only square ends may run out at the shaft's ends), with round ends on less than
 /// its width, or one that meets another
-/// @throws std::runtime_error if the worst cell is below control.min_scaled_jacobian, or the file cannot be
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian, or the file cannot be
 /// written
 BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways,
                            const SolidControl& control, const std::filesystem::path& file);

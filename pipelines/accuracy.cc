@@ -26,6 +26,7 @@ AccuracyStudy study_accuracy(const Scene& scene, std::size_t body, const Accurac
   add(solids.rows);
   study.effects = std::move(solids.effects);
   add(refined_meshes(bench));
+  study.left_out = bench.left_out();
   compare_runs(study, options.reference_Pa);
   return study;
 }

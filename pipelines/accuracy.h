@@ -34,6 +34,12 @@ struct AccuracyRow {
   bool on_frontier = false;  ///< no cheaper run is closer to the reference
 };
 
+/// A model or mesh that was not run.
+struct LeftOutModel {
+  std::string model;  ///< "even mesh, cells 1/2"
+  std::string why;    ///< what refused it said
+};
+
 /// Up to three systematic meshes of one body, coarsest first, and what they say together.
 struct GridStudy {
   struct Mesh {
@@ -65,13 +71,14 @@ struct AccuracyStudy {
   std::string next_factor_of_two;     ///< a sentence
   std::vector<EffectPrice> effects;   ///< of the scene's own mesh
   std::optional<GridStudy> grid;      ///< where it was asked for
+  std::vector<LeftOutModel> left_out;
 };
 
 /// Takes a known value as reference, or the run with the smallest estimate; sorts the runs by their seconds,
 /// marks the efficient frontier, chooses the cheapest run within the tolerance and prices the next factor of
 /// two.
 /// @param known_Pa  0: not known
-/// @throws std::runtime_error for a study without runs
+/// @throws ToleranceNotMet for a study without runs
 void compare_runs(AccuracyStudy& study, double known_Pa);
 
 struct AccuracyOptions {

@@ -5,6 +5,7 @@
 #include "pipelines/effect_choice.h"
 #include "pipelines/fineness.h"
 #include "pipelines/refinement.h"
+#include "pipelines/refusal_of.h"
 
 namespace pipelines {
 namespace {
@@ -56,18 +57,19 @@ std::optional<SolidRun> AccuracyBench::run_solid(const std::string& rung, const 
   Scene scene = scene_;
   scene.bodies[body_] = body;
   std::optional<SceneRun> last;
-  try {
-    auto row = repeated(name, [&] {
+  AccuracyRow row;
+  const auto refused = refusal_of([&] {
+    row = repeated(name, [&] {
       StageClock own;
       last = run_scene(scene, run_options(), own);
       auto result = row_of(rung, *last);
       take_cost(result, own);
       return result;
     });
-    return SolidRun{std::move(row), std::move(*last)};
-  } catch (const std::runtime_error&) {
-    return std::nullopt;
-  }
+  });
+  if (refused.empty()) return SolidRun{std::move(row), std::move(*last)};
+  leave_out(name, refused);
+  return std::nullopt;
 }
 
 void AccuracyBench::take_mean(AccuracyRow& row, const std::vector<double>& seconds) {

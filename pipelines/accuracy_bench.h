@@ -74,9 +74,11 @@ public:
 
   /// The scene with `body` in the place of the studied one, from mesh to stress.
   /// @param name  of the stage that shows
-  /// @return nothing if the mesh is too coarse for the mesher's demands on quality, or too large for the
-  /// memory
+  /// @return nothing if the mesh is refused or cannot be solved; then it is among those left out
   std::optional<SolidRun> run_solid(const std::string& rung, const std::string& name, const BodyScene& body);
+
+  void leave_out(const std::string& name, const std::string& why) { left_out_.push_back({name, why}); }
+  const std::vector<LeftOutModel>& left_out() const { return left_out_; }
 
 private:
   std::filesystem::path scratch() const { return options_.directory / "rungs"; }
@@ -88,6 +90,7 @@ private:
   StageClock& clock_;
   std::chrono::steady_clock::time_point start_;
   std::vector<MeshedBody> meshed_;
+  std::vector<LeftOutModel> left_out_;
 };
 
 /// Governing stress, ledger and mesh of a run of one body.

@@ -12,7 +12,7 @@ namespace pipelines {
 /// frontier as a broad grey line, a ring around the chosen run, the tolerance as a horizontal line. The
 /// reference, whose true error is not known, is a square at its own estimate.
 /// @return false if the machine offers no EGL
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 /// @throws std::invalid_argument if no run has a positive error and time
 bool write_accuracy_chart(const AccuracyStudy& study, const std::string& title,
                           const std::filesystem::path& png);

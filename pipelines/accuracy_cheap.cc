@@ -8,6 +8,7 @@
 #include "pipelines/cheap_rungs.h"
 #include "pipelines/fineness.h"
 #include "pipelines/refinement.h"
+#include "pipelines/refusal_of.h"
 
 namespace pipelines {
 namespace {
@@ -78,12 +79,17 @@ std::optional<AccuracyRow> cheap_rung(const std::string& name, AccuracyBench& be
                                       const LoadedScene& loaded, Solve&& solve) {
   const auto& mesh = bench.own().mesh;
   if (!beam_shaft(body, mesh)) return std::nullopt;
-  return bench.repeated(name, [&] {
-    StageClock own;
-    auto rung =
-        own.run("solve", [&] { return solve(body, mesh, loaded.body_loads[bench.index()].unit_loads); });
-    return row_of(name, bench, loaded, std::move(rung.value()), own);
+  std::optional<AccuracyRow> row;
+  const auto refused = refusal_of([&] {
+    row = bench.repeated(name, [&] {
+      StageClock own;
+      auto rung =
+          own.run("solve", [&] { return solve(body, mesh, loaded.body_loads[bench.index()].unit_loads); });
+      return row_of(name, bench, loaded, std::move(rung.value()), own);
+    });
   });
+  if (!refused.empty()) bench.leave_out(name + ", " + fineness_text(body), refused);
+  return row;
 }
 
 /// Each size learns from the one before; the first from the second.

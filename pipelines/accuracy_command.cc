@@ -1,12 +1,12 @@
 #include <iostream>
 #include <sstream>
-#include <stdexcept>
 
 #include "pipelines/accuracy.h"
 #include "pipelines/accuracy_chart.h"
 #include "pipelines/accuracy_report.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/commands.h"
+#include "pipelines/errors.h"
 #include "pipelines/fem_environment.h"
 #include "pipelines/html_report.h"
 #include "pipelines/option_value.h"
@@ -16,9 +16,8 @@ namespace pipelines {
 void accuracy_command(const CommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   if (scene.bodies.empty())
-    throw std::invalid_argument(
-        scene.file.string() +
-        ": has no body, and the load stage alone is exact; add one, as [shaft], to the scene");
+    throw StageRefused(scene.file.string() +
+                       ": has no body, and the load stage alone is exact; add one, as [shaft], to the scene");
   AccuracyOptions study_options;
   study_options.n_threads = options.n_threads;
   study_options.n_repeats = options.n_repeats;
@@ -29,13 +28,13 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
     study_options.tolerance = option_in_si("--tolerance", options.tolerance, "1");
   if (!options.reference.empty()) {
     if (scene.bodies.size() > 1 && options.body.empty())
-      throw std::invalid_argument("--reference " + options.reference + ": of which body? Add --body");
+      throw OptionError("--reference " + options.reference + ": of which body? Add --body");
     study_options.reference_Pa = option_in_si("--reference", options.reference, "Pa");
   }
   if (!options.body.empty() && scene.body(options.body) == nullptr)
-    throw std::invalid_argument("--body " + options.body + ": the scene has no such body");
+    throw OptionError("--body " + options.body + ": the scene has no such body");
   if (study_options.time_limit_s <= 0 || (!options.tolerance.empty() && study_options.tolerance <= 0))
-    throw std::invalid_argument("--time-limit and --tolerance must be positive");
+    throw OptionError("--time-limit and --tolerance must be positive");
 
   const auto directory =
       (options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output) /

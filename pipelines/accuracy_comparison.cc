@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "pipelines/accuracy.h"
+#include "pipelines/failure.h"
 
 namespace pipelines {
 namespace {
@@ -49,8 +49,7 @@ double effectivity(const AccuracyRow& row) {
 
 void compare_runs(AccuracyStudy& study, double known_Pa) {
   auto& rows = study.rows;
-  if (rows.empty())
-    throw std::runtime_error(study.body + ": no rung of the ladder could be run in this time");
+  if (rows.empty()) throw ToleranceNotMet(study.body + ": no rung of the ladder could be run in this time");
   if (known_Pa > 0) {
     study.reference_Pa = known_Pa;
     study.reference = "known value";

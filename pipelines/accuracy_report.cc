@@ -151,6 +151,8 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
                        row.rung, row.n_dofs, row.value_Pa / 1e6, percent * row.errors.total_Pa(),
                        percent * row.true_error_Pa, row.seconds, row.spread_s, row.gigabytes, row.fineness);
   }
+  for (const auto& model : study.left_out)
+    out << fmt::format("    {:<16}left out: {}\n", model.model, model.why);
   const auto e = effectivities(study);
   out << fmt::format(
              "\n  > chosen: cheapest within {:g} % by its own estimate; * no cheaper run is closer; R "
@@ -181,6 +183,12 @@ void write_accuracy_h5(const std::filesystem::path& file, const std::vector<Accu
     writer.attribute(group, "reference_error_Pa", study.reference_error_Pa);
     writer.attribute(group, "tolerance", study.tolerance);
     writer.attribute(group, "next_factor_of_two", study.next_factor_of_two);
+    if (!study.left_out.empty()) {
+      std::string text;
+      for (const auto& model : study.left_out)
+        text += (text.empty() ? "" : "\n") + model.model + ": " + model.why;
+      writer.attribute(group, "left_out", text);
+    }
     if (study.grid) {
       const auto& c = study.grid->convergence;
       writer.attribute(group, "grid_convergence_order", c.observed_order);

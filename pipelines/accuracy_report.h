@@ -21,17 +21,17 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study);
 void print_grid_study(std::ostream& out, const GridStudy& study);
 
 /// One row per systematic mesh: mesh, unknowns, cell size, stress.
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 void write_grid_csv(const std::filesystem::path& file, const GridStudy& study);
 
 /// One row per run: rung, mesh, unknowns, stress, every entry of the ledger, true error, seconds per stage,
 /// memory.
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 void write_accuracy_csv(const std::filesystem::path& file, const AccuracyStudy& study);
 
 /// /<body>/<series>, the columns of the CSV; reference, tolerance, machine and versions are attributes, and
 /// so is the grid convergence index (grid_convergence_*).
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 void write_accuracy_h5(const std::filesystem::path& file, const std::vector<AccuracyStudy>& studies);
 
 /// Effectivity (estimated over true error) of all runs but the references: how many are bounded, the median.

@@ -7,6 +7,7 @@
 #include "pipelines/effect_report.h"
 #include "pipelines/fineness.h"
 #include "pipelines/refinement.h"
+#include "pipelines/refusal_of.h"
 
 namespace pipelines {
 namespace {
@@ -122,7 +123,14 @@ std::vector<AccuracyRow> refined_meshes(AccuracyBench& bench) {
   options.wish.time_limit_s = bench.seconds_left();
   if (!can_be_refined(bench.body()) || options.wish.time_limit_s <= 0) return rows;
   StageClock own;
-  const auto run = bench.timed("refined meshes", [&] { return run_scene(bench.scene(), options, own); });
+  std::optional<SceneRun> found;
+  const auto refused = refusal_of(
+      [&] { found = bench.timed("refined meshes", [&] { return run_scene(bench.scene(), options, own); }); });
+  if (!found) {
+    bench.leave_out("refined mesh", refused);
+    return rows;
+  }
+  const SceneRun& run = *found;
   AccuracyRow row = row_of("refined mesh", run);
   for (const auto& step : run.analyses.front().search.steps) {
     row.fineness = step.fineness;

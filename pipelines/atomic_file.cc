@@ -7,8 +7,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
-#include <stdexcept>
 #include <string>
+
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -66,8 +67,7 @@ void write_text_file(const std::filesystem::path& path, std::string_view content
   std::ofstream out(file.temporary(), std::ios::binary);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
-  if (!out)
-    throw std::runtime_error(path.string() + ": cannot be written; check the directory and the free space");
+  if (!out) throw FileError(path.string() + ": cannot be written; check the directory and the free space");
   file.commit();
 }
 

@@ -32,7 +32,7 @@ private:
 };
 
 /// Writes a whole file in one go.
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 void write_text_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace pipelines

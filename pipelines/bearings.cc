@@ -1,8 +1,8 @@
 #include "pipelines/bearings.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "pipelines/errors.h"
 #include "pipelines/nearest.h"
 
 namespace pipelines {
@@ -53,9 +53,9 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
   for (const auto& bearing : bearings) {
     const auto force = force_of(bearing.load, loads, channels);
     if (!force)
-      throw std::invalid_argument("bearing \"" + bearing.name + "\": there is no force \"" + bearing.load +
-                                  "\"; known here: " + listed(known_forces(loads)) +
-                                  (channels.empty() ? ", and with `run` the ports of the bodies" : ""));
+      throw StageRefused("bearing \"" + bearing.name + "\": there is no force \"" + bearing.load +
+                         "\"; known here: " + listed(known_forces(loads)) +
+                         (channels.empty() ? ", and with `run` the ports of the bodies" : ""));
     BearingResult result;
     result.name = bearing.name;
     result.load = bearing.load;

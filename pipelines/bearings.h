@@ -37,7 +37,7 @@ std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::
 /// The names that force_of knows without a body.
 std::vector<std::string> known_forces(const kinetics::LoadHistory& loads);
 
-/// @throws std::invalid_argument naming bearing, load and remedy if a load is not there
+/// @throws StageRefused naming bearing, load and remedy if a load is not there
 std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearings,
                                          const kinetics::LoadHistory& loads,
                                          const std::vector<const ChannelHistory*>& channels);

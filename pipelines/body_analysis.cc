@@ -9,6 +9,7 @@
 
 #include "fem/helper_ranks.h"
 #include "fem/model.h"
+#include "pipelines/errors.h"
 #include "pipelines/iteration_memory.h"
 #include "pipelines/load_patch.h"
 #include "pipelines/response_files.h"
@@ -70,7 +71,7 @@ void require_closure(const std::string& body, const Closure& closure) {
        << ", moments to " << closure.worst_moment() << ", channels to " << closure.channel_resultant
        << " of their scale; " << closure_limit
        << " is required. The scene's effects leave a resultant that nothing carries";
-  throw std::runtime_error(text.str());
+  throw LoadsDoNotClose(text.str());
 }
 
 /// 6 x instants.
@@ -173,8 +174,8 @@ BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinet
 
 void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions) {
   if (loads.unit_loads.empty())
-    throw std::invalid_argument("no effect of the scene loads the " + loads.history.body +
-                                "; name one that does, or remove [" + loads.history.body + "]");
+    throw StageRefused("no effect of the scene loads the " + loads.history.body +
+                       "; name one that does, or remove [" + loads.history.body + "]");
   std::vector<std::array<double, 6>> wanted;
   for (const auto& load : loads.unit_loads) wanted.push_back(wanted_resultant(load, regions));
   require_closure(loads.history.body, check_closure(loads, wanted, regions));

@@ -97,11 +97,11 @@ BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinet
                           const LoadedBody& loaded, const MassAgreement& masses);
 
 /// Whether channels and ports close, before anything is solved: by the resultants that they must have.
-/// @throws std::runtime_error if forces or moments miss 1e-9 of their scale
+/// @throws LoadsDoNotClose if forces or moments miss 1e-9 of their scale
 void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions);
 
 /// Solves and superposes. Writes no results.
-/// @throws std::runtime_error if the solve fails, or if the loads do not close to 1e-9 on the mesh
+/// @throws fem::SolveFailed if the solve fails, LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                           BodyLoads loads, const RunOptions& options, StageClock& clock);
 
@@ -110,7 +110,7 @@ void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyA
                     const RunOptions& options, StageClock& clock);
 
 /// The second half of analyse_body: everything that follows from unit responses.
-/// @throws std::runtime_error if the loads do not close to 1e-9 on the mesh
+/// @throws LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
 BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                             BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock);
 

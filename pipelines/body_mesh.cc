@@ -1,6 +1,6 @@
 #include "pipelines/body_mesh.h"
 
-#include <stdexcept>
+#include "meshes/refused.h"
 
 namespace pipelines {
 namespace {
@@ -62,10 +62,10 @@ MeshedBody::~MeshedBody() = default;
 meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file) {
   try {
     return std::visit(Build{file}, body.shape);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(body.origin + ": " + error.what());
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(body.origin + ": " + error.what());
+  } catch (const meshes::GeometryRefused& error) {
+    throw meshes::GeometryRefused(body.origin + ": " + error.what());
+  } catch (const meshes::MeshRefused& error) {
+    throw meshes::MeshRefused(body.origin + ": " + error.what());
   }
 }
 

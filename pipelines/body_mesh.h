@@ -30,7 +30,7 @@ struct MeshedBody {
 };
 
 /// The mesh alone, written to `file`.
-/// @throws std::invalid_argument or std::runtime_error as the mesher
+/// @throws meshes::GeometryRefused, meshes::MeshRefused as the mesher
 meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file);
 
 /// Mesh, model and masses.

@@ -4,9 +4,9 @@
 #include <cctype>
 #include <cstdio>
 #include <set>
-#include <stdexcept>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -55,8 +55,8 @@ std::vector<Card> cards_of(const kinetics::LoadHistory& loads) {
   std::set<std::string> names;
   for (const auto& card : cards)
     if (card.name.size() > longest_name || !names.insert(card.name).second)
-      throw std::invalid_argument("the name " + card.name +
-                                  " of a card is used twice or longer than 80 characters: rename the port");
+      throw StageRefused("the name " + card.name +
+                         " of a card is used twice or longer than 80 characters: rename the port");
   return cards;
 }
 

@@ -22,7 +22,7 @@ struct CalculixCards {
 /// of the port's *RIGID BODY (in Abaqus: degree of freedom 6 of the reference node). Loads of a load table
 /// that are no planar resultant (fz, mx, my) come along on 3 of N_<PORT> and 1, 2 of N_<PORT>_ROT. A card's
 /// load acts on EVERY node of its set: give a reference node.
-/// @throws std::invalid_argument if two loads would get the same name
+/// @throws StageRefused if two loads would get the same name
 CalculixCards calculix_cards(const kinetics::LoadHistory& loads);
 
 /// Writes `<prefix>_amplitudes.inp` and `<prefix>_loads.inp`.

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <ostream>
-#include <stdexcept>
 #include <variant>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "pipelines/calculix_model.h"
 #include "pipelines/commands.h"
 #include "pipelines/effect_choice.h"
+#include "pipelines/errors.h"
 #include "pipelines/fem_environment.h"
 #include "pipelines/load_stage.h"
 
@@ -19,16 +19,14 @@ namespace {
 
 void refuse_what_has_no_equal(const Scene& scene) {
   if (scene.bodies.empty())
-    throw std::invalid_argument(
-        scene.file.string() +
-        ": has no body, and only bodies have a mesh to write; add one, as [shaft], to "
-        "the scene, or take `loads --calculix`");
+    throw StageRefused(scene.file.string() +
+                       ": has no body, and only bodies have a mesh to write; add one, as [shaft], to "
+                       "the scene, or take `loads --calculix`");
   for (const auto& body : scene.bodies)
     if (body.elastic_feet)
-      throw std::invalid_argument(
-          body.origin +
-          ": elastic_feet = true: the model for CalculiX is that of a free body; set it "
-          "to false for this command");
+      throw StageRefused(body.origin +
+                         ": elastic_feet = true: the model for CalculiX is that of a free body; set it "
+                         "to false for this command");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/errors.h"
 #include "pipelines/rigid_part.h"
 
 namespace pipelines {
@@ -76,13 +77,13 @@ void write_calculix_model(const std::filesystem::path& file, const std::string& 
     throw std::invalid_argument("write_calculix_model: a name for each load is needed");
   AtomicFile target(file);
   File out(std::fopen(target.temporary().c_str(), "wb"), std::fclose);
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  if (!out) throw FileError(file.string() + ": cannot be written");
   write_model(out.get(), title, material, loads, kept);
   for (std::size_t k = 0; k < channels.size(); ++k)
     write_step(out.get(), channels[k], &forces.force_N[k * per_load], kept, loads.nodes.n);
   const bool failed = std::ferror(out.get()) != 0;
   if (std::fclose(out.release()) != 0 || failed)
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+    throw FileError(file.string() + ": cannot be written; is the disk full?");
   target.commit();
 }
 

@@ -26,7 +26,7 @@ CalculixForces calculix_forces(const fem::NodalLoads& loads, const Serendipity& 
 /// Writes nodes, elements, material, the support that carries nothing, and one linear *STATIC step per load
 /// with its nodal forces; results in the .frd (U at nodes, S extrapolated to nodes and averaged).
 /// @param channels  names of the loads, in comments
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 void write_calculix_model(const std::filesystem::path& file, const std::string& title,
                           const std::vector<std::string>& channels, const fem::Material& material,
                           const fem::NodalLoads& loads);

@@ -2,8 +2,9 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <stdexcept>
 #include <string>
+
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -46,7 +47,7 @@ public:
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(file_.string() + ":" + std::to_string(n_lines_) + ": " + what);
+    throw FileError(file_.string() + ":" + std::to_string(n_lines_) + ": " + what);
   }
 
 private:

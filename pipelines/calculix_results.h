@@ -15,7 +15,7 @@ struct CalculixResults {
 };
 
 /// @param n_nodes  of our mesh; CalculiX numbers them from 1
-/// @throws std::runtime_error naming file and line for a file that is missing, broken off, of another format,
+/// @throws FileError naming file and line for a file that is missing, broken off, of another format,
 /// has other nodes, or lacks displacements or stresses of a step
 CalculixResults read_calculix_results(const std::filesystem::path& frd, std::size_t n_nodes);
 

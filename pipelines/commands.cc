@@ -16,6 +16,8 @@
 #include "pipelines/cost_forecast.h"
 #include "pipelines/effect_choice.h"
 #include "pipelines/effect_report.h"
+#include "pipelines/errors.h"
+#include "pipelines/failure.h"
 #include "pipelines/fem_environment.h"
 #include "pipelines/html_report.h"
 #include "pipelines/load_files.h"
@@ -75,9 +77,8 @@ SearchWish wish_of(const CommandOptions& options, const Scene& scene) {
   if (!options.tolerance.empty()) wish.tolerance = option_in_si("--tolerance", options.tolerance, "1");
   if (!options.time_limit.empty()) wish.time_limit_s = option_in_si("--time-limit", options.time_limit, "s");
   if (wish.tolerance < 0 || wish.tolerance > 1)
-    throw std::invalid_argument("--tolerance " + options.tolerance + ": must lie between 0 and 100 %");
-  if (wish.time_limit_s < 0)
-    throw std::invalid_argument("--time-limit " + options.time_limit + ": is negative");
+    throw OptionError("--tolerance " + options.tolerance + ": must lie between 0 and 100 %");
+  if (wish.time_limit_s < 0) throw OptionError("--time-limit " + options.time_limit + ": is negative");
   return wish;
 }
 

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <iosfwd>
-#include <stdexcept>
 #include <string>
 
 #include "pipelines/progress.h"
@@ -28,11 +27,6 @@ struct CommandOptions {
   bool fresh = false;
   bool json = false;  ///< the summary as JSON instead of the table
   Verbosity verbosity = Verbosity::normal;
-};
-
-/// A tolerance or time limit that a run did not meet; its results are kept. Exit code 4.
-class ToleranceNotMet : public std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 /// `millstress run`: everything. The directory defaults to results/<scene's name>.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -58,7 +59,8 @@ void learn_cost(const std::filesystem::path& file, fem::Solver solver, double so
                                     {"runs", kept.n_runs + 1}};
   try {
     write_text_file(file, json.dump(2) + "\n");
-  } catch (const std::exception&) {
+  } catch (const FileError&) {  // a run need not be able to remember
+  } catch (const std::filesystem::filesystem_error&) {
   }
 }
 

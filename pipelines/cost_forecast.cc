@@ -6,12 +6,12 @@
 #include <memory>
 #include <optional>
 #include <ostream>
-#include <stdexcept>
 
 #include "fem/cost_prediction.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/fineness.h"
 #include "pipelines/refinement.h"
+#include "pipelines/refusal_of.h"
 
 namespace pipelines {
 namespace {
@@ -89,10 +89,15 @@ std::vector<RungForecast> forecast_ladder(const BodyScene& body, const MeshedBod
     rungs.push_back(forecaster.finer(fmt::format("even mesh, cells 1/{:g}", factor), meshed, factor));
   const AtomicFile scratch(std::filesystem::temp_directory_path() /
                            ("millstress_forecast_" + body.name + ".msh"));
-  try {
-    const auto first = mesh_body(coarsest(body), scratch.temporary(), loads.springs);
-    rungs.push_back(forecaster.of("first of a search", first));
-  } catch (const std::runtime_error&) {  // refused: a search would end there as well
+  const std::string first = "first of a search";
+  const auto refused = refusal_of([&] {
+    rungs.push_back(forecaster.of(first, mesh_body(coarsest(body), scratch.temporary(), loads.springs)));
+  });
+  if (!refused.empty()) {
+    RungForecast forecast;
+    forecast.rung = first;
+    forecast.left_out = refused;
+    rungs.push_back(forecast);
   }
   return rungs;
 }
@@ -103,12 +108,17 @@ void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& 
   const auto rungs = forecast_ladder(body, meshed, loads, calibration);
   out << fmt::format("  {:<24}{:>12}{:>10}{:>13}{:>7}  solver\n", "will take, about", "unknowns", "solve s",
                      "superpose s", "GB");
-  for (const auto& rung : rungs)
+  for (const auto& rung : rungs) {
+    if (!rung.left_out.empty()) {
+      out << fmt::format("    {:<22}refused: {}\n", rung.rung, rung.left_out);
+      continue;
+    }
     out << fmt::format("    {:<22}{:>12}{:>10.2g}{:>13.2g}{:>7.2g}  {}\n", rung.rung, rung.n_dofs,
                        rung.solve_s, rung.superpose_s, rung.gigabytes,
                        rung.solver == fem::Solver::automatic   ? ""
                        : rung.solver == fem::Solver::iterative ? "conjugate gradients"
                                                                : "factorisation");
+  }
   out << (calibration.n_runs > 0
               ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)
               : "  (seconds of the machine that the prediction was made on: no run yet on this one)\n");

@@ -18,7 +18,8 @@ struct RungForecast {
   std::size_t n_dofs = 0;
   fem::Solver solver = fem::Solver::direct;  ///< automatic: the rung has its own
   double solve_s = 0, superpose_s = 0;
-  double gigabytes = 0;  ///< of solver and unit responses
+  double gigabytes = 0;    ///< of solver and unit responses
+  std::string left_out{};  ///< not empty: why its mesh was refused; nothing else is known of it
 };
 
 /// What the loads ask of every rung.
@@ -29,7 +30,7 @@ struct ForecastLoads {
 
 /// First the scene's own mesh; then beam and harmonics (round shafts), even meshes whose cells are 1/0.5 to
 /// 1/3 of the scene's, and the mesh that a search for a tolerance begins with, which is built for it. Rungs
-/// that the body does not have, or whose mesh is refused, are left out.
+/// that the body does not have are left out; one whose mesh is refused says why.
 std::vector<RungForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
                                           const ForecastLoads& loads, const CostCalibration& calibration);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipelines/errors.h"
 #include "pipelines/statics.h"
 
 namespace pipelines {
@@ -47,7 +48,7 @@ double largest(const ArrayXXd& values) {
 const meshes::Port& find_port(const meshes::BodyMesh& mesh, const std::string& name) {
   for (const auto& port : mesh.ports)
     if (port.name == name) return port;
-  throw std::invalid_argument("section diagrams: port \"" + name + "\" is missing");
+  throw StageRefused("section diagrams: port \"" + name + "\" is missing");
 }
 
 double centre_z(const meshes::Port& port) {

@@ -60,7 +60,7 @@ struct Diagrams {
 /// @param geometry    cylinders of the shaft, for its weight by statics
 /// @param references  ports that deflection and slope refer to: two bearings, one clamp, or none (the body's
 /// own mean rigid motion)
-/// @throws std::invalid_argument if a port is missing, or mesh and responses do not belong together
+/// @throws StageRefused if a port is missing
 Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& responses,
                           const meshes::BodyMesh& mesh, const meshes::Shaft& geometry, double density_kg_m3,
                           const std::vector<std::string>& references);

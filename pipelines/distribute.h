@@ -34,7 +34,7 @@ struct VibratoryShaftOptions {
 /// Ports: eccentric_seat (-B), debalance_1, debalance_2 (force and torque by shares), main_bearing_1,
 /// main_bearing_2 (the resultant reaction split by statics), coupling (torque), and the volume (ax, ay: own
 /// weight; spin, az: own inertia).
-/// @throws std::invalid_argument if a port is missing or the history lacks a resultant (convention
+/// @throws StageRefused if a port is missing or the history lacks a resultant (convention
 /// `published`)
 BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const LoadedBody& body,
                                      const VibratoryShaftOptions& options);
@@ -59,7 +59,7 @@ struct ChamberOptions {
 /// through the axis C and the friction torque r e(chi) x F_w), volume.structure and volume.exciter (gravity,
 /// -s'', -theta'' z x p), attached masses at their ports.
 /// @param body  region "structure", and "exciter" unless that is an attached mass
-/// @throws std::invalid_argument if a port is missing or the history lacks a resultant; std::out_of_range if
+/// @throws StageRefused if a port is missing or the history lacks a resultant; std::out_of_range if
 /// a region is
 BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics::VibratoryMill& mill,
                              const LoadedBody& body, const ChamberOptions& options);
@@ -75,7 +75,7 @@ struct DrumOptions {
 /// Ports: inner_wall (force through A and the torque l_AC u x F), trunnion_1, trunnion_2 (the load stage's
 /// reaction split by statics), pulley_seat (belt: force and torque), volume (drum_transport, drum_gravity;
 /// spin: drum_spin), attached masses.
-/// @throws std::invalid_argument if a port is missing, or the history is not in equilibrium (conventions
+/// @throws StageRefused if a port is missing, or the history is not in equilibrium (conventions
 /// `as_published`, `as_plotted` beyond 1e-12)
 BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::PlanetaryMill& mill,
                           const LoadedBody& body, const DrumOptions& options);
@@ -134,7 +134,7 @@ struct TableBodyOptions {
 
 /// Every load of the table goes to the port of its name, "volume" being the body itself (ax, ay, az, spin).
 /// What does not close is balanced by the supports that the scene names, effect by effect.
-/// @throws std::invalid_argument if a port is missing, or a component does not belong to it
+/// @throws StageRefused if a port is missing, or a component does not belong to it
 BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<std::string>& effects,
                            const kinetics::TimeGrid& grid, const LoadedBody& body,
                            const TableBodyOptions& options);

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "pipelines/contains.h"
 #include "pipelines/distribute.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 
@@ -98,8 +98,8 @@ void guide_by_feet(LoadBook& book, const LoadedBody& body, const ArrayXd& couple
 BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics::VibratoryMill& mill,
                              const LoadedBody& body, const ChamberOptions& options) {
   if (!loads.has_resultant("housing_bore"))
-    throw std::invalid_argument("the load history of convention \"" + loads.convention +
-                                "\" has no closed loads for a chamber: analyse bodies under \"consistent\"");
+    throw StageRefused("the load history of convention \"" + loads.convention +
+                       "\" has no closed loads for a chamber: analyse bodies under \"consistent\"");
   const Index n = loads.n_instants();
   const auto& bore = loads.resultant("housing_bore");
   LoadBook book(body, loads.effects, n, bore.total.topRows<2>().abs().maxCoeff());

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 #include "pipelines/contains.h"
 #include "pipelines/distribute.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 
@@ -23,7 +23,7 @@ void require_equilibrium(const kinetics::LoadHistory& loads) {
   std::ostringstream text;
   text << "the convention \"" << loads.convention << "\" leaves " << 100 * force << " % of the forces and "
        << 100 * moment << " % of the moments without a counterpart: analyse bodies under \"consistent\"";
-  throw std::invalid_argument(text.str());
+  throw StageRefused(text.str());
 }
 
 /// G = -g (sin phi, cos phi) of the carrier frame.

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <stdexcept>
 
 #include "pipelines/distribute.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 
@@ -28,15 +28,15 @@ void enter(LoadBook& book, const LoadedBody& body, const std::string& effect,
     else
       field.translation_m_s2.resize(3, 0);
     if (component == "fz" || component == "mx" || component == "my")
-      throw std::invalid_argument("the load \"" + load.name + "\": " + only_accelerations);
+      throw StageRefused("the load \"" + load.name + "\": " + only_accelerations);
     if (component == "az") field.angular_rad_s2 = values;
     if (component == "spin") field.spin_rad2_s2 = values;
     return book.accelerate(body.region(), effect, field);
   }
   if (component == "fz") return book.axial_force(port, effect, values);
   if (component != "mx" && component != "my")
-    throw std::invalid_argument("the load \"" + load.name + "\": \"" + component +
-                                "\" belongs to the whole body; write \"volume." + component + "\"");
+    throw StageRefused("the load \"" + load.name + "\": \"" + component +
+                       "\" belongs to the whole body; write \"volume." + component + "\"");
   Array2Xd moment = Array2Xd::Zero(2, values.size());
   moment.row(component == "mx" ? 0 : 1) = values.transpose();
   book.tilt(port, effect, moment);
@@ -56,7 +56,7 @@ BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<s
     const auto own = kinetics::compute_loads(table, {effect}, grid);
     for (const auto& resultant : own.resultants) {
       if (resultant.role == "volume")
-        throw std::invalid_argument("the effect \"" + effect + "\": " + only_accelerations);
+        throw StageRefused("the effect \"" + effect + "\": " + only_accelerations);
       if (resultant.total.topRows<2>().abs().maxCoeff() > 0)
         book.force(resultant.role, effect, resultant.total.topRows<2>());
       if (resultant.total.row(2).abs().maxCoeff() > 0)

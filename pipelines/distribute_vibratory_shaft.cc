@@ -1,6 +1,6 @@
-#include <stdexcept>
 
 #include "pipelines/distribute.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 
@@ -12,8 +12,8 @@ using Eigen::Index;
 BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const LoadedBody& body,
                                      const VibratoryShaftOptions& options) {
   if (!loads.has_resultant("eccentric") || !loads.has_resultant("drive"))
-    throw std::invalid_argument("the load history of convention \"" + loads.convention +
-                                "\" has no closed loads for a shaft: analyse bodies under \"consistent\"");
+    throw StageRefused("the load history of convention \"" + loads.convention +
+                       "\" has no closed loads for a shaft: analyse bodies under \"consistent\"");
   const Index n = loads.n_instants();
   const ArrayXd alpha = -loads.phi_rad;  // phi is clockwise
   auto effects = loads.effects;

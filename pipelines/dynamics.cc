@@ -8,6 +8,7 @@
 
 #include "fem/model.h"
 #include "kinetics/harmonics.h"
+#include "pipelines/errors.h"
 #include "pipelines/superposition.h"
 
 namespace pipelines {
@@ -21,7 +22,7 @@ constexpr double rigid = 1e6;
 
 const meshes::Port& find(const std::vector<meshes::Port>& ports, const std::string& name) {
   const auto found = std::find_if(ports.begin(), ports.end(), [&](const auto& p) { return p.name == name; });
-  if (found == ports.end()) throw std::invalid_argument("port \"" + name + "\" is missing on the mesh");
+  if (found == ports.end()) throw StageRefused("port \"" + name + "\" is missing on the mesh");
   return *found;
 }
 

@@ -70,7 +70,7 @@ fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed);
 double spin_Hz(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& loads);
 
 /// @param peak_stress_Pa  as for dynamic_amplification, at the place of the peak
-/// @throws std::invalid_argument if the scene asks for more frequencies than the mesh has to say
+/// @throws fem::TooManyModes if the scene asks for more frequencies than the mesh has to say
 Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                     const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa);
 

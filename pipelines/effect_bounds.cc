@@ -6,8 +6,10 @@
 #include <map>
 #include <optional>
 
+#include "kinetics/machine_refused.h"
 #include "pipelines/changed_loads.h"
 #include "pipelines/effect_choice.h"
+#include "pipelines/errors.h"
 #include "pipelines/refinement.h"
 
 namespace pipelines {
@@ -121,7 +123,9 @@ void bound_dropped_effects(const Scene& scene, std::size_t index, const LoadedSc
       const auto history = load_stage(other, loaded.masses.machine);
       return distribute_body(other, other.bodies[index], history,
                              loaded_body(other.bodies[index], loaded.meshed[index]), loaded.masses);
-    } catch (const std::invalid_argument&) {  // it needs another one that is off
+    } catch (const kinetics::MachineRefused&) {  // it needs another one that is off
+      return std::nullopt;
+    } catch (const StageRefused&) {
       return std::nullopt;
     }
   };

@@ -5,12 +5,13 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "pipelines/body_analysis.h"
 #include "pipelines/closure.h"
 #include "pipelines/contains.h"
 #include "pipelines/effect_report.h"
+#include "pipelines/errors.h"
 #include "pipelines/load_stage.h"
 #include "pipelines/scene_effects.h"
 
@@ -86,7 +87,10 @@ private:
         result.bodies.push_back(distribute_body(scene, scene.bodies[i], result.history,
                                                 loaded_body(scene.bodies[i], meshed_[i]), masses_));
       return result;
-    } catch (const std::invalid_argument&) {
+    } catch (const kinetics::MachineRefused&) {
+      if (off.empty()) throw;
+      return std::nullopt;
+    } catch (const StageRefused&) {
       if (off.empty()) throw;
       return std::nullopt;
     }

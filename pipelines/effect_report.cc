@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+
+#include "kinetics/machine_refused.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -109,7 +111,7 @@ Trial try_without(const Scene& scene, const std::vector<std::string>& off) {
   if (left.empty()) return {{}, "it is the only effect of the scene"};
   try {
     return {compute_loads(scene.machine, left, scene.sampling), ""};
-  } catch (const std::invalid_argument& refused) {
+  } catch (const kinetics::MachineRefused& refused) {
     return {{}, refused.what()};
   }
 }
@@ -132,8 +134,8 @@ LoadChange largest_change(const LoadHistory& all, const LoadHistory& other) {
 
 EffectReport report_effects(const Scene& scene, double threshold, bool timed) {
   if (!(threshold > 0 && threshold < 1))
-    throw std::invalid_argument("threshold = " + std::to_string(threshold) +
-                                ": must lie between 0 and 100 %; 1 % is a good beginning");
+    throw OptionError("threshold = " + std::to_string(threshold) +
+                      ": must lie between 0 and 100 %; 1 % is a good beginning");
   const auto names = scene.kinetics_effects();
   const LoadHistory all = compute_loads(scene.machine, names, scene.sampling);
   EffectReport report;

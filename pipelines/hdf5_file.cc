@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
+
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -29,8 +30,7 @@ std::string last_cause() {
 
 [[noreturn]] void fail(const std::string& file, const std::string& object, const std::string& what) {
   const std::string cause = last_cause();
-  throw std::runtime_error(file + ": " + (object.empty() ? "" : object + ": ") + what + " (HDF5: " + cause +
-                           ")");
+  throw FileError(file + ": " + (object.empty() ? "" : object + ": ") + what + " (HDF5: " + cause + ")");
 }
 
 /// An HDF5 identifier and how to close it. Construction from a failed call throws.
@@ -163,7 +163,7 @@ void read_dataset(hid_t root, const std::string& file, const std::string& path, 
   const Handle dataset = open_dataset(root, file, path);
   const Handle type(H5Dget_type(dataset), H5Tclose, file, path, "has no type");
   if (H5Tget_class(type) != expected)
-    throw std::runtime_error(file + ": " + path + ": holds another type of data than expected");
+    throw FileError(file + ": " + path + ": holds another type of data than expected");
   if (count_of(shape_of(dataset, file, path)) > 0 &&
       H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, into) < 0)
     fail(file, path, "cannot read the dataset");

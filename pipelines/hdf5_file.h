@@ -44,7 +44,7 @@ public:
   void attribute(const std::string& object, const std::string& name, const std::string& value);
   void attribute(const std::string& object, const std::string& name, double value);
 
-  /// Flushes and closes. @throws std::runtime_error if something could not be written
+  /// Flushes and closes. @throws FileError if something could not be written
   void close();
 
 private:

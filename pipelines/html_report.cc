@@ -6,11 +6,11 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/errors.h"
 #include "pipelines/html_page.h"
 
 namespace pipelines {
@@ -234,12 +234,12 @@ void write_html_report(const std::filesystem::path& directory) {
   const auto file = directory / "summary.json";
   std::ifstream in(file);
   if (!in)
-    throw std::invalid_argument(file.string() +
-                                ": there is no such file; give the result directory of a run "
-                                "(millstress run SCENE -o DIR leaves one)");
+    throw OptionError(file.string() +
+                      ": there is no such file; give the result directory of a run "
+                      "(millstress run SCENE -o DIR leaves one)");
   const auto refuse = [&](const std::string& why) {
-    throw std::invalid_argument(file.string() + ": is no summary of a run (" + why +
-                                "); run the scene again with this version");
+    throw OptionError(file.string() + ": is no summary of a run (" + why +
+                      "); run the scene again with this version");
   };
   std::string page;
   try {

@@ -7,8 +7,8 @@ namespace pipelines {
 
 /// Reads summary.json, the bodies' pictures and, where `accuracy` has left them, its tables and charts;
 /// writes report.html beside them, with the pictures inside it. The same directory gives the same bytes.
-/// @throws std::invalid_argument naming the file and the remedy if summary.json is missing or is not one
-/// @throws std::runtime_error if the page cannot be written
+/// @throws OptionError naming the file and the remedy if summary.json is missing or is not one
+/// @throws FileError if the page cannot be written
 void write_html_report(const std::filesystem::path& directory);
 
 }  // namespace pipelines

@@ -11,7 +11,7 @@ namespace pipelines {
 bool iteration_gave_up_before(const std::filesystem::path& directory, const std::string& key);
 
 /// Writes `iteration_gave_up.txt`, or removes it.
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 void remember_iteration(const std::filesystem::path& directory, const std::string& key, bool gave_up);
 
 }  // namespace pipelines

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipelines/errors.h"
 #include "pipelines/nearest.h"
 
 namespace pipelines {
@@ -69,8 +70,8 @@ const meshes::Port& LoadBook::find(const std::string& name) const {
     if (port.name == name) return port;
     names.push_back(port.name);
   }
-  throw std::invalid_argument("port \"" + name + "\" is missing on the " + body_.name +
-                              ": load enters there; it has " + listed(names));
+  throw StageRefused("port \"" + name + "\" is missing on the " + body_.name +
+                     ": load enters there; it has " + listed(names));
 }
 
 fem::LoadSurface LoadBook::surface_of(const meshes::Port& port) const {

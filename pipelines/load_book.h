@@ -81,7 +81,7 @@ public:
            double force_scale_N);
 
   // Loads at a port, in the body's frame. Force through the port's own point, moments about it.
-  // @throws std::invalid_argument if the body has no such port
+  // @throws StageRefused if the body has no such port
   void force(const std::string& port, const std::string& effect, const Eigen::Array2Xd& force_N);
   void axial_force(const std::string& port, const std::string& effect, const Eigen::ArrayXd& force_N);
   void torque(const std::string& port, const std::string& effect, const Eigen::ArrayXd& moment_Nm);

@@ -8,6 +8,7 @@
 
 #include "pipelines/atomic_file.h"
 #include "pipelines/csv.h"
+#include "pipelines/errors.h"
 #include "pipelines/hdf5_file.h"
 
 namespace pipelines {
@@ -30,8 +31,7 @@ std::vector<double> to_vector(const Values& values) {
 
 const std::string& checked(const std::string& name) {
   if (name.empty() || name == "." || name.find('/') != std::string::npos)
-    throw std::invalid_argument("the name \"" + name +
-                                "\" in a load history must not be empty nor hold a \"/\"");
+    throw StageRefused("the name \"" + name + "\" in a load history must not be empty nor hold a \"/\"");
   return name;
 }
 

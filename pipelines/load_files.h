@@ -19,8 +19,7 @@ namespace pipelines {
 /// Channels of bodies; none: the load stage alone.
 using BodyChannels = std::vector<const ChannelHistory*>;
 
-/// @throws std::invalid_argument if series differ in their number of instants, or a name is empty
-///         or has a slash; std::runtime_error naming the file if it cannot be written
+/// @throws StageRefused if a name is empty or has a slash; FileError naming the file if it cannot be written
 void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
                     const BodyChannels& bodies = {});
 void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHistory& loads,

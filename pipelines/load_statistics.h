@@ -15,7 +15,7 @@ namespace pipelines {
 ///   spectrum.csv    rainflow (ASTM E1049): range, mean, count, of one period
 /// @param turns  of the drive that the history covers and after which it repeats; 0: it does not repeat (a
 ///               run-up): then there is no harmonics.csv, and spectrum.csv counts half cycles too
-/// @throws std::runtime_error naming the file that cannot be written
+/// @throws FileError naming the file that cannot be written
 void write_statistics(const std::filesystem::path& directory, const kinetics::LoadHistory& loads, int turns);
 
 }  // namespace pipelines

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
+
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -48,8 +49,8 @@ std::vector<AttachedMass> added_masses(const BodyScene& scene, const meshes::Bod
     const auto port = std::find_if(mesh.ports.begin(), mesh.ports.end(),
                                    [&](const auto& p) { return p.name == added.port; });
     if (port == mesh.ports.end())
-      throw std::invalid_argument(scene.name + ": the added mass \"" + added.name + "\" sits on the port \"" +
-                                  added.port + "\", which the mesh does not have");
+      throw StageRefused(scene.name + ": the added mass \"" + added.name + "\" sits on the port \"" +
+                         added.port + "\", which the mesh does not have");
     const double x = port->axis_x_m + added.centre_m[0], y = port->axis_y_m + added.centre_m[1];
     result.push_back({added.name,
                       added.port,
@@ -76,7 +77,7 @@ public:
            << ", mesh and added masses give " << mesh << ' ' << unit << ": " << 100 * share
            << " % apart, at most 20 % can be carried; correct one of "
            << "them, or leave the machine's out, so that the mesh gives it";
-      throw std::invalid_argument(text.str());
+      throw StageRefused(text.str());
     }
     return given - mesh;
   }
@@ -159,8 +160,7 @@ void agree_train(const Scene& scene, const BodyScene& body, const MeshedBody& me
   const auto inertia = std::find_if(train.inertias.begin(), train.inertias.end(),
                                     [&](const auto& i) { return i.name == body.train.inertia; });
   if (inertia == train.inertias.end())
-    throw std::invalid_argument("shaft.inertia = \"" + body.train.inertia +
-                                "\": the train has no such inertia");
+    throw StageRefused("shaft.inertia = \"" + body.train.inertia + "\": the train has no such inertia");
   const bool open = is_open(scene, inertia->name);
   if (open) inertia->inertia_kg_m2 = shaft.polar_kg_m2;
   Comparison comparison(body.name, result.figures);

@@ -32,7 +32,7 @@ struct MassAgreement {
 /// Takes open masses from the meshes; differences to given ones become attached masses, which may be
 /// negative, on the body's difference port.
 /// @param bodies  in the order of scene.bodies
-/// @throws std::invalid_argument if a difference exceeds 20 %
+/// @throws StageRefused if a difference exceeds 20 %
 MassAgreement agree_masses(const Scene& scene, const std::vector<MeshedBody>& bodies);
 
 }  // namespace pipelines

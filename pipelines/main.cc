@@ -1,43 +1,27 @@
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 #include <optional>
-#include <stdexcept>
 
 #include "fem/helper_ranks.h"
 #include "fem/model.h"
 #include "pipelines/commands.h"
+#include "pipelines/failure.h"
 #include "pipelines/fem_environment.h"
-#include "pipelines/scene.h"
 #include "pipelines/several_ranks.h"
 #include "pipelines/version.h"
 
 namespace {
-
-enum ExitCode { done = 0, scene_is_wrong = 2, mesh_or_solve_failed = 3, tolerance_not_met = 4 };
 
 /// Runs a command and turns what it throws into a message and an exit code.
 template <typename Command>
 int guarded(Command&& command) {
   try {
     command();
-    return done;
-  } catch (const pipelines::SceneErrors& errors) {
-    for (const auto& error : errors.errors()) std::cerr << error.text() << '\n';
-    return scene_is_wrong;
-  } catch (const std::invalid_argument& error) {
-    std::cerr << "millstress: " << error.what() << '\n';
-    return scene_is_wrong;
-  } catch (const std::filesystem::filesystem_error& error) {
-    std::cerr << "millstress: " << error.code().message() << ": " << error.path1().string()
-              << ": choose another output with -o, or make room for it\n";
-    return scene_is_wrong;
-  } catch (const pipelines::ToleranceNotMet& error) {
-    std::cerr << "millstress: " << error.what() << '\n';
-    return tolerance_not_met;
-  } catch (const std::exception& error) {
-    std::cerr << "millstress: " << error.what() << '\n';
-    return mesh_or_solve_failed;
+    return pipelines::done;
+  } catch (...) {
+    const auto failure = pipelines::failure_in_flight();
+    std::cerr << failure.message << '\n';
+    return failure.code;
   }
 }
 
@@ -118,7 +102,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (first) return app.exit(error) == 0 ? done : scene_is_wrong;
+    if (first) return app.exit(error) == 0 ? pipelines::done : pipelines::scene_is_wrong;
   }
   if (!first) {
     const pipelines::FemEnvironment threads(options.n_threads);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <stdexcept>
 
 #include "kinetics/spring_choice.h"
 #include "kinetics/torus_extremes.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 
 const kinetics::VibratoryMill& mill_of(const Scene& scene, const std::string& command) {
   if (const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine)) return *mill;
-  throw std::invalid_argument(scene.file.string() + ": " + command +
-                              " needs a scene whose machine.type is \"vibratory_mill\"");
+  throw StageRefused(scene.file.string() + ": " + command +
+                     " needs a scene whose machine.type is \"vibratory_mill\"");
 }
 
 double degrees(double angle_rad) {

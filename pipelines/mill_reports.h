@@ -10,11 +10,11 @@ namespace pipelines {
 /// The stiffness of the springs that loads the frame's bearings least, by RMS and by peak, and the resonances
 /// on the way.
 /// @param json  as JSON instead of a table
-/// @throws std::invalid_argument if the scene's machine is no vibratory mill, or as kinetics::choose_springs
+/// @throws StageRefused if the scene's machine is no vibratory mill, or as kinetics::choose_springs
 void print_spring_choice(std::ostream& out, const Scene& scene, bool json);
 
 /// Extremes over all pairs of drive and charge angles, beside those of the scene's window.
-/// @throws std::invalid_argument if the scene's machine is no vibratory mill
+/// @throws StageRefused if the scene's machine is no vibratory mill
 void print_torus_extremes(std::ostream& out, const Scene& scene, bool json);
 
 }  // namespace pipelines

@@ -1,19 +1,19 @@
 /// Quantities given as options of the command line.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
+#include "pipelines/errors.h"
 #include "pipelines/units.h"
 
 namespace pipelines {
 
-/// @throws std::invalid_argument naming the option
+/// @throws OptionError naming the option
 inline double option_in_si(const char* option, const std::string& text, const std::string& unit) {
   try {
     return to_si(text, unit);
   } catch (const UnitError& error) {
-    throw std::invalid_argument(std::string(option) + ' ' + text + ": " + error.what());
+    throw OptionError(std::string(option) + ' ' + text + ": " + error.what());
   }
 }
 

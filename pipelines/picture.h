@@ -27,7 +27,7 @@ struct PictureOptions {
 /// @param unit   as shown beside the colours ("MPa")
 /// @param png    written whole or not at all
 /// @return false if this machine cannot draw (no EGL): nothing is written
-/// @throws std::runtime_error naming the file if the VTU cannot be read, has no such field, or the picture
+/// @throws FileError naming the file if the VTU cannot be read, has no such field, or the picture
 /// cannot be written
 bool write_picture(const std::filesystem::path& vtu, const std::string& field, const std::string& title,
                    const std::string& unit, const std::filesystem::path& png,

@@ -16,9 +16,9 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 
@@ -117,7 +117,7 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
   if (writer->GetErrorCode() != 0)
-    throw std::runtime_error(png.string() + ": cannot be written; check the directory and the free space");
+    throw FileError(png.string() + ": cannot be written; check the directory and the free space");
   file.commit();
 }
 

@@ -35,7 +35,7 @@ void look(vtkRenderer* renderer, const View& view, const Frame& frame, double wi
 void add_triad(vtkRenderer* renderer, vtkRenderer* like);
 
 /// Draws the window into a file that is written whole or not at all.
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 void write_png(vtkRenderWindow* window, const std::filesystem::path& png);
 
 }  // namespace pipelines

@@ -18,8 +18,9 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <stdexcept>
 #include <utility>
+
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -52,8 +53,7 @@ std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path&
                                                     const std::string& field, double scale,
                                                     const std::string& excluded) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!reader->CanReadFile(vtu.c_str()))
-    throw std::runtime_error(vtu.string() + ": is no VTU file that can be read");
+  if (!reader->CanReadFile(vtu.c_str())) throw FileError(vtu.string() + ": is no VTU file that can be read");
   reader->SetFileName(vtu.c_str());
   vtkNew<vtkUnstructuredGridGeometryFilter> geometry;
   geometry->SetInputConnection(reader->GetOutputPort());
@@ -61,7 +61,7 @@ std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path&
   auto* grid = vtkUnstructuredGrid::SafeDownCast(geometry->GetOutput());
   auto* values = grid->GetPointData()->GetArray(field.c_str());
   if (!values || values->GetNumberOfComponents() != 1 || values->GetNumberOfTuples() == 0)
-    throw std::runtime_error(vtu.string() + ": has no nodal field \"" + field + "\" of one component");
+    throw FileError(vtu.string() + ": has no nodal field \"" + field + "\" of one component");
   vtkNew<vtkFloatArray> shown;
   shown->SetName("shown");
   shown->SetNumberOfTuples(values->GetNumberOfTuples());

@@ -21,7 +21,7 @@ inline constexpr const char* excluded_array = "excluded";
 /// The boundary faces of the cells with their quadratic shape; the field times `scale` is the active scalars.
 /// @param excluded  a field of the file that is not 0 where the other counts for nothing; empty or absent:
 /// nowhere
-/// @throws std::runtime_error naming the file if it cannot be read or has no such field of one component at
+/// @throws FileError naming the file if it cannot be read or has no such field of one component at
 ///         its nodes
 std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
                                                     const std::string& field, double scale,

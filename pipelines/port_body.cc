@@ -11,8 +11,8 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <cmath>
-#include <stdexcept>
 
+#include "pipelines/errors.h"
 #include "pipelines/port_surface.h"
 
 namespace pipelines {
@@ -23,8 +23,7 @@ constexpr Colour plain_grey{222, 222, 222};
 
 vtkSmartPointer<vtkUnstructuredGrid> read_faces(const std::filesystem::path& vtu) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!reader->CanReadFile(vtu.c_str()))
-    throw std::runtime_error(vtu.string() + ": is no VTU file that can be read");
+  if (!reader->CanReadFile(vtu.c_str())) throw FileError(vtu.string() + ": is no VTU file that can be read");
   reader->SetFileName(vtu.c_str());
   reader->Update();
   return reader->GetOutput();
@@ -72,7 +71,7 @@ PortBody read_port_body(const std::filesystem::path& vtu, const std::optional<Cu
   auto* names =
       vtkStringArray::SafeDownCast(faces->GetFieldData()->GetAbstractArray(port_fields::port_names));
   if (!ports || !names || faces->GetNumberOfCells() == 0)
-    throw std::runtime_error(vtu.string() + ": has no faces with ports");
+    throw FileError(vtu.string() + ": has no faces with ports");
   PortBody body;
   for (vtkIdType i = 0; i < names->GetNumberOfValues(); ++i) body.ports.push_back(names->GetValue(i));
 

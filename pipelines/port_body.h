@@ -36,7 +36,7 @@ struct PortBody {
 };
 
 /// @param vtu  of write_port_surface
-/// @throws std::runtime_error naming the file if it cannot be read or has no ports
+/// @throws FileError naming the file if it cannot be read or has no ports
 PortBody read_port_body(const std::filesystem::path& vtu, const std::optional<CutPlane>& cut);
 
 }  // namespace pipelines

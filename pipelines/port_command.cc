@@ -2,13 +2,13 @@
 
 #include <iostream>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 #include "fem/body_nodes.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/body_mesh.h"
 #include "pipelines/commands.h"
+#include "pipelines/errors.h"
 #include "pipelines/port_picture.h"
 #include "pipelines/port_surface.h"
 #include "pipelines/scene.h"
@@ -18,8 +18,8 @@ namespace pipelines {
 void ports_command(const CommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   if (scene.bodies.empty())
-    throw std::invalid_argument(
-        scene.file.string() + ": has no body, and only bodies have ports; add one, as [shaft], to the scene");
+    throw StageRefused(scene.file.string() +
+                       ": has no body, and only bodies have ports; add one, as [shaft], to the scene");
   const auto directory =
       options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
   StageClock clock(progress_on_stderr(options.verbosity));

@@ -21,7 +21,7 @@ std::optional<CutPlane> cut_through_bores(const std::vector<meshes::Port>& ports
 /// @param title  of the picture
 /// @param png    written whole or not at all
 /// @return false if this machine cannot draw (no EGL): nothing is written
-/// @throws std::runtime_error naming the file if the VTU cannot be read, has no ports, or the picture cannot
+/// @throws FileError naming the file if the VTU cannot be read, has no ports, or the picture cannot
 /// be written
 bool write_port_picture(const std::filesystem::path& vtu, const std::string& title,
                         const std::filesystem::path& png, const std::optional<CutPlane>& cut = {});

@@ -1,3 +1,4 @@
+#include "pipelines/errors.h"
 #include "pipelines/load_book.h"
 
 namespace pipelines {
@@ -23,8 +24,8 @@ void LoadBook::react(const std::string& first, const std::string& second,
   const Eigen::Vector3d a = centre_of(find(first));
   const double span_m = centre_of(find(second))[2] - a[2];
   if (!(span_m != 0))
-    throw std::invalid_argument("bearings \"" + first + "\" and \"" + second +
-                                "\" lie at the same place along the axis: they carry no tilting moment");
+    throw StageRefused("bearings \"" + first + "\" and \"" + second +
+                       "\" lie at the same place along the axis: they carry no tilting moment");
   std::map<std::string, Wrench> loads = sums_;
   for (const auto& [effect, sum] : resultant) loads.try_emplace(effect, Wrench::Zero(6, n_instants_));
   for (const auto& [effect, load] : loads) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipelines/atomic_file.h"
+#include "pipelines/errors.h"
 #include "pipelines/hdf5_file.h"
 
 namespace pipelines {
@@ -59,7 +60,7 @@ fem::CellShape shape_of(std::size_t nodes_per_cell) {
   for (const int degree : {1, 2, 3})
     if (std::size_t(fem::CellShape{fem::CellKind::hexahedra, degree}.nodes_per_cell()) == nodes_per_cell)
       return {fem::CellKind::hexahedra, degree};
-  throw std::runtime_error("/nodes/cells: no cells have " + std::to_string(nodes_per_cell) + " nodes");
+  throw FileError("/nodes/cells: no cells have " + std::to_string(nodes_per_cell) + " nodes");
 }
 
 /// Every array of the responses with its name, its extents and its label: the one list that writer and reader
@@ -128,7 +129,7 @@ fem::UnitResponses read(const Hdf5Reader& in) {
                     in.shape("/energy/error_of_cells").at(0),
                     in.shape("/energy/norm").at(0)};
   visit_arrays(r, n, [&](const char* name, auto& values, const auto& extents, const Hdf5Label&) {
-    if (in.shape(name) != extents) throw std::runtime_error(std::string(name) + ": unexpected extents");
+    if (in.shape(name) != extents) throw FileError(std::string(name) + ": unexpected extents");
     resize(values, extents);
     in.read(name, entries(values));
   });
@@ -216,8 +217,12 @@ std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::pat
     if (in.text_attribute("/", "key") != key || in.number_attribute("/", "arrangement") != arrangement)
       return std::nullopt;
     return read(in);
-  } catch (const std::exception&) {
-    return std::nullopt;  // a damaged file: as good as none
+  } catch (const FileError&) {  // a damaged file is as good as none
+    return std::nullopt;
+  } catch (const std::bad_alloc&) {  // likewise: its extents are
+    return std::nullopt;
+  } catch (const std::length_error&) {
+    return std::nullopt;
   }
 }
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
-#include <stdexcept>
 
 #include "pipelines/csv.h"
+#include "pipelines/errors.h"
 
 namespace pipelines {
 namespace {
@@ -59,7 +59,7 @@ struct Describe {
 std::string content_hash(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
-  if (!stream || !state) throw std::runtime_error(file.string() + ": cannot be read");
+  if (!stream || !state) throw FileError(file.string() + ": cannot be read");
   XXH3_128bits_reset(state.get());
   std::string buffer(1 << 20, '\0');
   while (stream.read(buffer.data(), std::streamsize(buffer.size())), stream.gcount() > 0)

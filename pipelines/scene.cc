@@ -5,26 +5,6 @@
 #include <utility>
 
 namespace pipelines {
-namespace {
-
-std::string all_texts(const std::vector<SceneError>& errors) {
-  std::string text;
-  for (const SceneError& error : errors) text += (text.empty() ? "" : "\n") + error.text();
-  return text;
-}
-
-}  // namespace
-
-std::string SceneError::text() const {
-  std::string text = file + ":";
-  if (line > 0) text += std::to_string(line) + ":" + std::to_string(column) + ":";
-  if (!key.empty()) text += " " + key + (value.empty() ? "" : " = " + value) + ":";
-  return text + " " + remedy;
-}
-
-SceneErrors::SceneErrors(std::vector<SceneError> errors)
-    : std::runtime_error(all_texts(errors)), errors_(std::move(errors)) {}
-
 BodyScene::BodyScene() = default;
 BodyScene::BodyScene(const BodyScene&) = default;
 BodyScene::BodyScene(BodyScene&&) noexcept = default;

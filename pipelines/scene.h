@@ -4,39 +4,17 @@
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "kinetics/run_up.h"
 #include "pipelines/bearings.h"
 #include "pipelines/body_scene.h"
+#include "pipelines/errors.h"
 #include "pipelines/machine.h"
 #include "pipelines/search.h"
 
 namespace pipelines {
-
-/// One thing that is wrong with a scene.
-struct SceneError {
-  std::string file;
-  int line = 0, column = 0;  ///< 1-based; 0 where the file as a whole is meant
-  std::string key;           ///< dotted, items counted from 1, e.g. "shaft.contour[3].diameter"; may be empty
-  std::string value;         ///< as written; empty if missing
-  std::string remedy;        ///< a sentence: what is wrong and what to do
-
-  /// "file:line:column: key = value: remedy"
-  std::string text() const;
-};
-
-/// All errors of a scene at once; exit code 2.
-class SceneErrors : public std::runtime_error {
-public:
-  explicit SceneErrors(std::vector<SceneError> errors);
-  const std::vector<SceneError>& errors() const noexcept { return errors_; }
-
-private:
-  std::vector<SceneError> errors_;
-};
 
 /// Where a zone begins: a share of the peak or of the yield strength.
 struct ZoneRule {
@@ -134,8 +112,8 @@ struct Scene {
 };
 
 /// Reads and checks a scene. scenes/vibratory_mill.toml shows every key with its meaning.
-/// @throws SceneErrors with every error found, in the order of the file
-/// @throws std::runtime_error if the unit database of udunits2 is not installed
+/// @throws SceneError with every error found, in the order of the file
+/// @throws FileError if the unit database of udunits2 is not installed
 Scene read_scene(const std::filesystem::path& file);
 
 }  // namespace pipelines

@@ -12,7 +12,7 @@ namespace pipelines {
 /// Everything that reading a scene brings to light.
 struct SceneFindings {
   std::string file;
-  std::vector<SceneError> errors;
+  std::vector<SceneFinding> errors;
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;
 };

@@ -90,8 +90,8 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
   TableFile table;
   try {
     table = read_table_file(folder / name);
-  } catch (const SceneErrors& errors) {
-    findings.errors.insert(findings.errors.end(), errors.errors().begin(), errors.errors().end());
+  } catch (const SceneError& error) {
+    findings.errors.insert(findings.errors.end(), error.findings().begin(), error.findings().end());
     return;
   }
   const auto angle_rad = angles_of(table, loads.speed_rad_s, findings);

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "kinetics/machine_refused.h"
 #include "pipelines/nearest.h"
 #include "pipelines/scene.h"
 #include "pipelines/scene_body.h"
@@ -23,7 +24,7 @@ namespace pipelines {
 namespace {
 
 [[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& remedy) {
-  throw SceneErrors({{file.string(), 0, 0, "", "", remedy}});
+  throw SceneError({{file.string(), 0, 0, "", "", remedy}});
 }
 
 std::string read_text(const std::filesystem::path& file) {
@@ -48,8 +49,8 @@ TomlNode parse(const std::filesystem::path& file) {
     root = parse_toml(read_text(file));
   } catch (const TomlSyntaxError& error) {
     const auto [line, column] = error.at();
-    throw SceneErrors({{file.string(), line, column, "", "",
-                        "is not TOML: " + std::string(error.what()) + "; correct the line"}});
+    throw SceneError({{file.string(), line, column, "", "",
+                       "is not TOML: " + std::string(error.what()) + "; correct the line"}});
   }
   if (root.entries.empty())
     refuse_file(file, "the scene is empty; begin with a copy of scenes/vibratory_mill.toml");
@@ -175,7 +176,7 @@ void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene,
     for (const auto& body : scene.bodies)
       for (const auto& force : body.train.forces) rules.known.push_back(force.effect);
     read_effects(root, rules, scene, findings);
-  } catch (const std::invalid_argument& error) {
+  } catch (const kinetics::MachineRefused& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
 }
@@ -188,11 +189,11 @@ void read_load_table_scene(SceneTable& root, SceneTable& machine, Scene& scene, 
   scene.machine = std::move(table);
 }
 
-[[noreturn]] void throw_sorted(std::vector<SceneError> errors) {
-  std::stable_sort(errors.begin(), errors.end(), [](const SceneError& a, const SceneError& b) {
+[[noreturn]] void throw_sorted(std::vector<SceneFinding> errors) {
+  std::stable_sort(errors.begin(), errors.end(), [](const SceneFinding& a, const SceneFinding& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
-  throw SceneErrors(std::move(errors));
+  throw SceneError(std::move(errors));
 }
 
 }  // namespace

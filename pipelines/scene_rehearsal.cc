@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinetics/machine_refused.h"
 #include "meshes/chamber_checks.h"
+#include "meshes/refused.h"
 #include "meshes/shaft_checks.h"
 #include "pipelines/contains.h"
 #include "pipelines/nearest.h"
@@ -75,12 +77,12 @@ void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::ve
     else if (scene.masses_from_mesh.empty())
       check_bearings(
           scene, compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8}), root);
-  } catch (const std::invalid_argument& error) {
+  } catch (const kinetics::MachineRefused& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) try {
       check_shape(scene.bodies[i]);
-    } catch (const std::invalid_argument& error) {
+    } catch (const meshes::GeometryRefused& error) {
       const std::string remedy = "the mesher refuses it: " + std::string(error.what());
       scene.bodies[i].shaft() ? bodies[i].refuse("contour", remedy) : bodies[i].refuse_missing("", remedy);
     }

@@ -17,6 +17,7 @@
 #include "pipelines/place_errors.h"
 #include "pipelines/place_history.h"
 #include "pipelines/refinement.h"
+#include "pipelines/refusal_of.h"
 #include "pipelines/second_model.h"
 #include "pipelines/singular_edge.h"
 
@@ -148,10 +149,8 @@ private:
     candidates.pop_back();
     for (auto& candidate : candidates) {
       run_.scene.bodies[i] = std::move(candidate);
-      try {
-        return mesh(i);
-      } catch (const std::runtime_error&) {  // too coarse for the mesher's demands on quality
-      }
+      std::optional<MeshedBody> meshed;
+      if (refusal_of([&] { meshed = mesh(i); }).empty()) return std::move(*meshed);
     }
     run_.scene.bodies[i] = own;
     return mesh(i);
@@ -201,10 +200,12 @@ private:
       const Scene unguided = run_.scene;
       run_.scene.bodies[i] = guided_by(*model, run_.scene.bodies[i]);
       state.history.compare_with(std::move(*model));
-      try {
-        exchange_mesh(i, mesh(i));
-      } catch (const std::runtime_error&) {  // the first mesh will do
+      std::optional<MeshedBody> guided;
+      if (refusal_of([&] { guided = mesh(i); }).empty())
+        exchange_mesh(i, std::move(*guided));
+      else {
         run_.scene = unguided;
+        restore_mesh(i);
       }
     }
   }
@@ -284,11 +285,8 @@ private:
   std::optional<MeshedBody> try_to_mesh(std::size_t i, const Scene& scene, std::string& refusal) {
     const Scene present = std::exchange(run_.scene, scene);
     std::optional<MeshedBody> result;
-    try {
-      result = mesh(i);
-    } catch (const std::runtime_error& error) {
-      refusal = error.what();
-    }
+    const auto refused = refusal_of([&] { result = mesh(i); });
+    if (!refused.empty()) refusal = refused;
     run_.scene = present;
     return result;
   }

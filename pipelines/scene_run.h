@@ -42,7 +42,7 @@ struct SceneRun {
 /// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the
 /// solve (effect_bounds.h) exceed the limit all the same, one comes back and the bodies are run again.
 /// Leaves mesh.msh and unit_responses.h5 in the bodies' folders. Needs an fem::Environment.
-/// @throws std::invalid_argument, std::runtime_error as load_bodies and analyse_body, before any earlier
+/// @throws as load_bodies and analyse_body, before any earlier
 /// result is touched where the scene is wrong
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock);
 

@@ -35,6 +35,8 @@ struct Search {
 /// What a run is asked for beside the scene's mesh; neither: that mesh as it is.
 struct SearchWish {
   double tolerance = 0, time_limit_s = 0;
+  /// tolerance = "none": solved once, on the mesh that the scene gives; both others are 0 then.
+  bool once = false;
   bool any() const { return tolerance > 0 || time_limit_s > 0; }
 };
 

@@ -59,7 +59,7 @@ public:
       refuse(0, 0, "", "", "is empty; begin with a line of titles such as: time [s], pulley_seat.fx [N]");
     if (errors_.empty() && table_.lines.empty())
       refuse(0, 0, "", "", "has titles but no rows; add one row of numbers per sample");
-    if (!errors_.empty()) throw SceneErrors(std::move(errors_));
+    if (!errors_.empty()) throw SceneError(std::move(errors_));
     return std::move(table_);
   }
 
@@ -125,7 +125,7 @@ private:
   }
 
   TableFile table_;
-  std::vector<SceneError> errors_;
+  std::vector<SceneFinding> errors_;
   char separator_ = ',';
 };
 

@@ -24,7 +24,7 @@ struct TableFile {
   std::vector<int> lines;  ///< of each row, for messages
 };
 
-/// @throws SceneErrors with every wrong cell, up to ten, as file:line:column, column's name, cell, remedy: a
+/// @throws SceneError with every wrong cell, up to ten, as file:line:column, column's name, cell, remedy: a
 ///         file that cannot be read, no title line, no rows, a row of another length, a cell that is no
 ///         finite number, a column without a name or with that of another
 TableFile read_table_file(const std::filesystem::path& file);

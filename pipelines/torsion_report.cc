@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "pipelines/errors.h"
 
 namespace pipelines {
 
 TorsionReport report_torsion(const Scene& scene) {
   const auto* train = std::get_if<kinetics::DriveTrain>(&scene.machine);
   if (!train)
-    throw std::invalid_argument(scene.file.string() +
-                                ": torsion needs a scene whose machine.type is \"drive_train\"; see "
-                                "pipelines/scenes/drive_train.toml");
+    throw StageRefused(scene.file.string() +
+                       ": torsion needs a scene whose machine.type is \"drive_train\"; see "
+                       "pipelines/scenes/drive_train.toml");
   const kinetics::DriveTrain on = kinetics::with_effects(*train, scene.effects);
   TorsionReport report;
   report.modes = kinetics::natural_modes(on);

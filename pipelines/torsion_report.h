@@ -31,7 +31,7 @@ struct TorsionReport {
   std::optional<kinetics::PublishedTable> table_4, table_7;  ///< where the scene asks for them
 };
 
-/// @throws std::invalid_argument if the scene's machine is no drive train, or as kinetics does
+/// @throws StageRefused if the scene's machine is no drive train, or as kinetics does
 TorsionReport report_torsion(const Scene& scene);
 
 void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& report);

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <utility>
 
+#include "pipelines/errors.h"
+
 namespace pipelines {
 namespace {
 
@@ -39,7 +41,7 @@ ut_system* read_database() {
         ut_map_symbol_to_unit(symbol, UT_ASCII, unit.get());
     return system;
   }
-  throw std::runtime_error(
+  throw FileError(
       "the unit database udunits2.xml is not found: install the package libudunits2-data, or set "
       "UDUNITS2_XML_PATH to the file");
 }

@@ -24,7 +24,7 @@ public:
 /// @return the value in si_unit, finite
 /// @throws UnitError for a missing or malformed number, nan and inf, a missing or unknown unit, another
 /// dimension
-/// @throws std::runtime_error if the unit database of udunits2 is not installed
+/// @throws FileError if the unit database of udunits2 is not installed
 double to_si(const std::string& quantity, const std::string& si_unit);
 
 /// A ratio of two whole numbers, e.g. "-1/20", "3 / 4" or "2"; the sign belongs to the numerator.

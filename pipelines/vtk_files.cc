@@ -25,6 +25,7 @@
 
 #include "pipelines/atomic_file.h"
 #include "pipelines/csv.h"
+#include "pipelines/errors.h"
 #include "pipelines/markup.h"
 
 namespace pipelines {
@@ -163,8 +164,8 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
     writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);  // half the time of the default for one percent more bytes
   if (!writer->Write() || !trouble.empty())
-    throw std::runtime_error(path.string() + ": cannot be written; check the directory and the free space" +
-                             (trouble.empty() ? "" : " (VTK: " + trouble + ")"));
+    throw FileError(path.string() + ": cannot be written; check the directory and the free space" +
+                    (trouble.empty() ? "" : " (VTK: " + trouble + ")"));
   file.commit();
 }
 

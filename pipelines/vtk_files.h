@@ -84,7 +84,7 @@ struct PvdEntry {
 };
 
 /// A collection of snapshots over time.
-/// @throws std::runtime_error naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries);
 
 }  // namespace pipelines

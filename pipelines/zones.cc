@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "pipelines/errors.h"
+
 namespace pipelines {
 namespace {
 
@@ -162,7 +164,7 @@ std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places
   for (std::size_t i = 0; i < value.size(); ++i)
     if (!places.excluded[i] && (peak == value.size() || value[i] > value[peak])) peak = i;
   if (peak == value.size())
-    throw std::invalid_argument("no place for a peak: the exclusion zones cover the whole body");
+    throw StageRefused("no place for a peak: the exclusion zones cover the whole body");
   return peak;
 }
 

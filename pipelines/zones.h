@@ -53,7 +53,7 @@ struct Zones {
 };
 
 /// The node with the largest value outside the excluded ones; lowest index among equals.
-/// @throws std::invalid_argument if every node is excluded
+/// @throws StageRefused if every node is excluded
 std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places);
 
 /// Nodes at or above the level, connected when they share a cell. The volume is the sum of nodal volumes.

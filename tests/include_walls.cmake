@@ -1,7 +1,7 @@
 # Holds the walls between the folders: cmake -D ROOT=<source tree> -P include_walls.cmake
 # kinetics, meshes and fem never include each other or pipelines; headers of gmsh, deal.II and VTK stay in the .cc files of
 # the folder that owns them (internal headers of fem may use deal.II, its public ones may not).
-set(fem_public axisymmetric_responses beam_responses beam_shaft body cell_stress_at_node cost_prediction fillet_factors meridian_body natural_mode nodal_loads plated_tube surface_stress solver_choice model unit_load unit_responses vtk_order)
+set(fem_public axisymmetric_responses beam_responses beam_shaft body cell_stress_at_node cost_prediction errors fillet_factors meridian_body natural_mode nodal_loads plated_tube surface_stress solver_choice model unit_load unit_responses vtk_order)
 set(faults "")
 
 # Adds a fault for every line of the files that matches.

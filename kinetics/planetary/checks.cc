@@ -1,8 +1,8 @@
 #include "kinetics/planetary/checks.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "kinetics/planetary/table.h"
 #include "kinetics/wrong_input.h"
 
@@ -84,10 +84,10 @@ std::string name_of(PlanetaryConvention convention) {
 void check_effects(PlanetaryConvention convention, const std::vector<std::string>& effects) {
   const auto known = effect_names(convention);
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!contains(known, effects[i])) throw std::invalid_argument(why_not_here(convention, effects[i]));
+    if (!contains(known, effects[i])) throw MachineRefused(why_not_here(convention, effects[i]));
     if (std::find(effects.begin(), effects.begin() + std::ptrdiff_t(i), effects[i]) !=
         effects.begin() + std::ptrdiff_t(i))
-      throw std::invalid_argument("effect " + effects[i] + ": named twice; it counts once, take one out");
+      throw MachineRefused("effect " + effects[i] + ": named twice; it counts once, take one out");
   }
 }
 

@@ -9,10 +9,10 @@
 namespace kinetics::planetary {
 
 /// Parameters that no effect uses may be zero; NaN, infinity and negative masses are refused everywhere.
-/// @throws std::invalid_argument naming the parameter, its value and the remedy
+/// @throws MachineRefused naming the parameter, its value and the remedy
 void check_parameters(const PlanetaryMill& mill, const std::vector<std::string>& effects);
 
-/// @throws std::invalid_argument for an unknown effect (with the nearest known one), one that has another
+/// @throws MachineRefused for an unknown effect (with the nearest known one), one that has another
 ///         name in this convention or belongs to a body, one that is named twice
 void check_effects(PlanetaryConvention convention, const std::vector<std::string>& effects);
 

@@ -1,8 +1,8 @@
 #include "kinetics/planetary/feasibility.h"
 
 #include <cmath>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics::planetary {
@@ -27,12 +27,12 @@ std::vector<std::string> check_feasibility(const PlanetaryMill& mill) {
     const std::string none = given(mill) + "one pulley contains the other and no belt exists, |sin beta| = " +
                              number(std::abs(g.belt_sine));
     if (consistent || !mill.belt_beyond_geometry)
-      throw std::invalid_argument(none + "; c must be at least k (l_OA at least |r_O - r_A|)" +
-                                  (consistent ? "" : ", or set belt_beyond_geometry to reproduce Fig. 8"));
+      throw MachineRefused(none + "; c must be at least k (l_OA at least |r_O - r_A|)" +
+                           (consistent ? "" : ", or set belt_beyond_geometry to reproduce Fig. 8"));
     findings.push_back(none + "; cos beta is taken as zero");
   }
   if (g.wrap_rad == 0 && std::holds_alternative<EytelweinBelt>(mill.belt))
-    throw std::invalid_argument(
+    throw MachineRefused(
         given(mill) +
         "the smaller pulley has no wrap, and without wrap friction carries no belt; choose the belt of a "
         "given ratio, or move the axes apart");
@@ -44,7 +44,7 @@ std::vector<std::string> check_feasibility(const PlanetaryMill& mill) {
   if (g.carrier_m <= mill.drum_radius_m)
     findings.push_back(given(mill) + "opposite drums overlap; l_OA must exceed drum_radius_m = " +
                        number(mill.drum_radius_m) + ", (1 - k) / k must exceed b");
-  if (consistent && !findings.empty()) throw std::invalid_argument(findings.front());
+  if (consistent && !findings.empty()) throw MachineRefused(findings.front());
   for (std::string& finding : findings) finding = "this machine cannot be built: " + finding;
   return findings;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "kinetics/constants.h"
+#include "kinetics/machine_refused.h"
 #include "kinetics/planetary/segment.h"
 #include "kinetics/wrong_input.h"
 
@@ -66,7 +66,7 @@ void require_within(const std::string& parameter, double value, double most, con
 
 planetary::Segment segment(const PlanetaryCharge& charge) {
   if (bool(charge.filling) + bool(charge.void_fraction) + bool(charge.half_angle_rad) != 1)
-    throw std::invalid_argument(
+    throw MachineRefused(
         std::string("charge: of filling, void_fraction and half_angle_rad ") +
         (charge.filling || charge.void_fraction || charge.half_angle_rad ? "more than one is" : "none is") +
         " given; give exactly one of them");

@@ -1,9 +1,10 @@
 #include "kinetics/torsion/bidiagonal.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "kinetics/machine_refused.h"
 
 extern "C" void dbdsqr_(const char* uplo, const int* n, const int* ncvt, const int* nru, const int* ncc,
                         double* d, double* e, double* vt, const int* ldvt, double* u, const int* ldu,
@@ -41,8 +42,8 @@ void dbdsqr(Eigen::VectorXd& d, Eigen::VectorXd& e, Eigen::MatrixXd* vt, Eigen::
   dbdsqr_("U", &n, &n_vectors, &n_vectors, &none, d.data(), e.data(), vt ? vt->data() : &unused, &lead,
           u ? u->data() : &unused, &lead, &unused, &one, work.data(), &info);
   if (info != 0)
-    throw std::runtime_error("natural frequencies of the chain: LAPACK dbdsqr failed with info = " +
-                             std::to_string(info));
+    throw LoadsFailed("natural frequencies of the chain: LAPACK dbdsqr failed with info = " +
+                      std::to_string(info));
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <set>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "kinetics/torsion/effects.h"
 #include "kinetics/wrong_input.h"
 
@@ -21,9 +21,9 @@ void require_not_negative(const std::string& parameter, double value, const std:
 }
 
 void require_name(const std::string& what, const std::string& name, std::set<std::string>& taken) {
-  if (name.empty()) throw std::invalid_argument(what + ": has no name; give it one");
+  if (name.empty()) throw MachineRefused(what + ": has no name; give it one");
   if (!taken.insert(name).second)
-    throw std::invalid_argument(what + ": the name " + name + " is taken; names are unique within a train");
+    throw MachineRefused(what + ": the name " + name + " is taken; names are unique within a train");
 }
 
 void check_shaft_data(const TrainElement& e) {
@@ -48,19 +48,19 @@ void check_transmission(const DriveTrain& train, const TrainElement& e) {
            "belts and gears have no shear stress of a shaft; give the diameter to a shaft segment");
   if (e.rigid) return;
   if (!e.stiffness_N_m_rad)
-    throw std::invalid_argument(e.name + ".stiffness_N_m_rad: missing; give it, or say that it is rigid");
+    throw MachineRefused(e.name + ".stiffness_N_m_rad: missing; give it, or say that it is rigid");
   const std::string& first = train.inertias[inertia_at(train, e.first, e.name + ".first")].shaft;
   const std::string& second = train.inertias[inertia_at(train, e.second, e.name + ".second")].shaft;
   if (e.stiffness_on != first && e.stiffness_on != second)
-    throw std::invalid_argument(e.name + ".stiffness_on = \"" + e.stiffness_on +
-                                "\": the stiffness of a belt or gear refers to one of its shafts; give \"" +
-                                first + "\" or \"" + second + "\"");
+    throw MachineRefused(e.name + ".stiffness_on = \"" + e.stiffness_on +
+                         "\": the stiffness of a belt or gear refers to one of its shafts; give \"" + first +
+                         "\" or \"" + second + "\"");
 }
 
 void check_element(const DriveTrain& train, const TrainElement& e) {
   const std::string name = e.name + ".";
   if (inertia_at(train, e.first, name + "first") == inertia_at(train, e.second, name + "second"))
-    throw std::invalid_argument(name + "second = " + e.second + ": joins an inertia with itself");
+    throw MachineRefused(name + "second = " + e.second + ": joins an inertia with itself");
   require_finite(name + "ratio", e.ratio);
   if (e.ratio == 0)
     refuse(name + "ratio", e.ratio, "must not be zero; give speed of second / speed of first");
@@ -72,8 +72,7 @@ void check_element(const DriveTrain& train, const TrainElement& e) {
   require_not_negative(name + "damping_N_m_s", e.damping_N_m_s, "the viscous damping");
   require_not_negative(name + "loss_factor", e.loss_factor, "the structural loss factor");
   if (e.rigid && (e.stiffness_N_m_rad || e.damping_N_m_s != 0 || e.loss_factor != 0))
-    throw std::invalid_argument(name +
-                                "rigid: a rigid element has no stiffness and no damping; take them out");
+    throw MachineRefused(name + "rigid: a rigid element has no stiffness and no damping; take them out");
   e.kind == ElementKind::shaft ? check_shaft_data(e) : check_transmission(train, e);
 }
 
@@ -82,8 +81,8 @@ void check_rhythm(const DriveTrain& train, const std::string& name,
                   const std::optional<double>& frequency_rad_s, const std::optional<double>& order,
                   const std::string& order_of) {
   if (bool(frequency_rad_s) == bool(order))
-    throw std::invalid_argument(name + ": frequency_rad_s and order are " +
-                                (order ? "both given" : "both missing") + "; it needs exactly one of them");
+    throw MachineRefused(name + ": frequency_rad_s and order are " + (order ? "both given" : "both missing") +
+                         "; it needs exactly one of them");
   if (frequency_rad_s)
     require_positive(name + ".frequency_rad_s", *frequency_rad_s, "a constant part as constant_Nm");
   if (!order) return;
@@ -92,8 +91,8 @@ void check_rhythm(const DriveTrain& train, const std::string& name,
   if (std::any_of(train.inertias.begin(), train.inertias.end(), on_it)) return;
   std::vector<std::string> shafts;
   for (const auto& inertia : train.inertias) shafts.push_back(inertia.shaft);
-  throw std::invalid_argument(name + ".order_of = \"" + order_of + "\": no such shaft line; did you mean " +
-                              nearest(order_of, shafts) + "?");
+  throw MachineRefused(name + ".order_of = \"" + order_of + "\": no such shaft line; did you mean " +
+                       nearest(order_of, shafts) + "?");
 }
 
 }  // namespace
@@ -104,12 +103,12 @@ Eigen::Index inertia_at(const DriveTrain& train, const std::string& name, const 
     if (train.inertias[i].name == name) return static_cast<Eigen::Index>(i);
     names.push_back(train.inertias[i].name);
   }
-  throw std::invalid_argument(asked_by + " = \"" + name + "\": no inertia of that name; did you mean " +
-                              nearest(name, names) + "?");
+  throw MachineRefused(asked_by + " = \"" + name + "\": no inertia of that name; did you mean " +
+                       nearest(name, names) + "?");
 }
 
 void check_parameters(const DriveTrain& train) {
-  if (train.inertias.empty()) throw std::invalid_argument("inertias: none given; a train has at least one");
+  if (train.inertias.empty()) throw MachineRefused("inertias: none given; a train has at least one");
   std::set<std::string> taken;
   const TrainInertia* held = nullptr;
   for (const TrainInertia& inertia : train.inertias) {
@@ -118,9 +117,9 @@ void check_parameters(const DriveTrain& train) {
                      "the inertia; split a shaft without inertia of its own between its neighbours");
     require_not_negative(inertia.name + ".damping_N_m_s", inertia.damping_N_m_s, "the viscous damping");
     if (inertia.held && held)
-      throw std::invalid_argument(inertia.name + ".held: " + held->name +
-                                  " is held too, so that statics cannot tell the mean torque between them; "
-                                  "hold one of them");
+      throw MachineRefused(inertia.name + ".held: " + held->name +
+                           " is held too, so that statics cannot tell the mean torque between them; "
+                           "hold one of them");
     if (inertia.held) held = &inertia;
   }
   for (const TrainElement& e : train.elements) require_name("an element", e.name, taken);
@@ -156,11 +155,11 @@ void check_effects(const DriveTrain& train, const std::vector<std::string>& effe
   std::set<std::string> seen;
   for (const std::string& effect : effects) {
     if (std::find(known.begin(), known.end(), effect) == known.end())
-      throw std::invalid_argument("effect " + effect + ": this train has none of that name" +
-                                  (known.empty() ? "" : "; did you mean " + nearest(effect, known)) +
-                                  "? Known: " + listed(known));
+      throw MachineRefused("effect " + effect + ": this train has none of that name" +
+                           (known.empty() ? "" : "; did you mean " + nearest(effect, known)) +
+                           "? Known: " + listed(known));
     if (!seen.insert(effect).second)
-      throw std::invalid_argument("effect " + effect + ": named twice; it counts once, take one out");
+      throw MachineRefused("effect " + effect + ": named twice; it counts once, take one out");
   }
 }
 

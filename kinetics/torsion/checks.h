@@ -10,18 +10,18 @@ namespace kinetics::torsion {
 
 /// Position of the inertia of that name.
 /// @param asked_by  what names it, for the message
-/// @throws std::invalid_argument with the nearest known name
+/// @throws MachineRefused with the nearest known name
 Eigen::Index inertia_at(const DriveTrain& train, const std::string& name, const std::string& asked_by);
 
 /// Checks every number and name of inertias, elements and train; not the shape of the tree (see reduced.h).
-/// @throws std::invalid_argument naming parameter, value and remedy
+/// @throws MachineRefused naming parameter, value and remedy
 void check_parameters(const DriveTrain& train);
 
 /// Checks the excitations.
-/// @throws std::invalid_argument naming parameter, value and remedy
+/// @throws MachineRefused naming parameter, value and remedy
 void check_excitations(const DriveTrain& train);
 
-/// @throws std::invalid_argument for a name that drive_train_effects does not list or that is given twice
+/// @throws MachineRefused for a name that drive_train_effects does not list or that is given twice
 void check_effects(const DriveTrain& train, const std::vector<std::string>& effects);
 
 }  // namespace kinetics::torsion

@@ -26,7 +26,7 @@ ForcedResponse respond(const PreparedTrain& prepared, const Spectral& excitation
 double damping_ratio(const PreparedTrain& prepared, Index mode);
 
 /// Sentences about lines within 10 % of a natural frequency, with the amplification.
-/// @throws std::invalid_argument for a line at a natural frequency (to 1e-12) whose mode nothing damps
+/// @throws MachineRefused for a line at a natural frequency (to 1e-12) whose mode nothing damps
 std::vector<std::string> resonance_warnings(const PreparedTrain& prepared,
                                             const std::vector<TorqueLine>& lines);
 

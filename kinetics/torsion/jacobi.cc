@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
+
+#include "kinetics/machine_refused.h"
 
 namespace kinetics::torsion {
 namespace {
@@ -52,8 +53,7 @@ void orthogonalise(MatrixXd& a, MatrixXd& turned) {
       }
     if (!turned_any) return;
   }
-  throw std::runtime_error(
-      "natural frequencies of the tree: the Jacobi rotations did not settle in 60 sweeps");
+  throw LoadsFailed("natural frequencies of the tree: the Jacobi rotations did not settle in 60 sweeps");
 }
 
 }  // namespace

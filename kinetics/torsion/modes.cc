@@ -1,7 +1,7 @@
 #include <cmath>
-#include <stdexcept>
 
 #include "kinetics/drive_train.h"
+#include "kinetics/machine_refused.h"
 #include "kinetics/torsion/reduced.h"
 #include "kinetics/torsion/spectrum.h"
 
@@ -69,7 +69,7 @@ double mean_speed_rad_s(const DriveTrain& train, const std::string& inertia) {
   for (std::size_t i = 0; i < train.inertias.size(); ++i)
     if (train.inertias[i].name == inertia)
       return train.reference_speed_rad_s * reduced.ratio[Eigen::Index(i)];
-  throw std::invalid_argument("the train has no inertia \"" + inertia + "\"");
+  throw MachineRefused("the train has no inertia \"" + inertia + "\"");
 }
 
 }  // namespace kinetics

@@ -1,8 +1,8 @@
 /// The paper's own tables, errata included (kinetics/README.md, errata 1-6).
 #include <cmath>
-#include <stdexcept>
 
 #include "kinetics/drive_train.h"
+#include "kinetics/machine_refused.h"
 #include "kinetics/torsion/checks.h"
 #include "kinetics/torsion/dense_algebra.h"
 #include "kinetics/torsion/reduced.h"
@@ -31,15 +31,14 @@ std::pair<double, ArrayXd> harmonic_torques(const DriveTrain& train) {
   for (const TrainExcitation& x : train.excitations)
     for (const TorqueHarmonic& h : x.harmonics) {
       if (!h.frequency_rad_s || (frequency_rad_s && *frequency_rad_s != *h.frequency_rad_s))
-        throw std::invalid_argument("excitation " + x.name +
-                                    ": the published tables know one frequency; give every harmonic the same "
-                                    "frequency_rad_s");
+        throw MachineRefused("excitation " + x.name +
+                             ": the published tables know one frequency; give every harmonic the same "
+                             "frequency_rad_s");
       frequency_rad_s = h.frequency_rad_s;
       torque_Nm[torsion::inertia_at(train, x.inertia, x.name + ".inertia")] += h.amplitude_Nm;
     }
   if (!frequency_rad_s)
-    throw std::invalid_argument(
-        "excitations: the published tables need one harmonic at least; give the mains' one");
+    throw MachineRefused("excitations: the published tables need one harmonic at least; give the mains' one");
   return {*frequency_rad_s, torque_Nm};
 }
 
@@ -52,14 +51,13 @@ Chain reduced_to(const DriveTrain& train, std::size_t inertia) {
   const auto [frequency_rad_s, torque_Nm] = harmonic_torques(train);
   const Index n = reduced.ratio.size();
   if (reduced.n_nodes() != n || reduced.held)
-    throw std::invalid_argument(
-        "the published tables hold a free chain without rigid elements; take them out");
+    throw MachineRefused("the published tables hold a free chain without rigid elements; take them out");
   Chain chain{reduced.inertia, reduced.stiffness, torque_Nm,
               frequency_rad_s / two_pi / std::abs(reduced.ratio[0])};
   for (Index e = 0; e < reduced.n_edges(); ++e) {
     const TrainElement& element = train.elements[e];
     if (reduced.edges[e].first != e || reduced.edges[e].second != e + 1)
-      throw std::invalid_argument(
+      throw MachineRefused(
           "element " + element.name +
           ": the published tables hold a chain; let each element join an inertia with the next");
     if (element.kind != ElementKind::shaft) chain.stiffness[e] = *element.stiffness_N_m_rad;

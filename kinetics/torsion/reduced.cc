@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 #include "kinetics/constants.h"
+#include "kinetics/machine_refused.h"
 #include "kinetics/torsion/checks.h"
 #include "kinetics/wrong_input.h"
 
@@ -43,14 +43,14 @@ void require_tree(const DriveTrain& train, const std::vector<Edge>& links) {
   Pieces pieces(train.inertias.size());
   for (std::size_t e = 0; e < links.size(); ++e)
     if (!pieces.join(links[e].first, links[e].second))
-      throw std::invalid_argument("element " + train.elements[e].name + ": closes a cycle between " +
-                                  train.elements[e].first + " and " + train.elements[e].second +
-                                  "; a train is a tree, take one element of the cycle out");
+      throw MachineRefused("element " + train.elements[e].name + ": closes a cycle between " +
+                           train.elements[e].first + " and " + train.elements[e].second +
+                           "; a train is a tree, take one element of the cycle out");
   for (std::size_t i = 1; i < train.inertias.size(); ++i)
     if (pieces.leader(static_cast<Index>(i)) != 0)
-      throw std::invalid_argument("inertia " + train.inertias[i].name + ": no elements connect it with " +
-                                  train.inertias[0].name +
-                                  "; these are two trains, connect them or compute each by itself");
+      throw MachineRefused("inertia " + train.inertias[i].name + ": no elements connect it with " +
+                           train.inertias[0].name +
+                           "; these are two trains, connect them or compute each by itself");
 }
 
 /// u per inertia; every inertia of a shaft line must come out at the same.
@@ -58,8 +58,8 @@ Eigen::ArrayXd ratios(const DriveTrain& train, const std::vector<Edge>& links) {
   const auto on_reference = [&](const TrainInertia& i) { return i.shaft == train.reference_shaft; };
   const auto reference = std::find_if(train.inertias.begin(), train.inertias.end(), on_reference);
   if (reference == train.inertias.end())
-    throw std::invalid_argument("reference_shaft = \"" + train.reference_shaft +
-                                "\": no inertia sits on a shaft line of that name; give one of theirs");
+    throw MachineRefused("reference_shaft = \"" + train.reference_shaft +
+                         "\": no inertia sits on a shaft line of that name; give one of theirs");
   const Index n = static_cast<Index>(train.inertias.size()), root = reference - train.inertias.begin();
   Eigen::ArrayXd u = Eigen::ArrayXd::Ones(n);
   for (const Step& step : walk(n, links, root)) {

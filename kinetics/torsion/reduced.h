@@ -46,7 +46,7 @@ struct ReducedTrain {
   bool damped() const { return damping.any() || edge_damping.any() || loss_factor.any(); }
 };
 
-/// @throws std::invalid_argument for wrong parameters (see checks.h), a cycle, a train in several pieces,
+/// @throws MachineRefused for wrong parameters (see checks.h), a cycle, a train in several pieces,
 ///         a reference shaft that no inertia sits on, one shaft line with two ratios
 ReducedTrain reduce(const DriveTrain& train);
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "kinetics/torsion/forced.h"
 #include "kinetics/wrong_input.h"
 
@@ -41,11 +41,11 @@ std::vector<std::string> resonance_warnings(const PreparedTrain& prepared,
     if (std::abs(r - 1) > 0.1 || line.amplitude_Nm == 0.0) continue;
     const double zeta = damping_ratio(prepared, k);
     if (std::abs(r - 1) <= 1e-12 && zeta < 1e-14)
-      throw std::invalid_argument(
-          "excitation " + line.excitation + " at " + both_units(line.frequency_rad_s) +
-          ": meets the natural frequency " + both_units(w_k) + " of mode " + std::to_string(k + shift) +
-          ", which nothing damps; there is no steady state: give damping, or change the "
-          "frequency");
+      throw MachineRefused("excitation " + line.excitation + " at " + both_units(line.frequency_rad_s) +
+                           ": meets the natural frequency " + both_units(w_k) + " of mode " +
+                           std::to_string(k + shift) +
+                           ", which nothing damps; there is no steady state: give damping, or change the "
+                           "frequency");
     const double amplification = 1 / std::hypot((1 - r) * (1 + r), 2 * zeta * r);
     warnings.push_back("excitation " + line.excitation + " at " + both_units(line.frequency_rad_s) + " is " +
                        number(100 * std::abs(r - 1)) + " % from the natural frequency " + both_units(w_k) +

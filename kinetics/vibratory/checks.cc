@@ -1,8 +1,8 @@
 #include "kinetics/vibratory/checks.h"
 
 #include <cmath>
-#include <stdexcept>
 
+#include "kinetics/machine_refused.h"
 #include "kinetics/vibratory/table.h"
 #include "kinetics/wrong_input.h"
 
@@ -59,9 +59,9 @@ void check_pitch_inertia(const VibratoryMill& mill) {
 void check_lag(const VibratoryMill& mill) {
   const auto& [angle_rad, power_W] = mill.charge_lag;
   if (bool(angle_rad) == bool(power_W))
-    throw std::invalid_argument(std::string("charge_lag: loss_angle_rad and grinding_power_W are ") +
-                                (angle_rad ? "both given" : "both missing") +
-                                "; the effect needs exactly one of them");
+    throw MachineRefused(std::string("charge_lag: loss_angle_rad and grinding_power_W are ") +
+                         (angle_rad ? "both given" : "both missing") +
+                         "; the effect needs exactly one of them");
   if (angle_rad) {
     kinetics::require_finite("charge_lag.loss_angle_rad", *angle_rad);
     if (*angle_rad < 0 || *angle_rad > std::acos(0.0))
@@ -102,15 +102,15 @@ std::string why_not_here(Convention convention, const std::string& name) {
 void check_effects(Convention convention, const std::vector<std::string>& effects) {
   const auto known = effect_names(convention);
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!contains(known, effects[i])) throw std::invalid_argument(why_not_here(convention, effects[i]));
+    if (!contains(known, effects[i])) throw MachineRefused(why_not_here(convention, effects[i]));
     for (std::size_t j = 0; j < i; ++j)
       if (effects[i] == effects[j])
-        throw std::invalid_argument("effect " + effects[i] + ": named twice; it counts once, take one out");
+        throw MachineRefused("effect " + effects[i] + ": named twice; it counts once, take one out");
   }
   const auto require = [&](const std::string& effect, const std::string& base, const std::string& reason) {
     if (contains(effects, effect) && !contains(effects, base))
-      throw std::invalid_argument("effect " + effect + ": needs the effect " + base + ", " + reason +
-                                  "; add it, or take " + effect + " out");
+      throw MachineRefused("effect " + effect + ": needs the effect " + base + ", " + reason +
+                           "; add it, or take " + effect + " out");
   };
   require("charge_follows_pitch", "pitch", "which frees the pitch that the charge follows");
   require("charge_lag", "charge_translation", "which is what lags");
@@ -146,9 +146,9 @@ void check_parameters(const VibratoryMill& mill, const std::vector<std::string>&
              effects);
   check_springs(mill.springs);
   if ((on("springs") || on("spring_damping")) && mill.springs.empty())
-    throw std::invalid_argument("springs: none given, although the effect " +
-                                std::string(on("springs") ? "springs" : "spring_damping") +
-                                " is on; describe the springs, or take the effect out");
+    throw MachineRefused("springs: none given, although the effect " +
+                         std::string(on("springs") ? "springs" : "spring_damping") +
+                         " is on; describe the springs, or take the effect out");
   if (on("pitch")) check_pitch_inertia(mill);
   if (on("charge_lag")) check_lag(mill);
   if (mill.convention == Convention::published && on("springs")) {

@@ -35,7 +35,7 @@ struct PitchOscillator {
 };
 PitchOscillator pitch_oscillator(const VibratoryMill& mill, const std::vector<NamedEffect>& effects);
 
-/// @throws std::invalid_argument if k_theta is zero: then nothing resists the mean moment
+/// @throws MachineRefused if k_theta is zero: then nothing resists the mean moment
 void require_support(const PitchOscillator& chamber, double mean_moment_Nm);
 
 /// A component of the moment about E' at theta = 0: Re[moment exp(i (p phi + q chi))].
@@ -51,7 +51,7 @@ std::vector<MomentHarmonic> moment_harmonics(const VibratoryMill& mill,
 /// Solves the equation of pitch for the moments of `effects`. The inertia is I_E, with m |c|^2 if
 /// charge_follows_pitch is among them; stiffness and damping are those of `springs` and `spring_damping`, as
 /// far as they are. Components of the moment that are zero to round-off are skipped.
-/// @throws std::invalid_argument naming the frequency if a component meets k_theta - I w^2 + i w c_theta = 0
+/// @throws MachineRefused naming the frequency if a component meets k_theta - I w^2 + i w c_theta = 0
 ///         (to 1e-9 of |k_theta| + I w^2); if k_theta = 0 and the moment has a mean
 PitchMotion solve_pitch(const VibratoryMill& mill, const std::vector<NamedEffect>& effects);
 

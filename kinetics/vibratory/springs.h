@@ -13,7 +13,7 @@ namespace kinetics::vibratory {
 /// The chamber at rest, its charge's centre taken at C, hangs on the springs' vertical stiffness:
 ///   f_i = ky_i (d + a x_i), with d and a from sum f_i = W, sum x_i f_i = sum x_j W_j.
 /// For two springs this is plain statics and does not depend on the stiffnesses.
-/// @throws std::invalid_argument if some springs have a preload and others not, or if the springs cannot
+/// @throws MachineRefused if some springs have a preload and others not, or if the springs cannot
 ///         carry the weights (no vertical stiffness; all feet on one vertical beside the weights' centre)
 std::vector<Spring> with_preloads(const VibratoryMill& mill, const std::vector<std::string>& effects);
 

@@ -65,14 +65,14 @@ RefusedScene load(const fs::path& file) {
 }
 
 /// "line:column: key = value: remedy"
-std::string without_file(const pipelines::SceneError& error) {
-  pipelines::SceneError local = error;
+std::string without_file(const pipelines::SceneFinding& error) {
+  pipelines::SceneFinding local = error;
   local.file = "";
   const std::string text = local.text();
   return error.line == 0 ? "0:0" + text : text.substr(1);
 }
 
-bool fits(const pipelines::SceneError& error, const std::string& expectation) {
+bool fits(const pipelines::SceneFinding& error, const std::string& expectation) {
   const auto end_of_place = expectation.find(": ");
   const std::string text = without_file(error);
   return text.rfind(expectation.substr(0, end_of_place + 1), 0) == 0 &&
@@ -95,11 +95,11 @@ TEST_P(Refused, with_the_expected_errors) {
   const fs::path file =
       fs::path(testing::TempDir()) / (std::to_string(getpid()) + "_" + GetParam().filename().string());
   std::ofstream(file, std::ios::binary) << wrong.scene;
-  std::vector<pipelines::SceneError> errors;
+  std::vector<pipelines::SceneFinding> errors;
   try {
     pipelines::read_scene(file);
-  } catch (const pipelines::SceneErrors& refused) {
-    errors = refused.errors();
+  } catch (const pipelines::SceneError& refused) {
+    errors = refused.findings();
   }
   fs::remove(file);
 

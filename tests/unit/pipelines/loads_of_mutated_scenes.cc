@@ -125,8 +125,8 @@ TEST_P(MutatedScene, IsRefusedOrHasFiniteLoads) {
       const auto scene = pipelines::read_scene(file);
       expect_finite(pipelines::compute_loads(scene.machine, scene.kinetics_effects(), small(scene)), text);
       ++n_computed;
-    } catch (const pipelines::SceneErrors& refused) {
-      EXPECT_FALSE(refused.errors().empty());
+    } catch (const pipelines::SceneError& refused) {
+      EXPECT_FALSE(refused.findings().empty());
       ++n_refused;
     } catch (const std::invalid_argument& refused) {
       EXPECT_NE(std::string(refused.what()), "");

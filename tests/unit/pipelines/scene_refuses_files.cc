@@ -18,10 +18,10 @@ std::string refusal(const fs::path& file) {
   try {
     pipelines::read_scene(file);
     return "accepted";
-  } catch (const pipelines::SceneErrors& refused) {
-    EXPECT_EQ(refused.errors().size(), 1u);
-    EXPECT_EQ(refused.errors()[0].line, 0);
-    EXPECT_EQ(std::string(refused.what()), refused.errors()[0].text());
+  } catch (const pipelines::SceneError& refused) {
+    EXPECT_EQ(refused.findings().size(), 1u);
+    EXPECT_EQ(refused.findings()[0].line, 0);
+    EXPECT_EQ(std::string(refused.what()), refused.findings()[0].text());
     return refused.what();
   }
 }
@@ -73,7 +73,7 @@ TEST(scene_file, unreadable) {
 
 TEST(scene_file, bytes_that_are_no_text) {
   const ScratchFile file = written("bytes.toml", std::string("a = 1\n\xff\xfe\x00\x01", 10));
-  EXPECT_THROW(pipelines::read_scene(file), pipelines::SceneErrors);
+  EXPECT_THROW(pipelines::read_scene(file), pipelines::SceneError);
 }
 
 TEST(toml_tree, knows_where_values_stand_and_how_they_were_written) {

@@ -71,10 +71,10 @@ TEST_P(EveryScene, mutated_is_read_or_refused_and_nothing_else) {
     try {
       pipelines::read_scene(file);
       ++n_read;
-    } catch (const pipelines::SceneErrors& refused) {
+    } catch (const pipelines::SceneError& refused) {
       ++n_refused;
-      EXPECT_FALSE(refused.errors().empty());
-      for (const auto& error : refused.errors()) {
+      EXPECT_FALSE(refused.findings().empty());
+      for (const auto& error : refused.findings()) {
         EXPECT_FALSE(error.remedy.empty()) << text;
         EXPECT_LE(error.line, static_cast<int>(lines.size()) + 1) << error.text();
         EXPECT_TRUE(error.line > 0 || error.remedy.find("empty") != std::string::npos) << error.text();

@@ -20,9 +20,9 @@ pipelines::TableFile read(const std::string& text) {
 std::vector<std::string> refusals(const std::string& text) {
   try {
     read(text);
-  } catch (const pipelines::SceneErrors& refused) {
+  } catch (const pipelines::SceneError& refused) {
     std::vector<std::string> places;
-    for (const auto& e : refused.errors()) {
+    for (const auto& e : refused.findings()) {
       EXPECT_FALSE(e.remedy.empty());
       places.push_back(std::to_string(e.line) + ":" + std::to_string(e.column) + " " + e.key + " = " +
                        e.value);
@@ -72,6 +72,6 @@ TEST(TableFile, NamesEveryWrongCellAtItsPlace) {
                      }())
                 .size(),
             10u);
-  EXPECT_THROW(pipelines::read_table_file("/nowhere/log.csv"), pipelines::SceneErrors);
-  EXPECT_THROW(pipelines::read_table_file("/tmp"), pipelines::SceneErrors);
+  EXPECT_THROW(pipelines::read_table_file("/nowhere/log.csv"), pipelines::SceneError);
+  EXPECT_THROW(pipelines::read_table_file("/tmp"), pipelines::SceneError);
 }

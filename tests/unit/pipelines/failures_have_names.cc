@@ -1,0 +1,100 @@
+// What a command throws becomes a message and an exit code: users' mistakes 2, meshes and solves 3, a missed
+// tolerance 4. A type that means none of these is a mistake of the program and says so; it must never end as
+// "the scene is wrong", whatever std type it has.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <new>
+
+#include "fem/errors.h"
+#include "kinetics/machine_refused.h"
+#include "meshes/refused.h"
+#include "pipelines/cost_forecast.h"
+#include "pipelines/errors.h"
+#include "pipelines/failure.h"
+#include "pipelines/load_stage.h"
+#include "pipelines/refusal_of.h"
+#include "pipelines/scene.h"
+
+namespace {
+
+using namespace pipelines;
+
+template <typename Exception>
+Failure failure_of(const Exception& exception) {
+  try {
+    throw exception;
+  } catch (...) {
+    return failure_in_flight();
+  }
+}
+
+bool is_internal(const Failure& failure) {
+  return failure.message.find("internal error") != std::string::npos;
+}
+
+TEST(Failures, OfUsersNameTheirMistake) {
+  const std::vector<Failure> failures{
+      failure_of(SceneError({{"mill.toml", 3, 7, "machine.speed", "-1", "must be positive"}})),
+      failure_of(OptionError("a cause")),
+      failure_of(StageRefused("a cause")),
+      failure_of(kinetics::MachineRefused("a cause")),
+      failure_of(meshes::GeometryRefused("a cause")),
+      failure_of(fem::TooManyModes("a cause")),
+      failure_of(
+          std::filesystem::filesystem_error("a cause", std::make_error_code(std::errc::permission_denied)))};
+  for (const auto& failure : failures) {
+    EXPECT_EQ(failure.code, scene_is_wrong) << failure.message;
+    EXPECT_FALSE(is_internal(failure)) << failure.message;
+  }
+  EXPECT_EQ(failures.front().message, "mill.toml:3:7: machine.speed = -1: must be positive");
+  EXPECT_EQ(failures[1].message, "millstress: a cause");
+}
+
+TEST(Failures, OfMeshesAndSolvesAreNoMistakeOfTheScene) {
+  for (const auto& failure :
+       {failure_of(meshes::MeshRefused("a cause")), failure_of(fem::MeshUnusable("a cause")),
+        failure_of(fem::SolveFailed("a cause")), failure_of(fem::DoesNotFit("a cause")),
+        failure_of(kinetics::LoadsFailed("a cause")), failure_of(NotFinite("a cause")),
+        failure_of(FileError("a cause"))}) {
+    EXPECT_EQ(failure.code, mesh_or_solve_failed);
+    EXPECT_EQ(failure.message, "millstress: a cause");
+  }
+  EXPECT_EQ(failure_of(ToleranceNotMet("a cause")).code, tolerance_not_met);
+}
+
+TEST(Failures, OfTheProgramAreNotBlamedOnTheScene) {
+  for (const auto& failure :
+       {failure_of(std::invalid_argument("sizes differ")), failure_of(std::out_of_range("no such quantity")),
+        failure_of(std::logic_error("unknown role")), failure_of(std::runtime_error("a cause")),
+        failure_of(std::bad_alloc()), failure_of(42)}) {
+    EXPECT_EQ(failure.code, mesh_or_solve_failed) << failure.message;
+    EXPECT_TRUE(is_internal(failure)) << failure.message;
+  }
+}
+
+// A model that is left out is one that was refused by name; anything else passes through.
+TEST(Failures, OnlyRefusalsAreAnswers) {
+  EXPECT_EQ(refusal_of([] {}), "");
+  EXPECT_EQ(refusal_of([] { throw meshes::MeshRefused("flat cells"); }), "flat cells");
+  EXPECT_EQ(refusal_of([] { throw fem::DoesNotFit("too large"); }), "too large");
+  EXPECT_EQ(refusal_of([] { throw fem::SolveFailed("singular"); }), "singular");
+  EXPECT_THROW(refusal_of([] { throw std::runtime_error("a mistake"); }), std::runtime_error);
+  EXPECT_THROW(refusal_of([] { throw std::out_of_range("a mistake"); }), std::out_of_range);
+}
+
+// The mesh that a search begins with is refused: the forecast says why instead of leaving the row out.
+TEST(Failures, TheForecastSaysWhyAMeshIsLeftOut) {
+  auto scene = read_scene(std::string(SOURCE_DIR) + "/pipelines/scenes/load_table.toml");
+  const auto directory = std::filesystem::path(testing::TempDir());
+  auto& body = scene.bodies.front();
+  const auto meshed = mesh_body(body, directory / "failures_forecast.msh", {});
+  std::get<ShaftShape>(body.shape).mesh.min_scaled_jacobian = 0.95;
+  const auto rows = forecast_ladder(body, meshed, {10, 100}, {});
+  std::filesystem::remove(directory / "failures_forecast.msh");
+  ASSERT_EQ(rows.back().rung, "first of a search");
+  EXPECT_NE(rows.back().left_out.find("scaled Jacobian"), std::string::npos) << rows.back().left_out;
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) EXPECT_EQ(rows[i].left_out, "") << rows[i].rung;
+}
+
+}  // namespace
