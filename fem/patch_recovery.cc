@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -53,28 +54,45 @@ std::vector<Centre> choose_centres(const Grid& grid) {
 
 using Shares = std::vector<std::pair<std::int32_t, double>>;  // corner with a patch, weight
 
-/// Whose fits stand for that of a boundary corner: the interior corners joined to it by an edge; if there are
-/// none, those of its cells.
+/// From corner to corner of a hexahedron, by their places in corner_nodes.
+std::size_t n_edges_between(int corner, int other) {
+  const auto difference = unsigned(corner ^ other);
+  return (difference & 1U) + (difference >> 1U & 1U) + (difference >> 2U);
+}
+
+bool shares_a_cell(const CellsOfNodes& cells, std::int32_t one, std::int32_t other) {
+  const auto begin = cells.cell.begin() + cells.begin[other],
+             end = cells.cell.begin() + cells.begin[other + 1];
+  return std::any_of(cells.cell.begin() + cells.begin[one], cells.cell.begin() + cells.begin[one + 1],
+                     [&](auto cell) { return std::find(begin, end, cell) != end; });
+}
+
+/// Whose fits stand for that of a boundary corner at a node: of the interior corners in the corner's cells
+/// those whose patches hold the node, and of these the ones fewest edges away (on the convex edge of a body
+/// two, across a face). Hexahedra only. A patch on the corner's far side would be extrapolated to the node.
 Shares stand_ins(const Grid& grid, const CellsOfNodes& cells, const std::vector<Centre>& centre,
-                 std::int32_t corner) {
+                 std::int32_t corner, std::int32_t node) {
   const auto corners = corner_nodes(grid.shape());
   const int n_corners = static_cast<int>(corners.size());
-  std::vector<std::int32_t> joined, in_cells;
+  std::array<std::vector<std::int32_t>, 3> by_edges;  // that lead to them: 1, 2, 3
   for (auto k = cells.begin[corner]; k < cells.begin[corner + 1]; ++k) {
     const auto* nodes = grid.nodes_of(cells.cell[k]);
     int own = 0;
     while (nodes[corners[own]] != corner) ++own;
     for (int c = 0; c < n_corners; ++c) {
-      if (centre[nodes[corners[c]]] != Centre::interior) continue;
-      in_cells.push_back(nodes[corners[c]]);
-      if (joined_by_edge(grid.shape(), own, c)) joined.push_back(nodes[corners[c]]);
+      const auto other = nodes[corners[c]];
+      if (centre[other] != Centre::interior || !shares_a_cell(cells, other, node)) continue;
+      by_edges[n_edges_between(own, c) - 1].push_back(other);
     }
   }
-  auto& chosen = joined.empty() ? in_cells : joined;
-  std::sort(chosen.begin(), chosen.end());
-  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   Shares shares;
-  for (const auto c : chosen) shares.emplace_back(c, 1.0 / double(chosen.size()));
+  for (auto& chosen : by_edges) {
+    if (chosen.empty()) continue;
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    for (const auto c : chosen) shares.emplace_back(c, 1.0 / double(chosen.size()));
+    break;
+  }
   return shares;
 }
 
@@ -94,7 +112,7 @@ Shares shares_of(const Grid& grid, const CellsOfNodes& cells, const std::vector<
       continue;
     }
     if (centre[corner] == Centre::boundary) boundary.emplace_back(corner, hats[c]);
-    for (const auto& [other, weight] : stand_ins(grid, cells, centre, corner))
+    for (const auto& [other, weight] : stand_ins(grid, cells, centre, corner, node))
       substitutes.emplace_back(other, hats[c] * weight);
   }
   return !interior.empty() ? interior : !substitutes.empty() ? substitutes : boundary;

@@ -109,6 +109,27 @@ TEST(PatchRecovery, single_layers_fall_back_to_what_their_samples_determine) {
             1e-12);
 }
 
+// A node takes its value from patches that hold it, on the body's edges and corners too: what one layer of
+// cells has does not reach nodes beyond the next two layers, to which its patches extend.
+TEST(PatchRecovery, what_a_layer_of_cells_has_stays_beside_it) {
+  constexpr int n = 5;
+  const auto grid = cube(n, 2, straight);
+  for (const auto& free : {std::vector<fem::BoundaryFace>{}, grid.boundary}) {
+    const auto samples = fem::make_samples(grid, free);
+    fem::RowMajor values = fem::RowMajor::Zero(samples.cell.size(), 1), nodal(grid.n_nodes, 1);
+    for (std::size_t s = 0; s < samples.cell.size(); ++s) values(s, 0) = samples.position(0, s) < 1.0 / n;
+    fem::recover_by_patches(grid, fem::cells_of_nodes(grid), {}, samples, values, nodal);
+    double within = 0, beyond = 0;
+    for (std::size_t i = 0; i < grid.n_nodes; ++i) {
+      const double x = grid.position(i)[0];
+      (x > 2.0 / n + 1e-9 ? beyond : within) =
+          std::max(x > 2.0 / n + 1e-9 ? beyond : within, std::abs(nodal(i, 0)));
+    }
+    EXPECT_GT(within, 0.5);
+    EXPECT_EQ(beyond, 0);
+  }
+}
+
 /// Largest nodal error of the stress of the interpolant of a smooth displacement.
 double stress_error(int n, bool patches) {
   const auto grid = cube(n, 2, curved);
