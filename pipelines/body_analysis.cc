@@ -82,6 +82,11 @@ Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, std::size_t node
   return unit * analysis.loads.history.values.matrix();
 }
 
+ErrorLedger errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
+  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
+                       geometry_share(analysis.geometry_error, analysis.responses.nodes, point));
+}
+
 Peak headline(const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;
@@ -97,10 +102,20 @@ Peak headline(const BodyAnalysis& analysis) {
   const std::size_t n_effects = analysis.loads.history.effects.size();
   const auto shares = analysis.envelope.effect_share.begin() + std::ptrdiff_t(peak.node * n_effects);
   peak.effect_share.assign(shares, shares + std::ptrdiff_t(n_effects));
-  const StressPoint point{{{peak.node, 1.0}}, peak.instant};
-  peak.errors = self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
-                              geometry_share(analysis.geometry_error, analysis.responses.nodes, point));
+  peak.errors = errors_at({{{peak.node, 1.0}}, peak.instant}, analysis);
   return peak;
+}
+
+/// Of all weld toes, and of the first zones: those that are shown.
+void estimate_errors(BodyAnalysis& analysis) {
+  auto& zones = analysis.zones.zones;
+  for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i)
+    zones[i].error_Pa = errors_at({{{zones[i].peak_node, 1.0}}, zones[i].instant}, analysis).numerical_Pa();
+  for (auto& spot : analysis.hot_spots) {
+    const auto errors = errors_at(stress_point(spot), analysis);
+    spot.error_Pa = errors.numerical_Pa();
+    if (&spot == &analysis.hot_spots.front()) analysis.hot_spot_errors = errors;
+  }
 }
 
 double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
@@ -221,12 +236,7 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                                 zone_level(scene.zones, analysis.peak.value_Pa, body.yield_strength_Pa),
                                 body.yield_strength_Pa);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
-    if (!analysis.hot_spots.empty()) {
-      const auto point = stress_point(analysis.hot_spots.front());
-      analysis.hot_spot_errors =
-          self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
-                        geometry_share(analysis.geometry_error, analysis.responses.nodes, point));
-    }
+    estimate_errors(analysis);
   });
   clock.run("superpose", [&] { add_load_patch_error(analysis); });
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)

@@ -29,8 +29,8 @@ std::optional<fem::UnitResponses> beam_responses(const BodyScene& body, const me
 double ring_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads);
 
 /// What a beam leaves out of spin: the hoop stress of each segment as a long cylinder that turns about its
-/// axis, at its bore or in its middle (Timoshenko and Goodier, Theory of Elasticity, 3rd ed., article 32, with
-/// the constants of plane strain).
+/// axis, at its bore or in its middle (Timoshenko and Goodier, Theory of Elasticity, 3rd ed., article 32,
+/// with the constants of plane strain).
 /// @return largest over segments and instants [Pa]
 double spin_stress_Pa(const fem::BeamShaft& shaft, const fem::Material& material, const BodyLoads& loads);
 

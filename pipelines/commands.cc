@@ -18,7 +18,10 @@
 #include "pipelines/effect_report.h"
 #include "pipelines/errors.h"
 #include "pipelines/failure.h"
+#include "pipelines/envelope_files.h"
+#include "pipelines/error_text.h"
 #include "pipelines/fem_environment.h"
+#include "pipelines/governing_stress.h"
 #include "pipelines/html_report.h"
 #include "pipelines/load_files.h"
 #include "pipelines/load_statistics.h"
@@ -34,15 +37,18 @@
 namespace pipelines {
 namespace {
 
-/// The envelope as a picture; a machine that cannot draw gets a line instead.
+/// The envelope as a picture that marks the governing stress; a machine that cannot draw gets a line instead.
 /// @param envelope  the .vtu
 void draw(const std::filesystem::path& envelope, const std::filesystem::path& directory,
-          const std::string& title, const std::string& body) {
+          const std::string& title, const BodyAnalysis& analysis) {
+  const auto stress = governing_stress(analysis);
   PictureOptions options;
   options.scale = 1e-6;
-  options.excluded = "excluded";
-  if (!write_picture(envelope, "von Mises stress, maximum [Pa]",
-                     title + ", " + body + ": largest von Mises stress over the cycle", "MPa",
+  options.excluded = excluded_field;
+  options.mark = PictureMark{stress.position_m, fmt::format("{} {} MPa\n{}", stress.name(),
+                                                            fixed(stress.value_Pa / 1e6, 1), stress.place)};
+  if (!write_picture(envelope, pictured_field(analysis),
+                     title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle", "MPa",
                      directory / "envelope.png", options))
     std::cerr << "no picture: this machine offers no EGL (package libegl1); envelope.vtu opens in ParaView\n";
 }
@@ -123,10 +129,10 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
     clock.run("write", [&] { write_body_results(place, run.scene, loads, analysis, n_ranks); });
     if (!scene.pictures) continue;
     clock.run("pictures", [&] {
-      if (n_ranks == 1) return draw(place / "envelope.vtu", place, scene.title, analysis.scene.name);
+      if (n_ranks == 1) return draw(place / "envelope.vtu", place, scene.title, analysis);
       const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
       write_whole_envelope(whole.temporary(), run.scene, loads, analysis);
-      draw(whole.temporary(), place, scene.title, analysis.scene.name);
+      draw(whole.temporary(), place, scene.title, analysis);
     });
   }
   clock.run("write", [&] { write_load_results(directory, loads, channels); });

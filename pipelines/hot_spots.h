@@ -19,6 +19,7 @@ struct HotSpotStress {
   std::size_t near_node = 0, far_node = 0;  ///< at 0.4 and 1.0 plate thicknesses
   double von_mises_Pa = 0;                  ///< largest over the cycle
   std::int32_t instant = 0;                 ///< of that
+  double error_Pa = 0;                      ///< numerical part, estimated on this mesh alone
   double max_normal_Pa = 0,
          min_normal_Pa = 0;  ///< across the toe, over the cycle: their range is what fatigue counts
 };

@@ -64,16 +64,21 @@ void add_ledger(HtmlPage& page, const std::string& of, const Json& error, double
 }
 
 void add_headlines(HtmlPage& page, const Json& body) {
+  const auto& governing = body.at("governing");
   const auto& peak = body.at("peak_von_mises");
   Rows rows{
-      {"peak von Mises stress", MPa(peak.at("value")) + " MPa, error " + MPa(peak.at("error").at("total")),
-       where(peak), moment(peak)},
-      {"safety against yield", number(peak.at("safety_against_yield"), 1, "{:.2f}"),
+      {governing.at("name").get<std::string>(), governing.at("text").get<std::string>(), where(governing),
+       moment(governing)},
+      {"safety against yield", number(governing.at("safety_against_yield"), 1, "{:.2f}"),
        body.at("material").get<std::string>() + ", " + MPa(body.at("yield_strength").at("value")) + " MPa",
-       ""},
-      {"largest principal stress", MPa(body.at("peak_principal").at("value")) + " MPa",
-       where(body.at("peak_principal")), moment(body.at("peak_principal"))}};
-  if (body.contains("hot_spots")) {
+       ""}};
+  if (governing.at("kind") != "peak_von_mises")
+    rows.push_back({"peak von Mises stress outside the exclusion distances",
+                    MPa(peak.at("value")) + " MPa, error " + MPa(peak.at("error").at("total")), where(peak),
+                    moment(peak)});
+  rows.push_back({"largest principal stress", MPa(body.at("peak_principal").at("value")) + " MPa",
+                  where(body.at("peak_principal")), moment(body.at("peak_principal"))});
+  if (body.contains("hot_spots") && governing.at("kind") != "hot_spot") {
     const auto& spot = body.at("hot_spots")[0];
     rows.push_back({"hot-spot stress",
                     MPa(spot.at("von_mises_Pa")) + " MPa, error " + MPa(spot.at("error").at("total")),
@@ -100,11 +105,11 @@ void add_zones(HtmlPage& page, const Json& body) {
   Rows rows;
   for (const auto& zone : body.at("zones"))
     rows.push_back({fmt::format("{}", rows.size() + 1), MPa(zone.at("peak_von_mises_Pa")),
-                    number(zone.at("safety_against_yield"), 1, "{:.2f}"),
+                    MPa(zone.at("error_Pa")), number(zone.at("safety_against_yield"), 1, "{:.2f}"),
                     number(zone.at("volume_m3"), 1e9, "{:.4g}"), where(zone), moment(zone),
                     zone.at("place").get<std::string>()});
   page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
-  page.table({"", "peak MPa", "safety", "volume mm3", "where", "when", "surface"}, rows);
+  page.table({"", "peak MPa", "error MPa", "safety", "volume mm3", "where", "when", "surface"}, rows);
 }
 
 void add_search(HtmlPage& page, const Json& body) {
@@ -134,6 +139,8 @@ void add_seats(HtmlPage& page, const Json& body) {
 void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
               const Json& body) {
   page.heading(2, "The " + name);
+  if (const auto& trouble = body.at("governing").at("not_known_well"); trouble.is_string())
+    page.warning("Not known well: " + trouble.get<std::string>());
   page.paragraph(number(body.at("dofs"), 1, "{:.0f}") + " unknowns, " + number(body.at("mass").at("value")) +
                  " kg, solved by " +
                  (body.at("solver").at("used") == "iterative" ? "conjugate gradients" : "factorisation") +
@@ -141,12 +148,10 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   add_headlines(page, body);
   page.picture(directory / name / "envelope.png", "Largest von Mises stress over the cycle, " + name);
   add_zones(page, body);
+  const auto& governing = body.at("governing");
   const auto& peak = body.at("peak_von_mises");
-  add_ledger(page, "peak", peak.at("error"), peak.at("value").get<double>());
-  if (body.contains("hot_spots")) {
-    const auto& spot = body.at("hot_spots")[0];
-    add_ledger(page, "hot-spot stress", spot.at("error"), spot.at("von_mises_Pa").get<double>());
-  }
+  add_ledger(page, governing.at("name").get<std::string>(), governing.at("error"),
+             governing.at("value").get<double>());
   add_search(page, body);
   add_effects(page, peak);
   add_seats(page, body);

@@ -161,6 +161,22 @@ double width_over_height(const Layout::Place& place, const PictureOptions& optio
   return (place[2] - place[0]) * options.width / ((place[3] - place[1]) * options.height);
 }
 
+/// What is ringed, and what the grey means; above the colours.
+void add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::string& unit,
+                     const PictureOptions& options, bool some_excluded, int font_size) {
+  const Vector at = options.mark ? options.mark->at_m : peak.at;
+  char text[200];
+  std::snprintf(text, sizeof(text), "maximum %.4g %s", peak.value, unit.c_str());
+  const std::string maximum = text;
+  std::snprintf(text, sizeof(text), "\nat x = %.1f, y = %.1f, z = %.1f mm", 1e3 * at[0], 1e3 * at[1],
+                1e3 * at[2]);
+  std::string words = (options.mark ? options.mark->text : maximum) + text;
+  if (options.mark && options.mark->at_m != peak.at) words += "\nin colour: " + maximum;
+  if (some_excluded) words += "\ngrey: beside a sharp edge";
+  const auto n_lines = 1 + std::count(words.begin(), words.end(), '\n');
+  add_text(legend, words, font_size, 0.12, 0.8 - 0.06 * double(n_lines - 2));
+}
+
 }  // namespace
 
 bool write_picture(const std::filesystem::path& vtu, const std::string& field, const std::string& title,
@@ -172,8 +188,9 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const auto faces = boundary_faces(vtu, field, options.scale, options.excluded);
   Drawn drawn{smooth_surface(faces.get(), pieces), curved_edges(faces.get(), 1 << pieces), {}};
   const SurfacePeak peak = peak_of(faces.get(), drawn.surface.get());
+  const Vector shown = options.mark ? options.mark->at_m : peak.at;
   const double* bounds = faces->GetBounds();
-  const SurfaceView seen = view_of_place(drawn.surface.get(), peak.at, peak.normal);
+  const SurfaceView seen = view_of_place(drawn.surface.get(), shown, normal_at(drawn.surface.get(), shown));
   const View& view = seen.view;
   const double lowest = drawn.surface->GetPointData()->GetScalars()->GetRange()[0];
   const double from = std::min(0., lowest);
@@ -198,13 +215,13 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
 
   add_drawn(whole, drawn, table, false);
   add_drawn(detail, drawn, table, options.edges);
-  whole->AddActor(ring_at(peak.at, font_size));
+  whole->AddActor(ring_at(shown, font_size));
   all.half_width *= 1.06;
   all.half_height *= 1.1;
   look(whole, view, all, width_over_height(layout.whole, options), 4 * all.half_depth);
   const double extent = std::max({all.half_width, all.half_height, all.half_depth});
   const double half_detail = std::clamp(options.detail, 1e-3, 1.) * extent;
-  look(detail, view, {peak.at, half_detail, 0, half_detail}, width_over_height(layout.detail, options),
+  look(detail, view, {shown, half_detail, 0, half_detail}, width_over_height(layout.detail, options),
        4 * extent);
   const double whole_width = (layout.whole[2] - layout.whole[0]) * options.width;
   const double m_per_pixel =
@@ -215,11 +232,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   add_triad(add({1 - 0.13, gap, 1, gap + 0.22}), whole);
 
   add_text(heading, title, font_size * 4 / 3, 0.02, 0.25);
-  char words[200];
-  std::snprintf(words, sizeof(words), "maximum %.4g %s\nat x = %.1f, y = %.1f, z = %.1f mm%s", peak.value,
-                unit.c_str(), 1e3 * peak.at[0], 1e3 * peak.at[1], 1e3 * peak.at[2],
-                some_excluded ? "\ngrey: beside a sharp edge" : "");
-  add_text(legend, words, font_size, 0.12, some_excluded ? 0.74 : 0.8);
+  add_legend_text(legend, peak, unit, options, some_excluded, font_size);
   legend->AddActor2D(colour_bar(table, unit, font_size));
   write_png(window.get(), png);
   return true;

@@ -129,9 +129,15 @@ SurfacePeak peak_of(vtkUnstructuredGrid* faces, vtkPolyData* surface) {
         faces->GetPoint(nodes->GetId(i), peak.at.data());
       }
   }
-  const vtkIdType nearest = surface->FindPoint(peak.at.data());
-  surface->GetPointData()->GetNormals()->GetTuple(nearest, peak.normal.data());
+  peak.normal = normal_at(surface, peak.at);
   return peak;
+}
+
+Vector normal_at(vtkPolyData* surface, const Vector& at) {
+  Vector x = at, normal{};
+  const vtkIdType nearest = surface->FindPoint(x.data());
+  surface->GetPointData()->GetNormals()->GetTuple(nearest, normal.data());
+  return normal;
 }
 
 std::array<Vector, 3> View::axes() const {

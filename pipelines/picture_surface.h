@@ -44,6 +44,9 @@ struct SurfacePeak {
 /// @param surface  the same faces from smooth_surface, for the normal
 SurfacePeak peak_of(vtkUnstructuredGrid* faces, vtkPolyData* surface);
 
+/// Outward, at the point of the surface that is nearest.
+Vector normal_at(vtkPolyData* surface, const Vector& at);
+
 /// Whether z is by far the longest extent.
 bool is_long(const double* bounds);
 

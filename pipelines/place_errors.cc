@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "pipelines/fineness.h"
+#include "pipelines/governing_stress.h"
 
 namespace pipelines {
 namespace {
@@ -39,11 +40,11 @@ std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
 }  // namespace
 
 std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
-  if (!analysis.hot_spots.empty()) return weld_toes(analysis);
   const auto& maximum = analysis.envelope.von_mises;
   auto places = largest_by_feature(analysis.responses.nodes, maximum.value_Pa, analysis.mesh.features, analysis.places);
+  const double largest_Pa = governing_stress(analysis).value_Pa;
   for (auto& place : places) {
-    if (place.value_Pa < worth_a_look * analysis.peak.value_Pa) {
+    if (place.value_Pa < worth_a_look * largest_Pa) {
       place.error_Pa = place.value_Pa;
       continue;
     }
@@ -51,13 +52,15 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
     if (const int cells = cells_on(analysis.scene, place.feature); cells > 0)
       place.error_Pa = std::max(place.error_Pa, for_want_of_cells(cells) * place.value_Pa);
   }
+  const auto toes = weld_toes(analysis);
+  places.insert(places.end(), toes.begin(), toes.end());
   return places;
 }
 
 void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged, const std::string& method) {
   if (judged.empty()) return;
   const auto judgement = judge(judged);
-  auto& errors = analysis.hot_spots.empty() ? analysis.peak.errors : analysis.hot_spot_errors;
+  auto& errors = errors_of_governing(analysis);
   errors.set_numerical({"discretisation", method, judged[judgement.governing].error_Pa});
   errors.set_numerical({"other_places",
                         judgement.other_place.empty()

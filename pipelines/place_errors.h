@@ -8,8 +8,7 @@
 
 namespace pipelines {
 
-/// The weld toes of a body that has some, by their hot-spot stress; else its features and its inside. The error of
-/// a place is that of self_estimate there; far below the largest stress it is the stress itself, which is cheaper
+/// The features of a body and its inside, and its weld toes by their hot-spot stress. The error of a place is that of self_estimate there; far below the largest stress it is the stress itself, which is cheaper
 /// and says enough. A fillet with few cells has an error that says so: half of its stress with 2 cells on its
 /// quarter, 15 % with 4, 4 % with more (the largest found on 60 random shafts, `tests/benchmarks/run promises`,
 /// are 31, 10 and 3 %).

@@ -129,13 +129,6 @@ std::optional<MeshStep> refine_solid(BodyScene& body, const BodyAnalysis& analys
 
 }  // namespace
 
-GoverningStress governing_stress(const BodyAnalysis& analysis) {
-  if (analysis.hot_spots.empty())
-    return {"peak von Mises stress", analysis.peak.feature, analysis.peak.value_Pa, analysis.peak.errors};
-  const auto& spot = analysis.hot_spots.front();
-  return {"hot-spot stress", spot.name, spot.von_mises_Pa, analysis.hot_spot_errors};
-}
-
 bool is_block_shaft(const BodyScene& body) {
   return body.shaft() != nullptr && body.shaft()->keyways.empty();
 }

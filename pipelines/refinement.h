@@ -8,23 +8,11 @@
 #include <vector>
 
 #include "pipelines/body_analysis.h"
+#include "pipelines/governing_stress.h"
 #include "pipelines/place_history.h"
 #include "pipelines/scene.h"
 
 namespace pipelines {
-
-/// The stress that a tolerance refers to: the hot-spot stress of the worst weld toe where a body has weld
-/// toes, else its peak von Mises stress.
-struct GoverningStress {
-  std::string name;  ///< "peak von Mises stress", "hot-spot stress"
-  std::string place;
-  double value_Pa = 0;
-  ErrorLedger errors;
-
-  /// Numerical part, relative; 0 where nothing is stressed.
-  double relative_error() const { return value_Pa > 0 ? errors.numerical_Pa() / value_Pa : 0; }
-};
-GoverningStress governing_stress(const BodyAnalysis& analysis);
 
 /// Whether a body is a parametric shaft of hexahedra.
 bool is_block_shaft(const BodyScene& body);

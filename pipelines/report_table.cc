@@ -4,6 +4,8 @@
 #include <cmath>
 #include <ostream>
 
+#include "pipelines/error_text.h"
+#include "pipelines/governing_stress.h"
 #include "pipelines/results.h"
 #include "pipelines/statistics.h"
 #include "pipelines/summary.h"
@@ -50,14 +52,6 @@ std::string when(const RunReport& report, std::int32_t instant) {
   return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / M_PI);
 }
 
-/// With that many decimals; numbers that no column holds, or that would show as zero, with an exponent.
-std::string fixed(double value, int decimals) {
-  const bool is_plain =
-      value == 0 || (std::abs(value) >= 0.5 * std::pow(10, -decimals) && std::abs(value) < 1e7);
-  return is_plain || !std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals)
-                                           : fmt::format("{:.3g}", value);
-}
-
 std::string where(const std::array<double, 3>& p) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", p[0] * 1e3, p[1] * 1e3, p[2] * 1e3);
 }
@@ -78,12 +72,13 @@ void print_masses(std::ostream& out, const RunReport& report, const BodyAnalysis
 
 void print_hot_spots(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   if (analysis.hot_spots.empty()) return;
-  out << fmt::format("\n  {:<40}{:>14}{:>20}  {}\n", "weld toe, hot-spot stress", "von Mises MPa",
-                     "range across MPa", "moment");
+  out << fmt::format("\n  {:<40}{:>14}{:>10}{:>20}  {}\n", "weld toe, hot-spot stress", "von Mises MPa",
+                     "+- MPa", "range across MPa", "moment");
   constexpr std::size_t shown = 5;
   for (std::size_t i = 0; i < std::min(shown, analysis.hot_spots.size()); ++i) {
     const auto& spot = analysis.hot_spots[i];
-    out << fmt::format("  {:<40}{:>14.1f}{:>20.1f}  {}\n", spot.name, spot.von_mises_Pa / 1e6,
+    out << fmt::format("  {:<40}{:>14.1f}{:>10}{:>20.1f}  {}\n", spot.name, spot.von_mises_Pa / 1e6,
+                       fixed(error_Pa(analysis, spot) / 1e6, 1),
                        (spot.max_normal_Pa - spot.min_normal_Pa) / 1e6, when(report, spot.instant));
   }
 }
@@ -116,10 +111,47 @@ void print_vibration(std::ostream& out, const Vibration& vibration) {
       100 * dynamic.highest.share, dynamic.highest.amplification);
 }
 
-void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+/// What the body is judged by, first of all that it is not known well.
+void print_governing(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  const auto stress = governing_stress(analysis);
+  out << "\n  " << analysis.scene.name << ": ";
+  if (const auto trouble = not_known_well(stress, analysis.search); !trouble.empty())
+    out << "NOT KNOWN WELL: " << trouble << "\n  ";
+  out << fmt::format("{} {}, safety against yield {}\n    at {} ({}), {}, {}\n", stress.name(),
+                     value_with_errors(stress.value_Pa, stress.errors), fixed(stress.safety, 2), stress.place,
+                     to_string(stress.surface), where(stress.position_m), when(report, stress.instant));
+}
+
+/// The peak, where a hot spot is worse.
+void print_peak(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  if (governing_stress(analysis).kind == GoverningStress::Kind::peak) return;
   const Peak& peak = analysis.peak;
-  out << fmt::format("\n  {}: {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.scene.name,
-                     analysis.responses.n_dofs, analysis.responses.channels.size(),
+  out << fmt::format(
+      "\n  peak von Mises stress outside the exclusion distances {}, safety against yield {}\n",
+      value_with_errors(peak.value_Pa, peak.errors), fixed(peak.safety, 2));
+  out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place), where(peak.position_m),
+                     when(report, peak.instant));
+}
+
+void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  const auto& zones = analysis.zones.zones;
+  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>9}{:>13}  {:<20}{}\n",
+                     fixed(analysis.zones.level_Pa / 1e6, 1), "peak MPa", "+- MPa", "safety", "volume mm3",
+                     "  moment", "where");
+  for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i) {
+    const auto error = error_Pa(analysis, zones[i]);
+    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13.1f}  {:<20}{}\n", i + 1, zones[i].feature,
+                       fixed(zones[i].peak_Pa / 1e6, 1), error ? fixed(*error / 1e6, 1) : "-",
+                       fixed(zones[i].safety, 2), zones[i].volume_m3 * 1e9,
+                       "  " + when(report, zones[i].instant), to_string(zones[i].place));
+  }
+  if (zones.size() > n_zones_shown)
+    out << fmt::format("       and {} more in zones.csv\n", zones.size() - n_zones_shown);
+}
+
+void print_solver(std::ostream& out, const BodyAnalysis& analysis) {
+  out << fmt::format("  {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.responses.n_dofs,
+                     analysis.responses.channels.size(),
                      analysis.responses_reused ? " (responses of an earlier run)" : "",
                      analysis.masses.mass_kg);
   const auto& solver = analysis.responses.solver;
@@ -133,14 +165,15 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
   for (std::size_t r = 0; r < solver.ranks.size(); ++r)
     out << fmt::format("    rank {}: {} of the unknowns, {:.2f} GB\n", r, solver.ranks[r].n_unknowns,
                        1e-9 * solver.ranks[r].bytes);
+}
+
+void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  print_governing(out, report, analysis);
+  print_solver(out, analysis);
   out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
                      analysis.closure.worst_moment());
   print_masses(out, report, analysis);
-  out << fmt::format("\n  peak von Mises stress   {} MPa (error about {} MPa), safety against yield {}\n",
-                     fixed(peak.value_Pa / 1e6, 1), fixed(peak.errors.total_Pa() / 1e6, 1),
-                     fixed(peak.safety, 2));
-  out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place), where(peak.position_m),
-                     when(report, peak.instant));
+  print_peak(out, report, analysis);
   print_search(out, analysis.search);
   const std::size_t p = analysis.principal_node;
   out << fmt::format("  largest principal stress {} MPa\n",
@@ -149,17 +182,7 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
     out << fmt::format("  largest torsional stress {} MPa at {}, z = {:.1f} mm\n",
                        fixed(ring->max_Pa / 1e6, 2), ring->feature, ring->z_m * 1e3);
 
-  const auto& zones = analysis.zones.zones;
-  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>13}  {:<20}{}\n",
-                     fixed(analysis.zones.level_Pa / 1e6, 1), "peak MPa", "safety", "volume mm3", "  moment",
-                     "where");
-  constexpr std::size_t shown = 10;
-  for (std::size_t i = 0; i < std::min(shown, zones.size()); ++i)
-    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>13.1f}  {:<20}{}\n", i + 1, zones[i].feature,
-                       fixed(zones[i].peak_Pa / 1e6, 1), fixed(zones[i].safety, 2), zones[i].volume_m3 * 1e9,
-                       "  " + when(report, zones[i].instant), to_string(zones[i].place));
-  if (zones.size() > shown) out << fmt::format("       and {} more in zones.csv\n", zones.size() - shown);
-
+  print_zones(out, report, analysis);
   if (analysis.vibration) print_vibration(out, *analysis.vibration);
   print_hot_spots(out, report, analysis);
   if (!analysis.diagrams) return;

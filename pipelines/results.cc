@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
-#include "fem/cell_shares.h"
 #include "pipelines/csv.h"
+#include "pipelines/envelope_files.h"
+#include "pipelines/governing_stress.h"
 #include "pipelines/load_files.h"
 #include "pipelines/statistics.h"
-#include "pipelines/vtk_files.h"
 
 namespace pipelines {
 namespace {
@@ -17,97 +16,6 @@ namespace {
 using std::filesystem::path;
 
 const std::vector<std::string> tensor_components{"xx", "yy", "zz", "xy", "yz", "xz"};
-
-std::vector<double> flatten(const std::vector<Stress>& tensors) {
-  std::vector<double> values;
-  values.reserve(tensors.size() * 6);
-  for (const auto& tensor : tensors) values.insert(values.end(), tensor.begin(), tensor.end());
-  return values;
-}
-
-/// What an earlier run on another number of ranks has left.
-void remove_other_envelopes(const path& directory, int n_pieces) {
-  if (n_pieces > 1)
-    std::filesystem::remove(directory / "envelope.vtu");
-  else
-    std::filesystem::remove(directory / "envelope.pvtu");
-  for (int piece = n_pieces > 1 ? n_pieces : 0;; ++piece)
-    if (!std::filesystem::remove(directory / ("envelope_" + std::to_string(piece) + ".vtu"))) return;
-}
-
-void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                    const BodyAnalysis& analysis, int n_pieces) {
-  const auto& nodes = analysis.responses.nodes;
-  const auto& envelope = analysis.envelope;
-  const auto& effects = analysis.loads.history.effects;
-  const auto angles = [&](const std::vector<std::int32_t>& instants) {
-    std::vector<double> degrees;
-    for (const auto instant : instants)
-      degrees.push_back(moment_of(scene, loads, instant).angle_rad * 180 / M_PI);
-    return degrees;
-  };
-  const auto angle_v = angles(envelope.von_mises.instant), angle_1 = angles(envelope.principal.instant);
-  const auto tensor_v = flatten(envelope.von_mises.stress_Pa),
-             tensor_1 = flatten(envelope.principal.stress_Pa);
-  std::vector<double> safety;
-  for (const double stress : envelope.von_mises.value_Pa)
-    safety.push_back(stress > 0 ? std::min(analysis.scene.yield_strength_Pa / stress, 1e6) : 1e6);
-  std::vector<std::int32_t> turn;
-  for (const auto instant : envelope.von_mises.instant) turn.push_back(moment_of(scene, loads, instant).turn);
-
-  std::vector<NodalField> fields{
-      nodal_field("von Mises stress, maximum [Pa]", envelope.von_mises.value_Pa),
-      nodal_field("drive angle of maximum [deg]", angle_v),
-      nodal_field("stress at maximum [Pa]", tensor_v, 6, tensor_components),
-      nodal_field("safety against yield", safety),
-      nodal_field("largest principal stress, maximum [Pa]", envelope.principal.value_Pa),
-      nodal_field("drive angle of largest principal stress [deg]", angle_1),
-      nodal_field("stress at largest principal stress [Pa]", tensor_1, 6, tensor_components),
-      nodal_field("effect share", envelope.effect_share, int(effects.size()), effects)};
-  const std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},
-                                 {"turn of maximum", turn},
-                                 {"instant of maximum", envelope.von_mises.instant},
-                                 {"excluded", std::vector<std::int32_t>(analysis.places.excluded.begin(),
-                                                                        analysis.places.excluded.end())}};
-  if (n_pieces > 1)
-    write_envelope_pieces(file, nodes, fem::shares_of_cells(nodes, n_pieces), n_pieces, fields, ids);
-  else
-    write_envelope_vtu(file, nodes, fields, ids);
-}
-
-/// What an earlier run with other snapshots has left, so that the folder shows one run.
-void remove_other_snapshots(const path& directory, const std::vector<PvdEntry>& kept) {
-  std::vector<path> strangers;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    const auto name = entry.path().filename();
-    const bool snapshot = name.string().rfind("cycle_", 0) == 0 && name.extension() == ".vtu";
-    const bool listed = std::any_of(kept.begin(), kept.end(), [&](const auto& k) { return k.file == name; });
-    if ((snapshot && !listed) || (kept.empty() && name == "cycle.pvd")) strangers.push_back(entry.path());
-  }
-  for (const auto& stranger : strangers) std::filesystem::remove(stranger);
-}
-
-void write_cycle(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                 const BodyAnalysis& analysis) {
-  const Eigen::Index per_turn = scene.sampling.instants_per_turn;
-  const Eigen::Index first = analysis.peak.instant / per_turn * per_turn;
-  std::vector<PvdEntry> entries;
-  std::vector<double> von_mises(analysis.responses.nodes.n);
-  for (int s = 0; s < scene.snapshots; ++s) {
-    const Eigen::Index instant = first + per_turn * s / scene.snapshots;
-    for (std::size_t node = 0; node < von_mises.size(); ++node)
-      von_mises[node] = von_mises_Pa(stress_at(analysis.responses, analysis.loads.history, node, instant));
-    const auto displacement = displacement_at(analysis.responses, analysis.loads.history, instant);
-    char name[32];
-    std::snprintf(name, sizeof name, "cycle_%03d.vtu", s);
-    write_surface_snapshot_vtu(directory / name, analysis.responses.nodes,
-                               {nodal_field("von Mises stress [Pa]", von_mises),
-                                nodal_field("displacement [m]", displacement, 3, {"x", "y", "z"})});
-    entries.push_back({loads.time_s[instant], name, analysis.scene.name});
-  }
-  if (!entries.empty()) write_pvd(directory / "cycle.pvd", entries);
-  remove_other_snapshots(directory, entries);
-}
 
 /// One column over a list of things.
 template <typename List, typename Get>
@@ -129,6 +37,10 @@ void write_zones(const path& file, const Scene& scene, const kinetics::LoadHisto
   columns.push_back(column("feature", "", zones, [](const Zone& z) { return z.feature; }));
   columns.push_back(column("place", "", zones, [](const Zone& z) { return to_string(z.place); }));
   columns.push_back(column("peak_von_mises", "Pa", zones, [](const Zone& z) { return z.peak_Pa; }));
+  columns.push_back(column("peak_error", "Pa", zones, [&](const Zone& z) {
+    const auto error = error_Pa(analysis, z);
+    return error ? shortest(*error) : std::string();
+  }));
   columns.push_back(column("safety_against_yield", "", zones, [](const Zone& z) { return z.safety; }));
   columns.push_back(
       column("turn", "", zones, [&](const Zone& z) { return moment_of(scene, loads, z.instant).turn; }));
@@ -152,6 +64,8 @@ void write_hot_spots(const path& file, const Scene& scene, const kinetics::LoadH
   columns.push_back(column("hot_spot", "", spots, [](const HotSpotStress& h) { return h.name; }));
   columns.push_back(
       column("von_mises_max", "Pa", spots, [](const HotSpotStress& h) { return h.von_mises_Pa; }));
+  columns.push_back(
+      column("von_mises_error", "Pa", spots, [&](const HotSpotStress& h) { return error_Pa(analysis, h); }));
   columns.push_back(column("turn", "", spots,
                            [&](const HotSpotStress& h) { return moment_of(scene, loads, h.instant).turn; }));
   columns.push_back(column("drive_angle", "rad", spots, [&](const HotSpotStress& h) {
@@ -274,20 +188,13 @@ void write_load_results(const path& directory, const kinetics::LoadHistory& load
 
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
                         const BodyAnalysis& analysis, int n_pieces) {
-  write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
-                 n_pieces);
-  remove_other_envelopes(directory, n_pieces);
-  write_cycle(directory, scene, loads, analysis);
+  write_envelope_files(directory, scene, loads, analysis, n_pieces);
+  write_cycle_files(directory, scene, loads, analysis);
   write_zones(directory / "zones.csv", scene, loads, analysis);
   if (!analysis.hot_spots.empty()) write_hot_spots(directory / "hot_spots.csv", scene, loads, analysis);
   if (!analysis.diagrams) return;
   write_diagrams(directory / "diagrams.csv", analysis);
   write_torsion(directory, loads, analysis);
-}
-
-void write_whole_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                          const BodyAnalysis& analysis) {
-  write_envelope(file, scene, loads, analysis, 1);
 }
 
 }  // namespace pipelines

@@ -22,10 +22,6 @@ void write_load_results(const std::filesystem::path& directory, const kinetics::
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,
                         const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces = 1);
 
-/// What envelope.vtu has, in one file of any name.
-void write_whole_envelope(const std::filesystem::path& file, const Scene& scene,
-                          const kinetics::LoadHistory& loads, const BodyAnalysis& analysis);
-
 /// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
 struct Moment {
   int turn = 1;          ///< 1-based

@@ -219,7 +219,7 @@ private:
                           ? "changes of the stress with the mesh, and harmonics around the axis beside it"
                           : "changes of the stress with the mesh, or single cells around");
     const auto stress = governing_stress(analysis);
-    state.search.quantity = stress.name;
+    state.search.quantity = stress.name();
     state.search.steps.push_back(record(i, stress, analysis, seconds_since(state.step_start)));
     state.search.steps.back().refined = state.step ? to_string(state.step->part) : "";
     state.search.met = state.search.tolerance == 0 || stress.relative_error() <= state.search.tolerance;

@@ -84,6 +84,13 @@ void add_names(vtkUnstructuredGrid& grid, const NameList& list) {
   grid.GetFieldData()->AddArray(array);
 }
 
+void add_numbers(vtkUnstructuredGrid& grid, const NumberList& list) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(list.name.c_str());
+  for (const double value : list.values) array->InsertNextValue(value);
+  grid.GetFieldData()->AddArray(array);
+}
+
 void add_ids(vtkDataSetAttributes& data, const std::string& name, const std::vector<std::int32_t>& values) {
   vtkNew<vtkTypeInt32Array> array;
   array->SetName(name.c_str());
@@ -116,8 +123,7 @@ void set_cells(vtkUnstructuredGrid& grid, const Cells& cells) {
 /// the chosen).
 void write_grid(const std::filesystem::path& path, const Cells& cells, const fem::Nodes& nodes,
                 const std::vector<std::int32_t>& chosen, const std::vector<NodalField>& fields,
-                const std::vector<IdField>& ids, const std::vector<NameList>& names,
-                VtuCompression compression) {
+                const std::vector<IdField>& ids, const FieldData& data, VtuCompression compression) {
   if (nodes.xyz_m.size() != 3 * nodes.n)
     throw std::invalid_argument("nodes: " + std::to_string(nodes.xyz_m.size()) + " coordinates for " +
                                 std::to_string(nodes.n) + " nodes");
@@ -128,7 +134,8 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
   grid->SetPoints(points);
   set_cells(*grid, cells);
   for (const auto& field : fields) add_field(*grid, field, nodes.n, chosen);
-  for (const auto& list : names) add_names(*grid, list);
+  for (const auto& list : data.names) add_names(*grid, list);
+  for (const auto& list : data.numbers) add_numbers(*grid, list);
   for (const auto& id : ids) {
     const bool at_nodes = id.at == IdField::At::nodes;
     if (id.values.size() != (at_nodes ? nodes.n : cells.size()))
@@ -185,11 +192,11 @@ int face_type(const fem::CellShape& shape) {
 
 void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                         const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
-                        VtuCompression compression) {
+                        VtuCompression compression, const FieldData& data) {
   std::vector<std::int32_t> all(nodes.n);
   std::iota(all.begin(), all.end(), 0);
   const Cells cells = {cell_type(nodes.shape()), nodes.nodes_per_cell(), nodes.cells};
-  write_grid(path, cells, nodes, all, fields, ids, {}, compression);
+  write_grid(path, cells, nodes, all, fields, ids, data, compression);
 }
 
 namespace {
@@ -226,7 +233,7 @@ std::string joining_text(const std::vector<NodalField>& fields, const std::vecto
 void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& nodes,
                            const std::vector<int>& piece_of_cell, int n_pieces,
                            const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
-                           VtuCompression compression) {
+                           VtuCompression compression, const FieldData& data) {
   const int type =
       nodes.kind == fem::CellKind::tetrahedra ? VTK_QUADRATIC_TETRA : VTK_TRIQUADRATIC_HEXAHEDRON;
   std::vector<std::string> names;
@@ -251,7 +258,7 @@ void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& 
         for (const auto node : nodes.cell(c)) cells.push_back(place[node]);
     names.push_back(pvtu.stem().string() + "_" + std::to_string(piece) + ".vtu");
     write_grid(pvtu.parent_path() / names.back(), {type, nodes.nodes_per_cell(), cells}, nodes, chosen,
-               fields, own_ids, {}, compression);
+               fields, own_ids, data, compression);
   }
   write_text_file(pvtu, joining_text(fields, ids, names));
 }
@@ -271,7 +278,7 @@ void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::No
   auto with_boundary = ids;
   with_boundary.push_back({"boundary_id", nodes.face_boundary_id, IdField::At::cells});
   const Cells cells = {face_type(nodes.shape()), nodes.nodes_per_face(), faces};
-  write_grid(path, cells, nodes, chosen, fields, with_boundary, names, compression);
+  write_grid(path, cells, nodes, chosen, fields, with_boundary, {names, {}}, compression);
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {

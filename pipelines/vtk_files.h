@@ -45,6 +45,17 @@ struct NameList {
   std::vector<std::string> names;
 };
 
+/// Numbers of the whole body, kept likewise.
+struct NumberList {
+  std::string name;
+  std::vector<double> values;
+};
+
+struct FieldData {
+  std::vector<NameList> names;
+  std::vector<NumberList> numbers;
+};
+
 enum class VtuCompression { none, zlib };
 
 /// The whole body: VTK_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON or
@@ -55,7 +66,7 @@ enum class VtuCompression { none, zlib };
 ///         std::runtime_error naming the file if it cannot be written
 void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                         const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
-                        VtuCompression compression = VtuCompression::zlib);
+                        VtuCompression compression = VtuCompression::zlib, const FieldData& data = {});
 
 /// The whole body in pieces, one file each beside the .pvtu that joins them: envelope.pvtu, envelope_0.vtu,
 /// envelope_1.vtu ... Nodes between pieces are in each of them.
@@ -65,7 +76,7 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
 void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& nodes,
                            const std::vector<int>& piece_of_cell, int n_pieces,
                            const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
-                           VtuCompression compression = VtuCompression::zlib);
+                           VtuCompression compression = VtuCompression::zlib, const FieldData& data = {});
 
 /// The surface alone: the faces of these cells over the nodes that lie on a boundary
 /// face, in ascending order of their numbers; the cell field `boundary_id` is added.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,16 +36,19 @@ double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& e
 struct Zone {
   std::size_t peak_node = 0;
   double peak_Pa = 0;
-  double error_Pa = 0;  ///< of the peak, numerical; 0: not known
   std::array<double, 3> peak_m{};
-  std::int32_t instant = 0;  ///< of the peak
-  Stress stress_Pa{};        ///< tensor at the peak and instant
-  double safety = 0;         ///< yield strength / peak
+  std::int32_t instant = 0;        ///< of the peak
+  Stress stress_Pa{};              ///< tensor at the peak and instant
+  double safety = 0;               ///< yield strength / peak
+  std::optional<double> error_Pa;  ///< of the peak, numerical part; none: not estimated
   double volume_m3 = 0;
   std::size_t n_nodes = 0;
   std::string feature;            ///< the nearest feature or port
   Place place = Place::interior;  ///< of the peak
 };
+
+/// How many of a body's zones the terminal shows, with errors.
+inline constexpr std::size_t n_zones_shown = 10;
 
 struct Zones {
   double level_Pa = 0;
