@@ -5,6 +5,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,7 @@ struct SharpEdge {
   std::string name;
   double distance_m = 0;
   std::vector<std::array<std::array<double, 3>, 2>> pieces;  ///< straight pieces, ends in m
+  std::map<int, double> distance_on_m = {};  ///< by boundary id, on surfaces where it is larger
 };
 
 /// Where the structural hot-spot stress of a weld toe is read: vertices of the mesh on the plate's surface,

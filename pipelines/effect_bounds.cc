@@ -89,7 +89,8 @@ MoreStress estimate(const Difference& change, const BodyAnalysis& analysis) {
 }
 
 double governing_Pa(const LargestStresses& stresses, const BodyAnalysis& analysis) {
-  return analysis.hot_spots.empty() ? stresses.peak_Pa : stresses.hot_spot_Pa;
+  return governing_stress(analysis).kind == GoverningStress::Kind::peak ? stresses.peak_Pa
+                                                                        : stresses.hot_spot_Pa;
 }
 
 /// How much further both stresses may go.

@@ -71,7 +71,8 @@ double cell_difference(const fem::UnitResponses& responses, const fem::Material&
 }
 
 double discretisation_error(const StressPoint& point, const fem::UnitResponses& responses,
-                            const fem::Material& material, const Eigen::ArrayXd& factors) {
+                            const fem::Material& material, const Eigen::ArrayXd& factors,
+                            const std::vector<char>& left_out) {
   if (point.parts.size() > 1) {  // extrapolated: each node for itself
     double sum = 0;
     for (const auto& part : point.parts)
@@ -79,8 +80,10 @@ double discretisation_error(const StressPoint& point, const fem::UnitResponses& 
     return sum;
   }
   double largest = 0;
-  for (const auto node : on_faces_around(responses.nodes, point.parts.front().node))
-    largest = std::max(largest, cell_difference(responses, material, node, factors));
+  const auto own = point.parts.front().node;
+  for (const auto node : on_faces_around(responses.nodes, own))
+    if (node == own || left_out.empty() || !left_out[node])
+      largest = std::max(largest, cell_difference(responses, material, node, factors));
   return largest;
 }
 
@@ -141,7 +144,8 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 }
 
 ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
-                          const BodyLoads& loads, const fem::Material& material, double geometry_share) {
+                          const BodyLoads& loads, const fem::Material& material, double geometry_share,
+                          const std::vector<char>& left_out) {
   const auto& values = loads.history.values;
   const Eigen::ArrayXd factors = values.col(point.instant);
   const auto unit = unit_stress_at(responses, point);
@@ -159,7 +163,7 @@ ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& re
   if (responses.nodes.n_cells() > 0)
     ledger.numerical.push_back(
         {"discretisation", "recovered stress against single cells around, times a safety factor of 3",
-         discretisation_safety * discretisation_error(point, responses, material, factors)});
+         discretisation_safety * discretisation_error(point, responses, material, factors, left_out)});
   ledger.numerical.push_back(
       {"geometry", "distance of curved faces around from their surfaces", geometry_share * value});
   ledger.numerical.push_back({"linear_solver", "relative residual, or rounding",

@@ -71,8 +71,10 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 ///   linear_solver       relative residual, or rounding if that is more
 /// Responses without cells (cheap models) get no discretisation entry here.
 /// @param geometry_share  as of the function of that name
+/// @param left_out  one per node, or empty: what stress does there tells nothing of the point
 ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
-                          const BodyLoads& loads, const fem::Material& material, double geometry_share);
+                          const BodyLoads& loads, const fem::Material& material, double geometry_share,
+                          const std::vector<char>& left_out = {});
 
 /// What faces beside their surfaces cost at a point, relative: bending stress goes with the third power of
 /// the distance from the axis, a fillet's factor with the square root of its radius at most (sharp notches,

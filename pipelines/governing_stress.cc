@@ -1,5 +1,7 @@
 #include "pipelines/governing_stress.h"
 
+#include <algorithm>
+
 namespace pipelines {
 namespace {
 
@@ -47,8 +49,9 @@ std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone) {
 }
 
 double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot) {
-  return spot.name == analysis.hot_spots.front().name ? analysis.hot_spot_errors.numerical_Pa()
-                                                      : spot.error_Pa;
+  const double first_Pa = analysis.hot_spots.front().error_Pa,
+               known_Pa = analysis.hot_spot_errors.numerical_Pa();
+  return first_Pa > 0 ? spot.error_Pa * (known_Pa / first_Pa) : std::max(spot.error_Pa, known_Pa);
 }
 
 }  // namespace pipelines

@@ -38,7 +38,8 @@ ErrorLedger& errors_of_governing(BodyAnalysis& analysis);
 /// own estimate.
 std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone);
 
-/// Numerical error of a hot spot: that of the first, which a search may know better, or its own estimate.
+/// Numerical error of a hot spot: its own estimate, times what a search has learnt at the first one of how
+/// far such estimates are from what is missing.
 double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot);
 
 }  // namespace pipelines

@@ -105,7 +105,8 @@ vtkSmartPointer<vtkActor2D> ring_at(const Vector& at, double radius) {
   return ring;
 }
 
-vtkSmartPointer<vtkScalarBarActor> colour_bar(vtkLookupTable* table, const std::string& unit, int font_size) {
+vtkSmartPointer<vtkScalarBarActor> colour_bar(vtkLookupTable* table, const std::string& unit, int font_size,
+                                              double height) {
   auto bar = vtkSmartPointer<vtkScalarBarActor>::New();
   bar->SetLookupTable(table);
   bar->SetTitle(unit.c_str());
@@ -120,7 +121,7 @@ vtkSmartPointer<vtkScalarBarActor> colour_bar(vtkLookupTable* table, const std::
   bar->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   bar->GetPositionCoordinate()->SetValue(0.12, 0.06);
   bar->SetWidth(0.3);
-  bar->SetHeight(0.62);
+  bar->SetHeight(height);
   return bar;
 }
 
@@ -161,9 +162,12 @@ double width_over_height(const Layout::Place& place, const PictureOptions& optio
   return (place[2] - place[0]) * options.width / ((place[3] - place[1]) * options.height);
 }
 
+constexpr double line_height = 0.06;  // of text in the legend
+
 /// What is ringed, and what the grey means; above the colours.
-void add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::string& unit,
-                     const PictureOptions& options, bool some_excluded, int font_size) {
+/// @return the number of lines
+int add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::string& unit,
+                    const PictureOptions& options, bool some_excluded, int font_size) {
   const Vector at = options.mark ? options.mark->at_m : peak.at;
   char text[200];
   std::snprintf(text, sizeof(text), "maximum %.4g %s", peak.value, unit.c_str());
@@ -173,8 +177,9 @@ void add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::st
   std::string words = (options.mark ? options.mark->text : maximum) + text;
   if (options.mark && options.mark->at_m != peak.at) words += "\nin colour: " + maximum;
   if (some_excluded) words += "\ngrey: beside a sharp edge";
-  const auto n_lines = 1 + std::count(words.begin(), words.end(), '\n');
-  add_text(legend, words, font_size, 0.12, 0.8 - 0.06 * double(n_lines - 2));
+  const int n_lines = 1 + int(std::count(words.begin(), words.end(), '\n'));
+  add_text(legend, words, font_size, 0.12, 0.92 - line_height * n_lines);
+  return n_lines;
 }
 
 }  // namespace
@@ -232,8 +237,8 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   add_triad(add({1 - 0.13, gap, 1, gap + 0.22}), whole);
 
   add_text(heading, title, font_size * 4 / 3, 0.02, 0.25);
-  add_legend_text(legend, peak, unit, options, some_excluded, font_size);
-  legend->AddActor2D(colour_bar(table, unit, font_size));
+  const int n_lines = add_legend_text(legend, peak, unit, options, some_excluded, font_size);
+  legend->AddActor2D(colour_bar(table, unit, font_size, std::min(0.62, 0.8 - line_height * n_lines)));
   write_png(window.get(), png);
   return true;
 }

@@ -19,7 +19,8 @@ double for_want_of_cells(int cells) {
 }
 
 double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
-  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material, 0).of("discretisation");
+  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material, 0, analysis.places.excluded)
+      .of("discretisation");
 }
 
 /// Cells on the quarter of a fillet; 0 for other places.
@@ -33,7 +34,7 @@ std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
   std::vector<PlaceStress> places;
   for (const auto& spot : analysis.hot_spots)
     places.push_back(
-        {spot.name, spot.near_node, spot.von_mises_Pa, own_error_Pa(analysis, stress_point(spot))});
+        {spot.name, spot.near_node, spot.von_mises_Pa, own_error_Pa(analysis, stress_point(spot)), spot.toe_m});
   return places;
 }
 

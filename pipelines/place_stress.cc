@@ -21,6 +21,7 @@ std::vector<PlaceStress> largest_by_feature(const fem::Nodes& nodes, const std::
     found[place] = 1;
     largest[place].node = node;
     largest[place].value_Pa = von_mises_Pa[node];
+    std::copy_n(&nodes.xyz_m[3 * node], 3, largest[place].position_m.begin());
   };
   for (std::size_t face = 0; face < nodes.n_faces(); ++face)
     for (const auto node : nodes.face(face)) consider(by_id.at(nodes.face_boundary_id[face]), std::size_t(node));

@@ -2,6 +2,7 @@
 /// the body's largest stress is one about all of them.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct PlaceStress {
   std::size_t node = 0;  ///< of the maximum; of a weld toe its nearer reference point
   double value_Pa = 0;
   double error_Pa = 0;  ///< numerical, for want of a finer mesh
+  std::array<double, 3> position_m{};
 };
 
 inline constexpr const char* inside_the_body = "inside";

@@ -44,6 +44,13 @@ std::vector<std::size_t> fillets_that_may_lead(const BodyScene& body, const std:
 /// Whether cells are half or twice as large away from the toes moves the hot-spot stress of a tube by 1 %, at
 /// the toes by 4 %, through the wall, beside them, by 3 %.
 MeshStep refine_chamber(BodyScene& body, const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+  const auto& target = judged[judge(judged).holding_back].feature;
+  const bool is_toe = std::any_of(analysis.hot_spots.begin(), analysis.hot_spots.end(),
+                                  [&](const auto& spot) { return spot.name == target; });
+  if (!is_toe) {  // a surface: it may be anywhere
+    body = with_fineness(body, step_factor);
+    return {MeshPart::all, step_factor, toe_order, {}};
+  }
   const auto before = std::get<ChamberShape>(body.shape).mesh;
   body = with_fineness(body, elsewhere_step);
   auto& mesh = std::get<ChamberShape>(body.shape).mesh;

@@ -187,6 +187,16 @@ TEST(SharpEdges, of_the_chamber_are_its_weld_toes) {
     EXPECT_NEAR(length_m(edges.at(e.name)), e.length_m, 1e-12) << e.name;
     EXPECT_NEAR(edges.at(e.name).distance_m, e.distance_m, 1e-15) << e.name;
   }
+  // On a plate's own surface its thickness, at most twice the other's.
+  std::map<std::string, int> ids;
+  for (const auto& feature : body.features) ids[feature.name] = feature.boundary_id;
+  const auto on = [&](const std::string& edge, const std::string& surface) {
+    return edges.at(edge).distance_on_m.at(ids.at(surface));
+  };
+  EXPECT_NEAR(on("web 1/tube outside", "tube outside"), 0.006, 1e-15);
+  EXPECT_NEAR(on("web 1/tube outside", "web 1"), 0.012, 1e-15);  // of 14 mm
+  EXPECT_NEAR(on("lug 1/tube outside", "lug 1"), 0.008, 1e-15);
+  EXPECT_NEAR(on("web 1/housing outside", "housing outside"), 0.0175, 1e-15);
 }
 
 /// An L-shaped bar: one re-entrant edge, and five convex ones that must not count. With the leg tilted away

@@ -1,6 +1,9 @@
 /// Zones on a row of cells whose answer can be written down.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "pipelines/zones.h"
 
 namespace {
@@ -110,6 +113,30 @@ TEST(Zones, ExclusionFollowsAnEdgeOfSeveralPieces) {
   EXPECT_EQ(excluded, (std::vector<std::size_t>{0, 5, 8}));
   const auto everywhere = row.places({edge_along({{0, 0, 0}, {1, 0, 0}}, 9)});
   EXPECT_THROW(pipelines::peak_node(row.envelope.value_Pa, everywhere), std::invalid_argument);
+}
+
+// Nodes at the distance itself are read: there stress can be compared from mesh to mesh. On the surfaces that
+// want more the distance is theirs, inside the body and on others it is not.
+TEST(Zones, ExclusionIsWiderOnAThickerPlatesSurface) {
+  const Row row(3);  // layers at z = 0, 0.5, ... 3
+  auto edge = edge_along({{0, 0, 0}, {1, 0, 0}}, 0.5);
+  const auto without = row.places({edge});
+  const int id = row.nodes.face_boundary_id.front();
+  edge.distance_on_m = {{id, 1.25}};
+  const auto with = row.places({edge});
+  std::vector<char> on_surface(row.nodes.n, 0);
+  for (std::size_t f = 0; f < row.nodes.n_faces(); ++f)
+    if (row.nodes.face_boundary_id[f] == id)
+      for (const auto node : row.nodes.face(f)) on_surface[std::size_t(node)] = 1;
+  std::size_t n_more = 0;
+  for (std::size_t i = 0; i < row.nodes.n; ++i) {
+    const double* x = &row.nodes.xyz_m[3 * i];
+    const double d = std::hypot(x[0] - std::clamp(x[0], 0.0, 1.0), x[1], x[2]);
+    EXPECT_EQ(bool(without.excluded[i]), d < 0.499) << d;
+    EXPECT_EQ(bool(with.excluded[i]), d < (on_surface[i] ? 1.2475 : 0.499)) << d;
+    n_more += with.excluded[i] && !without.excluded[i];
+  }
+  EXPECT_GT(n_more, 0U);
 }
 
 TEST(Zones, ABodyWithoutStressHasNone) {

@@ -1,0 +1,129 @@
+/// What a body is judged by, and how it is told.
+#include <gtest/gtest.h>
+
+#include "pipelines/chamber_places.h"
+#include "pipelines/error_text.h"
+#include "pipelines/governing_stress.h"
+
+using namespace pipelines;
+
+namespace {
+
+BodyAnalysis body(double peak_MPa, double hot_spot_MPa) {
+  BodyAnalysis analysis;
+  analysis.scene.yield_strength_Pa = 235e6;
+  analysis.peak.value_Pa = peak_MPa * 1e6;
+  analysis.peak.feature = "tube outside";
+  analysis.peak.place = Place::free_surface;
+  analysis.peak.errors.set_numerical({"discretisation", "", 1e6});
+  if (hot_spot_MPa > 0) {
+    analysis.hot_spots.resize(2);
+    analysis.hot_spots[0].name = "web 1, lower edge";
+    analysis.hot_spots[0].toe_m = {0.1, 0.2, 0.3};
+    analysis.hot_spots[0].von_mises_Pa = hot_spot_MPa * 1e6;
+    analysis.hot_spots[0].error_Pa = 8e6;
+    analysis.hot_spots[1].name = "web 2, lower edge";
+    analysis.hot_spots[1].von_mises_Pa = 0.5 * hot_spot_MPa * 1e6;
+    analysis.hot_spots[1].error_Pa = 6e6;
+    analysis.hot_spot_errors.set_numerical({"discretisation", "", 2e6});
+  }
+  return analysis;
+}
+
+}  // namespace
+
+// The laboratory chamber's safety was told as 10.59 while a weld toe has 5.72.
+TEST(GoverningStress, HasTheLeastSafety) {
+  const auto chamber = governing_stress(body(22.2, 41.1));
+  EXPECT_EQ(chamber.kind, GoverningStress::Kind::hot_spot);
+  EXPECT_EQ(chamber.place, "web 1, lower edge");
+  EXPECT_EQ(chamber.position_m, (std::array<double, 3>{0.1, 0.2, 0.3}));
+  EXPECT_DOUBLE_EQ(chamber.safety, 235 / 41.1);
+  EXPECT_EQ(chamber.errors.numerical_Pa(), 2e6);
+  const auto above_toes = governing_stress(body(50, 41.1));
+  EXPECT_EQ(above_toes.kind, GoverningStress::Kind::peak);
+  EXPECT_EQ(above_toes.place, "tube outside");
+  EXPECT_DOUBLE_EQ(above_toes.safety, 235.0 / 50);
+  EXPECT_EQ(governing_stress(body(50, 0)).name(), "peak von Mises stress");
+}
+
+// A search that has learnt of the first toe's error corrects that, and only that which governs.
+TEST(GoverningStress, TakesWhatASearchHasLearnt) {
+  for (const double peak_MPa : {22.2, 50.0}) {
+    auto analysis = body(peak_MPa, 41.1);
+    errors_of_governing(analysis).set_numerical({"discretisation", "", 7e6});
+    EXPECT_EQ(governing_stress(analysis).errors.numerical_Pa(), 7e6);
+    EXPECT_EQ(analysis.peak.errors.numerical_Pa(), peak_MPa == 50 ? 7e6 : 1e6);
+  }
+  const auto analysis = body(22.2, 41.1);
+  EXPECT_DOUBLE_EQ(error_Pa(analysis, analysis.hot_spots[0]), 2e6);
+  EXPECT_DOUBLE_EQ(error_Pa(analysis, analysis.hot_spots[1]), 6e6 * 2 / 8);
+}
+
+TEST(GoverningStress, ZonesHaveTheirOwnErrorsAndTheFirstThatOfThePeak) {
+  auto analysis = body(22.2, 0);
+  analysis.peak.node = 7;
+  Zone zone;
+  zone.peak_node = 7;
+  zone.error_Pa = 3e6;
+  EXPECT_EQ(error_Pa(analysis, zone), 1e6);
+  zone.peak_node = 8;
+  EXPECT_EQ(error_Pa(analysis, zone), 3e6);
+  zone.error_Pa.reset();
+  EXPECT_FALSE(error_Pa(analysis, zone).has_value());
+}
+
+// Weld toes and surfaces, each with its own error, what could be largest first; excluded nodes are no place.
+TEST(GoverningStress, PlacesOfAChamberAreItsToesAndItsSurfaces) {
+  auto analysis = body(22.2, 41.1);
+  analysis.places.feature_names = {"tube outside", "web 1"};
+  analysis.places.feature = {0, 0, 1, -1};
+  analysis.places.excluded = {0, 1, 0, 0};
+  analysis.envelope.von_mises.value_Pa = {22.2e6, 90e6, 0, 99e6};
+  analysis.envelope.von_mises.instant = {0, 0, 0, 0};
+  analysis.responses.nodes.n = 4;
+  analysis.responses.nodes.xyz_m.assign(12, 0.5);
+  const auto places = places_of_chamber(analysis);
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_EQ(places[0].feature, "web 1, lower edge");
+  EXPECT_EQ(places[0].error_Pa, 2e6);
+  EXPECT_EQ(places[1].feature, "tube outside");
+  EXPECT_EQ(places[1].node, 0U);
+  EXPECT_EQ(places[1].error_Pa, 1e6);
+  EXPECT_EQ(places[2].feature, "web 2, lower edge");
+}
+
+// What a tolerance is compared with is the figure that stands first; what no mesh lowers has its own name.
+TEST(ErrorText, SetsApartWhatNoMeshLowers) {
+  ErrorLedger errors;
+  errors.set_numerical({"discretisation", "", 1.1e6});
+  errors.set_numerical({"pressure_harmonics", "", 0.2e6});
+  EXPECT_EQ(value_with_errors(105.2e6, errors), "105.2 MPa +- 1.3 (numerical)");
+  errors.set_model({"load_patches", "", 2.1e6});
+  errors.set_model({"quasi_static", "", 1e3});
+  EXPECT_EQ(value_with_errors(105.2e6, errors),
+            "105.2 MPa +- 1.3 (numerical) and +- 2.1 from load patches, which no mesh lowers");
+}
+
+TEST(ErrorText, TellsWhatIsNotKnownWellAndWhatHelps) {
+  GoverningStress stress;
+  stress.value_Pa = 30.8e6;
+  stress.errors.set_numerical({"discretisation", "", 6.1e6});
+  Search search;
+  EXPECT_EQ(not_known_well(stress, search), "");
+  stress.errors.set_numerical({"discretisation", "", 12.8e6});
+  EXPECT_EQ(not_known_well(stress, search),
+            "30.8 MPa +- 12.8 MPa (42 %): discretisation; remedy: --tolerance \"5 %\"");
+  search.steps.resize(1);
+  search.met = false;
+  search.ended = "the time is up";
+  EXPECT_NE(not_known_well(stress, search).find("remedy: more time (--time-limit)"), std::string::npos);
+  search.ended = "the mesh cannot be refined further";
+  EXPECT_NE(not_known_well(stress, search).find("remedy: another mesh, since the mesh cannot be refined"),
+            std::string::npos);
+  stress.errors.set_model({"load_patches", "", 20e6});
+  EXPECT_NE(not_known_well(stress, search).find("(106 %): load patches; remedy: give the seats' pressure"),
+            std::string::npos);
+  stress.value_Pa = 0;
+  EXPECT_EQ(not_known_well({}, search), "") << "nothing is stressed";
+}

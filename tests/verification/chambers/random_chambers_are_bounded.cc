@@ -1,0 +1,67 @@
+/// What a search states of random chambers beside meshes that are finer everywhere.
+/// MILLSTRESS_PROMISED_CHAMBERS says how many (default 10); the same seed every time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "pipelines/fineness.h"
+#include "pipelines/governing_stress.h"
+#include "pipelines/refinement.h"
+#include "tests/unit/meshes/example_chambers.h"
+#include "tests/unit/pipelines/results_directory.h"
+#include "tests/verification/chambers/chamber_scene.h"
+
+namespace {
+
+constexpr double asked = 0.05;
+
+int n_chambers() {
+  const char* text = std::getenv("MILLSTRESS_PROMISED_CHAMBERS");
+  return text ? std::atoi(text) : 10;
+}
+
+/// One step beyond the last mesh of a search, and all cells a little smaller.
+pipelines::Scene finer(pipelines::Scene scene, const pipelines::BodyAnalysis& last) {
+  pipelines::refine(scene, 0, last, {});
+  scene.bodies[0] = pipelines::with_fineness(scene.bodies[0], 1.15);
+  return scene;
+}
+
+// The stated error bounds what the finer mesh says, and the place is right or its stress within the
+// tolerance.
+TEST(RandomChambers, AreBoundedByTheirStatedErrors) {
+  std::mt19937 random(20261122);
+  int n = 0, n_bounded = 0, n_within = 0;
+  while (n < n_chambers()) {
+    const auto chamber = chambers::small_random_chamber(random);
+    const results_test::Directory directory;
+    pipelines::SceneRun found;
+    try {
+      found =
+          chambers::run(chambers::scene_around(chamber, directory.path), directory / "found", {asked, 120});
+    } catch (const std::exception& refused) {  // parts in each other's way: the draw allows it
+      continue;
+    }
+    ++n;
+    const auto& analysis = found.analyses.at(0);
+    const auto stated = pipelines::governing_stress(analysis);
+    const auto finest = chambers::run(finer(found.scene, analysis), directory / "finer");
+    const auto truth = pipelines::governing_stress(finest.analyses.at(0));
+    const double error = stated.value_Pa / truth.value_Pa - 1;
+    const bool is_bounded = std::abs(stated.value_Pa - truth.value_Pa) <= stated.errors.numerical_Pa();
+    n_bounded += is_bounded;
+    n_within += std::abs(error) <= 2 * asked;
+    std::printf("%2d %7zu / %7zu unknowns: %7.3f +- %5.1f %% MPa, %+5.1f %% off%s, %s; %s / %s; %s\n", n,
+                analysis.responses.n_dofs, finest.analyses.at(0).responses.n_dofs, stated.value_Pa / 1e6,
+                100 * stated.relative_error(), 100 * error, is_bounded ? "" : " NOT BOUNDED",
+                analysis.search.met ? "met" : analysis.search.ended.c_str(), stated.place.c_str(),
+                truth.place.c_str(), text(chamber).c_str());
+    std::fflush(stdout);
+  }
+  EXPECT_GE(n_bounded, 0.97 * n);
+  EXPECT_EQ(n_within, n);
+}
+
+}  // namespace
