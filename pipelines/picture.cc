@@ -23,6 +23,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -162,7 +163,12 @@ double width_over_height(const Layout::Place& place, const PictureOptions& optio
   return (place[2] - place[0]) * options.width / ((place[3] - place[1]) * options.height);
 }
 
-constexpr double line_height = 0.06;  // of text in the legend
+constexpr double line_height = 0.06;       // of text in the legend
+constexpr double single_precision = 1e-6;  // m, of places on bodies of a few metres: what VTK's filters leave
+
+double distance(const Vector& a, const Vector& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
 
 /// What is ringed, and what the grey means; above the colours.
 /// @return the number of lines
@@ -175,7 +181,7 @@ int add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::str
   std::snprintf(text, sizeof(text), "\nat x = %.1f, y = %.1f, z = %.1f mm", 1e3 * at[0], 1e3 * at[1],
                 1e3 * at[2]);
   std::string words = (options.mark ? options.mark->text : maximum) + text;
-  if (options.mark && options.mark->at_m != peak.at) words += "\nin colour: " + maximum;
+  if (options.mark && distance(at, peak.at) > single_precision) words += "\nin colour: " + maximum;
   if (some_excluded) words += "\ngrey: beside a sharp edge";
   const int n_lines = 1 + int(std::count(words.begin(), words.end(), '\n'));
   add_text(legend, words, font_size, 0.12, 0.92 - line_height * n_lines);

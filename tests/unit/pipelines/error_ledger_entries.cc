@@ -6,6 +6,7 @@
 
 #include "pipelines/refinement.h"
 #include "pipelines/superposition.h"
+#include "tests/unit/pipelines/results_bar.h"
 
 using namespace pipelines;
 
@@ -195,6 +196,30 @@ TEST(ErrorLedger, AddsUpWithoutSigns) {
   EXPECT_EQ(ledger.total_Pa(), 15);
   EXPECT_EQ(ledger.largest(), "b");
   EXPECT_EQ(ledger.of("beam"), 10);
+}
+
+// Stress at a node is compared with that of the cells around it, over the nodes of the faces that hold it;
+// one of them beside a sharp edge, whose stress has no converged value, tells nothing of the others.
+TEST(ErrorLedger, NodesThatAreLeftOutTellNothing) {
+  fem::UnitResponses responses;
+  responses.nodes = results_test::mapped_cube(1, 1, 1, [](results_test::Point p) { return p; });
+  const std::size_t n = responses.nodes.n, corner = 0, beside = 1;
+  responses.channels = {"pull"};
+  responses.displacement_m.assign(3 * n, 0);
+  responses.stress_Pa.assign(6 * n, 0);
+  responses.stress_Pa[6 * beside] = 100;  // recovered, where the cell has none
+  Eigen::ArrayXXd values(1, 1);
+  values << 1;
+  const auto discretisation = [&](const std::vector<char>& left_out) {
+    return self_estimate({{{corner, 1.0}}, 0}, responses, loads_of(values, {{"pull", {}}}), {2e11, 0.3, 7850},
+                         0, left_out)
+        .of("discretisation");
+  };
+  std::vector<char> left_out(n, 0);
+  EXPECT_DOUBLE_EQ(discretisation({}), discretisation_safety * 100);
+  EXPECT_DOUBLE_EQ(discretisation(left_out), discretisation_safety * 100);
+  left_out[beside] = 1;
+  EXPECT_EQ(discretisation(left_out), 0);
 }
 
 // sigma ~ h^-0.3, a re-entrant corner's power, against a stress of second order that starts as steeply.

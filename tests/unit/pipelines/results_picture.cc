@@ -84,6 +84,21 @@ TEST(Picture, shows_the_body_the_peak_and_the_scale) {
   EXPECT_GT(picture.share(0.74, 0.02, 0.8, 0.4, [](int r, int g, int b) { return !white(r, g, b); }), 0.1);
 }
 
+// A place that governs without being the field's peak (a weld toe) is what the picture looks at and rings.
+TEST(Picture, looks_at_the_place_that_is_marked) {
+  const Directory at;
+  write_bar(at / "bar.vtu");
+  PictureOptions options;
+  options.scale = 1e-6;
+  options.mark = PictureMark{{0.1, 0, 0.85}, "hot-spot stress 250 MPa\nthe toe"};
+  ASSERT_TRUE(write_picture(at / "bar.vtu", "stress [Pa]", "A bar", "MPa", at / "bar.png", options));
+  const Pixels picture(at / "bar.png");
+  EXPECT_LT(picture.share(0.3, 0.2, 0.45, 0.3, yellow), 0.01);  // nothing of the peak in the detail's middle
+  const auto red = [](int r, int g, int b) { return r > 180 && g < 90 && b < 90; };
+  EXPECT_GT(picture.share(0.6, 0.48, 1, 0.93, red), 0);  // z = 0.85 of the bar from the left
+  EXPECT_EQ(picture.share(0, 0.48, 0.5, 0.93, red), 0);
+}
+
 TEST(Picture, tells_what_is_missing) {
   const Directory at;
   write_bar(at / "bar.vtu");
