@@ -6,51 +6,28 @@
 
 #include "fem/constants.h"
 #include "fem/harmonic_loads.h"
+#include "fem/harmonic_sections.h"
 #include "fem/harmonic_solver.h"
 #include "fem/harmonic_strain.h"
+#include "fem/parallel.h"
+#include "fem/revolved_nodes.h"
 
 namespace fem {
 namespace {
 
-/// What one harmonic adds to one channel: nine columns of the harmonic's amplitudes.
-struct Part {
-  std::size_t channel;
-  bool twin;
-};
+/// One harmonic of all channels that have it.
 struct Harmonic {
   int m;
-  std::vector<Part> parts;
-  SurfaceAmplitudes surface;
+  std::vector<HarmonicPart> parts;
+  Eigen::MatrixXd force;  // balanced; a column per part
+  Eigen::MatrixXd displacement;
+  Amplitudes amplitudes;
 };
 
-/// Node i of half plane j: i n_angles + j.
-Nodes revolved_nodes(const MeridianGrid& grid, int n_angles) {
-  Nodes nodes;
-  nodes.n = grid.surface.size() * std::size_t(n_angles);
-  for (const auto& p : grid.surface)
-    for (int j = 0; j < n_angles; ++j) {
-      const double angle = 2 * pi * j / n_angles;
-      nodes.xyz_m.insert(nodes.xyz_m.end(), {p.r_m * std::cos(angle), p.r_m * std::sin(angle), p.z_m});
-    }
-  const auto node = [&](int point, int j) { return std::int32_t(point * n_angles + j % n_angles); };
-  for (const auto& edge : grid.edges) {
-    const auto [a, middle, b] = edge.surface_points;
-    for (int j = 0; j < n_angles; j += 2) {
-      nodes.faces.insert(nodes.faces.end(),
-                         {node(a, j), node(b, j), node(b, j + 2), node(a, j + 2), node(middle, j),
-                          node(b, j + 1), node(middle, j + 2), node(a, j + 1), node(middle, j + 1)});
-      nodes.face_boundary_id.push_back(edge.boundary_id);
-    }
-  }
-  nodes.volume_m3.assign(nodes.n, 0);
-  return nodes;
-}
-
-std::vector<Harmonic> solve_harmonics(const MeridianGrid& grid, const MeridianBody& body,
-                                      const std::vector<UnitLoad>& loads, UnitResponses& r) {
-  const HarmonicLoads load_of(grid, body);
+std::vector<Harmonic> load_harmonics(const MeridianGrid& grid, const HarmonicLoads& load_of,
+                                     const std::vector<UnitLoad>& loads, UnitResponses& r) {
   struct Columns {
-    std::vector<Part> parts;
+    std::vector<HarmonicPart> parts;
     std::vector<Eigen::VectorXd> force;
   };
   std::map<int, Columns> by_harmonic;
@@ -67,14 +44,24 @@ std::vector<Harmonic> solve_harmonics(const MeridianGrid& grid, const MeridianBo
       by_harmonic[m].force.push_back(std::move(force));
     }
   }
-  HarmonicSolver solver(grid, body.material);
   std::vector<Harmonic> harmonics;
-  for (const auto& [m, columns] : by_harmonic) {
+  for (auto& [m, columns] : by_harmonic) {
     Eigen::MatrixXd force(3 * grid.n_nodes(), columns.force.size());
     for (std::size_t k = 0; k < columns.force.size(); ++k) force.col(Eigen::Index(k)) = columns.force[k];
-    Eigen::MatrixXd displacement = solver.solve(m, force, r.residual);
-    load_of.remove_motion(m, displacement);
-    harmonics.push_back({m, columns.parts, surface_amplitudes(grid, body.material, m, displacement)});
+    harmonics.push_back({m, std::move(columns.parts), std::move(force), {}, {}});
+  }
+  return harmonics;
+}
+
+std::vector<Harmonic> solve_harmonics(const MeridianGrid& grid, const MeridianBody& body,
+                                      const std::vector<UnitLoad>& loads, UnitResponses& r) {
+  const HarmonicLoads load_of(grid, body);
+  auto harmonics = load_harmonics(grid, load_of, loads, r);
+  HarmonicSolver solver(grid, body.material);
+  for (auto& harmonic : harmonics) {
+    harmonic.displacement = solver.solve(harmonic.m, harmonic.force, r.residual);
+    load_of.remove_motion(harmonic.m, harmonic.displacement);
+    harmonic.amplitudes = result_amplitudes(grid, body.material, harmonic.m, harmonic.displacement);
     r.n_dofs += 3 * std::size_t(grid.n_nodes());
   }
   return harmonics;
@@ -103,7 +90,7 @@ void add_at_node(const std::vector<Harmonic>& harmonics, Eigen::Index point, dou
   const double cos = std::cos(angle), sin = std::sin(angle);
   for (const auto& harmonic : harmonics) {
     const double cos_m = std::cos(harmonic.m * angle), sin_m = std::sin(harmonic.m * angle);
-    const double* amplitudes = harmonic.surface.row(point).data();
+    const double* amplitudes = harmonic.amplitudes.row(point).data();
     for (const auto& [channel, twin] : harmonic.parts) {
       const double even = twin ? sin_m : cos_m;
       const double odd = harmonic.m == 0 ? 1 : twin ? -cos_m : sin_m;
@@ -114,25 +101,66 @@ void add_at_node(const std::vector<Harmonic>& harmonics, Eigen::Index point, dou
   }
 }
 
+void turn_around(const std::vector<Harmonic>& harmonics, RevolvedNodes revolved, int n_angles,
+                 UnitResponses& r) {
+  r.nodes = std::move(revolved.nodes);
+  r.displacement_m.assign(r.nodes.n * r.channels.size() * 3, 0);
+  r.stress_Pa.assign(r.nodes.n * r.channels.size() * 6, 0);
+  parallel_for(revolved.first.size() - 1, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t point = begin; point < end; ++point)
+      for (std::size_t j = 0; j < revolved.n_at(point); ++j)
+        add_at_node(harmonics, Eigen::Index(point), 2 * pi * double(j) / n_angles, revolved.first[point] + j,
+                    r);
+  });
+}
+
 }  // namespace
 
-UnitResponses axisymmetric_responses(const MeridianBody& body, const std::vector<UnitLoad>& loads) {
+UnitResponses axisymmetric_responses(const MeridianBody& body, const std::vector<UnitLoad>& loads,
+                                     const std::vector<SectionPlane>& planes) {
   if (loads.empty()) throw std::invalid_argument("no unit loads: nothing to solve");
   if (body.n_angles < 4 || body.n_angles % 2 != 0)
     throw std::invalid_argument(std::to_string(body.n_angles) + " angles: must be even, 4 or more");
-  const MeridianGrid grid = meridian_grid(body);
+  const MeridianGrid grid = meridian_grid(body, planes);
   UnitResponses r;
   r.solver.reason = "axisymmetric harmonics";
   const auto harmonics = solve_harmonics(grid, body, loads, r);
-  r.nodes = revolved_nodes(grid, body.n_angles);
-  r.displacement_m.assign(r.nodes.n * loads.size() * 3, 0);
-  r.stress_Pa.assign(r.nodes.n * loads.size() * 6, 0);
-  for (std::size_t node = 0; node < r.nodes.n; ++node) {
-    const auto n_angles = std::size_t(body.n_angles);
-    add_at_node(harmonics, Eigen::Index(node / n_angles), 2 * pi * double(node % n_angles) / body.n_angles,
-                node, r);
-  }
+  const HarmonicSections sections(grid, body, planes, r);
+  for (const auto& harmonic : harmonics)
+    sections.add(harmonic.m, harmonic.parts, harmonic.displacement, harmonic.amplitudes, r);
+  turn_around(harmonics, revolve(grid, body.n_angles), body.n_angles, r);
   return r;
+}
+
+MassProperties axisymmetric_masses(const MeridianBody& body) {
+  const MeridianGrid grid = meridian_grid(body);
+  const double density = body.material.density_kg_m3;
+  MassProperties masses;
+  for (const auto& cell : grid.cell_points)
+    for (const auto& p : cell) {
+      const double volume_m3 = 2 * pi * p.r_m * p.weight;
+      masses.volume_m3 += volume_m3;
+      masses.first_moment_kg_m[2] += density * volume_m3 * p.z_m;
+      const double across = density * volume_m3 * p.r_m * p.r_m / 2;
+      masses.second_moments_kg_m2[0] += across;
+      masses.second_moments_kg_m2[1] += across;
+      masses.second_moments_kg_m2[2] += density * volume_m3 * p.z_m * p.z_m;
+    }
+  masses.mass_kg = density * masses.volume_m3;
+  for (const auto& c : body.eccentric) {  // the whole disc is moved, the bore in it stays
+    const double length_m = c.end_m - c.begin_m, x = c.axis_x_m, y = c.axis_y_m;
+    const double mass_kg = density * pi * c.radius_m * c.radius_m * length_m;
+    const double z = (c.begin_m + c.end_m) / 2;
+    masses.first_moment_kg_m[0] += mass_kg * x;
+    masses.first_moment_kg_m[1] += mass_kg * y;
+    auto& second = masses.second_moments_kg_m2;
+    second[0] += mass_kg * x * x;
+    second[1] += mass_kg * y * y;
+    second[3] += mass_kg * x * y;
+    second[4] += mass_kg * y * z;
+    second[5] += mass_kg * x * z;
+  }
+  return masses;
 }
 
 }  // namespace fem

@@ -13,8 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Adds to the harmonic that is there, or a new one.
-void add(HarmonicForces& forces, int m, bool twin, const Eigen::VectorXd& force) {
+}  // namespace
+
+void add_to(HarmonicForces& forces, int m, bool twin, const Eigen::VectorXd& force) {
   for (auto& known : forces)
     if (known.m == m && known.twin == twin) {
       known.force += force;
@@ -22,8 +23,6 @@ void add(HarmonicForces& forces, int m, bool twin, const Eigen::VectorXd& force)
     }
   forces.push_back({m, twin, force});
 }
-
-}  // namespace
 
 HarmonicLoads::HarmonicLoads(const MeridianGrid& grid, const MeridianBody& body)
     : grid_(&grid), body_(&body) {
@@ -126,15 +125,6 @@ HarmonicLoads::Basis HarmonicLoads::basis_of(const LoadSurface& surface) const {
        [=](const auto& p) -> Vector3d { return (p.z_m - centre) * Vector3d(p.normal_r, 0, p.normal_z); }});
 }
 
-HarmonicLoads::Basis HarmonicLoads::basis_of(const EccentricCylinder& cylinder) const {
-  const double centre = (cylinder.begin_m + cylinder.end_m) / 2;
-  return basis(
-      points_between(cylinder.begin_m, cylinder.end_m), centre,
-      {[](const auto&) { return Vector3d(0, 0, 1); }, [](const auto& p) { return Vector3d(0, p.r_m, 0); },
-       [](const auto&) { return Vector3d(1, -1, 0); },
-       [=](const auto& p) { return Vector3d(p.z_m - centre, centre - p.z_m, -p.r_m); }});
-}
-
 HarmonicForces HarmonicLoads::forces_of(const SurfaceResultant& load) const {
   using Component = SurfaceResultant::Component;
   const Basis own = basis_of(load.surface);
@@ -142,26 +132,26 @@ HarmonicForces HarmonicLoads::forces_of(const SurfaceResultant& load) const {
   HarmonicForces forces;
   switch (load.component) {
     case Component::fx:
-      add(forces, 1, false, own.force);
-      if (y != 0) add(forces, 0, false, -y * own.torque);
+      add_to(forces, 1, false, own.force);
+      if (y != 0) add_to(forces, 0, false, -y * own.torque);
       break;
     case Component::fy:
-      add(forces, 1, true, own.force);
-      if (x != 0) add(forces, 0, false, x * own.torque);
+      add_to(forces, 1, true, own.force);
+      if (x != 0) add_to(forces, 0, false, x * own.torque);
       break;
     case Component::fz:
-      add(forces, 0, false, own.axial);
-      if (x != 0) add(forces, 1, false, -x * own.couple);
-      if (y != 0) add(forces, 1, true, -y * own.couple);  // the twin's couple is about -x
+      add_to(forces, 0, false, own.axial);
+      if (x != 0) add_to(forces, 1, false, -x * own.couple);
+      if (y != 0) add_to(forces, 1, true, -y * own.couple);  // the twin's couple is about -x
       break;
     case Component::mx:
-      add(forces, 1, true, -own.couple);
+      add_to(forces, 1, true, -own.couple);
       break;
     case Component::my:
-      add(forces, 1, false, own.couple);
+      add_to(forces, 1, false, own.couple);
       break;
     case Component::torque:
-      add(forces, 0, false, own.torque);
+      add_to(forces, 0, false, own.torque);
       break;
   }
   return forces;
@@ -181,61 +171,6 @@ HarmonicForces HarmonicLoads::forces_of(const SeatPressure& load) const {
   return {{n, sine, integrate(points_of(load.surface), n, [&](const auto& p) -> Vector3d {
              return scale * profile(p.z_m - centre) * Vector3d(p.normal_r, 0, p.normal_z);
            })}};
-}
-
-HarmonicForces HarmonicLoads::forces_of(const BodyForce& load) const {
-  using Field = BodyForce::Field;
-  if (!load.volume_ids.empty())
-    throw std::invalid_argument("a body of revolution has no parts; give no volume groups");
-  const double density = body_->material.density_kg_m3;
-  const auto &still = mass_modes_[0], &tilting = mass_modes_[1];
-  HarmonicForces forces;
-  switch (load.field) {
-    case Field::translation_x:
-      add(forces, 1, false, tilting.col(0));
-      break;
-    case Field::translation_y:
-      add(forces, 1, true, tilting.col(0));
-      break;
-    case Field::translation_z:
-      add(forces, 0, false, still.col(0));
-      break;
-    case Field::rotation:
-      add(forces, 0, false, still.col(1));
-      break;
-    case Field::spin:
-      add(forces, 0, false, integrate(points_between(-1e300, 1e300), 0, [&](const auto& p) {
-            return Vector3d(density * p.r_m, 0, 0);
-          }));
-      break;
-  }
-  for (const auto& c : body_->eccentric) {
-    const Basis own = basis_of(c);
-    const double x = c.axis_x_m, y = c.axis_y_m;
-    const double mass = density * pi * c.radius_m * c.radius_m * (c.end_m - c.begin_m);
-    switch (load.field) {
-      case Field::translation_x:
-        add(forces, 0, false, -y * mass * own.torque);
-        break;
-      case Field::translation_y:
-        add(forces, 0, false, x * mass * own.torque);
-        break;
-      case Field::translation_z:
-        add(forces, 1, false, -x * mass * own.couple);
-        add(forces, 1, true, -y * mass * own.couple);
-        break;
-      case Field::rotation:
-        add(forces, 0, false, (x * x + y * y) * mass * own.torque);
-        add(forces, 1, false, -y * mass * own.force);
-        add(forces, 1, true, x * mass * own.force);
-        break;
-      case Field::spin:
-        add(forces, 1, false, x * mass * own.force);
-        add(forces, 1, true, y * mass * own.force);
-        break;
-    }
-  }
-  return forces;
 }
 
 HarmonicForces HarmonicLoads::operator()(const UnitLoad& load) const {

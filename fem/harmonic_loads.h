@@ -22,6 +22,9 @@ struct HarmonicForce {
 /// One load: a few harmonics, each (m, twin) at most once.
 using HarmonicForces = std::vector<HarmonicForce>;
 
+/// Adds to the harmonic that is there, or a new one.
+void add_to(HarmonicForces& forces, int m, bool twin, const Eigen::VectorXd& force);
+
 class HarmonicLoads {
 public:
   HarmonicLoads(const MeridianGrid& grid, const MeridianBody& body);
@@ -61,6 +64,8 @@ private:
   HarmonicForces forces_of(const SurfaceResultant& load) const;
   HarmonicForces forces_of(const SeatPressure& load) const;
   HarmonicForces forces_of(const BodyForce& load) const;
+  /// By a rigid field of accelerations on the body's mass.
+  void make_resultant(const std::array<double, 6>& wanted, HarmonicForces& forces) const;
 
   const MeridianGrid* grid_;
   const MeridianBody* body_;

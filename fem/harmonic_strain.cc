@@ -1,6 +1,8 @@
 #include "fem/harmonic_strain.h"
 
 #include "fem/constants.h"
+#include "fem/dense_algebra.h"
+#include "fem/parallel.h"
 
 namespace fem {
 
@@ -38,26 +40,59 @@ double angle_integral(int m) {
   return m == 0 ? 2 * pi : pi;
 }
 
-SurfaceAmplitudes surface_amplitudes(const MeridianGrid& grid, const Material& material, int m,
-                                     const Eigen::MatrixXd& displacement) {
-  const auto elasticity = elasticity_matrix(material);
-  SurfaceAmplitudes result =
-      SurfaceAmplitudes::Zero(Eigen::Index(grid.surface.size()), 9 * displacement.cols());
-  for (std::size_t p = 0; p < grid.surface.size(); ++p) {
-    const auto& samples = grid.surface[p].samples;
-    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(9, displacement.cols());
-    for (const auto& sample : samples) {
-      const auto& nodes = grid.cell_nodes[std::size_t(sample.cell)];
-      Eigen::MatrixXd own(3 * nodes.size(), displacement.cols());
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        own.middleRows<3>(3 * Eigen::Index(i)) = displacement.middleRows<3>(3 * nodes[i]);
-        mean.topRows<3>() += sample.value[Eigen::Index(i)] * own.middleRows<3>(3 * Eigen::Index(i));
-      }
-      mean.bottomRows<6>() += elasticity * (strain_matrix(sample, m) * own);
-    }
-    mean /= double(samples.size());
-    result.row(Eigen::Index(p)) = Eigen::Map<const Eigen::RowVectorXd>(mean.data(), mean.size());
+Eigen::MatrixXd amplitudes_at(const SectionPoint& at, const MeridianGrid& grid,
+                              const Eigen::Matrix<double, 6, 6>& elasticity, int m,
+                              const Eigen::MatrixXd& displacement) {
+  const auto& nodes = grid.cell_nodes[std::size_t(at.cell)];
+  Eigen::MatrixXd own(3 * nodes.size(), displacement.cols());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(9, displacement.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    own.middleRows<3>(3 * Eigen::Index(i)) = displacement.middleRows<3>(3 * nodes[i]);
+    result.topRows<3>() += at.value[Eigen::Index(i)] * own.middleRows<3>(3 * Eigen::Index(i));
   }
+  result.bottomRows<6>() = product(elasticity, product(strain_matrix(at, m), own));
+  return result;
+}
+
+namespace {
+
+/// The nearest amplitudes that belong to one tensor on the axis; a column per displacement.
+void make_single_valued(int m, Eigen::MatrixXd& amplitudes) {
+  for (Eigen::Index k = 0; k < amplitudes.cols(); ++k) {
+    auto a = amplitudes.col(k);
+    const double rr = a[3], tt = a[4], zz = a[5], rz = a[6], rt = a[7], tz = a[8];
+    a.tail<6>().setZero();
+    if (m == 0) {
+      a[3] = a[4] = (rr + tt) / 2;
+      a[5] = zz;
+    } else if (m == 1) {
+      a[6] = (rz - tz) / 2;
+      a[8] = -a[6];
+    } else if (m == 2) {
+      a[3] = (rr - tt - 2 * rt) / 4;
+      a[4] = a[7] = -a[3];
+    }
+  }
+}
+
+}  // namespace
+
+Amplitudes result_amplitudes(const MeridianGrid& grid, const Material& material, int m,
+                             const Eigen::MatrixXd& displacement) {
+  const Eigen::Matrix<double, 6, 6> elasticity = elasticity_matrix(material);
+  Amplitudes result(Eigen::Index(grid.results.size()), 9 * displacement.cols());
+  const auto work = [&](std::size_t begin, std::size_t end) {
+    const SerialBlas serial;
+    for (std::size_t p = begin; p < end; ++p) {
+      const auto& samples = grid.results[p].samples;
+      Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(9, displacement.cols());
+      for (const auto& sample : samples) mean += amplitudes_at(sample, grid, elasticity, m, displacement);
+      mean /= double(samples.size());
+      if (grid.results[p].on_axis()) make_single_valued(m, mean);
+      result.row(Eigen::Index(p)) = Eigen::Map<const Eigen::RowVectorXd>(mean.data(), mean.size());
+    }
+  };
+  parallel_for(grid.results.size(), 16, work);
   return result;
 }
 

@@ -25,10 +25,19 @@ Eigen::Matrix<double, 6, 6> elasticity_matrix(const Material& material);
 /// Integral over the angle of cos^2 m theta: 2 pi or pi.
 double angle_integral(int m);
 
-/// Amplitudes at the points of the surface, a row each: nine columns per displacement, U, V, W [m]; rr, tt,
-/// zz, rz, rt, tz [Pa], means of the cells' values.
-using SurfaceAmplitudes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-SurfaceAmplitudes surface_amplitudes(const MeridianGrid& grid, const Material& material, int m,
-                                     const Eigen::MatrixXd& displacement);
+/// Amplitudes at points of the section, a row each: nine columns per displacement, U, V, W [m]; rr, tt, zz,
+/// rz, rt, tz [Pa].
+using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// At one point of a cell, a column per displacement.
+Eigen::MatrixXd amplitudes_at(const SectionPoint& at, const MeridianGrid& grid,
+                              const Eigen::Matrix<double, 6, 6>& elasticity, int m,
+                              const Eigen::MatrixXd& displacement);
+
+/// At the result points, means of the cells' values. On the axis they are made those of a tensor that has one
+/// value there, whatever the angle: of m = 0 its part that turns with the body, of m = 1 the shear along the
+/// axis, of m = 2 the deviator across, of higher harmonics nothing.
+Amplitudes result_amplitudes(const MeridianGrid& grid, const Material& material, int m,
+                             const Eigen::MatrixXd& displacement);
 
 }  // namespace fem

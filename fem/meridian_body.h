@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "fem/body.h"
@@ -25,6 +26,13 @@ struct EccentricCylinder {
   double axis_x_m = 0, axis_y_m = 0;
 };
 
+/// Cells near a circle of the body are cut in four until none is longer than `size_m` and
+/// MeridianBody::fine_growth times its distance from the circle.
+struct FineCircle {
+  double z_m = 0, r_m = 0;
+  double size_m = 0;
+};
+
 struct MeridianBody {
   std::vector<std::array<double, 2>> points_m;  ///< z, r
   std::vector<MeridianCell> cells;
@@ -34,6 +42,12 @@ struct MeridianBody {
   Material material;
   int degree = 3;     ///< of displacement and geometry, 1 to 4
   int n_angles = 48;  ///< nodes around in the result, even, the first one at +x
+  int n_cuts = 0;     ///< of all cells, each in four, before those near the fine circles
+  std::vector<FineCircle> fine_circles{};
+  double fine_growth = 0.5;
+  /// Of the body as its loads know it, where that is not this section: the resultants of body forces become
+  /// those of these masses, by a rigid field of accelerations that balancing takes away again.
+  std::optional<MassProperties> masses_of_loads{};
 };
 
 }  // namespace fem

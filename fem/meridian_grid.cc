@@ -6,195 +6,275 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/manifold_lib.h>
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
+
+#include "fem/constants.h"
+#include "fem/meridian_mesh.h"
+#include "fem/meridian_numbering.h"
 
 namespace fem {
 namespace {
 
 using Cell = dealii::DoFHandler<2>::active_cell_iterator;
+using Line = dealii::Triangulation<2>::face_iterator;
 using Ends = std::pair<unsigned, unsigned>;
 
-/// Arcs get the manifold of their boundary id; all else is straight.
-void make_mesh(const MeridianBody& body, dealii::Triangulation<2>& mesh) {
-  std::vector<dealii::Point<2>> vertices;
-  for (const auto& p : body.points_m) vertices.emplace_back(p[0], p[1]);
-  std::vector<dealii::CellData<2>> cells;
-  for (const auto& cell : body.cells) {
-    dealii::CellData<2> data(4);
-    const int order[4] = {0, 1, 3, 2};  // lexicographic
-    for (int i = 0; i < 4; ++i) data.vertices[i] = unsigned(cell.corners[std::size_t(order[i])]);
-    cells.push_back(data);
-  }
-  dealii::SubCellData sub;
-  for (const auto& edge : body.edges) {
-    dealii::CellData<1> data(2);
-    data.vertices = {unsigned(edge.ends[0]), unsigned(edge.ends[1])};
-    data.boundary_id = dealii::types::boundary_id(edge.boundary_id);
-    const bool is_arc = std::any_of(body.tori.begin(), body.tori.end(),
-                                    [&](const auto& torus) { return torus.boundary_id == edge.boundary_id; });
-    data.manifold_id =
-        is_arc ? dealii::types::manifold_id(edge.boundary_id) : dealii::numbers::flat_manifold_id;
-    sub.boundary_lines.push_back(data);
-  }
-  dealii::GridTools::consistently_order_cells(cells);
-  mesh.create_triangulation(vertices, cells, sub);
-  for (const auto& torus : body.tori)
-    mesh.set_manifold(dealii::types::manifold_id(torus.boundary_id),
-                      dealii::SphericalManifold<2>({torus.centre_z_m, torus.centre_radius_m}));
+/// Sides of a quadrilateral counter-clockwise: where each begins and ends, and its number.
+struct Side {
+  unsigned begin, end, face;
+};
+constexpr std::array<Side, 4> sides{{{0, 1, 2}, {1, 3, 1}, {3, 2, 3}, {2, 0, 0}}};
+
+/// Corners, middles of the edges in the order of deal.II's faces, and centre of the unit square.
+dealii::Quadrature<2> result_points() {
+  return dealii::Quadrature<2>(std::vector<dealii::Point<2>>{
+      {0, 0}, {1, 0}, {0, 1}, {1, 1}, {0, 0.5}, {1, 0.5}, {0.5, 0}, {0.5, 1}, {0.5, 0.5}});
 }
+constexpr unsigned first_middle = 4, centre_point = 8;
 
 /// Copies what a deal.II evaluator knows at its point q.
 template <typename Values>
-SectionPoint point_of(const Values& values, int cell, unsigned q) {
+SectionPoint point_of(const Values& values, const MeridianNumbering::OfCell& numbers, int cell, unsigned q) {
   SectionPoint p;
   p.cell = cell;
   p.z_m = values.quadrature_point(q)[0];
   p.r_m = values.quadrature_point(q)[1];
-  const unsigned n = values.dofs_per_cell;
-  p.value.resize(n);
-  p.by_z.resize(n);
-  p.by_r.resize(n);
-  for (unsigned i = 0; i < n; ++i) {
-    p.value[i] = values.shape_value(i, q);
-    p.by_z[i] = values.shape_grad(i, q)[0];
-    p.by_r[i] = values.shape_grad(i, q)[1];
-  }
+  const auto n = Eigen::Index(numbers.nodes.size());
+  p.value.setZero(n);
+  p.by_z.setZero(n);
+  p.by_r.setZero(n);
+  for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+    for (const auto& [node, factor] : numbers.parts[i]) {
+      p.value[node] += factor * values.shape_value(i, q);
+      p.by_z[node] += factor * values.shape_grad(i, q)[0];
+      p.by_r[node] += factor * values.shape_grad(i, q)[1];
+    }
   return p;
 }
 
-/// The corners and the middles of the edges of the unit square, in the order of deal.II's vertices and lines.
-dealii::Quadrature<2> corners_and_middles() {
-  return dealii::Quadrature<2>(
-      std::vector<dealii::Point<2>>{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0, 0.5}, {1, 0.5}, {0.5, 0}, {0.5, 1}});
-}
-
-/// Collects the points of the surface from the cells that touch it.
-class SurfaceBuilder {
+class GridBuilder {
 public:
-  SurfaceBuilder(const MeridianBody& body, const dealii::Mapping<2>& mapping,
-                 const dealii::FiniteElement<2>& element, MeridianGrid& grid)
-      : grid_(grid),
-        values_(mapping, element, corners_and_middles(),
-                dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points) {
-    for (const auto& edge : body.edges) {
-      const Ends ends(unsigned(edge.ends[0]), unsigned(edge.ends[1]));
-      edge_of_[std::minmax(ends.first, ends.second)] = grid.edges.size();
-      SurfaceEdge entry;
-      entry.boundary_id = edge.boundary_id;
-      entry.surface_points = {vertex_point(ends.first), new_point(), vertex_point(ends.second)};
-      grid.edges.push_back(entry);
-    }
+  GridBuilder(const MeridianBody& body, const std::vector<SectionPlane>& planes)
+      : planes_(planes),
+        mesh_(dealii::Triangulation<2>::limit_level_difference_at_vertices),
+        mapping_(unsigned(body.degree)),
+        element_(unsigned(body.degree)) {
+    make_meridian_mesh(body, mesh_);
+    dofs_.reinit(mesh_);
+    dofs_.distribute_dofs(element_);
   }
-  /// The edge that the face of a cell is, or none.
-  SurfaceEdge* edge_of(const Cell& cell, unsigned face) const {
-    const Ends ends = std::minmax(cell->face(face)->vertex_index(0), cell->face(face)->vertex_index(1));
-    const auto found = edge_of_.find(ends);
-    return found == edge_of_.end() ? nullptr : &grid_.edges[found->second];
-  }
-  void sample(const Cell& cell) {
-    std::vector<int> points(8, -1);
-    for (unsigned v = 0; v < 4; ++v)
-      if (const auto known = vertex_.find(cell->vertex_index(v)); known != vertex_.end())
-        points[v] = known->second;
-    for (unsigned f = 0; f < 4; ++f)
-      if (const auto* edge = edge_of(cell, f)) points[4 + f] = edge->surface_points[1];
-    if (std::all_of(points.begin(), points.end(), [](int p) { return p < 0; })) return;
-    values_.reinit(cell);
-    for (unsigned q = 0; q < 8; ++q) {
-      if (points[q] < 0) continue;
-      auto& point = grid_.surface[std::size_t(points[q])];
-      point.samples.push_back(point_of(values_, int(cell->active_cell_index()), q));
-      point.z_m = point.samples.back().z_m;
-      point.r_m = point.samples.back().r_m;
-    }
+
+  MeridianGrid build() {
+    const MeridianNumbering numbering(dofs_);
+    place_nodes(numbering);
+    for (const auto& cell : mesh_.cell_iterators_on_level(0)) add_polygon(cell);
+    grid_.planes.resize(planes_.size());
+    seen_m_.assign(planes_.size(), {0, 0});
+    integrate(numbering);
+    check_planes();
+    return std::move(grid_);
   }
 
 private:
-  int new_point() {
-    grid_.surface.emplace_back();
-    return int(grid_.surface.size()) - 1;
+  void place_nodes(const MeridianNumbering& numbering) {
+    std::vector<dealii::Point<2>> nodes(dofs_.n_dofs());
+    dealii::DoFTools::map_dofs_to_support_points(mapping_, dofs_, nodes);
+    double largest_r = 0;
+    for (const auto& p : nodes) largest_r = std::max(largest_r, p[1]);
+    axis_r_m_ = 1e-9 * largest_r;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (numbering[i] < 0) continue;
+      grid_.on_axis.push_back(nodes[i][1] < axis_r_m_);
+      grid_.z_m.push_back(nodes[i][0]);
+      grid_.r_m.push_back(grid_.on_axis.back() ? 0 : nodes[i][1]);
+    }
   }
-  int vertex_point(unsigned vertex) {
+
+  int new_point() {
+    grid_.results.emplace_back();
+    return int(grid_.results.size()) - 1;
+  }
+  int point_at(unsigned vertex) {
     const auto [known, is_new] = vertex_.try_emplace(vertex, 0);
     if (is_new) known->second = new_point();
     return known->second;
   }
-  MeridianGrid& grid_;
-  dealii::FEValues<2> values_;
+
+  /// The edges of the surface from `begin` to `end`, which a line of the first level is cut into.
+  void add_edges(const Line& line, unsigned begin, unsigned end, ResultPolygon& polygon) {
+    if (line->has_children()) {
+      const unsigned middle = line->child(0)->vertex_index(1);
+      const unsigned first = line->vertex_index(0) == begin ? 0 : 1;
+      add_edges(line->child(first), begin, middle, polygon);
+      add_edges(line->child(1 - first), middle, end, polygon);
+      return;
+    }
+    SurfaceEdge edge;
+    edge.boundary_id = int(line->boundary_id());
+    edge.result_points = {point_at(begin), new_point(), point_at(end)};
+    polygon.points.insert(polygon.points.end(), {edge.result_points[0], edge.result_points[1]});
+    edge_of_[std::minmax(begin, end)] = grid_.edges.size();
+    grid_.edges.push_back(edge);
+  }
+
+  void add_polygon(const dealii::Triangulation<2>::cell_iterator& cell) {
+    ResultPolygon polygon;
+    bool on_surface = false;
+    for (const auto& side : sides) {
+      const auto line = cell->face(side.face);
+      if (line->at_boundary() && line->boundary_id() != 0) {
+        on_surface = true;
+        add_edges(line, cell->vertex_index(side.begin), cell->vertex_index(side.end), polygon);
+      } else {
+        polygon.points.push_back(point_at(cell->vertex_index(side.begin)));
+      }
+    }
+    if (on_surface)
+      polygon.centre = cell->has_children() ? point_at(cell->child(0)->vertex_index(3)) : new_point();
+    grid_.polygons.push_back(polygon);
+  }
+
+  /// The edge that the face of a cell is, or none.
+  SurfaceEdge* edge_of(const Cell& cell, unsigned face) {
+    const auto line = cell->face(face);
+    const auto found = edge_of_.find(std::minmax(line->vertex_index(0), line->vertex_index(1)));
+    return found == edge_of_.end() ? nullptr : &grid_.edges[found->second];
+  }
+
+  void sample(const Cell& cell, const MeridianNumbering::OfCell& numbers, dealii::FEValues<2>& values) {
+    std::array<int, 9> points;
+    points.fill(-1);
+    for (unsigned v = 0; v < 4; ++v)
+      if (const auto known = vertex_.find(cell->vertex_index(v)); known != vertex_.end())
+        points[v] = known->second;
+    for (unsigned f = 0; f < 4; ++f)
+      if (const auto* edge = edge_of(cell, f)) points[first_middle + f] = edge->result_points[1];
+    if (cell->level() == 0) points[centre_point] = grid_.polygons[std::size_t(cell->index())].centre;
+    if (std::all_of(points.begin(), points.end(), [](int p) { return p < 0; })) return;
+    values.reinit(cell);
+    for (unsigned q = 0; q < points.size(); ++q) {
+      if (points[q] < 0) continue;
+      auto& point = grid_.results[std::size_t(points[q])];
+      point.samples.push_back(point_of(values, numbers, int(cell->active_cell_index()), q));
+      auto& r_m = point.samples.back().r_m;
+      if (r_m < axis_r_m_) r_m = 0;
+      point.z_m = point.samples.back().z_m;
+      point.r_m = r_m;
+    }
+  }
+
+  void integrate(const MeridianNumbering& numbering) {
+    const auto degree = element_.degree;
+    // One point more than the stiffness of straight cells needs: r and 1/r are weights.
+    const auto what = dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
+                      dealii::update_JxW_values;
+    dealii::FEValues<2> inside(mapping_, element_, dealii::QGauss<2>(degree + 1), what);
+    dealii::FEFaceValues<2> along(mapping_, element_, dealii::QGauss<1>(degree + 3),
+                                  what | dealii::update_normal_vectors);
+    dealii::FEValues<2> at_results(
+        mapping_, element_, result_points(),
+        dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points);
+    for (const auto& cell : dofs_.active_cell_iterators()) {
+      const int index = int(cell->active_cell_index());
+      const auto numbers = numbering.of(cell);
+      grid_.cell_nodes.push_back(numbers.nodes);
+      inside.reinit(cell);
+      integrate_cell(cell, numbers, inside);
+      for (unsigned f = 0; f < 4; ++f) {
+        auto* edge = edge_of(cell, f);
+        const int plane = plane_of(cell, f);
+        if (!edge && plane < 0) continue;
+        along.reinit(cell, f);
+        for (unsigned q = 0; q < along.n_quadrature_points; ++q) {
+          SectionPoint p = point_of(along, numbers, index, q);
+          p.weight = along.JxW(q);
+          p.normal_z = along.normal_vector(q)[0];
+          p.normal_r = along.normal_vector(q)[1];
+          if (plane >= 0) add_to_plane(std::size_t(plane), p);
+          if (edge) edge->points.push_back(std::move(p));
+        }
+      }
+      sample(cell, numbers, at_results);
+    }
+  }
+
+  void integrate_cell(const Cell& cell, const MeridianNumbering::OfCell& numbers,
+                      const dealii::FEValues<2>& inside) {
+    auto base = static_cast<dealii::Triangulation<2>::cell_iterator>(cell);
+    while (base->level() > 0) base = base->parent();
+    double& volume_m3 = grid_.polygons[std::size_t(base->index())].volume_m3;
+    grid_.cell_points.emplace_back();
+    for (unsigned q = 0; q < inside.n_quadrature_points; ++q) {
+      grid_.cell_points.back().push_back(point_of(inside, numbers, int(cell->active_cell_index()), q));
+      auto& p = grid_.cell_points.back().back();
+      p.weight = inside.JxW(q);
+      if (!(p.weight > 0))
+        throw std::invalid_argument("section: the cell at z = " + std::to_string(cell->center()[0]) +
+                                    ", r = " + std::to_string(cell->center()[1]) + " m is inverted");
+      volume_m3 += 2 * pi * p.r_m * p.weight;
+    }
+  }
+
+  /// The section plane that a side of a cell lies in, or -1.
+  int plane_of(const Cell& cell, unsigned face) const {
+    const auto a = cell->face(face)->vertex(0), b = cell->face(face)->vertex(1);
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      const auto& plane = planes_[i];
+      const double tolerance = plane_tolerance * plane.radius_m;
+      if (std::abs(a[0] - plane.z_m) <= tolerance && std::abs(b[0] - plane.z_m) <= tolerance &&
+          std::max(a[1], b[1]) <= plane.radius_m + tolerance &&
+          std::min(a[1], b[1]) >= plane.inner_radius_m - tolerance)
+        return int(i);
+    }
+    return -1;
+  }
+  void add_to_plane(std::size_t plane, const SectionPoint& p) {
+    seen_m_[plane][p.normal_z > 0] += p.weight;
+    grid_.planes[plane].points.push_back(p);
+  }
+
+  /// A plane inside the body is seen by cells below and above it, one at an end by the cells of one side.
+  void check_planes() {
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      const double wall_m = planes_[i].radius_m - planes_[i].inner_radius_m;
+      int n_sides = 0;
+      for (const double seen_m : seen_m_[i]) {
+        if (seen_m == 0) continue;
+        ++n_sides;
+        if (std::abs(seen_m - wall_m) > 1e-6 * wall_m) n_sides = -2;
+      }
+      if (n_sides < 1)
+        throw std::invalid_argument("section plane z = " + std::to_string(planes_[i].z_m) + " m, radius " +
+                                    std::to_string(planes_[i].radius_m) +
+                                    " m: no line of cell edges through the whole wall");
+      for (auto& p : grid_.planes[i].points) p.weight /= n_sides;
+    }
+  }
+
+  static constexpr double plane_tolerance = 1e-6;  // of the radius, as for the solid's sections
+  const std::vector<SectionPlane>& planes_;
+  dealii::Triangulation<2> mesh_;
+  dealii::MappingQ<2> mapping_;
+  dealii::FE_Q<2> element_;
+  dealii::DoFHandler<2> dofs_;
+  MeridianGrid grid_;
+  double axis_r_m_ = 0;
   std::map<unsigned, int> vertex_;
   std::map<Ends, std::size_t> edge_of_;
+  std::vector<std::array<double, 2>> seen_m_;  // length of each plane from above and from below
 };
 
 }  // namespace
 
-MeridianGrid meridian_grid(const MeridianBody& body) {
+MeridianGrid meridian_grid(const MeridianBody& body, const std::vector<SectionPlane>& planes) {
   if (body.degree < 1 || body.degree > 4)
     throw std::invalid_argument("degree " + std::to_string(body.degree) + " of a section: must be 1 to 4");
-  dealii::Triangulation<2> mesh;
-  make_mesh(body, mesh);
-  const auto degree = unsigned(body.degree);
-  const dealii::MappingQ<2> mapping(degree);
-  const dealii::FE_Q<2> element(degree);
-  dealii::DoFHandler<2> dofs(mesh);
-  dofs.distribute_dofs(element);
-  std::vector<dealii::Point<2>> nodes(dofs.n_dofs());
-  dealii::DoFTools::map_dofs_to_support_points(mapping, dofs, nodes);
-
-  MeridianGrid grid;
-  double largest_r = 0;
-  for (const auto& p : nodes) largest_r = std::max(largest_r, p[1]);
-  for (const auto& p : nodes) {
-    grid.on_axis.push_back(p[1] < 1e-9 * largest_r);
-    grid.z_m.push_back(p[0]);
-    grid.r_m.push_back(grid.on_axis.back() ? 0 : p[1]);
-  }
-  SurfaceBuilder surface(body, mapping, element, grid);
-  // One point more than the stiffness of straight cells needs: r and 1/r are weights.
-  const auto what = dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
-                    dealii::update_JxW_values;
-  dealii::FEValues<2> inside(mapping, element, dealii::QGauss<2>(degree + 1), what);
-  dealii::FEFaceValues<2> along(mapping, element, dealii::QGauss<1>(degree + 3),
-                                what | dealii::update_normal_vectors);
-  std::size_t n_edges = 0;
-  for (const auto& cell : dofs.active_cell_iterators()) {
-    const int index = int(cell->active_cell_index());
-    std::vector<dealii::types::global_dof_index> own(element.n_dofs_per_cell());
-    cell->get_dof_indices(own);
-    grid.cell_nodes.emplace_back(own.begin(), own.end());
-    inside.reinit(cell);
-    grid.cell_points.emplace_back();
-    for (unsigned q = 0; q < inside.n_quadrature_points; ++q) {
-      grid.cell_points.back().push_back(point_of(inside, index, q));
-      grid.cell_points.back().back().weight = inside.JxW(q);
-      if (!(inside.JxW(q) > 0))
-        throw std::invalid_argument("section: the cell at z = " + std::to_string(cell->center()[0]) +
-                                    ", r = " + std::to_string(cell->center()[1]) + " m is inverted");
-    }
-    for (unsigned f = 0; f < 4; ++f) {
-      auto* edge = surface.edge_of(cell, f);
-      if (!edge) continue;
-      ++n_edges;
-      along.reinit(cell, f);
-      for (unsigned q = 0; q < along.n_quadrature_points; ++q) {
-        edge->points.push_back(point_of(along, index, q));
-        edge->points.back().weight = along.JxW(q);
-        edge->points.back().normal_z = along.normal_vector(q)[0];
-        edge->points.back().normal_r = along.normal_vector(q)[1];
-      }
-    }
-    surface.sample(cell);
-  }
-  if (n_edges != body.edges.size())
-    throw std::invalid_argument("section: " + std::to_string(body.edges.size()) + " surface edges, but " +
-                                std::to_string(n_edges) + " sides of cells lie on them");
-  return grid;
+  return GridBuilder(body, planes).build();
 }
 
 }  // namespace fem

@@ -8,6 +8,7 @@
 
 #include "fem/axisymmetric_responses.h"
 #include "fem/constants.h"
+#include "meridian_tube.h"
 #include "shaft_bodies.h"
 
 namespace {
@@ -16,32 +17,8 @@ using Component = fem::SurfaceResultant::Component;
 using Phase = fem::SeatPressure::Phase;
 using fem::pi;
 
-enum Id { left = 1, right = 2, outside = 3, inside = 4 };
+using fem_tests::face, fem_tests::left, fem_tests::right, fem_tests::outside, fem_tests::tube;
 
-/// A tube or bar a < r < b, 0 < z < L of n_z by n_r cells.
-fem::MeridianBody tube(double a, double b, double L, int n_z, int n_r) {
-  fem::MeridianBody body;
-  body.material = fem_tests::steel;
-  body.n_angles = 12;
-  for (int i = 0; i <= n_z; ++i)
-    for (int k = 0; k <= n_r; ++k) body.points_m.push_back({L * i / n_z, a + (b - a) * k / n_r});
-  const auto at = [=](int i, int k) { return i * (n_r + 1) + k; };
-  for (int i = 0; i < n_z; ++i) {
-    for (int k = 0; k < n_r; ++k)
-      body.cells.push_back({{at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)}});
-    body.edges.push_back({{at(i + 1, n_r), at(i, n_r)}, outside});
-    if (a > 0) body.edges.push_back({{at(i, 0), at(i + 1, 0)}, inside});
-  }
-  for (int k = 0; k < n_r; ++k) {
-    body.edges.push_back({{at(0, k + 1), at(0, k)}, left});
-    body.edges.push_back({{at(n_z, k), at(n_z, k + 1)}, right});
-  }
-  return body;
-}
-
-fem::LoadSurface face(int id, double z) {
-  return {fem::LoadSurface::Kind::face, id, {0, 0, z}};
-}
 fem::UnitLoad on_ends(int id, double z, Component c) {
   return {std::to_string(id) + "." + std::to_string(int(c)), fem::SurfaceResultant{face(id, z), c}};
 }
@@ -150,6 +127,16 @@ TEST(Harmonics, disc_under_pressure_that_changes_around) {
     }
 }
 
+/// The node at the place of another one, turned about the axis.
+std::size_t turned_node(const fem::Nodes& nodes, std::size_t node, double angle) {
+  const double *p = &nodes.xyz_m[3 * node], c = std::cos(angle), s = std::sin(angle);
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    const double* q = &nodes.xyz_m[3 * i];
+    if (std::hypot(q[0] - c * p[0] + s * p[1], q[1] - s * p[0] - c * p[1], q[2] - p[2]) < 1e-9) return i;
+  }
+  throw std::out_of_range("no node there");
+}
+
 // A load along y is the load along x turned by a right angle, and so is its response: all of it, with the
 // shear that the two harmonics of a turned pair have with opposite signs.
 TEST(Harmonics, turn_with_their_load) {
@@ -168,8 +155,7 @@ TEST(Harmonics, turn_with_their_load) {
     for (int pair = 0; pair < 2; ++pair) {
       const int steps = pair == 0 ? 6 : 3;  // a quarter of the harmonic's period
       const std::size_t from = i * 4 + 2 * std::size_t(pair);
-      const std::size_t to =
-          (i / 24 * 24 + (i % 24 + std::size_t(steps)) % 24) * 4 + 2 * std::size_t(pair) + 1;
+      const std::size_t to = turned_node(r.nodes, i, 2 * pi * steps / 24) * 4 + 2 * std::size_t(pair) + 1;
       const Eigen::Matrix3d turn =
           Eigen::AngleAxisd(2 * pi * steps / 24, Eigen::Vector3d::UnitZ()).toRotationMatrix();
       const auto tensor = [&](std::size_t at) {
@@ -182,7 +168,7 @@ TEST(Harmonics, turn_with_their_load) {
       EXPECT_LT((tensor(to) - wanted).cwiseAbs().maxCoeff(), 1e-9 * largest[0]);
       const Eigen::Map<const Eigen::Vector3d> u(&r.displacement_m[3 * from]), v(&r.displacement_m[3 * to]);
       EXPECT_LT((v - turn * u).cwiseAbs().maxCoeff(), 1e-9 * largest[1]);
-      const double angle = 2 * pi * double(i % 24) / 24;
+      const double angle = std::atan2(r.nodes.xyz_m[3 * i + 1], r.nodes.xyz_m[3 * i]);
       across[pair] = std::max(across[pair], std::abs(u[1] * std::cos(angle) - u[0] * std::sin(angle)));
     }
   for (const double motion : across) EXPECT_GT(motion, 1e-3 * largest[1]);  // so the sine's sign is seen
