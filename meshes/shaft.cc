@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "meshes/disc.h"
 #include "meshes/meridian.h"
@@ -10,6 +11,7 @@
 #include "meshes/refused.h"
 #include "meshes/revolve.h"
 #include "meshes/shaft_checks.h"
+#include "meshes/shaft_description.h"
 #include "meshes/shaft_layout.h"
 #include "meshes/surfaces.h"
 
@@ -51,29 +53,51 @@ void require_quality(const MeshQuality& quality, double wanted) {
   throw MeshRefused(text.str());
 }
 
-}  // namespace
+/// Everything but the cells of the whole body.
+struct Blocks {
+  ShaftLayout layout;
+  SurfaceTable surfaces;
+  Meridian meridian;
+  Disc disc;
+};
 
-BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file) {
+Blocks blocks_of(const Shaft& shaft, const ShaftMeshControl& control) {
   check_control(control);
   check_shaft(shaft);
   const ShaftMeshControl before = before_subdivision(control);
-  const ShaftLayout layout = lay_out(shaft, before);
-  const SurfaceTable surfaces = name_surfaces(shaft, layout);
-  const Meridian meridian = build_meridian(layout, surfaces, before);
-  const Disc disc = build_disc(control.n_sectors, control.subdivisions);
-  const HexMesh mesh = revolve(meridian, layout, surfaces, disc);
+  ShaftLayout layout = lay_out(shaft, before);
+  SurfaceTable surfaces = name_surfaces(shaft, layout);
+  Meridian meridian = build_meridian(layout, surfaces, before);
+  return {std::move(layout), std::move(surfaces), std::move(meridian),
+          build_disc(control.n_sectors, control.subdivisions)};
+}
 
+BodyMesh description(const Shaft& shaft, const Blocks& blocks) {
+  const auto& [layout, surfaces, meridian, disc] = blocks;
   BodyMesh body;
-  body.file = file;
   body.ports = ports_of(shaft, layout, surfaces);
   body.features = surfaces.features;
   body.cylinders = cylinders_of(layout, surfaces);
   body.tori = tori_of(layout, surfaces);
   body.sections = sections_of(shaft, layout, meridian);
   body.sharp_edges = sharp_edges_of(shaft, layout, disc);
+  return body;
+}
+
+}  // namespace
+
+BodyMesh describe_shaft(const Shaft& shaft, const ShaftMeshControl& control) {
+  return description(shaft, blocks_of(shaft, control));
+}
+
+BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file) {
+  const Blocks blocks = blocks_of(shaft, control);
+  const HexMesh mesh = revolve(blocks.meridian, blocks.layout, blocks.surfaces, blocks.disc);
+  BodyMesh body = description(shaft, blocks);
+  body.file = file;
   body.quality = measure_quality(mesh);
   require_quality(body.quality, control.min_scaled_jacobian);
-  write_msh(mesh, group_names(shaft, surfaces), file);
+  write_msh(mesh, group_names(shaft, blocks.surfaces), file);
   return body;
 }
 

@@ -16,6 +16,7 @@
 #include "pipelines/error_ledger.h"
 #include "pipelines/hot_spots.h"
 #include "pipelines/machine_masses.h"
+#include "pipelines/method.h"
 #include "pipelines/place_stress.h"
 #include "pipelines/scene.h"
 #include "pipelines/search.h"
@@ -54,6 +55,7 @@ struct DroppedBounds {
 
 struct BodyAnalysis {
   BodyScene scene;
+  Method method = Method::solid;  ///< the model that the responses are of
   meshes::BodyMesh mesh;
   fem::MassProperties masses;
   fem::GeometryError geometry_error;

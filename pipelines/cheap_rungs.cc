@@ -6,7 +6,7 @@
 
 #include "fem/axisymmetric_responses.h"
 #include "fem/beam_responses.h"
-#include "meshes/half_section.h"
+#include "pipelines/axisymmetric_body.h"
 
 namespace pipelines {
 namespace {
@@ -16,19 +16,6 @@ std::size_t segment_at(const meshes::Shaft& shaft, double z_m) {
   for (std::size_t i = 0; i < shaft.segments.size(); ++i)
     if (z_m < shaft.segments[i].end_m) return i;
   return shaft.segments.size() - 1;
-}
-
-fem::MeridianBody meridian_body(const ShaftShape& shape, const meshes::BodyMesh& mesh,
-                                const fem::Material& material) {
-  const auto half = meshes::build_half_section(shape.geometry, shape.mesh);
-  fem::MeridianBody body;
-  body.material = material;
-  for (const auto& p : half.points) body.points_m.push_back({p.z_m, p.r_m});
-  for (const auto& q : half.quads) body.cells.push_back({q.corners});
-  for (const auto& e : half.edges) body.edges.push_back({e.ends, e.boundary_id});
-  for (const auto& t : mesh.tori)
-    body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
-  return body;
 }
 
 }  // namespace
@@ -116,11 +103,8 @@ std::optional<AxisymmetricRung> axisymmetric_responses(const BodyScene& body, co
                                                        const std::vector<fem::UnitLoad>& loads) {
   const auto beam = beam_shaft(body, mesh);
   if (!beam) return std::nullopt;
-  auto section = meridian_body(*body.shaft(), mesh, body.material);
-  for (const auto& s : beam->segments)
-    if (s.axis_x_m != 0 || s.axis_y_m != 0)
-      section.eccentric.push_back({s.begin_m, s.end_m, s.radius_m, s.axis_x_m, s.axis_y_m});
-  return AxisymmetricRung{fem::axisymmetric_responses(section, loads), fem::eccentricity_error(*beam)};
+  return AxisymmetricRung{fem::axisymmetric_responses(meridian_body(body, mesh), loads),
+                          fem::eccentricity_error(*beam)};
 }
 
 }  // namespace pipelines

@@ -28,6 +28,7 @@
 #include "pipelines/mill_reports.h"
 #include "pipelines/option_value.h"
 #include "pipelines/picture.h"
+#include "pipelines/requested_method.h"
 #include "pipelines/results.h"
 #include "pipelines/scene.h"
 #include "pipelines/scene_run.h"
@@ -145,7 +146,8 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
 }  // namespace
 
 void run_command(const CommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene);
+  scene.method = requested_method(options.method, scene);
   const auto directory =
       options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
   StageClock clock(progress_on_stderr(options.verbosity));

@@ -20,6 +20,7 @@ struct CommandOptions {
   std::string threshold;             ///< effects only: what may change when effects are left out; empty: 1 %,
                                      ///< for a scene with effects = "auto" what it allows
   std::string tolerance, time_limit;  ///< run, accuracy: override the scene's; empty: the scene's
+  std::string method;                 ///< run only: overrides the scene's; empty: the scene's
   std::string body, reference;        ///< accuracy: of this body alone; a known stress; empty: all, none
   bool grid_convergence = false;      ///< accuracy: systematic meshes too
   int n_repeats = 1;                  ///< accuracy: of each run

@@ -49,6 +49,8 @@ int run(int argc, char** argv) {
                   "refine until the stress is known this well, like \"2 %\" (default: the scene's)");
   run->add_option("--time-limit", options.time_limit,
                   "stop refining in time, like \"60 s\" (default: the scene's)");
+  run->add_option("--method", options.method,
+                  "model of every body: auto, beam, axisymmetric or solid (default: the scene's)");
   run->add_flag("--fresh", options.fresh, "reuse nothing of an earlier run");
   run->add_flag("--json", options.json, "print summary.json instead of the table");
   auto* loads = add("loads", "the load stage alone");

@@ -12,6 +12,7 @@
 #include "pipelines/body_scene.h"
 #include "pipelines/errors.h"
 #include "pipelines/machine.h"
+#include "pipelines/method.h"
 #include "pipelines/search.h"
 
 namespace pipelines {
@@ -83,7 +84,8 @@ struct Scene {
   std::optional<kinetics::RunUp> run_up;  ///< of a vibratory mill, instead of steady running
   bool drum_axes = false;  ///< of a planetary mill: the trunnions' load also in axes that turn with the drum
   std::vector<BearingScene> bearings;
-  SearchWish wish;  ///< how well the stresses are to be known, and in what time
+  Method method = Method::automatic;  ///< the model of every body
+  SearchWish wish;                    ///< how well the stresses are to be known, and in what time
   ZoneRule zones;
   int snapshots = 24;    ///< over the turn that contains the peak; 0: none
   bool pictures = true;  ///< of the envelope, as PNG

@@ -222,7 +222,8 @@ Scene read_scene(const std::filesystem::path& file) {
       machine.refuse_missing("type", "is missing; add it: one of " + machine_types);
     else if (!type.empty())
       machine.refuse("type", "unknown machine; write one of " + machine_types);
-    for (const char* key : {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit"})
+    for (const char* key :
+         {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit", "method"})
       root.know(key);
     for (const auto& body : all_bodies) root.know(body.first);
     root.finish();  // there may be no [machine] at all
@@ -240,6 +241,7 @@ Scene read_scene(const std::filesystem::path& file) {
     findings.warnings.push_back("without a body ([shaft], [chamber] ...) [zones] and [results] have no use");
   scene.bearings = read_bearings(root);
   scene.wish = read_wish(root);
+  scene.method = read_method(root, scene);
   scene.zones = read_zones(root.table_or_empty("zones"));
   read_results(root.table_or_empty("results"), scene);
   root.finish();

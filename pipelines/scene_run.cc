@@ -9,7 +9,11 @@
 #include <set>
 #include <utility>
 
+#include "fem/beam_responses.h"
 #include "pipelines/atomic_file.h"
+#include "pipelines/axisymmetric_body.h"
+#include "pipelines/axisymmetric_run.h"
+#include "pipelines/cheap_rungs.h"
 #include "pipelines/effect_bounds.h"
 #include "pipelines/effect_choice.h"
 #include "pipelines/fineness.h"
@@ -64,20 +68,21 @@ public:
   }
 
   SceneRun run() {
-    const bool search = options_.wish.any();
     std::vector<MeshedBody> meshed;
-    for (std::size_t i = 0; i < n_bodies(); ++i)
-      meshed.push_back(!is_wanted(i) ? options_.others.at(i) : search ? first_mesh(i) : mesh(i));
+    for (std::size_t i = 0; i < n_bodies(); ++i) {
+      methods_.push_back(is_wanted(i) ? first_method(i) : Method::solid);
+      meshed.push_back(is_wanted(i) ? first_meshed(i) : options_.others.at(i));
+    }
     if (run_.scene.effect_choice.open)
       run_.scene = clock_.run(
           "effects", [&] { return with_effects_chosen(run_.scene, meshed, negligible_share(tolerance())); });
     load(std::move(meshed));
     const auto first_sampling = run_.scene.sampling.instants_per_turn;
     for (const auto i : wanted()) {
-      run_.analyses.push_back(search ? search_mesh(i) : solve_once(i));
+      run_.analyses.push_back(solve(i));
       finish(i, run_.analyses.back());
     }
-    if (search && !options_.only &&
+    if (is_search() && !options_.only &&
         (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
       agree_at_last();
     for (const auto& warning : warnings_) run_.loaded.loads.warnings.push_back(warning);
@@ -97,6 +102,50 @@ private:
     return indices;
   }
 
+  bool is_search() const { return options_.wish.any(); }
+
+  /// A model that needs no cells of the whole body.
+  bool is_without_mesh(std::size_t i) const {
+    return methods_[i] == Method::axisymmetric || methods_[i] == Method::beam;
+  }
+
+  /// The model that is tried first: the one asked for; else the cheapest whose own error is within the tolerance.
+  Method first_method(std::size_t i) const {
+    const auto& body = run_.scene.bodies[i];
+    if (run_.scene.method != Method::automatic) return run_.scene.method;
+    const bool is_asked = options_.wish.tolerance > 0 && body.natural_frequencies == 0;
+    if (!is_asked || !why_not_axisymmetric(body).empty()) return Method::solid;
+    const auto described = describe_revolved(body);
+    const auto beam = beam_shaft(body, described.mesh);
+    const double eccentric = beam ? fem::eccentricity_error(*beam) : 0;
+    if (beam && why_not_beam(body).empty() && 3 * fem::beam_model_error(*beam) <= options_.wish.tolerance)
+      return Method::beam;
+    return eccentric < options_.wish.tolerance ? Method::axisymmetric : Method::solid;
+  }
+
+  MeshedBody first_meshed(std::size_t i) {
+    if (is_without_mesh(i))
+      return clock_.run("section", [&] { return describe_revolved(run_.scene.bodies[i]); });
+    return is_search() ? first_mesh(i) : mesh(i);
+  }
+
+  /// The body by its model; with the choice left open, by the next dearer one where the tolerance is not met.
+  BodyAnalysis solve(std::size_t i) {
+    if (is_without_mesh(i)) {
+      auto analysis = analyse(i);
+      const auto stress = governing_stress(analysis);
+      const bool is_met = stress.errors.own_Pa() <= tolerance() * stress.value_Pa;
+      if (run_.scene.method != Method::automatic || is_met) return analysis;
+      if (methods_[i] == Method::beam) {
+        methods_[i] = Method::axisymmetric;
+        return solve(i);
+      }
+      methods_[i] = Method::solid;
+      exchange_mesh(i, first_mesh(i));
+    }
+    return is_search() ? search_mesh(i) : solve_once(i);
+  }
+
   MeshedBody mesh(std::size_t i) {
     return clock_.run(
         "mesh", [&] { return mesh_body(run_.scene.bodies[i], files_[i].mesh(), springs_of(run_.scene)); });
@@ -111,19 +160,25 @@ private:
   }
 
   BodyAnalysis analyse(std::size_t i) {
+    if (methods_[i] == Method::axisymmetric)
+      return analyse_axisymmetric(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
+                                  run_.loaded.body_loads[i], options_of(i), clock_, tolerance());
+    if (methods_[i] == Method::beam)
+      return analyse_beam(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                          options_of(i), clock_);
     return analyse_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
                         options_of(i), clock_);
   }
 
   void finish(std::size_t i, BodyAnalysis& analysis) {
-    if (options_.keep)
+    if (options_.keep && !is_without_mesh(i))
       keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
     add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
     if (analysis.vibration)
       if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
         warnings_.push_back(warning);
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
-    files_[i].finish(analysis, run_.loaded.meshed[i]);
+    if (!is_without_mesh(i)) files_[i].finish(analysis, run_.loaded.meshed[i]);
     run_.loaded.meshed[i].model.reset();
   }
 
@@ -382,6 +437,7 @@ private:
   Clock::time_point start_;
   SceneRun run_;
   std::vector<BodyFiles> files_;
+  std::vector<Method> methods_;  // by body
   std::vector<std::string> warnings_;
 };
 

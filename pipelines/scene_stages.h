@@ -15,6 +15,10 @@ kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneF
 /// `tolerance` and `time_limit` of the root.
 SearchWish read_wish(SceneTable& root);
 
+/// `method` of the root.
+/// @param scene  with its bodies read: a body without that model is refused
+Method read_method(SceneTable& root, const Scene& scene);
+
 /// [zones]
 ZoneRule read_zones(SceneTable zones);
 

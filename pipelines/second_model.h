@@ -10,10 +10,9 @@
 
 namespace pipelines {
 
-/// Stresses of all places of a shaft from two sections, one half as fine as the other: the values of the finer
-/// one, with what the change says is missing (second order on fillets, first order elsewhere) and what nodes at
-/// a distance around the axis can miss of a peak between them.
-/// @return nothing for bodies that are no parametric shafts, or whose loads are not axisymmetric ones
+/// Stresses of all places of a shaft by the axisymmetric model, to 0.2 % of the largest on concentric shafts, with
+/// the errors of its section and what nodes at a distance around the axis can miss of a peak between them.
+/// @return nothing for bodies that the model does not apply to
 std::optional<SecondModel> axisymmetric_second_model(const BodyScene& body, const MeshedBody& meshed,
                                                      const BodyLoads& loads, int n_threads);
 

@@ -161,6 +161,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& quality = analysis.mesh.quality;
   Json json;
   json["governing"] = governing_json(report, analysis);
+  json["method"] = to_string(analysis.method);
   json["dofs"] = analysis.responses.n_dofs;
   json["cells"] = quality.n_cells;
   json["min_scaled_jacobian"] = number(quality.min_scaled_jacobian);
