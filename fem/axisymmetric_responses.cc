@@ -1,5 +1,6 @@
 #include "fem/axisymmetric_responses.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -57,13 +58,26 @@ std::vector<Harmonic> solve_harmonics(const MeridianGrid& grid, const MeridianBo
                                       const std::vector<UnitLoad>& loads, UnitResponses& r) {
   const HarmonicLoads load_of(grid, body);
   auto harmonics = load_harmonics(grid, load_of, loads, r);
-  HarmonicSolver solver(grid, body.material);
-  for (auto& harmonic : harmonics) {
-    harmonic.displacement = solver.solve(harmonic.m, harmonic.force, r.residual);
-    load_of.remove_motion(harmonic.m, harmonic.displacement);
-    harmonic.amplitudes = result_amplitudes(grid, body.material, harmonic.m, harmonic.displacement);
-    r.n_dofs += 3 * std::size_t(grid.n_nodes());
-  }
+  const HarmonicPattern pattern(grid);
+  std::vector<double> residual(harmonics.size(), 0);
+  const SerialBlas serial;  // the harmonics share the threads
+  // A solver each for a few of the harmonics: what it finds out about the factor's shape is worth keeping.
+  constexpr std::size_t most_solvers = 4;
+  const std::size_t n_solvers = std::min(most_solvers, harmonics.size());
+  parallel_for(n_solvers, 1, [&](std::size_t begin, std::size_t end) {
+    const SerialOpenMp alone;
+    for (std::size_t s = begin; s < end; ++s) {
+      HarmonicSolver solver(grid, pattern, body.material);
+      for (std::size_t i = s; i < harmonics.size(); i += n_solvers) {
+        auto& harmonic = harmonics[i];
+        harmonic.displacement = solver.solve(harmonic.m, harmonic.force, residual[i]);
+        load_of.remove_motion(harmonic.m, harmonic.displacement);
+        harmonic.amplitudes = result_amplitudes(grid, body.material, harmonic.m, harmonic.displacement);
+      }
+    }
+  });
+  for (const double own : residual) r.residual = std::max(r.residual, own);
+  r.n_dofs = harmonics.size() * 3 * std::size_t(grid.n_nodes());
   return harmonics;
 }
 

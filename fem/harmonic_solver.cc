@@ -27,12 +27,16 @@ NodeGraph graph_of(const MeridianGrid& grid) {
 
 }  // namespace
 
-HarmonicSolver::HarmonicSolver(const MeridianGrid& grid, const Material& material)
+HarmonicPattern::HarmonicPattern(const MeridianGrid& grid)
+    : graph(graph_of(grid)), order(order_nodes(graph)) {}
+
+HarmonicSolver::HarmonicSolver(const MeridianGrid& grid, const HarmonicPattern& pattern,
+                               const Material& material)
     : grid_(&grid),
       material_(material),
-      graph_(graph_of(grid)),
-      matrix_(make_matrix(graph_)),
-      factor_(std::make_unique<CholmodFactor>(matrix_, order_nodes(graph_))) {}
+      pattern_(&pattern),
+      matrix_(make_matrix(pattern.graph)),
+      factor_(matrix_, pattern.order) {}
 
 std::vector<char> HarmonicSolver::held_unknowns(int m) const {
   const auto& z = grid_->z_m;
@@ -57,6 +61,7 @@ std::vector<char> HarmonicSolver::held_unknowns(int m) const {
 
 void HarmonicSolver::assemble(int m, const std::vector<char>& held) {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+  const NodeGraph& graph = pattern_->graph;
   const auto elasticity = elasticity_matrix(material_);
   for (std::size_t c = 0; c < grid_->cell_nodes.size(); ++c) {
     const auto& nodes = grid_->cell_nodes[c];
@@ -80,8 +85,8 @@ void HarmonicSolver::assemble(int m, const std::vector<char>& held) {
         if (row < column) continue;
         std::int64_t offset = 0;
         if (row > column) {
-          const auto first = graph_.neighbour.begin() + graph_.begin[std::size_t(column)];
-          const auto last = graph_.neighbour.begin() + graph_.begin[std::size_t(column) + 1];
+          const auto first = graph.neighbour.begin() + graph.begin[std::size_t(column)];
+          const auto last = graph.neighbour.begin() + graph.begin[std::size_t(column) + 1];
           offset = 3 * (std::lower_bound(first, last, row) - first) + 3;
         }
         for (int d = 0; d < 3; ++d)
@@ -105,8 +110,8 @@ Eigen::MatrixXd HarmonicSolver::solve(int m, const Eigen::MatrixXd& force, doubl
       if (grid_->on_axis[std::size_t(i)]) f.row(3 * i) -= f.row(3 * i + 1);
   for (std::size_t i = 0; i < held.size(); ++i)
     if (held[i]) f.row(Eigen::Index(i)).setZero();
-  factor_->factorise(matrix_);
-  Eigen::MatrixXd u = factor_->solve(f);
+  factor_.factorise(matrix_);
+  Eigen::MatrixXd u = factor_.solve(f);
   const Eigen::MatrixXd rest = multiply(matrix_, u) - f;
   for (Eigen::Index k = 0; k < f.cols(); ++k)
     if (const double size = f.col(k).norm(); size > 0)

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <vector>
 
 #include "fem/body.h"
 #include "fem/cholmod_factor.h"
@@ -11,9 +12,19 @@
 
 namespace fem {
 
+/// What the stiffness matrices of all harmonics have in common: which nodes meet, and a good order of them.
+struct HarmonicPattern {
+  NodeGraph graph;
+  std::vector<std::int32_t> order;
+
+  explicit HarmonicPattern(const MeridianGrid& grid);
+};
+
+/// Solves one harmonic after the other; several solvers may share a grid and its pattern.
 class HarmonicSolver {
 public:
-  HarmonicSolver(const MeridianGrid& grid, const Material& material);
+  // Arguments have to outlive this object.
+  HarmonicSolver(const MeridianGrid& grid, const HarmonicPattern& pattern, const Material& material);
 
   /// Displacement amplitudes of the load columns of one harmonic; those of m = 0 and 1 have no resultants,
   /// and get some rigid motion. On the axis displacements are single-valued: U = V = 0 at m = 0, U + V = W =
@@ -28,9 +39,9 @@ private:
 
   const MeridianGrid* grid_;
   Material material_;
-  NodeGraph graph_;
+  const HarmonicPattern* pattern_;
   SymmetricMatrix matrix_;  // of the harmonic solved last
-  std::unique_ptr<CholmodFactor> factor_;
+  CholmodFactor factor_;
 };
 
 }  // namespace fem

@@ -82,7 +82,6 @@ Amplitudes result_amplitudes(const MeridianGrid& grid, const Material& material,
   const Eigen::Matrix<double, 6, 6> elasticity = elasticity_matrix(material);
   Amplitudes result(Eigen::Index(grid.results.size()), 9 * displacement.cols());
   const auto work = [&](std::size_t begin, std::size_t end) {
-    const SerialBlas serial;
     for (std::size_t p = begin; p < end; ++p) {
       const auto& samples = grid.results[p].samples;
       Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(9, displacement.cols());

@@ -19,11 +19,6 @@ namespace {
 
 /// Of the discretisation: half of a tolerance, and without one what a second buys.
 constexpr double share_of_tolerance = 0.5, usual_target = 0.01;
-/// The beam knows nothing of loads beside a fillet, nor of short segments.
-constexpr double beam_safety = 3;
-/// What a fillet makes of stress that comes from a section going oval, at most.
-constexpr double fillet_factor = 2;
-
 int threads(int wanted) {
   return wanted > 0 ? wanted : int(std::max(1u, std::thread::hardware_concurrency()));
 }
@@ -129,33 +124,6 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
       search.ended = "the section is fine enough; what is left is not its error";
     analysis.search = std::move(search);
   }
-  return analysis;
-}
-
-BodyAnalysis analyse_beam(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          BodyLoads loads, const RunOptions& options, StageClock& clock) {
-  if (const auto why = why_not_beam(body); !why.empty())
-    throw std::invalid_argument("the " + body.name + " " + why + ": no beam");
-  const auto start = std::chrono::steady_clock::now();
-  MeshedBody own = meshed;
-  own.mesh.sections.clear();
-  auto responses =
-      clock.run("solve", [&] { return beam_responses(body, own.mesh, loads.unit_loads).value(); });
-  const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
-  const auto beam = *beam_shaft(body, own.mesh);
-  auto analysis =
-      superpose_body(scene, body, own, std::move(loads), std::move(responses), options.n_threads, clock);
-  analysis.method = Method::beam;
-  analysis.solve_s = solve.count();
-  auto& errors = analysis.peak.errors;
-  errors.set_model({"model",
-                    "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
-                    beam_safety * fem::beam_model_error(beam) * analysis.peak.value_Pa});
-  if (const double ring_Pa = ring_stress_Pa(beam, analysis.loads); ring_Pa > 0)
-    errors.set_model(
-        {"ovalisation", "bored seats as rings, twice as much at a fillet", fillet_factor * ring_Pa});
-  if (const double spin_Pa = spin_stress_Pa(beam, body.material, analysis.loads); spin_Pa > 0)
-    errors.set_model({"spin", "segments as long cylinders that turn", spin_Pa});
   return analysis;
 }
 

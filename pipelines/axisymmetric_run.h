@@ -1,4 +1,4 @@
-/// A whole run of a body on a model cheaper than the solid: the same files, from the same functions.
+/// A whole run of a body on the axisymmetric model: the same files as of the solid, from the same functions.
 #pragma once
 
 #include "pipelines/body_analysis.h"
@@ -17,13 +17,6 @@ namespace pipelines {
 BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                                   BodyLoads loads, const RunOptions& options, StageClock& clock,
                                   double tolerance = 0);
-
-/// A beam in its place, as far as it goes: no section diagrams, no rings of torsion; zones are patches of
-/// surface without volume. Errors of the model: the spread of the fillets' published factors, bored seats
-/// that go oval, spin.
-/// @throws as analyse_axisymmetric, with why_not_beam
-BodyAnalysis analyse_beam(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          BodyLoads loads, const RunOptions& options, StageClock& clock);
 
 /// By the axisymmetric model, refined until no place's error exceeds `target` of the largest value, or the
 /// step after would be too large. A second opinion on other models of the same loads: on concentric shafts values

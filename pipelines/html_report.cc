@@ -136,15 +136,24 @@ void add_seats(HtmlPage& page, const Json& body) {
   page.table({"seat", "deflection mm", "slope mrad"}, rows);
 }
 
+/// The model, and of a solid how it was solved.
+std::string solved_by(const Json& body) {
+  const auto& solver = body.at("solver");
+  const std::string method = body.value("method", "solid");
+  if (method == "beam") return "by the beam model: no section diagrams, no torsion, zones without volume";
+  if (method != "solid") return "by the " + method + " model";
+  return std::string("solved by ") +
+         (solver.at("used") == "iterative" ? "conjugate gradients" : "factorisation") + " (" +
+         solver.at("reason").get<std::string>() + ")";
+}
+
 void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
               const Json& body) {
   page.heading(2, "The " + name);
   if (const auto& trouble = body.at("governing").at("not_known_well"); trouble.is_string())
     page.warning("Not known well: " + trouble.get<std::string>());
   page.paragraph(number(body.at("dofs"), 1, "{:.0f}") + " unknowns, " + number(body.at("mass").at("value")) +
-                 " kg, solved by " +
-                 (body.at("solver").at("used") == "iterative" ? "conjugate gradients" : "factorisation") +
-                 " (" + body.at("solver").at("reason").get<std::string>() + ").");
+                 " kg, " + solved_by(body) + ".");
   add_headlines(page, body);
   page.picture(directory / name / "envelope.png", "Largest von Mises stress over the cycle, " + name);
   add_zones(page, body);

@@ -155,13 +155,19 @@ void print_solver(std::ostream& out, const BodyAnalysis& analysis) {
                      analysis.responses_reused ? " (responses of an earlier run)" : "",
                      analysis.masses.mass_kg);
   const auto& solver = analysis.responses.solver;
-  if (solver.used == fem::Solver::iterative)
+  if (analysis.method != Method::solid)
+    out << fmt::format("  by the {} model{}\n", to_string(analysis.method),
+                       analysis.method == Method::beam
+                           ? ": no section diagrams, no torsion along the shaft, zones without volume"
+                           : "");
+  else if (solver.used == fem::Solver::iterative)
     out << fmt::format("  solved by conjugate gradients, {} iterations ({})\n", solver.n_iterations,
                        solver.reason);
   else
     out << fmt::format("  solved by factorisation ({})\n", solver.reason);
-  out << fmt::format("  the solver took {:.2f} GB, {:.2f} GB were predicted\n", 1e-9 * solver.used_bytes,
-                     1e-9 * solver.predicted().bytes);
+  if (analysis.method == Method::solid)
+    out << fmt::format("  the solver took {:.2f} GB, {:.2f} GB were predicted\n", 1e-9 * solver.used_bytes,
+                       1e-9 * solver.predicted().bytes);
   for (std::size_t r = 0; r < solver.ranks.size(); ++r)
     out << fmt::format("    rank {}: {} of the unknowns, {:.2f} GB\n", r, solver.ranks[r].n_unknowns,
                        1e-9 * solver.ranks[r].bytes);
