@@ -10,6 +10,7 @@
 #include "fem/helper_ranks.h"
 #include "fem/model.h"
 #include "pipelines/errors.h"
+#include "pipelines/finite.h"
 #include "pipelines/iteration_memory.h"
 #include "pipelines/load_patch.h"
 #include "pipelines/response_files.h"
@@ -221,12 +222,14 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
   analysis.geometry_error = meshed.geometry_error;
   analysis.loads = std::move(loads);
   analysis.responses = std::move(responses);
+  require_finite(analysis.responses);
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
   require_closure(body.name, analysis.closure);
 
   const auto start = std::chrono::steady_clock::now();
   analysis.envelope = clock.run(
       "superpose", [&] { return envelope(analysis.loads.history, analysis.responses, threads(n_threads)); });
+  require_finite(body.name, analysis.envelope);
   analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   clock.run("zones", [&] {
     analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,

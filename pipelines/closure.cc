@@ -63,11 +63,21 @@ struct Scale {
 struct ScaleOf {
   const std::vector<RegionMass>& regions;
 
-  /// The largest arm of the surface about the origin; of a face without a radius its own place stands for
-  /// that.
-  static double arm(const fem::LoadSurface& surface) {
+  /// How far the body reaches from the origin: the radius of gyration.
+  double size_m() const {
+    double mass = 0, second = 0;
+    for (const auto& region : regions) {
+      const auto& m = region.masses.second_moments_kg_m2;
+      mass += region.masses.mass_kg;
+      second += m[0] + m[1] + m[2];
+    }
+    return mass > 0 ? std::sqrt(second / mass) : 0;
+  }
+  /// The largest arm of the surface about the origin. The extent of a face is not known, and its middle may
+  /// be the origin itself: the body's size stands for it.
+  double arm(const fem::LoadSurface& surface) const {
     const auto& c = surface.centre_m;
-    return std::hypot(surface.radius_m, std::hypot(c[0], c[1], c[2]));
+    return std::hypot(surface.radius_m > 0 ? surface.radius_m : size_m(), std::hypot(c[0], c[1], c[2]));
   }
   Scale operator()(const fem::SurfaceResultant& load) const {
     using Component = fem::SurfaceResultant::Component;
@@ -139,7 +149,7 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
   double arm_m = 0;
   for (const auto& load : loads.unit_loads)
     if (const auto* resultant = std::get_if<fem::SurfaceResultant>(&load.shape))
-      arm_m = std::max(arm_m, ScaleOf::arm(resultant->surface));
+      arm_m = std::max(arm_m, ScaleOf{regions}.arm(resultant->surface));
   if (arm_m > 0) force_size = std::max(force_size, moment_size / arm_m);
   // A load that balances itself (spin) leaves nothing but round-off: of what it is made of.
   constexpr double round_off = 1e-9;

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "fem/helper_ranks.h"
@@ -80,13 +81,14 @@ void finish_run(const CommandOptions& options, std::ostream& out, const std::fil
 }
 
 SearchWish wish_of(const CommandOptions& options, const Scene& scene) {
-  SearchWish wish = scene.wish;
-  if (!options.tolerance.empty()) wish.tolerance = option_in_si("--tolerance", options.tolerance, "1");
-  if (!options.time_limit.empty()) wish.time_limit_s = option_in_si("--time-limit", options.time_limit, "s");
-  if (wish.tolerance < 0 || wish.tolerance > 1)
-    throw OptionError("--tolerance " + options.tolerance + ": must lie between 0 and 100 %");
-  if (wish.time_limit_s < 0) throw OptionError("--time-limit " + options.time_limit + ": is negative");
-  return wish;
+  return requested_search(options.tolerance, options.time_limit, scene.wish);
+}
+
+/// The scene with the masses that it leaves to a mesh: a report must not take what stands for them until
+/// then.
+Scene with_machine(Scene scene, const Machine& machine) {
+  scene.machine = machine;
+  return scene;
 }
 
 /// Without a mesh at hand effects = "auto" looks at the loads alone.
@@ -95,8 +97,16 @@ Scene chosen_by_loads(Scene scene, const Machine& machine, double tolerance) {
   if (!scene.effect_choice.open) return scene;
   auto given = std::exchange(scene.machine, machine);
   scene = with_effects_chosen(std::move(scene), {}, negligible_share(tolerance));
-  scene.machine = std::move(given);
-  return scene;
+  return with_machine(std::move(scene), given);
+}
+
+/// Of a drive train, written into the folder torsion; nothing for other machines.
+std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machine,
+                                        const std::filesystem::path& directory, StageClock& clock) {
+  if (!std::holds_alternative<kinetics::DriveTrain>(machine)) return std::nullopt;
+  auto torsion = clock.run("torsion", [&] { return report_torsion(scene, machine); });
+  clock.run("write", [&] { write_torsion_files(directory / "torsion", scene, torsion); });
+  return torsion;
 }
 
 void run_load_stage(const CommandOptions& options, std::ostream& out, const Scene& given,
@@ -106,10 +116,7 @@ void run_load_stage(const CommandOptions& options, std::ostream& out, const Scen
   const auto lives = bearing_lives(scene.bearings, loads, {});
   std::filesystem::create_directories(directory);
   clock.run("write", [&] { write_load_results(directory, loads, {}); });
-  std::optional<TorsionReport> torsion;
-  if (std::holds_alternative<kinetics::DriveTrain>(scene.machine))
-    torsion = clock.run("torsion", [&] { return report_torsion(scene); });
-  if (torsion) clock.run("write", [&] { write_torsion_files(directory / "torsion", scene, *torsion); });
+  const auto torsion = torsion_of(scene, scene.machine, directory, clock);
   finish_run(options, out, directory, {scene, loads, {}, {}, clock.costs(), lives});
   if (options.json) return;
   if (torsion) print_torsion(out, scene, *torsion);
@@ -137,8 +144,11 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
     });
   }
   clock.run("write", [&] { write_load_results(directory, loads, channels); });
+  const Scene reported = with_machine(run.scene, run.loaded.masses.machine);
+  const auto torsion = torsion_of(reported, reported.machine, directory, clock);
   finish_run(options, out, directory,
-             {run.scene, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings});
+             {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings});
+  if (!options.json && torsion) print_torsion(out, reported, *torsion);
   if (!options.json) out << "\n  results in " << directory.string() << '\n';
   if (!run.met()) throw ToleranceNotMet("the tolerance is not met; the results are kept");
 }
@@ -155,6 +165,12 @@ void run_command(const CommandOptions& options, std::ostream& out) {
 }
 
 void loads_command(const CommandOptions& options, std::ostream& out) {
+  require_extension(
+      "--output", options.output, {".h5", ".hdf5", ".hdf"},
+      "is written as HDF5; for a table write --csv " + options.output.string() + ", or end the name in .h5");
+  require_extension(
+      "--csv", options.csv, {".csv", ".txt"},
+      "is written as CSV; for HDF5 write -o " + options.csv.string() + ", or end the name in .csv");
   Scene scene = read_scene(options.scene);
   StageClock clock(progress_on_stderr(options.verbosity));
   const Machine machine = clock.run("mesh", [&] { return machine_with_masses(scene, options.n_threads); });
@@ -170,7 +186,7 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
     clock.run("write",
               [&] { write_statistics(options.statistics, loads, scene.run_up ? 0 : scene.sampling.turns); });
   if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, loads); });
-  report(out, options, {scene, loads, {}, {}, clock.costs(), lives});
+  report(out, options, {with_machine(std::move(scene), machine), loads, {}, {}, clock.costs(), lives});
 }
 
 void effects_command(const CommandOptions& options, std::ostream& out) {
@@ -189,12 +205,14 @@ void effects_command(const CommandOptions& options, std::ostream& out) {
 
 void torsion_command(const CommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
-  const TorsionReport torsion = report_torsion(scene);
+  const TorsionReport torsion = report_torsion(scene, machine_with_masses(scene, options.n_threads));
   if (!options.output.empty()) write_torsion_files(options.output, scene, torsion);
   if (options.json)
     out << torsion_json(scene, torsion);
   else
     print_torsion(out, scene, torsion);
+  if (!options.json)
+    for (const auto& warning : scene.warnings) out << "  warning: " << warning << '\n';
 }
 
 void springs_command(const CommandOptions& options, std::ostream& out) {
@@ -210,7 +228,23 @@ void report_command(const CommandOptions& options, std::ostream& out) {
   out << (options.output / "report.html").string() << '\n';
 }
 
-void check_command(const CommandOptions& options, std::ostream& out) {
+namespace {
+
+/// The scene over no more turns than take a second; a table's samples need all of theirs.
+Scene for_a_look(Scene scene) {
+  constexpr int most_instants = 20'000;
+  if (!std::holds_alternative<kinetics::LoadTable>(scene.machine))
+    scene.sampling.turns =
+        std::clamp(most_instants / scene.sampling.instants_per_turn, 1, scene.sampling.turns);
+  return scene;
+}
+
+void print_load_warnings(std::ostream& out, const kinetics::LoadHistory& loads) {
+  for (const auto& warning : loads.warnings) out << "warning: " << warning << '\n';
+}
+
+/// Prints on `out` what the scene comes to; throws what a run would throw before it solves.
+void check(const CommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene);
   out << scene.file.string() << ": the scene is valid\n\neffects\n";
   for (const auto& effect : effects_of(scene.machine))
@@ -227,6 +261,8 @@ void check_command(const CommandOptions& options, std::ostream& out) {
   if (scene.bodies.empty()) {
     scene = chosen_by_loads(std::move(scene), scene.machine, scene.wish.tolerance);
     print_effect_choice(out, scene, {});
+    print_load_warnings(out, load_stage(for_a_look(scene), scene.machine));
+    if (std::holds_alternative<kinetics::DriveTrain>(scene.machine)) report_torsion(scene, scene.machine);
     return;
   }
 
@@ -242,9 +278,10 @@ void check_command(const CommandOptions& options, std::ostream& out) {
   const auto masses = agree_masses(scene, meshed);
   scene = with_effects_chosen(std::move(scene), meshed, negligible_share(scene.wish.tolerance));
   print_effect_choice(out, scene, {});
-  auto coarse = scene;
-  if (!std::holds_alternative<kinetics::LoadTable>(scene.machine)) coarse.sampling.turns = 1;
-  const auto loads = load_stage(coarse, masses.machine);
+  StageClock silent;
+  const auto loaded = load_bodies(for_a_look(scene), meshed, silent);
+  print_load_warnings(out, loaded.loads);
+  if (std::holds_alternative<kinetics::DriveTrain>(scene.machine)) report_torsion(scene, masses.machine);
   for (std::size_t i = 0; i < meshed.size(); ++i) {
     const auto& body = scene.bodies[i];
     const auto& quality = meshed[i].mesh.quality;
@@ -266,8 +303,7 @@ void check_command(const CommandOptions& options, std::ostream& out) {
           "    {:<24}z {:8.2f} .. {:8.2f} mm, diameter {:6.2f} mm, axis at ({:.2f}, {:.2f}) mm\n", port.name,
           port.begin_m * 1e3, port.end_m * 1e3, port.radius_m * 2e3, port.axis_x_m * 1e3,
           port.axis_y_m * 1e3);
-    const auto history = distribute_body(coarse, body, loads, loaded_body(body, meshed[i]), masses).history;
-    const auto& channels = history.channels;
+    const auto& channels = loaded.body_loads[i].history.channels;
     print_forecast(
         out, body, meshed[i],
         {channels.size(), std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn),
@@ -276,6 +312,14 @@ void check_command(const CommandOptions& options, std::ostream& out) {
     for (const auto& channel : channels)
       out << fmt::format("    {}/{} [{}]\n", body.name, channel.name, channel.unit);
   }
+}
+
+}  // namespace
+
+void check_command(const CommandOptions& options, std::ostream& printed) {
+  std::ostringstream out;
+  check(options, out);  // nothing is called valid before all of it is
+  printed << out.str();
 }
 
 }  // namespace pipelines

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "pipelines/finite.h"
+#include "pipelines/open_loads.h"
+
 namespace pipelines {
 namespace {
 
@@ -25,10 +28,11 @@ LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
 LoadedScene::~LoadedScene() = default;
 
 kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
-  if (scene.run_up)
-    return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
-  auto loads = compute_loads(machine, scene.kinetics_effects(), scene.sampling);
-  if (scene.drum_axes) add_turning_trunnions(loads);
+  auto loads = scene.run_up
+                   ? kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up)
+                   : compute_loads(machine, scene.kinetics_effects(), scene.sampling);
+  if (scene.drum_axes && !scene.run_up) add_turning_trunnions(loads);
+  require_finite(loads);
   return loads;
 }
 
@@ -86,6 +90,8 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
       return distribute_body(scene, body, result.loads, loaded_body(body, result.meshed[i]), result.masses);
     }));
     const auto& loads = result.body_loads.back();
+    require_finite(loads);
+    require_supports(body, loads, result.meshed[i].regions);
     require_closed_loads(loads, result.meshed[i].regions);
     warn_of_guide(result.loads, loads);
     if (body.role == BodyRole::train_shaft &&

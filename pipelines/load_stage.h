@@ -42,9 +42,9 @@ struct LoadedScene {
 };
 
 /// @param meshed  in the order of scene.bodies
-/// @throws StageRefused if masses of machine and mesh do not agree, no effect loads a body, or a
-/// bearing's load is none of the scene
-/// @throws LoadsDoNotClose if the loads of a body do not close
+/// @throws StageRefused if masses of machine and mesh do not agree, no effect loads a body, supports are
+/// missing, or a bearing's load is none of the scene
+/// @throws LoadsDoNotClose if the loads of a body do not close; NotFinite
 LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock);
 
 }  // namespace pipelines

@@ -59,10 +59,11 @@ void print_spring_choice(std::ostream& out, const Scene& scene, bool json) {
   };
   const auto rms = choice(SpringAim::rms), peak = choice(SpringAim::peak);
   if (json) {
-    out << Json{{"rms", json_of(rms)}, {"peak", json_of(peak)}}.dump(2) << '\n';
+    out << Json{{"rms", json_of(rms)}, {"peak", json_of(peak)}, {"warnings", scene.warnings}}.dump(2) << '\n';
     return;
   }
   out << '\n' << scene.title << ": the springs that load the frame's bearings least\n";
+  for (const auto& warning : scene.warnings) out << "  warning: " << warning << '\n';
   print_choice(out, "RMS", rms);
   print_choice(out, "peak", peak);
 }

@@ -11,7 +11,7 @@ namespace {
 void read_material(SceneTable material, BodyScene& body) {
   body.material_name = material.text("name");
   body.material.youngs_modulus_Pa = material.quantity("youngs_modulus", "Pa", between(1e8, 2e12));
-  body.material.poisson_ratio = material.quantity("poisson_ratio", "1", between(0, 0.49));
+  body.material.poisson_ratio = material.quantity("poisson_ratio", "1", between(0, 0.4999));
   body.material.density_kg_m3 = material.quantity("density", "kg/m3", between(100, 30000));
   body.yield_strength_Pa = material.quantity("yield_strength", "Pa", between(1e6, 1e10));
   material.finish();

@@ -19,6 +19,10 @@ const std::map<std::string, std::string>& component_units() {
   return units;
 }
 
+/// Squares of loads up to here, and their sums with arms of metres, stay within the range of numbers.
+constexpr double most_load = 1e152;
+const Range loads_within = between(-most_load, most_load);
+
 std::string component_list() {
   std::vector<std::string> names;
   for (const auto& [component, unit] : component_units()) names.push_back(component);
@@ -55,7 +59,15 @@ Eigen::ArrayXd in_si(const TableFile& table, const TableColumn& column, const st
   };
   if (column.unit.empty()) return refuse("has no unit; write \"" + column.name + " [" + si_unit + "]\"");
   try {
-    return values * to_si("1 " + column.unit, si_unit);
+    const Eigen::ArrayXd in_SI = values * to_si("1 " + column.unit, si_unit);
+    for (Eigen::Index i = 0; i < in_SI.size(); ++i)
+      if (!loads_within.contains(in_SI[i])) {
+        findings.errors.push_back({table.file.string(), table.lines[std::size_t(i)], column.column,
+                                   column.name, shown(column.values[std::size_t(i)]),
+                                   loads_within.rule(in_SI[i], si_unit) + "; check the number"});
+        return values;
+      }
+    return in_SI;
   } catch (const UnitError& error) {
     return refuse(error.what());
   }
@@ -124,8 +136,8 @@ void read_harmonic(SceneTable& entry, kinetics::LoadTable& loads) {
   const auto load = read_load_name(entry);
   const std::string unit = load ? load->unit : "N";
   kinetics::HarmonicCourse harmonic;
-  harmonic.mean = entry.quantity_or("mean", unit, {}, 0, "the harmonic alone");
-  harmonic.amplitude = entry.quantity("amplitude", unit, {});
+  harmonic.mean = entry.quantity_or("mean", unit, loads_within, 0, "the harmonic alone");
+  harmonic.amplitude = entry.quantity("amplitude", unit, loads_within);
   harmonic.order = entry.quantity_or("order", "1", not_negative(1e4), 1, "once per turn of the drive");
   harmonic.phase_rad = entry.quantity_or("phase", "rad", {}, 0, "largest at the first instant");
   entry.finish();
@@ -135,7 +147,7 @@ void read_harmonic(SceneTable& entry, kinetics::LoadTable& loads) {
 void read_constant(SceneTable& entry, kinetics::LoadTable& loads) {
   const std::string effect = entry.text("effect");
   const auto load = read_load_name(entry);
-  const double value = entry.quantity("value", load ? load->unit : "N", {});
+  const double value = entry.quantity("value", load ? load->unit : "N", loads_within);
   entry.finish();
   if (load)
     loads.loads.push_back({effect, load->port, load->component, load->unit, kinetics::HarmonicCourse{value}});

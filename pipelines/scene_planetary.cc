@@ -7,7 +7,8 @@ namespace pipelines {
 namespace {
 
 constexpr double half_turn_rad = 3.14159265358979323846;
-constexpr double longest_m = 100;
+constexpr double shortest_m = 1e-4, longest_m = 100;
+constexpr double least_ratio = 1e-3;  // of lengths that are built beside each other
 
 using kinetics::PlanetaryConvention;
 using kinetics::PlanetaryMill;
@@ -30,15 +31,15 @@ void read_geometry(SceneTable geometry, PlanetaryMill& mill) {
     geometry.refuse_missing("", "mixes the ratios k, b, c with lengths; keep one of the two sets");
   } else if (has_any(lengths)) {
     kinetics::PlanetaryLengths l;
-    l.carrier_m = geometry.quantity("carrier_length", "m", positive(longest_m));
-    l.central_pulley_m = geometry.quantity("central_pulley_radius", "m", positive(longest_m));
-    l.drum_pulley_m = geometry.quantity("drum_pulley_radius", "m", positive(longest_m));
+    l.carrier_m = geometry.quantity("carrier_length", "m", between(shortest_m, longest_m));
+    l.central_pulley_m = geometry.quantity("central_pulley_radius", "m", between(shortest_m, longest_m));
+    l.drum_pulley_m = geometry.quantity("drum_pulley_radius", "m", between(shortest_m, longest_m));
     mill.geometry = l;
   } else {
     kinetics::PlanetaryRatios r;
-    r.k = geometry.quantity("k", "1", {0, 0.99, true});
-    r.b = geometry.quantity("b", "1", positive(100));
-    r.c = geometry.quantity("c", "1", positive(100));
+    r.k = geometry.quantity("k", "1", between(least_ratio, 0.99));
+    r.b = geometry.quantity("b", "1", between(least_ratio, 100));
+    r.c = geometry.quantity("c", "1", between(least_ratio, 100));
     mill.geometry = r;
   }
   geometry.finish();

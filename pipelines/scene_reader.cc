@@ -8,6 +8,7 @@
 
 #include "kinetics/machine_refused.h"
 #include "pipelines/nearest.h"
+#include "pipelines/plausibility.h"
 #include "pipelines/scene.h"
 #include "pipelines/scene_body.h"
 #include "pipelines/scene_effects.h"
@@ -250,6 +251,7 @@ Scene read_scene(const std::filesystem::path& file) {
   if (!findings.errors.empty()) throw_sorted(std::move(findings.errors));
   scene.defaults = std::move(findings.defaults);
   scene.warnings = std::move(findings.warnings);
+  for (auto& doubt : implausible(scene)) scene.warnings.push_back(std::move(doubt));
   return scene;
 }
 

@@ -51,7 +51,16 @@ void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, Scen
                                   (of_bodies.empty() ? "" : ", " + listed(of_bodies)));
 }
 
-/// @throws std::invalid_argument as the mesher, without meshing
+/// What can be told of a machine before the mesh gives its masses.
+/// @throws kinetics::MachineRefused
+void check_without_masses(const Scene& scene) {
+  if (const auto* train = std::get_if<kinetics::DriveTrain>(&scene.machine))
+    kinetics::mean_speed_rad_s(*train, train->inertias.at(0).name);
+  if (const auto* mill = std::get_if<kinetics::PlanetaryMill>(&scene.machine))
+    kinetics::planetary_geometry(*mill);
+}
+
+/// @throws meshes::GeometryRefused as the mesher, without meshing
 void check_shape(const BodyScene& body) {
   if (const auto* shaft = body.shaft()) {
     if (shaft->keyways.empty())
@@ -77,6 +86,8 @@ void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::ve
     else if (scene.masses_from_mesh.empty())
       check_bearings(
           scene, compute_loads(scene.machine, scene.kinetics_effects(), {rehearsal_turns(scene), 8}), root);
+    else
+      check_without_masses(scene);
   } catch (const kinetics::MachineRefused& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }

@@ -50,6 +50,10 @@ kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneF
     findings.warnings.push_back("sampling.turns = " + std::to_string(grid.turns) +
                                 ": the motion repeats after " + std::to_string(period) +
                                 " turns; extremes and means are those of the turns given");
+  if (sampling.has("turns") && period == 0 && speeds_are_known)
+    findings.warnings.push_back("sampling.turns = " + std::to_string(grid.turns) +
+                                ": the motion does not repeat within " + std::to_string(most_turns) +
+                                " turns; extremes and means are those of the turns given");
   if (static_cast<double>(grid.turns) * grid.instants_per_turn > most_instants)
     sampling.refuse(sampling.has("instants_per_turn") ? "instants_per_turn" : "turns",
                     std::to_string(grid.turns) + " turns of " + std::to_string(grid.instants_per_turn) +

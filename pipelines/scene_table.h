@@ -32,7 +32,12 @@ public:
   bool is_present() const noexcept { return is_present_; }
   bool has(const std::string& name) const;
   bool has_list(const std::string& name) const;  ///< an array stands there
-  std::vector<std::string> names() const;        ///< of all keys, as written
+  /// That very text stands there.
+  bool holds(const std::string& name, const std::string& text) const {
+    const TomlEntry* const entry = node_->find(name);
+    return entry != nullptr && entry->value.kind == TomlNode::Kind::text && entry->value.text == text;
+  }
+  std::vector<std::string> names() const;  ///< of all keys, as written
   const std::string& key() const noexcept { return key_; }
 
   // Required values: an error if they are missing.

@@ -12,6 +12,8 @@ using kinetics::DriveTrain;
 using kinetics::ElementKind;
 
 constexpr double most_stiffness_N_m_rad = 1e15;
+constexpr double most_ratio = 1e4;  // worm gears end at a few hundred
+const Range torques = between(-1e12, 1e12), phases = between(-1e6, 1e6);
 
 std::optional<double> optional_quantity(SceneTable& table, const std::string& name, const std::string& unit,
                                         const Range& range) {
@@ -47,12 +49,21 @@ kinetics::TrainInertia read_inertia(SceneTable& table, std::vector<std::string>&
       table.refuse("inertia", "is given, and left to the mesh by from_mesh; keep one");
     inertia.inertia_kg_m2 = 1;  // until the mesh is there
   } else {
-    inertia.inertia_kg_m2 = table.quantity("inertia", "kg m2", positive(1e12));
+    inertia.inertia_kg_m2 = table.quantity("inertia", "kg m2", between(1e-15, 1e12));
   }
   inertia.damping_N_m_s = quantity_if_given(table, "damping", "N m s/rad", not_negative(1e12));
   inertia.held = flag_if_given(table, "held");
   table.finish();
   return inertia;
+}
+
+/// Of a belt or gear; behind several of them speeds and reduced inertias go with its powers.
+double read_ratio(SceneTable& table) {
+  const double ratio = table.ratio("ratio");
+  if (std::abs(ratio) > most_ratio || (ratio != 0 && std::abs(ratio) < 1 / most_ratio))
+    table.refuse("ratio", "is no ratio that one stage can have: its size must lie between " +
+                              shown(1 / most_ratio) + " and " + shown(most_ratio) + "; check the number");
+  return ratio;
 }
 
 kinetics::TrainElement read_element(SceneTable& table) {
@@ -74,10 +85,10 @@ kinetics::TrainElement read_element(SceneTable& table) {
     element.second = between_names[1].text;
   }
   table.know("ratio");
-  if (kind != "shaft" || table.has("ratio")) element.ratio = table.ratio("ratio");
+  if (kind != "shaft" || table.has("ratio")) element.ratio = read_ratio(table);
   element.rigid = flag_if_given(table, "rigid");
   element.stiffness_N_m_rad =
-      optional_quantity(table, "stiffness", "N m/rad", positive(most_stiffness_N_m_rad));
+      optional_quantity(table, "stiffness", "N m/rad", between(1e-9, most_stiffness_N_m_rad));
   element.stiffness_on = text_if_given(table, "stiffness_on");
   element.damping_N_m_s = quantity_if_given(table, "damping", "N m s/rad", not_negative(1e12));
   element.loss_factor = quantity_if_given(table, "loss_factor", "1", not_negative(10));
@@ -109,13 +120,13 @@ kinetics::TrainExcitation read_excitation(SceneTable& table) {
   kinetics::TrainExcitation excitation;
   excitation.name = table.text("name");
   excitation.inertia = table.text("inertia");
-  excitation.constant_Nm = quantity_if_given(table, "constant", "N m", {});
+  excitation.constant_Nm = quantity_if_given(table, "constant", "N m", torques);
   table.know("harmonics");
   if (table.has("harmonics"))
     for (SceneTable& entry : table.tables("harmonics")) {
       kinetics::TorqueHarmonic harmonic;
-      harmonic.amplitude_Nm = entry.quantity("amplitude", "N m", {});
-      harmonic.phase_rad = quantity_if_given(entry, "phase", "rad", {});
+      harmonic.amplitude_Nm = entry.quantity("amplitude", "N m", torques);
+      harmonic.phase_rad = quantity_if_given(entry, "phase", "rad", phases);
       read_rate(entry, harmonic);
       entry.finish();
       excitation.harmonics.push_back(harmonic);
@@ -123,7 +134,7 @@ kinetics::TrainExcitation read_excitation(SceneTable& table) {
   table.know("table");
   if (table.has("table")) {
     SceneTable entry = table.table("table");
-    excitation.table.torque_Nm = entry.list("torques", "N m", {});
+    excitation.table.torque_Nm = entry.list("torques", "N m", torques);
     read_rate(entry, excitation.table);
     entry.finish();
   }
@@ -164,8 +175,8 @@ void read_transient(SceneTable& machine, TorsionScene& torsion) {
     for (SceneTable& entry : table.tables("torques")) {
       TorsionScene::Torque torque;
       torque.inertia = entry.text("inertia");
-      torque.time_s = entry.list("times", "s", {});
-      torque.torque_Nm = entry.list("torques", "N m", {});
+      torque.time_s = entry.list("times", "s", between(0, 1e6));
+      torque.torque_Nm = entry.list("torques", "N m", torques);
       if (torque.time_s.size() != torque.torque_Nm.size())
         entry.refuse("torques", "has " + std::to_string(torque.torque_Nm.size()) +
                                     " entries where times has " + std::to_string(torque.time_s.size()) +

@@ -22,25 +22,25 @@ Json carried_json(const BodyLoads& loads) {
   return object({{"effect", "pitch_guide"},
                  {"max_Nm", number(most)},
                  {"rms_Nm", number(std::sqrt(loads.carried_moment_Nm.square().mean()))},
-                 {"share", number(most / loads.carried_moment_scale_Nm)}});
+                 {"share", number_or_none(most / loads.carried_moment_scale_Nm)}});
 }
 
 /// What effects = "auto" has switched off: shares of the loads, bounds of the governing stresses.
 Json choice_json(const RunReport& report) {
   const auto& choice = report.scene.effect_choice;
-  Json json =
-      object({{"limit", choice.limit},
-              {"share_of_loads", number(choice.share)},
-              {"load_change",
-               object({{"load", choice.load_change.load}, {"share", number(choice.load_change.share)}})},
-              {"taken_back", choice.taken_back},
-              {"effects", Json::object()}});
+  Json json = object({{"limit", choice.limit},
+                      {"share_of_loads", number_or_none(choice.share)},
+                      {"load_change", object({{"load", choice.load_change.load},
+                                              {"share", number_or_none(choice.load_change.share)}})},
+                      {"taken_back", choice.taken_back},
+                      {"effects", Json::object()}});
   for (const auto& dropped : choice.dropped)
-    json["effects"][dropped.effect]["share_of_loads"] = number(dropped.share);
+    json["effects"][dropped.effect]["share_of_loads"] = number_or_none(dropped.share);
   for (const auto& analysis : report.bodies) {
     if (!analysis.dropped) continue;
     const auto bound = [&](const EffectBound& b) {
-      return object({{"bound_Pa", number(b.bound_Pa)}, {"estimated_Pa", number(b.estimated_Pa)}});
+      return object(
+          {{"bound_Pa", number_or_none(b.bound_Pa)}, {"estimated_Pa", number_or_none(b.estimated_Pa)}});
     };
     for (const auto& effect : analysis.dropped->effects)
       json["effects"][effect.effect]["bodies"][analysis.scene.name] = bound(effect);

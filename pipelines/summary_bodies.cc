@@ -23,12 +23,12 @@ Json place_and_moment(const RunReport& report, const std::array<double, 3>& posi
 
 /// "total" of all sources, "numerical" of those that a finer run would mend, "model" of the others.
 Json ledger_json(const ErrorLedger& ledger) {
-  Json json = object({{"total", number(ledger.total_Pa())},
-                      {"numerical", number(ledger.numerical_Pa())},
-                      {"model", number(ledger.total_Pa() - ledger.numerical_Pa())}});
+  Json json = object({{"total", number_or_none(ledger.total_Pa())},
+                      {"numerical", number_or_none(ledger.numerical_Pa())},
+                      {"model", number_or_none(ledger.total_Pa() - ledger.numerical_Pa())}});
   for (const auto* entries : {&ledger.numerical, &ledger.model})
     for (const auto& entry : *entries) {
-      json[entry.source] = number(entry.value_Pa);
+      json[entry.source] = number_or_none(entry.value_Pa);
       json["methods"][entry.source] = entry.method;
     }
   return json;
@@ -59,7 +59,7 @@ Json governing_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["kind"] = is_hot_spot ? "hot_spot" : "peak_von_mises";
   json["name"] = stress.name();
   json["text"] = value_with_errors(stress.value_Pa, stress.errors);
-  json["safety_against_yield"] = number(stress.safety);
+  json["safety_against_yield"] = number_or_none(stress.safety);
   json["error"] = ledger_json(stress.errors);
   json.update(place_and_moment(report, stress.position_m, stress.place, stress.surface, stress.instant));
   const auto trouble = not_known_well(stress, analysis.search);
@@ -71,7 +71,7 @@ Json peak_json(const RunReport& report, const BodyAnalysis& analysis) {
   const Peak& peak = analysis.peak;
   Json json = figure(peak.value_Pa, "Pa");
   json["error"] = ledger_json(peak.errors);
-  json["safety_against_yield"] = number(peak.safety);
+  json["safety_against_yield"] = number_or_none(peak.safety);
   json.update(place_and_moment(report, peak.position_m, peak.feature, peak.place, peak.instant));
   json["stress_Pa"] = peak.stress_Pa;
   const auto& effects = analysis.loads.history.effects;
@@ -99,8 +99,8 @@ Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
   for (const Zone& zone : analysis.zones.zones) {
     const auto error = error_Pa(analysis, zone);
     Json entry = object({{"peak_von_mises_Pa", number(zone.peak_Pa)},
-                         {"error_Pa", error ? number(*error) : Json(nullptr)},
-                         {"safety_against_yield", number(zone.safety)},
+                         {"error_Pa", error ? number_or_none(*error) : Json(nullptr)},
+                         {"safety_against_yield", number_or_none(zone.safety)},
                          {"volume_m3", number(zone.volume_m3)},
                          {"nodes", zone.n_nodes}});
     entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
@@ -126,7 +126,7 @@ Json torsion_json(const BodyAnalysis& analysis) {
   json["max_section_shear_stress"]["segment"] = largest_in_section->plane.segment;
   json["max_section_shear_stress"]["z_m"] = largest_in_section->plane.z_m;
   const auto mismatch = plain_torsion_mismatch(diagrams);
-  json["plain_sections_against_beam"] = number(mismatch);
+  json["plain_sections_against_beam"] = number_or_none(mismatch);
   return json;
 }
 
@@ -143,7 +143,7 @@ void add_vibration(const Vibration& vibration, Json& json) {
   json["dynamic_amplification"]["highest_harmonic"] =
       object({{"order", dynamic.highest.order},
               {"frequency_Hz", dynamic.highest.frequency_Hz},
-              {"share", number(dynamic.highest.share)},
+              {"share", number_or_none(dynamic.highest.share)},
               {"amplification", number(dynamic.highest.amplification)}});
 }
 
@@ -189,14 +189,14 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
       json["seats"][seat.port] = object({{"z_m", seat.z_m},
                                          {"max_deflection_m", seat.max_deflection_m},
                                          {"max_slope_rad", seat.max_slope_rad}});
-    json["stress_against_statics"] = object({{"force", number(analysis.diagrams->force_mismatch)},
-                                             {"bending", number(analysis.diagrams->bending_mismatch)},
-                                             {"torque", number(analysis.diagrams->torque_mismatch)}});
+    json["stress_against_statics"] = object({{"force", number_or_none(analysis.diagrams->force_mismatch)},
+                                             {"bending", number_or_none(analysis.diagrams->bending_mismatch)},
+                                             {"torque", number_or_none(analysis.diagrams->torque_mismatch)}});
   }
   for (const auto& spot : analysis.hot_spots)
     json["hot_spots"].push_back(object({{"name", spot.name},
                                         {"von_mises_Pa", number(spot.von_mises_Pa)},
-                                        {"error_Pa", number(error_Pa(analysis, spot))},
+                                        {"error_Pa", number_or_none(error_Pa(analysis, spot))},
                                         {"normal_max_Pa", number(spot.max_normal_Pa)},
                                         {"normal_min_Pa", number(spot.min_normal_Pa)},
                                         {"position_m", spot.toe_m}}));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "pipelines/finite.h"
 #include "pipelines/summary.h"
 
 namespace pipelines::summary {
@@ -24,8 +25,15 @@ inline Json object(std::initializer_list<Member> members) {
   return json;
 }
 
-/// JSON has no infinity: a figure that is not finite is null.
+/// @throws NotFinite: no stage leaves such a number, so none is hidden here
 inline Json number(double value) {
+  require_finite("summary", "a figure of summary.json", value);
+  return Json(value);
+}
+
+/// A figure that may have no value, and is null then: the safety of a body that nothing stresses, ratios to a
+/// load that is not there, errors that are not known (infinite).
+inline Json number_or_none(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 

@@ -4,23 +4,25 @@
 #include <cmath>
 
 #include "pipelines/errors.h"
+#include "pipelines/finite.h"
 
 namespace pipelines {
 
-TorsionReport report_torsion(const Scene& scene) {
-  const auto* train = std::get_if<kinetics::DriveTrain>(&scene.machine);
+TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
+  const auto* train = std::get_if<kinetics::DriveTrain>(&machine);
   if (!train)
     throw StageRefused(scene.file.string() +
                        ": torsion needs a scene whose machine.type is \"drive_train\"; see "
                        "pipelines/scenes/drive_train.toml");
-  const kinetics::DriveTrain on = kinetics::with_effects(*train, scene.effects);
+  const auto effects = scene.kinetics_effects();
+  const kinetics::DriveTrain on = kinetics::with_effects(*train, effects);
   TorsionReport report;
   report.modes = kinetics::natural_modes(on);
   report.forced = kinetics::forced_response(on);
   report.margins = kinetics::resonance_margins(on);
   report.campbell = kinetics::campbell_table(on, scene.torsion.slowest_rad_s, scene.torsion.fastest_rad_s,
                                              scene.torsion.n_speeds, scene.torsion.orders);
-  const auto history = compute_loads(scene.machine, scene.effects, scene.sampling);
+  const auto history = compute_loads(machine, effects, scene.sampling);
   for (std::size_t e = 0; e < on.elements.size(); ++e) {
     const auto& name = on.elements[e].name;
     const auto largest = [&](const std::string& quantity) {
@@ -40,6 +42,7 @@ TorsionReport report_torsion(const Scene& scene) {
     report.table_4 = kinetics::published_table_4(on);
     report.table_7 = kinetics::published_table_7(on);
   }
+  require_finite(report);
   return report;
 }
 

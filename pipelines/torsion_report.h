@@ -31,8 +31,9 @@ struct TorsionReport {
   std::optional<kinetics::PublishedTable> table_4, table_7;  ///< where the scene asks for them
 };
 
-/// @throws StageRefused if the scene's machine is no drive train, or as kinetics does
-TorsionReport report_torsion(const Scene& scene);
+/// @param machine  the scene's, with the inertias that it leaves to a mesh
+/// @throws StageRefused if the scene's machine is no drive train; as kinetics does; NotFinite
+TorsionReport report_torsion(const Scene& scene, const Machine& machine);
 
 void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& report);
 std::string torsion_json(const Scene& scene, const TorsionReport& report);

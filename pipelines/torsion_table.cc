@@ -14,6 +14,9 @@ using Eigen::Index;
 using Json = nlohmann::ordered_json;
 
 constexpr double two_pi = 2 * M_PI;
+const char* const phase_sign =
+    "phases of a train, in the scene and in forced.csv: amplitude cos(w t + phase), a lead is positive; load "
+    "tables and line spectra have cos(n angle - phase), a lag is positive";
 constexpr double rpm = two_pi / 60;
 
 const kinetics::DriveTrain& train_of(const Scene& scene) {
@@ -110,6 +113,7 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
   if (report.transient) print_transient(out, train, *report.transient);
   if (report.table_4) print_published(out, "Table 4", *report.table_4);
   if (report.table_7) print_published(out, "Table 7", *report.table_7);
+  out << "\n  " << phase_sign << '\n';
   for (const auto& warning : report.forced.warnings) out << "  warning: " << warning << '\n';
 }
 
@@ -139,7 +143,9 @@ std::string torsion_json(const Scene& scene, const TorsionReport& report) {
           report.transient->motion.torque_Nm.row(Index(e)).abs().maxCoeff();
   }
   torsion["rigid_acceleration_rad_s2"] = report.forced.rigid_acceleration_rad_s2;
+  torsion["phases"] = phase_sign;
   json["warnings"] = report.forced.warnings;
+  for (const auto& warning : scene.warnings) json["warnings"].push_back(warning);
   return json.dump(2) + "\n";
 }
 

@@ -169,6 +169,25 @@ TEST(Bodies, TrainShaftTakesItsInertiaFromTheMeshAndItsTorqueToTheDisc) {
   // tau = 16 T / (pi d^3) in the plain body: beam theory against the field.
   EXPECT_LT(json["bodies"]["shaft"]["torsion"]["plain_sections_against_beam"].get<double>(), 0.03);
   EXPECT_LT(json["bodies"]["shaft"]["stress_against_statics"]["torque"].get<double>(), 0.05);
+  // The train's own results lie beside the shaft's, and the summary's frequencies are those with the mesh's
+  // inertia: the same train with that inertia written down.
+  const auto modes = csv(directory / "out/torsion/modes.csv").at("frequency");
+  const std::string inertia = "inertia = " + std::to_string(1e6 * figure["machine"].get<double>()) + "e-6";
+  std::string train = results_test::bytes(shipped("root_peeler_shaft.toml"));
+  train.erase(train.find("\n[shaft]\n") + 1);
+  write(directory / "given.toml",
+        with_edits(train, {{"from_mesh = true", inertia},
+                           {"  \"belt_pull\", \"disc_imbalance\", \"disc_weight\",", ""},
+                           {"  \"shaft_inertia\",", ""}}));
+  const auto given = millstress(directory.path, "torsion given.toml --json");
+  ASSERT_EQ(given.exit_code, 0) << given.err;
+  const auto expected = nlohmann::json::parse(given.out)["torsion"]["natural_frequencies"];
+  ASSERT_EQ(modes.size(), expected.size());
+  for (std::size_t k = 1; k < modes.size(); ++k) {
+    const double w = expected[k]["value"];
+    EXPECT_NEAR(modes[k], w, 1e-6 * w);
+    EXPECT_NEAR(json["torsion"]["natural_frequencies"][k]["value"].get<double>(), w, 1e-6 * w);
+  }
 }
 
 TEST(Bodies, WithoutForcesATrainGivesTorsionOnly) {

@@ -223,6 +223,12 @@ TEST(LoadStage, SpringsAndExtremesAnswerForTheWholeTorus) {
   EXPECT_NEAR(loads["R_E"]["rms"].get<double>(), springs["rms"]["reaction_given_N"].get<double>(), 1e-6);
   EXPECT_GT(scale, 1);
 
+  // A window shorter than the period: the optimum is that of a part of the motion, and says so.
+  EXPECT_TRUE(springs["warnings"].empty());
+  write(directory / "short.toml", edited("vibratory_mill.toml", {{"turns = 20 ", "turns = 3 "}}));
+  EXPECT_NE(millstress(directory.path, "springs short.toml").out.find("the motion repeats after 20 turns"),
+            std::string::npos);
+
   const auto wrong = millstress(directory.path, "springs '" + shipped("planetary_mill.toml").string() + "'");
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("vibratory_mill"), std::string::npos);

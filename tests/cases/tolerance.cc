@@ -133,6 +133,19 @@ TEST(Tolerance, SecondRunReusesTheLastMesh) {
   EXPECT_EQ(contents(directory / "out"), first);
 }
 
+// "none" in the scene or on the command line: solved once on the scene's mesh, whatever the default is.
+TEST(Tolerance, NoneSolvesOnceOnTheScenesMesh) {
+  const results_test::Directory directory;
+  write(directory / "none.toml", stepped_shaft("tolerance = \"none\""));
+  write(directory / "five.toml", stepped_shaft("tolerance = \"5 %\""));
+  ASSERT_EQ(millstress(directory.path, "run none.toml -o scene").exit_code, 0);
+  ASSERT_EQ(millstress(directory.path, "run five.toml --tolerance none -o command").exit_code, 0);
+  for (const char* out : {"scene", "command"})
+    EXPECT_FALSE(summary(directory / out)["bodies"]["shaft"].contains("search")) << out;
+  EXPECT_EQ(summary(directory / "scene")["bodies"]["shaft"]["peak_von_mises"],
+            summary(directory / "command")["bodies"]["shaft"]["peak_von_mises"]);
+}
+
 TEST(Tolerance, WrongWishesAreRefused) {
   const results_test::Directory directory;
   write(directory / "small.toml", stepped_shaft());

@@ -48,6 +48,42 @@ TEST(WrongInput, IsNamedBeforeAnythingRuns) {
   EXPECT_FALSE(fs::exists(directory / "results"));
 }
 
+// What `run` refuses after meshing is refused by `check` with the same words, and nothing is called valid.
+TEST(WrongInput, CheckRefusesWhatARunRefuses) {
+  const results_test::Directory directory;
+  fs::copy_file(shipped("belt_pull.csv"), directory / "belt_pull.csv");
+  for (const char* support : {"torque_support = \"disc_seat\"\n", "axial_support = \"bearing_1\"\n",
+                              "bearings = [\"bearing_1\", \"bearing_2\"]\n"}) {
+    write(directory / "table.toml", edited("load_table.toml", {{support, ""}}));
+    const auto check = millstress(directory.path, "check table.toml"),
+               run = millstress(directory.path, "run table.toml -q -o out");
+    EXPECT_EQ(check.exit_code, 2) << support;
+    EXPECT_EQ(run.exit_code, 2) << support;
+    EXPECT_EQ(check.out, "");
+    EXPECT_EQ(check.err, run.err);
+    const std::string key = std::string(support).substr(0, std::string(support).find(' '));
+    EXPECT_NE(check.err.find("table.toml:46:1: shaft." + key + ": is missing"), std::string::npos)
+        << check.err;
+  }
+}
+
+TEST(WrongInput, FormatsAndBareNumbersAreNotGuessed) {
+  const results_test::Directory directory;
+  const std::string scene = " '" + shipped("drive_train.toml").string() + "' ";
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"loads" + scene + "-o x.csv", "--csv x.csv"},
+      {"loads" + scene + "--csv x.h5", "-o x.h5"},
+      {"run" + scene + "--tolerance 0.5", "\"50 %\""},
+      {"effects" + scene + "--threshold 1", "\"1 %\""},
+      {"run" + scene + "--tolerance none --time-limit 60", "--tolerance none"}};
+  for (const auto& [arguments, fragment] : wrong) {
+    const auto outcome = millstress(directory.path, arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(fragment), std::string::npos) << outcome.err;
+  }
+  EXPECT_TRUE(fs::is_empty(directory.path));
+}
+
 TEST(WrongInput, OutputThatCannotBeWrittenIsNamed) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));
