@@ -12,7 +12,7 @@ namespace {
 constexpr double g_m_s2 = 9.81, rpm = 2 * M_PI / 60;
 constexpr double most_speed_rad_s = 3600 * rpm * (1 + 1e-3);
 constexpr double most_vibratory = 20 * g_m_s2, most_planetary = 100 * g_m_s2;
-constexpr double most_peripheral_m_s = 50, most_tolerance = 0.2;
+constexpr double most_peripheral_m_s = 50, most_tolerance = 0.2, most_poisson_ratio = 0.49;
 
 const char* const unit_of_speed =
     "a bare number is in rad/s and \"Hz\" counts turns per second; write \"... rpm\" if that is meant";
@@ -107,7 +107,15 @@ void doubt_seats(const Scene& scene, const BodyScene& body, Doubts& doubts) {
 std::vector<std::string> implausible(const Scene& scene) {
   Doubts doubts;
   std::visit(MachineDoubts{scene, doubts}, scene.machine);
-  for (const auto& body : scene.bodies) doubt_seats(scene, body, doubts);
+  for (const auto& body : scene.bodies) {
+    doubt_seats(scene, body, doubts);
+    if (body.material.poisson_ratio > most_poisson_ratio)
+      doubts.texts.push_back(
+          fmt::format("{}.material.poisson_ratio = {:g}: cells of degree 2 hardly keep the volume of such a "
+                      "material, and "
+                      "the solid's stress comes out too low; the error \"locking\" states by how much",
+                      body.name, body.material.poisson_ratio));
+  }
   if (scene.wish.tolerance > most_tolerance)
     doubts.texts.push_back(
         fmt::format("tolerance = {:g} %: a stress known no better tells little more than "

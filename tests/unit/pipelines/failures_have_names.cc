@@ -5,10 +5,12 @@
 
 #include <filesystem>
 #include <new>
+#include <sstream>
 
 #include "fem/errors.h"
 #include "kinetics/machine_refused.h"
 #include "meshes/refused.h"
+#include "pipelines/accuracy_report.h"
 #include "pipelines/cost_forecast.h"
 #include "pipelines/errors.h"
 #include "pipelines/failure.h"
@@ -95,6 +97,16 @@ TEST(Failures, TheForecastSaysWhyAMeshIsLeftOut) {
   ASSERT_EQ(rows.back().rung, "first of a search");
   EXPECT_NE(rows.back().left_out.find("scaled Jacobian"), std::string::npos) << rows.back().left_out;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) EXPECT_EQ(rows[i].left_out, "") << rows[i].rung;
+}
+
+// So does the table of `accuracy`.
+TEST(Failures, AccuracySaysWhyAModelIsLeftOut) {
+  AccuracyStudy study;
+  study.rows.resize(1);
+  study.left_out.push_back({"even mesh, cells 1/3", "it does not fit into memory"});
+  std::ostringstream table;
+  print_accuracy(table, study);
+  EXPECT_NE(table.str().find("left out: it does not fit into memory"), std::string::npos) << table.str();
 }
 
 }  // namespace
