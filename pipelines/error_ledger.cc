@@ -6,6 +6,7 @@
 
 #include "fem/cell_stress_at_node.h"
 #include "pipelines/superposition.h"
+#include "pipelines/tetrahedra_estimate.h"
 
 namespace pipelines {
 namespace {
@@ -176,7 +177,10 @@ ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& re
     if (belongs[k]) without[Eigen::Index(k)] = 0;
   ledger.numerical.push_back({"pressure_harmonics", "what the highest harmonic contributes",
                               std::abs(von_mises_of(unit, without) - value)});
-  if (responses.nodes.n_cells() > 0 && !responses.energy_error.norm_sqrtJ.empty())
+  if (responses.nodes.n_cells() > 0 && responses.nodes.shape().is_tetrahedron())
+    ledger.numerical.push_back(
+        tetrahedra_estimate(point, responses, material, {factors.begin(), factors.end()}));
+  else if (responses.nodes.n_cells() > 0 && !responses.energy_error.norm_sqrtJ.empty())
     ledger.numerical.push_back(
         {"discretisation", "recovered stress against single cells around, times a safety factor of 3",
          discretisation_safety * discretisation_error(point, responses, material, factors, left_out)});

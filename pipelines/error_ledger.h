@@ -66,7 +66,7 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 ///   pressure_harmonics  what the highest harmonic of the seat pressures contributes
 ///   discretisation      the largest difference between the recovered stress and that of one cell, over the
 ///                       faces around the point, times discretisation_safety: a single cell may agree by
-///                       chance
+///                       chance; of tetrahedra as tetrahedra_estimate.h
 ///   geometry            geometry_share
 ///   linear_solver       relative residual, or rounding if that is more
 /// Responses without cells (cheap models) get no discretisation entry here.

@@ -1,0 +1,24 @@
+#include "pipelines/tetrahedra_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/tetrahedra_error.h"
+
+namespace pipelines {
+
+ErrorEntry tetrahedra_estimate(const StressPoint& point, const fem::UnitResponses& responses,
+                               const fem::Material& material, const std::vector<double>& factors) {
+  double sum_Pa = 0;
+  for (const auto& part : point.parts) {
+    const auto [stress_Pa, off_Pa] = fem::cells_against_recovered(responses, material, part.node, factors);
+    if (off_Pa == 0) continue;
+    const double d = off_Pa / std::max(stress_Pa, off_Pa);
+    sum_Pa += std::abs(part.weight) * off_Pa *
+              std::max(tetrahedra_factor * std::pow(d, tetrahedra_exponent - 1), tetrahedra_least_share);
+  }
+  return {"discretisation", "recovered stress against the cells around, to the power of their orders",
+          sum_Pa};
+}
+
+}  // namespace pipelines

@@ -1,0 +1,42 @@
+/// Five shafts whose largest stress is known, as STEP files: what a user brings, and what is true of it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace step_shafts {
+
+struct Segment {
+  std::string name;
+  double diameter_mm = 0, length_mm = 0;
+  bool is_port = false;
+};
+
+struct StepShaft {
+  std::string name;
+  std::vector<Segment> segments;   ///< along z from 0
+  std::vector<double> fillets_mm;  ///< one per junction; 0: none, between equal diameters
+  double bore_mm = 0;              ///< diameter, right through
+  std::string loads;               ///< tables of the scene's machine
+  std::string supports;            ///< lines of the body
+  /// Of published tables (P08: largest shear, P09: largest principal stress), times the nominal stress [MPa];
+  /// 0 where no table has the shaft.
+  double known_MPa = 0;
+  bool known_is_shear = false;
+};
+
+/// Shoulder fillets in torsion, bending and tension, a groove in bending, a hollow shaft in torsion and
+/// bending.
+std::vector<StepShaft> all();
+
+/// The solid by OpenCASCADE, in millimetres. Starts and ends gmsh.
+void write_step(const StepShaft& shaft, const std::filesystem::path& file);
+
+/// The STEP file `<name>.step` as body "part".
+std::string scene_of_step(const StepShaft& shaft, const std::string& mesh_keys);
+
+/// The same drawing as body "shaft" of blocks.
+std::string scene_of_blocks(const StepShaft& shaft);
+
+}  // namespace step_shafts
