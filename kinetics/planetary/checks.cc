@@ -89,6 +89,7 @@ void check_effects(PlanetaryConvention convention, const std::vector<std::string
         effects.begin() + std::ptrdiff_t(i))
       throw MachineRefused("effect " + effects[i] + ": named twice; it counts once, take one out");
   }
+  require_needs(planetary_mill_effects(convention), effects);
 }
 
 void check_parameters(const PlanetaryMill& mill, const std::vector<std::string>& effects) {

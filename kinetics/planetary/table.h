@@ -1,4 +1,4 @@
-/// The table of the planetary mill's effects: name -> maker, description, source.
+/// The table of the planetary mill's effects: name -> maker, description, source, what it needs.
 #pragma once
 
 #include <string>

@@ -150,8 +150,9 @@ void check_excitations(const DriveTrain& train) {
 }
 
 void check_effects(const DriveTrain& train, const std::vector<std::string>& effects) {
+  const std::vector<EffectInfo> table = drive_train_effects(train);
   std::vector<std::string> known;
-  for (const EffectInfo& info : drive_train_effects(train)) known.push_back(info.name);
+  for (const EffectInfo& info : table) known.push_back(info.name);
   std::set<std::string> seen;
   for (const std::string& effect : effects) {
     if (std::find(known.begin(), known.end(), effect) == known.end())
@@ -161,6 +162,7 @@ void check_effects(const DriveTrain& train, const std::vector<std::string>& effe
     if (!seen.insert(effect).second)
       throw MachineRefused("effect " + effect + ": named twice; it counts once, take one out");
   }
+  require_needs(table, effects);
 }
 
 }  // namespace kinetics::torsion

@@ -107,13 +107,7 @@ void check_effects(Convention convention, const std::vector<std::string>& effect
       if (effects[i] == effects[j])
         throw MachineRefused("effect " + effects[i] + ": named twice; it counts once, take one out");
   }
-  const auto require = [&](const std::string& effect, const std::string& base, const std::string& reason) {
-    if (contains(effects, effect) && !contains(effects, base))
-      throw MachineRefused("effect " + effect + ": needs the effect " + base + ", " + reason +
-                           "; add it, or take " + effect + " out");
-  };
-  require("charge_follows_pitch", "pitch", "which frees the pitch that the charge follows");
-  require("charge_lag", "charge_translation", "which is what lags");
+  require_needs(vibratory_mill_effects(convention), effects);
 }
 
 void check_parameters(const VibratoryMill& mill, const std::vector<std::string>& effects) {

@@ -47,11 +47,13 @@ std::set<std::string> contributing(const LoadHistory& loads) {
   return names;
 }
 
-/// An effect with those it builds on.
-std::vector<std::string> with_base(const std::string& effect) {
-  if (effect == "charge_follows_pitch") return {"pitch", effect};
-  if (effect == "charge_lag") return {"charge_translation", effect};
-  return {effect};
+/// An effect with those it needs.
+std::vector<std::string> with_base(Convention convention, const std::string& effect) {
+  std::vector<std::string> names{effect};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (const auto& open : open_needs(kinetics::vibratory_mill_effects(convention), names))
+      names.push_back(open.need.effect);
+  return names;
 }
 
 }  // namespace
@@ -82,8 +84,8 @@ TEST(VibratoryEffects, each_alone_contributes_alone_and_is_finite) {
       SCOPED_TRACE(info.name);
       auto m = mill();
       m.convention = convention;
-      const auto loads = compute_loads(m, with_base(info.name), one_turn);
-      const auto names = with_base(info.name);
+      const auto names = with_base(convention, info.name);
+      const auto loads = compute_loads(m, names, one_turn);
       EXPECT_EQ(contributing(loads), std::set<std::string>(names.begin(), names.end()));
       machines::expect_whole(loads, 36);
       EXPECT_FALSE(info.description.empty() || info.source.empty());

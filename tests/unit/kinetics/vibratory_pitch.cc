@@ -119,10 +119,16 @@ TEST(VibratoryPitch, resonance_is_harmless_if_damped_or_not_excited) {
   EXPECT_EQ(refusal(mill, effects_without(mill, {"charge_lag", "charge_follows_pitch"})), "accepted");
 }
 
-TEST(VibratoryPitch, a_mean_moment_needs_springs) {
-  const auto mill = machines::laboratory();
-  const auto message = refusal(mill, {"gravity_structure", "pitch"});
+TEST(VibratoryPitch, a_mean_moment_needs_stiffness) {
+  auto mill = machines::laboratory();
+  for (auto& spring : mill.springs) {
+    spring.stiffness_N_m.setZero();
+    spring.preload_N = Eigen::Vector2d::Zero();  // given, so that it does not balance the weight
+  }
+  const auto message = refusal(mill, {"gravity_structure", "springs", "pitch"});
   EXPECT_NE(message.find("k_theta = 0"), std::string::npos) << message;
   EXPECT_NE(message.find("76.518 N m"), std::string::npos) << message;  // 30 kg * 9.81 * 0.26 m
-  EXPECT_EQ(refusal(mill, {"structure_inertia", "pitch"}), "accepted") << "no mean moment";
+  EXPECT_EQ(refusal(mill, {"structure_inertia", "springs", "pitch"}), "accepted") << "no mean moment";
+  EXPECT_NE(refusal(mill, {"structure_inertia", "pitch"}).find("needs the effect springs"),
+            std::string::npos);
 }

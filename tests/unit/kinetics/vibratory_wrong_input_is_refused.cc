@@ -93,6 +93,7 @@ TEST(VibratoryWrongInput, effects) {
       {unchanged, {"pitch_guide"}, {"effect pitch_guide", "moment_residual"}},
       {unchanged, {"springs", "charge_follows_pitch"}, {"charge_follows_pitch", "needs the effect pitch"}},
       {unchanged, {"charge_lag"}, {"charge_lag", "needs the effect charge_translation"}},
+      {unchanged, {"structure_inertia", "pitch"}, {"effect pitch", "needs the effect springs"}},
       {published, {"structure_inertia"}, {"structure_inertia", "not part of the convention \"published\""}},
       {published, {"pitch"}, {"pitch", "consistent"}},
   };
