@@ -199,8 +199,10 @@ void LoadBook::accelerate(const RegionMass& region, const std::string& effect,
   const auto enter_field = [&](const char* component, Field which, const char* unit, const ArrayXd& a,
                                const std::array<double, 6>& per_unit) {
     if (a.size() == 0) return;
-    const double lever =
-        std::hypot(per_unit[0], per_unit[1], per_unit[2]) + std::abs(per_unit[5]) / length_scale_m_;
+    // What the field's forces add up to where none cancels the other; for spin and rotation at most, by
+    // Cauchy and Schwarz. The resultant is no measure: that of a body that spins about its axis is round-off.
+    const bool is_uniform = which <= Field::translation_z;
+    const double lever = is_uniform ? mass : std::sqrt(mass * (xx + yy));
     add({prefix + component, fem::BodyForce{which, region.volume_ids}}, unit, effect, a,
         lever > 0 ? force_scale_N_ / lever * 1e-3 : 0);
     for (Index c = 0; c < 6; ++c) load.row(c) += per_unit[std::size_t(c)] * a.transpose();
