@@ -1,7 +1,8 @@
 #include "kinetics/effect_info.h"
 
 #include <algorithm>
-#include <stdexcept>
+
+#include "kinetics/machine_refused.h"
 
 namespace kinetics {
 namespace {
@@ -48,8 +49,8 @@ void require_needs(const std::vector<EffectInfo>& table, const std::vector<std::
   const auto open = open_needs(table, effects);
   if (open.empty()) return;
   const auto& [effect, need] = open.front();
-  throw std::invalid_argument("effect " + effect + ": needs the effect " + need.effect + ": " + need.reason +
-                              "; add that one, or take " + effect + " out");
+  throw MachineRefused("effect " + effect + ": needs the effect " + need.effect + ": " + need.reason +
+                       "; add that one, or take " + effect + " out");
 }
 
 }  // namespace kinetics

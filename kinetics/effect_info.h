@@ -37,7 +37,7 @@ std::vector<std::string> with_dependents(const std::vector<EffectInfo>& table,
                                          const std::vector<std::string>& on,
                                          const std::vector<std::string>& effects);
 
-/// @throws std::invalid_argument naming the effect, what it needs and why, for the first need left open
+/// @throws MachineRefused naming the effect, what it needs and why, for the first need left open
 void require_needs(const std::vector<EffectInfo>& table, const std::vector<std::string>& effects);
 
 }  // namespace kinetics

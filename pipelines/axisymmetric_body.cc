@@ -7,6 +7,7 @@
 
 #include "fem/axisymmetric_responses.h"
 #include "meshes/half_section.h"
+#include "meshes/refused.h"
 #include "meshes/shaft_description.h"
 
 namespace pipelines {
@@ -78,8 +79,8 @@ MeshedBody describe_revolved(const BodyScene& body) {
   MeshedBody result;
   try {
     result.mesh = meshes::describe_shaft(coarse.shaft()->geometry, coarse.shaft()->mesh);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(body.origin + ": " + error.what());
+  } catch (const meshes::GeometryRefused& error) {
+    throw meshes::GeometryRefused(body.origin + ": " + error.what());
   }
   auto& edges = result.mesh.sharp_edges;
   edges.insert(edges.end(), body.singular.begin(), body.singular.end());

@@ -19,8 +19,6 @@
 namespace pipelines {
 namespace {
 
-constexpr double closure_limit = 1e-9;
-
 std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPlane>& planes) {
   std::vector<fem::SectionPlane> result;
   for (const auto& plane : planes)
@@ -64,13 +62,11 @@ fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body
 }
 
 void require_closure(const std::string& body, const Closure& closure) {
-  if (closure.worst_force() <= closure_limit && closure.worst_moment() <= closure_limit &&
-      closure.channel_resultant <= closure_limit)
-    return;
+  if (closure.holds()) return;
   std::ostringstream text;
   text << "the loads on the " << body << " do not close on the mesh: forces to " << closure.worst_force()
        << ", moments to " << closure.worst_moment() << ", channels to " << closure.channel_resultant
-       << " of their scale; " << closure_limit
+       << " of their scale; " << Closure::limit
        << " is required. The scene's effects leave a resultant that nothing carries";
   throw LoadsDoNotClose(text.str());
 }

@@ -67,11 +67,11 @@ struct BodyAnalysis {
   NodePlaces places;
   Envelope envelope;
   Zones zones;
-  Peak peak;                             ///< largest von Mises stress outside the exclusion distances
-  std::size_t principal_node = 0;        ///< largest principal stress, likewise
-  std::vector<HotSpotStress> hot_spots;  ///< descending
-  ErrorLedger hot_spot_errors;           ///< of the first
-  std::optional<Diagrams> diagrams;      ///< parametric shafts and drums only
+  Peak peak;                                ///< largest von Mises stress outside the exclusion distances
+  std::size_t principal_node = 0;           ///< largest principal stress, likewise
+  std::vector<HotSpotStress> hot_spots;     ///< descending
+  ErrorLedger hot_spot_errors;              ///< of the first
+  std::optional<Diagrams> diagrams;         ///< parametric shafts and drums only
   std::vector<PlaceStress> place_stresses;  ///< what is known of every place that may govern, with its error
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
   std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies

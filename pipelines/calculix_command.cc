@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <memory>
 #include <ostream>
 #include <variant>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "pipelines/calculix_model.h"
 #include "pipelines/commands.h"
 #include "pipelines/effect_choice.h"
+#include "pipelines/effect_closure.h"
 #include "pipelines/errors.h"
 #include "pipelines/fem_environment.h"
 #include "pipelines/load_stage.h"
@@ -38,12 +38,8 @@ void calculix_command(const CommandOptions& options, std::ostream& out) {
       options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
   StageClock clock(progress_on_stderr(options.verbosity));
   const FemEnvironment environment(options.n_threads);
-  std::vector<std::unique_ptr<AtomicFile>> scratch;
-  for (const auto& body : scene.bodies)
-    scratch.push_back(std::make_unique<AtomicFile>(
-        std::filesystem::temp_directory_path() /
-        ("millstress_calculix_" + scene.file.stem().string() + "_" + body.name + ".msh")));
-  const auto meshed = clock.run("mesh", [&] { return mesh_bodies(scene, scratch); });
+  const auto meshes = clock.run("mesh", [&] { return ScratchMeshes(scene); });
+  const auto& meshed = meshes.bodies();
   scene = with_effects_chosen(scene, meshed, negligible_share(scene.wish.tolerance));
   const auto masses = agree_masses(scene, meshed);
   // Unit loads do not depend on the instants; one turn tells which there are.
@@ -51,13 +47,12 @@ void calculix_command(const CommandOptions& options, std::ostream& out) {
   if (!std::holds_alternative<kinetics::LoadTable>(scene.machine)) coarse.sampling.turns = 1;
   const auto history = clock.run("loads", [&] { return load_stage(coarse, masses.machine); });
   std::vector<BodyLoads> loads;
-  for (std::size_t i = 0; i < meshed.size(); ++i) {
+  for (std::size_t i = 0; i < meshed.size(); ++i)
     loads.push_back(clock.run("distribute", [&] {
       return distribute_body(coarse, scene.bodies[i], history, loaded_body(scene.bodies[i], meshed[i]),
                              masses);
     }));
-    require_closed_loads(loads.back(), meshed[i].regions);
-  }
+  require_equilibrium(coarse, meshed, masses, loads);
   for (std::size_t i = 0; i < meshed.size(); ++i) {
     const auto& body = scene.bodies[i];
     const auto nodal = fem::nodal_loads(meshed[i].body, loads[i].unit_loads);

@@ -102,6 +102,9 @@ std::array<double, 6> wanted_resultant(const fem::UnitLoad& load, const std::vec
   return std::visit(WantedResultant{regions}, load.shape);
 }
 
+bool Closure::holds() const {
+  return worst_force() <= limit && worst_moment() <= limit && channel_resultant <= limit;
+}
 double Closure::worst_force() const {
   return *std::max_element(force.begin(), force.end());
 }

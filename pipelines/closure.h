@@ -16,6 +16,9 @@ struct Closure {
   double channel_resultant =
       0;  ///< max over channels and components of |mesh - wanted| / scale of the channel
 
+  static constexpr double limit = 1e-9;  ///< of all three, far above rounding and far below any effect
+
+  bool holds() const;
   double worst_force() const;
   double worst_moment() const;
 };

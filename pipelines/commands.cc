@@ -13,14 +13,17 @@
 #include "fem/helper_ranks.h"
 #include "pipelines/atomic_file.h"
 #include "pipelines/body_analysis.h"
+#include "pipelines/body_effect_report.h"
+#include "pipelines/body_effects.h"
 #include "pipelines/calculix_cards.h"
 #include "pipelines/cost_forecast.h"
 #include "pipelines/effect_choice.h"
+#include "pipelines/effect_closure.h"
 #include "pipelines/effect_report.h"
-#include "pipelines/errors.h"
-#include "pipelines/failure.h"
 #include "pipelines/envelope_files.h"
 #include "pipelines/error_text.h"
+#include "pipelines/errors.h"
+#include "pipelines/failure.h"
 #include "pipelines/fem_environment.h"
 #include "pipelines/governing_stress.h"
 #include "pipelines/html_report.h"
@@ -62,15 +65,10 @@ void report(std::ostream& out, const CommandOptions& options, const RunReport& c
     print_report(out, content);
 }
 
-/// Masses that only a mesh can tell, for commands that need no more of it; the meshes are thrown away.
-Machine machine_with_masses(const Scene& scene, int n_threads) {
-  if (scene.masses_from_mesh.empty()) return scene.machine;
-  const FemEnvironment environment(n_threads);
-  std::vector<std::unique_ptr<AtomicFile>> scratch;
-  for (const auto& body : scene.bodies)
-    scratch.push_back(std::make_unique<AtomicFile>(std::filesystem::temp_directory_path() /
-                                                   ("millstress_" + body.name + ".msh")));
-  return agree_masses(scene, mesh_bodies(scene, scratch)).machine;
+/// Whether the loads of a scene cannot be told without its bodies' meshes: masses come from there, or effects
+/// are to be chosen by what the bodies feel.
+bool needs_meshes(const Scene& scene) {
+  return !scene.bodies.empty() && (!scene.masses_from_mesh.empty() || scene.effect_choice.open);
 }
 
 void finish_run(const CommandOptions& options, std::ostream& out, const std::filesystem::path& directory,
@@ -91,13 +89,9 @@ Scene with_machine(Scene scene, const Machine& machine) {
   return scene;
 }
 
-/// Without a mesh at hand effects = "auto" looks at the loads alone.
-/// @param machine  with the masses that the scene leaves to a mesh
-Scene chosen_by_loads(Scene scene, const Machine& machine, double tolerance) {
-  if (!scene.effect_choice.open) return scene;
-  auto given = std::exchange(scene.machine, machine);
-  scene = with_effects_chosen(std::move(scene), {}, negligible_share(tolerance));
-  return with_machine(std::move(scene), given);
+/// Of a scene without bodies effects = "auto" looks at the loads alone.
+Scene chosen_by_loads(Scene scene, double tolerance) {
+  return with_effects_chosen(std::move(scene), {}, negligible_share(tolerance));
 }
 
 /// Of a drive train, written into the folder torsion; nothing for other machines.
@@ -111,7 +105,7 @@ std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machi
 
 void run_load_stage(const CommandOptions& options, std::ostream& out, const Scene& given,
                     const std::filesystem::path& directory, StageClock& clock) {
-  const Scene scene = chosen_by_loads(given, given.machine, wish_of(options, given).tolerance);
+  const Scene scene = chosen_by_loads(given, wish_of(options, given).tolerance);
   const auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
   std::filesystem::create_directories(directory);
@@ -164,6 +158,29 @@ void run_command(const CommandOptions& options, std::ostream& out) {
   (scene.bodies.empty() ? run_load_stage : run_bodies)(options, out, scene, directory, clock);
 }
 
+namespace {
+
+/// The load stage, with the effects that the scene's bodies leave on and the masses that they have. What is
+/// meshed for that has to be in equilibrium, too.
+/// @param scene  on return with its effects chosen
+kinetics::LoadHistory loads_of(Scene& scene, const CommandOptions& options, StageClock& clock) {
+  const double limit = negligible_share(scene.wish.tolerance);
+  if (!needs_meshes(scene)) {
+    if (scene.bodies.empty()) scene = with_effects_chosen(std::move(scene), {}, limit);
+    return clock.run("loads", [&] { return load_stage(scene, scene.machine); });
+  }
+  const FemEnvironment environment(options.n_threads);
+  const auto meshed = clock.run("mesh", [&] { return ScratchMeshes(scene).bodies(); });
+  scene = clock.run("effects", [&] { return with_effects_chosen(std::move(scene), meshed, limit); });
+  const auto masses = agree_masses(scene, meshed);
+  auto trial = clock.run("loads", [&] { return try_effects(scene, meshed, masses); });
+  require_equilibrium(scene, meshed, masses, trial.bodies);
+  scene.machine = masses.machine;  // a report must not take what stands for its masses until then
+  return std::move(trial.history);
+}
+
+}  // namespace
+
 void loads_command(const CommandOptions& options, std::ostream& out) {
   require_extension(
       "--output", options.output, {".h5", ".hdf5", ".hdf"},
@@ -173,9 +190,7 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
       "is written as CSV; for HDF5 write -o " + options.csv.string() + ", or end the name in .csv");
   Scene scene = read_scene(options.scene);
   StageClock clock(progress_on_stderr(options.verbosity));
-  const Machine machine = clock.run("mesh", [&] { return machine_with_masses(scene, options.n_threads); });
-  scene = chosen_by_loads(std::move(scene), machine, scene.wish.tolerance);
-  const auto loads = clock.run("loads", [&] { return load_stage(scene, machine); });
+  const auto loads = loads_of(scene, options, clock);
   std::vector<BearingScene> bearings;  // those at a port of a body need `run`
   for (const auto& bearing : scene.bearings)
     if (scene.bodies.empty() || force_of(bearing.load, loads, {})) bearings.push_back(bearing);
@@ -186,7 +201,13 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
     clock.run("write",
               [&] { write_statistics(options.statistics, loads, scene.run_up ? 0 : scene.sampling.turns); });
   if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, loads); });
-  report(out, options, {with_machine(std::move(scene), machine), loads, {}, {}, clock.costs(), lives});
+  const RunReport content{scene, loads, {}, {}, clock.costs(), lives};
+  if (options.json) {
+    out << with_effects_of_bodies(summary_json(content), scene);
+  } else {
+    print_report(out, content);
+    print_effects_of_bodies(out, scene);
+  }
 }
 
 void effects_command(const CommandOptions& options, std::ostream& out) {
@@ -195,10 +216,12 @@ void effects_command(const CommandOptions& options, std::ostream& out) {
   const double threshold =
       options.threshold.empty() ? usual : option_in_si("--threshold", options.threshold, "1");
   const EffectReport worth = report_effects(scene, threshold);
-  if (options.json)
-    out << effects_json(scene, worth);
-  else
+  if (options.json) {
+    out << with_effects_of_bodies(effects_json(scene, worth), scene);
+  } else {
     print_effects(out, scene, worth);
+    print_effects_of_bodies(out, scene);
+  }
   if (!options.json && scene.effect_choice.open && !scene.bodies.empty())
     out << "  effects = \"auto\" is judged by the loads on the bodies in a run; `check` lists what goes\n";
 }
@@ -247,19 +270,16 @@ void print_load_warnings(std::ostream& out, const kinetics::LoadHistory& loads) 
 void check(const CommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene);
   out << scene.file.string() << ": the scene is valid\n\neffects\n";
-  for (const auto& effect : effects_of(scene.machine))
+  for (const auto& effect : effect_table(scene))
     out << fmt::format("  {:<4}{:<24}{} ({})\n", scene.has_effect(effect.name) ? "on" : "off", effect.name,
                        effect.description, effect.source);
-  for (const auto& body : scene.bodies)
-    for (const auto& own : own_effects(body.role))
-      out << fmt::format("  {:<4}{:<24}of the {}'s own mass, from its mesh\n",
-                         scene.has_effect(own) ? "on" : "off", own, body.name);
   out << "\ndefaults used\n";
   for (const auto& d : scene.defaults) out << fmt::format("  {} = {}  ({})\n", d.key, d.value, d.reason);
   if (scene.defaults.empty()) out << "  none\n";
   for (const auto& warning : scene.warnings) out << "warning: " << warning << '\n';
   if (scene.bodies.empty()) {
-    scene = chosen_by_loads(std::move(scene), scene.machine, scene.wish.tolerance);
+    const double tolerance = scene.wish.tolerance;
+    scene = chosen_by_loads(std::move(scene), tolerance);
     print_effect_choice(out, scene, {});
     print_load_warnings(out, load_stage(for_a_look(scene), scene.machine));
     if (std::holds_alternative<kinetics::DriveTrain>(scene.machine)) report_torsion(scene, scene.machine);
@@ -269,14 +289,11 @@ void check(const CommandOptions& options, std::ostream& out) {
   // The mesh is a second's work and the only honest answer to what will be solved; it is made aside and
   // thrown away.
   const FemEnvironment environment(options.n_threads);
-  std::vector<std::unique_ptr<AtomicFile>> scratch;
-  for (const auto& body : scene.bodies)
-    scratch.push_back(std::make_unique<AtomicFile>(
-        std::filesystem::temp_directory_path() /
-        ("millstress_check_" + scene.file.stem().string() + "_" + body.name + ".msh")));
-  const auto meshed = mesh_bodies(scene, scratch);
+  const ScratchMeshes meshes(scene);
+  const auto& meshed = meshes.bodies();
   const auto masses = agree_masses(scene, meshed);
-  scene = with_effects_chosen(std::move(scene), meshed, negligible_share(scene.wish.tolerance));
+  const double limit = negligible_share(scene.wish.tolerance);
+  scene = with_effects_chosen(std::move(scene), meshed, limit);
   print_effect_choice(out, scene, {});
   StageClock silent;
   const auto loaded = load_bodies(for_a_look(scene), meshed, silent);
@@ -308,6 +325,7 @@ void check(const CommandOptions& options, std::ostream& out) {
         out, body, meshed[i],
         {channels.size(), std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn),
          springs_of(scene)});
+    print_effect_sizes(out, trial.bodies[i], meshed[i].regions);
     out << fmt::format("  {} channels\n", channels.size());
     for (const auto& channel : channels)
       out << fmt::format("    {}/{} [{}]\n", body.name, channel.name, channel.unit);

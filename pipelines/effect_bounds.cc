@@ -8,6 +8,7 @@
 
 #include "kinetics/machine_refused.h"
 #include "pipelines/changed_loads.h"
+#include "pipelines/contains.h"
 #include "pipelines/effect_choice.h"
 #include "pipelines/errors.h"
 #include "pipelines/refinement.h"
@@ -136,9 +137,11 @@ void bound_dropped_effects(const Scene& scene, std::size_t index, const LoadedSc
 
   DroppedBounds bounds;
   for (const auto& dropped : choice.dropped) {
-    auto on = scene.effects, off = effects;
-    on.push_back(dropped.effect);
-    off.erase(std::remove(off.begin(), off.end(), dropped.effect), off.end());
+    auto on = scene.effects, off = effects, group = dropped.with;
+    group.push_back(dropped.effect);
+    on.insert(on.end(), group.begin(), group.end());
+    off.erase(std::remove_if(off.begin(), off.end(), [&](const auto& e) { return contains(group, e); }),
+              off.end());
     if (const auto with = loads_with(on))
       bounds.effects.push_back(
           effect_bound(dropped.effect, difference(*with, analysis.loads, analysis, regions), analysis));

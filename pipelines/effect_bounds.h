@@ -12,8 +12,9 @@ namespace pipelines {
 ///
 /// Stress is linear in the channels and von Mises stress is a norm, so no point's stress moves by more than
 /// the von Mises stress of the dropped part of the loads there: the loads with the effects less the loads
-/// without, superposed with the responses that were solved. An effect by itself is bounded by switching it on
-/// alone, or off alone where it needs another dropped one. Of what acts on channels that were not solved:
+/// without, superposed with the responses that were solved. An effect by itself, with those
+/// that went in the same step, is bounded by switching it on alone, or off alone where it needs another
+/// dropped one. Of what acts on channels that were not solved:
 /// - acceleration of the whole body as a rigid one makes no stress: the balancing forces are the load itself;
 /// - the rest (spin, acceleration of a part) is estimated as the sum of its forces at that port where a force
 ///   stresses the point most, moments likewise; `estimated_Pa` tells how much of the bound that is.

@@ -6,14 +6,11 @@
 #include <map>
 #include <optional>
 
-#include "kinetics/machine_refused.h"
-#include "pipelines/body_analysis.h"
+#include "pipelines/body_effects.h"
 #include "pipelines/closure.h"
 #include "pipelines/contains.h"
+#include "pipelines/effect_closure.h"
 #include "pipelines/effect_report.h"
-#include "pipelines/errors.h"
-#include "pipelines/load_stage.h"
-#include "pipelines/scene_effects.h"
 
 namespace pipelines {
 namespace {
@@ -23,11 +20,12 @@ using Eigen::Index;
 
 constexpr double usual_tolerance = 0.05, tenth = 0.1;
 
-std::vector<std::string> without(const std::vector<std::string>& names, const std::vector<std::string>& off) {
-  std::vector<std::string> left;
-  std::remove_copy_if(names.begin(), names.end(), std::back_inserter(left),
-                      [&](const auto& name) { return contains(off, name); });
-  return left;
+constexpr double indispensable = std::numeric_limits<double>::infinity();
+
+/// Notes effects that go in one step.
+void drop_together(const std::vector<std::string>& effects, double share, EffectChoice& choice) {
+  for (const auto& effect : effects)
+    choice.dropped.push_back({effect, share, names_without(effects, {effect})});
 }
 
 double spin_force(const fem::BodyForce& body, const std::vector<RegionMass>& regions) {
@@ -46,57 +44,42 @@ double ratio(const ArrayXd& part, const ArrayXd& whole) {
   return scale > 0 ? change / scale : std::numeric_limits<double>::infinity();
 }
 
-/// The loads of a scene with some of its effects.
-struct Trial {
-  kinetics::LoadHistory history;
-  std::vector<BodyLoads> bodies;
-};
-
 class Judge {
 public:
+  /// @throws SceneError if even all effects together leave a body without equilibrium
   Judge(const Scene& scene, const std::vector<MeshedBody>& meshed)
-      : scene_(scene), meshed_(meshed), masses_(agree_masses(scene, meshed)), all_(*trial({})) {}
+      : scene_(scene),
+        meshed_(meshed),
+        masses_(agree_masses(scene, meshed)),
+        all_(try_effects(scene, meshed, masses_)) {
+    require_equilibrium(scene, meshed, masses_, all_.bodies);
+  }
 
-  /// Share of the loads that changes without these effects; empty: the machine cannot be without them.
-  std::optional<double> change(const std::vector<std::string>& off) const {
-    const auto left = trial(off);
-    if (!left) return std::nullopt;
+  /// What has to be off with these, so that the rest is admissible; empty: the scene cannot be without them.
+  std::optional<ClosedSet> closed(const std::vector<std::string>& off) const {
+    return closed_set(scene_, meshed_, masses_, off);
+  }
+
+  /// Share of the loads that changes with others in their place; infinite if a bearing loses its load.
+  double change(const EffectTrial& left) const {
     double worst = 0;
     for (std::size_t i = 0; i < meshed_.size(); ++i)
-      worst = std::max(worst, share_of_loads(all_.bodies[i], left->bodies[i], meshed_[i].regions));
+      worst = std::max(worst, share_of_loads(all_.bodies[i], left.bodies[i], meshed_[i].regions));
     for (const auto& bearing : scene_.bearings) {
       const auto before = force_of(bearing.load, all_.history, channels(all_)),
-                 after = force_of(bearing.load, left->history, channels(*left));
-      if (before && after) worst = std::max(worst, ratio((*before - *after).abs(), before->abs()));
-      if (before && !after) return std::nullopt;
+                 after = force_of(bearing.load, left.history, channels(left));
+      if (before && !after) return indispensable;
+      if (before) worst = std::max(worst, ratio((*before - *after).abs(), before->abs()));
     }
     return worst;
   }
 
-  LoadChange change_of_loads(const std::vector<std::string>& off) const {
-    return largest_change(all_.history, trial(off)->history);
+  LoadChange change_of_loads(const EffectTrial& left) const {
+    return largest_change(all_.history, left.history);
   }
 
 private:
-  std::optional<Trial> trial(const std::vector<std::string>& off) const {
-    const Scene scene = with_effects(scene_, without(scene_.effects, off));
-    if (scene.kinetics_effects().empty() || !has_what_it_needs(scene)) return std::nullopt;
-    try {
-      Trial result{load_stage(scene, masses_.machine), {}};
-      for (std::size_t i = 0; i < meshed_.size(); ++i)
-        result.bodies.push_back(distribute_body(scene, scene.bodies[i], result.history,
-                                                loaded_body(scene.bodies[i], meshed_[i]), masses_));
-      return result;
-    } catch (const kinetics::MachineRefused&) {
-      if (off.empty()) throw;
-      return std::nullopt;
-    } catch (const StageRefused&) {
-      if (off.empty()) throw;
-      return std::nullopt;
-    }
-  }
-
-  static std::vector<const ChannelHistory*> channels(const Trial& trial) {
+  static std::vector<const ChannelHistory*> channels(const EffectTrial& trial) {
     std::vector<const ChannelHistory*> result;
     for (const auto& body : trial.bodies) result.push_back(&body.history);
     return result;
@@ -105,58 +88,65 @@ private:
   const Scene& scene_;
   const std::vector<MeshedBody>& meshed_;
   MassAgreement masses_;
-  Trial all_;
+  EffectTrial all_;
 };
 
-/// What the choice comes to for bodies: effects in the order of their worth.
-void choose_for_bodies(Scene& scene, const std::vector<MeshedBody>& meshed) {
-  const Judge judge(scene, meshed);
-  struct Candidate {
-    std::string effect;
-    double share;
-  };
-  constexpr double indispensable = std::numeric_limits<double>::infinity();
+/// Effects that go together, and the share of the loads that changes with them.
+struct Candidate {
+  std::vector<std::string> effects;
+  double share = indispensable;
+};
+
+/// One for each effect: it and what needs it; from the least to the most telling. What the scene cannot be
+/// without comes last: others may have gone by then.
+std::vector<Candidate> candidates_of(const Scene& scene, const Judge& judge) {
   std::vector<Candidate> candidates;
-  for (const auto& effect : scene.effects)
-    candidates.push_back({effect, judge.change({effect}).value_or(indispensable)});
-  // What others build on comes last: these may have gone by then.
+  for (const auto& effect : scene.effects) {
+    const auto group = judge.closed({effect});
+    Candidate candidate{group ? group->off : std::vector<std::string>{effect}};
+    if (group) candidate.share = judge.change(group->trial);
+    const auto is_same = [&](const Candidate& other) { return other.effects == candidate.effects; };
+    if (std::none_of(candidates.begin(), candidates.end(), is_same))
+      candidates.push_back(std::move(candidate));
+  }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.share < b.share; });
+  return candidates;
+}
+
+/// What the choice comes to for bodies: effects in the order of their worth, those that need each other
+/// together. Every set on the way is admissible.
+void choose_for_bodies(Scene& scene, const std::vector<MeshedBody>& meshed) {
+  const Judge judge(scene, meshed);
   auto& choice = scene.effect_choice;
   std::vector<std::string> off;
-  for (const auto& candidate : candidates) {
+  for (const auto& candidate : candidates_of(scene, judge)) {
     if (candidate.share >= choice.limit && candidate.share != indispensable) continue;
     auto more = off;
-    more.push_back(candidate.effect);
-    const auto together = judge.change(more);
-    if (!together || *together >= choice.limit) continue;
-    const double alone = candidate.share == indispensable ? *together - choice.share : candidate.share;
-    choice.dropped.push_back({candidate.effect, alone});
-    choice.share = *together;
-    off = more;
+    for (const auto& effect : candidate.effects)
+      if (!contains(off, effect)) more.push_back(effect);
+    if (more.size() == off.size()) continue;
+    const auto closed = judge.closed(more);
+    if (!closed) continue;
+    const double together = judge.change(closed->trial);
+    if (together >= choice.limit) continue;
+    const double alone = candidate.share == indispensable ? together - choice.share : candidate.share;
+    drop_together(names_without(closed->off, off), alone, choice);
+    choice.share = together;
+    choice.load_change = judge.change_of_loads(closed->trial);
+    off = closed->off;
   }
-  if (off.empty()) return;
-  choice.load_change = judge.change_of_loads(off);
-  scene.effects = without(scene.effects, off);
+  scene.effects = names_without(scene.effects, off);
 }
 
 void choose_by_loads(Scene& scene) {
   const auto report = report_effects(scene, scene.effect_choice.limit, false);
-  Scene left = with_effects(scene, without(scene.effects, report.dispensable));
-  if (report.dispensable.empty() || !has_what_it_needs(left)) return;
-  auto& choice = left.effect_choice;
-  for (const auto& effect : report.dispensable)
-    for (const auto& worth : report.effects)
-      if (worth.effect.name == effect) choice.dropped.push_back({effect, worth.if_off});
+  auto& choice = scene.effect_choice;
+  for (const auto& step : report.steps) drop_together(step.effects, step.if_off, choice);
+  if (report.dispensable.empty()) return;
   choice.share = report.if_all_off;
   choice.load_change = {report.if_all_off, report.worst_load};
-  scene = std::move(left);
-}
-
-/// Of the scene's machine; only vibratory mills have such rules.
-std::vector<EffectNeed> needs_of(const Scene& scene) {
-  const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
-  return mill ? vibratory_mill_rules(mill->convention, true).needs : std::vector<EffectNeed>{};
+  scene.effects = names_without(scene.effects, report.dispensable);
 }
 
 }  // namespace
@@ -212,25 +202,27 @@ Scene with_effects_chosen(Scene scene, const std::vector<MeshedBody>& meshed, do
 }
 
 bool has_what_it_needs(const Scene& scene) {
-  const auto needs = needs_of(scene);
-  return std::none_of(needs.begin(), needs.end(), [&](const auto& need) {
-    return scene.has_effect(need.effect) && !scene.has_effect(need.needed);
-  });
+  return open_needs(effect_table(scene), scene.effects).empty();
 }
 
 Scene with_effect_back(Scene scene, const std::string& effect) {
   auto& choice = scene.effect_choice;
   auto on = scene.effects;
-  on.push_back(effect);
+  std::vector<std::string> back{effect};
+  for (std::size_t i = 0; i < back.size(); ++i) {  // more join on the way
+    on.push_back(back[i]);
+    const auto join = [&](const std::string& other) {
+      if (!contains(on, other) && !contains(back, other)) back.push_back(other);
+    };
+    for (const auto& dropped : choice.dropped)
+      if (dropped.effect == back[i]) std::for_each(dropped.with.begin(), dropped.with.end(), join);
+    for (const auto& open : open_needs(effect_table(scene), on)) join(open.need.effect);
+  }
   choice.dropped.erase(std::remove_if(choice.dropped.begin(), choice.dropped.end(),
-                                      [&](const auto& dropped) { return dropped.effect == effect; }),
+                                      [&](const auto& dropped) { return contains(back, dropped.effect); }),
                        choice.dropped.end());
-  choice.taken_back.push_back(effect);
-  scene = with_effects(std::move(scene), on);
-  for (const auto& need : needs_of(scene))
-    if (need.effect == effect && !scene.has_effect(need.needed))
-      return with_effect_back(std::move(scene), need.needed);
-  return scene;
+  choice.taken_back.insert(choice.taken_back.end(), back.begin(), back.end());
+  return with_effects(std::move(scene), on);
 }
 
 Scene with_effects(Scene scene, const std::vector<std::string>& effects) {

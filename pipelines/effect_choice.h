@@ -31,19 +31,23 @@ double share_of_loads(const BodyLoads& all, const BodyLoads& other, const std::v
 /// Settles an open choice: from the least to the most telling, effects go off as long as leaving out all of
 /// them together changes the loads on no body, nor the load of a bearing whose life is asked for, by more
 /// than the limit. The load stage and the distribution to the bodies are run anew without them, so that
-/// effects that build on each other or cancel are judged by what remains. Which loads beyond the bodies
-/// change (a weight that the springs carry) is noted, not judged. No clock takes part.
+/// effects that build on each other or cancel are judged by what remains. Effects that need each other, by
+/// their tables or for the equilibrium of a body, go together or stay: every set that is tried as a choice is
+/// admissible (effect_closure.h). Which loads beyond the bodies change (a weight that the springs carry) is
+/// noted, not judged. No clock takes part.
 ///
 /// A load table's histories are all kept: the user put them there. Without bodies every load of the load
 /// stage counts, each measured by itself (report_effects).
 /// @param meshed  in the order of scene.bodies; empty: judge by the loads alone
 /// @return the scene as it is if its choice is not open
+/// @throws SceneError if all effects together leave a body without equilibrium
 Scene with_effects_chosen(Scene scene, const std::vector<MeshedBody>& meshed, double limit);
 
-/// Whether no effect of the scene lacks another one that it makes no sense without (scene_effects.h).
+/// Whether no effect of the scene lacks another one that it makes no sense without (effect_table).
 bool has_what_it_needs(const Scene& scene);
 
-/// The scene with a dropped effect on again, and with what that needs; noted as taken back.
+/// The scene with a dropped effect on again, with those that went in the same step and what they need; noted
+/// as taken back.
 Scene with_effect_back(Scene scene, const std::string& effect);
 
 /// The scene with exactly these of its offered effects on.

@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "pipelines/contains.h"
 #include "pipelines/nearest.h"
 #include "pipelines/refinement.h"
 #include "pipelines/summary.h"
@@ -24,6 +25,17 @@ const EffectBound* find(const DroppedBounds& bounds, const std::string& effect) 
   for (const auto& bound : bounds.effects)
     if (bound.effect == effect) return &bound;
   return nullptr;
+}
+
+/// Of effects that went in one step each has the share of all of them: that is said.
+void print_groups(std::ostream& out, const EffectChoice& choice) {
+  std::vector<std::string> told;
+  for (const auto& dropped : choice.dropped) {
+    if (dropped.with.empty() || contains(told, dropped.effect)) continue;
+    out << fmt::format("\n    together, since they need each other: {}, {}", dropped.effect,
+                       listed(dropped.with));
+    told.insert(told.end(), dropped.with.begin(), dropped.with.end());
+  }
 }
 
 }  // namespace
@@ -50,6 +62,7 @@ void print_effect_choice(std::ostream& out, const Scene& scene, const std::vecto
     };
     for (const auto& dropped : choice.dropped) row(dropped.effect, dropped.share, false);
     row("all of these", choice.share, true);
+    print_groups(out, choice);
     out << fmt::format("\n    limit {}; the load that changes most, felt by a body or not, is {}, by {}\n",
                        percent(choice.limit), choice.load_change.load, percent(choice.load_change.share));
   }

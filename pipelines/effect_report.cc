@@ -8,6 +8,8 @@
 #include "kinetics/machine_refused.h"
 #include "pipelines/errors.h"
 
+#include "pipelines/contains.h"
+
 namespace pipelines {
 namespace {
 
@@ -20,7 +22,7 @@ struct Load {
 };
 
 /// The loads of a history, or the parts that one effect has in them.
-/// @param effect  empty: the whole loads. A load table's quantities have no parts
+/// @param effect  empty: the whole loads. A load table's quantities have no parts: parts_of
 std::vector<Load> loads_of(const LoadHistory& history, const std::string& effect = "") {
   std::vector<Load> loads;
   for (const auto& resultant : history.resultants) {
@@ -55,22 +57,21 @@ const Load* find(const std::vector<Load>& loads, const std::string& name) {
   return found == loads.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> without(const std::vector<std::string>& names, const std::vector<std::string>& off) {
-  std::vector<std::string> left;
-  for (const auto& name : names)
-    if (std::find(off.begin(), off.end(), name) == off.end()) left.push_back(name);
-  return left;
-}
-
 /// Largest change of a load between two histories; one that is gone carries nothing.
 double change(const Load& load, const std::vector<Load>& others) {
   const Load* const other = find(others, load.name);
   return other ? largest(load.values - other->values) : largest(load.values);
 }
 
-std::vector<LoadShare> shares_of(const std::string& effect, const LoadHistory& all,
+/// What an effect brings to the loads. A load table's histories add up, so that one effect's part is what the
+/// table brings with it alone, axial forces and accelerations included.
+std::vector<Load> parts_of(const Scene& scene, const std::string& effect, const LoadHistory& all) {
+  if (all.machine != "load_table") return loads_of(all, effect);
+  return loads_of(compute_loads(scene.machine, {effect}, scene.sampling));
+}
+
+std::vector<LoadShare> shares_of(const std::vector<Load>& parts, const LoadHistory& all,
                                  const LoadHistory* other) {
-  const auto parts = loads_of(all, effect);
   const auto others = other ? loads_of(*other) : std::vector<Load>{};
   std::vector<LoadShare> shares;
   for (const auto& load : loads_of(all)) {
@@ -107,13 +108,32 @@ struct Trial {
 };
 
 Trial try_without(const Scene& scene, const std::vector<std::string>& off) {
-  const auto left = without(scene.kinetics_effects(), off);
+  const auto left = names_without(scene.kinetics_effects(), off);
   if (left.empty()) return {{}, "it is the only effect of the scene"};
   try {
     return {compute_loads(scene.machine, left, scene.sampling), ""};
   } catch (const kinetics::MachineRefused& refused) {
     return {{}, refused.what()};
   }
+}
+
+/// For each effect, it and what needs it, where leaving them out changes no load by more than the threshold;
+/// from the least to the most telling.
+std::vector<EffectStep> steps_below(const Scene& scene, const LoadHistory& all, const EffectReport& report) {
+  const auto table = effects_of(scene.machine);
+  std::vector<EffectStep> steps;
+  for (const auto& worth : report.effects) {
+    EffectStep step{with_dependents(table, scene.kinetics_effects(), {worth.effect.name}), worth.if_off};
+    if (step.effects.size() > 1) {
+      const Trial trial = try_without(scene, step.effects);
+      if (!trial.refusal.empty()) continue;
+      step.if_off = largest_change(all, trial.history).share;
+    }
+    if (step.if_off < report.threshold) steps.push_back(std::move(step));
+  }
+  std::stable_sort(steps.begin(), steps.end(),
+                   [](const auto& a, const auto& b) { return a.if_off < b.if_off; });
+  return steps;
 }
 
 }  // namespace
@@ -147,29 +167,29 @@ EffectReport report_effects(const Scene& scene, double threshold, bool timed) {
     EffectWorth worth;
     worth.effect = info;
     worth.indispensable = trial.refusal;
-    worth.shares = shares_of(info.name, all, trial.refusal.empty() ? &trial.history : nullptr);
+    worth.shares =
+        shares_of(parts_of(scene, info.name, all), all, trial.refusal.empty() ? &trial.history : nullptr);
     const LoadChange worst = trial.refusal.empty() ? largest_change(all, trial.history)
                                                    : LoadChange{std::numeric_limits<double>::quiet_NaN(), ""};
     worth.if_off = worst.share;
     worth.worst_load = worst.load;
     if (timed && trial.refusal.empty())
-      worth.seconds_per_instant =
-          std::max(0.0, report.seconds_per_instant - seconds_per_instant(scene, without(names, {info.name})));
+      worth.seconds_per_instant = std::max(
+          0.0, report.seconds_per_instant - seconds_per_instant(scene, names_without(names, {info.name})));
     report.effects.push_back(std::move(worth));
   }
 
-  std::vector<const EffectWorth*> ascending;
-  for (const auto& worth : report.effects)
-    if (worth.if_off < threshold) ascending.push_back(&worth);
-  std::stable_sort(ascending.begin(), ascending.end(),
-                   [](const auto* a, const auto* b) { return a->if_off < b->if_off; });
-  for (const auto* worth : ascending) {
+  for (const EffectStep& step : steps_below(scene, all, report)) {
     auto off = report.dispensable;
-    off.push_back(worth->effect.name);
+    for (const auto& effect : step.effects)
+      if (std::find(off.begin(), off.end(), effect) == off.end()) off.push_back(effect);
+    if (off.size() == report.dispensable.size()) continue;
     const Trial trial = try_without(scene, off);
     if (!trial.refusal.empty()) continue;
     const LoadChange worst = largest_change(all, trial.history);
     if (worst.share >= threshold) continue;
+    report.steps.push_back(
+        {{off.begin() + std::ptrdiff_t(report.dispensable.size()), off.end()}, step.if_off});
     report.dispensable = off;
     report.if_all_off = worst.share;
     report.worst_load = worst.load;

@@ -14,7 +14,7 @@ namespace pipelines {
 /// Part of one effect in one load. A load is the force of a resultant (the length of fx, fy), its torque, or
 /// what a load table brings besides.
 struct LoadShare {
-  std::string load;    ///< "<role>.force", "<role>.torque", or the quantity's name
+  std::string load;    ///< "<role>.force", "<role>.torque", "<port>.fz", or the quantity's name
   double largest = 0;  ///< largest magnitude of the effect's part over the largest magnitude of the load
   double rms = 0;      ///< the same of the root mean squares
   double if_off = 0;   ///< largest change of the load over the cycle when the effect is left out, over the
@@ -30,9 +30,16 @@ struct EffectWorth {
   double seconds_per_instant = 0;  ///< of the load stage: with all effects less without this one, at least 0
 };
 
+/// Effects that can be left out together, since they need each other, and the largest change of a load then.
+struct EffectStep {
+  std::vector<std::string> effects;
+  double if_off = 0;
+};
+
 struct EffectReport {
   std::vector<EffectWorth> effects;
   double threshold = 0.01;
+  std::vector<EffectStep> steps;         ///< of `dispensable`, in its order
   std::vector<std::string> dispensable;  ///< can be left out TOGETHER: the change stays below the threshold
   std::string worst_load;                ///< of leaving all of these out
   double if_all_off = 0;                 ///< its change
@@ -41,7 +48,9 @@ struct EffectReport {
 
 /// Runs the load stage with all effects of the scene, and once more without each. Effects are taken from the
 /// least to the most telling into the list of the dispensable as long as leaving out all of them together
-/// changes no load by more than the threshold: effects that cancel each other are not dropped one by one.
+/// changes no load by more than the threshold: effects that cancel each other are not dropped one by one,
+/// and those that need each other go together. Of the machine's effects; body_effect_report.h has the
+/// bodies'.
 /// @param threshold  share of each load's largest magnitude, in (0, 1)
 /// @param timed      false: no seconds are measured (they are zero), for tests of repeatability
 EffectReport report_effects(const Scene& scene, double threshold, bool timed = true);

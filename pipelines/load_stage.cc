@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipelines/effect_closure.h"
 #include "pipelines/finite.h"
 #include "pipelines/open_loads.h"
 
@@ -73,6 +74,14 @@ std::vector<MeshedBody> mesh_bodies(const Scene& scene,
   return bodies;
 }
 
+ScratchMeshes::ScratchMeshes(const Scene& scene) {
+  for (const auto& body : scene.bodies)
+    files_.push_back(std::make_unique<AtomicFile>(
+        std::filesystem::temp_directory_path() /
+        ("millstress_" + scene.file.stem().string() + "_" + body.name + ".msh")));
+  bodies_ = mesh_bodies(scene, files_);
+}
+
 BodyChannels LoadedScene::channels() const {
   BodyChannels channels;
   for (const auto& body : body_loads) channels.push_back(&body.history);
@@ -84,15 +93,18 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
   result.meshed = std::move(meshed);
   result.masses = agree_masses(scene, result.meshed);
   result.loads = clock.run("loads", [&] { return load_stage(scene, result.masses.machine); });
+  for (std::size_t i = 0; i < result.meshed.size(); ++i)
+    result.body_loads.push_back(clock.run("distribute", [&] {
+      return distribute_body(scene, scene.bodies[i], result.loads,
+                             loaded_body(scene.bodies[i], result.meshed[i]), result.masses);
+    }));
+  for (std::size_t i = 0; i < result.meshed.size(); ++i)
+    require_supports(scene.bodies[i], result.body_loads[i], result.meshed[i].regions);
+  require_equilibrium(scene, result.meshed, result.masses, result.body_loads);
   for (std::size_t i = 0; i < result.meshed.size(); ++i) {
     const auto& body = scene.bodies[i];
-    result.body_loads.push_back(clock.run("distribute", [&] {
-      return distribute_body(scene, body, result.loads, loaded_body(body, result.meshed[i]), result.masses);
-    }));
-    const auto& loads = result.body_loads.back();
+    const auto& loads = result.body_loads[i];
     require_finite(loads);
-    require_supports(body, loads, result.meshed[i].regions);
-    require_closed_loads(loads, result.meshed[i].regions);
     warn_of_guide(result.loads, loads);
     if (body.role == BodyRole::train_shaft &&
         std::none_of(body.train.forces.begin(), body.train.forces.end(),

@@ -22,6 +22,17 @@ std::vector<kinetics::Spring> springs_of(const Scene& scene);
 std::vector<MeshedBody> mesh_bodies(const Scene& scene,
                                     const std::vector<std::unique_ptr<AtomicFile>>& files);
 
+/// Meshes of all bodies for commands that solve nothing; the files are thrown away with this.
+class ScratchMeshes {
+public:
+  explicit ScratchMeshes(const Scene& scene);
+  const std::vector<MeshedBody>& bodies() const { return bodies_; }  ///< in the order of Scene::bodies
+
+private:
+  std::vector<std::unique_ptr<AtomicFile>> files_;
+  std::vector<MeshedBody> bodies_;
+};
+
 /// A scene's bodies, meshed and loaded: ready to be solved.
 struct LoadedScene {
   std::vector<MeshedBody> meshed;  ///< in the order of Scene::bodies, like body_loads
@@ -42,9 +53,10 @@ struct LoadedScene {
 };
 
 /// @param meshed  in the order of scene.bodies
-/// @throws StageRefused if masses of machine and mesh do not agree, no effect loads a body, supports are
-/// missing, or a bearing's load is none of the scene
-/// @throws LoadsDoNotClose if the loads of a body do not close; NotFinite
+/// @throws SceneError if the scene's effects leave a body without loads or without equilibrium
+/// @throws StageRefused if masses of machine and mesh do not agree, supports are missing, or a bearing's load
+/// is none of the scene
+/// @throws NotFinite
 LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock);
 
 }  // namespace pipelines

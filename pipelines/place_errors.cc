@@ -19,7 +19,8 @@ double for_want_of_cells(int cells) {
 }
 
 double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
-  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material, 0, analysis.places.excluded)
+  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material, 0,
+                       analysis.places.excluded)
       .of("discretisation");
 }
 
@@ -33,8 +34,8 @@ int cells_on(const BodyScene& body, const std::string& feature) {
 std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
   std::vector<PlaceStress> places;
   for (const auto& spot : analysis.hot_spots)
-    places.push_back(
-        {spot.name, spot.near_node, spot.von_mises_Pa, own_error_Pa(analysis, stress_point(spot)), spot.toe_m});
+    places.push_back({spot.name, spot.near_node, spot.von_mises_Pa,
+                      own_error_Pa(analysis, stress_point(spot)), spot.toe_m});
   return places;
 }
 
@@ -42,7 +43,8 @@ std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
 
 std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
-  auto places = largest_by_feature(analysis.responses.nodes, maximum.value_Pa, analysis.mesh.features, analysis.places);
+  auto places =
+      largest_by_feature(analysis.responses.nodes, maximum.value_Pa, analysis.mesh.features, analysis.places);
   const double largest_Pa = governing_stress(analysis).value_Pa;
   for (auto& place : places) {
     if (place.value_Pa < worth_a_look * largest_Pa) {
@@ -58,7 +60,8 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
   return places;
 }
 
-void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged, const std::string& method) {
+void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
+                       const std::string& method) {
   if (judged.empty()) return;
   const auto judgement = judge(judged);
   auto& errors = errors_of_governing(analysis);

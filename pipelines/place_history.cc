@@ -39,7 +39,8 @@ double bounded_by(const SecondModel& model, const PlaceStress& place, double err
   if (model.model_error > 0)
     return std::max(error_Pa, (1 - model.model_error) * other->value_Pa - other->error_Pa - place.value_Pa);
   const double difference_Pa = std::abs(place.value_Pa - other->value_Pa);
-  return std::clamp(error_Pa, std::max(0.0, difference_Pa - other->error_Pa), difference_Pa + other->error_Pa);
+  return std::clamp(error_Pa, std::max(0.0, difference_Pa - other->error_Pa),
+                    difference_Pa + other->error_Pa);
 }
 
 }  // namespace

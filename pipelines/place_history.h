@@ -1,5 +1,5 @@
-/// What the meshes of a search tell of the error at each place of a body: by how much its stress moved when one
-/// direction of the mesh became finer, direction by direction, and what a second model says of it.
+/// What the meshes of a search tell of the error at each place of a body: by how much its stress moved when
+/// one direction of the mesh became finer, direction by direction, and what a second model says of it.
 #pragma once
 
 #include <map>
@@ -32,8 +32,8 @@ struct MeshStep {
 /// Another model's stresses at the same places.
 struct SecondModel {
   std::vector<PlaceStress> places;  ///< with the errors of its own discretisation
-  /// What the model itself may be off by, relative; 0: it solves the same problem, and a difference is an error
-  /// of either.
+  /// What the model itself may be off by, relative; 0: it solves the same problem, and a difference is an
+  /// error of either.
   double model_error = 0;
 };
 
@@ -51,14 +51,16 @@ public:
 
   /// The places of the last mesh with all that is known of their errors:
   /// - from changes: for each part |change| / (ratio^order - 1), added up. The order is 2 on fillets and 1
-  ///   elsewhere: ends of loads and of exclusion distances. While a part has not been varied, at least what the
-  ///   mesh tells by itself; later at least a tenth of it: two meshes may agree by chance.
-  /// - from a second model of the same problem: between the difference less that model's error and the difference
-  ///   plus it. A model with an error of its own bounds the error from below only, where its stress is larger.
+  ///   elsewhere: ends of loads and of exclusion distances. While a part has not been varied, at least what
+  ///   the mesh tells by itself; later at least a tenth of it: two meshes may agree by chance.
+  /// - from a second model of the same problem: between the difference less that model's error and the
+  /// difference
+  ///   plus it. A model with an error of its own bounds the error from below only, where its stress is
+  ///   larger.
   std::vector<PlaceStress> judged() const;
 
-  /// The parts by what their refinement promises at a place: those that were never varied, then by their share of
-  /// the error, largest first.
+  /// The parts by what their refinement promises at a place: those that were never varied, then by their
+  /// share of the error, largest first.
   std::vector<MeshPart> by_promise(const std::string& feature) const;
 
 private:

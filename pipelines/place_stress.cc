@@ -24,7 +24,8 @@ std::vector<PlaceStress> largest_by_feature(const fem::Nodes& nodes, const std::
     std::copy_n(&nodes.xyz_m[3 * node], 3, largest[place].position_m.begin());
   };
   for (std::size_t face = 0; face < nodes.n_faces(); ++face)
-    for (const auto node : nodes.face(face)) consider(by_id.at(nodes.face_boundary_id[face]), std::size_t(node));
+    for (const auto node : nodes.face(face))
+      consider(by_id.at(nodes.face_boundary_id[face]), std::size_t(node));
   for (std::size_t node = 0; node < nodes.n; ++node)
     if (places.feature[node] < 0) consider(features.size(), node);
   std::vector<PlaceStress> result;

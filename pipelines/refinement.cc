@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
-/// Cells on a fillet quarter and sectors of a shaft's first mesh; the later ones where the mesher refuses one.
+/// Cells on a fillet quarter and sectors of a shaft's first mesh; the later ones where the mesher refuses
+/// one.
 constexpr std::array<std::array<int, 2>, 4> first_shaft_meshes = {{{2, 8}, {4, 8}, {4, 12}, {6, 16}}};
 /// Of the largest stress: fillets above are resolved from the start, above the second one half as well.
 constexpr double leading_share = 0.8, minor_share = 0.5;
@@ -30,7 +31,8 @@ int next_cells(int cells) {
 }
 
 /// Index among the shaft's fillets of each one that may hold the largest stress, by its own stress and error.
-std::vector<std::size_t> fillets_that_may_lead(const BodyScene& body, const std::vector<PlaceStress>& judged) {
+std::vector<std::size_t> fillets_that_may_lead(const BodyScene& body,
+                                               const std::vector<PlaceStress>& judged) {
   const auto names = fillets_of(body);
   const double leading_Pa = judged[judge(judged).governing].value_Pa;
   std::vector<std::size_t> result;
@@ -43,7 +45,8 @@ std::vector<std::size_t> fillets_that_may_lead(const BodyScene& body, const std:
 
 /// Whether cells are half or twice as large away from the toes moves the hot-spot stress of a tube by 1 %, at
 /// the toes by 4 %, through the wall, beside them, by 3 %.
-MeshStep refine_chamber(BodyScene& body, const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+MeshStep refine_chamber(BodyScene& body, const BodyAnalysis& analysis,
+                        const std::vector<PlaceStress>& judged) {
   const auto& target = judged[judge(judged).holding_back].feature;
   const bool is_toe = std::any_of(analysis.hot_spots.begin(), analysis.hot_spots.end(),
                                   [&](const auto& spot) { return spot.name == target; });
@@ -61,8 +64,7 @@ MeshStep refine_chamber(BodyScene& body, const BodyAnalysis& analysis, const std
   for (const auto& spot : analysis.hot_spots) {
     const auto place =
         std::find_if(judged.begin(), judged.end(), [&](const auto& p) { return p.feature == spot.name; });
-    if (place == judged.end() ||
-        place->value_Pa + place->error_Pa < analysis.hot_spots.front().von_mises_Pa)
+    if (place == judged.end() || place->value_Pa + place->error_Pa < analysis.hot_spots.front().von_mises_Pa)
       continue;
     step.features.push_back(spot.name);
     const auto same = [&](const meshes::FineToe& toe) { return toe.at_m == spot.toe_m; };
@@ -226,9 +228,9 @@ void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int 
   const double share = n_meshes <= 2 ? 1 : 0.5;
   const double own_Pa = share * ledger.of("discretisation") / discretisation_safety;
   if (missing_Pa > own_Pa)
-    ledger.set_numerical({"discretisation",
-                          fmt::format("change from the coarser mesh over (ratio of cell sizes)^{} - 1", order),
-                          missing_Pa});
+    ledger.set_numerical(
+        {"discretisation",
+         fmt::format("change from the coarser mesh over (ratio of cell sizes)^{} - 1", order), missing_Pa});
   else
     ledger.set_numerical(
         {"discretisation",

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "pipelines/body_effects.h"
+
 namespace pipelines {
 BodyScene::BodyScene() = default;
 BodyScene::BodyScene(const BodyScene&) = default;
@@ -22,32 +24,13 @@ Scene::~Scene() = default;
 std::vector<std::string> Scene::kinetics_effects() const {
   std::vector<std::string> of_bodies;
   for (const auto& body : bodies) {
-    const auto own = own_effects(body.role);
-    of_bodies.insert(of_bodies.end(), own.begin(), own.end());
-    for (const auto& force : body.train.forces) of_bodies.push_back(force.effect);
+    for (const auto& effect : body_effect_table(body)) of_bodies.push_back(effect.name);
   }
   std::vector<std::string> names;
   std::remove_copy_if(effects.begin(), effects.end(), std::back_inserter(names), [&](const auto& effect) {
     return std::find(of_bodies.begin(), of_bodies.end(), effect) != of_bodies.end();
   });
   return names;
-}
-
-std::vector<std::string> own_effects(BodyRole role) {
-  switch (role) {
-    case BodyRole::vibratory_shaft:
-      return {"gravity_shaft", "shaft_inertia"};
-    case BodyRole::drum:
-      return {"drum_spin"};
-    case BodyRole::stub_axle:
-      return {"axle_gravity", "axle_transport"};
-    case BodyRole::train_shaft:
-      return {"shaft_inertia"};
-    case BodyRole::chamber:
-    case BodyRole::table_body:
-      return {};
-  }
-  return {};
 }
 
 const BodyScene* Scene::body(const std::string& name) const {

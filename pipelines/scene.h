@@ -60,7 +60,8 @@ struct LoadChange {
 struct EffectChoice {
   struct Dropped {
     std::string effect;
-    double share = 0;  ///< of the loads that changes when it alone is switched off (effect_choice.h)
+    double share = 0;  ///< of the loads that changes when it and `with` are switched off (effect_choice.h)
+    std::vector<std::string> with{};  ///< effects that went with it, since they need each other
   };
   std::vector<std::string> offered;     ///< in order; empty: the scene names its effects
   bool open = false;                    ///< nothing is switched off yet: all that are offered are on
@@ -71,13 +72,21 @@ struct EffectChoice {
   std::vector<std::string> taken_back;  ///< dropped at first, but its bound after the solve was too large
 };
 
+/// The key `effects` of a scene, for what comes to light after reading.
+struct EffectsKey {
+  int line = 0, column = 0;  ///< 1-based
+  std::string as_written;
+  std::vector<std::string> offered;  ///< every effect that the scene has data for
+};
+
 struct Scene {
   std::filesystem::path file;
   std::string title;
   Machine machine;
   std::optional<MillingSpace> milling_space;  ///< empty if the scene does not give it
   std::vector<std::string> effects;           ///< those that are on; each known, none twice
-  EffectChoice effect_choice;                 ///< of effects = "auto"
+  EffectsKey effects_key;
+  EffectChoice effect_choice;  ///< of effects = "auto"
   kinetics::TimeGrid sampling;
   std::vector<BodyScene> bodies;          ///< none: the load stage only
   TorsionScene torsion;                   ///< for a drive train

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 
+#include "pipelines/body_effects.h"
 #include "pipelines/contains.h"
 #include "pipelines/nearest.h"
 
 namespace pipelines {
 namespace {
 
-std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& effects) {
+std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table) {
   std::vector<std::string> names;
-  for (const auto& effect : effects) names.push_back(effect.name);
+  for (const auto& effect : table)
+    if (!contains(names, effect.name)) names.push_back(effect.name);
   return names;
 }
 
@@ -28,10 +30,10 @@ std::string remedy_for_unknown(const std::string& name, const std::vector<std::s
 
 /// Every effect that the scene has data for.
 std::vector<std::string> offered_effects(const EffectRules& rules) {
-  std::vector<std::string> offered;
-  for (const auto& effect : rules.known)
-    if (find_refusal(rules, effect) == nullptr && !contains(rules.lacking, effect)) offered.push_back(effect);
-  return offered;
+  const auto known = names_of(rules.table);
+  std::vector<std::string> off = rules.lacking;
+  for (const auto& refusal : rules.refused) off.push_back(refusal.effect);
+  return names_without(known, with_dependents(rules.table, known, off));
 }
 
 /// "all" or "auto".
@@ -40,12 +42,12 @@ void read_word(SceneTable& root, const EffectRules& rules, Scene& scene) {
   if (word != "all" && word != "auto") {
     const std::string nearest = nearest_name(word, {"all", "auto"});
     if (!word.empty())
-      root.refuse("effects", "is no list of effects; write names such as [\"" + rules.known.front() +
+      root.refuse("effects", "is no list of effects; write names such as [\"" + rules.table.front().name +
                                  "\"], or \"all\", or \"auto\" for those that matter" +
                                  (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
     return;
   }
-  scene.effects = offered_effects(rules);
+  scene.effects = scene.effects_key.offered;
   if (word == "all") return;
   scene.effect_choice.offered = scene.effects;
   scene.effect_choice.open = true;
@@ -56,26 +58,21 @@ void read_word(SceneTable& root, const EffectRules& rules, Scene& scene) {
 EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft) {
   using kinetics::Convention;
   const bool is_published = convention == Convention::published;
-  EffectRules rules = plain_rules(kinetics::vibratory_mill_effects(convention));
+  EffectRules rules{kinetics::vibratory_mill_effects(convention)};
   add_own_effects(rules, BodyRole::vibratory_shaft, has_shaft, "[shaft]");
   const Convention other = is_published ? Convention::consistent : Convention::published;
   for (const auto& name : names_of(kinetics::vibratory_mill_effects(other)))
-    if (!contains(rules.known, name))
+    if (!contains(names_of(rules.table), name))
       rules.refused.push_back({name, "unknown under convention \"" +
                                          std::string(is_published ? "published" : "consistent") +
                                          "\", only under the other one; remove it, or change "
                                          "machine.convention"});
-  rules.needs = {
-      {"charge_follows_pitch", "pitch", "the charge can follow the pitch only of a chamber that pitches"},
-      {"charge_lag", "charge_translation", "the lag delays the force of charge_translation"},
-      {"pitch", "springs", "nothing but the springs holds the attitude of a chamber that pitches"},
-  };
   return rules;
 }
 
 EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention) {
   const bool is_consistent = convention == kinetics::PlanetaryConvention::consistent;
-  EffectRules rules = plain_rules(kinetics::planetary_mill_effects(convention));
+  EffectRules rules{kinetics::planetary_mill_effects(convention)};
   rules.refused.push_back(
       {is_consistent ? "charge_relative" : "charge_offset",
        is_consistent ? "is called \"charge_offset\" under the convention \"consistent\", where it is the "
@@ -85,26 +82,25 @@ EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention) {
 }
 
 void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std::string& table) {
-  for (const auto& effect : own_effects(role)) {
-    if (!contains(rules.known, effect)) rules.known.push_back(effect);
+  for (const auto& effect : own_effect_table(role)) {
+    if (!contains(names_of(rules.table), effect.name)) rules.table.push_back(effect);
     if (!has_body)
       rules.refused.push_back(
-          {effect, "needs " + std::string(table == "[axle]" ? "an " : "a ") + table +
-                       ", whose mesh gives its mass; add the table or remove the effect"});
+          {effect.name, "needs " + std::string(table == "[axle]" ? "an " : "a ") + table +
+                            ", whose mesh gives its mass; add the table or remove the effect"});
   }
 }
 
-EffectRules plain_rules(const std::vector<kinetics::EffectInfo>& effects) {
-  return {names_of(effects), {}, {}, {}};
-}
-
 void read_effects(SceneTable& root, const EffectRules& rules, Scene& scene, SceneFindings& findings) {
+  const TextAt key = root.written_at("effects");
+  scene.effects_key = {key.at.line, key.at.column, key.as_written, offered_effects(rules)};
   if (root.has("effects") && !root.has_list("effects")) return read_word(root, rules, scene);
+  const auto known = names_of(rules.table);
 
   const std::vector<TextAt> listed_effects = root.texts("effects");
   if (root.has("effects") && listed_effects.empty())
     root.refuse("effects",
-                "no effect is named, so there is nothing to compute; name some of: " + listed(rules.known));
+                "no effect is named, so there is nothing to compute; name some of: " + listed(known));
 
   const auto refuse = [&](const TextAt& effect, const std::string& remedy) {
     findings.errors.push_back(
@@ -113,19 +109,19 @@ void read_effects(SceneTable& root, const EffectRules& rules, Scene& scene, Scen
   std::vector<std::string> names;
   for (const TextAt& effect : listed_effects) {
     const EffectRefusal* const refusal = find_refusal(rules, effect.text);
-    const bool is_known = contains(rules.known, effect.text);
+    const bool is_known = contains(known, effect.text);
     if (refusal != nullptr)
       refuse(effect, refusal->remedy);
     else if (!is_known)
-      refuse(effect, remedy_for_unknown(effect.text, rules.known));
+      refuse(effect, remedy_for_unknown(effect.text, known));
     else if (contains(names, effect.text))
       refuse(effect, "is named twice; remove one of the two");
     if (is_known && !contains(names, effect.text)) names.push_back(effect.text);
   }
-  for (const TextAt& effect : listed_effects)
-    for (const EffectNeed& need : rules.needs)
-      if (effect.text == need.effect && !contains(names, need.needed))
-        refuse(effect, "needs the effect \"" + need.needed + "\": " + need.reason +
+  for (const auto& open : open_needs(rules.table, names))
+    for (const TextAt& effect : listed_effects)
+      if (effect.text == open.effect)
+        refuse(effect, "needs the effect \"" + open.need.effect + "\": " + open.need.reason +
                            "; add that one or remove this one");
   scene.effects = names;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinetics/machine_refused.h"
+#include "pipelines/body_effects.h"
 #include "pipelines/nearest.h"
 #include "pipelines/plausibility.h"
 #include "pipelines/scene.h"
@@ -120,8 +121,7 @@ void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& sce
   EffectRules rules = vibratory_mill_rules(convention, root.has("shaft"));
   if (!machine.has("charge") || !machine.table("charge").has("lag")) rules.lacking = {"charge_lag"};
   if (!machine.has("springs"))
-    for (const char* effect : {"springs", "spring_damping", "pitch", "charge_follows_pitch"})
-      rules.lacking.push_back(effect);
+    for (const char* effect : {"springs", "spring_damping"}) rules.lacking.push_back(effect);
   read_effects(root, rules, scene, findings);
   scene.run_up = read_run_up(machine);
   auto mill = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space,
@@ -138,10 +138,10 @@ void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& sce
   EffectRules rules = planetary_mill_rules(convention);
   add_own_effects(rules, BodyRole::drum, root.has("drum"), "[drum]");
   add_own_effects(rules, BodyRole::stub_axle, root.has("axle"), "[axle]");
-  for (const auto& effect : rules.known)
-    if ((effect == "belt" && !machine.has("belt")) ||
-        (effect.rfind("charge_", 0) == 0 && !machine.has("charge")))
-      rules.lacking.push_back(effect);
+  for (const auto& effect : rules.table)
+    if ((effect.name == "belt" && !machine.has("belt")) ||
+        (effect.name.rfind("charge_", 0) == 0 && !machine.has("charge")))
+      rules.lacking.push_back(effect.name);
   read_effects(root, rules, scene, findings);
   bool from_mesh = false;
   scene.machine =
@@ -172,10 +172,8 @@ void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene,
   if (findings.errors.empty()) check_from_mesh(machine, scene);
   if (!findings.errors.empty()) return;
   try {
-    EffectRules rules = plain_rules(kinetics::drive_train_effects(train));
+    EffectRules rules{effect_table(train, scene.bodies)};
     add_own_effects(rules, BodyRole::train_shaft, root.has("shaft"), "[shaft]");
-    for (const auto& body : scene.bodies)
-      for (const auto& force : body.train.forces) rules.known.push_back(force.effect);
     read_effects(root, rules, scene, findings);
   } catch (const kinetics::MachineRefused& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
@@ -185,8 +183,7 @@ void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene,
 void read_load_table_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   auto table = read_load_table(machine, scene.file.parent_path(), findings);
   root.know("effects");
-  if (!table.loads.empty())
-    read_effects(root, plain_rules(kinetics::load_table_effects(table)), scene, findings);
+  if (!table.loads.empty()) read_effects(root, {kinetics::load_table_effects(table)}, scene, findings);
   scene.machine = std::move(table);
 }
 

@@ -44,7 +44,8 @@ double seconds_since(Clock::time_point start) {
 /// What a finer mesh or a dearer model would lower: not the loads' own shape, nor what the scene leaves out.
 double lowered_by_other_models_Pa(const ErrorLedger& errors) {
   double sum_Pa = errors.numerical_Pa();
-  for (const char* source : {"model", "eccentric_segments", "ovalisation", "spin"}) sum_Pa += errors.of(source);
+  for (const char* source : {"model", "eccentric_segments", "ovalisation", "spin"})
+    sum_Pa += errors.of(source);
   return sum_Pa;
 }
 
@@ -117,7 +118,8 @@ private:
     return methods_[i] == Method::axisymmetric || methods_[i] == Method::beam;
   }
 
-  /// The model that is tried first: the one asked for; else the cheapest whose own error is within the tolerance.
+  /// The model that is tried first: the one asked for; else the cheapest whose own error is within the
+  /// tolerance.
   Method first_method(std::size_t i) const {
     const auto& body = run_.scene.bodies[i];
     if (run_.scene.method != Method::automatic) return run_.scene.method;
@@ -410,9 +412,7 @@ private:
   }
 
   /// The file of the present mesh was replaced by that of one that is not taken.
-  void restore_mesh(std::size_t i) {
-    run_.loaded.meshed[i] = mesh(i);
-  }
+  void restore_mesh(std::size_t i) { run_.loaded.meshed[i] = mesh(i); }
 
   /// Loads all bodies anew, one of them on another mesh.
   void exchange_mesh(std::size_t i, MeshedBody other) {

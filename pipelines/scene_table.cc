@@ -277,6 +277,12 @@ std::vector<SceneTable> SceneTable::tables(const std::string& name) {
   return result;
 }
 
+TextAt SceneTable::written_at(const std::string& name) const {
+  const TomlEntry* const entry = node_->find(name);
+  return entry == nullptr ? TextAt{"", at_, dotted(name), ""}
+                          : TextAt{"", entry->value.at, dotted(name), entry->value.as_written};
+}
+
 std::string SceneTable::origin() const {
   return findings_->file + ":" + std::to_string(at_.line) + ":" + std::to_string(at_.column) + ": " + key_;
 }

@@ -71,6 +71,9 @@ public:
   /// Reports a missing key at the table; an empty name means the table as a whole.
   void refuse_missing(const std::string& name, const std::string& remedy);
 
+  /// Where a key's value stands and how it is written, for errors that come to light after reading; the
+  /// table's own place if it has no such key.
+  TextAt written_at(const std::string& name) const;
   /// "file:line:column: key", for errors that come to light after reading.
   std::string origin() const;
 

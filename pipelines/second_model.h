@@ -1,5 +1,5 @@
-/// Harmonics around the axis as a second model beside a shaft of solid cells: it tells where the mesh has to be
-/// fine before anything is solved, and what the solid's stresses have to agree with.
+/// Harmonics around the axis as a second model beside a shaft of solid cells: it tells where the mesh has to
+/// be fine before anything is solved, and what the solid's stresses have to agree with.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,9 @@
 
 namespace pipelines {
 
-/// Stresses of all places of a shaft by the axisymmetric model, to 0.2 % of the largest on concentric shafts, with
-/// the errors of its section and what nodes at a distance around the axis can miss of a peak between them.
+/// Stresses of all places of a shaft by the axisymmetric model, to 0.2 % of the largest on concentric shafts,
+/// with the errors of its section and what nodes at a distance around the axis can miss of a peak between
+/// them.
 /// @return nothing for bodies that the model does not apply to
 std::optional<SecondModel> axisymmetric_second_model(const BodyScene& body, const MeshedBody& meshed,
                                                      const BodyLoads& loads, int n_threads);

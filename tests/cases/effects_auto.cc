@@ -172,6 +172,27 @@ TEST(EffectsAuto, LoadTablesKeepTheirHistories) {
   EXPECT_NE(out.find("a load table's histories all count"), std::string::npos) << out;
 }
 
+// What goes is judged by the loads on the bodies, by every command.
+TEST(EffectsAuto, CheckAndLoadsDropTheSame) {
+  const results_test::Directory directory;
+  const auto dropped_by = [&](const std::string& command) {
+    const auto outcome = millstress(directory.path, command + " scene.toml");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto begin = outcome.out.find("  off by effects");
+    if (begin == std::string::npos) return command + " says nothing: " + outcome.out;
+    return outcome.out.substr(
+        begin, outcome.out.find_last_not_of('\n', outcome.out.find("\n\n", begin)) + 1 - begin);
+  };
+  const std::vector<std::pair<std::string, Edits>> scenes{
+      {"root_peeler_shaft.toml", {{"cells_per_fillet_quarter = 4", "cells_per_fillet_quarter = 2"}}},
+      {"planetary_mill.toml", small_drum},
+      {"drive_train.toml", {}}};
+  for (const auto& [name, edits] : scenes) {
+    write(directory / "scene.toml", "tolerance = \"50 %\"\n" + with_effects(edited(name, edits), "\"auto\""));
+    EXPECT_EQ(dropped_by("check"), dropped_by("loads")) << name;
+  }
+}
+
 // Without a body every load counts, measured by itself.
 TEST(EffectsAuto, TheLoadStageAloneJudgesByItsLoads) {
   const results_test::Directory directory;

@@ -42,8 +42,8 @@ struct Tally {
   int n = 0, n_met = 0, n_bounded = 0, n_far = 0, n_wrong_place = 0, n_worse = 0;
 };
 
-Outcome search(const Scene& scene, const promises::Reference& reference, double tolerance, const Options& options,
-               const fs::path& directory) {
+Outcome search(const Scene& scene, const promises::Reference& reference, double tolerance,
+               const Options& options, const fs::path& directory) {
   StageClock clock;
   SceneRunOptions run_options;
   run_options.directory = directory;
@@ -62,12 +62,15 @@ Outcome search(const Scene& scene, const promises::Reference& reference, double 
   outcome.stated = stress.errors.numerical_Pa() / stress.value_Pa;
   outcome.truth = std::abs(stress.value_Pa / reference.peak_Pa - 1);
   outcome.met = analysis.search.met;
-  const auto place = reference.places.find(analysis.place_stresses[judge(analysis.place_stresses).governing].feature);
-  outcome.right_place = place != reference.places.end() && place->second >= (1 - tolerance) * reference.peak_Pa;
-  fmt::print("  {:3.0f} %: {:7.2f} MPa, {:5.2f} % off, {:5.2f} % stated, {} steps, {:7} unknowns, {:5.1f} s  {}{}\n",
-             100 * tolerance, stress.value_Pa / 1e6, 100 * outcome.truth, 100 * outcome.stated,
-             analysis.search.steps.size(), analysis.responses.n_dofs, seconds, stress.place,
-             outcome.met ? "" : "; " + analysis.search.ended);
+  const auto place =
+      reference.places.find(analysis.place_stresses[judge(analysis.place_stresses).governing].feature);
+  outcome.right_place =
+      place != reference.places.end() && place->second >= (1 - tolerance) * reference.peak_Pa;
+  fmt::print(
+      "  {:3.0f} %: {:7.2f} MPa, {:5.2f} % off, {:5.2f} % stated, {} steps, {:7} unknowns, {:5.1f} s  {}{}\n",
+      100 * tolerance, stress.value_Pa / 1e6, 100 * outcome.truth, 100 * outcome.stated,
+      analysis.search.steps.size(), analysis.responses.n_dofs, seconds, stress.place,
+      outcome.met ? "" : "; " + analysis.search.ended);
   return outcome;
 }
 
@@ -102,7 +105,8 @@ Options options_of(int argc, char** argv) {
 int main(int argc, char** argv) {
   const Options options = options_of(argc, argv);
   const FemEnvironment environment(2);
-  const fs::path directory = fs::temp_directory_path() / fmt::format("millstress_promises_{}", options.first_seed);
+  const fs::path directory =
+      fs::temp_directory_path() / fmt::format("millstress_promises_{}", options.first_seed);
   fs::create_directories(directory);
   Tally tally;
   int n_shafts = 0, n_refused = 0;
@@ -134,11 +138,15 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   fs::remove_all(directory);
-  fmt::print("{} searches on {} shafts ({} drawings refused): {} met; stated error bounds the true one in {} ({:.1f} %); "
-             "met and more than twice the tolerance off: {}; met at a wrong place: {}; a stricter one worse by more than "
-             "its stated error: {}\n",
-             tally.n, n_shafts, n_refused, tally.n_met, tally.n_bounded, 100.0 * tally.n_bounded / tally.n, tally.n_far,
-             tally.n_wrong_place, tally.n_worse);
-  const bool holds = tally.n_bounded >= 0.97 * tally.n && tally.n_far + tally.n_wrong_place + tally.n_worse == 0;
+  fmt::print(
+      "{} searches on {} shafts ({} drawings refused): {} met; stated error bounds the true one in {} "
+      "({:.1f} %); "
+      "met and more than twice the tolerance off: {}; met at a wrong place: {}; a stricter one worse by more "
+      "than "
+      "its stated error: {}\n",
+      tally.n, n_shafts, n_refused, tally.n_met, tally.n_bounded, 100.0 * tally.n_bounded / tally.n,
+      tally.n_far, tally.n_wrong_place, tally.n_worse);
+  const bool holds =
+      tally.n_bounded >= 0.97 * tally.n && tally.n_far + tally.n_wrong_place + tally.n_worse == 0;
   return holds ? 0 : 1;
 }

@@ -78,7 +78,8 @@ void cut_groove(Draw& draw, std::size_t i, Drawing& shaft) {
   groove.diameter_mm = rounded(host.diameter_mm * draw.between(0.82, 0.93));
   groove.length_mm = rounded(host.diameter_mm * draw.between(0.12, 0.25));
   groove.is_port = false;
-  if (shaft.segments[i - 1].diameter_mm <= 1.02 * groove.diameter_mm || groove.length_mm > 0.4 * host.length_mm)
+  if (shaft.segments[i - 1].diameter_mm <= 1.02 * groove.diameter_mm ||
+      groove.length_mm > 0.4 * host.length_mm)
     return;
   host.length_mm = rounded(host.length_mm - groove.length_mm);
   shaft.segments.insert(shaft.segments.begin() + std::ptrdiff_t(i), groove);
@@ -98,8 +99,8 @@ std::string contour(const Drawing& shaft) {
 }
 
 std::string load(const std::string& port, const char* component, double value, const char* unit) {
-  return fmt::format("[[machine.constants]]\neffect = \"load\"\nload = \"{}.{}\"\nvalue = \"{:.4g} {}\"\n", port,
-                     component, value, unit);
+  return fmt::format("[[machine.constants]]\neffect = \"load\"\nload = \"{}.{}\"\nvalue = \"{:.4g} {}\"\n",
+                     port, component, value, unit);
 }
 
 /// Loads that bring about 100 MPa in the thinnest section, by beam formulas.
@@ -114,8 +115,10 @@ std::string draw_loads(Draw& draw, const Drawing& shaft, const std::string& load
     const double share = draw.between(0.5, 1.5);
     switch (kind) {
       case 0: {  // bending in any direction
-        const double force_N = share * stress_Pa * modulus_m3 / (0.25 * length_m), angle = draw.between(0, 6.283);
-        return load(loaded, "fx", force_N * std::cos(angle), "N") + load(loaded, "fy", force_N * std::sin(angle), "N");
+        const double force_N = share * stress_Pa * modulus_m3 / (0.25 * length_m),
+                     angle = draw.between(0, 6.283);
+        return load(loaded, "fx", force_N * std::cos(angle), "N") +
+               load(loaded, "fy", force_N * std::sin(angle), "N");
       }
       case 1:
         return load(loaded, "torque", share * stress_Pa * modulus_m3, "N m");
@@ -146,7 +149,8 @@ std::string random_shaft_scene(unsigned seed) {
   const std::size_t loaded = is_overhung ? 0 : 1 + std::size_t(draw.count(0, int(n) - 3));
   const std::size_t left = is_overhung ? 1 + std::size_t(draw.count(0, int(n) - 3)) : 0, right = n - 1;
   for (const auto i : {loaded, left, right}) shaft.segments[i].is_port = true;
-  const std::string names[] = {shaft.segments[loaded].name, shaft.segments[left].name, shaft.segments[right].name};
+  const std::string names[] = {shaft.segments[loaded].name, shaft.segments[left].name,
+                               shaft.segments[right].name};
   if (draw.happens(0.3)) cut_groove(draw, 1 + std::size_t(draw.count(0, int(n) - 2)), shaft);
   for (std::size_t i = 0; i + 1 < shaft.segments.size(); ++i)
     shaft.fillets_mm.push_back(draw_fillet_mm(draw, shaft.segments[i], shaft.segments[i + 1]));
@@ -174,7 +178,8 @@ poisson_ratio = 0.3
 density = "7850 kg/m3"
 yield_strength = "305 MPa"
 )",
-                     seed, draw_loads(draw, shaft, names[0]), contour(shaft), names[1], names[2], names[2], names[2]);
+                     seed, draw_loads(draw, shaft, names[0]), contour(shaft), names[1], names[2], names[2],
+                     names[2]);
 }
 
 }  // namespace promises

@@ -15,8 +15,8 @@ struct Reference {
   double change = 0;                     ///< of the peak from the section half as fine, relative
 };
 
-/// Sections with cells halved until the peak changes by less than `wanted` (relative), at most four times, with
-/// three times as many harmonics of the seat pressures as the scene has.
+/// Sections with cells halved until the peak changes by less than `wanted` (relative), at most four times,
+/// with three times as many harmonics of the seat pressures as the scene has.
 /// @param scene  its first body is the shaft
 Reference axisymmetric_reference(const pipelines::Scene& scene, double wanted);
 

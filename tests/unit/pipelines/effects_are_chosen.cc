@@ -132,7 +132,7 @@ TEST(EffectChoice, TheThresholdDecides) {
   EXPECT_EQ(sorted(dropped(least)), (std::set<std::string>{"gravity_structure", "gravity_exciter"}));
   EXPECT_LT(least.effect_choice.share, 1e-9);
   // The next one by its own share.
-  const auto more = chosen(scene, 0.1);
+  const auto more = chosen(scene, 0.05);
   ASSERT_GT(more.effect_choice.dropped.size(), 2u);
   const auto next = more.effect_choice.dropped[2];
   for (const double slack : {-1e-6, 1e-6}) {
@@ -140,7 +140,7 @@ TEST(EffectChoice, TheThresholdDecides) {
     EXPECT_EQ(std::count(names.begin(), names.end(), next.effect), slack > 0 ? 1 : 0) << slack;
   }
   // Together they stay below the limit, too.
-  EXPECT_LT(more.effect_choice.share, 0.1);
+  EXPECT_LT(more.effect_choice.share, 0.05);
   EXPECT_GT(more.effect_choice.share, next.share);
   EXPECT_EQ(more.effects.size() + more.effect_choice.dropped.size(), scene.effects.size());
   // A limit that each of them keeps, but not all together: others go.

@@ -1,6 +1,7 @@
 /// What effects are worth, on machines whose loads are known by heart.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/effect_report.h"
@@ -70,7 +71,40 @@ TEST(EffectWorth, LoadsBesideTheResultantsCount) {
   const auto report = report_effects(scene, 0.3, false);
   EXPECT_EQ(worth_of(report, "thrust").worst_load, "seat.fz");
   EXPECT_EQ(worth_of(report, "thrust").if_off, 1);
+  ASSERT_EQ(worth_of(report, "thrust").shares.size(), 1u);
+  EXPECT_EQ(worth_of(report, "thrust").shares[0].largest, 1);
+  EXPECT_EQ(worth_of(report, "thrust").shares[0].rms, 1);
   EXPECT_TRUE(report.dispensable.empty());
+}
+
+// Two axial forces on one port share it as their sizes do.
+TEST(EffectWorth, AxialForcesAreShared) {
+  auto scene = table_scene({{"thrust", {30, 0}}, {"wave", {0, 10}}});
+  for (auto& load : std::get<kinetics::LoadTable>(scene.machine).loads) load.component = "fz";
+  const auto report = report_effects(scene, 0.01, false);
+  EXPECT_NEAR(worth_of(report, "thrust").shares.at(0).largest, 30.0 / 40, 1e-14);
+  EXPECT_NEAR(worth_of(report, "wave").shares.at(0).largest, 10.0 / 40, 1e-14);
+  EXPECT_NEAR(worth_of(report, "wave").shares.at(0).rms, std::sqrt(50.0 / 950), 1e-14);
+}
+
+// On the wall the charge's translation has a moment of 1.8 kN at 30 mm, its lag a tenth of that, and gravity,
+// made twenty times as strong, more than both: below 60 % the first two can go. The translation cannot go by
+// itself, since the lag builds on it.
+TEST(EffectWorth, WhatNeedsEachOtherGoesTogether) {
+  auto scene = laboratory::scene();
+  scene.bodies.clear();
+  scene.sampling.instants_per_turn = 24;
+  scene.effects = {"gravity_charge", "charge_translation", "charge_coriolis", "charge_lag"};
+  auto& mill = std::get<kinetics::VibratoryMill>(scene.machine);
+  mill.gravity_m_s2 = 200;
+  mill.charge_lag = {0.1, std::nullopt};
+  const auto report = report_effects(scene, 0.6, false);
+  EXPECT_NE(worth_of(report, "charge_translation").indispensable.find("needs the effect charge_translation"),
+            std::string::npos);
+  EXPECT_EQ(report.dispensable, (std::vector<std::string>{"charge_lag", "charge_translation"}));
+  ASSERT_EQ(report.steps.size(), 2u);
+  EXPECT_GT(report.steps[1].if_off, report.steps[0].if_off);
+  EXPECT_LT(report.if_all_off, 0.6);
 }
 
 TEST(EffectWorth, TheOnlyEffectCannotGo) {

@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "pipelines/body_mesh.h"
-#include "pipelines/fem_environment.h"
 #include "pipelines/grid_convergence.h"
 #include "pipelines/systematic_meshes.h"
 #include "results_directory.h"
+#include "tests/unit/pipelines/shared_environment.h"
 
 namespace {
 
@@ -50,7 +50,7 @@ double at_bore_Pa(const fem::UnitResponses& r) {
 }  // namespace
 
 TEST(GridConvergence, OfARotatingDiscBoundsItsError) {
-  const pipelines::FemEnvironment environment(1);
+  shared::start_fem();
   const results_test::Directory directory;
   const fem::UnitLoad spin{"volume.spin", fem::BodyForce{fem::BodyForce::Field::spin, {}}};
   // rho w^2 / 4 ((3 + nu) b^2 + (1 - nu) a^2): 260.8 MPa. The thickness adds a mean of nothing and less than
