@@ -61,7 +61,7 @@ void print_effect_choice(std::ostream& out, const Scene& scene, const std::vecto
       }
     };
     for (const auto& dropped : choice.dropped) row(dropped.effect, dropped.share, false);
-    row("all of these", choice.share, true);
+    row(choice.taken_back.empty() ? "all of these" : "all, before any came back", choice.share, true);
     print_groups(out, choice);
     out << fmt::format("\n    limit {}; the load that changes most, felt by a body or not, is {}, by {}\n",
                        percent(choice.limit), choice.load_change.load, percent(choice.load_change.share));
