@@ -15,6 +15,7 @@ std::string refusal(const fs::path& directory, const std::string& scene,
     const auto outcome =
         millstress(directory, command + " scene.toml -q" + (command == "run" ? " -o out" : ""));
     EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_EQ(outcome.out, "") << command;
     texts.insert(outcome.err);
     EXPECT_FALSE(fs::exists(directory / "out/summary.json")) << command;
   }
