@@ -20,11 +20,10 @@ namespace {
 constexpr double size_on_fillet = 0.5, size_at_seat = 0.25, size_at_sharp_edge = 0.25;
 constexpr double size_of_more = 0.1;  // of the radius, at the largest stress of a place
 constexpr double first_growth = 1.5;  // of cells with the distance from a fine circle
-constexpr int first_step_cut = 2;     // from which on all cells are cut once
-/// The order that a place has shown counts up to that; and of the change before the last one, this share may
-/// hide behind a last one that is small by chance. Two steps whose cells differ near the circles alone leave
-/// this much of the value to the cells between them.
-constexpr double largest_order = 2, hidden_share = 1.0 / 16, unseen_share = 0.002;
+/// The order that a place has shown counts up to that. At a seam, whose nodes belong to the fillet beside it,
+/// a place's values creep with less than first order: hence the safety. A last change may be small by chance:
+/// of the one before an eighth counts still, what cubic cells leave of it, and of the value this much.
+constexpr double largest_order = 2, safety = 1.5, hidden_share = 1.0 / 8, unseen_share = 0.002;
 
 void add(std::vector<fem::FineCircle>& circles, double z_m, double r_m, double size_m) {
   const auto same = std::find_if(circles.begin(), circles.end(), [&](const auto& c) {
@@ -78,10 +77,34 @@ double missing_Pa(const std::vector<double>& values) {
   const std::size_t n = values.size();
   if (n < 2) return values.back();
   const double last = std::abs(values[n - 1] - values[n - 2]);
-  if (n < 3) return std::max(last, unseen_share * values.back());
+  if (n < 3) return std::max(safety * last, unseen_share * values.back());
   const double before = std::abs(values[n - 2] - values[n - 3]);
   const double order = last > 0 ? std::clamp(std::log2(before / last), 1.0, largest_order) : largest_order;
-  return std::max(last / (std::exp2(order) - 1), hidden_share * before);
+  return std::max(safety * last / (std::exp2(order) - 1), hidden_share * before);
+}
+
+/// What a parabola through the nodes before and behind it on the half plane's surface adds to a node's value:
+/// points of one section are among those of the next, so that a change does not tell of what lies between.
+double between_points_Pa(const fem::Nodes& nodes, const std::vector<double>& value_Pa, std::size_t node) {
+  std::set<std::int32_t> beside;
+  constexpr std::size_t along[4] = {1, 0, 3, 2};  // the other end of a face's edge in the half plane
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    for (std::size_t i = 0; i < 4; ++i)
+      if (std::size_t(face[i]) == node) beside.insert(face[along[i]]);
+  }
+  if (beside.size() != 2) return 0;
+  const auto distance_m = [&](std::int32_t other) {
+    const double *a = &nodes.xyz_m[3 * node], *b = &nodes.xyz_m[3 * std::size_t(other)];
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  };
+  const double h1 = distance_m(*beside.begin()), h2 = distance_m(*beside.rbegin());
+  const double slope_1 = (value_Pa[std::size_t(*beside.begin())] - value_Pa[node]) / h1;
+  const double slope_2 = (value_Pa[std::size_t(*beside.rbegin())] - value_Pa[node]) / h2;
+  if (slope_1 > 0 || slope_2 > 0) return 0;  // the place ends here: what is higher belongs to the next one
+  const double curvature = (slope_1 + slope_2) / (h1 + h2);
+  const double slope = (slope_2 * h1 - slope_1 * h2) / (h1 + h2);
+  return curvature < 0 ? slope * slope / (-4 * curvature) : 0;
 }
 
 }  // namespace
@@ -115,7 +138,7 @@ AxisymmetricRefinement::AxisymmetricRefinement(const BodyScene& body, const Mesh
 AxisymmetricStep AxisymmetricRefinement::next(StageClock& clock) {
   const auto start = std::chrono::steady_clock::now();
   const double scale = std::exp2(-n_steps_);
-  section_.n_cuts = n_steps_ < first_step_cut ? 0 : 1;
+  section_.n_cuts = std::min(n_steps_, 1);
   section_.fine_growth = first_growth * scale;
   section_.fine_circles = circles_;
   for (auto& circle : section_.fine_circles) circle.size_m *= scale;
@@ -148,7 +171,8 @@ void AxisymmetricRefinement::learn(AxisymmetricStep& step) {
   for (auto& place : step.places) {
     auto& values = values_Pa_[place.feature];
     values.push_back(place.value_Pa);
-    place.error_Pa = missing_Pa(values);
+    place.error_Pa = missing_Pa(values) +
+                     between_points_Pa(step.responses.nodes, step.envelope.von_mises.value_Pa, place.node);
   }
 }
 

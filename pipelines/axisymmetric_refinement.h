@@ -27,7 +27,7 @@ struct AxisymmetricStep {
 };
 
 /// Each step has cells half as large as the one before on fillets, at the ends of loaded seats and at sharp
-/// edges; from the third on all cells are cut once, and where a place holds the accuracy back there is one
+/// edges; from the second on all cells are cut once, and where a place holds the accuracy back there is one
 /// more fine circle at its largest stress. Stress at the ends of loaded zones converges with first order: of
 /// a change d, d is missing still. From the third step on the order is seen, and counts up to 2.
 class AxisymmetricRefinement {

@@ -209,7 +209,8 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
 }
 
 BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock) {
+                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
+                            std::optional<Envelope> known) {
   const ShaftShape* shaft = body.shaft();
   BodyAnalysis analysis;
   analysis.scene = body;
@@ -223,8 +224,10 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
   require_closure(body.name, analysis.closure);
 
   const auto start = std::chrono::steady_clock::now();
-  analysis.envelope = clock.run(
-      "superpose", [&] { return envelope(analysis.loads.history, analysis.responses, threads(n_threads)); });
+  analysis.envelope = clock.run("superpose", [&] {
+    return known ? std::move(*known)
+                 : envelope(analysis.loads.history, analysis.responses, threads(n_threads));
+  });
   require_finite(body.name, analysis.envelope);
   analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   clock.run("zones", [&] {
