@@ -17,6 +17,7 @@ namespace fem {
 /// Eccentric cylinders are concentric here: loads on them keep their resultants about the origin (the lever
 /// of a force becomes a couple on its surface), their own mass likewise. Stiffness, and the height of the
 /// shoulders beside them, do not follow; fem::eccentricity_error estimates what that costs at the fillets.
+/// Nor is there the bending by an axial force beside the cylinder's axis, nor twist about that axis.
 /// Stress that the eccentric cylinder makes by itself (spin) is off by its eccentricity over its radius.
 ///
 /// Stress: derivatives of the displacement (degree 3: third order), mean of the cells at a point. Nodes: the

@@ -203,7 +203,8 @@ TEST(HarmonicsInside, sections_are_those_of_the_solid) {
     const auto a = fem::Model(shaft.solid.body).unit_responses(shaft.loads, shaft.solid.planes);
     const auto b = fem::axisymmetric_responses(shaft.section, shaft.loads, shaft.solid.planes);
     ASSERT_EQ(a.sections.size(), b.sections.size());
-    for (std::size_t k = 0; k < cases.size(); ++k) {
+    // Tension bends an eccentric segment, which has no place in a body of revolution.
+    for (std::size_t k = 0; k < (eccentricity_m > 0 ? 3 : cases.size()); ++k) {
       double motion = 0, rotation = 0;
       for (std::size_t p = 0; p < a.planes.size(); ++p)
         for (std::size_t c = 0; c < 3; ++c) {
