@@ -25,6 +25,7 @@ AccuracyBench::AccuracyBench(const Scene& scene, std::size_t body, const Accurac
     meshed_.push_back(clock_.run(
         "meshes", [&] { return mesh_body(one, scratch() / (one.name + ".msh"), springs_of(scene_)); }));
   scene_ = with_effects_chosen(scene_, meshed_, negligible_share(tolerance()));
+  scene_.method = Method::solid;
 }
 
 AccuracyBench::~AccuracyBench() {

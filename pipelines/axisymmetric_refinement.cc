@@ -10,6 +10,7 @@
 
 #include "fem/axisymmetric_responses.h"
 #include "pipelines/axisymmetric_body.h"
+#include "pipelines/errors.h"
 #include "pipelines/axisymmetric_run.h"
 
 namespace pipelines {
@@ -126,7 +127,7 @@ AxisymmetricRefinement::AxisymmetricRefinement(const BodyScene& body, const Mesh
                                                const BodyLoads& loads, int n_threads)
     : meshed_(&meshed), loads_(&loads), n_threads_(n_threads), section_([&] {
         if (const auto why = why_not_axisymmetric(body); !why.empty())
-          throw std::invalid_argument("the " + body.name + " " + why + ": no axisymmetric model");
+          throw StageRefused("the " + body.name + " " + why + ": no axisymmetric model");
         return meridian_body(with_coarse_blocks(body), meshed.mesh);
       }()) {
   section_.masses_of_loads = meshed.masses;

@@ -7,6 +7,7 @@
 
 #include "fem/beam_responses.h"
 #include "pipelines/axisymmetric_body.h"
+#include "pipelines/errors.h"
 #include "pipelines/cheap_rungs.h"
 #include "pipelines/closure.h"
 
@@ -71,7 +72,7 @@ fem::UnitResponses with_axis(fem::UnitResponses r, int n_angles) {
 BodyAnalysis analyse_beam(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                           BodyLoads loads, const RunOptions& options, StageClock& clock) {
   if (const auto why = why_not_beam(body); !why.empty())
-    throw std::invalid_argument("the " + body.name + " " + why + ": no beam");
+    throw StageRefused("the " + body.name + " " + why + ": no beam");
   const auto start = std::chrono::steady_clock::now();
   MeshedBody own = meshed;
   own.mesh.sections.clear();

@@ -1,6 +1,7 @@
 #include <stdexcept>
 
 #include "pipelines/axisymmetric_body.h"
+#include "pipelines/errors.h"
 #include "pipelines/nearest.h"
 #include "pipelines/requested_method.h"
 #include "pipelines/scene_stages.h"
@@ -39,10 +40,10 @@ Method requested_method(const std::string& option, const Scene& scene) {
   if (option.empty()) return scene.method;
   const auto method = method_of(option);
   if (!method)
-    throw std::invalid_argument("--method " + option + ": unknown model; write one of " +
+    throw OptionError("--method " + option + ": unknown model; write one of " +
                                 listed(method_names()));
   if (const auto remedy = remedy_for(*method, scene); !remedy.empty())
-    throw std::invalid_argument("--method " + option + ": " + remedy);
+    throw OptionError("--method " + option + ": " + remedy);
   return *method;
 }
 

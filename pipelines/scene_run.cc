@@ -100,6 +100,7 @@ public:
 
 private:
   double tolerance() const {
+    if (options_.wish.once) return 0;
     return options_.wish.tolerance > 0 ? options_.wish.tolerance : run_.scene.wish.tolerance;
   }
   std::size_t n_bodies() const { return run_.scene.bodies.size(); }
