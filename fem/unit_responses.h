@@ -33,8 +33,11 @@ struct NodeList {
 /// The nodes of the solution on the body: every support point of the displacement space once.
 struct Nodes {
   std::size_t n = 0;
-  std::vector<double> xyz_m;      ///< n x 3
-  std::vector<double> volume_m3;  ///< n; integral of the node's shape function, sums to the body's volume
+  std::vector<double> xyz_m;  ///< n x 3
+  /// n; integral of the node's shape function, sums to the body's volume. A weight of sums over nodes (mass,
+  /// balance), no piece of the body: at the corners of quadratic tetrahedra it is negative. Volumes of
+  /// regions: region_volume.h.
+  std::vector<double> volume_m3;
   CellKind kind = CellKind::hexahedra;
   int degree = 2;  ///< of displacement and geometry; 2 for tetrahedra
   /// Cell after cell, in the order of VTK_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON or VTK_LAGRANGE_HEXAHEDRON

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "fem/region_volume.h"
 #include "pipelines/errors.h"
 
 namespace pipelines {
@@ -207,7 +208,13 @@ Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const No
       zone.peak_Pa = envelope.value_Pa[i];
     }
     zone.n_nodes += 1;
-    zone.volume_m3 += nodes.volume_m3[i];
+  }
+  const auto volumes_m3 = fem::cell_volumes_above_m3(nodes, envelope.value_Pa, level_Pa, places.excluded);
+  for (std::size_t cell = 0; cell < volumes_m3.size(); ++cell) {
+    const auto cell_nodes = nodes.cell(cell);
+    const auto node =
+        std::find_if(cell_nodes.begin(), cell_nodes.end(), [&](auto i) { return inside(std::size_t(i)); });
+    if (node != cell_nodes.end()) zones.at(sets.find(std::size_t(*node))).volume_m3 += volumes_m3[cell];
   }
   std::vector<std::pair<std::size_t, Zone>> ranked(zones.begin(), zones.end());
   std::stable_sort(ranked.begin(), ranked.end(),

@@ -60,8 +60,9 @@ struct Zones {
 /// @throws StageRefused if every node is excluded
 std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places);
 
-/// Nodes at or above the level, connected when they share a cell. The volume is the sum of nodal volumes.
-/// Excluded nodes belong to no zone.
+/// Nodes at or above the level, connected when they share a cell. The volume is that of the region where the
+/// envelope, linear between neighbouring nodes, is above the level (fem/region_volume.h). Excluded nodes and
+/// their share of the cells belong to no zone.
 Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places,
                  double level_Pa, double yield_strength_Pa);
 

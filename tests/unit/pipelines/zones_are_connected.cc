@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/vtk_order.h"
 #include "pipelines/zones.h"
 
 namespace {
 
-/// Cells in a row along z, each with its 27 nodes as 3 layers of 9; neighbours share a layer. Node volume 1.
+/// Cells of 2 x 2 x 2 in a row along z, each with its 27 nodes as 3 layers of 9; neighbours share a layer.
 struct Row {
   fem::Nodes nodes;
   pipelines::NodalMaximum envelope;
@@ -21,10 +22,9 @@ struct Row {
     nodes.n = std::size_t(9 * (2 * n_cells + 1));
     for (std::size_t i = 0; i < nodes.n; ++i) {
       nodes.xyz_m.insert(nodes.xyz_m.end(), {double(i % 3), double(i / 3 % 3), double(i / 9)});
-      nodes.volume_m3.push_back(1);
     }
     for (int c = 0; c < n_cells; ++c) {
-      for (int v = 0; v < 27; ++v) nodes.cells.push_back(18 * c + v);
+      for (const int v : fem::vtk_hexahedron_from_lexicographic) nodes.cells.push_back(18 * c + v);
       for (int v = 0; v < 9; ++v) nodes.faces.push_back(18 * c + 3 * v);  // x = 0
       nodes.face_boundary_id.push_back(std::min(c, 2) + 1);
     }
@@ -62,7 +62,9 @@ TEST(Zones, RegionsThatShareNoCellAreApart) {
   EXPECT_EQ(zones.zones[0].peak_Pa, 110);
   EXPECT_EQ(zones.zones[0].safety, 2);
   EXPECT_EQ(zones.zones[0].n_nodes, 18u);
-  EXPECT_EQ(zones.zones[0].volume_m3, 18);
+  // From layer 8 down to where the line from 90 to 0 crosses 50.
+  EXPECT_NEAR(zones.zones[0].volume_m3, 4 * (1 + 40. / 90), 1e-13);
+  EXPECT_NEAR(zones.zones[1].volume_m3, 4 * (1 + 10. / 60), 1e-13);
   EXPECT_EQ(zones.zones[0].instant, 4);
   EXPECT_EQ(zones.zones[1].peak_Pa, 80);
   EXPECT_EQ(zones.zone_of_node[0], 2);
@@ -100,6 +102,10 @@ TEST(Zones, SharpEdgesHoldNoPeak) {
   ASSERT_EQ(zones.zones.size(), 1u);
   EXPECT_EQ(zones.zones[0].peak_Pa, 10);
   EXPECT_EQ(zones.zone_of_node[0], 0);
+  // Half a layer of the three boxes between nodes that do not hold the origin. Of the six tetrahedra in the
+  // one that does, those with one and two more nodes at 10 count, by three of their four nodes.
+  const double one_below = 1 - 5. / 1000 * 5 / 10 * 5 / 10, two_below = 0.9937625;
+  EXPECT_NEAR(zones.zones[0].volume_m3, 3 * 0.5 + 2 * (one_below + two_below) / 6 * 3 / 4, 1e-13);
 }
 
 // Distance is to the straight pieces, not to the lines through them (which pass (1, 1)) nor to the box around
