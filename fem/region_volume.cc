@@ -67,24 +67,34 @@ public:
         determinant_(nodes.nodes_per_cell()),
         local_(nodes.nodes_per_cell()) {}
 
+  /// Adds the cell's volume to its nodes'.
+  void share_out(std::size_t cell, std::vector<double>& volume_of_node) {
+    take(nodes_.cell(cell));
+    std::vector<double> own(local_.size(), 0.0);
+    double sum = 0;
+    for (const auto& piece : pieces_)
+      for (const int corner : piece.nodes) own[std::size_t(corner)] += volume_of(piece) / 4;
+    for (const double v : own) sum += v;
+    const double scale = exact() / sum;
+    for (std::size_t i = 0; i < own.size(); ++i) volume_of_node[local_[i]] += scale * own[i];
+  }
+
   double above(std::size_t cell, const std::vector<double>& value, double level,
                const std::vector<char>& left_out) {
-    number_locally(nodes_.cell(cell));
+    take(nodes_.cell(cell));
     const auto is_in = [&](std::size_t i) { return value[i] >= level && left_out[i] == 0; };
     const auto n_in = std::count_if(local_.begin(), local_.end(), is_in);
     if (n_in == 0) return 0;
     const double whole = exact();
     if (std::size_t(n_in) == local_.size()) return whole;
-    for (std::size_t i = 0; i < local_.size(); ++i) determinant_[i] = determinant(at_nodes_, int(i));
     double sum = 0, part = 0;
     for (const auto& piece : pieces_) {
       std::array<double, 4> beyond{};
-      double volume = 0;
+      const double volume = volume_of(piece);
       int n_kept = 0, n_kept_in = 0;
       for (std::size_t i = 0; i < 4; ++i) {
         const auto node = local_[std::size_t(piece.nodes[i])];
         beyond[i] = value[node] - level;
-        volume += piece.reference_volume * determinant_[std::size_t(piece.nodes[i])] / 4;
         n_kept += left_out[node] == 0;
         n_kept_in += is_in(node);
       }
@@ -95,10 +105,17 @@ public:
   }
 
 private:
-  void number_locally(const NodeList& cell) {
+  void take(const NodeList& cell) {
     const int* order = vtk_hexahedron_order(nodes_.degree);
     for (std::size_t v = 0; v < cell.size(); ++v)
       local_[nodes_.shape().is_tetrahedron() ? v : std::size_t(order[v])] = std::size_t(cell[v]);
+    for (std::size_t i = 0; i < local_.size(); ++i) determinant_[i] = determinant(at_nodes_, int(i));
+  }
+
+  double volume_of(const SubTetrahedron& piece) const {
+    double sum = 0;
+    for (const int corner : piece.nodes) sum += determinant_[std::size_t(corner)];
+    return piece.reference_volume * sum / 4;
   }
 
   double determinant(const Tabulation& at, int q) const {
@@ -148,6 +165,14 @@ std::vector<double> cell_volumes_above_m3(const Nodes& nodes, const std::vector<
   if (volumes.empty()) return volumes;
   CellVolumes measure(nodes);
   for (std::size_t c = 0; c < volumes.size(); ++c) volumes[c] = measure.above(c, value, level, left_out);
+  return volumes;
+}
+
+std::vector<double> nodal_volumes_m3(const Nodes& nodes) {
+  std::vector<double> volumes(nodes.n, 0.0);
+  if (nodes.n_cells() == 0) return volumes;
+  CellVolumes measure(nodes);
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) measure.share_out(c, volumes);
   return volumes;
 }
 

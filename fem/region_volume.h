@@ -1,4 +1,4 @@
-/// The volume of the part of a body where a field given at its nodes is at or above a level.
+/// Volumes of parts of a body: where a field given at its nodes is at or above a level, and around each node.
 #pragma once
 
 #include <array>
@@ -18,6 +18,11 @@ namespace fem {
 /// @return the volume above the level in each cell [m^3]; empty without cells
 std::vector<double> cell_volumes_above_m3(const Nodes& nodes, const std::vector<double>& value, double level,
                                           const std::vector<char>& left_out);
+
+/// A node's own piece of the body: a quarter of each of these tetrahedra around it. Positive, and their sum
+/// is the body's volume: weights for norms and means over nodes.
+/// @return one per node [m^3]
+std::vector<double> nodal_volumes_m3(const Nodes& nodes);
 
 /// The share of a tetrahedron where the linear field with these values at its corners is above 0.
 double share_above_zero(std::array<double, 4> corners);

@@ -2,6 +2,7 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -32,24 +33,26 @@ double element_length(int curve) {
   return types.empty() || tags[0].empty() ? 0 : length / double(tags[0].size());
 }
 
-/// The ball's size inside, and `growth` times the distance from it more outside.
-int field_of(const FineSpot& spot, double unit_m) {
-  const auto shifted = [&](const char* axis, std::size_t i) {
-    return std::string("(") + axis + "-(" + std::to_string(spot.centre_m[i] / unit_m) + "))^2";
+/// The ball's size inside, growing with the distance from it by `growth` up to the largest size.
+int field_of(const FineSpot& spot, double unit_m, double largest) {
+  const double inside = spot.size_m / unit_m, outside = std::max(inside, largest);
+  const int field = gmsh::model::mesh::field::add("Ball");
+  const auto set = [&](const char* name, double value) {
+    gmsh::model::mesh::field::setNumber(field, name, value);
   };
-  const std::string beyond = "(sqrt(" + shifted("x", 0) + "+" + shifted("y", 1) + "+" + shifted("z", 2) +
-                             ")-" + std::to_string(spot.radius_m / unit_m) + ")";
-  const int field = gmsh::model::mesh::field::add("MathEval");
-  gmsh::model::mesh::field::setString(field, "F",
-                                      std::to_string(spot.size_m / unit_m) + "+" +
-                                          std::to_string(0.5 * growth) + "*(sqrt(" + beyond + "^2)+" +
-                                          beyond + ")");
+  set("XCenter", spot.centre_m[0] / unit_m);
+  set("YCenter", spot.centre_m[1] / unit_m);
+  set("ZCenter", spot.centre_m[2] / unit_m);
+  set("Radius", spot.radius_m / unit_m);
+  set("VIn", inside);
+  set("VOut", outside);
+  set("Thickness", (outside - inside) / growth);
   return field;
 }
 
 /// Cells grow gently with the distance from every curve: without this a narrow surface beside a fillet gets
 /// cells as long as its other edge asks for. Meshes the curves, and forgets them again.
-void limit_growth(const std::vector<FineSpot>& fine_spots, double unit_m) {
+void limit_growth(const std::vector<FineSpot>& fine_spots, double unit_m, double largest) {
   gmsh::model::mesh::generate(1);
   std::map<int, std::vector<double>> curves_of_size;  // by size in steps of a tenth
   gmsh::vectorpair curves;
@@ -68,7 +71,7 @@ void limit_growth(const std::vector<FineSpot>& fine_spots, double unit_m) {
                                             std::to_string(growth) + "*F" + std::to_string(distance));
     fields.push_back(size);
   }
-  for (const auto& spot : fine_spots) fields.push_back(field_of(spot, unit_m));
+  for (const auto& spot : fine_spots) fields.push_back(field_of(spot, unit_m, largest));
   const int smallest = gmsh::model::mesh::field::add("Min");
   gmsh::model::mesh::field::setNumbers(smallest, "FieldsList", fields);
   gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
@@ -108,7 +111,7 @@ void mesh_solids(const SolidControl& control, double unit_m) {
   set("Mesh.MeshSizeMin", control.smallest_size_m / unit_m);
   set("Mesh.MeshSizeFromCurvature", control.cells_per_circle);
   set("Mesh.MeshSizeFromPoints", 0);
-  limit_growth(control.fine_spots, unit_m);
+  limit_growth(control.fine_spots, unit_m, size);
   gmsh::model::mesh::generate(3);
   split_flat_cells();
   gmsh::model::mesh::setOrder(2);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "fem/cell_stress_at_node.h"
+#include "fem/region_volume.h"
 #include "pipelines/calculix_model.h"
 #include "pipelines/rigid_part.h"
 #include "pipelines/superposition.h"
@@ -79,7 +80,7 @@ std::vector<CalculixAgreement> compare_with_calculix(const fem::UnitResponses& o
                                 " loads: they have to be those of one model");
   const Serendipity kept(ours.nodes);
   const auto forces = calculix_forces(loads, kept);
-  const RigidPart rigid(ours.nodes, ours.nodes.volume_m3);
+  const RigidPart rigid(ours.nodes, fem::nodal_volumes_m3(ours.nodes));
   const auto surface = nodes_on(ours.nodes, boundary_ids, kept);
   std::vector<CalculixAgreement> result(n_loads);
   for (std::size_t k = 0; k < n_loads; ++k) {

@@ -118,6 +118,12 @@ double ErrorLedger::of(const std::string& source) const {
   return 0;
 }
 
+double ErrorLedger::safety_of(const std::string& source) const {
+  for (const auto& entry : numerical)
+    if (entry.source == source) return entry.safety;
+  return 1;
+}
+
 void ErrorLedger::set_numerical(const ErrorEntry& entry) {
   set(numerical, entry);
 }

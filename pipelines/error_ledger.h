@@ -12,11 +12,16 @@
 
 namespace pipelines {
 
+/// True errors were up to this many times the plain estimate on shafts of 2 to 16 cells per fillet quarter.
+inline constexpr double discretisation_safety = 3;
+
 /// One source of error of a von Mises stress.
 struct ErrorEntry {
   std::string source;   ///< "time_sampling", "discretisation", ...
   std::string method;   ///< in a few words: how the figure was found
   double value_Pa = 0;  ///< estimate of the size, not negative
+  /// How many times the plain estimate the value is: what several meshes that agree may take back.
+  double safety = discretisation_safety;
 };
 
 /// Entries add up: signs are not known.
@@ -38,6 +43,8 @@ struct ErrorLedger {
   std::string largest() const;
   /// 0 if the ledger has no such entry.
   double of(const std::string& source) const;
+  /// ErrorEntry::safety of a numerical entry; 1 if there is no such entry.
+  double safety_of(const std::string& source) const;
   // Replace the entry of that source, or add it.
   void set_numerical(const ErrorEntry& entry);
   void set_model(const ErrorEntry& entry);
@@ -81,8 +88,5 @@ ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& re
 /// Creager and Paris 1967). The largest over the surfaces around the point, 3 of_axis + of_fillet / 2; three
 /// times the largest error of the body, in radii, where none of them is curved.
 double geometry_share(const fem::GeometryError& error, const fem::Nodes& nodes, const StressPoint& point);
-
-/// True errors were up to this many times the plain estimate on shafts of 2 to 16 cells per fillet quarter.
-inline constexpr double discretisation_safety = 3;
 
 }  // namespace pipelines

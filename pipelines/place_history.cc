@@ -10,9 +10,6 @@
 namespace pipelines {
 namespace {
 
-/// Of what a single mesh says of itself, once every part has been varied.
-constexpr double kept_share = 0.1;
-
 bool is_fillet(const std::string& feature) {
   return feature.rfind("fillet ", 0) == 0;
 }
@@ -89,7 +86,7 @@ double PlaceHistory::from_changes(const Record& record) const {
   const auto parts = parts_of(record.now.feature);
   const bool all_varied = std::all_of(parts.begin(), parts.end(),
                                       [&](MeshPart part) { return record.missing_Pa.count(part) > 0; });
-  return std::max(missing_Pa, (all_varied ? kept_share : 1) * record.now.error_Pa);
+  return std::max(missing_Pa, (all_varied ? kept_share_ : 1) * record.now.error_Pa);
 }
 
 std::vector<PlaceStress> PlaceHistory::judged() const {

@@ -37,10 +37,15 @@ struct SecondModel {
   double model_error = 0;
 };
 
+/// Two meshes may agree by chance.
+inline constexpr double usual_kept_share = 0.1;
+
 class PlaceHistory {
 public:
   /// @param parts  that have to be varied before the error of a place is known from changes alone
-  explicit PlaceHistory(std::vector<MeshPart> parts) : parts_(std::move(parts)) {}
+  /// @param kept_share  of what a mesh tells by itself, once every part has been varied
+  explicit PlaceHistory(std::vector<MeshPart> parts, double kept_share = usual_kept_share)
+      : parts_(std::move(parts)), kept_share_(kept_share) {}
 
   /// The places on the next mesh.
   /// @param now   values, and as errors what the mesh tells by itself
@@ -52,7 +57,7 @@ public:
   /// The places of the last mesh with all that is known of their errors:
   /// - from changes: for each part |change| / (ratio^order - 1), added up. The order is 2 on fillets and 1
   ///   elsewhere: ends of loads and of exclusion distances. While a part has not been varied, at least what
-  ///   the mesh tells by itself; later at least a tenth of it: two meshes may agree by chance.
+  ///   the mesh tells by itself; later at least the kept share of it.
   /// - from a second model of the same problem: between the difference less that model's error and the
   /// difference
   ///   plus it. A model with an error of its own bounds the error from below only, where its stress is
@@ -72,6 +77,7 @@ private:
   double from_changes(const Record& record) const;
 
   std::vector<MeshPart> parts_;
+  double kept_share_ = usual_kept_share;
   std::vector<std::string> order_;
   std::map<std::string, Record> records_;
   std::optional<SecondModel> second_;

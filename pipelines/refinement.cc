@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pipelines/fineness.h"
+#include "pipelines/solid_refinement.h"
 
 namespace pipelines {
 namespace {
@@ -23,7 +24,6 @@ constexpr double toe_step = 2, other_toes_step = 1.1, elsewhere_step = 1.05, toe
 constexpr double mended_along = 1.0 / 3;
 constexpr int most_pressure_harmonics = 64;
 constexpr double smallest_exponent = 0.1, kept_exponent = 0.75;
-constexpr double spot_shrinkage = 0.6, spot_radius_cells = 3;
 
 int next_cells(int cells) {
   const auto next = std::upper_bound(cells_on_quarters.begin(), cells_on_quarters.end(), cells);
@@ -108,32 +108,17 @@ std::optional<MeshStep> refine_shaft(BodyScene& body, const std::vector<PlaceStr
   return MeshStep{part, step_factor, 2, {}};
 }
 
-/// Mean edge of the cells around a node.
-double cell_size_m(const fem::Nodes& nodes, std::size_t node) {
-  double sum_m = 0;
-  int n = 0;
-  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
-    const auto cell = nodes.cell(c);
-    if (std::find(cell.begin(), cell.end(), std::int32_t(node)) == cell.end()) continue;
-    for (int i = 0; i < 4; ++i)  // corners of a tetrahedron
-      for (int j = 0; j < i; ++j, ++n) {
-        const double* a = &nodes.xyz_m[3 * std::size_t(cell[std::size_t(i)])];
-        const double* b = &nodes.xyz_m[3 * std::size_t(cell[std::size_t(j)])];
-        sum_m += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-      }
-  }
-  return n > 0 ? sum_m / n : 0;
-}
-
-std::optional<MeshStep> refine_solid(BodyScene& body, const BodyAnalysis& analysis) {
+std::optional<MeshStep> refine_solid(BodyScene& body, const BodyAnalysis& analysis,
+                                     const std::vector<PlaceStress>& judged) {
   auto* shaft = std::get_if<ShaftShape>(&body.shape);
   auto& control = shaft ? shaft->solid : std::get<meshes::Import>(body.shape).control;
-  const double size_m = cell_size_m(analysis.responses.nodes, analysis.peak.node);
-  if (!can_be_refined(body) || size_m == 0) return std::nullopt;
-  control.fine_spots.push_back(
-      {analysis.peak.position_m, spot_radius_cells * size_m, spot_shrinkage * size_m});
-  control.smallest_size_m = std::min(control.smallest_size_m, spot_shrinkage * size_m);
-  return MeshStep{MeshPart::all, 1 / spot_shrinkage, 2, {analysis.peak.feature}};
+  const auto leading = leading_surface(analysis, judged);
+  if (!can_be_refined(body) || leading.spots.empty()) return std::nullopt;
+  for (const auto& spot : leading.spots) {
+    control.fine_spots.push_back(spot);
+    control.smallest_size_m = std::min(control.smallest_size_m, spot.size_m);
+  }
+  return MeshStep{MeshPart::all, leading.ratio, 2, leading.features};
 }
 
 }  // namespace
@@ -145,6 +130,10 @@ bool is_block_shaft(const BodyScene& body) {
 std::vector<MeshPart> mesh_parts(const BodyScene& body) {
   if (is_block_shaft(body)) return {MeshPart::fillets, MeshPart::around, MeshPart::along};
   return {MeshPart::all};
+}
+
+double kept_share_of_own_error(const BodyScene& body) {
+  return std::holds_alternative<ChamberShape>(body.shape) || is_block_shaft(body) ? usual_kept_share : 1;
 }
 
 std::vector<BodyScene> first_meshes(const BodyScene& body) {
@@ -209,7 +198,7 @@ std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysi
   if (judged.empty()) return std::nullopt;
   if (is_block_shaft(body)) return refine_shaft(body, judged, part);
   if (std::holds_alternative<ChamberShape>(body.shape)) return refine_chamber(body, analysis, judged);
-  return refine_solid(body, analysis);
+  return refine_solid(body, analysis, judged);
 }
 
 bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios) {
@@ -226,7 +215,7 @@ void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int 
   if (!(ratio > 1)) return;
   const double missing_Pa = std::abs(change_Pa) / (std::pow(ratio, order) - 1);
   const double share = n_meshes <= 2 ? 1 : 0.5;
-  const double own_Pa = share * ledger.of("discretisation") / discretisation_safety;
+  const double own_Pa = share * ledger.of("discretisation") / ledger.safety_of("discretisation");
   if (missing_Pa > own_Pa)
     ledger.set_numerical(
         {"discretisation",

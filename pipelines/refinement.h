@@ -20,6 +20,11 @@ bool is_block_shaft(const BodyScene& body);
 /// The parts of a body's mesh that a search varies one at a time.
 std::vector<MeshPart> mesh_parts(const BodyScene& body);
 
+/// Of what one mesh tells by itself of an error, the share that further meshes cannot take back
+/// (PlaceHistory): all of it for tetrahedra, whose estimate has no margin to give away
+/// (tetrahedra_estimate.h).
+double kept_share_of_own_error(const BodyScene& body);
+
 /// Meshes that a search may begin with, the first one that the mesher takes: shafts with 2 cells on every
 /// fillet quarter and 8 sectors, then with more sectors and cells; other bodies with cells half as large
 /// again as the scene's; the scene's own mesh last.
@@ -43,9 +48,9 @@ OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t body, co
 /// Makes the mesh finer where the place that holds the error back feels it most: `part` of a shaft's mesh (on
 /// those fillets only whose stress with its error could be the largest); weld toes of a chamber, half as
 /// large where the hot-spot stress with its error could be the largest, and one more cell through its walls;
-/// a fine spot at the peak of a body of tetrahedra. The order is 1 for a chamber: at a right re-entrant
-/// corner stress grows like r^(lambda - 1), and what that does to places further away falls like h^(2
-/// lambda), lambda = 0.544.
+/// the surface of a body of tetrahedra that may hold the largest stress (solid_refinement.h). The order is 1
+/// for a chamber: at a right re-entrant corner stress grows like r^(lambda - 1), and what that does to places
+/// further away falls like h^(2 lambda), lambda = 0.544.
 /// @param judged  the places with all that is known of their errors
 /// @return nothing if that part cannot be finer
 std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysis,

@@ -23,7 +23,7 @@ public:
   /// @param displacement  n x 3
   void remove_motion(double* displacement) const;
 
-  /// sqrt(sum of volume |u|^2)
+  /// sqrt(sum of volume |u|^2), for volumes that are positive (fem::nodal_volumes_m3)
   double norm(const double* displacement) const;
 
 private:

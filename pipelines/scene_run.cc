@@ -25,6 +25,7 @@
 #include "pipelines/refusal_of.h"
 #include "pipelines/second_model.h"
 #include "pipelines/singular_edge.h"
+#include "pipelines/tetrahedra_estimate.h"
 
 namespace pipelines {
 namespace {
@@ -239,7 +240,10 @@ private:
     auto analysis = analyse(i);
     PlaceHistory history(mesh_parts(run_.scene.bodies[i]));
     history.add(places_of_one_mesh(analysis), std::nullopt);
-    take_place_errors(analysis, history.judged(), "single cells around, times a safety factor of 3");
+    take_place_errors(analysis, history.judged(),
+                      analysis.responses.nodes.shape().is_tetrahedron()
+                          ? tetrahedra_method
+                          : "single cells around, times a safety factor of 3");
     return analysis;
   }
 
@@ -253,7 +257,7 @@ private:
 
   /// All that a search of one body knows.
   struct SearchState {
-    explicit SearchState(const BodyScene& body) : history(mesh_parts(body)) {}
+    explicit SearchState(const BodyScene& body) : history(mesh_parts(body), kept_share_of_own_error(body)) {}
     Search search;
     PlaceHistory history;
     PeakGrowth growth;
@@ -295,7 +299,7 @@ private:
     take_place_errors(analysis, state.history.judged(),
                       state.history.second_model()
                           ? "changes of the stress with the mesh, and harmonics around the axis beside it"
-                          : "changes of the stress with the mesh, or single cells around");
+                          : "changes of the stress with the mesh, or cells around");
     const auto stress = governing_stress(analysis);
     state.search.quantity = stress.name();
     state.search.steps.push_back(record(i, stress, analysis, seconds_since(state.step_start)));

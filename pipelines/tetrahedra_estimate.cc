@@ -17,8 +17,7 @@ ErrorEntry tetrahedra_estimate(const StressPoint& point, const fem::UnitResponse
     sum_Pa += std::abs(part.weight) * off_Pa *
               std::max(tetrahedra_factor * std::pow(d, tetrahedra_exponent - 1), tetrahedra_least_share);
   }
-  return {"discretisation", "recovered stress against the cells around, to the power of their orders",
-          sum_Pa};
+  return {"discretisation", tetrahedra_method, sum_Pa, 1};
 }
 
 }  // namespace pipelines

@@ -15,6 +15,9 @@ namespace pipelines {
 /// Calibrated by tests/benchmarks/run step_parts: five shafts, 8 to 26 cells around a circle.
 inline constexpr double tetrahedra_factor = 12, tetrahedra_exponent = 1.5, tetrahedra_least_share = 0.5;
 
+inline constexpr const char* tetrahedra_method =
+    "recovered stress against the cells around, to the power of their orders";
+
 /// The "discretisation" entry of a body of tetrahedra.
 /// @param point    where more than one node counts, each for itself
 /// @param factors  one per channel

@@ -107,6 +107,12 @@ TEST(RegionVolume, IsPositiveAndComplete) {
       EXPECT_LE(high[c], whole[c] * (1 + 1e-12));
       EXPECT_NEAR(high[c] + low[c], whole[c], 1e-12 * whole[c]) << c;
     }
+    double sum = 0;
+    for (const double v : fem::nodal_volumes_m3(nodes)) {
+      EXPECT_GT(v, 0);
+      sum += v;
+    }
+    EXPECT_NEAR(sum, std::accumulate(whole.begin(), whole.end(), 0.0), 1e-12 * sum);
   }
 }
 
@@ -144,7 +150,8 @@ TEST(RegionVolume, OfABentRodOfTetrahedra) {
   std::vector<double> values;
   for (std::size_t i = 0; i < r.nodes.n; ++i)
     values.push_back(std::abs(r.stress_Pa[(2 * i + 1) * 6 + 2] - r.stress_Pa[2 * i * 6 + 2]));
-  const double largest = rod_radius / (pi * std::pow(rod_radius, 4) / 4), whole = pi * rod_radius * rod_radius * rod_length;
+  const double largest = rod_radius / (pi * std::pow(rod_radius, 4) / 4),
+               whole = pi * rod_radius * rod_radius * rod_length;
   for (const double share : {0.3, 0.5, 0.8}) {
     const double exact = 2 * (std::acos(share) - share * std::sqrt(1 - share * share)) / pi;
     // Polygons for the circle, and the nodal stress: off by up to 2 % of the largest, in the mean by less.

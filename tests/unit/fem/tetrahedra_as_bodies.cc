@@ -11,6 +11,7 @@
 #include "fem/mesh_reader.h"
 #include "fem/model.h"
 #include "fem/rigid_modes.h"
+#include "fem/tetrahedra_error.h"
 #include "tetrahedra.h"
 
 namespace {
@@ -188,6 +189,30 @@ TEST_F(Bar, cells_agree_where_stress_is_linear) {
       for (int k = 0; k < 6; ++k)
         EXPECT_NEAR(cell[5][k] - cell[1][k], stress(node, 1, k), 1e-7) << node << " " << k;
   }
+}
+
+// Quadratic displacement: cells and recovery both have its stress. With one node moved they no longer agree
+// in the cells around it, and at once everywhere else.
+TEST_F(Bar, cells_and_recovered_stress_agree_where_it_is_linear) {
+  const fem::Material material{206e9, 0.3, 7850};
+  std::vector<double> factors(responses.channels.size(), 0.0);
+  factors[5] = 1;
+  factors[1] = -1;
+  const auto corner = std::size_t(responses.nodes.cell(0)[0]),
+             middle = std::size_t(responses.nodes.cell(0)[4]);
+  for (const std::size_t node : {corner, middle}) {
+    const auto agreed = fem::cells_against_recovered(responses, material, node, factors);
+    EXPECT_LT(agreed.difference_Pa, 1e-7);  // of 6 Pa
+  }
+  auto moved = responses;
+  const double before = fem::cells_against_recovered(moved, material, middle, factors).recovered_Pa;
+  moved.displacement_m[(middle * moved.channels.size() + 5) * 3 + 2] += 1e-12;
+  const auto off = fem::cells_against_recovered(moved, material, middle, factors);
+  EXPECT_EQ(off.recovered_Pa, before);
+  EXPECT_GT(off.difference_Pa, 1e-3);
+  EXPECT_THROW(fem::cells_against_recovered(responses, material, responses.nodes.n, factors),
+               std::invalid_argument);
+  EXPECT_THROW(fem::cells_against_recovered(responses, material, 0, {1.0}), std::invalid_argument);
 }
 
 // The cell fields and volumes that pipelines takes.
