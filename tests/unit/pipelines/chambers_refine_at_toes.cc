@@ -11,6 +11,14 @@ const meshes::ChamberMeshControl& mesh_of(const BodyScene& body) {
   return std::get<ChamberShape>(body.shape).mesh;
 }
 
+/// The weld toes as places, all with an error of that size.
+std::vector<PlaceStress> toes_of(const BodyAnalysis& analysis, double error_Pa) {
+  std::vector<PlaceStress> places;
+  for (const auto& spot : analysis.hot_spots)
+    places.push_back({spot.name, 0, spot.von_mises_Pa, error_Pa, {}});
+  return places;
+}
+
 }  // namespace
 
 // Each step has one more cell through the walls; cells halve at the weld toes that may have the largest
@@ -24,18 +32,21 @@ TEST(Refine, AChamberWhereItsHotSpotsFeelIt) {
   BodyAnalysis analysis;
   analysis.hot_spots.resize(3);
   analysis.hot_spots[0].von_mises_Pa = 40e6;
-  analysis.hot_spots[1].von_mises_Pa = 37e6;  // 40.7 with its error of 10 %
-  analysis.hot_spots[2].von_mises_Pa = 36e6;  // 39.6
-  for (std::size_t i = 0; i < 3; ++i) analysis.hot_spots[i].toe_m[2] = 0.01 * double(i);
-  analysis.hot_spot_errors.set_numerical({"discretisation", "", 4e6});
+  analysis.hot_spots[1].von_mises_Pa = 37e6;  // 41 with its error
+  analysis.hot_spots[2].von_mises_Pa = 35e6;  // 39
+  for (std::size_t i = 0; i < 3; ++i) {
+    analysis.hot_spots[i].name = "toe " + std::to_string(i);
+    analysis.hot_spots[i].toe_m[2] = 0.01 * double(i);
+  }
   double finest = mesh_of(scene.bodies[chamber]).toe_walls;
   for (int step = 0; step < 4; ++step) {
     const auto before = mesh_of(scene.bodies[chamber]);
-    const auto refinement = refine(scene, chamber, analysis, {});
+    const auto made = refine_mesh(scene.bodies[chamber], analysis, toes_of(analysis, 4e6), MeshPart::all);
     const auto& after = mesh_of(scene.bodies[chamber]);
-    EXPECT_TRUE(refinement.possible && refinement.new_mesh);
-    EXPECT_EQ(refinement.ratio, 2);
-    EXPECT_EQ(refinement.order, 1);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(made->ratio, 2);
+    EXPECT_EQ(made->order, 1);
+    EXPECT_EQ(made->features, (std::vector<std::string>{"toe 0", "toe 1"}));
     EXPECT_EQ(after.cells_through_wall, before.cells_through_wall + 1);
     finest /= 2;
     ASSERT_EQ(after.fine_toes.size(), 2U);
@@ -63,14 +74,34 @@ TEST(Refine, AChambersToesKeepTheirCells) {
   analysis.hot_spots[0].toe_m = {0.1, 0, 0};
   analysis.hot_spots[1].von_mises_Pa = 20e6;
   analysis.hot_spots[1].toe_m = {0.2, 0, 0};
-  refine(scene, chamber, analysis, {});
+  analysis.hot_spots[0].name = "toe 0";
+  analysis.hot_spots[1].name = "toe 1";
+  refine_mesh(scene.bodies[chamber], analysis, toes_of(analysis, 1e6), MeshPart::all);
   const double once = mesh_of(scene.bodies[chamber]).fine_toes.at(0).walls;
   const double others = mesh_of(scene.bodies[chamber]).toe_walls;
   std::swap(analysis.hot_spots[0].toe_m, analysis.hot_spots[1].toe_m);
-  refine(scene, chamber, analysis, {});
+  refine_mesh(scene.bodies[chamber], analysis, toes_of(analysis, 1e6), MeshPart::all);
   const auto& toes = mesh_of(scene.bodies[chamber]).fine_toes;
   ASSERT_EQ(toes.size(), 2U);
   EXPECT_EQ(toes[0].walls, once);
   EXPECT_EQ(toes[1].walls, others / 2);
   EXPECT_EQ(toes[1].at_m, analysis.hot_spots[0].toe_m);
+}
+
+// A surface that may hold more than the toes is no matter of the toes' cells: the whole mesh becomes finer.
+TEST(Refine, AChamberEverywhereWhereASurfaceHoldsTheErrorBack) {
+  Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/vibratory_mill.toml");
+  BodyScene& chamber = scene.bodies[1];
+  BodyAnalysis analysis;
+  analysis.hot_spots.resize(1);
+  analysis.hot_spots[0].name = "toe";
+  analysis.hot_spots[0].von_mises_Pa = 40e6;
+  auto places = toes_of(analysis, 1e6);
+  places.push_back({"tube outside", 0, 30e6, 20e6, {}});
+  const auto before = mesh_of(chamber);
+  const auto made = refine_mesh(chamber, analysis, places, MeshPart::all);
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(made->features.empty());
+  EXPECT_NEAR(mesh_of(chamber).toe_walls, before.toe_walls / made->ratio, 1e-12);
+  EXPECT_TRUE(mesh_of(chamber).fine_toes.empty());
 }

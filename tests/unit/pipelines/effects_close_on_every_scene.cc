@@ -70,7 +70,7 @@ struct Shipped {
       auto read = read_scene(at / "scene.toml");
       make_coarse(read);
       return read;
-    } catch (const SceneErrors& errors) {
+    } catch (const SceneError& errors) {
       refusal = errors.what();
       return std::nullopt;
     }

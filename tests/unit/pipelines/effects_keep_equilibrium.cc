@@ -28,7 +28,7 @@ struct Loaded {
   std::string refusal() const {
     try {
       require_equilibrium(scene, meshed, masses, try_effects(scene, meshed, masses).bodies);
-    } catch (const SceneErrors& errors) {
+    } catch (const SceneError& errors) {
       return errors.what();
     }
     return "accepted";
@@ -69,7 +69,7 @@ TEST(EffectEquilibrium, VaryingTorquesNeedTheShaftsInertia) {
     EXPECT_EQ(need.need.effect, "shaft_inertia");
   }
   EXPECT_EQ(open, (std::set<std::string>{"motor_torque", "peeling_torque"}));
-  EXPECT_THROW(edited::scene("root_peeler_shaft", without_inertia), SceneErrors);
+  EXPECT_THROW(edited::scene("root_peeler_shaft", without_inertia), SceneError);
   // Without the shaft as a body nothing needs it.
   EXPECT_TRUE(open_needs(effect_table(plain::scene("drive_train")), {"motor_torque"}).empty());
 }
@@ -98,7 +98,7 @@ TEST(EffectEquilibrium, ConstantTorquesThatDoNotBalanceAreRefused) {
   try {
     load_bodies(open.scene, open.meshed, clock);
     ADD_FAILURE();
-  } catch (const SceneErrors& errors) {
+  } catch (const SceneError& errors) {
     EXPECT_EQ(errors.what(), text);
   }
 }

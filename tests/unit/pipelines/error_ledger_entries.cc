@@ -143,33 +143,6 @@ TEST(LearnFromChange, IsExactForItsOrder) {
     }
 }
 
-// What else is missing adds up; what the change tells of its own part comes back.
-TEST(LearnFromChange, AddsWhatOtherPartsMiss) {
-  ErrorLedger ledger;
-  ledger.set_numerical({"discretisation", "", 1.0});
-  EXPECT_NEAR(learn_from_change(ledger, -6.0, 2.0, 3, 2, 5.0), 2, 1e-14);
-  EXPECT_NEAR(ledger.of("discretisation"), 7, 1e-14);
-}
-
-// Fillets twice, around once, then what has more missing.
-TEST(Remainders, ChooseWhatHasMoreMissing) {
-  Remainders known;
-  EXPECT_EQ(known.next(), MeshPart::fillets);
-  known.learn(MeshPart::fillets, 30);
-  EXPECT_EQ(known.next(), MeshPart::fillets);
-  known.learn(MeshPart::fillets, 1);
-  EXPECT_EQ(known.next(), MeshPart::around);
-  EXPECT_EQ(known.of_others(MeshPart::fillets), 0);
-  known.learn(MeshPart::around, 2);
-  EXPECT_EQ(known.next(), MeshPart::around);
-  EXPECT_EQ(known.of_others(MeshPart::around), 1);
-  known.learn(MeshPart::around, 0.5);
-  EXPECT_EQ(known.next(), MeshPart::fillets);
-  EXPECT_EQ(known.of_others(MeshPart::fillets), 0.5);
-  known.learn(MeshPart::all, 9);
-  EXPECT_EQ(known.of_others(MeshPart::all), 0);
-}
-
 // Two meshes may agree by chance: the cells' own disagreement stays as a floor. Without a ratio nothing is
 // learnt.
 TEST(LearnFromChange, KeepsAFloorOfTheMeshesOwnEstimate) {

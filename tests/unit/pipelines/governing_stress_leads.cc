@@ -1,7 +1,6 @@
 /// What a body is judged by, and how it is told.
 #include <gtest/gtest.h>
 
-#include "pipelines/chamber_places.h"
 #include "pipelines/error_text.h"
 #include "pipelines/governing_stress.h"
 
@@ -71,26 +70,6 @@ TEST(GoverningStress, ZonesHaveTheirOwnErrorsAndTheFirstThatOfThePeak) {
   EXPECT_EQ(error_Pa(analysis, zone), 3e6);
   zone.error_Pa.reset();
   EXPECT_FALSE(error_Pa(analysis, zone).has_value());
-}
-
-// Weld toes and surfaces, each with its own error, what could be largest first; excluded nodes are no place.
-TEST(GoverningStress, PlacesOfAChamberAreItsToesAndItsSurfaces) {
-  auto analysis = body(22.2, 41.1);
-  analysis.places.feature_names = {"tube outside", "web 1"};
-  analysis.places.feature = {0, 0, 1, -1};
-  analysis.places.excluded = {0, 1, 0, 0};
-  analysis.envelope.von_mises.value_Pa = {22.2e6, 90e6, 0, 99e6};
-  analysis.envelope.von_mises.instant = {0, 0, 0, 0};
-  analysis.responses.nodes.n = 4;
-  analysis.responses.nodes.xyz_m.assign(12, 0.5);
-  const auto places = places_of_chamber(analysis);
-  ASSERT_EQ(places.size(), 3U);
-  EXPECT_EQ(places[0].feature, "web 1, lower edge");
-  EXPECT_EQ(places[0].error_Pa, 2e6);
-  EXPECT_EQ(places[1].feature, "tube outside");
-  EXPECT_EQ(places[1].node, 0U);
-  EXPECT_EQ(places[1].error_Pa, 1e6);
-  EXPECT_EQ(places[2].feature, "web 2, lower edge");
 }
 
 // What a tolerance is compared with is the figure that stands first; what no mesh lowers has its own name.

@@ -1,0 +1,162 @@
+/// A promise about the largest stress of a body is one about every place that may hold it.
+#include <gtest/gtest.h>
+
+#include "pipelines/place_history.h"
+#include "pipelines/place_stress.h"
+#include "pipelines/refinement.h"
+#include "pipelines/scene.h"
+
+using namespace pipelines;
+
+namespace {
+
+PlaceStress place(const std::string& feature, double value, double error) {
+  return {feature, 0, value, error, {}};
+}
+
+double error_of(const std::vector<PlaceStress>& places, const std::string& feature) {
+  for (const auto& p : places)
+    if (p.feature == feature) return p.error_Pa;
+  return -1;
+}
+
+const std::vector<MeshPart> parts_of_a_shaft{MeshPart::fillets, MeshPart::around, MeshPart::along};
+
+}  // namespace
+
+// The seat leads with a small error; a fillet of few cells may be higher: the body is known no better than
+// that.
+TEST(PlaceJudgement, APlaceThatMayBeHigherCounts) {
+  const std::vector<PlaceStress> places{place("fillet a/b", 76, 38), place("seat", 79, 2),
+                                        place("end", 10, 10)};
+  const auto judgement = judge(places);
+  EXPECT_EQ(places[judgement.governing].feature, "seat");
+  EXPECT_EQ(places[judgement.holding_back].feature, "fillet a/b");
+  EXPECT_EQ(judgement.other_place, "fillet a/b");
+  EXPECT_DOUBLE_EQ(79 + 2 + judgement.other_places_Pa, 76 + 38);
+}
+
+TEST(PlaceJudgement, WhatIsLowEvenWithItsErrorDoesNot) {
+  const std::vector<PlaceStress> places{place("fillet a/b", 70, 10), place("seat", 79, 2)};
+  const auto judgement = judge(places);
+  EXPECT_EQ(judgement.holding_back, judgement.governing);
+  EXPECT_EQ(judgement.other_places_Pa, 0);
+  EXPECT_EQ(judgement.other_place, "");
+}
+
+// Two faces side by side: the node on their seam belongs to both, the excluded one to none.
+TEST(Places, ASeamBelongsToBothOfItsFeatures) {
+  fem::Nodes nodes;
+  nodes.degree = 1;
+  nodes.n = 7;  // the last one on no face
+  nodes.xyz_m.assign(21, 0);
+  nodes.faces = {0, 1, 4, 3, 1, 2, 5, 4};
+  nodes.face_boundary_id = {7, 9};
+  const std::vector<meshes::Feature> features{{"fillet", meshes::Feature::Kind::fillet, 7, 0, 0},
+                                              {"cylinder", meshes::Feature::Kind::surface, 9, 0, 0}};
+  NodePlaces at;
+  at.feature_names = {"fillet", "cylinder"};
+  at.feature = {0, 0, 1, 0, 0, 1, -1};
+  at.excluded = {0, 0, 0, 1, 0, 0, 0};
+  const auto places = largest_by_feature(nodes, {1, 5, 2, 99, 4, 3, 6}, features, at);
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_EQ(places[0].node, 1U);
+  EXPECT_EQ(places[1].node, 1U);  // not node 5, the largest that lies on the cylinder alone
+  EXPECT_EQ(places[2].feature, inside_the_body);
+  EXPECT_EQ(places[2].value_Pa, 6);
+}
+
+// v = v0 (1 - c h^2) on a fillet, of first order elsewhere: the change tells exactly what is missing.
+TEST(PlaceHistory, AddsWhatEveryPartOfTheMeshMisses) {
+  PlaceHistory history(parts_of_a_shaft, 0.1);
+  history.add({place("fillet a/b", 90, 30), place("seat", 50, 9)}, std::nullopt);
+  EXPECT_EQ(error_of(history.judged(), "fillet a/b"), 30);
+  history.add({place("fillet a/b", 96, 20), place("seat", 50, 9)},
+              MeshStep{MeshPart::fillets, 2, 2, {"fillet a/b"}});
+  EXPECT_EQ(error_of(history.judged(), "fillet a/b"), 20);  // two parts were never varied
+  history.add({place("fillet a/b", 97, 6), place("seat", 51, 9)}, MeshStep{MeshPart::around, 1.5, 2, {}});
+  EXPECT_EQ(history.by_promise("fillet a/b").front(), MeshPart::along);
+  history.add({place("fillet a/b", 97.5, 6), place("seat", 52, 9)}, MeshStep{MeshPart::along, 1.5, 2, {}});
+  EXPECT_NEAR(error_of(history.judged(), "fillet a/b"), 6 / 3.0 + 1 / 1.25 + 0.5 / 1.25, 1e-12);
+  EXPECT_NEAR(error_of(history.judged(), "seat"), 1 / 0.5 + 1 / 0.5, 1e-12);  // cells of fillets do not count
+  EXPECT_EQ(history.by_promise("fillet a/b").front(), MeshPart::fillets);
+  EXPECT_EQ(history.by_promise("seat").size(), 2U);
+}
+
+// Two meshes that agree by chance, or where nothing became finer, take nothing off what a mesh says of
+// itself.
+TEST(PlaceHistory, KeepsAFloorAndLearnsNothingWhereNothingBecameFiner) {
+  PlaceHistory history({MeshPart::all}, 0.1);
+  history.add({place("a", 90, 30), place("b", 80, 20)}, std::nullopt);
+  history.add({place("a", 90, 30), place("b", 80, 20)}, MeshStep{MeshPart::all, 2, 1, {"a"}});
+  EXPECT_NEAR(error_of(history.judged(), "a"), 3, 1e-12);
+  EXPECT_EQ(error_of(history.judged(), "b"), 20);
+  history.add({place("a", 70, 30), place("b", 60, 20)}, std::nullopt);  // the same mesh, other loads
+  EXPECT_NEAR(error_of(history.judged(), "a"), 3, 1e-12);
+}
+
+// The same problem solved in another way: the difference is an error of one of the two.
+TEST(PlaceHistory, ASecondModelOfTheSameProblemBoundsTheErrorFromBothSides) {
+  PlaceHistory history(parts_of_a_shaft, 0.1);
+  history.add({place("fillet a/b", 100, 30), place("seat", 79, 1)}, std::nullopt);
+  history.compare_with({{place("fillet a/b", 104, 0.5), place("seat", 75, 0.5)}, 0});
+  EXPECT_NEAR(error_of(history.judged(), "fillet a/b"), 4.5, 1e-12);  // not the 30 of a single mesh
+  EXPECT_NEAR(error_of(history.judged(), "seat"), 3.5, 1e-12);        // not the 1
+}
+
+// A model with an error of its own says only where the solid is too low.
+TEST(PlaceHistory, ARoughSecondModelIsALowerBoundOnly) {
+  PlaceHistory history(parts_of_a_shaft, 0.1);
+  history.add({place("fillet a/b", 70, 5), place("seat", 79, 9)}, std::nullopt);
+  history.compare_with({{place("fillet a/b", 105, 0.5), place("seat", 75, 0.5)}, 0.06});
+  EXPECT_NEAR(error_of(history.judged(), "fillet a/b"), 0.94 * 105 - 0.5 - 70, 1e-12);
+  EXPECT_EQ(error_of(history.judged(), "seat"), 9);
+}
+
+// Only the fillets that may lead get more cells, and only their stress is learnt from.
+TEST(Refine, FilletsThatMayLead) {
+  Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/load_table.toml");
+  BodyScene body = coarsest(scene.bodies.front());
+  const std::vector<PlaceStress> judged{place("fillet bearing_1/body", 30, 1),
+                                        place("fillet body/bearing_2", 29, 3),
+                                        place("fillet pulley_seat/bearing_1", 20, 2)};
+  const auto step = refine_mesh(body, {}, judged, MeshPart::fillets);
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->features, (std::vector<std::string>{"fillet bearing_1/body", "fillet body/bearing_2"}));
+  EXPECT_EQ(step->ratio, 3);  // 2 cells to 6
+  const auto& cells = body.shaft()->mesh;
+  EXPECT_EQ(cells.cells_at(0), 2);
+  EXPECT_EQ(cells.cells_at(1), 6);
+  EXPECT_EQ(cells.cells_at(2), 6);
+}
+
+// One direction at a time: more sectors leave the cells' length as it is, finer cells along leave the
+// sectors.
+TEST(Refine, AroundAndAlongByThemselves) {
+  Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/load_table.toml");
+  const BodyScene before = coarsest(scene.bodies.front());
+  const std::vector<PlaceStress> judged{place("seat", 30, 1)};
+  BodyScene around = before, along = before;
+  ASSERT_TRUE(refine_mesh(around, {}, judged, MeshPart::around));
+  ASSERT_TRUE(refine_mesh(along, {}, judged, MeshPart::along));
+  const auto &first = before.shaft()->mesh, &a = around.shaft()->mesh, &l = along.shaft()->mesh;
+  EXPECT_EQ(a.n_sectors, 12);
+  EXPECT_DOUBLE_EQ(a.axial_share / a.n_sectors, first.axial_share / first.n_sectors);
+  EXPECT_EQ(a.growth, first.growth);
+  EXPECT_EQ(l.n_sectors, first.n_sectors);
+  EXPECT_DOUBLE_EQ(l.axial_share, first.axial_share / 1.5);
+  EXPECT_DOUBLE_EQ(l.growth, first.growth / 1.5);
+}
+
+// A second model says beforehand which fillets lead; its own error makes it generous.
+TEST(Refine, TheFirstMeshIsGuided) {
+  Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/load_table.toml");
+  const BodyScene body = coarsest(scene.bodies.front());
+  const SecondModel model{{place("fillet bearing_1/body", 30, 0.1), place("fillet body/bearing_2", 18, 0.1),
+                           place("fillet pulley_seat/bearing_1", 5, 0.1)},
+                          0};
+  const auto mesh = guided_by(model, body).shaft()->mesh;
+  EXPECT_EQ(mesh.cells_at(1), 6);
+  EXPECT_EQ(mesh.cells_at(2), 4);
+  EXPECT_EQ(mesh.cells_at(0), 2);
+}
