@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipelines/place_stress.h"
 #include "pipelines/refinement.h"
 #include "pipelines/zones.h"
 
@@ -31,16 +32,23 @@ bool beside_left_out_edge(const BodyAnalysis& analysis) {
 
 bool PeakGrowth::at(const BodyAnalysis& analysis, double ratio) {
   if (!analysis.hot_spots.empty() || beside_left_out_edge(analysis)) return false;
-  if (analysis.peak.feature != feature_) {
-    values_.clear();
-    ratios_.clear();
-    feature_ = analysis.peak.feature;
-  } else {
-    ratios_.push_back(ratio);
+  std::map<std::string, double> now{{analysis.peak.feature, analysis.peak.value_Pa}};
+  if (analysis.responses.nodes.shape().is_tetrahedron())
+    for (const auto& place :
+         largest_by_feature(analysis.responses.nodes, analysis.envelope.von_mises.value_Pa,
+                            analysis.mesh.features, analysis.places))
+      now.emplace(place.feature, place.value_Pa);
+  std::map<std::string, Course> known;
+  known.swap(courses_);
+  for (const auto& [feature, value_Pa] : now) {
+    Course course = known[feature];
+    if (!course.values.empty()) course.ratios.push_back(ratio);
+    course.values.push_back(value_Pa);
+    courses_[feature] = course;
   }
-  values_.push_back(analysis.peak.value_Pa);
-  const bool grows = grows_without_bound(values_, ratios_);
-  if (grows) feature_.clear();
+  const auto& course = courses_.at(analysis.peak.feature);
+  const bool grows = grows_without_bound(course.values, course.ratios);
+  if (grows) courses_.clear();
   return grows;
 }
 

@@ -1,6 +1,7 @@
 /// Watches the peak of a body from mesh to mesh.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@
 
 namespace pipelines {
 
-/// The peak's values at one place, mesh after mesh.
+/// The peak's values at one place, mesh after mesh. Of tetrahedra each feature's own: they all become finer where
+/// they may lead, and the peak goes from one to the other where several are alike.
 class PeakGrowth {
 public:
   /// @param ratio  of cell sizes from the step before to this one
@@ -17,8 +19,10 @@ public:
   bool at(const BodyAnalysis& analysis, double ratio);
 
 private:
-  std::string feature_;
-  std::vector<double> values_, ratios_;
+  struct Course {
+    std::vector<double> values, ratios;
+  };
+  std::map<std::string, Course> courses_;  ///< by feature
 };
 
 /// Of the box around a body.
