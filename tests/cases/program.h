@@ -50,11 +50,19 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs `millstress ARGUMENTS` in `directory`; what it learns of the machine's speed stays in there. Stresses
-/// are computed on one thread unless the arguments say otherwise: tests run two at a time, and the threads of
-/// BLAS wait for each other by yielding, which beside another program costs many times the seconds.
+/// Arguments of `run` with `--tolerance none` where neither they nor the scene ask for a tolerance or a time:
+/// what is tested is what becomes of one mesh.
+std::string on_its_own_mesh(const fs::path& directory, const std::string& arguments);
+
+/// Runs `millstress ARGUMENTS` in `directory` on the scene's own mesh, unless they ask for more; what it
+/// learns of the machine's speed stays in there. Stresses are computed on one thread unless the arguments say
+/// otherwise: tests run two at a time, and the threads of BLAS wait for each other by yielding, which beside
+/// another program costs many times the seconds.
 /// @param before  a command of the shell that sets the stage
 Outcome millstress(const fs::path& directory, std::string arguments, const std::string& before = "true");
+
+/// The same as the arguments stand: `run` searches by default.
+Outcome as_a_user(const fs::path& directory, std::string arguments, const std::string& before = "true");
 
 /// Every file below a directory with its bytes; summary.json and report.html without their timing.
 std::map<std::string, std::string> contents(const fs::path& directory);

@@ -37,7 +37,7 @@ Outcome on_two_ranks(const fs::path& directory, const std::string& arguments) {
       "' && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
       "OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none '" MPIEXEC
       "' -n 2 '" MILLSTRESS "' " +
-      arguments + " > '" + out.string() + "' 2> '" + err.string() + "'";
+      on_its_own_mesh(directory, arguments) + " > '" + out.string() + "' 2> '" + err.string() + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, results_test::bytes(out), results_test::bytes(err)};
 }

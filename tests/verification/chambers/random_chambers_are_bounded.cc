@@ -24,7 +24,7 @@ int n_chambers() {
 
 /// One step beyond the last mesh of a search, and all cells a little smaller.
 pipelines::Scene finer(pipelines::Scene scene, const pipelines::BodyAnalysis& last) {
-  pipelines::refine(scene, 0, last, {});
+  pipelines::refine_mesh(scene.bodies[0], last, last.place_stresses, pipelines::MeshPart::all);
   scene.bodies[0] = pipelines::with_fineness(scene.bodies[0], 1.15);
   return scene;
 }
