@@ -148,9 +148,11 @@ private:
 // = b.
 double share_above_zero(std::array<double, 4> corners) {
   std::sort(corners.begin(), corners.end(), std::greater<>());
+  if (!(corners.front() >= 0)) return 0;
+  if (corners.back() >= 0) return 1;
+  const double scale = std::max(corners.front(), -corners.back());  // fourth powers of 1e+-150 would not do
+  for (double& corner : corners) corner /= scale;
   const auto [a, b, third, fourth] = corners;
-  if (!(a >= 0)) return 0;
-  if (fourth >= 0) return 1;
   const double e = -fourth;
   if (third >= 0) return 1 - e / (a + e) * (e / (b + e)) * (e / (third + e));
   const double c = -third;

@@ -150,8 +150,8 @@ std::string solved_by(const Json& body) {
 void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
               const Json& body) {
   page.heading(2, "The " + name);
-  if (const auto& trouble = body.at("governing").at("not_known_well"); trouble.is_string())
-    page.warning("Not known well: " + trouble.get<std::string>());
+  if (const auto trouble = body.at("governing").value("not_known_well", ""); !trouble.empty())
+    page.warning("Not known well: " + trouble);
   page.paragraph(number(body.at("dofs"), 1, "{:.0f}") + " unknowns, " + number(body.at("mass").at("value")) +
                  " kg, " + solved_by(body) + ".");
   add_headlines(page, body);

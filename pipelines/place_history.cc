@@ -66,9 +66,11 @@ void PlaceHistory::add(const std::vector<PlaceStress>& now, const std::optional<
       continue;
     }
     auto& record = known->second;
-    if (step && refines(*step, place.feature))
+    if (step && refines(*step, place.feature)) {
       record.missing_Pa[step->part] = std::abs(place.value_Pa - record.now.value_Pa) /
                                       (std::pow(step->ratio, order_at(place.feature, *step)) - 1);
+      ++record.n_changes;
+    }
     record.now = place;
   }
 }
@@ -86,7 +88,10 @@ double PlaceHistory::from_changes(const Record& record) const {
   const auto parts = parts_of(record.now.feature);
   const bool all_varied = std::all_of(parts.begin(), parts.end(),
                                       [&](MeshPart part) { return record.missing_Pa.count(part) > 0; });
-  return std::max(missing_Pa, (all_varied ? kept_share_ : 1) * record.now.error_Pa);
+  const double kept = !all_varied                            ? 1
+                      : record.n_changes > int(parts.size()) ? kept_share_.after_more
+                                                             : kept_share_.after_one;
+  return std::max(missing_Pa, kept * record.now.error_Pa);
 }
 
 std::vector<PlaceStress> PlaceHistory::judged() const {

@@ -37,14 +37,18 @@ struct SecondModel {
   double model_error = 0;
 };
 
-/// Two meshes may agree by chance.
-inline constexpr double usual_kept_share = 0.1;
+/// Of what one mesh tells by itself of an error, the share that later meshes cannot take back, since two
+/// meshes may agree by chance: after the first change of a stress that every part of the mesh has told of,
+/// and after more.
+struct KeptShare {
+  double after_one = 0.1, after_more = 0.1;
+};
 
 class PlaceHistory {
 public:
   /// @param parts  that have to be varied before the error of a place is known from changes alone
   /// @param kept_share  of what a mesh tells by itself, once every part has been varied
-  explicit PlaceHistory(std::vector<MeshPart> parts, double kept_share = usual_kept_share)
+  explicit PlaceHistory(std::vector<MeshPart> parts, KeptShare kept_share = {})
       : parts_(std::move(parts)), kept_share_(kept_share) {}
 
   /// The places on the next mesh.
@@ -72,12 +76,13 @@ private:
   struct Record {
     PlaceStress now;
     std::map<MeshPart, double> missing_Pa;  ///< by the last change of each part
+    int n_changes = 0;                      ///< that were learnt from
   };
   std::vector<MeshPart> parts_of(const std::string& feature) const;
   double from_changes(const Record& record) const;
 
   std::vector<MeshPart> parts_;
-  double kept_share_ = usual_kept_share;
+  KeptShare kept_share_;
   std::vector<std::string> order_;
   std::map<std::string, Record> records_;
   std::optional<SecondModel> second_;

@@ -28,7 +28,8 @@ inline constexpr const char* inside_the_body = "inside";
 /// The largest value of each feature outside the exclusion distances, errors zero. A node on the seam of two
 /// features belongs to both: else the maximum of a cylinder beside a fillet would be that of the first node
 /// off the seam, and depend on where that lies. Features without a node outside the exclusion distances have
-/// no entry; nodes on no surface are "inside".
+/// no entry; nodes on no surface are "inside", which has an
+/// entry where it may govern: from nine tenths of the surface's largest value.
 std::vector<PlaceStress> largest_by_feature(const fem::Nodes& nodes, const std::vector<double>& von_mises_Pa,
                                             const std::vector<meshes::Feature>& features,
                                             const NodePlaces& places);

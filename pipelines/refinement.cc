@@ -132,8 +132,11 @@ std::vector<MeshPart> mesh_parts(const BodyScene& body) {
   return {MeshPart::all};
 }
 
-double kept_share_of_own_error(const BodyScene& body) {
-  return std::holds_alternative<ChamberShape>(body.shape) || is_block_shaft(body) ? usual_kept_share : 1;
+KeptShare kept_share_of_own_error(const BodyScene& body) {
+  if (is_block_shaft(body)) return {};
+  if (std::holds_alternative<ChamberShape>(body.shape))
+    return {1 / discretisation_safety, 0.5 / discretisation_safety};
+  return {1, 1};
 }
 
 std::vector<BodyScene> first_meshes(const BodyScene& body) {

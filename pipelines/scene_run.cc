@@ -34,6 +34,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int most_steps = 16;
+constexpr std::size_t patience =
+    4;  // steps that may pass without a lower error: each part of a mesh once, and one
 constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
 /// A step is taken if it is predicted to end in time; predictions are rough.
 constexpr double growth_of_seconds = 1.5;  // with the number of unknowns, for the direct solver
@@ -48,6 +50,16 @@ double lowered_by_other_models_Pa(const ErrorLedger& errors) {
   for (const char* source : {"model", "eccentric_segments", "ovalisation", "spin"})
     sum_Pa += errors.of(source);
   return sum_Pa;
+}
+
+/// Whether the last steps have lowered the error by less than a tenth, all of them together.
+bool stands_still(const Search& search) {
+  const auto& steps = search.steps;
+  if (steps.size() <= patience) return false;
+  const auto error = [](const SearchStep& step) { return step.errors.numerical_Pa() / step.value_Pa; };
+  const double before = error(steps[steps.size() - 1 - patience]);
+  return std::all_of(steps.end() - patience, steps.end(),
+                     [&](const auto& step) { return error(step) > 0.9 * before; });
 }
 
 /// What becomes the mesh of one body.
@@ -144,10 +156,14 @@ private:
   /// The body by its model; with the choice left open, by the next dearer one where the tolerance is not met.
   BodyAnalysis solve(std::size_t i) {
     if (is_without_mesh(i)) {
-      auto analysis = analyse(i);
-      const auto stress = governing_stress(analysis);
-      const bool is_met = lowered_by_other_models_Pa(stress.errors) <= tolerance() * stress.value_Pa;
-      if (run_.scene.method != Method::automatic || is_met) return analysis;
+      if (run_.scene.method != Method::automatic) return analyse(i);
+      std::optional<BodyAnalysis> analysis;
+      const auto refusal = refusal_of([&] { analysis = analyse(i); });
+      if (refusal.empty()) {
+        const auto stress = governing_stress(*analysis);
+        if (lowered_by_other_models_Pa(stress.errors) <= tolerance() * stress.value_Pa)
+          return std::move(*analysis);
+      }
       if (methods_[i] == Method::beam) {
         methods_[i] = Method::axisymmetric;
         return solve(i);
@@ -249,9 +265,13 @@ private:
 
   std::optional<SecondModel> second_model(std::size_t i) {
     if (!options_.second_model) return std::nullopt;
-    return clock_.run("second model", [&] {
-      return axisymmetric_second_model(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                                       options_.n_threads);
+    return clock_.run("second model", [&]() -> std::optional<SecondModel> {
+      std::optional<SecondModel> model;
+      const auto refusal = refusal_of([&] {
+        model = axisymmetric_second_model(run_.scene.bodies[i], run_.loaded.meshed[i],
+                                          run_.loaded.body_loads[i], options_.n_threads);
+      });
+      return refusal.empty() ? std::move(model) : std::nullopt;  // the solid has to do without
     });
   }
 
@@ -312,6 +332,7 @@ private:
     if (search.tolerance > 0 && search.met) return "the tolerance is met";
     if (stress.value_Pa == 0) return "nothing is stressed";
     if (int(search.steps.size()) >= most_steps) return "too many steps";
+    if (stands_still(search)) return "finer meshes no longer lower the error";
     return {};
   }
 

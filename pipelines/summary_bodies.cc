@@ -63,7 +63,7 @@ Json governing_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["error"] = ledger_json(stress.errors);
   json.update(place_and_moment(report, stress.position_m, stress.place, stress.surface, stress.instant));
   const auto trouble = not_known_well(stress, analysis.search);
-  json["not_known_well"] = trouble.empty() ? Json(nullptr) : Json(trouble);
+  if (!trouble.empty()) json["not_known_well"] = trouble;
   return json;
 }
 
@@ -179,6 +179,10 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["peak_von_mises"] = peak_json(report, analysis);
   if (!analysis.responses.energy_error.norm_sqrtJ.empty()) json["energy_error"] = energy_error_json(analysis);
   json["peak_principal"] = principal_json(report, analysis);
+  for (const auto& place : analysis.place_stresses)
+    json["places"].push_back(object({{"feature", place.feature},
+                                     {"von_mises_Pa", number(place.value_Pa)},
+                                     {"error_Pa", number_or_none(place.error_Pa)}}));
   json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
   json["zones"] = zones_json(report, analysis);
   if (!analysis.search.steps.empty()) json["search"] = search_json(analysis.search);

@@ -108,7 +108,7 @@ TEST(EffectsAuto, WhatDoesNotReachTheShaftIsOff) {
 // scene that names what is left gives the same numbers to the last bit.
 TEST(EffectsAuto, WhatIsOffIsNotSolved) {
   const std::string scene = shaft_alone(coarse_shaft + quiet);
-  const auto runs = run_both(scene, "--tolerance '100 %'");
+  const auto runs = run_both(scene, "--method solid --tolerance '100 %'");
   expect_within_the_bound(runs, "shaft", 1);
   const auto off = dropped(runs.chosen);
   EXPECT_EQ(off.count("gravity_shaft") + off.count("gravity_debalance"), 2u);
@@ -131,7 +131,7 @@ TEST(EffectsAuto, WhatIsOffIsNotSolved) {
 
   const results_test::Directory directory;
   auto named =
-      run(directory.path, with_effects(scene, runs.chosen["input"]["effects"].dump()), "--tolerance '100 %'");
+      run(directory.path, with_effects(scene, runs.chosen["input"]["effects"].dump()), "--method solid --tolerance '100 %'");
   ASSERT_FALSE(named.is_null());
   for (const char* quantity : {"channels", "peak_principal", "zones", "dofs", "torsion"})
     EXPECT_EQ(named["bodies"]["shaft"][quantity], chosen[quantity]) << quantity;
@@ -154,7 +154,7 @@ TEST(EffectsAuto, OnTheChamber) {
 TEST(EffectsAuto, OnTheDrum) {
   const auto runs =
       run_both(edited("planetary_mill.toml", small_drum) + "[results]\nsnapshots = 0\npictures = false\n",
-               "--tolerance '50 %'");
+               "--method solid --tolerance '50 %'");
   expect_within_the_bound(runs, "drum", 0.5);
   EXPECT_EQ(dropped(runs.chosen).count("drum_gravity"), 1u);
 }

@@ -69,9 +69,8 @@ TEST(EffectsRefused, ATorqueThatNoSupportTakes) {
   const auto text = refusal(directory.path, scene, {"check", "run"});
   EXPECT_NE(
       text.find(
-          "scene.toml:2:11: effects = [\"pull\", \"twist\"]: the shaft is not in equilibrium: the loads of "
-          "\"twist\" leave torques about z that nothing balances; name the port that takes torque, "
-          "torque_support in [shaft], or remove \"twist\""),
+          "scene.toml:17:1: shaft.torque_support: is missing: the loads leave a torque of up to 1 N m that "
+          "nothing carries; name the port that takes it, as torque_support = \"middle\""),
       std::string::npos)
       << text;
   EXPECT_EQ(millstress(directory.path, "loads scene.toml").exit_code, 0);

@@ -98,6 +98,10 @@ TEST(NaturalFrequencies, CostNothingUnlessAskedFor) {
     error["total"] = error["numerical"].get<double>() + error.value("load_patches", 0.0);
     error["methods"].erase("quasi_static");
     EXPECT_EQ(error.erase("quasi_static"), 1u);
+    for (auto* json : {&stripped, &without}) {  // what follows from the budget
+      json->at("bodies").at("shaft").at("peak_von_mises").at("error").erase("model");
+      json->at("bodies").at("shaft").erase("governing");
+    }
     EXPECT_EQ(stripped, without);
   }
 }

@@ -12,7 +12,7 @@ struct Reference {
   double peak_Pa = 0;
   std::string feature;                   ///< that holds the peak
   std::map<std::string, double> places;  ///< largest von Mises stress of every feature [Pa]
-  double change = 0;                     ///< of the peak from the section half as fine, relative
+  double change = 0;                     ///< what may be missing of the peak, relative
 };
 
 /// Sections with cells halved until the peak changes by less than `wanted` (relative), at most four times,
