@@ -347,7 +347,7 @@ void check(const CommandOptions& options, std::ostream& out) {
     print_forecast(
         out, body, meshed[i],
         {channels.size(), std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn),
-         springs_of(scene)});
+         springs_of(scene), &loaded.body_loads[i]});
     print_effect_sizes(out, loaded.body_loads[i], meshed[i].regions);
     out << fmt::format("  {} channels\n", channels.size());
     for (const auto& channel : channels)

@@ -12,6 +12,7 @@
 #include "pipelines/fineness.h"
 #include "pipelines/refinement.h"
 #include "pipelines/refusal_of.h"
+#include "pipelines/second_model.h"
 
 namespace pipelines {
 namespace {
@@ -90,15 +91,21 @@ std::vector<RungForecast> forecast_ladder(const BodyScene& body, const MeshedBod
   const AtomicFile scratch(std::filesystem::temp_directory_path() /
                            ("millstress_forecast_" + body.name + ".msh"));
   const std::string first = "first of a search";
-  const auto refused = refusal_of([&] {
-    rungs.push_back(forecaster.of(first, mesh_body(coarsest(body), scratch.temporary(), loads.springs)));
-  });
-  if (!refused.empty()) {
-    RungForecast forecast;
-    forecast.rung = first;
-    forecast.left_out = refused;
-    rungs.push_back(forecast);
+  std::string refused;
+  for (const auto& candidate : first_meshes(body)) {  // as a search tries them
+    refused = refusal_of([&] {
+      auto coarse = mesh_body(candidate, scratch.temporary(), loads.springs);
+      const auto model =
+          loads.of_body ? axisymmetric_second_model(candidate, coarse, *loads.of_body, 1) : std::nullopt;
+      if (model) coarse = mesh_body(guided_by(*model, candidate), scratch.temporary(), loads.springs);
+      rungs.push_back(forecaster.of(first, coarse));
+    });
+    if (refused.empty()) return rungs;
   }
+  RungForecast forecast;
+  forecast.rung = first;
+  forecast.left_out = refused;
+  rungs.push_back(forecast);
   return rungs;
 }
 

@@ -26,6 +26,7 @@ struct RungForecast {
 struct ForecastLoads {
   std::size_t n_channels = 0, n_instants = 0;
   std::vector<kinetics::Spring> springs{};
+  const BodyLoads* of_body = nullptr;  ///< tell where a search's first mesh is fine; null: nowhere
 };
 
 /// First the scene's own mesh; then beam and harmonics (round shafts), even meshes whose cells are 1/0.5 to

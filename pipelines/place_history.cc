@@ -35,9 +35,10 @@ double bounded_by(const SecondModel& model, const PlaceStress& place, double err
   if (other == nullptr) return error_Pa;
   if (model.model_error > 0)
     return std::max(error_Pa, (1 - model.model_error) * other->value_Pa - other->error_Pa - place.value_Pa);
-  const double difference_Pa = std::abs(place.value_Pa - other->value_Pa);
-  return std::clamp(error_Pa, std::max(0.0, difference_Pa - other->error_Pa),
-                    difference_Pa + other->error_Pa);
+  const double difference_Pa = std::abs(place.value_Pa - other->value_Pa),
+               most_Pa = difference_Pa + other->error_Pa;
+  const bool agree = difference_Pa <= error_Pa + other->error_Pa;
+  return agree ? std::min(error_Pa, most_Pa) : most_Pa;
 }
 
 }  // namespace
@@ -105,13 +106,26 @@ std::vector<PlaceStress> PlaceHistory::judged() const {
   return places;
 }
 
+bool PlaceHistory::is_unexplained(const Record& record) const {
+  if (!second_ || second_->model_error > 0) return false;
+  return bounded_by(*second_, record.now, from_changes(record)) > from_changes(record);
+}
+
 std::vector<MeshPart> PlaceHistory::by_promise(const std::string& feature) const {
   const auto found = records_.find(feature);
   auto parts = parts_of(feature);
   if (found == records_.end()) return parts;
+  const Record& record = found->second;
+  const auto has_fillets = [](const std::vector<MeshPart>& list) {
+    return std::find(list.begin(), list.end(), MeshPart::fillets) != list.end();
+  };
+  const bool others_count = has_fillets(parts_) && !has_fillets(parts);
+  if (others_count) parts.push_back(MeshPart::fillets);  // beside the place
   const auto worth = [&](MeshPart part) {
-    const auto known = found->second.missing_Pa.find(part);
-    return known == found->second.missing_Pa.end() ? std::numeric_limits<double>::infinity() : known->second;
+    const auto known = record.missing_Pa.find(part);
+    if (known != record.missing_Pa.end()) return known->second;
+    const bool is_beside = others_count && part == MeshPart::fillets;
+    return is_beside && !is_unexplained(record) ? -1.0 : std::numeric_limits<double>::infinity();
   };
   std::stable_sort(parts.begin(), parts.end(), [&](MeshPart a, MeshPart b) { return worth(a) > worth(b); });
   return parts;

@@ -62,14 +62,15 @@ public:
   /// - from changes: for each part |change| / (ratio^order - 1), added up. The order is 2 on fillets and 1
   ///   elsewhere: ends of loads and of exclusion distances. While a part has not been varied, at least what
   ///   the mesh tells by itself; later at least the kept share of it.
-  /// - from a second model of the same problem: between the difference less that model's error and the
-  /// difference
-  ///   plus it. A model with an error of its own bounds the error from below only, where its stress is
-  ///   larger.
+  /// - from a second model of the same problem: at most the difference with that model's error; and that much
+  /// where
+  ///   the models differ by more than both state. A model with an error of its own bounds the error from
+  ///   below only, where its stress is larger.
   std::vector<PlaceStress> judged() const;
 
   /// The parts by what their refinement promises at a place: those that were never varied, then by their
-  /// share of the error, largest first.
+  /// share of the error, largest first. Away from fillets the cells of those beside the place come last, or
+  /// first where the others do not explain what a second model finds.
   std::vector<MeshPart> by_promise(const std::string& feature) const;
 
 private:
@@ -80,6 +81,8 @@ private:
   };
   std::vector<MeshPart> parts_of(const std::string& feature) const;
   double from_changes(const Record& record) const;
+  /// Whether a second model of the same problem finds more of an error than the changes do.
+  bool is_unexplained(const Record& record) const;
 
   std::vector<MeshPart> parts_;
   KeptShare kept_share_;

@@ -77,19 +77,38 @@ MeshStep refine_chamber(BodyScene& body, const BodyAnalysis& analysis,
   return step;
 }
 
+/// The two fillets nearest to a place along the axis: rows of cells at a fillet run through to what is beside
+/// it.
+std::vector<std::size_t> fillets_beside(const BodyScene& body, const PlaceStress& place) {
+  const auto names = fillets_of(body);
+  const auto& segments = body.shaft()->geometry.segments;
+  std::vector<std::size_t> fillets;
+  for (std::size_t f = 0; f < names.size(); ++f)
+    if (!names[f].empty()) fillets.push_back(f);
+  const auto distance_m = [&](std::size_t f) { return std::abs(segments[f].end_m - place.position_m[2]); };
+  std::stable_sort(fillets.begin(), fillets.end(),
+                   [&](std::size_t a, std::size_t b) { return distance_m(a) < distance_m(b); });
+  fillets.resize(std::min<std::size_t>(2, fillets.size()));
+  return fillets;
+}
+
 std::optional<MeshStep> refine_fillets(BodyScene& body, const std::vector<PlaceStress>& judged) {
   auto& mesh = std::get<ShaftShape>(body.shape).mesh;
   const auto names = fillets_of(body);
   mesh.fillet_cells.resize(names.size(), 0);
   MeshStep step{MeshPart::fillets, 1, 2, {}};
-  for (const auto f : fillets_that_may_lead(body, judged)) {
+  const auto& target = judged[judge(judged).holding_back];
+  const bool is_fillet = std::find(names.begin(), names.end(), target.feature) != names.end();
+  for (const auto f : is_fillet ? fillets_that_may_lead(body, judged) : fillets_beside(body, target)) {
     const int before = mesh.cells_at(int(f)), after = next_cells(before);
     if (after == before) continue;
     mesh.fillet_cells[f] = after;
     step.features.push_back(names[f]);
     step.ratio = std::max(step.ratio, double(after) / before);
   }
-  return step.features.empty() ? std::nullopt : std::optional<MeshStep>(step);
+  if (step.features.empty()) return std::nullopt;
+  if (!is_fillet) step.features.push_back(target.feature);
+  return step;
 }
 
 std::optional<MeshStep> refine_shaft(BodyScene& body, const std::vector<PlaceStress>& judged, MeshPart part) {

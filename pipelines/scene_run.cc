@@ -371,7 +371,8 @@ private:
       if (state.exhausted.count(part)) continue;
       Scene finer = next;
       auto step = refine_mesh(finer.bodies[i], analysis, judged, part);
-      auto mesh = step ? try_to_mesh(i, finer, refusal) : std::nullopt;
+      if (!step) continue;
+      auto mesh = try_to_mesh(i, finer, refusal);
       if (!mesh) {
         state.exhausted.insert(part);
         continue;

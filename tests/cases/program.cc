@@ -70,8 +70,8 @@ std::string on_its_own_mesh(const fs::path& directory, const std::string& argume
   if (command != "run" || asks(arguments, "--tolerance") || asks(arguments, "--time-limit")) return arguments;
   const auto file = scene[0] == '/' ? fs::path(scene) : directory / scene;
   if (fs::is_regular_file(file)) {
-    const auto text = results_test::bytes(file);
-    if (asks(text, "tolerance =") || asks(text, "time_limit =")) return arguments;
+    const auto text = '\n' + results_test::bytes(file);
+    if (asks(text, "\ntolerance =") || asks(text, "\ntime_limit =")) return arguments;
   }
   return arguments + " --tolerance none";
 }

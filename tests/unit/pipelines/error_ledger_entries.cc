@@ -180,7 +180,8 @@ TEST(ErrorLedger, NodesThatAreLeftOutTellNothing) {
   responses.channels = {"pull"};
   responses.displacement_m.assign(3 * n, 0);
   responses.stress_Pa.assign(6 * n, 0);
-  responses.stress_Pa[6 * beside] = 100;  // recovered, where the cell has none
+  responses.stress_Pa[6 * beside] = 100;    // recovered, where the cell has none
+  responses.energy_error.norm_sqrtJ = {1};  // cells were solved
   Eigen::ArrayXXd values(1, 1);
   values << 1;
   const auto discretisation = [&](const std::vector<char>& left_out) {
