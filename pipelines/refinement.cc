@@ -25,6 +25,9 @@ constexpr double mended_along = 1.0 / 3;
 constexpr int most_pressure_harmonics = 64;
 constexpr double smallest_exponent = 0.1, kept_exponent = 0.75;
 
+/// Steps that may pass without a lower error: each part of a mesh once, and one.
+constexpr std::size_t patience = 4;
+
 int next_cells(int cells) {
   const auto next = std::upper_bound(cells_on_quarters.begin(), cells_on_quarters.end(), cells);
   return next == cells_on_quarters.end() ? cells : *next;
@@ -231,6 +234,15 @@ bool grows_without_bound(const std::vector<double>& values, const std::vector<do
   };
   return exponent(n - 2) > smallest_exponent && exponent(n - 2) >= kept_exponent * exponent(n - 3) &&
          exponent(n - 3) > 0;
+}
+
+bool stands_still(const Search& search) {
+  const auto& steps = search.steps;
+  if (steps.size() <= patience) return false;
+  const auto error = [](const SearchStep& step) { return step.errors.numerical_Pa() / step.value_Pa; };
+  const double before = error(steps[steps.size() - 1 - patience]);
+  return std::all_of(steps.end() - patience, steps.end(),
+                     [&](const auto& step) { return error(step) > 0.9 * before; });
 }
 
 void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes, double order) {

@@ -62,6 +62,9 @@ std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysi
 /// @param values, ratios  of the steps so far at one place; ratios[i] leads from values[i] to values[i + 1]
 bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios);
 
+/// Whether the last four steps of a search have lowered the error by less than a tenth, all of them together.
+bool stands_still(const Search& search);
+
 /// Two meshes tell more than one. If cells became `ratio` times smaller and the stress changed by d, about
 /// d / (ratio^order - 1) is missing still (order 2 or better for recovered stress of quadratic cells on round
 /// fillets). The discretisation entry becomes that, or a share of what single cells differ by if that is

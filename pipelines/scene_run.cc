@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "fem/beam_responses.h"
-#include "pipelines/atomic_file.h"
 #include "pipelines/axisymmetric_body.h"
 #include "pipelines/axisymmetric_run.h"
 #include "pipelines/beam_run.h"
+#include "pipelines/body_files.h"
 #include "pipelines/cheap_rungs.h"
 #include "pipelines/effect_bounds.h"
 #include "pipelines/effect_choice.h"
@@ -34,8 +34,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int most_steps = 16;
-constexpr std::size_t patience =
-    4;  // steps that may pass without a lower error: each part of a mesh once, and one
 constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
 /// A step is taken if it is predicted to end in time; predictions are rough.
 constexpr double growth_of_seconds = 1.5;  // with the number of unknowns, for the direct solver
@@ -51,35 +49,6 @@ double lowered_by_other_models_Pa(const ErrorLedger& errors) {
     sum_Pa += errors.of(source);
   return sum_Pa;
 }
-
-/// Whether the last steps have lowered the error by less than a tenth, all of them together.
-bool stands_still(const Search& search) {
-  const auto& steps = search.steps;
-  if (steps.size() <= patience) return false;
-  const auto error = [](const SearchStep& step) { return step.errors.numerical_Pa() / step.value_Pa; };
-  const double before = error(steps[steps.size() - 1 - patience]);
-  return std::all_of(steps.end() - patience, steps.end(),
-                     [&](const auto& step) { return error(step) > 0.9 * before; });
-}
-
-/// What becomes the mesh of one body.
-class BodyFiles {
-public:
-  explicit BodyFiles(const fs::path& directory)
-      : directory_(directory), mesh_(std::make_unique<AtomicFile>(directory / "mesh.msh")) {}
-
-  const fs::path& mesh() const { return mesh_->temporary(); }
-
-  /// The mesh gets its name.
-  void finish(BodyAnalysis& analysis, MeshedBody& meshed) {
-    mesh_->commit();
-    analysis.mesh.file = meshed.mesh.file = meshed.body.mesh = directory_ / "mesh.msh";
-  }
-
-private:
-  fs::path directory_;
-  std::unique_ptr<AtomicFile> mesh_;
-};
 
 class SceneRunner {
 public:

@@ -184,3 +184,19 @@ TEST(Refine, TheFirstMeshIsGuided) {
   EXPECT_EQ(mesh.cells_at(2), 4);
   EXPECT_EQ(mesh.cells_at(0), 2);
 }
+
+// Four steps without a tenth less end a search on blocks; one that lowered it does not.
+TEST(Search, StandsStillAfterFourStepsWithoutALowerError) {
+  Search search;
+  const auto add = [&](double error) {
+    search.steps.emplace_back();
+    search.steps.back().value_Pa = 100;
+    search.steps.back().errors.set_numerical({"discretisation", "", error});
+  };
+  for (const double error : {6.0, 6.0, 5.9, 6.1}) add(error);
+  EXPECT_FALSE(stands_still(search));  // three steps
+  add(5.8);
+  EXPECT_TRUE(stands_still(search));
+  add(5.0);
+  EXPECT_FALSE(stands_still(search));
+}
