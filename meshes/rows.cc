@@ -15,10 +15,16 @@ const double first_above = 13;  // first of the rows above a fan, in cells of th
 const double first_below = 7;   // first of the rows below a fan, in the fan's last cell
 const double thin_wall = 0.3;   // of the radius: no more than the least rows are asked for
 
-void set_smallest_rows(SegmentLayout& segment, int n_sectors, int n_least) {
-  const int usual = std::max(n_least, n_sectors / 8);
+/// So many rows, times a factor.
+int times(double factor, int n_rows) {
+  return int(std::ceil(factor * n_rows - tiny));
+}
+
+void set_smallest_rows(SegmentLayout& segment, const RowControl& control) {
+  const int least = times(control.factor, control.n_least);
+  const int usual = std::max(least, times(control.factor, control.n_sectors / 8));
   const auto usual_rows = [&](double thickness_m) {
-    return thickness_m < thin_wall * segment.radius_m ? n_least : usual;
+    return thickness_m < thin_wall * segment.radius_m ? least : usual;
   };
   segment.n_inner_rows = usual;
   if (segment.is_eccentric())
@@ -148,24 +154,25 @@ bool fit(ShaftLayout& layout, int index) {
 }
 
 /// Rows that a fan needs below itself, and an eccentric ring above it.
-void set_rows_at_fans(ShaftLayout& layout, const Junction& junction) {
+void set_rows_at_fans(ShaftLayout& layout, const Junction& junction, double factor) {
   SegmentLayout& small = layout.segments[junction.small];
   SegmentLayout& big = layout.segments[junction.big];
   if (junction.has_fan()) {
     const double below_m = junction.small_radius_m - junction.depth_m - small.base_radius_m;
     const double last_m = junction.depth_m * (1 - *(junction.depth_fractions.end() - 2));
-    raise_rows(small, junction.n_depth() + geometric_count(below_m, first_below * last_m, rows_ratio));
+    raise_rows(small, junction.n_depth() +
+                          times(factor, geometric_count(below_m, first_below * last_m, rows_ratio)));
   }
   if (big.is_eccentric() && junction.kind != Junction::Kind::flush)
-    raise(big.n_outer_rows, geometric_count(big.radius_m - big.inner_radius_m,
-                                            first_above * junction.first_cell_m, rows_ratio));
+    raise(big.n_outer_rows, times(factor, geometric_count(big.radius_m - big.inner_radius_m,
+                                                          first_above * junction.first_cell_m, rows_ratio)));
 }
 
 }  // namespace
 
-void set_rows(ShaftLayout& layout, int n_sectors, int n_least) {
-  for (SegmentLayout& segment : layout.segments) set_smallest_rows(segment, n_sectors, n_least);
-  for (const Junction& junction : layout.junctions) set_rows_at_fans(layout, junction);
+void set_rows(ShaftLayout& layout, const RowControl& control) {
+  for (SegmentLayout& segment : layout.segments) set_smallest_rows(segment, control);
+  for (const Junction& junction : layout.junctions) set_rows_at_fans(layout, junction, control.factor);
   // Counts only ever rise, and the junctions form a chain, so this ends.
   const int n_junctions = static_cast<int>(layout.junctions.size());
   bool changed = true;

@@ -5,9 +5,15 @@
 
 namespace meshes {
 
+/// What the rows follow besides the geometry.
+struct RowControl {
+  int n_sectors = 16;
+  int n_least = 2;    ///< rows of a wall
+  double factor = 1;  ///< times what these and the fans ask for, rounded up; >= 1
+};
+
 /// Fills n_inner_rows and n_outer_rows so that the rows of neighbours fit at every junction.
-/// @param n_least rows of a wall
-void set_rows(ShaftLayout& layout, int n_sectors, int n_least);
+void set_rows(ShaftLayout& layout, const RowControl& control);
 
 /// Cells grow by at most this from row to row, away from the arcs: stress varies slowly there, and every row
 /// runs on into the thicker segments.

@@ -59,6 +59,7 @@ struct ShaftMeshControl {
   double growth = 1.0;  ///< slope of the axial cell size away from fillets; cells grow by at most e^growth
   double largest_cell_m = 0;         ///< axial; 0: chosen from diameters and walls
   double axial_share = 1;            ///< of the axial size that is chosen where largest_cell_m is 0
+  double rows_factor = 1;            ///< times the radial rows, away from fillets' fans; >= 1
   double min_scaled_jacobian = 0.3;  ///< refused below
   /// The blocks are laid out for cells this many times larger, each of which is then cut into as many along
   /// every edge. Divides n_sectors / 4 and half of the cells of each fillet. Meshes whose counts are in

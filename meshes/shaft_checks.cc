@@ -162,6 +162,8 @@ void check_control(const ShaftMeshControl& control) {
     refuse_control("growth = " + std::to_string(control.growth) + " must be positive");
   if (!std::isfinite(control.largest_cell_m) || control.largest_cell_m < 0)
     refuse_control("largest_cell_m = " + std::to_string(control.largest_cell_m) + " must be positive, or 0");
+  if (!std::isfinite(control.rows_factor) || control.rows_factor < 1)
+    refuse_control("rows_factor = " + std::to_string(control.rows_factor) + " must be at least 1");
   if (!(control.min_scaled_jacobian > 0 && control.min_scaled_jacobian < 1))
     refuse_control("min_scaled_jacobian = " + std::to_string(control.min_scaled_jacobian) +
                    " must lie between 0 and 1");

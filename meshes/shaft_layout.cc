@@ -256,7 +256,7 @@ ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
   for (Junction& junction : layout.junctions) set_bore_border(junction, layout);
   set_columns_and_shifts(layout, shaft);
   set_lines(layout);
-  set_rows(layout, control.n_sectors, control.subdivisions > 1 ? 1 : 2);
+  set_rows(layout, {control.n_sectors, control.subdivisions > 1 ? 1 : 2, control.rows_factor});
   return layout;
 }
 

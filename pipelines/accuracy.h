@@ -31,7 +31,8 @@ struct AccuracyRow {
   double gigabytes = 0;              ///< largest resident memory during the run
   double true_error_Pa = 0;          ///< |value - reference|
   bool is_reference = false;
-  bool on_frontier = false;  ///< no cheaper run is closer to the reference
+  bool on_frontier = false;      ///< no cheaper run is closer to the reference
+  bool is_contradicted = false;  ///< further from the reference than both state: one of the two is wrong
 };
 
 /// A model or mesh that was not run.
@@ -75,8 +76,8 @@ struct AccuracyStudy {
 };
 
 /// Takes a known value as reference, or the run with the smallest estimate; sorts the runs by their seconds,
-/// marks the efficient frontier, chooses the cheapest run within the tolerance and prices the next factor of
-/// two.
+/// marks the efficient frontier and the runs that the reference contradicts, chooses the cheapest of the
+/// others within the tolerance and prices the next factor of two.
 /// @param known_Pa  0: not known
 /// @throws ToleranceNotMet for a study without runs
 void compare_runs(AccuracyStudy& study, double known_Pa);

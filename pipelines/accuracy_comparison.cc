@@ -22,8 +22,9 @@ void mark_frontier(std::vector<AccuracyRow>& rows) {
 void choose(AccuracyStudy& study) {
   const auto& rows = study.rows;
   const auto first_within = [&](double error_Pa) {
-    return std::find_if(rows.begin(), rows.end(),
-                        [&](const auto& row) { return row.errors.total_Pa() <= error_Pa; });
+    return std::find_if(rows.begin(), rows.end(), [&](const auto& row) {
+      return !row.is_contradicted && row.errors.total_Pa() <= error_Pa;
+    });
   };
   const auto chosen = first_within(study.tolerance * study.reference_Pa);
   if (chosen == rows.end()) {
@@ -62,7 +63,10 @@ void compare_runs(AccuracyStudy& study, double known_Pa) {
     study.reference_error_Pa = best->errors.total_Pa();
     study.reference = fmt::format("overkill run: {}, {} unknowns", best->rung, best->n_dofs);
   }
-  for (auto& row : rows) row.true_error_Pa = std::abs(row.value_Pa - study.reference_Pa);
+  for (auto& row : rows) {
+    row.true_error_Pa = std::abs(row.value_Pa - study.reference_Pa);
+    row.is_contradicted = row.true_error_Pa > row.errors.total_Pa() + study.reference_error_Pa;
+  }
   std::stable_sort(rows.begin(), rows.end(),
                    [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
   mark_frontier(rows);

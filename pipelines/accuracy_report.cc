@@ -69,10 +69,11 @@ std::vector<CsvColumn> columns(const AccuracyStudy& study) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rungs.push_back(rows[i].rung);
     meshes.push_back(rows[i].fineness);
-    marks.push_back(rows[i].is_reference  ? "reference"
-                    : study.chosen == i   ? "chosen"
-                    : rows[i].on_frontier ? "frontier"
-                                          : "");
+    marks.push_back(rows[i].is_reference      ? "reference"
+                    : study.chosen == i       ? "chosen"
+                    : rows[i].is_contradicted ? "contradicted"
+                    : rows[i].on_frontier     ? "frontier"
+                                              : "");
   }
   std::vector<CsvColumn> result{{"rung", "", rungs}, {"mesh", "", meshes}, {"mark", "", marks}};
   const auto add = [&](const std::string& name, const std::string& unit, auto&& value) {
@@ -135,6 +136,22 @@ std::string where_tolerances_end(const AccuracyStudy& study) {
   return text;
 }
 
+std::string disagreements(const AccuracyStudy& study) {
+  std::string text;
+  for (const auto& row : study.rows)
+    if (row.is_contradicted)
+      text += fmt::format("    {} ({}, {} unknowns): {:.2f} +- {:.2f} MPa\n", row.rung, row.fineness,
+                          row.n_dofs, row.value_Pa / 1e6, row.errors.total_Pa() / 1e6);
+  if (text.empty()) return text;
+  return fmt::format(
+             "  ! WARNING: these disagree with the reference, {:.2f} +- {:.2f} MPa, by more than both "
+             "state:\n",
+             study.reference_Pa / 1e6, study.reference_error_Pa / 1e6) +
+         text +
+         "    One of each pair is wrong. Look at where the two have their largest stress before you use "
+         "either.\n";
+}
+
 void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
   out << fmt::format("\n{}: {}, what accuracy costs\n  {}\n  reference {:.2f} MPa ({}", study.body,
                      study.quantity, machine_and_versions(), study.reference_Pa / 1e6, study.reference);
@@ -146,7 +163,11 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
   for (std::size_t i = 0; i < study.rows.size(); ++i) {
     const auto& row = study.rows[i];
     const double percent = study.reference_Pa > 0 ? 100 / study.reference_Pa : 0;
-    const char mark = row.is_reference ? 'R' : study.chosen == i ? '>' : row.on_frontier ? '*' : ' ';
+    const char mark = row.is_reference      ? 'R'
+                      : study.chosen == i   ? '>'
+                      : row.is_contradicted ? '!'
+                      : row.on_frontier     ? '*'
+                                            : ' ';
     out << fmt::format("  {} {:<16}{:>10}{:>9.2f}{:>9.2f}%{:>9.2f}%{:>9.3g}{:>9.2g}{:>7.2g}  {}\n", mark,
                        row.rung, row.n_dofs, row.value_Pa / 1e6, percent * row.errors.total_Pa(),
                        percent * row.true_error_Pa, row.seconds, row.spread_s, row.gigabytes, row.fineness);
@@ -163,6 +184,7 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
       << fmt::format(
              "  estimates bound the true error in {} of {} runs; median of estimate over true error {:.2g}\n",
              e.n_bounded, e.n_runs, e.median);
+  out << disagreements(study);
   if (study.grid) print_grid_study(out, *study.grid);
 }
 

@@ -14,6 +14,9 @@ namespace pipelines {
 /// from the reference.
 std::string where_tolerances_end(const AccuracyStudy& study);
 
+/// A warning that names every run which the reference contradicts; empty if there is none.
+std::string disagreements(const AccuracyStudy& study);
+
 /// The table on the terminal, with what it ran on.
 void print_accuracy(std::ostream& out, const AccuracyStudy& study);
 

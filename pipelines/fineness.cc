@@ -96,7 +96,9 @@ std::string fineness_text(const BodyScene& body) {
   std::string cells;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!names[i].empty()) cells += fmt::format(" {}", shaft->mesh.cells_at(int(i)));
-  return fmt::format("cells on fillet quarters{}; {} sectors", cells, shaft->mesh.n_sectors);
+  const double rows = shaft->mesh.rows_factor;
+  return fmt::format("cells on fillet quarters{}; {} sectors{}", cells, shaft->mesh.n_sectors,
+                     rows > 1 ? fmt::format("; rows times {:.3g}", rows) : "");
 }
 
 }  // namespace pipelines

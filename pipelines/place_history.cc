@@ -10,13 +10,16 @@
 namespace pipelines {
 namespace {
 
+/// P. J. Roache, Verification and Validation in Computational Science and Engineering (1998), 5.6.
+constexpr double safety_of_changes = 1.25;
+
 bool is_fillet(const std::string& feature) {
   return feature.rfind("fillet ", 0) == 0;
 }
 
 double order_at(const std::string& feature, const MeshStep& step) {
   if (step.part == MeshPart::all) return step.order;
-  return is_fillet(feature) ? 2 : 1;
+  return is_fillet(feature) ? step.order : 1;
 }
 
 bool refines(const MeshStep& step, const std::string& feature) {
@@ -51,6 +54,8 @@ std::string to_string(MeshPart part) {
       return "around";
     case MeshPart::along:
       return "along";
+    case MeshPart::through:
+      return "through";
     case MeshPart::all:
       return "all";
   }
@@ -76,23 +81,15 @@ void PlaceHistory::add(const std::vector<PlaceStress>& now, const std::optional<
   }
 }
 
-std::vector<MeshPart> PlaceHistory::parts_of(const std::string& feature) const {
-  std::vector<MeshPart> parts;
-  for (const auto part : parts_)
-    if (part != MeshPart::fillets || is_fillet(feature)) parts.push_back(part);
-  return parts;
-}
-
 double PlaceHistory::from_changes(const Record& record) const {
   double missing_Pa = 0;
   for (const auto& [part, part_Pa] : record.missing_Pa) missing_Pa += part_Pa;
-  const auto parts = parts_of(record.now.feature);
-  const bool all_varied = std::all_of(parts.begin(), parts.end(),
+  const bool all_varied = std::all_of(parts_.begin(), parts_.end(),
                                       [&](MeshPart part) { return record.missing_Pa.count(part) > 0; });
-  const double kept = !all_varied                            ? 1
-                      : record.n_changes > int(parts.size()) ? kept_share_.after_more
-                                                             : kept_share_.after_one;
-  return std::max(missing_Pa, kept * record.now.error_Pa);
+  const double kept = !all_varied                             ? 1
+                      : record.n_changes > int(parts_.size()) ? kept_share_.after_more
+                                                              : kept_share_.after_one;
+  return std::max(safety_of_changes * missing_Pa, kept * record.now.error_Pa);
 }
 
 std::vector<PlaceStress> PlaceHistory::judged() const {
@@ -113,19 +110,15 @@ bool PlaceHistory::is_unexplained(const Record& record) const {
 
 std::vector<MeshPart> PlaceHistory::by_promise(const std::string& feature) const {
   const auto found = records_.find(feature);
-  auto parts = parts_of(feature);
+  auto parts = parts_;
   if (found == records_.end()) return parts;
   const Record& record = found->second;
-  const auto has_fillets = [](const std::vector<MeshPart>& list) {
-    return std::find(list.begin(), list.end(), MeshPart::fillets) != list.end();
-  };
-  const bool others_count = has_fillets(parts_) && !has_fillets(parts);
-  if (others_count) parts.push_back(MeshPart::fillets);  // beside the place
+  const bool is_known = second_ && second_->model_error == 0 && !is_unexplained(record);
   const auto worth = [&](MeshPart part) {
     const auto known = record.missing_Pa.find(part);
     if (known != record.missing_Pa.end()) return known->second;
-    const bool is_beside = others_count && part == MeshPart::fillets;
-    return is_beside && !is_unexplained(record) ? -1.0 : std::numeric_limits<double>::infinity();
+    const bool comes_last = part == MeshPart::through || (part == MeshPart::fillets && !is_fillet(feature));
+    return comes_last && is_known ? -1.0 : std::numeric_limits<double>::infinity();
   };
   std::stable_sort(parts.begin(), parts.end(), [&](MeshPart a, MeshPart b) { return worth(a) > worth(b); });
   return parts;

@@ -16,6 +16,7 @@ enum class MeshPart {
   fillets,  ///< cells on the quarters of a shaft's fillets
   around,   ///< sectors of a shaft
   along,    ///< cells along a shaft, away from fillets
+  through,  ///< rows of cells through a bored shaft's wall
   all       ///< the whole mesh, or what leads of it: chambers, tetrahedra
 };
 
@@ -24,8 +25,8 @@ std::string to_string(MeshPart part);
 /// One refinement of a mesh.
 struct MeshStep {
   MeshPart part = MeshPart::all;
-  double ratio = 1;                     ///< of cell sizes, before : after
-  double order = 2;                     ///< with which stress converges at least, where `part` is all
+  double ratio = 1;  ///< of cell sizes, before : after
+  double order = 2;  ///< with which stress converges at least: of fillets, and of all where `part` is all
   std::vector<std::string> features{};  ///< where cells became smaller; empty: everywhere
 };
 
@@ -59,18 +60,20 @@ public:
   const std::optional<SecondModel>& second_model() const { return second_; }
 
   /// The places of the last mesh with all that is known of their errors:
-  /// - from changes: for each part |change| / (ratio^order - 1), added up. The order is 2 on fillets and 1
-  ///   elsewhere: ends of loads and of exclusion distances. While a part has not been varied, at least what
-  ///   the mesh tells by itself; later at least the kept share of it.
+  /// - from changes: for each part |change| / (ratio^order - 1), added up, times 1.25 (Roache's safety factor
+  ///   for series of meshes). The order is the step's on fillets and 1 elsewhere: ends of loads and of
+  ///   exclusion distances. While a part has not been varied, at least what the mesh tells by itself; later
+  ///   at least the kept share of it. Away from fillets, the fillets beside the place are a part as well:
+  ///   their rows of cells run through to it.
   /// - from a second model of the same problem: at most the difference with that model's error; and that much
-  /// where
-  ///   the models differ by more than both state. A model with an error of its own bounds the error from
-  ///   below only, where its stress is larger.
+  ///   where the models differ by more than both state. A model with an error of its own bounds the error
+  ///   from below only, where its stress is larger.
   std::vector<PlaceStress> judged() const;
 
   /// The parts by what their refinement promises at a place: those that were never varied, then by their
-  /// share of the error, largest first. Away from fillets the cells of those beside the place come last, or
-  /// first where the others do not explain what a second model finds.
+  /// share of the error, largest first. Where a second model of the same problem knows the error of a place
+  /// away from fillets, the cells of those beside it and the rows through the wall come last, unless the
+  /// others do not explain what that model finds.
   std::vector<MeshPart> by_promise(const std::string& feature) const;
 
 private:
@@ -79,7 +82,6 @@ private:
     std::map<MeshPart, double> missing_Pa;  ///< by the last change of each part
     int n_changes = 0;                      ///< that were learnt from
   };
-  std::vector<MeshPart> parts_of(const std::string& feature) const;
   double from_changes(const Record& record) const;
   /// Whether a second model of the same problem finds more of an error than the changes do.
   bool is_unexplained(const Record& record) const;

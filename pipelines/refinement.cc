@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "pipelines/contains.h"
 #include "pipelines/fineness.h"
 #include "pipelines/solid_refinement.h"
 
@@ -17,6 +18,8 @@ constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
 /// Cells on a fillet quarter and sectors of a shaft's first mesh; the later ones where the mesher refuses
 /// one.
 constexpr std::array<std::array<int, 2>, 4> first_shaft_meshes = {{{2, 8}, {4, 8}, {4, 12}, {6, 16}}};
+/// With fewer cells on its quarter a fillet's stress does not converge with its order yet.
+constexpr int resolved_fillet = 4;
 /// Of the largest stress: fillets above are resolved from the start, above the second one half as well.
 constexpr double leading_share = 0.8, minor_share = 0.5;
 constexpr double toe_step = 2, other_toes_step = 1.1, elsewhere_step = 1.05, toe_order = 1;
@@ -26,7 +29,7 @@ constexpr int most_pressure_harmonics = 64;
 constexpr double smallest_exponent = 0.1, kept_exponent = 0.75;
 
 /// Steps that may pass without a lower error: each part of a mesh once, and one.
-constexpr std::size_t patience = 4;
+constexpr std::size_t patience = 5;
 
 int next_cells(int cells) {
   const auto next = std::upper_bound(cells_on_quarters.begin(), cells_on_quarters.end(), cells);
@@ -108,9 +111,20 @@ std::optional<MeshStep> refine_fillets(BodyScene& body, const std::vector<PlaceS
     mesh.fillet_cells[f] = after;
     step.features.push_back(names[f]);
     step.ratio = std::max(step.ratio, double(after) / before);
+    if (before < resolved_fillet) step.order = 1;
   }
   if (step.features.empty()) return std::nullopt;
-  if (!is_fillet) step.features.push_back(target.feature);
+  const auto got_finer = [&](std::size_t f) {
+    return std::find(step.features.begin(), step.features.end(), names[f]) != step.features.end();
+  };
+  auto features = step.features;
+  for (const auto& place : judged) {  // what they do to the places beside them is learnt from as well
+    if (std::find(names.begin(), names.end(), place.feature) != names.end()) continue;
+    const auto beside = fillets_beside(body, place);
+    if (std::all_of(beside.begin(), beside.end(), got_finer)) features.push_back(place.feature);
+  }
+  if (!is_fillet && !contains(features, target.feature)) features.push_back(target.feature);
+  step.features = std::move(features);
   return step;
 }
 
@@ -123,6 +137,10 @@ std::optional<MeshStep> refine_shaft(BodyScene& body, const std::vector<PlaceStr
     // Cells are as long as they are wide by default: around alone means that they keep their length.
     mesh.axial_share *= double(mesh.n_sectors) / before;
     return MeshStep{part, double(mesh.n_sectors) / before, 2, {}};
+  }
+  if (part == MeshPart::through) {
+    mesh.rows_factor *= step_factor;
+    return MeshStep{part, step_factor, 2, {}};
   }
   mesh.growth /= step_factor;
   mesh.axial_share /= step_factor;
@@ -150,8 +168,16 @@ bool is_block_shaft(const BodyScene& body) {
 }
 
 std::vector<MeshPart> mesh_parts(const BodyScene& body) {
-  if (is_block_shaft(body)) return {MeshPart::fillets, MeshPart::around, MeshPart::along};
-  return {MeshPart::all};
+  if (!is_block_shaft(body)) return {MeshPart::all};
+  const auto fillets = fillets_of(body);
+  const bool has_fillets =
+      std::any_of(fillets.begin(), fillets.end(), [](const auto& name) { return !name.empty(); });
+  std::vector<MeshPart> parts{MeshPart::around, MeshPart::along};
+  if (has_fillets) parts.insert(parts.begin(), MeshPart::fillets);
+  const auto& segments = body.shaft()->geometry.segments;
+  if (std::any_of(segments.begin(), segments.end(), [](const auto& segment) { return segment.bore_m > 0; }))
+    parts.push_back(MeshPart::through);
+  return parts;
 }
 
 KeptShare kept_share_of_own_error(const BodyScene& body) {

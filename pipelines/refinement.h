@@ -62,7 +62,7 @@ std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysi
 /// @param values, ratios  of the steps so far at one place; ratios[i] leads from values[i] to values[i + 1]
 bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios);
 
-/// Whether the last four steps of a search have lowered the error by less than a tenth, all of them together.
+/// Whether the last five steps of a search have lowered the error by less than a tenth, all of them together.
 bool stands_still(const Search& search);
 
 /// Two meshes tell more than one. If cells became `ratio` times smaller and the stress changed by d, about

@@ -82,3 +82,20 @@ TEST(AccuracyReport, TellsWhereTolerancesEnd) {
             "    2 %: 99.50 MPa after 20 s, 0.50 % from the reference\n"
             "    1 %: not reached\n");
 }
+
+// A confident wrong run is no choice, and the reader is told: 79 +- 5 where 106 +- 0.1 is the reference.
+TEST(AccuracyReport, WarnsWhereRunsDisagree) {
+  AccuracyStudy study;
+  study.tolerance = 0.1;
+  study.rows = {row("refined mesh", 3, 79, 5), row("even mesh", 7, 104, 4),
+                row("axisymmetric", 20, 106, 0.1)};
+  compare_runs(study, 0);
+  EXPECT_EQ(study.rows[*study.chosen].rung, "even mesh") << "the cheapest one is contradicted";
+  const auto text = disagreements(study);
+  EXPECT_NE(text.find("disagree with the reference, 106.00 +- 0.10 MPa"), std::string::npos) << text;
+  EXPECT_NE(text.find("refined mesh (, 0 unknowns): 79.00 +- 5.00 MPa"), std::string::npos) << text;
+  EXPECT_EQ(text.find("even mesh"), std::string::npos) << text;
+  study.rows.front().errors.set_numerical({"discretisation", "", 28e6});
+  compare_runs(study, 0);
+  EXPECT_EQ(disagreements(study), "");
+}
