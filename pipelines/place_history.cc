@@ -81,15 +81,19 @@ void PlaceHistory::add(const std::vector<PlaceStress>& now, const std::optional<
   }
 }
 
+double PlaceHistory::missing_Pa(const Record& record) {
+  double sum_Pa = 0;
+  for (const auto& [part, part_Pa] : record.missing_Pa) sum_Pa += part_Pa;
+  return safety_of_changes * sum_Pa;
+}
+
 double PlaceHistory::from_changes(const Record& record) const {
-  double missing_Pa = 0;
-  for (const auto& [part, part_Pa] : record.missing_Pa) missing_Pa += part_Pa;
   const bool all_varied = std::all_of(parts_.begin(), parts_.end(),
                                       [&](MeshPart part) { return record.missing_Pa.count(part) > 0; });
   const double kept = !all_varied                             ? 1
                       : record.n_changes > int(parts_.size()) ? kept_share_.after_more
                                                               : kept_share_.after_one;
-  return std::max(safety_of_changes * missing_Pa, kept * record.now.error_Pa);
+  return std::max(missing_Pa(record), kept * record.now.error_Pa);
 }
 
 std::vector<PlaceStress> PlaceHistory::judged() const {
@@ -103,9 +107,9 @@ std::vector<PlaceStress> PlaceHistory::judged() const {
   return places;
 }
 
-bool PlaceHistory::is_unexplained(const Record& record) const {
+bool PlaceHistory::is_explained(const Record& record) const {
   if (!second_ || second_->model_error > 0) return false;
-  return bounded_by(*second_, record.now, from_changes(record)) > from_changes(record);
+  return bounded_by(*second_, record.now, from_changes(record)) <= missing_Pa(record);
 }
 
 std::vector<MeshPart> PlaceHistory::by_promise(const std::string& feature) const {
@@ -113,12 +117,18 @@ std::vector<MeshPart> PlaceHistory::by_promise(const std::string& feature) const
   auto parts = parts_;
   if (found == records_.end()) return parts;
   const Record& record = found->second;
-  const bool is_known = second_ && second_->model_error == 0 && !is_unexplained(record);
+  const auto is_varied = [&](MeshPart part) { return record.missing_Pa.count(part) > 0; };
+  // Seldom the cause: tried once the others do not explain what the second model finds.
+  const auto comes_last = [&](MeshPart part) {
+    return part == MeshPart::through || (part == MeshPart::fillets && !is_fillet(feature));
+  };
+  const bool others_varied = std::all_of(parts.begin(), parts.end(),
+                                         [&](MeshPart part) { return comes_last(part) || is_varied(part); });
+  const bool has_second = second_ && second_->model_error == 0;
+  const bool can_wait = has_second && (!others_varied || is_explained(record));
   const auto worth = [&](MeshPart part) {
-    const auto known = record.missing_Pa.find(part);
-    if (known != record.missing_Pa.end()) return known->second;
-    const bool comes_last = part == MeshPart::through || (part == MeshPart::fillets && !is_fillet(feature));
-    return comes_last && is_known ? -1.0 : std::numeric_limits<double>::infinity();
+    if (is_varied(part)) return record.missing_Pa.at(part);
+    return comes_last(part) && can_wait ? -1.0 : std::numeric_limits<double>::infinity();
   };
   std::stable_sort(parts.begin(), parts.end(), [&](MeshPart a, MeshPart b) { return worth(a) > worth(b); });
   return parts;

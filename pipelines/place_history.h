@@ -83,8 +83,10 @@ private:
     int n_changes = 0;                      ///< that were learnt from
   };
   double from_changes(const Record& record) const;
-  /// Whether a second model of the same problem finds more of an error than the changes do.
-  bool is_unexplained(const Record& record) const;
+  /// From all changes so far, with their safety factor.
+  static double missing_Pa(const Record& record);
+  /// Whether a second model of the same problem finds no more of an error than the changes do.
+  bool is_explained(const Record& record) const;
 
   std::vector<MeshPart> parts_;
   KeptShare kept_share_;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include "tests/unit/meshes/example_shafts.h"
@@ -23,13 +24,15 @@ double worst_of(const std::function<meshes::Shaft()>& draw, const std::string& n
     const int cells_choices[] = {2, 4, 8}, sector_choices[] = {16, 8, 24, 16, 12};
     control.cells_per_fillet_quarter = cells_choices[trial % 3];
     control.n_sectors = sector_choices[trial % 5];
+    control.rows_factor = std::array{1.0, 1.5, 1.0, 3.375}[std::size_t(trial % 4)];
     meshes::BodyMesh body;
     EXPECT_NO_THROW(body = meshes::build_shaft(shaft, control, temporary_msh(name)));
     if (body.file.empty()) continue;
     EXPECT_GT(body.quality.min_scaled_jacobian, 0.3)
         << "at z = " << body.quality.worst_z_m
         << ", r = " << std::hypot(body.quality.worst_x_m, body.quality.worst_y_m) << ", cells "
-        << control.cells_per_fillet_quarter << ", sectors " << control.n_sectors;
+        << control.cells_per_fillet_quarter << ", sectors " << control.n_sectors << ", rows times "
+        << control.rows_factor;
     worst = std::min(worst, body.quality.min_scaled_jacobian);
     most_cells = std::max(most_cells, body.quality.n_cells);
     const double expected = polygonal_volume(shaft, control.cells_per_fillet_quarter, control.n_sectors);
@@ -64,6 +67,20 @@ TEST(RandomShafts, all_mesh_with_good_cells_and_the_right_volume) {
   EXPECT_GE(n_bored, 10);
   EXPECT_GE(n_steps, 6);
   EXPECT_GE(n_grooves, 20);
+}
+
+/// Rows through a wall multiply, and nothing else does: a tube has sectors x rows x stations cells.
+TEST(RowsThroughAWall, are_as_many_times_more_as_is_asked) {
+  meshes::Shaft tube;
+  tube.segments = {{"tube", 0, 0.2, 0.05, 0, true}};
+  tube.segments[0].bore_m = 0.02;
+  const auto cells = [&](double rows_factor) {
+    meshes::ShaftMeshControl control;
+    control.rows_factor = rows_factor;
+    return meshes::build_shaft(tube, control, temporary_msh("tube")).quality.n_cells;
+  };
+  EXPECT_EQ(cells(1.5), cells(1) / 2 * 3);
+  EXPECT_EQ(cells(2), 2 * cells(1));
 }
 
 TEST(RandomDrums, all_mesh_with_good_cells_and_the_right_volume) {

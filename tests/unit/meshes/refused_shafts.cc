@@ -127,6 +127,7 @@ std::vector<Refusal> refusals() {
        {"subdivisions = 0", "at least 1"}},
       {"few sectors", [](auto&, ShaftMeshControl& c) { c.n_sectors = 4; }, {"n_sectors = 4", "at least 8"}},
       {"growth", [](auto&, ShaftMeshControl& c) { c.growth = 0; }, {"growth = 0"}},
+      {"rows", [](auto&, ShaftMeshControl& c) { c.rows_factor = 0.5; }, {"rows_factor = 0.5", "at least 1"}},
       {"largest cell", [](auto&, ShaftMeshControl& c) { c.largest_cell_m = -1; }, {"largest_cell_m = -1"}},
       {"wanted quality",
        [](auto&, ShaftMeshControl& c) { c.min_scaled_jacobian = 1.5; },
