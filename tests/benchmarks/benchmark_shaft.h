@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "fem/unit_load.h"
-#include "meshes/body_mesh.h"
-#include "pipelines/scene.h"
+#include "fem/values/unit_load.h"
+#include "meshes/values/body_mesh.h"
+#include "pipelines/scene/scene.h"
 
 namespace measure {
 

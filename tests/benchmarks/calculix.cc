@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "fem/model.h"
+#include "fem/model/model.h"
 #include "tests/benchmarks/benchmark_shaft.h"
 #include "tests/benchmarks/calculix_work.h"
 #include "tests/benchmarks/child_process.h"

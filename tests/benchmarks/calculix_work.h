@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pipelines/scene.h"
+#include "pipelines/scene/scene.h"
 
 namespace measure {
 

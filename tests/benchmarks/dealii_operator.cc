@@ -17,8 +17,8 @@
 
 #include <fstream>
 
-#include "fem/manifolds.h"
-#include "fem/stiffness.h"
+#include "fem/mesh/manifolds.h"
+#include "fem/operators/stiffness.h"
 
 namespace measure {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "fem/body.h"
+#include "fem/values/body.h"
 
 namespace measure {
 

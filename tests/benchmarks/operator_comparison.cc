@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "dealii_operator.h"
-#include "fem/elastic_operator.h"
-#include "fem/mesh_reader.h"
-#include "fem/stiffness.h"
+#include "fem/operators/elastic_operator.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/operators/stiffness.h"
 #include "process.h"
 
 namespace measure {

@@ -1,7 +1,7 @@
 /// K x of our operator beside that of deal.II's MatrixFree and of a sparse matrix, one thread each.
 #pragma once
 
-#include "fem/body.h"
+#include "fem/values/body.h"
 
 namespace measure {
 

@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fem/direct_solve.h"
-#include "fem/iterative_solve.h"
-#include "fem/memory.h"
-#include "fem/mesh_reader.h"
-#include "fem/parallel.h"
-#include "fem/rigid_modes.h"
-#include "fem/solver_prediction.h"
-#include "fem/surface_loads.h"
+#include "fem/solvers/direct_solve.h"
+#include "fem/solvers/iterative_solve.h"
+#include "fem/common/memory.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/common/parallel.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/solvers/solver_prediction.h"
+#include "fem/loads/surface_loads.h"
 #include "process.h"
 
 namespace measure {

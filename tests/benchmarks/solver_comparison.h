@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/body.h"
-#include "fem/unit_load.h"
+#include "fem/values/body.h"
+#include "fem/values/unit_load.h"
 
 namespace measure {
 

@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <string>
 
-#include "fem/model.h"
+#include "fem/model/model.h"
 #include "operator_comparison.h"
-#include "pipelines/body_mesh.h"
-#include "pipelines/scene.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/scene/scene.h"
 #include "solver_comparison.h"
 #include "solver_plot.h"
 #include "tests/benchmarks/benchmark_shaft.h"

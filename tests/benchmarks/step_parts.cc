@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pipelines/cheap_rungs.h"
-#include "pipelines/fem_environment.h"
-#include "pipelines/fineness.h"
-#include "pipelines/scene_run.h"
+#include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/common/fem_environment.h"
+#include "pipelines/analysis/fineness.h"
+#include "pipelines/search/scene_run.h"
 #include "tests/cases/step_shafts.h"
 
 namespace {

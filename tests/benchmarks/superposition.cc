@@ -1,6 +1,6 @@
 // Superposition over the cycle: what a node takes at an instant, and that a stress which does not change, as
 // in a shaft that turns with its load, takes no more.
-#include "pipelines/superposition.h"
+#include "pipelines/superposition/superposition.h"
 
 #include <cmath>
 

@@ -11,12 +11,12 @@
 #include <optional>
 #include <vector>
 
-#include "meshes/refused.h"
-#include "pipelines/errors.h"
-#include "pipelines/fem_environment.h"
-#include "pipelines/refinement.h"
-#include "pipelines/scene.h"
-#include "pipelines/scene_run.h"
+#include "meshes/values/refused.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/common/fem_environment.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/scene/scene.h"
+#include "pipelines/search/scene_run.h"
 #include "tests/benchmarks/promises/random_shaft_scene.h"
 #include "tests/benchmarks/promises/reference.h"
 

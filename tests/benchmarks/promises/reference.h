@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "pipelines/load_stage.h"
+#include "pipelines/loads/load_stage.h"
 
 namespace promises {
 

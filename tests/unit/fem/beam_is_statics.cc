@@ -4,9 +4,9 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fem/beam_responses.h"
-#include "fem/constants.h"
-#include "fem/fillet_factors.h"
+#include "fem/beam/beam_responses.h"
+#include "fem/values/constants.h"
+#include "fem/beam/fillet_factors.h"
 #include "shaft_bodies.h"
 
 namespace {

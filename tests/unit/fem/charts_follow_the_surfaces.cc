@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "fem/cell_geometry.h"
-#include "fem/charts.h"
-#include "fem/mesh_reader.h"
-#include "fem/rigid_modes.h"
+#include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/charts.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/rigid_modes.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // Published fits of the stress concentration of shoulder fillets against the elastic solution: public
 // verification cases P08 and P09, and the values of the fits that those cases quote.
-#include "fem/fillet_factors.h"
+#include "fem/beam/fillet_factors.h"
 
 #include <gtest/gtest.h>
 

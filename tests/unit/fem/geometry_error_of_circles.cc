@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fem/model.h"
+#include "fem/model/model.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem/axisymmetric_responses.h"
-#include "fem/constants.h"
+#include "fem/axisymmetric/axisymmetric_responses.h"
+#include "fem/values/constants.h"
 #include "meridian_tube.h"
 #include "shaft_bodies.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem/axisymmetric_responses.h"
-#include "fem/beam_responses.h"
-#include "fem/cell_stress_at_node.h"
-#include "fem/model.h"
+#include "fem/axisymmetric/axisymmetric_responses.h"
+#include "fem/beam/beam_responses.h"
+#include "fem/stress/cell_stress_at_node.h"
+#include "fem/model/model.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "fem/axisymmetric_responses.h"
-#include "fem/constants.h"
-#include "fem/model.h"
+#include "fem/axisymmetric/axisymmetric_responses.h"
+#include "fem/values/constants.h"
+#include "fem/model/model.h"
 #include "meridian_tube.h"
 #include "shaft_bodies.h"
 

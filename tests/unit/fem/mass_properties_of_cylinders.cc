@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "fem/constants.h"
-#include "fem/model.h"
+#include "fem/values/constants.h"
+#include "fem/model/model.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "fem/model.h"
-#include "fem/nodal_loads.h"
+#include "fem/model/model.h"
+#include "fem/loads/nodal_loads.h"
 #include "shaft_bodies.h"
 
 namespace {

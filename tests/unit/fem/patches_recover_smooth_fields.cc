@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
-#include "fem/cell_geometry.h"
-#include "fem/mesh_reader.h"
-#include "fem/stress_recovery.h"
+#include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/stress/stress_recovery.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -6,12 +6,12 @@
 #include <functional>
 #include <numeric>
 
-#include "fem/body_nodes.h"
-#include "fem/constants.h"
-#include "fem/model.h"
-#include "fem/nodes_export.h"
-#include "fem/region_volume.h"
-#include "meshes/solid_shaft.h"
+#include "fem/values/body_nodes.h"
+#include "fem/values/constants.h"
+#include "fem/model/model.h"
+#include "fem/operators/nodes_export.h"
+#include "fem/stress/region_volume.h"
+#include "meshes/keyed_shaft/solid_shaft.h"
 #include "shaft_bodies.h"
 #include "tetrahedra.h"
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "fem/mesh_reader.h"
-#include "fem/model.h"
-#include "fem/stress_recovery.h"
-#include "fem/surface_loads.h"
-#include "fem/vtk_order.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/model/model.h"
+#include "fem/stress/stress_recovery.h"
+#include "fem/loads/surface_loads.h"
+#include "fem/values/vtk_order.h"
 #include "shaft_bodies.h"
 
 namespace {

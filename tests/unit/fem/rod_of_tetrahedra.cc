@@ -4,9 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "fem/constants.h"
-#include "fem/model.h"
-#include "meshes/solid_shaft.h"
+#include "fem/values/constants.h"
+#include "fem/model/model.h"
+#include "meshes/keyed_shaft/solid_shaft.h"
 #include "shaft_bodies.h"
 
 namespace {

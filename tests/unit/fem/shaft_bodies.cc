@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "meshes/half_section.h"
+#include "meshes/shaft/half_section.h"
 #include "scratch_directory.h"
 
 namespace fem_tests {

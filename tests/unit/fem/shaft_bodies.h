@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "fem/body.h"
-#include "fem/meridian_body.h"
-#include "fem/unit_load.h"
-#include "fem/unit_responses.h"
-#include "meshes/shaft.h"
+#include "fem/values/body.h"
+#include "fem/axisymmetric/meridian_body.h"
+#include "fem/values/unit_load.h"
+#include "fem/values/unit_responses.h"
+#include "meshes/shaft/shaft.h"
 
 namespace fem_tests {
 

@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/cost_prediction.h"
-#include "fem/direct_solve.h"
-#include "fem/iterative_solve.h"
-#include "fem/solver_prediction.h"
+#include "fem/solvers/cost_prediction.h"
+#include "fem/solvers/direct_solve.h"
+#include "fem/solvers/iterative_solve.h"
+#include "fem/solvers/solver_prediction.h"
 #include "shaft_bodies.h"
 
 namespace {

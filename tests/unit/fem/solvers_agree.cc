@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/mesh_reader.h"
-#include "fem/model.h"
-#include "fem/solver_prediction.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/model/model.h"
+#include "fem/solvers/solver_prediction.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "fem/cell_geometry.h"
+#include "fem/mesh/cell_geometry.h"
 
 namespace fem_tests {
 

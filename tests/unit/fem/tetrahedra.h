@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "fem/grid.h"
+#include "fem/mesh/grid.h"
 
 namespace fem_tests {
 

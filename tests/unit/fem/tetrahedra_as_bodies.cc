@@ -5,13 +5,13 @@
 #include <cmath>
 #include <fstream>
 
-#include "fem/cell_geometry.h"
-#include "fem/cell_stress_at_node.h"
-#include "fem/constants.h"
-#include "fem/mesh_reader.h"
-#include "fem/model.h"
-#include "fem/rigid_modes.h"
-#include "fem/tetrahedra_error.h"
+#include "fem/mesh/cell_geometry.h"
+#include "fem/stress/cell_stress_at_node.h"
+#include "fem/values/constants.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/model/model.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/stress/tetrahedra_error.h"
 #include "tetrahedra.h"
 
 namespace {

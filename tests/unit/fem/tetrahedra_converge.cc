@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "fem/cell_geometry.h"
-#include "fem/stress_recovery.h"
-#include "fem/symmetric_matrix.h"
+#include "fem/mesh/cell_geometry.h"
+#include "fem/stress/stress_recovery.h"
+#include "fem/operators/symmetric_matrix.h"
 #include "tetrahedra.h"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fem/stress_recovery.h"
+#include "fem/stress/stress_recovery.h"
 #include "tetrahedra.h"
 
 namespace {

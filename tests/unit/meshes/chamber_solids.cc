@@ -1,5 +1,5 @@
 #include "tests/unit/meshes/chamber_solids.h"
-#include "meshes/constants.h"
+#include "meshes/values/constants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "meshes/sharp_edges.h"
-#include "meshes/swept_plan.h"
+#include "meshes/checks/sharp_edges.h"
+#include "meshes/spacing/swept_plan.h"
 #include "tests/unit/meshes/chamber_solids.h"
 #include "tests/unit/meshes/example_chambers.h"
 #include "tests/unit/meshes/example_shafts.h"

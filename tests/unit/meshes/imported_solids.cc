@@ -6,9 +6,9 @@
 #include <fstream>
 #include <functional>
 
-#include "meshes/constants.h"
-#include "meshes/gmsh_session.h"
-#include "meshes/imported.h"
+#include "meshes/values/constants.h"
+#include "meshes/gmsh/gmsh_session.h"
+#include "meshes/imported/imported.h"
 #include "tests/unit/meshes/example_shafts.h"
 #include "tests/unit/meshes/tetrahedra_file.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "meshes/gmsh_session.h"
+#include "meshes/gmsh/gmsh_session.h"
 
 namespace {
 

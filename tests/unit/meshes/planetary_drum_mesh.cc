@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "meshes/constants.h"
+#include "meshes/values/constants.h"
 #include "tests/unit/meshes/example_shafts.h"
 #include "tests/unit/meshes/mesh_file.h"
 #include "tests/unit/meshes/shaft_volume.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/shaft.h"
+#include "meshes/shaft/shaft.h"
 
 struct Refusal {
   std::string what;

@@ -1,5 +1,5 @@
 #include "tests/unit/meshes/shaft_volume.h"
-#include "meshes/constants.h"
+#include "meshes/values/constants.h"
 
 #include <cmath>
 

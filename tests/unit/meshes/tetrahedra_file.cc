@@ -8,7 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "meshes/gmsh_session.h"
+#include "meshes/gmsh/gmsh_session.h"
 
 namespace {
 

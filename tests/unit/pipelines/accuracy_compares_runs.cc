@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "pipelines/accuracy.h"
-#include "pipelines/accuracy_report.h"
+#include "pipelines/accuracy/accuracy.h"
+#include "pipelines/accuracy/accuracy_report.h"
 
 using namespace pipelines;
 

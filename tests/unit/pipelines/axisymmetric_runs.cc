@@ -8,14 +8,14 @@
 #include <map>
 
 #include "edited_scene.h"
-#include "fem/model.h"
+#include "fem/model/model.h"
 #include "laboratory.h"
-#include "pipelines/axisymmetric_body.h"
-#include "pipelines/axisymmetric_run.h"
-#include "pipelines/beam_run.h"
-#include "pipelines/load_stage.h"
-#include "pipelines/place_stress.h"
-#include "pipelines/requested_method.h"
+#include "pipelines/cheap_models/axisymmetric_body.h"
+#include "pipelines/cheap_models/axisymmetric_run.h"
+#include "pipelines/cheap_models/beam_run.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/analysis/place_stress.h"
+#include "pipelines/scene/requested_method.h"
 #include "results_directory.h"
 
 namespace {

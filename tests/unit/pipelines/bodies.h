@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/closure.h"
-#include "pipelines/load_book.h"
+#include "pipelines/loads/closure.h"
+#include "pipelines/loads/load_book.h"
 
 namespace bodies {
 

@@ -8,7 +8,7 @@
 #include "bodies.h"
 #include "kinetics/vibratory_mill.h"
 #include "laboratory.h"
-#include "pipelines/distribute.h"
+#include "pipelines/loads/distribute.h"
 
 namespace chamber {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem/beam_responses.h"
+#include "fem/beam/beam_responses.h"
 #include "laboratory.h"
-#include "pipelines/body_mesh.h"
-#include "pipelines/cheap_rungs.h"
-#include "pipelines/statics.h"
-#include "pipelines/zones.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/loads/statics.h"
+#include "pipelines/superposition/zones.h"
 #include "results_directory.h"
 
 namespace {

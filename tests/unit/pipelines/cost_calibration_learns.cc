@@ -1,4 +1,4 @@
-#include "pipelines/cost_calibration.h"
+#include "pipelines/accuracy/cost_calibration.h"
 
 #include <gtest/gtest.h>
 

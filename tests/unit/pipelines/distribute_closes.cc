@@ -6,7 +6,7 @@
 
 #include "bodies.h"
 #include "laboratory.h"
-#include "pipelines/distribute.h"
+#include "pipelines/loads/distribute.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pipelines/distribute.h"
+#include "pipelines/loads/distribute.h"
 #include "plain_body.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/scene.h"
+#include "pipelines/scene/scene.h"
 #include "tests/unit/pipelines/results_directory.h"
 
 namespace edited {

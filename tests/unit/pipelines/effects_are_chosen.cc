@@ -6,8 +6,8 @@
 #include <fstream>
 #include <set>
 
-#include "pipelines/effect_bounds.h"
-#include "pipelines/effect_choice.h"
+#include "pipelines/effects/effect_bounds.h"
+#include "pipelines/effects/effect_choice.h"
 #include "tests/unit/pipelines/bodies.h"
 #include "tests/unit/pipelines/plain_body.h"
 #include "tests/unit/pipelines/results_directory.h"

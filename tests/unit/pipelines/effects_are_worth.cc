@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/effect_report.h"
+#include "pipelines/effects/effect_report.h"
 #include "tests/unit/pipelines/laboratory.h"
 
 using pipelines::EffectWorth;

@@ -5,11 +5,11 @@
 #include <set>
 #include <sstream>
 
-#include "pipelines/body_effect_report.h"
-#include "pipelines/body_effects.h"
-#include "pipelines/effect_choice.h"
-#include "pipelines/effect_closure.h"
-#include "pipelines/load_stage.h"
+#include "pipelines/effects/body_effect_report.h"
+#include "pipelines/scene/body_effects.h"
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/loads/effect_closure.h"
+#include "pipelines/loads/load_stage.h"
 #include "tests/unit/pipelines/edited_scene.h"
 #include "tests/unit/pipelines/plain_body.h"
 

@@ -1,4 +1,4 @@
-#include "pipelines/energy_errors.h"
+#include "pipelines/analysis/energy_errors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "pipelines/error_ledger.h"
+#include "pipelines/analysis/error_budget.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pipelines/refinement.h"
-#include "pipelines/superposition.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/superposition/superposition.h"
 #include "tests/unit/pipelines/results_bar.h"
 
 using namespace pipelines;

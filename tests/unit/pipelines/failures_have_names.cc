@@ -7,16 +7,16 @@
 #include <new>
 #include <sstream>
 
-#include "fem/errors.h"
+#include "fem/values/errors.h"
 #include "kinetics/machine_refused.h"
-#include "meshes/refused.h"
-#include "pipelines/accuracy_report.h"
-#include "pipelines/cost_forecast.h"
-#include "pipelines/errors.h"
-#include "pipelines/failure.h"
-#include "pipelines/load_stage.h"
-#include "pipelines/refusal_of.h"
-#include "pipelines/scene.h"
+#include "meshes/values/refused.h"
+#include "pipelines/accuracy/accuracy_report.h"
+#include "pipelines/accuracy/cost_forecast.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/common/failure.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/common/refusal_of.h"
+#include "pipelines/scene/scene.h"
 
 namespace {
 

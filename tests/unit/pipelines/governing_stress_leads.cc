@@ -1,8 +1,8 @@
 /// What a body is judged by, and how it is told.
 #include <gtest/gtest.h>
 
-#include "pipelines/error_text.h"
-#include "pipelines/governing_stress.h"
+#include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/governing_stress.h"
 
 using namespace pipelines;
 

@@ -1,4 +1,4 @@
-#include "pipelines/grid_convergence.h"
+#include "pipelines/accuracy/grid_convergence.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pipelines/hot_spots.h"
+#include "pipelines/analysis/hot_spots.h"
 
 namespace {
 

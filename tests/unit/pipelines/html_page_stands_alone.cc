@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "pipelines/html_page.h"
-#include "pipelines/html_report.h"
+#include "pipelines/files/html_page.h"
+#include "pipelines/report/html_report.h"
 #include "results_directory.h"
 
 using namespace pipelines;

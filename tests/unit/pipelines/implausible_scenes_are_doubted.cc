@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pipelines/plausibility.h"
+#include "pipelines/scene/plausibility.h"
 #include "tests/unit/pipelines/results_directory.h"
 
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pipelines/iteration_memory.h"
-#include "pipelines/response_key.h"
+#include "pipelines/responses/iteration_memory.h"
+#include "pipelines/responses/response_key.h"
 #include "results_directory.h"
 
 namespace {

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "fem/body.h"
+#include "fem/values/body.h"
 #include "kinetics/vibratory_mill.h"
-#include "meshes/body_mesh.h"
-#include "pipelines/load_book.h"
-#include "pipelines/scene.h"
+#include "meshes/values/body_mesh.h"
+#include "pipelines/loads/load_book.h"
+#include "pipelines/scene/scene.h"
 
 namespace laboratory {
 

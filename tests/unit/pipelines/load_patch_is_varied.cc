@@ -1,5 +1,5 @@
 /// The entry `load_patches` on one point whose stress is known in closed form.
-#include "pipelines/load_patch.h"
+#include "pipelines/analysis/load_patch.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bodies.h"
-#include "pipelines/distribute.h"
+#include "pipelines/loads/distribute.h"
 
 namespace {
 

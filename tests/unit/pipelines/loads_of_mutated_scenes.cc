@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-#include "pipelines/scene.h"
+#include "pipelines/scene/scene.h"
 #include "tests/unit/pipelines/results_directory.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "chamber_body.h"
-#include "pipelines/machine_masses.h"
+#include "pipelines/loads/machine_masses.h"
 #include "plain_body.h"
 
 namespace {

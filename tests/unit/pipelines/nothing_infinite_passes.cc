@@ -4,9 +4,9 @@
 #include <limits>
 #include <string>
 
-#include "pipelines/errors.h"
-#include "pipelines/finite.h"
-#include "pipelines/torsion_report.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/common/finite.h"
+#include "pipelines/report/torsion_report.h"
 
 namespace {
 

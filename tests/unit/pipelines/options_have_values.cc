@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "pipelines/errors.h"
-#include "pipelines/option_value.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/commands/option_value.h"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "bodies.h"
-#include "pipelines/body_mesh.h"
-#include "pipelines/machine_masses.h"
-#include "pipelines/scene.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/loads/machine_masses.h"
+#include "pipelines/scene/scene.h"
 
 namespace plain {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "pipelines/pressure_pattern.h"
+#include "pipelines/scene/pressure_pattern.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pipelines/dynamics.h"
+#include "pipelines/analysis/vibration.h"
 
 namespace {
 

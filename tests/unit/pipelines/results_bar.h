@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "fem/unit_responses.h"
-#include "fem/vtk_order.h"
+#include "fem/values/unit_responses.h"
+#include "fem/values/vtk_order.h"
 
 namespace results_test {
 

@@ -9,9 +9,9 @@
 #include <iterator>
 #include <limits>
 
-#include "pipelines/atomic_file.h"
-#include "pipelines/csv.h"
-#include "pipelines/hdf5_file.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/files/csv.h"
+#include "pipelines/files/hdf5_file.h"
 #include "tests/unit/pipelines/results_directory.h"
 
 using namespace pipelines;

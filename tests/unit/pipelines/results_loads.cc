@@ -3,8 +3,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "pipelines/hdf5_file.h"
-#include "pipelines/load_files.h"
+#include "pipelines/files/hdf5_file.h"
+#include "pipelines/loads/load_files.h"
 #include "tests/unit/pipelines/results_directory.h"
 
 using namespace pipelines;

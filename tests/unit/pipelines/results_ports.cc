@@ -14,13 +14,13 @@
 #include <map>
 #include <random>
 
-#include "fem/body_nodes.h"
-#include "pipelines/body_mesh.h"
-#include "pipelines/label_rows.h"
-#include "pipelines/port_picture.h"
-#include "pipelines/port_surface.h"
-#include "pipelines/scene.h"
-#include "pipelines/seen_ports.h"
+#include "fem/values/body_nodes.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/pictures/label_rows.h"
+#include "pipelines/pictures/port_picture.h"
+#include "pipelines/pictures/port_surface.h"
+#include "pipelines/scene/scene.h"
+#include "pipelines/pictures/port_visibility.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 

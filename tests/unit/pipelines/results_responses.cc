@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "pipelines/response_files.h"
+#include "pipelines/responses/response_files.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 

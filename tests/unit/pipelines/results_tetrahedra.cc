@@ -6,9 +6,9 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include "pipelines/response_files.h"
-#include "pipelines/vtk_files.h"
-#include "pipelines/zones.h"
+#include "pipelines/responses/response_files.h"
+#include "pipelines/files/vtk_files.h"
+#include "pipelines/superposition/zones.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 

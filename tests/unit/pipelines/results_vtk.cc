@@ -14,8 +14,8 @@
 #include <cmath>
 #include <set>
 
-#include "fem/vtk_order.h"
-#include "pipelines/vtk_files.h"
+#include "fem/values/vtk_order.h"
+#include "pipelines/files/vtk_files.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 

@@ -9,8 +9,8 @@
 
 #include <functional>
 
-#include "fem/vtk_order.h"
-#include "pipelines/vtk_files.h"
+#include "fem/values/vtk_order.h"
+#include "pipelines/files/vtk_files.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pipelines/cheap_rungs.h"
+#include "pipelines/cheap_models/cheap_responses.h"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include <iterator>
 #include <string>
 
-#include "pipelines/scene.h"
-#include "pipelines/scene_machine.h"
+#include "pipelines/scene/scene.h"
+#include "pipelines/scene/scene_machine.h"
 #include "tests/unit/pipelines/edited_scene.h"
 
 namespace {

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <string>
 
-#include "pipelines/nearest.h"
-#include "pipelines/scene.h"
-#include "pipelines/toml_tree.h"
+#include "pipelines/common/nearest_name.h"
+#include "pipelines/scene/scene.h"
+#include "pipelines/files/toml_tree.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/scene.h"
+#include "pipelines/scene/scene.h"
 
 namespace {
 

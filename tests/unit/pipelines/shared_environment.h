@@ -1,7 +1,7 @@
 /// MPI starts once in a process and ends once: tests that mesh or solve share it.
 #pragma once
 
-#include "pipelines/fem_environment.h"
+#include "pipelines/common/fem_environment.h"
 
 namespace shared {
 

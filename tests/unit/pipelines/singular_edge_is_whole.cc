@@ -1,4 +1,4 @@
-#include "pipelines/singular_edge.h"
+#include "pipelines/search/singular_edge.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "pipelines/peak_growth.h"
+#include "pipelines/search/peak_growth.h"
 
 using namespace pipelines;
 

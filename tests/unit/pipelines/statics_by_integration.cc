@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "pipelines/statics.h"
+#include "pipelines/loads/statics.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "laboratory.h"
-#include "pipelines/statics.h"
+#include "pipelines/loads/statics.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 /// clamp closes, and the load hardly changes.
 #include <gtest/gtest.h>
 
-#include "pipelines/distribute.h"
+#include "pipelines/loads/distribute.h"
 #include "plain_body.h"
 
 namespace {

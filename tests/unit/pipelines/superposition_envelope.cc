@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "pipelines/superposition.h"
-#include "pipelines/superposition_kernel.h"
+#include "pipelines/superposition/superposition.h"
+#include "pipelines/superposition/superposition_kernel.h"
 
 namespace {
 

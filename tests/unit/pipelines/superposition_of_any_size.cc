@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipelines/superposition.h"
+#include "pipelines/superposition/superposition.h"
 
 namespace {
 

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pipelines/closure.h"
-#include "pipelines/errors.h"
-#include "pipelines/load_stage.h"
-#include "pipelines/scene.h"
+#include "pipelines/loads/closure.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/scene.h"
 #include "tests/unit/pipelines/results_directory.h"
 
 namespace {

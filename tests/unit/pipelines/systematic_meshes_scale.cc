@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "laboratory.h"
-#include "pipelines/systematic_meshes.h"
+#include "pipelines/accuracy/systematic_meshes.h"
 
 namespace {
 

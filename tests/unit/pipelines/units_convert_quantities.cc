@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "pipelines/units.h"
+#include "pipelines/common/units.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/vtk_order.h"
-#include "pipelines/zones.h"
+#include "fem/values/vtk_order.h"
+#include "pipelines/superposition/zones.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <random>
 
-#include "fem/vtk_order.h"
-#include "pipelines/calculix_model.h"
+#include "fem/values/vtk_order.h"
+#include "pipelines/calculix/calculix_model.h"
 
 namespace {
 

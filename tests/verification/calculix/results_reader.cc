@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "pipelines/calculix_results.h"
+#include "pipelines/calculix/calculix_results.h"
 #include "tests/unit/pipelines/results_directory.h"
 
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "fem/model.h"
-#include "pipelines/body_mesh.h"
-#include "pipelines/calculix_comparison.h"
-#include "pipelines/calculix_model.h"
+#include "fem/model/model.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/calculix/calculix_comparison.h"
+#include "pipelines/calculix/calculix_model.h"
 #include "tests/benchmarks/benchmark_shaft.h"
 #include "tests/unit/pipelines/results_directory.h"
 

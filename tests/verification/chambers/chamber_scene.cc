@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "pipelines/stage_clock.h"
+#include "pipelines/common/stage_clock.h"
 #include "tests/unit/meshes/example_chambers.h"
 #include "tests/unit/pipelines/edited_scene.h"
 

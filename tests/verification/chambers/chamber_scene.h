@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "meshes/chamber.h"
-#include "pipelines/scene.h"
-#include "pipelines/scene_run.h"
+#include "meshes/chamber/chamber.h"
+#include "pipelines/scene/scene.h"
+#include "pipelines/search/scene_run.h"
 
 namespace chambers {
 

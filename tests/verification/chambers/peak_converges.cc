@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "pipelines/fineness.h"
+#include "pipelines/analysis/fineness.h"
 #include "tests/unit/pipelines/results_directory.h"
 #include "tests/verification/chambers/chamber_scene.h"
 

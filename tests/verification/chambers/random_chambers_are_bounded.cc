@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "pipelines/fineness.h"
-#include "pipelines/governing_stress.h"
-#include "pipelines/refinement.h"
+#include "pipelines/analysis/fineness.h"
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/search/refinement.h"
 #include "tests/unit/meshes/example_chambers.h"
 #include "tests/unit/pipelines/results_directory.h"
 #include "tests/verification/chambers/chamber_scene.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "block_mesh.h"
-#include "fem/cell_stress_at_node.h"
+#include "fem/stress/cell_stress_at_node.h"
 #include "figures.h"
 
 namespace {

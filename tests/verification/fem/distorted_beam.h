@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "block_mesh.h"
-#include "fem/body.h"
+#include "fem/values/body.h"
 
 namespace verification {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fem/mesh_reader.h"
+#include "fem/mesh/mesh_reader.h"
 #include "plane_strain_cylinder.h"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fem/mesh_reader.h"
+#include "fem/mesh/mesh_reader.h"
 
 namespace verification {
 

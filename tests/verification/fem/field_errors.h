@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "fem/cell_stress.h"
+#include "fem/stress/cell_stress.h"
 #include "figures.h"
 
 namespace verification {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/model.h"
+#include "fem/model/model.h"
 
 namespace verification {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "block_mesh.h"
-#include "fem/body_nodes.h"
+#include "fem/values/body_nodes.h"
 #include "figures.h"
 #include "shaft_bodies.h"
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem/model.h"
+#include "fem/model/model.h"
 #include "figures.h"
 #include "shaft_bodies.h"
 

@@ -1,0 +1,76 @@
+#include "fem/common/memory.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace fem {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The number behind a key of a file of lines "key number ..."; `otherwise` without it.
+double number_of(const fs::path& path, const std::string& wanted, double otherwise) {
+  std::ifstream file(path);
+  std::string key;
+  for (double number = 0; file >> key; file.ignore(std::numeric_limits<std::streamsize>::max(), '\n'))
+    if (key == wanted && file >> number) return number;
+  return otherwise;
+}
+
+/// The number that is all of a file; `otherwise` if it holds none ("max").
+double only_number(const fs::path& path, double otherwise) {
+  double number = 0;
+  return std::ifstream(path) >> number ? number : otherwise;
+}
+
+struct Limit {
+  double bytes = unlimited;  ///< that the process may have
+  double used = 0;           ///< by it, or by its group
+};
+
+Limit limit_of_process(int resource, const std::string& used_key) {
+  rlimit limit{};
+  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
+  return {static_cast<double>(limit.rlim_cur), 1024 * number_of("/proc/self/status", used_key, 0)};
+}
+
+/// The tightest of the process' own limits and of its control group's with all above that.
+template <class Measure>
+double smallest_over_limits(const Measure& measure) {
+  double smallest = std::min(measure(limit_of_process(RLIMIT_AS, "VmSize:")),
+                             measure(limit_of_process(RLIMIT_DATA, "VmData:")));
+  const fs::path root = "/sys/fs/cgroup";
+  std::string line, group;
+  for (std::ifstream file("/proc/self/cgroup"); std::getline(file, line);)
+    if (line.rfind("0::/", 0) == 0) group = line.substr(4);
+  for (fs::path path = group;; path = path.parent_path()) {
+    const fs::path here = path.empty() ? root : root / path;
+    const double given_back = number_of(here / "memory.stat", "inactive_file", 0);
+    smallest = std::min(smallest, measure({only_number(here / "memory.max", unlimited),
+                                           only_number(here / "memory.current", 0) - given_back}));
+    if (path.empty()) return smallest;
+  }
+}
+
+}  // namespace
+
+double physical_memory() {
+  const double machine =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  return std::min(machine, smallest_over_limits([](const Limit& limit) { return limit.bytes; }));
+}
+
+double free_memory() {
+  const double machine = number_of("/proc/meminfo", "MemAvailable:", physical_memory() / 1024) * 1024;
+  const auto left = [](const Limit& limit) { return std::max(0.0, limit.bytes - limit.used); };
+  return std::min(machine, smallest_over_limits(left));
+}
+
+}  // namespace fem

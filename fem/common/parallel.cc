@@ -1,0 +1,61 @@
+#include "fem/common/parallel.h"
+
+#include <deal.II/base/parallel.h>
+#include <dlfcn.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace fem {
+
+namespace {
+
+// Looked up at run time: the reference BLAS has no such functions, and both go by the name libblas.so.3; an
+// OpenMP library comes with CHOLMOD only.
+template <typename Function>
+Function* library_function(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+int blas_threads() {
+  const auto get = library_function<int()>("openblas_get_num_threads");
+  return get != nullptr ? get() : 1;
+}
+
+}  // namespace
+
+void parallel_for(std::size_t n, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body) {
+  if (n == 0) return;
+  dealii::parallel::apply_to_subranges(std::size_t{0}, n, body, static_cast<unsigned>(grain));
+}
+
+void release_free_memory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
+void set_blas_threads(int n_threads) {
+  if (const auto set = library_function<void(int)>("openblas_set_num_threads")) set(n_threads);
+}
+
+SerialBlas::SerialBlas() : n_threads_before_(blas_threads()) {
+  set_blas_threads(1);
+}
+
+SerialBlas::~SerialBlas() {
+  set_blas_threads(n_threads_before_);
+}
+
+SerialOpenMp::SerialOpenMp() {
+  const auto get = library_function<int()>("omp_get_max_active_levels");
+  levels_before_ = get != nullptr ? get() : 1;
+  if (const auto set = library_function<void(int)>("omp_set_max_active_levels")) set(0);
+}
+
+SerialOpenMp::~SerialOpenMp() {
+  if (const auto set = library_function<void(int)>("omp_set_max_active_levels")) set(levels_before_);
+}
+
+}  // namespace fem

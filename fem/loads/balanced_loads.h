@@ -1,0 +1,42 @@
+/// What a solver is given and gives. Internal to fem.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/mesh/grid.h"
+#include "fem/values/solver_choice.h"
+
+namespace fem {
+
+using StepReport = std::function<void(double, const std::string&)>;  ///< as Progress of model.h
+
+/// Load vectors, without resultants unless clamps hold the body, and the sizes of those as applied. A
+/// balanced one may vanish (a uniform acceleration), and is no scale.
+struct BalancedLoads {
+  Eigen::MatrixXd force;
+  std::vector<std::int64_t> clamped;  ///< unknowns that clamps hold, ascending; none on a free body
+  Eigen::RowVectorXd norm, largest_entry;
+};
+
+/// Rounding alone leaves eps |K| |u| / |f|, up to 1e-9 in slender bodies: refinement cannot go below that.
+inline constexpr double acceptable_residual = 1e-8;
+
+/// Displacements of the loads, with any rigid motion.
+struct Solution {
+  Eigen::MatrixXd displacement;
+  double residual = 0;          ///< largest |K u - f| / |f|
+  double rounding = 0;          ///< as SolverReport
+  double support_reaction = 0;  ///< largest, over the load vector's largest entry; 0 without supports
+  double factor_gigabytes = 0;
+  FactorSize factor{};
+  double bytes = 0;  ///< taken by the solver
+  int n_iterations = 0;
+  std::vector<RankWork> ranks{};  ///< as SolverReport
+};
+
+}  // namespace fem

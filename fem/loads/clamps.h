@@ -1,0 +1,22 @@
+/// Surfaces held in space: unknowns without displacement. Internal to fem.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/mesh/grid.h"
+#include "fem/operators/symmetric_matrix.h"
+
+namespace fem {
+
+/// The unknowns that the clamps hold, ascending, each once; none without clamps.
+/// @throws std::invalid_argument for a group without faces, a clamp that fixes no direction or holds no node,
+/// and if together they leave the body a rigid motion, naming it
+std::vector<std::int64_t> clamped_unknowns(const Grid& grid, const std::vector<Clamp>& clamps);
+
+/// Zeroes rows and columns of the unknowns and leaves their diagonal.
+/// @param unknowns  ascending
+void clamp(const std::vector<std::int64_t>& unknowns, SymmetricMatrix& matrix);
+
+}  // namespace fem

@@ -1,0 +1,122 @@
+#include <map>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "fem/loads/surface_loads.h"
+
+namespace fem {
+
+Eigen::VectorXd body_force(const NodeIntegrals& integrals, double density_kg_m3, BodyForce::Field field) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * integrals.rows());
+  for (Eigen::Index i = 0; i < integrals.rows(); ++i) {
+    const double v = integrals(i, 0), vx = integrals(i, 1), vy = integrals(i, 2);
+    auto f = force.segment<3>(3 * i);
+    switch (field) {
+      case BodyForce::Field::translation_x:
+        f << v, 0, 0;
+        break;
+      case BodyForce::Field::translation_y:
+        f << 0, v, 0;
+        break;
+      case BodyForce::Field::translation_z:
+        f << 0, 0, v;
+        break;
+      case BodyForce::Field::rotation:
+        f << -vy, vx, 0;
+        break;
+      case BodyForce::Field::spin:
+        f << vx, vy, 0;
+        break;
+    }
+  }
+  return density_kg_m3 * force;
+}
+
+namespace {
+
+/// Fills one column; remembers the surfaces it has met.
+class Columns {
+public:
+  Columns(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
+          const PerCell<double>& relative_density)
+      : grid_(grid),
+        integrals_(integrals),
+        density_kg_m3_(density_kg_m3),
+        relative_density_(relative_density) {}
+
+  void fill(const SurfaceResultant& load, Eigen::Ref<Eigen::VectorXd> column) {
+    const auto& surface = find(load.surface);
+    scatter(surface, surface.resultant(load.component), column);
+  }
+  void fill(const SeatPressure& load, Eigen::Ref<Eigen::VectorXd> column) {
+    const auto& surface = find(load.surface);
+    scatter(surface, surface.pressure(load), column);
+  }
+  void fill(const BodyForce& load, Eigen::Ref<Eigen::VectorXd> column) {
+    column = body_force(integrals_over(load.volume_ids), density_kg_m3_, load.field);
+  }
+
+private:
+  const LoadedSurface& find(const LoadSurface& wanted) {
+    for (const auto& known : surfaces_)
+      if (same_surface(known->surface(), wanted)) return *known;
+    surfaces_.push_back(std::make_unique<LoadedSurface>(grid_, wanted));
+    return *surfaces_.back();
+  }
+  const NodeIntegrals& integrals_over(const std::vector<int>& volume_ids) {
+    if (volume_ids.empty()) return integrals_;
+    auto [known, is_new] = regions_.try_emplace(volume_ids);
+    if (is_new) known->second = integrate_nodes(grid_, volume_ids, relative_density_);
+    return known->second;
+  }
+  static void scatter(const LoadedSurface& surface, const Eigen::VectorXd& force,
+                      Eigen::Ref<Eigen::VectorXd> column) {
+    for (std::size_t i = 0; i < surface.nodes().size(); ++i)
+      column.segment<3>(3 * std::size_t(surface.nodes()[i])) = force.segment<3>(3 * i);
+  }
+
+  const Grid& grid_;
+  const NodeIntegrals& integrals_;
+  double density_kg_m3_;
+  PerCell<double> relative_density_;
+  std::vector<std::unique_ptr<LoadedSurface>> surfaces_;
+  std::map<std::vector<int>, NodeIntegrals> regions_;
+};
+
+}  // namespace
+
+Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
+                             const std::vector<UnitLoad>& loads, const PerCell<double>& relative_density) {
+  if (loads.empty()) throw std::invalid_argument("no unit loads: nothing to solve");
+  std::set<std::string> channels;
+  for (const auto& load : loads) {
+    if (load.channel.empty()) throw std::invalid_argument("a unit load without a channel name");
+    if (!channels.insert(load.channel).second)
+      throw std::invalid_argument("channel " + load.channel + " appears twice among the unit loads");
+  }
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * grid.n_nodes, loads.size());
+  Columns columns(grid, integrals, density_kg_m3, relative_density);
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    try {
+      std::visit([&](const auto& shape) { columns.fill(shape, force.col(k)); }, loads[k].shape);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("channel " + loads[k].channel + ": " + error.what());
+    }
+  }
+  return force;
+}
+
+Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface) {
+  using Component = SurfaceResultant::Component;
+  const LoadedSurface loaded(grid, surface);
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * grid.n_nodes, 3);
+  for (const auto component : {Component::fx, Component::fy, Component::fz}) {
+    const Eigen::VectorXd own = loaded.resultant(component);
+    for (std::size_t i = 0; i < loaded.nodes().size(); ++i)
+      force.block<3, 1>(3 * std::size_t(loaded.nodes()[i]), int(component)) = own.segment<3>(3 * i);
+  }
+  return force;
+}
+
+}  // namespace fem

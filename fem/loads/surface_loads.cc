@@ -1,0 +1,139 @@
+#include "fem/loads/surface_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "fem/loads/axial_profile.h"
+#include "fem/mesh/cell_geometry.h"
+#include "fem/values/constants.h"
+#include "fem/common/dense_algebra.h"
+#include "fem/values/errors.h"
+#include "fem/mesh/reference_cell.h"
+
+namespace fem {
+
+namespace {
+
+void refuse_impossible(const LoadSurface& surface) {
+  const bool seat = surface.kind == LoadSurface::Kind::seat;
+  if (seat && !(surface.radius_m > 0 && surface.length_m > 0))
+    throw std::invalid_argument("loaded surface with boundary group " + std::to_string(surface.boundary_id) +
+                                ": radius and length must be positive");
+}
+
+}  // namespace
+
+LoadedSurface::LoadedSurface(const Grid& grid, const LoadSurface& surface) : grid_(&grid), surface_(surface) {
+  refuse_impossible(surface);
+  for (const auto& face : grid.boundary)
+    if (face.boundary_id == surface.boundary_id) faces_.push_back(face);
+  if (faces_.empty())
+    throw std::invalid_argument("the mesh has no faces in the boundary group " +
+                                std::to_string(surface.boundary_id) +
+                                " of a loaded surface: check the port's group in the mesh");
+  for (const auto& face : faces_)
+    for (const auto node : nodes_of_face(grid, face.cell, face.face)) nodes_.push_back(node);
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+
+  // Six tractions whose resultants are about right, in the order of Component; the mesh's own resultants then
+  // make them exact. local = position from the centre.
+  using V = Eigen::Vector3d;
+  std::vector<Traction> raw;
+  if (surface.kind == LoadSurface::Kind::seat) {
+    const auto taper = [half = surface.length_m / 2](double z) {
+      return std::max(0.0, 1 - z * z / (half * half));
+    };
+    const auto ring = [](const V& p) { return std::hypot(p[0], p[1]); };
+    const AxialProfile profile(surface);
+    raw = {[=](const V& p, const V& n) -> V { return profile(p[2]) * p[0] / ring(p) * n; },
+           [=](const V& p, const V& n) -> V { return profile(p[2]) * p[1] / ring(p) * n; },
+           [=](const V& p, const V&) -> V { return taper(p[2]) * V::UnitZ(); },
+           [=](const V& p, const V& n) -> V { return p[2] * p[1] / ring(p) * n; },
+           [=](const V& p, const V& n) -> V { return p[2] * p[0] / ring(p) * n; },
+           [=](const V& p, const V&) -> V { return taper(p[2]) / ring(p) * V(-p[1], p[0], 0); }};
+  } else {
+    raw = {[](const V&, const V&) -> V { return V::UnitX(); },
+           [](const V&, const V&) -> V { return V::UnitY(); },
+           [](const V&, const V&) -> V { return V::UnitZ(); },
+           [](const V& p, const V&) -> V { return V::UnitX().cross(p); },
+           [](const V& p, const V&) -> V { return V::UnitY().cross(p); },
+           [](const V& p, const V&) -> V { return V::UnitZ().cross(p); }};
+  }
+  basis_.resize(3 * nodes_.size(), 6);
+  for (int k = 0; k < 6; ++k) basis_.col(k) = integrate(raw[k]);
+  basis_.colwise().normalize();
+  if (!is_invertible(about_centre(basis_)))
+    throw MeshUnusable("the faces of boundary group " + std::to_string(surface.boundary_id) +
+                       " cannot carry six independent resultants: a seat must go all the way round its axis");
+  // Twice: the second pass takes out what rounding left in the first.
+  for (int pass = 0; pass < 2; ++pass) basis_ = product(basis_, inverse(about_centre(basis_)));
+}
+
+Eigen::VectorXd LoadedSurface::integrate(const Traction& traction) const {
+  const Tabulation at = gauss_on_face(grid_->shape(), grid_->degree + 3);
+  const Eigen::Map<const Eigen::Vector3d> centre(surface_.centre_m.data());
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * nodes_.size());
+  for (const auto& face : faces_) {
+    const auto face_nodes = nodes_of_face(*grid_, face.cell, face.face);
+    std::vector<std::size_t> place;
+    for (const auto node : face_nodes)
+      place.push_back(std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin());
+    for (int q = 0; q < at.n_points; ++q) {
+      const FacePoint p = face_point(*grid_, face_nodes, at, q);
+      const double area = p.area.norm();
+      const Eigen::Vector3d t = area * traction(p.position - centre, p.area / area);
+      for (int i = 0; i < at.n_shapes; ++i)
+        force.segment<3>(3 * place[i]) += at.value[std::size_t(q) * at.n_shapes + i] * t;
+    }
+  }
+  return force;
+}
+
+Eigen::MatrixXd LoadedSurface::about_centre(const Eigen::MatrixXd& force) const {
+  const Eigen::Map<const Eigen::Vector3d> centre(surface_.centre_m.data());
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(6, force.cols());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Eigen::Vector3d x = Eigen::Map<const Eigen::Vector3d>(grid_->position(nodes_[i])) - centre;
+    for (Eigen::Index k = 0; k < force.cols(); ++k) {
+      const Eigen::Vector3d f = force.block<3, 1>(3 * i, k);
+      sums.col(k).head<3>() += f;
+      sums.col(k).tail<3>() += x.cross(f);
+    }
+  }
+  return sums;
+}
+
+Eigen::VectorXd LoadedSurface::resultant(SurfaceResultant::Component component) const {
+  return basis_.col(static_cast<int>(component));
+}
+
+Eigen::VectorXd LoadedSurface::pressure(const SeatPressure& load) const {
+  if (surface_.kind != LoadSurface::Kind::seat)
+    throw std::invalid_argument("pressure harmonics need a seat; a face has none");
+  const int n = load.harmonic;
+  if (n < 0 || n == 1)
+    throw std::invalid_argument("pressure harmonic " + std::to_string(n) +
+                                ": must be 0, 2, 3 ... (harmonic 1 is the resultant fx, fy)");
+  const bool sine = load.phase == SeatPressure::Phase::sine;
+  if (sine && n == 0) throw std::invalid_argument("pressure harmonic 0 has no sine phase");
+  const AxialProfile profile(surface_);
+  const double scale = load.coefficient / (pi * surface_.radius_m * surface_.length_m);
+  Eigen::VectorXd force =
+      integrate([&](const Eigen::Vector3d& p, const Eigen::Vector3d& normal) -> Eigen::Vector3d {
+        const double theta = std::atan2(p[1], p[0]);
+        return -scale * profile(p[2]) * (sine ? std::sin(n * theta) : std::cos(n * theta)) * normal;
+      });
+  if (load.keeps_resultants) return force;
+  for (int pass = 0; pass < 2; ++pass) subtract_product(basis_, about_centre(force), force);
+  return force;
+}
+
+bool same_surface(const LoadSurface& a, const LoadSurface& b) {
+  return a.kind == b.kind && a.boundary_id == b.boundary_id && a.centre_m == b.centre_m &&
+         a.radius_m == b.radius_m && a.length_m == b.length_m && a.axial_profile == b.axial_profile;
+}
+
+}  // namespace fem

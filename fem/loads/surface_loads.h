@@ -1,0 +1,69 @@
+/// Load vectors of surfaces and of body forces. Internal to fem.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "fem/mesh/grid.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/values/unit_load.h"
+
+namespace fem {
+
+/// Nodal forces on the nodes of one surface: row 3 i + d belongs to component d of nodes[i]; one column per
+/// vector.
+struct SurfaceForces {
+  std::vector<std::int32_t> nodes;
+  Eigen::MatrixXd force;
+};
+
+/// A surface and its six exact unit resultants (fx, fy, fz, mx, my, torque about the surface's centre).
+class LoadedSurface {
+public:
+  /// @throws std::invalid_argument if the group has no faces, or the sizes of the surface are not positive
+  /// @throws MeshUnusable if its faces cannot carry six independent resultants
+  LoadedSurface(const Grid& grid, const LoadSurface& surface);
+
+  const LoadSurface& surface() const noexcept { return surface_; }
+  const std::vector<std::int32_t>& nodes() const noexcept { return nodes_; }
+
+  /// Unit resultant: force on the surface's nodes.
+  Eigen::VectorXd resultant(SurfaceResultant::Component component) const;
+
+  /// Harmonic of the seat pressure without its discrete resultants, unless it keeps them; `load.surface` is
+  /// this one.
+  /// @throws std::invalid_argument for harmonic 1 or a negative one, the sine of harmonic 0, or a face
+  Eigen::VectorXd pressure(const SeatPressure& load) const;
+
+private:
+  using Traction =
+      std::function<Eigen::Vector3d(const Eigen::Vector3d& local, const Eigen::Vector3d& normal)>;
+  Eigen::VectorXd integrate(const Traction& traction) const;
+  Eigen::MatrixXd about_centre(const Eigen::MatrixXd& force) const;  // 6 x columns
+
+  const Grid* grid_;
+  LoadSurface surface_;
+  std::vector<BoundaryFace> faces_;
+  std::vector<std::int32_t> nodes_;
+  Eigen::MatrixXd basis_;  // 3 n x 6
+};
+
+/// Whether two loads act on the same surface, so that one LoadedSurface serves both.
+bool same_surface(const LoadSurface& a, const LoadSurface& b);
+
+/// Body force on all nodes (3 n_nodes); `integrals` over the cells it acts on.
+Eigen::VectorXd body_force(const NodeIntegrals& integrals, double density_kg_m3, BodyForce::Field field);
+
+/// All load vectors as applied, one column per load.
+/// @throws std::invalid_argument for an empty list, an empty or repeated channel, a body force on a volume
+/// group without cells, and as LoadedSurface, naming the channel
+Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
+                             const std::vector<UnitLoad>& loads,
+                             const PerCell<double>& relative_density = 1.0);
+
+/// Unit resultants of a surface as columns (3 n_nodes x 3): fx, fy, fz.
+Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface);
+
+}  // namespace fem

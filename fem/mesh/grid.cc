@@ -1,0 +1,78 @@
+#include "fem/mesh/grid.h"
+
+#include <algorithm>
+
+namespace fem {
+
+std::vector<int> face_nodes(CellShape shape, int face) {
+  if (shape.is_tetrahedron()) {
+    static const std::vector<int> nodes[4] = {
+        {1, 2, 3, 5, 9, 8}, {0, 3, 2, 7, 9, 6}, {0, 1, 3, 4, 8, 7}, {0, 2, 1, 6, 5, 4}};
+    return nodes[face];
+  }
+  const int degree = shape.degree, n = degree + 1;
+  const std::array<int, 3> stride = {{1, n, n * n}};
+  const int axis = face / 2;
+  const bool high = face % 2 == 1;
+  int first = (axis + 1) % 3, second = (axis + 2) % 3;  // first x second = +axis
+  if (!high) std::swap(first, second);
+  std::vector<int> nodes;
+  nodes.reserve(n * n);
+  for (int b = 0; b < n; ++b)
+    for (int a = 0; a < n; ++a)
+      nodes.push_back((high ? degree * stride[axis] : 0) + a * stride[first] + b * stride[second]);
+  return nodes;
+}
+
+std::vector<int> face_corners(CellShape shape) {
+  if (shape.is_tetrahedron()) return {0, 1, 2};
+  const int k = shape.degree;
+  return {0, k, k * (k + 1), k * (k + 2)};
+}
+
+std::vector<int> corner_nodes(CellShape shape) {
+  if (shape.is_tetrahedron()) return {0, 1, 2, 3};
+  const int degree = shape.degree, n = degree + 1;
+  std::vector<int> nodes(8);
+  for (int c = 0; c < 8; ++c) nodes[c] = degree * ((c & 1) + n * ((c >> 1) & 1) + n * n * (c >> 2));
+  return nodes;
+}
+
+bool joined_by_edge(CellShape shape, int corner, int other) {
+  const int difference = corner ^ other;
+  return shape.is_tetrahedron() ? difference != 0 : difference == 1 || difference == 2 || difference == 4;
+}
+
+CellsOfNodes cells_of_nodes(const Grid& grid) {
+  CellsOfNodes result;
+  result.begin.assign(grid.n_nodes + 1, 0);
+  for (const auto node : grid.cell_nodes) ++result.begin[node + 1];
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) result.begin[i + 1] += result.begin[i];
+  result.cell.resize(grid.cell_nodes.size());
+  auto next = result.begin;
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (int i = 0; i < grid.nodes_per_cell(); ++i)
+      result.cell[next[grid.nodes_of(c)[i]]++] = static_cast<std::int32_t>(c);
+  return result;
+}
+
+std::vector<std::vector<std::int32_t>> colour_cells(const Grid& grid, const CellsOfNodes& cells) {
+  std::vector<std::vector<std::int32_t>> groups;
+  std::vector<int> colour(grid.n_cells(), -1);
+  std::vector<char> taken;
+  const auto corners = corner_nodes(grid.shape());  // cells that share any node share a corner
+  for (std::size_t c = 0; c < grid.n_cells(); ++c) {
+    taken.assign(groups.size() + 1, 0);
+    for (const int corner : corners) {
+      const auto node = grid.nodes_of(c)[corner];
+      for (auto k = cells.begin[node]; k < cells.begin[node + 1]; ++k)
+        if (colour[cells.cell[k]] >= 0) taken[colour[cells.cell[k]]] = 1;
+    }
+    colour[c] = static_cast<int>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
+    if (colour[c] == static_cast<int>(groups.size())) groups.emplace_back();
+    groups[colour[c]].push_back(static_cast<std::int32_t>(c));
+  }
+  return groups;
+}
+
+}  // namespace fem

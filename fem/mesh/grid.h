@@ -1,0 +1,69 @@
+/// The mesh as fem computes with it: nodes of the isoparametric cells, as plain arrays. Internal to fem.
+///
+/// Hexahedra Q_k: reference cell [0,1]^3. The (k+1)^3 nodes of a cell are lexicographic, the first coordinate
+/// runs fastest. Face f of a cell is normal to axis f/2, at its low (f even) or high (f odd) end.
+///
+/// Tetrahedra P_2: reference cell with the corners 0, e_x, e_y, e_z. Nodes are those corners, then the
+/// middles of the edges 01, 12, 20, 03, 13, 23 (VTK's order). Face f lies opposite corner f.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fem/values/cell_shape.h"
+
+namespace fem {
+
+struct BoundaryFace {
+  std::int32_t cell = 0;
+  int face = 0;         ///< 0..5, tetrahedra 0..3
+  int boundary_id = 0;  ///< physical group
+};
+
+struct Grid {
+  CellKind kind = CellKind::hexahedra;
+  int degree = 2;
+  std::size_t n_nodes = 0;
+  std::vector<double> xyz_m;             ///< n_nodes x 3
+  std::vector<std::int32_t> cell_nodes;  ///< n_cells x nodes_per_cell, in the order above
+  std::vector<int> volume_id;            ///< n_cells
+  std::vector<BoundaryFace> boundary;
+  std::vector<BoundaryFace> interfaces{};  ///< faces inside the body where no stress is smoothed across
+
+  std::size_t n_cells() const noexcept { return volume_id.size(); }
+  CellShape shape() const noexcept { return {kind, degree}; }
+  int nodes_per_cell() const noexcept { return shape().nodes_per_cell(); }
+  int nodes_per_face() const noexcept { return shape().nodes_per_face(); }
+  const std::int32_t* nodes_of(std::size_t cell) const { return cell_nodes.data() + cell * nodes_per_cell(); }
+  const double* position(std::int32_t node) const { return xyz_m.data() + 3 * std::size_t(node); }
+};
+
+/// Local node numbers of a face. Hexahedra: lexicographic in two directions whose cross product points out of
+/// the cell. Tetrahedra: corners counter-clockwise seen from outside, then the middles of the edges 01, 12,
+/// 20.
+std::vector<int> face_nodes(CellShape shape, int face);
+
+/// Places of the corners among the nodes of a face.
+std::vector<int> face_corners(CellShape shape);
+
+/// Local node numbers of the corners: 8 lexicographic ones, or 4.
+std::vector<int> corner_nodes(CellShape shape);
+
+/// Whether an edge joins two corners (by their places in corner_nodes).
+bool joined_by_edge(CellShape shape, int corner, int other);
+
+/// Cells that contain a node, for all nodes: cells of node i are cell[begin[i]] .. cell[begin[i+1]-1],
+/// ascending.
+struct CellsOfNodes {
+  std::vector<std::size_t> begin;
+  std::vector<std::int32_t> cell;
+};
+CellsOfNodes cells_of_nodes(const Grid& grid);
+
+/// Groups of cells of which no two share a node. Adding to nodes group after group, in parallel inside a
+/// group, gives the same sums for every number of threads.
+std::vector<std::vector<std::int32_t>> colour_cells(const Grid& grid, const CellsOfNodes& cells);
+
+}  // namespace fem

@@ -1,0 +1,110 @@
+#include "fem/mesh/mesh_reader.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_tools.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/tria.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "fem/mesh/cell_geometry.h"
+#include "fem/values/errors.h"
+#include "fem/mesh/manifolds.h"
+#include "fem/mesh/msh_file.h"
+#include "fem/mesh/tetrahedra_reader.h"
+
+namespace fem {
+
+namespace {
+
+/// deal.II's reader trusts the file: one that was cut off makes it write out of bounds.
+std::string read_whole(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw MeshUnusable("cannot open the mesh file " + path.string());
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  if (text.find("$EndElements") == std::string::npos)
+    throw MeshUnusable("the mesh file " + path.string() + " is cut off: it has no $EndElements");
+  return text;
+}
+
+void read_mesh(const std::filesystem::path& path, const std::string& content,
+               dealii::Triangulation<3>& mesh) {
+  std::istringstream text(content);
+  dealii::GridIn<3> reader(mesh);
+  try {
+    reader.read_msh(text);  // the overload for file names would end the program's own gmsh session
+  } catch (const dealii::ExceptionBase& error) {
+    throw MeshUnusable("cannot read the mesh file " + path.string() +
+                       " (a .msh of linear hexahedra is expected): " + error.what());
+  }
+  if (!mesh.all_reference_cells_are_hyper_cube())
+    throw MeshUnusable("the mesh file " + path.string() + " has cells that are no hexahedra");
+}
+
+Grid read_tetrahedra(const Body& body, const std::string& text) {
+  if (!body.cylinders.empty() || !body.tori.empty())
+    throw std::invalid_argument("the mesh file " + body.mesh.string() +
+                                " has quadratic tetrahedra, curved as they are: charts are for hexahedra");
+  if (body.degree != 2)
+    throw std::invalid_argument("degree = " + std::to_string(body.degree) +
+                                ": must be 2 for the quadratic tetrahedra of " + body.mesh.string());
+  Grid grid = tetrahedra_grid(parse_msh(text, body.mesh.string()), body.mesh.string());
+  refuse_inverted_cells(grid);
+  return grid;
+}
+
+}  // namespace
+
+Grid read_grid(const Body& body) {
+  if (body.degree < 1 || body.degree > 3)
+    throw std::invalid_argument("degree = " + std::to_string(body.degree) + ": must be 1, 2 or 3");
+  const std::string text = read_whole(body.mesh);
+  if (has_tetrahedra(element_types(text))) return read_tetrahedra(body, text);
+  dealii::Triangulation<3> mesh;
+  read_mesh(body.mesh, text, mesh);
+  attach_charts(mesh, body.cylinders, body.tori);
+
+  // One scalar space numbers the nodes: the unknowns of node i are 3 i, 3 i + 1, 3 i + 2. The mapping has the
+  // same degree, so geometry and displacement share their nodes and rigid rotations are in the space exactly.
+  const dealii::FE_Q<3> element(body.degree);
+  dealii::DoFHandler<3> nodes(mesh);
+  nodes.distribute_dofs(element);
+  const auto hierarchic = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(body.degree);
+  std::vector<dealii::Point<3>> support_points;
+  for (const auto i : hierarchic) support_points.push_back(element.get_unit_support_points()[i]);
+  const dealii::MappingQ<3> mapping(body.degree);
+  dealii::FEValues<3> values(mapping, element, dealii::Quadrature<3>(support_points),
+                             dealii::update_quadrature_points);
+
+  Grid grid;
+  grid.degree = body.degree;
+  grid.n_nodes = nodes.n_dofs();
+  grid.xyz_m.resize(3 * grid.n_nodes);
+  grid.cell_nodes.reserve(mesh.n_active_cells() * support_points.size());
+  std::vector<dealii::types::global_dof_index> numbers(support_points.size());
+  for (const auto& cell : nodes.active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(numbers);
+    for (std::size_t i = 0; i < support_points.size(); ++i) {
+      const auto node = numbers[hierarchic[i]];
+      grid.cell_nodes.push_back(static_cast<std::int32_t>(node));
+      for (int d = 0; d < 3; ++d) grid.xyz_m[3 * node + d] = values.quadrature_point(i)[d];
+    }
+    for (const auto face : cell->face_indices())
+      if (cell->face(face)->at_boundary())
+        grid.boundary.push_back({static_cast<std::int32_t>(grid.n_cells()), static_cast<int>(face),
+                                 static_cast<int>(cell->face(face)->boundary_id())});
+    grid.volume_id.push_back(static_cast<int>(cell->material_id()));
+  }
+  refuse_inverted_cells(grid);
+  return grid;
+}
+
+}  // namespace fem

@@ -1,0 +1,69 @@
+/// Mass integrals of the nodes, the six rigid modes, and the balancing of load vectors. Internal to fem.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/mesh/grid.h"
+#include "fem/values/per_cell.h"
+
+namespace fem {
+
+/// Integrals over the body of N_i, N_i x, N_i y, N_i z for every node (n x 4). Gauss points in number that
+/// makes them exact on isoparametric cells: mass, first and second moments, body loads and balancing all come
+/// from this table.
+/// @param weight  of the cells: relative density
+using NodeIntegrals = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
+                              const PerCell<double>& weight = 1.0);
+
+/// The same over the cells of some volume groups only; zero at the other nodes.
+/// @throws std::invalid_argument if one of the groups has no cells
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids,
+                              const PerCell<double>& weight = 1.0);
+
+/// @param density_kg_m3  of the cells with weight 1; volume_m3 is the integrals', weighted as they are
+MassProperties mass_properties(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3);
+
+/// Displacements of unit translations along and unit rotations about x, y, z through `centre` (3 n x 6).
+Eigen::MatrixXd rigid_modes(const Grid& grid, const Eigen::Vector3d& centre);
+
+/// fx, fy, fz, mx, my, mz about `centre` of each column of nodal forces (6 x columns).
+Eigen::MatrixXd resultants(const Grid& grid, const Eigen::MatrixXd& force, const Eigen::Vector3d& centre);
+
+/// Takes resultants out of loads and rigid motion out of displacements, both by the mass (of density 1). Grid
+/// and integrals are referred to, not copied.
+class RigidBalance {
+public:
+  RigidBalance(const Grid& grid, const NodeIntegrals& integrals);
+  RigidBalance(const Grid& grid, NodeIntegrals&& integrals) = delete;  // would be gone
+  void balance(Eigen::MatrixXd& force) const;                          ///< f - M R (R'MR)^-1 R'f
+  void remove_motion(Eigen::MatrixXd& displacement) const;             ///< u - R (R'MR)^-1 R'M u
+
+private:
+  Eigen::Vector3d place_m(Eigen::Index node) const;  // from the centre of mass
+  Eigen::Vector3d moment(Eigen::Index node) const;   // of its mass about it: integral of N_i x
+  double mass(Eigen::Index node) const { return integrals_(node, 0); }  // integral of N_i
+
+  const Grid& grid_;
+  const NodeIntegrals& integrals_;
+  Eigen::Vector3d centre_m_;
+  Eigen::Matrix<double, 6, 6> inverse_;  // (R'MR)^-1
+};
+
+/// Takes the part along some vectors out of others, by the dot product: what rounding leaves of rigid motion
+/// in forces that should balance would be answered by large displacements.
+class WithoutModes {
+public:
+  WithoutModes() = default;
+  /// @param modes  one per column; of rank 6 for those of a body
+  explicit WithoutModes(const Eigen::MatrixXd& modes);
+  void apply(Eigen::MatrixXd& vectors) const;
+  std::size_t bytes() const { return 8 * std::size_t(basis_.size()); }
+
+private:
+  Eigen::MatrixXd basis_;  // orthonormal
+};
+
+}  // namespace fem

@@ -1,0 +1,319 @@
+#include "fem/model/model.h"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "fem/loads/balanced_loads.h"
+#include "fem/operators/cell_materials.h"
+#include "fem/loads/clamps.h"
+#include "fem/mesh/connected_pieces.h"
+#include "fem/solvers/direct_on_ranks.h"
+#include "fem/solvers/direct_solve.h"
+#include "fem/loads/elastic_supports.h"
+#include "fem/stress/energy_error.h"
+#include "fem/values/errors.h"
+#include "fem/mesh/geometry_error.h"
+#include "fem/mesh/grid.h"
+#include "fem/ranks/helper_ranks.h"
+#include "fem/solvers/iterative_on_ranks.h"
+#include "fem/solvers/iterative_solve.h"
+#include "fem/operators/material_interfaces.h"
+#include "fem/common/memory.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/modes/natural_frequencies.h"
+#include "fem/operators/nodes_export.h"
+#include "fem/ranks/ranks.h"
+#include "fem/stress/recovery_on_ranks.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/stress/sections.h"
+#include "fem/solvers/solver_prediction.h"
+#include "fem/operators/stiffness.h"
+#include "fem/loads/surface_loads.h"
+
+namespace fem {
+
+struct Model::Impl {
+  /// Where stress lives, if not on the nodes of displacement.
+  struct Seen {
+    SplitGrid split;
+    CellsOfNodes cells;
+    NodeIntegrals volumes;
+  };
+
+  MPI_Comm communicator = MPI_COMM_WORLD;
+  Body body;
+  Grid grid;
+  CellsOfNodes cells;
+  std::vector<std::vector<std::int32_t>> colours;
+  CellMaterials materials{Material{}};
+  NodeIntegrals integrals;   // of the volume, weighted with the density relative to body.material's
+  std::optional<Seen> seen;  // only of several materials
+
+  PerCell<double> relative_density() const { return materials.density(body.material.density_kg_m3); }
+};
+
+Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
+    : impl_(std::make_unique<Impl>()) {
+  if (this_rank(communicator) != 0)
+    throw std::logic_error("a model was made on MPI rank " + std::to_string(this_rank(communicator)) +
+                           ": models live on rank 0, every other rank calls help_first_rank");
+  refuse_impossible(body.material);
+  if (progress) progress(0, "read mesh");
+  impl_->communicator = communicator;
+  impl_->body = body;
+  impl_->grid = read_grid(body);
+  refuse_several_pieces(impl_->grid);
+  impl_->materials = CellMaterials(impl_->grid, body);
+  impl_->cells = cells_of_nodes(impl_->grid);
+  impl_->colours = colour_cells(impl_->grid, impl_->cells);
+  impl_->integrals = integrate_nodes(impl_->grid, impl_->colours, impl_->relative_density());
+  if (impl_->materials.is_uniform()) return;
+  auto& seen = impl_->seen.emplace();
+  seen.split = split_at_interfaces(impl_->grid, impl_->cells, impl_->materials);
+  seen.cells = cells_of_nodes(seen.split.grid);
+  seen.volumes = integrate_nodes(seen.split.grid, impl_->colours);
+}
+
+Model::~Model() = default;
+Model::Model(Model&&) noexcept = default;
+
+std::size_t Model::n_dofs() const {
+  return 3 * impl_->grid.n_nodes;
+}
+
+MassProperties Model::mass_properties() const {
+  auto masses = fem::mass_properties(impl_->grid, impl_->integrals, impl_->body.material.density_kg_m3);
+  if (impl_->seen) masses.volume_m3 = impl_->seen->volumes.col(0).sum();
+  return masses;
+}
+
+MassProperties Model::mass_properties(const std::vector<int>& volume_ids) const {
+  auto masses =
+      fem::mass_properties(impl_->grid, integrate_nodes(impl_->grid, volume_ids, impl_->relative_density()),
+                           impl_->body.material.density_kg_m3);
+  masses.volume_m3 = integrate_nodes(impl_->grid, volume_ids).col(0).sum();
+  return masses;
+}
+
+GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const {
+  return fem::geometry_error(impl_->grid, impl_->body, seats);
+}
+
+std::vector<NaturalMode> Model::natural_frequencies(int n_modes) const {
+  auto modes = fem::natural_frequencies(
+      VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body, impl_->materials), n_modes);
+  if (impl_->seen)
+    for (auto& mode : modes)
+      for (const auto node : impl_->seen->split.copy)
+        for (int d = 0; d < 3; ++d) mode.shape.push_back(mode.shape[3 * std::size_t(node) + d]);
+  return modes;
+}
+
+namespace {
+
+/// Powers of two that bring the largest entry of each column to size 1, so that squares of neither small nor
+/// large loads leave the range of numbers, and no bit changes; 1 for a column of zeros.
+Eigen::RowVectorXd to_unit_size(const Eigen::MatrixXd& force) {
+  Eigen::RowVectorXd scale = Eigen::RowVectorXd::Ones(force.cols());
+  for (Eigen::Index k = 0; k < force.cols(); ++k) {
+    const double largest = force.col(k).lpNorm<Eigen::Infinity>();
+    if (largest > 0 && std::isfinite(largest))
+      scale[k] = std::ldexp(1.0, std::max(-1000, std::min(1000, -std::ilogb(largest))));
+  }
+  return scale;
+}
+
+BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>& clamped,
+                      Eigen::MatrixXd force) {
+  BalancedLoads loads;
+  loads.clamped = clamped;
+  loads.norm = force.colwise().norm().cwiseMax(1e-300);
+  loads.largest_entry = force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300);
+  if (clamped.empty()) rigid.balance(force);
+  loads.force = std::move(force);
+  return loads;
+}
+
+/// Nothing if it gives up, which the report then tells.
+std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& materials,
+                                        const BalancedLoads& loads, const SolverChoice& choice,
+                                        const Progress& progress, SolverReport& report,
+                                        MPI_Comm communicator) {
+  std::string failure;
+  try {
+    if (n_ranks(communicator) == 1) {
+      if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure))
+        return solution;
+    } else {
+      std::optional<Solution> solution;
+      call_helpers(Task::solve_iteratively, communicator);
+      together(communicator, [&] {
+        solution =
+            solve_iteratively_on_ranks(grid, materials, loads, choice, progress, failure, communicator);
+      });
+      if (solution) return solution;
+    }
+  } catch (const SolveFailed& error) {
+    failure = error.what();
+  }
+  report.used = Solver::direct;
+  report.gave_up = true;
+  report.reason = failure + "; solved directly";
+  return std::nullopt;
+}
+
+/// By the solver that the report names; by the other one if the iterative one gives up, if the factor does
+/// not fit into memory, or if it turns out too dear for cells of middling stretch; the report then tells.
+Solution solve(const Grid& grid, const CellsOfNodes& cells,
+               const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
+               const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
+               SolverReport& report, MPI_Comm communicator) {
+  const bool alone = n_ranks(communicator) == 1;
+  choice.coarse_level = report.coarse_level;
+  const auto iterate = [&] {
+    return try_iteratively(grid, materials, loads, choice, progress, report, communicator);
+  };
+  if (report.used == Solver::iterative)
+    if (auto solution = iterate()) return std::move(*solution);
+  if (!alone) {
+    std::optional<Solution> solution;
+    call_helpers(Task::solve_directly, communicator);
+    together(communicator, [&] {
+      solution = solve_directly_on_ranks(grid, cells, materials, loads, progress, communicator);
+    });
+    return std::move(*solution);
+  }
+  const auto is_dear = [&](const FactorSize& factor) {
+    return is_too_dear(factor, report, std::size_t(loads.force.cols()));
+  };
+  try {
+    if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, is_dear))
+      return std::move(*solution);
+  } catch (const DoesNotFit&) {
+    if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) throw;
+    report.used = Solver::iterative;
+    report.reason += ", but the factor does not fit into memory";
+    choice.max_iterations *= patience;
+    if (auto solution = iterate()) return std::move(*solution);
+    throw;
+  }
+  report.used = Solver::iterative;
+  report.reason += ", but the factor is dear";
+  if (auto solution = iterate()) return std::move(*solution);
+  return *solve_directly(grid, cells, colours, materials, loads, progress);
+}
+
+double memory_of_ranks(MPI_Comm communicator) {
+  if (n_ranks(communicator) == 1) return physical_memory();
+  call_helpers(Task::tell_memory, communicator);
+  return memory_of_all_machines(communicator);
+}
+
+/// Boundary groups that any of the loads, springs or clamps acts on.
+std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads, const Body& body) {
+  std::vector<int> groups;
+  for (const auto& spring : body.elastic_supports) groups.push_back(spring.surface.boundary_id);
+  for (const auto& clamp : body.clamps) groups.push_back(clamp.boundary_id);
+  for (const auto& load : loads) {
+    if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
+      groups.push_back(resultant->surface.boundary_id);
+    if (const auto* pressure = std::get_if<SeatPressure>(&load.shape))
+      groups.push_back(pressure->surface.boundary_id);
+  }
+  return groups;
+}
+
+}  // namespace
+
+UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
+                                    const std::vector<SectionPlane>& planes, Recovery recovery,
+                                    const Progress& progress, const SolverChoice& choice) const {
+  const Progress report = progress ? progress : [](double, const std::string&) {};
+  const auto& grid = impl_->grid;
+  const auto& seen = impl_->seen ? impl_->seen->split.grid : grid;
+  const auto& seen_cells = impl_->seen ? impl_->seen->cells : impl_->cells;
+  const auto n_loads = static_cast<Eigen::Index>(loads.size());
+  const auto clamped = clamped_unknowns(grid, impl_->body.clamps);
+  if (!clamped.empty() && !impl_->body.elastic_supports.empty())
+    throw std::invalid_argument(
+        "a body with clamps cannot have elastic supports, which act on a free body: leave one of them out");
+  UnitResponses responses;
+  responses.n_dofs = n_dofs();
+  for (const auto& load : loads) responses.channels.push_back(load.channel);
+
+  report(0, "loads");
+  Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads,
+                                       impl_->relative_density());
+  const Eigen::MatrixXd applied = resultants(grid, force, Eigen::Vector3d::Zero());
+  responses.resultants.resize(loads.size());
+  for (Eigen::Index k = 0; k < n_loads; ++k)
+    for (int c = 0; c < 6; ++c) responses.resultants[k][c] = applied(c, k);
+
+  {
+    const ElasticSupports springs(grid, impl_->body.elastic_supports);
+    force.conservativeResize(Eigen::NoChange, n_loads + springs.unit_forces().cols());
+    force.rightCols(springs.unit_forces().cols()) = springs.unit_forces();
+    const Eigen::RowVectorXd scale = to_unit_size(force);
+    force.array().rowwise() *= scale.array();
+    const RigidBalance rigid(grid, impl_->integrals);
+    const BalancedLoads balanced = balance(rigid, clamped, std::move(force));
+    responses.solver = choose_solver(grid, impl_->materials, static_cast<std::size_t>(balanced.force.cols()),
+                                     choice, memory_of_ranks(impl_->communicator));
+    if (!clamped.empty()) {
+      responses.solver.used = Solver::direct;
+      responses.solver.by_analysis = false;
+      responses.solver.reason = "the body is clamped";
+    }
+    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,
+                              responses.solver, impl_->communicator);
+    responses.residual = responses.solver.relative_residual = solution.residual;
+    responses.support_reaction = solution.support_reaction;
+    responses.solver.rounding = solution.rounding;
+    responses.factor_gigabytes = solution.factor_gigabytes;
+    responses.solver.used_bytes = solution.bytes;
+    responses.solver.ranks = solution.ranks;
+    responses.solver.n_iterations = solution.n_iterations;
+    if (solution.factor.n_dofs > 0) {
+      responses.solver.factor = solution.factor;
+      responses.solver.predicted_direct =
+          predict_direct(solution.factor, static_cast<std::size_t>(balanced.force.cols()));
+    }
+    if (clamped.empty()) rigid.remove_motion(solution.displacement);
+    solution.displacement.array().rowwise() *= scale.array().inverse();
+    const Eigen::MatrixXd displacement = springs.apply(solution.displacement);
+    responses.displacement_m.resize(3 * seen.n_nodes * loads.size());
+    for (std::size_t i = 0; i < seen.n_nodes; ++i) {
+      const std::size_t node = i < grid.n_nodes ? i : std::size_t(impl_->seen->split.copy[i - grid.n_nodes]);
+      for (Eigen::Index k = 0; k < n_loads; ++k)
+        for (int d = 0; d < 3; ++d)
+          responses.displacement_m[(i * n_loads + k) * 3 + d] = displacement(3 * node + d, k);
+    }
+  }
+
+  report(0.85, "recover");
+  const auto elastic = impl_->materials.elastic();
+  responses.stress_Pa.resize(seen.n_nodes * n_loads * 6);
+  const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), seen.n_nodes, 3 * n_loads);
+  Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
+  const bool by_patches = recovery == Recovery::patch;
+  const auto loaded = loaded_groups(loads, impl_->body);
+  if (n_ranks(impl_->communicator) == 1) {
+    recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches, displacement,
+                   stress);
+  } else {
+    call_helpers(Task::recover_stress, impl_->communicator);
+    together(impl_->communicator, [&] {
+      recover_stress_on_ranks(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches,
+                              displacement, stress, impl_->communicator);
+    });
+  }
+  responses.energy_error = energy_error(seen, elastic, displacement, stress);
+  responses.nodes = export_nodes(seen, impl_->seen ? impl_->seen->volumes : impl_->integrals);
+  respond_on_sections(seen, planes, responses);
+  respond_on_rings(seen, impl_->body, responses);
+  return responses;
+}
+
+}  // namespace fem

@@ -1,0 +1,115 @@
+/// The finite-element model of one body: mesh, degrees of freedom, stiffness; solves all unit loads as one
+/// block.
+#pragma once
+
+#include <mpi.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/values/natural_mode.h"
+#include "fem/values/solver_choice.h"
+#include "fem/values/unit_load.h"
+#include "fem/values/unit_responses.h"
+
+namespace fem {
+
+/// Starts MPI and the threads of deal.II; one object lives as long as the program uses fem. Further ones
+/// while it lives set the number of threads.
+class Environment {
+public:
+  /// @param n_threads of each rank; 0: all cores, shared among the ranks of a machine
+  Environment(int& argc, char**& argv, int n_threads);
+  ~Environment();
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Told the share done, 0 to 1, and the name of the step that starts.
+using Progress = std::function<void(double, const std::string&)>;
+
+/// How nodal stresses are made from the finite-element stress.
+enum class Recovery {
+  patch,    ///< superconvergent patch recovery (Zienkiewicz and Zhu 1992); surfaces that no load of the call
+            ///< acts on also give their strains along the surface, with no traction across it
+  average,  ///< mean of the cells' values at each node: a baseline for tests
+};
+
+/// Distance of curved faces from the cylinders and tori that they stand for.
+struct GeometryError {
+  /// Largest on one surface, relative.
+  struct OnSurface {
+    double of_axis = 0;    ///< distance over the distance from the axis of the cylinder or torus
+    double of_fillet = 0;  ///< distance over the radius of the fillet; 0: a cylinder
+  };
+  std::map<int, OnSurface> surfaces;  ///< by boundary id
+  std::size_t n_faces = 0;            ///< that were compared
+  double relative = 0;                ///< largest, in radii of its surface
+  double error_m = 0;                 ///< there
+  std::array<double, 3> place_m{};    ///< there
+};
+
+class Model {
+public:
+  /// Reads the mesh, attaches the charts, numbers the unknowns.
+  /// @param communicator  whose ranks share the work: the model lives on rank 0, the others are in
+  /// help_first_rank
+  /// @param progress told that reading starts; may be empty
+  /// @throws MeshUnusable if the mesh cannot be read, has inverted cells or several pieces, or this is
+  /// not rank 0
+  /// @throws std::invalid_argument for impossible material values, or a material of a group without cells
+  explicit Model(const Body& body, MPI_Comm communicator = MPI_COMM_WORLD, const Progress& progress = {});
+  ~Model();
+  Model(Model&&) noexcept;
+
+  std::size_t n_dofs() const;
+  MassProperties mass_properties() const;
+  /// Of the cells of some volume groups.
+  /// @throws std::invalid_argument if one of the groups has no cells
+  MassProperties mass_properties(const std::vector<int>& volume_ids) const;
+
+  /// At the quadrature points of boundary faces; zero where no surface is known.
+  /// @param seats  cylinders known from elsewhere (imported bodies have no charts)
+  GeometryError geometry_error(const std::vector<LoadSurface>& seats = {}) const;
+
+  /// The unit loads' responses, all loads as one block: by one factorisation (CHOLMOD; MUMPS on several
+  /// ranks) on a statically determinate support, or by conjugate gradients on the free body. Every load
+  /// vector is balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the support carries nothing;
+  /// displacements have no rigid part in the mass norm. The body's elastic supports act on these
+  /// displacements, and their forces close among themselves. A body with clamps is held by them instead, and
+  /// solved directly: loads act as they are, displacements are those in space.
+  /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
+  /// @param choice of the solver; UnitResponses::solver tells which one was taken and why
+  /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces,
+  /// clamps that leave a rigid motion, clamps together with elastic supports
+  /// @throws SolveFailed if the factorisation fails, or rounding reaches 1 % of displacements
+  UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
+                               Recovery recovery = Recovery::patch, const Progress& progress = {},
+                               const SolverChoice& choice = {}) const;
+
+  /// The lowest natural frequencies, ascending, without the rigid motions that nothing holds. Mass and
+  /// stiffness are consistent, so frequencies come out from above. Clamps hold the body; elastic supports are
+  /// springs to the ground against its whole motion, rigid part included (unlike in unit_responses, where
+  /// inertia carries that part). Rank 0 works alone. Same bits for the same body and number of threads.
+  /// @param n_modes  at least 1, at most a tenth of the unknowns that can vibrate: a mesh has no more to say
+  /// @throws std::invalid_argument for another number, for clamps that leave a rigid motion, clamps together
+  /// with elastic supports
+  /// @throws SolveFailed if the factorisation fails, or a mode leaves more than 1e-6 of its inertia
+  /// forces unbalanced and rounding does not explain it
+  std::vector<NaturalMode> natural_frequencies(int n_modes) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fem

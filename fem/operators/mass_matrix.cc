@@ -1,0 +1,73 @@
+#include "fem/operators/mass_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/mesh/cell_geometry.h"
+#include "fem/common/parallel.h"
+#include "fem/mesh/reference_cell.h"
+
+namespace fem {
+
+namespace {
+
+/// The matrix of a graph with one unknown per node, filled with zeros.
+SymmetricMatrix make_node_matrix(const NodeGraph& graph) {
+  SymmetricMatrix matrix;
+  matrix.n = static_cast<std::int64_t>(graph.n_nodes());
+  matrix.column_begin.assign(1, 0);
+  for (std::int64_t j = 0; j < matrix.n; ++j) {
+    matrix.row.push_back(j);
+    for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) matrix.row.push_back(graph.neighbour[k]);
+    matrix.column_begin.push_back(static_cast<std::int64_t>(matrix.row.size()));
+  }
+  matrix.value.assign(matrix.row.size(), 0.0);
+  return matrix;
+}
+
+double& entry(SymmetricMatrix& matrix, std::int32_t i, std::int32_t j) {
+  const auto column = std::min(i, j), row = std::max(i, j);
+  const auto begin = matrix.row.begin() + matrix.column_begin[column];
+  const auto end = matrix.row.begin() + matrix.column_begin[column + 1];
+  return matrix.value[std::lower_bound(begin, end, row) - matrix.row.begin()];
+}
+
+}  // namespace
+
+MassMatrix::MassMatrix(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
+                       const NodeGraph& graph, const PerCell<double>& density_kg_m3)
+    : nodes_(make_node_matrix(graph)) {
+  // N_i N_j det J has the degree of the second moments' N_i x det J.
+  const Tabulation at = moment_points_in_cell(grid.shape());
+  const Eigen::Map<const Eigen::MatrixXd> shapes(at.value.data(), at.n_shapes, at.n_points);
+  for (const auto& cells : colours)
+    parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
+      Eigen::MatrixXd scaled(at.n_shapes, at.n_points), products(at.n_shapes, at.n_shapes);
+      for (std::size_t c = begin; c < end; ++c) {
+        for (int q = 0; q < at.n_points; ++q)
+          scaled.col(q) = std::sqrt(density_kg_m3[cells[c]] * jacobian(grid, cells[c], at, q).determinant() *
+                                    at.weight[q]) *
+                          shapes.col(q);
+        products.setZero();
+        products.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
+        const auto* nodes = grid.nodes_of(cells[c]);
+        for (int j = 0; j < at.n_shapes; ++j)
+          for (int i = j; i < at.n_shapes; ++i) entry(nodes_, nodes[i], nodes[j]) += products(i, j);
+      }
+    });
+}
+
+Eigen::MatrixXd MassMatrix::operator*(const Eigen::MatrixXd& x) const {
+  const auto n = static_cast<Eigen::Index>(nodes_.n);
+  // Node by node: x, y, z of each column become columns of their own.
+  Eigen::MatrixXd by_node(n, 3 * x.cols());
+  for (Eigen::Index k = 0; k < x.cols(); ++k)
+    by_node.middleCols<3>(3 * k) = x.col(k).reshaped(3, n).transpose();
+  by_node = multiply(nodes_, by_node);
+  Eigen::MatrixXd result(x.rows(), x.cols());
+  for (Eigen::Index k = 0; k < x.cols(); ++k)
+    result.col(k).reshaped(3, n) = by_node.middleCols<3>(3 * k).transpose();
+  return result;
+}
+
+}  // namespace fem

@@ -1,0 +1,106 @@
+#include "fem/operators/stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "fem/mesh/cell_geometry.h"
+#include "fem/common/parallel.h"
+#include "fem/mesh/reference_cell.h"
+
+namespace fem {
+
+namespace {
+
+/// Gradients of a cell's shape functions times sqrt(JxW): three rows per node, one column per point.
+void scale_gradients(const CellGradients& cell, Eigen::MatrixXd& scaled) {
+  const auto n_points = static_cast<Eigen::Index>(cell.jxw.size());
+  const auto n_nodes = cell.gradient.cols();
+  scaled.resize(3 * n_nodes, n_points);
+  for (Eigen::Index q = 0; q < n_points; ++q)
+    for (Eigen::Index i = 0; i < n_nodes; ++i)
+      scaled.block<3, 1>(3 * i, q) = std::sqrt(cell.jxw[q]) * cell.gradient.block<3, 1>(3 * q, i);
+}
+
+/// The block K_ij that goes with H_ij: lambda H + mu H' + mu tr(H) I.
+Eigen::Matrix3d elastic_block(const Lame& elastic, const Eigen::Matrix3d& h) {
+  Eigen::Matrix3d k = elastic.lambda_Pa * h + elastic.mu_Pa * h.transpose();
+  k.diagonal().array() += elastic.mu_Pa * h.trace();
+  return k;
+}
+
+void add_block(const NodeGraph& graph, SymmetricMatrix& matrix, std::int32_t row_node,
+               std::int32_t column_node, const Eigen::Matrix3d& k) {
+  const auto begin = graph.neighbour.begin() + graph.begin[column_node];
+  const auto end = graph.neighbour.begin() + graph.begin[column_node + 1];
+  const auto place = std::lower_bound(begin, end, row_node) - begin;
+  for (int c = 0; c < 3; ++c) {
+    double* value =
+        matrix.value.data() + matrix.column_begin[3 * std::int64_t(column_node) + c] + 3 - c + 3 * place;
+    for (int a = 0; a < 3; ++a) value[a] += k(a, c);
+  }
+}
+
+void add_diagonal_block(SymmetricMatrix& matrix, std::int32_t node, const Eigen::Matrix3d& k) {
+  for (int c = 0; c < 3; ++c) {
+    double* value = matrix.value.data() + matrix.column_begin[3 * std::int64_t(node) + c];
+    for (int a = c; a < 3; ++a) value[a - c] += k(a, c);
+  }
+}
+
+}  // namespace
+
+Lame lame(const Material& material) {
+  const double e = material.youngs_modulus_Pa, nu = material.poisson_ratio;
+  return {e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))};
+}
+
+void refuse_impossible(const Material& material) {
+  const auto refuse = [](const char* key, double value, const char* rule) {
+    std::ostringstream message;
+    message << "material." << key << " = " << value << ": must " << rule;
+    throw std::invalid_argument(message.str());
+  };
+  if (!(material.youngs_modulus_Pa > 0)) refuse("youngs_modulus", material.youngs_modulus_Pa, "be positive");
+  if (!(material.poisson_ratio > -1 && material.poisson_ratio < 0.5))
+    refuse("poisson_ratio", material.poisson_ratio, "lie between -1 and 0.5");
+  if (!(material.density_kg_m3 > 0)) refuse("density", material.density_kg_m3, "be positive");
+}
+
+void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes, const Lame& elastic,
+                        const NodeGraph& graph, Eigen::MatrixXd& products, SymmetricMatrix& matrix) {
+  const auto n_local = static_cast<int>(scaled.rows() / 3);
+  // Lower triangle of  H_ij = integral of grad N_i (x) grad N_j,  3 x 3 blocks.
+  Eigen::MatrixXd& h = products;
+  h.setZero(scaled.rows(), scaled.rows());
+  h.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
+  for (int j = 0; j < n_local; ++j) {
+    const Eigen::Matrix3d diagonal = h.block<3, 3>(3 * j, 3 * j).selfadjointView<Eigen::Lower>();
+    add_diagonal_block(matrix, nodes[j], elastic_block(elastic, diagonal));
+    for (int i = j + 1; i < n_local; ++i) {
+      const Eigen::Matrix3d k = elastic_block(elastic, h.block<3, 3>(3 * i, 3 * j));
+      if (nodes[i] > nodes[j])
+        add_block(graph, matrix, nodes[i], nodes[j], k);
+      else
+        add_block(graph, matrix, nodes[j], nodes[i], k.transpose());
+    }
+  }
+}
+
+void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
+                        const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix) {
+  const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
+  for (const auto& cells : colours)
+    parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
+      CellGradients gradients;
+      Eigen::MatrixXd scaled, products;
+      for (std::size_t c = begin; c < end; ++c) {
+        compute_gradients(grid, cells[c], at, gradients);
+        scale_gradients(gradients, scaled);
+        add_cell_stiffness(scaled, grid.nodes_of(cells[c]), elastic[cells[c]], graph, products, matrix);
+      }
+    });
+}
+
+}  // namespace fem

@@ -1,0 +1,39 @@
+/// Stiffness of isotropic linear elasticity on isoparametric hexahedra. Internal to fem.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/mesh/grid.h"
+#include "fem/values/per_cell.h"
+#include "fem/operators/symmetric_matrix.h"
+
+namespace fem {
+
+/// Lame's constants [Pa].
+struct Lame {
+  double lambda_Pa = 0, mu_Pa = 0;
+};
+Lame lame(const Material& material);
+
+/// @throws std::invalid_argument unless youngs_modulus > 0, -1 < poisson_ratio < 0.5, density > 0
+void refuse_impossible(const Material& material);
+
+/// Adds all cells' stiffness with (k+1)^3 Gauss points: colour after colour, so that the sums do not depend
+/// on threads.
+/// @param matrix  made from the graph, zero on entry
+void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
+                        const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix);
+
+/// Adds one cell's stiffness to the matrix.
+/// @param scaled  gradients of the cell's shape functions times sqrt(JxW): three rows per node, one column
+/// per
+///                quadrature point
+/// @param nodes   of the cell
+/// @param products  work space
+void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes, const Lame& elastic,
+                        const NodeGraph& graph, Eigen::MatrixXd& products, SymmetricMatrix& matrix);
+
+}  // namespace fem

@@ -1,0 +1,161 @@
+#include "fem/operators/subdomain.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <numeric>
+
+#include "fem/mesh/cell_order.h"
+#include "fem/values/cell_shares.h"
+
+namespace fem {
+
+namespace {
+
+/// The share of each cell: shares of equal number along an order.
+std::vector<int> cut(const std::vector<std::int32_t>& order, int n_shares) {
+  std::vector<int> share(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    share[order[k]] = static_cast<int>(k * std::size_t(n_shares) / order.size());
+  return share;
+}
+
+}  // namespace
+
+Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cells) {
+  Subdomain result;
+  result.cell = cells;
+  result.grid.kind = grid.kind;
+  result.grid.degree = grid.degree;
+  std::vector<std::int32_t> number(grid.n_nodes, -1), place(grid.n_cells(), -1);
+  for (const auto c : cells)
+    for (int i = 0; i < grid.nodes_per_cell(); ++i) number[grid.nodes_of(c)[i]] = 0;
+  for (std::size_t node = 0; node < grid.n_nodes; ++node)
+    if (number[node] == 0) {
+      number[node] = static_cast<std::int32_t>(result.node.size());
+      result.node.push_back(static_cast<std::int32_t>(node));
+      result.grid.xyz_m.insert(result.grid.xyz_m.end(), grid.position(node), grid.position(node) + 3);
+    }
+  result.grid.n_nodes = result.node.size();
+  for (const auto c : cells) {
+    place[c] = static_cast<std::int32_t>(result.grid.volume_id.size());
+    result.grid.volume_id.push_back(grid.volume_id[c]);
+    for (int i = 0; i < grid.nodes_per_cell(); ++i)
+      result.grid.cell_nodes.push_back(number[grid.nodes_of(c)[i]]);
+  }
+  const auto take = [&](const std::vector<BoundaryFace>& from, std::vector<BoundaryFace>& to) {
+    for (auto face : from) {
+      face.cell = place[face.cell];
+      if (face.cell >= 0) to.push_back(face);
+    }
+  };
+  take(grid.boundary, result.grid.boundary);
+  take(grid.interfaces, result.grid.interfaces);
+  return result;
+}
+
+Message& operator<<(Message& message, const Subdomain& subdomain) {
+  return message << subdomain.grid << subdomain.node << subdomain.cell;
+}
+
+Message& operator>>(Message& message, Subdomain& subdomain) {
+  return message >> subdomain.grid >> subdomain.node >> subdomain.cell;
+}
+
+std::vector<int> ranks_of_cells(const Grid& grid, int n_ranks) {
+  return cut(order_cells(grid).cell, n_ranks);
+}
+
+std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares) {
+  const int n_corners = CellShape{nodes.kind, 2}.n_corners();  // the first nodes of VTK's cells
+  std::vector<std::array<double, 3>> corner_sum(nodes.n_cells(), {0, 0, 0});
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c)
+    for (int i = 0; i < n_corners; ++i)
+      for (int d = 0; d < 3; ++d) corner_sum[c][d] += nodes.xyz_m[3 * std::size_t(nodes.cell(c)[i]) + d];
+  return cut(bisect_cells(corner_sum), n_shares);
+}
+
+std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell) {
+  std::vector<int> rank(grid.n_nodes, -1);
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (int i = 0; i < grid.nodes_per_cell(); ++i) {
+      auto& own = rank[grid.nodes_of(c)[i]];
+      own = own < 0 ? rank_of_cell[c] : std::min(own, rank_of_cell[c]);
+    }
+  return rank;
+}
+
+std::vector<std::int32_t> cells_of_rank(const std::vector<int>& rank_of_cell, int rank) {
+  std::vector<std::int32_t> cells;
+  for (std::size_t c = 0; c < rank_of_cell.size(); ++c)
+    if (rank_of_cell[c] == rank) cells.push_back(static_cast<std::int32_t>(c));
+  return cells;
+}
+
+std::vector<std::int32_t> with_layers(const Grid& grid, const CellsOfNodes& cells_of_nodes,
+                                      const std::vector<std::int32_t>& cells, int n_layers) {
+  std::vector<char> taken(grid.n_cells(), 0);
+  for (const auto c : cells) taken[c] = 1;
+  std::vector<std::int32_t> front = cells, all = cells;
+  for (int layer = 0; layer < n_layers; ++layer) {
+    std::vector<std::int32_t> next;
+    for (const auto c : front)
+      for (int i = 0; i < grid.nodes_per_cell(); ++i) {
+        const auto node = grid.nodes_of(c)[i];
+        for (auto k = cells_of_nodes.begin[node]; k < cells_of_nodes.begin[node + 1]; ++k)
+          if (const auto other = cells_of_nodes.cell[k]; !taken[other]) {
+            taken[other] = 1;
+            next.push_back(other);
+          }
+      }
+    all.insert(all.end(), next.begin(), next.end());
+    front = std::move(next);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::vector<std::vector<Neighbour>> find_neighbours(const std::vector<Subdomain>& subdomains,
+                                                    std::size_t n_nodes) {
+  std::vector<std::vector<int>> ranks(n_nodes);
+  for (std::size_t r = 0; r < subdomains.size(); ++r)
+    for (const auto node : subdomains[r].node) ranks[node].push_back(static_cast<int>(r));
+  std::vector<std::vector<Neighbour>> result(subdomains.size());
+  for (std::size_t r = 0; r < subdomains.size(); ++r) {
+    std::vector<std::vector<std::int32_t>> with(subdomains.size());
+    for (std::size_t i = 0; i < subdomains[r].node.size(); ++i)
+      for (const int other : ranks[subdomains[r].node[i]])
+        if (other != int(r)) with[other].push_back(static_cast<std::int32_t>(i));
+    for (std::size_t other = 0; other < with.size(); ++other)
+      if (!with[other].empty()) result[r].push_back({static_cast<int>(other), std::move(with[other])});
+  }
+  return result;
+}
+
+Message& operator<<(Message& message, const std::vector<Neighbour>& neighbours) {
+  message << neighbours.size();
+  for (const auto& neighbour : neighbours) message << neighbour.rank << neighbour.nodes;
+  return message;
+}
+
+Message& operator>>(Message& message, std::vector<Neighbour>& neighbours) {
+  std::size_t n = 0;
+  message >> n;
+  neighbours.resize(n);
+  for (auto& neighbour : neighbours) message >> neighbour.rank >> neighbour.nodes;
+  return message;
+}
+
+std::vector<Lame> elastic_of(const Subdomain& subdomain, const PerCell<Lame>& elastic) {
+  std::vector<Lame> values;
+  for (const auto c : subdomain.cell) values.push_back(elastic[c]);
+  return values;
+}
+
+PerCell<Lame> cell_after_cell(std::vector<Lame> elastic) {
+  auto which = std::make_shared<std::vector<std::int32_t>>(elastic.size());
+  std::iota(which->begin(), which->end(), 0);
+  return {std::move(elastic), std::move(which)};
+}
+
+}  // namespace fem

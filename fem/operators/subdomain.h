@@ -1,0 +1,54 @@
+/// The parts of a body that the ranks work on. Internal to fem.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fem/mesh/grid.h"
+#include "fem/ranks/message.h"
+#include "fem/values/per_cell.h"
+#include "fem/operators/stiffness.h"
+
+namespace fem {
+
+/// Some cells of a body as a mesh of their own. Nodes and cells keep their order, so that what is computed on
+/// them takes the same steps as on the whole body.
+struct Subdomain {
+  Grid grid;
+  std::vector<std::int32_t> node;  ///< number in the body of each node, ascending
+  std::vector<std::int32_t> cell;  ///< likewise of each cell
+};
+/// @param cells  ascending
+Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cells);
+Message& operator<<(Message& message, const Subdomain& subdomain);
+Message& operator>>(Message& message, Subdomain& subdomain);
+
+/// The rank of each cell: shares of equal number, cut across the longest extent of the body (CellOrder).
+std::vector<int> ranks_of_cells(const Grid& grid, int n_ranks);
+
+/// The rank that counts each node: the first of those of its cells.
+std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell);
+
+/// Cells of a rank, ascending.
+std::vector<std::int32_t> cells_of_rank(const std::vector<int>& rank_of_cell, int rank);
+
+/// Those cells, and so many layers of cells that touch them. Ascending.
+std::vector<std::int32_t> with_layers(const Grid& grid, const CellsOfNodes& cells_of_nodes,
+                                      const std::vector<std::int32_t>& cells, int n_layers);
+
+/// Nodes of one's own that another rank's cells have too, ascending in the body's numbers on both sides.
+struct Neighbour {
+  int rank = 0;
+  std::vector<std::int32_t> nodes;  ///< numbers in the subdomain
+};
+/// Of every subdomain, ranks ascending.
+std::vector<std::vector<Neighbour>> find_neighbours(const std::vector<Subdomain>& subdomains,
+                                                    std::size_t n_nodes);
+Message& operator<<(Message& message, const std::vector<Neighbour>& neighbours);
+Message& operator>>(Message& message, std::vector<Neighbour>& neighbours);
+
+/// Lame's constants of a subdomain's cells, one after another.
+std::vector<Lame> elastic_of(const Subdomain& subdomain, const PerCell<Lame>& elastic);
+PerCell<Lame> cell_after_cell(std::vector<Lame> elastic);
+
+}  // namespace fem

@@ -1,0 +1,34 @@
+/// The stiffness matrix: symmetric, three unknowns per node, lower triangle by columns as CHOLMOD wants it.
+/// Internal to fem.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <vector>
+
+#include "fem/mesh/grid.h"
+
+namespace fem {
+
+/// Neighbours of every node in the mesh that have a larger number, ascending.
+struct NodeGraph {
+  std::vector<std::int64_t> begin;  ///< n_nodes + 1
+  std::vector<std::int32_t> neighbour;
+  std::size_t n_nodes() const noexcept { return begin.size() - 1; }
+};
+NodeGraph make_node_graph(const Grid& grid, const CellsOfNodes& cells);
+
+/// Column 3 j + c holds the rows 3 j + c .. 3 j + 2, then three rows for every larger neighbour of node j.
+struct SymmetricMatrix {
+  std::int64_t n = 0;
+  std::vector<std::int64_t> column_begin, row;
+  std::vector<double> value;
+};
+
+/// The matrix of a graph, filled with zeros.
+SymmetricMatrix make_matrix(const NodeGraph& graph);
+
+/// K X for all columns of X; the same bits for every number of threads.
+Eigen::MatrixXd multiply(const SymmetricMatrix& matrix, const Eigen::MatrixXd& x);
+
+}  // namespace fem

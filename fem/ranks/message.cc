@@ -1,0 +1,53 @@
+#include "fem/ranks/message.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace fem {
+
+namespace {
+constexpr int tag = 1;
+constexpr std::size_t piece = std::size_t(1) << 30;  // MPI counts in int
+}  // namespace
+
+void Message::put(const void* from, std::size_t n_bytes) {
+  const auto* first = static_cast<const char*>(from);
+  bytes_.insert(bytes_.end(), first, first + n_bytes);
+}
+
+void Message::get(void* to, std::size_t n_bytes) {
+  if (bytes_.size() - read_ < n_bytes) throw std::logic_error("a message between ranks is too short");
+  if (n_bytes > 0) std::memcpy(to, bytes_.data() + read_, n_bytes);
+  read_ += n_bytes;
+}
+
+Message& Message::operator<<(const Grid& grid) {
+  return *this << grid.kind << grid.degree << grid.n_nodes << grid.xyz_m << grid.cell_nodes << grid.volume_id
+               << grid.boundary << grid.interfaces;
+}
+
+Message& Message::operator>>(Grid& grid) {
+  return *this >> grid.kind >> grid.degree >> grid.n_nodes >> grid.xyz_m >> grid.cell_nodes >>
+         grid.volume_id >> grid.boundary >> grid.interfaces;
+}
+
+void Message::send(int to, MPI_Comm communicator) const {
+  const std::size_t size = bytes_.size();
+  MPI_Send(&size, sizeof size, MPI_BYTE, to, tag, communicator);
+  for (std::size_t at = 0; at < size; at += piece)
+    MPI_Send(bytes_.data() + at, static_cast<int>(std::min(piece, size - at)), MPI_BYTE, to, tag,
+             communicator);
+}
+
+Message Message::receive(int from, MPI_Comm communicator) {
+  std::size_t size = 0;
+  MPI_Recv(&size, sizeof size, MPI_BYTE, from, tag, communicator, MPI_STATUS_IGNORE);
+  Message message;
+  message.bytes_.resize(size);
+  for (std::size_t at = 0; at < size; at += piece)
+    MPI_Recv(message.bytes_.data() + at, static_cast<int>(std::min(piece, size - at)), MPI_BYTE, from, tag,
+             communicator, MPI_STATUS_IGNORE);
+  return message;
+}
+
+}  // namespace fem

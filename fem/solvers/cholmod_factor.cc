@@ -1,0 +1,173 @@
+#include "fem/solvers/cholmod_factor.h"
+
+#include <cholmod.h>
+#include <metis.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fem/values/errors.h"
+#include "fem/common/parallel.h"
+
+namespace fem {
+
+std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
+  static_assert(sizeof(idx_t) == sizeof(std::int32_t), "METIS with 32-bit indices is expected");
+  idx_t n = static_cast<idx_t>(graph.n_nodes());
+  std::vector<idx_t> begin(n + 1, 0);
+  for (idx_t j = 0; j < n; ++j) {
+    begin[j + 1] += static_cast<idx_t>(graph.begin[j + 1] - graph.begin[j]);
+    for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) ++begin[graph.neighbour[k] + 1];
+  }
+  for (idx_t j = 0; j < n; ++j) begin[j + 1] += begin[j];
+  std::vector<idx_t> neighbour(begin[n]), next(begin.begin(), begin.end() - 1);
+  for (idx_t j = 0; j < n; ++j)
+    for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) {
+      neighbour[next[j]++] = graph.neighbour[k];
+      neighbour[next[graph.neighbour[k]]++] = j;
+    }
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  std::vector<idx_t> order(n), place(n);
+  if (METIS_NodeND(&n, begin.data(), neighbour.data(), nullptr, options, order.data(), place.data()) !=
+      METIS_OK)
+    throw SolveFailed("METIS could not order the " + std::to_string(n) + " nodes of the mesh");
+  return {order.begin(), order.end()};
+}
+
+struct CholmodFactor::Impl {
+  double matrix_bytes = 0;
+  mutable cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+
+  Impl() {
+    cholmod_l_start(&common);
+    common.print = 0;
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+  }
+  ~Impl() {
+    cholmod_l_free_factor(&factor, &common);
+    cholmod_l_finish(&common);
+  }
+  void check(const char* step) const {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+      throw SolveFailed(std::string("not enough memory to ") + step + " the stiffness: use a coarser mesh");
+    if (common.status < CHOLMOD_OK)
+      throw SolveFailed(std::string("CHOLMOD could not ") + step + " the stiffness (status " +
+                        std::to_string(common.status) + ")");
+  }
+  /// The matrix as CHOLMOD sees it; nothing is copied, and CHOLMOD does not write to it.
+  static cholmod_sparse view(const SymmetricMatrix& matrix) {
+    cholmod_sparse a{};
+    a.nrow = a.ncol = matrix.n;
+    a.nzmax = matrix.value.size();
+    a.p = const_cast<std::int64_t*>(matrix.column_begin.data());
+    a.i = const_cast<std::int64_t*>(matrix.row.data());
+    a.x = const_cast<double*>(matrix.value.data());
+    a.stype = -1;
+    a.itype = CHOLMOD_LONG;
+    a.xtype = CHOLMOD_REAL;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = a.packed = 1;
+    return a;
+  }
+};
+
+CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& node_order)
+    : impl_(std::make_unique<Impl>()) {
+  static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t), "CHOLMOD with 64-bit indices is expected");
+  std::vector<SuiteSparse_long> order;
+  order.reserve(3 * node_order.size());
+  for (const auto node : node_order)
+    for (int d = 0; d < 3; ++d) order.push_back(3 * SuiteSparse_long(node) + d);
+  const SerialOpenMp serial;
+  auto a = Impl::view(matrix);
+  impl_->matrix_bytes = 16.0 * static_cast<double>(matrix.value.size());
+  impl_->factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &impl_->common);
+  impl_->check("analyse");
+}
+
+CholmodFactor::~CholmodFactor() = default;
+
+void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
+  const SerialOpenMp serial;
+  auto a = Impl::view(matrix);
+  cholmod_l_factorize(&a, impl_->factor, &impl_->common);
+  impl_->check("factorise");
+  if (impl_->common.status == CHOLMOD_NOT_POSDEF || impl_->factor->minor < impl_->factor->n)
+    throw SolveFailed(
+        "the stiffness is not positive definite: the mesh may fall into parts that do not touch, or has "
+        "degenerate "
+        "cells");
+}
+
+namespace {
+
+/// Some columns of a solution, on the calling thread with a work space of its own: it reads the factor alone.
+/// @return empty, or what went wrong
+std::string solve_columns(cholmod_factor* factor, Eigen::Ref<const Eigen::MatrixXd> right_hand_sides,
+                          Eigen::Ref<Eigen::MatrixXd> solution) {
+  const SerialOpenMp serial;
+  cholmod_common common{};
+  cholmod_l_start(&common);
+  common.print = 0;
+  cholmod_dense b{}, *x = nullptr, *y = nullptr, *e = nullptr;
+  b.nrow = std::size_t(right_hand_sides.rows());
+  b.d = std::size_t(right_hand_sides.outerStride());
+  b.ncol = std::size_t(right_hand_sides.cols());
+  b.nzmax = b.d * b.ncol;
+  b.x = const_cast<double*>(right_hand_sides.data());
+  b.xtype = CHOLMOD_REAL;
+  b.dtype = CHOLMOD_DOUBLE;
+  const bool solved = cholmod_l_solve2(CHOLMOD_A, factor, &b, nullptr, &x, nullptr, &y, &e, &common) != 0;
+  std::string failure;
+  if (solved)
+    solution =
+        Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), solution.rows(), solution.cols());
+  else
+    failure = common.status == CHOLMOD_OUT_OF_MEMORY
+                  ? "not enough memory to solve with the stiffness: use a coarser mesh"
+                  : "CHOLMOD could not solve (status " + std::to_string(common.status) + ")";
+  for (auto* dense : {&x, &y, &e}) cholmod_l_free_dense(dense, &common);
+  cholmod_l_finish(&common);
+  return failure;
+}
+
+}  // namespace
+
+Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  const SerialBlas serial;
+  constexpr Eigen::Index most_columns = 16;  // whatever the threads: the sums stay the same
+  const auto n = right_hand_sides.cols();
+  const auto n_blocks = std::size_t((n + most_columns - 1) / most_columns);
+  Eigen::MatrixXd solution(right_hand_sides.rows(), n);
+  std::vector<std::string> failures(n_blocks);
+  parallel_for(n_blocks, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Eigen::Index first = most_columns * Eigen::Index(k), columns = std::min(most_columns, n - first);
+      failures[k] = solve_columns(impl_->factor, right_hand_sides.middleCols(first, columns),
+                                  solution.middleCols(first, columns));
+    }
+  });
+  for (const auto& failure : failures)
+    if (!failure.empty()) throw SolveFailed(failure);
+  return solution;
+}
+
+double CholmodFactor::gigabytes() const {
+  const auto& l = *impl_->factor;
+  return 1e-9 *
+         (8.0 * double(l.xsize) + 8.0 * double(l.ssize) + 24.0 * double(l.nsuper) + 16.0 * double(l.n));
+}
+
+FactorSize CholmodFactor::size() const {
+  const auto& l = *impl_->factor;
+  return {l.n, double(l.xsize), impl_->common.fl, 1e9 * gigabytes() + impl_->matrix_bytes};
+}
+
+}  // namespace fem

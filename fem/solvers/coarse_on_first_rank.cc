@@ -1,0 +1,140 @@
+#include "fem/solvers/coarse_on_first_rank.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "fem/ranks/message.h"
+#include "fem/ranks/ranks.h"
+
+namespace fem {
+
+namespace {
+
+constexpr int tag = 3;
+
+/// What a rank brings.
+struct Part {
+  Grid grid;
+  std::vector<std::int32_t> corner;
+  SymmetricMatrix matrix;
+};
+
+Part receive_part(int from, MPI_Comm communicator) {
+  Part part;
+  Message::receive(from, communicator) >> part.grid >> part.corner >> part.matrix.n >>
+      part.matrix.column_begin >> part.matrix.row >> part.matrix.value;
+  return part;
+}
+
+/// One mesh of the parts' cells; nodes in the order in which the parts have them.
+Grid join(const std::vector<Part>& parts, std::vector<std::vector<std::int32_t>>& node) {
+  Grid grid;
+  grid.kind = parts.front().grid.kind;
+  grid.degree = 1;
+  std::unordered_map<std::int32_t, std::int32_t> number;
+  for (const auto& part : parts) {
+    auto& own = node.emplace_back();
+    for (std::size_t i = 0; i < part.corner.size(); ++i) {
+      const auto [found, is_new] = number.emplace(part.corner[i], static_cast<std::int32_t>(grid.n_nodes));
+      own.push_back(found->second);
+      if (!is_new) continue;
+      ++grid.n_nodes;
+      grid.xyz_m.insert(grid.xyz_m.end(), part.grid.position(std::int32_t(i)),
+                        part.grid.position(std::int32_t(i)) + 3);
+    }
+    for (const auto i : part.grid.cell_nodes) grid.cell_nodes.push_back(own[i]);
+    grid.volume_id.insert(grid.volume_id.end(), part.grid.volume_id.begin(), part.grid.volume_id.end());
+  }
+  return grid;
+}
+
+void add(const SymmetricMatrix& part, const std::vector<std::int32_t>& node, SymmetricMatrix& matrix) {
+  const auto unknown = [&](std::int64_t i) { return 3 * std::int64_t(node[i / 3]) + i % 3; };
+  for (std::int64_t j = 0; j < part.n; ++j)
+    for (auto k = part.column_begin[j]; k < part.column_begin[j + 1]; ++k) {
+      const auto [column, row] = std::minmax({unknown(j), unknown(part.row[k])});
+      const auto begin = matrix.row.begin() + matrix.column_begin[column];
+      const auto end = matrix.row.begin() + matrix.column_begin[column + 1];
+      matrix.value[std::lower_bound(begin, end, row) - matrix.row.begin()] += part.value[k];
+    }
+}
+
+/// Adds (or copies back) the rows of a rank's nodes to those of all.
+template <typename Whole, typename Own, typename Use>
+void for_rows(const Lanes& lanes, const std::vector<std::int32_t>& node, std::size_t n_whole, Whole* whole,
+              Own* own, const Use& use) {
+  for (const auto& group : lanes.groups) {
+    const auto width = 3 * std::size_t(group.width);
+    auto* to = whole + 3 * n_whole * group.first_lane;
+    auto* from = own + 3 * node.size() * group.first_lane;
+    for (std::size_t i = 0; i < node.size(); ++i)
+      for (std::size_t l = 0; l < width; ++l) use(to[node[i] * width + l], from[i * width + l]);
+  }
+}
+
+}  // namespace
+
+CoarseOnFirstRank::CoarseOnFirstRank(MPI_Comm communicator, const Grid& coarse,
+                                     const std::vector<std::int32_t>& corner, const SymmetricMatrix& matrix,
+                                     CoarseLevel level, const kernel::Kernels& kernels)
+    : communicator_(communicator) {
+  if (this_rank(communicator) != 0)
+    (Message() << coarse << corner << matrix.n << matrix.column_begin << matrix.row << matrix.value)
+        .send(0, communicator);
+  std::vector<Part> parts;
+  if (this_rank(communicator) == 0) {
+    parts.push_back({coarse, corner, matrix});
+    for (int r = 1; r < n_ranks(communicator); ++r) parts.push_back(receive_part(r, communicator));
+  }
+  agree(communicator, [&] {
+    if (parts.empty()) return;
+    const Grid joined = join(parts, node_);
+    const NodeGraph graph = make_node_graph(joined, cells_of_nodes(joined));
+    const auto assemble = [&] {
+      SymmetricMatrix sum = make_matrix(graph);
+      for (std::size_t r = 0; r < parts.size(); ++r) add(parts[r].matrix, node_[r], sum);
+      parts.clear();
+      return sum;
+    };
+    solver_ = std::make_unique<CoarseSolver>(joined, graph, assemble, level, kernels);
+  });
+}
+
+CoarseOnFirstRank::WorkSpace CoarseOnFirstRank::work_space(const Lanes& lanes) const {
+  if (!solver_) return {};
+  return {{solver_->n_nodes(), lanes}, {solver_->n_nodes(), lanes}, solver_->work_space(lanes)};
+}
+
+void CoarseOnFirstRank::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
+                              WorkSpace& work) const {
+  const auto size = [&](std::size_t n_nodes) { return static_cast<int>(3 * n_nodes * lanes.n_lanes); };
+  if (!solver_) {
+    MPI_Send(b.data(), size(b.n_nodes()), MPI_FLOAT, 0, tag, communicator_);
+    MPI_Recv(x.data(), size(x.n_nodes()), MPI_FLOAT, 0, tag, communicator_, MPI_STATUS_IGNORE);
+    return;
+  }
+  const std::size_t n = solver_->n_nodes();
+  std::fill_n(work.force.data(), size(n), 0.0f);
+  std::vector<float> received;
+  for (std::size_t r = 0; r < node_.size(); ++r) {
+    const float* from = b.data();
+    if (r > 0) {
+      received.resize(size(node_[r].size()));
+      MPI_Recv(received.data(), size(node_[r].size()), MPI_FLOAT, int(r), tag, communicator_,
+               MPI_STATUS_IGNORE);
+      from = received.data();
+    }
+    for_rows(lanes, node_[r], n, work.force.data(), from, [](float& to, float value) { to += value; });
+  }
+  solver_->solve(lanes, work.force, work.displacement, work.below);
+  const float* whole = work.displacement.data();
+  for (std::size_t r = node_.size(); r-- > 0;) {
+    received.resize(size(node_[r].size()));
+    float* to = r > 0 ? received.data() : x.data();
+    for_rows(lanes, node_[r], n, whole, to, [](float value, float& own) { own = value; });
+    if (r > 0) MPI_Send(to, size(node_[r].size()), MPI_FLOAT, int(r), tag, communicator_);
+  }
+}
+
+}  // namespace fem

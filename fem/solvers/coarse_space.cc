@@ -1,0 +1,164 @@
+#include "fem/solvers/coarse_space.h"
+
+#include <utility>
+#include <vector>
+
+#include "fem/mesh/cell_geometry.h"
+#include "fem/common/parallel.h"
+
+namespace fem {
+
+namespace {
+
+/// The mesh of corners, numbered in the order of the fine nodes' places.
+Grid corner_grid(const Grid& grid, const CellOrder& order, std::vector<std::int32_t>& coarse_of_place) {
+  const auto corners = corner_nodes(grid.shape());
+  std::vector<char> is_corner(grid.n_nodes, 0);
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (const int i : corners) is_corner[order.node_place[grid.nodes_of(c)[i]]] = 1;
+  coarse_of_place.assign(grid.n_nodes, -1);
+  Grid coarse;
+  coarse.kind = grid.kind;
+  coarse.degree = 1;
+  for (std::size_t place = 0; place < grid.n_nodes; ++place)
+    if (is_corner[place]) coarse_of_place[place] = static_cast<std::int32_t>(coarse.n_nodes++);
+  coarse.xyz_m.resize(3 * coarse.n_nodes);
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (const int i : corners) {
+      const auto node = grid.nodes_of(c)[i];
+      const auto which = coarse_of_place[order.node_place[node]];
+      coarse.cell_nodes.push_back(which);
+      for (int d = 0; d < 3; ++d) coarse.xyz_m[3 * std::size_t(which) + d] = grid.position(node)[d];
+    }
+  coarse.volume_id = grid.volume_id;
+  return coarse;
+}
+
+NodeMatrix make_interpolation(const Grid& grid, const CellOrder& order, const Grid& coarse) {
+  const Tabulation nodes = nodes_in_cell(grid.shape());
+  const int n_local = grid.nodes_per_cell();
+  struct Row {
+    std::int32_t cell = -1;
+    int local = 0;
+  };
+  std::vector<Row> row(grid.n_nodes);
+  for (std::size_t c = grid.n_cells(); c-- > 0;)
+    for (int i = 0; i < n_local; ++i)
+      row[order.node_place[grid.nodes_of(c)[i]]] = {static_cast<std::int32_t>(c), i};
+  NodeMatrix matrix;
+  matrix.begin.push_back(0);
+  for (const auto& [cell, local] : row) {
+    const auto hats = corner_hats(grid.shape(), nodes.point[local]);
+    for (int k = 0; k < 8; ++k)
+      if (hats[k] > 1e-12) {
+        matrix.column.push_back(coarse.nodes_of(cell)[k]);
+        matrix.weight.push_back(static_cast<float>(hats[k]));
+      }
+    matrix.begin.push_back(static_cast<std::int64_t>(matrix.column.size()));
+  }
+  return matrix;
+}
+
+/// Of the first rows.
+NodeMatrix transpose(const NodeMatrix& matrix, std::size_t n_rows, std::size_t n_columns) {
+  NodeMatrix result;
+  result.begin.assign(n_columns + 1, 0);
+  const auto n_entries = static_cast<std::size_t>(matrix.begin[n_rows]);
+  for (std::size_t k = 0; k < n_entries; ++k) ++result.begin[matrix.column[k] + 1];
+  for (std::size_t c = 0; c < n_columns; ++c) result.begin[c + 1] += result.begin[c];
+  result.column.resize(n_entries);
+  result.weight.resize(n_entries);
+  auto next = result.begin;
+  for (std::size_t r = 0; r < n_rows; ++r)
+    for (auto k = matrix.begin[r]; k < matrix.begin[r + 1]; ++k) {
+      const auto at = next[matrix.column[k]]++;
+      result.column[at] = static_cast<std::int32_t>(r);
+      result.weight[at] = matrix.weight[k];
+    }
+  return result;
+}
+
+/// Gradients of the corners' hat functions at a Gauss point, in the reference cell (3 x 8).
+std::vector<Eigen::Matrix<double, 3, 8>> hat_gradients(const Tabulation& at) {
+  std::vector<Eigen::Matrix<double, 3, 8>> result(at.n_points);
+  for (int q = 0; q < at.n_points; ++q)
+    for (int c = 0; c < 8; ++c)
+      for (int axis = 0; axis < 3; ++axis) {
+        double g = 1;
+        for (int d = 0; d < 3; ++d) {
+          const bool high = ((c >> d) & 1) == 1;
+          g *= d == axis ? (high ? 1 : -1) : (high ? at.point[q][d] : 1 - at.point[q][d]);
+        }
+        result[q](axis, c) = g;
+      }
+  return result;
+}
+
+/// P'K P.
+SymmetricMatrix assemble(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
+                         const PerCell<Lame>& elastic, const Grid& coarse, const CellsOfNodes& cells,
+                         const NodeGraph& graph) {
+  const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
+  const auto hats = hat_gradients(at);
+  std::vector<std::size_t> place(grid.n_cells());
+  for (std::size_t k = 0; k < order.cell.size(); ++k) place[order.cell[k]] = k;
+  SymmetricMatrix matrix = make_matrix(graph);
+  for (const auto& colour : colour_cells(coarse, cells))
+    parallel_for(colour.size(), 16, [&](std::size_t begin, std::size_t end) {
+      Eigen::MatrixXd scaled(24, at.n_points), products;
+      for (std::size_t c = begin; c < end; ++c) {
+        const double* m = &metric[place[colour[c]] * at.n_points * 9];
+        for (int q = 0; q < at.n_points; ++q) {
+          const Eigen::Map<const Eigen::Matrix3d> to_space(m + 9 * q);  // row-major there: transposed here
+          Eigen::Map<Eigen::Matrix<double, 3, 8>>(scaled.col(q).data()).noalias() =
+              to_space.lazyProduct(hats[q]);
+        }
+        add_cell_stiffness(scaled, coarse.nodes_of(colour[c]), elastic[colour[c]], graph, products, matrix);
+      }
+    });
+  return matrix;
+}
+
+}  // namespace
+
+CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
+                         const PerCell<Lame>& elastic, CoarseLevel level, const kernel::Kernels& kernels,
+                         const SharedNodes* shared) {
+  std::vector<std::int32_t> coarse_of_place;
+  const Grid coarse = corner_grid(grid, order, coarse_of_place);
+  n_nodes_ = coarse.n_nodes;
+  const auto cells = cells_of_nodes(coarse);
+  const NodeGraph graph = make_node_graph(coarse, cells);
+  interpolation_ = make_interpolation(grid, order, coarse);
+  restriction_ = transpose(interpolation_, shared == nullptr ? grid.n_nodes : shared->n_counted(), n_nodes_);
+  const auto stiffness = [&] { return assemble(grid, order, metric, elastic, coarse, cells, graph); };
+  if (shared == nullptr) {
+    solver_ = std::make_unique<CoarseSolver>(coarse, graph, stiffness, level, kernels);
+    return;
+  }
+  std::vector<std::int32_t> corner;
+  for (std::size_t place = 0; place < grid.n_nodes; ++place)
+    if (coarse_of_place[place] >= 0) corner.push_back(shared->body_node()[place]);
+  on_first_rank_ = std::make_unique<CoarseOnFirstRank>(shared->communicator(), coarse, corner, stiffness(),
+                                                       level, kernels);
+}
+
+std::size_t CoarseSpace::bytes() const {
+  const auto of = [](const NodeMatrix& m) { return 8 * (m.begin.size() + m.column.size()); };
+  return of(interpolation_) + of(restriction_) + (solver_ ? solver_->bytes() : on_first_rank_->bytes());
+}
+
+CoarseSpace::WorkSpace CoarseSpace::work_space(const Lanes& lanes) const {
+  if (solver_) return {solver_->work_space(lanes), {}};
+  return {{}, on_first_rank_->work_space(lanes)};
+}
+
+void CoarseSpace::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
+                        WorkSpace& work) const {
+  if (solver_)
+    solver_->solve(lanes, b, x, work.alone);
+  else
+    on_first_rank_->solve(lanes, b, x, work.on_first_rank);
+}
+
+}  // namespace fem

@@ -1,0 +1,47 @@
+#include "fem/solvers/cost_prediction.h"
+
+#include "fem/operators/cell_materials.h"
+#include "fem/solvers/direct_solve.h"
+#include "fem/common/memory.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/solvers/solver_prediction.h"
+
+namespace fem {
+
+SolverReport predict_solver(const Body& body, std::size_t n_loads, const SolverChoice& choice) {
+  constexpr std::size_t most_analysed = 600'000;  // seconds
+  const Grid grid = read_grid(body);
+  auto report = choose_solver(grid, CellMaterials(grid, body), n_loads, choice, physical_memory());
+  if (report.used == Solver::direct && 3 * grid.n_nodes <= most_analysed) {
+    report.factor = analyse_factor(grid, cells_of_nodes(grid));
+    report.predicted_direct = predict_direct(report.factor, n_loads);
+    if (is_too_dear(report.factor, report, n_loads)) report.used = Solver::iterative;
+  }
+  return report;
+}
+
+SolverReport predict_solver(const SolverReport& at_hand, std::size_t n_dofs, int degree, std::size_t n_loads,
+                            const SolverChoice& choice) {
+  SolverReport report = at_hand;
+  const bool iterative_is_faster = saves_time(at_hand);
+  if (at_hand.factor.n_dofs > 0) report.factor = scaled(at_hand.factor, n_dofs);
+  report.predicted_direct =
+      at_hand.factor.n_dofs > 0 ? predict_direct(report.factor, n_loads) : predict_direct(n_dofs, n_loads);
+  const bool suits = suits_multigrid(at_hand.largest_aspect);
+  if (at_hand.predicted_iterative.seconds == 0 || !(suits || at_hand.by_analysis)) return report;
+  if (choice.coarse_level == CoarseLevel::automatic)
+    report.coarse_level = cheaper_coarse_level(n_dofs, degree, n_loads);
+  report.predicted_iterative =
+      predict_iterative(n_dofs, degree, n_loads, report.largest_aspect, report.coarse_level);
+  if (at_hand.by_analysis) {
+    const bool dear = report.factor.n_dofs > 0 && is_too_dear(report.factor, report, n_loads);
+    report.used = dear ? Solver::iterative : Solver::direct;
+    return report;
+  }
+  const bool cost_decided = (at_hand.used == Solver::iterative) == iterative_is_faster;
+  if (choice.solver == Solver::automatic && cost_decided)
+    report.used = saves_time(report) ? Solver::iterative : Solver::direct;
+  return report;
+}
+
+}  // namespace fem

@@ -1,0 +1,143 @@
+#include "fem/solvers/iterative_on_ranks.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "fem/mesh/cell_order.h"
+#include "fem/solvers/iterative_solve.h"
+#include "fem/ranks/node_exchange.h"
+#include "fem/ranks/ranks.h"
+#include "fem/operators/shared_nodes.h"
+#include "fem/operators/subdomain.h"
+
+namespace fem {
+
+namespace {
+
+/// What a rank is given.
+struct Job {
+  Subdomain part;
+  std::vector<Lame> elastic;
+  std::vector<char> counted;  // nodes that this rank counts
+  std::vector<Neighbour> neighbours;
+  double modulus_Pa = 1;
+  Eigen::Index width = 0;
+  SolverChoice choice;
+  Eigen::RowVectorXd norm, largest_entry;  // of the loads
+};
+
+Message& operator<<(Message& message, const Job& job) {
+  return message << job.part << job.elastic << job.counted << job.neighbours << job.modulus_Pa << job.width
+                 << job.choice << job.norm << job.largest_entry;
+}
+
+Message& operator>>(Message& message, Job& job) {
+  return message >> job.part >> job.elastic >> job.counted >> job.neighbours >> job.modulus_Pa >> job.width >>
+         job.choice >> job.norm >> job.largest_entry;
+}
+
+/// Moves the nodes that this rank counts to the front; their order stays.
+void count_first(const std::vector<char>& counted, std::vector<std::int32_t>& node_place) {
+  std::vector<std::int32_t> node_at(node_place.size());
+  for (std::size_t i = 0; i < node_place.size(); ++i) node_at[node_place[i]] = static_cast<std::int32_t>(i);
+  std::stable_partition(node_at.begin(), node_at.end(), [&](auto node) { return counted[node] != 0; });
+  for (std::size_t place = 0; place < node_at.size(); ++place)
+    node_place[node_at[place]] = static_cast<std::int32_t>(place);
+}
+
+SharedNodes share_nodes(MPI_Comm communicator, const Job& job, const CellOrder& order) {
+  auto neighbours = job.neighbours;
+  for (auto& neighbour : neighbours)
+    for (auto& node : neighbour.nodes) node = order.node_place[node];
+  std::vector<std::int32_t> body_node(job.part.node.size());
+  for (std::size_t i = 0; i < body_node.size(); ++i) body_node[order.node_place[i]] = job.part.node[i];
+  const auto n_counted = std::count(job.counted.begin(), job.counted.end(), 1);
+  return {communicator, std::move(neighbours), static_cast<std::size_t>(n_counted), std::move(body_node)};
+}
+
+/// Called on all ranks.
+/// @return displacements of the nodes that this rank counts; their reports are those of the body
+std::optional<Solution> iterate_share(MPI_Comm communicator, const Job& job, const NodeExchange& all_nodes,
+                                      const NodeExchange& counted_nodes, const Eigen::MatrixXd& force,
+                                      const StepReport& progress, std::string& failure) {
+  CellOrder order = order_cells(job.part.grid);
+  count_first(job.counted, order.node_place);
+  const SharedNodes shared = share_nodes(communicator, job, order);
+  BalancedLoads loads;
+  loads.force = all_nodes.from_first(force, 3);
+  loads.norm = job.norm;
+  loads.largest_entry = job.largest_entry;
+  auto solution = iterate(job.part.grid, order, cell_after_cell(job.elastic), job.modulus_Pa, loads,
+                          job.width, job.choice, progress, failure, &shared);
+  if (!solution) return std::nullopt;
+  Eigen::MatrixXd counted(3 * shared.n_counted(), force.cols() > 0 ? force.cols() : loads.force.cols());
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < job.counted.size(); ++i)
+    if (job.counted[i] != 0) {
+      counted.middleRows<3>(row) = solution->displacement.middleRows<3>(3 * Eigen::Index(i));
+      row += 3;
+    }
+  solution->ranks =
+      gather_work(communicator, {job.part.grid.n_cells(), 3 * shared.n_counted(), solution->bytes});
+  solution->displacement = Eigen::MatrixXd::Zero(force.rows(), force.cols());
+  counted_nodes.add_on_first(counted, 3, solution->displacement);
+  return solution;
+}
+
+}  // namespace
+
+std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellMaterials& materials,
+                                                   const BalancedLoads& loads, const SolverChoice& choice,
+                                                   const StepReport& progress, std::string& failure,
+                                                   MPI_Comm communicator) {
+  progress(0.05, "prepare multigrid");
+  const int n = n_ranks(communicator);
+  const auto rank_of_cell = ranks_of_cells(grid, n);
+  const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
+  std::vector<Subdomain> parts;
+  for (int r = 0; r < n; ++r) parts.push_back(make_subdomain(grid, cells_of_rank(rank_of_cell, r)));
+  auto neighbours = find_neighbours(parts, grid.n_nodes);
+  std::vector<std::vector<std::int32_t>> nodes(n), counted_nodes(n);
+  Job job;
+  job.modulus_Pa = materials.largest_modulus_Pa();
+  const auto elastic = materials.elastic(job.modulus_Pa);
+  job.width = static_cast<Eigen::Index>(loads_per_block(3 * grid.n_nodes));
+  job.choice = choice;
+  job.norm = loads.norm;
+  job.largest_entry = loads.largest_entry;
+  for (int r = n - 1; r >= 0; --r) {
+    job.part = std::move(parts[r]);
+    job.elastic = elastic_of(job.part, elastic);
+    job.neighbours = std::move(neighbours[r]);
+    job.counted.clear();
+    for (const auto node : job.part.node) {
+      job.counted.push_back(rank_of_node[node] == r ? 1 : 0);
+      if (rank_of_node[node] == r) counted_nodes[r].push_back(node);
+    }
+    nodes[r] = job.part.node;
+    if (r == 0) continue;
+    Message message;
+    message << job;
+    message.send(r, communicator);
+  }
+  auto solution = iterate_share(communicator, job, {communicator, nodes}, {communicator, counted_nodes},
+                                loads.force, progress, failure);
+  if (solution) {
+    solution->bytes = 0;
+    for (const auto& work : solution->ranks) solution->bytes += work.bytes;
+  }
+  return solution;
+}
+
+void help_to_solve_iteratively(MPI_Comm communicator) {
+  Job job;
+  Message message = Message::receive(0, communicator);
+  message >> job;
+  message = {};
+  std::string failure;
+  iterate_share(
+      communicator, job, {communicator, {}}, {communicator, {}}, {}, [](double, const auto&) {}, failure);
+}
+
+}  // namespace fem

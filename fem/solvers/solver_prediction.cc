@@ -1,0 +1,220 @@
+#include "fem/solvers/solver_prediction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+#include "fem/values/errors.h"
+#include "fem/solvers/iterative_solve.h"
+
+namespace fem {
+
+namespace {
+
+// What is saved has to be worth an answer to 1e-10 instead of rounding.
+constexpr double worth_seconds = 1;
+// Cells more stretched than that cost more iterations than they save.
+constexpr double most_stretched = 12;
+// Up to this, and if few cells are, they do not where the factor is dear: 82 iterations at 1 : 17, 7 % of
+// the cells beyond 1 : 12. A disc of cells that are all 1 : 16 does not end in a hundred.
+constexpr double stretched_at_all = 25;
+constexpr double most_stretched_cells = 0.1;
+constexpr double stretched_safety = 2;
+// Beyond it the smoother loses its grip on motions that keep volume.
+constexpr double most_incompressible = 0.45;
+
+std::string gigabytes(double bytes) {
+  std::ostringstream text;
+  text << std::setprecision(bytes < 1e10 ? 2 : 3) << 1e-9 * bytes << " GB";
+  return text.str();
+}
+
+std::string cost_text(const SolverReport& report) {
+  std::ostringstream text;
+  text << std::setprecision(2) << "direct " << report.predicted_direct.seconds << " s, "
+       << gigabytes(report.predicted_direct.bytes) << "; iterative " << report.predicted_iterative.seconds
+       << " s, " << gigabytes(report.predicted_iterative.bytes) << " predicted";
+  return text.str();
+}
+
+constexpr const char* remedy =
+    "mesh with larger cells, take a lower degree, or use a machine with more memory";
+
+[[noreturn]] void refuse(std::size_t n_dofs, const std::string& needs, double memory_bytes) {
+  throw DoesNotFit("a body of " + std::to_string(n_dofs) + " unknowns does not fit into memory: " + needs +
+                   ", there are " + gigabytes(memory_bytes) + "; " + remedy);
+}
+
+}  // namespace
+
+std::vector<double> aspects(const Grid& grid) {
+  if (grid.shape().is_tetrahedron()) return {};
+  const auto corner = corner_nodes(grid.shape());
+  std::vector<double> result;
+  for (std::size_t c = 0; c < grid.n_cells(); ++c) {
+    double length[3] = {0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < 8; ++k)
+        if (((k >> axis) & 1) == 0) {
+          const double* a = grid.position(grid.nodes_of(c)[corner[k]]);
+          const double* b = grid.position(grid.nodes_of(c)[corner[k | (1 << axis)]]);
+          length[axis] += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        }
+    result.push_back(*std::max_element(length, length + 3) / *std::min_element(length, length + 3));
+  }
+  return result;
+}
+
+double largest_aspect(const Grid& grid) {
+  if (grid.shape().is_tetrahedron()) return 0;
+  const auto all = aspects(grid);
+  return all.empty() ? 1 : *std::max_element(all.begin(), all.end());
+}
+
+double share_stretched(const Grid& grid) {
+  const auto all = aspects(grid);
+  const auto n = std::count_if(all.begin(), all.end(), [](double a) { return !suits_multigrid(a); });
+  return all.empty() ? 0 : double(n) / double(all.size());
+}
+
+SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads) {
+  const double n = static_cast<double>(n_dofs) / 2e5;
+  const double factor = 10.8 * n + 12.6 * n * n, solve = 0.03 * std::pow(n, 1.3);
+  return {factor + solve * static_cast<double>(n_loads), 3.4e9 * std::pow(n, 1.3)};
+}
+
+SolverCost predict_direct(const FactorSize& factor, std::size_t n_loads) {
+  constexpr double s_per_dof = 1.4e-5, s_per_flop_alone = 6e-11, s_per_flop_shared = 3.5e-11,
+                   s_per_entry = 2.3e-10, s_per_response = 2.4e-7;
+  const double n = double(factor.n_dofs), k = double(n_loads);
+  const double s_per_flop = factor.flops < flops_worth_threads ? s_per_flop_alone : s_per_flop_shared;
+  return {s_per_dof * n + s_per_flop * factor.flops + (s_per_entry * factor.entries + s_per_response * n) * k,
+          factor.bytes};
+}
+
+FactorSize scaled(const FactorSize& factor, std::size_t n_dofs) {
+  const double ratio = double(n_dofs) / double(factor.n_dofs), larger = std::pow(ratio, 4.0 / 3);
+  return {n_dofs, factor.entries * larger, factor.flops * ratio * ratio, factor.bytes * larger};
+}
+
+SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
+                             CoarseLevel level) {
+  const double n = double(n_dofs), k = 4 * std::ceil(double(n_loads) / 4);
+  const double lanes = std::min(double(loads_per_block(n_dofs)), k);
+  const double trilinear = n / (degree * degree * degree);
+  double iterations = 8 + 2.3 * aspect, setup = 2e-6 * n, each = 8e-8 * n * k, bytes = n * (215 + 48 * lanes);
+  if (level == CoarseLevel::factorised) {
+    const double factor_s = 7 * std::pow(trilinear / 2e5, 1.75);
+    setup += 3 * factor_s;
+    each += 0.25 * factor_s;
+    bytes += predict_direct(static_cast<std::size_t>(trilinear), 0).bytes;
+  } else {
+    iterations *= 1.1;
+    setup += 8e-6 * trilinear;
+    bytes += 1100 * trilinear;
+  }
+  return {setup + iterations * each, bytes};
+}
+
+bool suits_multigrid(double aspect) {
+  return aspect <= most_stretched;
+}
+
+bool is_too_dear(const FactorSize& factor, const SolverReport& report, std::size_t n_loads) {
+  return report.by_analysis && stretched_safety * report.predicted_iterative.seconds + worth_seconds <
+                                   predict_direct(factor, n_loads).seconds;
+}
+
+bool may_be_iterated(const Grid& grid, const CellMaterials& materials, const SolverChoice& choice,
+                     const SolverReport& report, double memory_bytes) {
+  return choice.solver == Solver::automatic && !report.gave_up && !grid.shape().is_tetrahedron() &&
+         grid.degree > 1 && materials.largest_poisson_ratio() <= most_incompressible &&
+         share_stretched(grid) <= 0.5 && report.predicted_iterative.bytes < memory_bytes;
+}
+
+bool saves_time(const SolverReport& report) {
+  return report.predicted_iterative.seconds + worth_seconds < report.predicted_direct.seconds;
+}
+
+CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_loads) {
+  const auto seconds = [&](CoarseLevel level) {
+    return predict_iterative(n_dofs, degree, n_loads, 3, level).seconds;
+  };
+  return seconds(CoarseLevel::aggregated) < seconds(CoarseLevel::factorised) ? CoarseLevel::aggregated
+                                                                             : CoarseLevel::factorised;
+}
+
+double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads) {
+  constexpr double program = 2e8, grid = 40, load_and_displacement = 16;
+  return program + double(n_dofs) * (grid + load_and_displacement * double(n_loads));
+}
+
+SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
+                           const SolverChoice& choice, double memory_bytes) {
+  const std::size_t n_dofs = 3 * grid.n_nodes;
+  SolverReport report;
+  report.predicted_direct = predict_direct(n_dofs, n_loads);
+  report.largest_aspect = largest_aspect(grid);
+  report.coarse_level = choice.coarse_level;
+  const auto take = [&](Solver solver, const std::string& reason) {
+    report.used = solver;
+    report.reason = reason;
+    return report;
+  };
+  if (grid.shape().is_tetrahedron()) return take(Solver::direct, "the body has tetrahedra");
+  if (grid.degree < 2) return take(Solver::direct, "cells of degree 1 have no coarser polynomials");
+  if (report.coarse_level == CoarseLevel::automatic)
+    report.coarse_level = cheaper_coarse_level(n_dofs, grid.degree, n_loads);
+  report.predicted_iterative =
+      predict_iterative(n_dofs, grid.degree, n_loads, report.largest_aspect, report.coarse_level);
+  if (choice.gave_up_before) {
+    report.gave_up = true;
+    return take(Solver::direct, "the iteration has given up on this mesh and material before");
+  }
+  if (choice.solver != Solver::automatic) {
+    take(choice.solver, "as asked for");
+    if (report.predicted().bytes > memory_bytes)
+      refuse(n_dofs, "the solver asked for is predicted to need " + gigabytes(report.predicted().bytes),
+             memory_bytes);
+    return report;
+  }
+  const double room = memory_bytes - bytes_beside_solver(n_dofs, n_loads);
+  const bool direct_fits = report.predicted_direct.bytes < room;
+  const bool iterative_fits = report.predicted_iterative.bytes < room;
+  const bool compact = suits_multigrid(report.largest_aspect);
+  // Thin bodies have small factors: what they need the analysis of their matrix will tell.
+  if (!direct_fits && !iterative_fits && compact)
+    refuse(n_dofs,
+           "beside " + gigabytes(memory_bytes - room) + " for the rest of the run " + cost_text(report),
+           memory_bytes);
+  if (!compact) {
+    std::ostringstream text;
+    text << "cells are stretched up to 1 : " << std::setprecision(3) << report.largest_aspect;
+    report.by_analysis = report.largest_aspect <= stretched_at_all &&
+                         share_stretched(grid) <= most_stretched_cells && iterative_fits &&
+                         materials.largest_poisson_ratio() <= most_incompressible;
+    return take(Solver::direct, text.str());
+  }
+  if (materials.largest_poisson_ratio() > most_incompressible) {
+    std::ostringstream text;
+    text << "Poisson's ratio is " << materials.largest_poisson_ratio();
+    return take(Solver::direct, text.str());
+  }
+  if (!direct_fits)
+    return take(Solver::iterative, "the factor would not fit into memory: " + cost_text(report));
+  if (!iterative_fits)
+    return take(Solver::direct, "the vectors would not fit into memory: " + cost_text(report));
+  return saves_time(report) ? take(Solver::iterative, "faster: " + cost_text(report))
+                            : take(Solver::direct, "as fast: " + cost_text(report));
+}
+
+void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes) {
+  if (factor_bytes > memory_bytes)
+    throw DoesNotFit("a body of " + std::to_string(n_dofs) +
+                     " unknowns does not fit into memory: its factor needs " + gigabytes(factor_bytes) +
+                     ", " + gigabytes(memory_bytes) + " are left; " + remedy);
+}
+
+}  // namespace fem

@@ -1,0 +1,84 @@
+/// What the two solvers are predicted to cost. Internal to fem.
+#pragma once
+
+#include <vector>
+
+#include "fem/operators/cell_materials.h"
+#include "fem/mesh/grid.h"
+#include "fem/values/solver_choice.h"
+
+namespace fem {
+
+/// Ratio of the longest to the shortest of a cell's mean edge lengths along its three axes, for each cell;
+/// empty for tetrahedra.
+std::vector<double> aspects(const Grid& grid);
+
+/// Of all cells: those that suits_multigrid refuses.
+double share_stretched(const Grid& grid);
+
+/// The largest of them; 1 without cells, 0 for tetrahedra.
+double largest_aspect(const Grid& grid);
+
+/// For two threads of a quiet server core of 2023 with AVX2 (AMD EPYC; half the CPU seconds of both threads),
+/// with n unknowns, N = n / 2e5, m = n / degree^3 unknowns of the trilinear level, k load cases:
+///   direct      10.8 N + 12.6 N^2 + 0.03 N^1.3 k  s,   3.4e9 N^1.3  bytes
+///   factorised  2e-6 n + 3 c + (8 + 2.3 aspect) (8e-8 n K + 0.25 c)  s,  c = 7 (m / 2e5)^1.75, its bytes as
+///   direct of m aggregated  2e-6 n + 8e-6 m + 1.1 (8 + 2.3 aspect) 8e-8 n K  s,  1100 m bytes
+/// and 215 n + 48 n (load cases of a block) bytes for both of the latter; K is k filled up to a multiple of
+/// 4, which the operator works on at once. Fitted on tests/benchmarks/shaft.toml and stretched rods,
+/// aspect 2.7 to 7, 50 k to 4 M unknowns (direct: 50 k to 700 k). On slower machines the seconds of all grow
+/// alike, and the choice stays.
+SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads);
+
+/// Factorisations below stay on one thread: CHOLMOD's many small products gain little from more, and BLAS
+/// threads wait for each other by yielding, which beside any other program costs five to ten times the
+/// seconds.
+constexpr double flops_worth_threads = 3e11;
+
+/// The same of a matrix that was analysed, for a body of any shape, with recovery: 1.4e-5 n + 6e-11 flops
+/// (3.5e-11 where threads share them) + (2.3e-10 entries + 2.4e-7 n) k seconds; its bytes. Fitted on shafts,
+/// drums and chambers, 67 k to 335 k unknowns.
+SolverCost predict_direct(const FactorSize& factor, std::size_t n_loads);
+
+/// Of n_dofs unknowns in a body of the same shape: flops grow as n^2, entries as n^(4/3).
+FactorSize scaled(const FactorSize& factor, std::size_t n_dofs);
+SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads, double aspect,
+                             CoarseLevel level);
+
+/// Whether the cells are compact enough for the smoother, which is pointwise.
+bool suits_multigrid(double aspect);
+
+/// Whether an analysed factor is predicted to cost more than twice what the iteration does on cells of
+/// middling stretch, whose number of iterations is known less well.
+bool is_too_dear(const FactorSize& factor, const SolverReport& report, std::size_t n_loads);
+
+/// Whether stretched cells may be iterated where the factor does not fit into memory: at most half of them
+/// beyond 1 : 12 (a third of a stepped shaft's cells, up to 1 : 39: 95 iterations), so that it may take up to
+/// patience times SolverChoice::max_iterations.
+/// @param memory_bytes  that are left
+bool may_be_iterated(const Grid& grid, const CellMaterials& materials, const SolverChoice& choice,
+                     const SolverReport& report, double memory_bytes);
+inline constexpr int patience = 3;
+
+/// Whether the iterative solver is predicted to save enough to be worth an answer to its tolerance.
+bool saves_time(const SolverReport& report);
+
+/// The one predicted to be faster on cells of ordinary aspect.
+CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_loads);
+
+/// Of a run, beside the solver's own: mesh, loads and displacements [bytes].
+double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
+
+/// Takes the choice, or makes it: fills used, reason, coarse level, predictions, aspect.
+/// @param memory_bytes  of the machine
+/// @throws DoesNotFit naming unknowns, predicted bytes, memory and remedy if neither solver is
+/// predicted to fit into memory, or the one asked for not even into a machine that holds nothing else
+SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
+                           const SolverChoice& choice, double memory_bytes);
+
+/// @param factor_bytes  known, not predicted: CHOLMOD's analysis of the matrix tells it before it factorises
+/// @param memory_bytes  that are left for it
+/// @throws DoesNotFit naming unknowns, bytes, memory and remedy if it does not fit into memory
+void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes);
+
+}  // namespace fem

@@ -1,0 +1,22 @@
+/// Stress of the finite-element solution itself at a node, in each of the cells that meet there. How far the
+/// cells are from the recovered stress shows how far the mesh is from resolving the place.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/values/unit_responses.h"
+
+namespace fem {
+
+/// @param material  of the body; of volume groups with a material of their own, that of material_of_volume
+/// @param node      index into responses.nodes
+/// @return for each cell K tensors (xx, yy, zz, xy, yz, xz) [Pa], one per unit load
+/// @throws std::invalid_argument if no cell holds the node, or it is not known which volume a cell belongs to
+std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
+    const UnitResponses& responses, const Material& material, std::size_t node,
+    const std::map<int, Material>& material_of_volume = {});
+
+}  // namespace fem

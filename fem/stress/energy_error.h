@@ -1,0 +1,15 @@
+/// Recovery-based error estimate (Zienkiewicz and Zhu, Int. J. Numer. Meth. Engng 24, 1987): the recovered
+/// stress stands for the exact one. Internal to fem.
+#pragma once
+
+#include "fem/stress/cell_stress.h"
+#include "fem/values/unit_responses.h"
+
+namespace fem {
+
+/// @param displacement  n_nodes x 3 K
+/// @param stress        recovered, n_nodes x 6 K
+EnergyError energy_error(const Grid& grid, const PerCell<Lame>& elastic, const ConstBlock& displacement,
+                         const ConstBlock& stress);
+
+}  // namespace fem

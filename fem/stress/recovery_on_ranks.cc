@@ -1,0 +1,118 @@
+#include "fem/stress/recovery_on_ranks.h"
+
+#include <utility>
+
+#include "fem/ranks/node_exchange.h"
+#include "fem/ranks/ranks.h"
+#include "fem/stress/stress_recovery.h"
+#include "fem/stress/stress_samples.h"
+#include "fem/operators/subdomain.h"
+#include "fem/stress/volumetric_stress.h"
+
+namespace fem {
+
+namespace {
+
+// A node takes its share from corners of its cells (1 layer around a rank's nodes), or from those that stand
+// in for them (2), whose patches (3; tetrahedra take up to two more) have to know their neighbours' place in
+// the body (1 more).
+constexpr int n_layers = 6;
+
+/// What a rank is given.
+struct Job {
+  Subdomain part;
+  std::vector<Lame> elastic;
+  std::vector<CylinderChart> charts;
+  std::vector<int> loaded_groups;
+  int by_patches = 1, hardly_compresses = 0;
+  std::vector<std::int32_t> counted;  // nodes of the part that this rank counts
+};
+
+Message& operator<<(Message& message, const Job& job) {
+  return message << job.part << job.elastic << job.charts << job.loaded_groups << job.by_patches
+                 << job.hardly_compresses << job.counted;
+}
+
+Message& operator>>(Message& message, Job& job) {
+  return message >> job.part >> job.elastic >> job.charts >> job.loaded_groups >> job.by_patches >>
+         job.hardly_compresses >> job.counted;
+}
+
+/// Called on all ranks.
+void recover_share(MPI_Comm communicator, const Job& job, const NodeExchange& all_nodes,
+                   const NodeExchange& counted_nodes, const RowMajor& displacement,
+                   Eigen::Ref<RowMajor> stress) {
+  const RowMajor own = all_nodes.from_first(displacement, 1);
+  RowMajor counted;
+  agree(communicator, [&] {
+    const auto& grid = job.part.grid;
+    RowMajor result(grid.n_nodes, 2 * own.cols());
+    const auto cells = cells_of_nodes(grid);
+    const auto elastic = cell_after_cell(job.elastic);
+    if (job.by_patches != 0)
+      recover_stress(grid, cells, job.charts, free_faces(grid, job.loaded_groups), elastic,
+                     job.hardly_compresses != 0, own, result);
+    else
+      average_stress(grid, cells, elastic, own, result);
+    counted.resize(job.counted.size(), result.cols());
+    for (std::size_t i = 0; i < job.counted.size(); ++i) counted.row(i) = result.row(job.counted[i]);
+  });
+  counted_nodes.add_on_first(counted, 1, stress);
+}
+
+}  // namespace
+
+void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
+                    const std::vector<CylinderChart>& charts, const std::vector<int>& loaded_groups,
+                    bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress) {
+  if (!by_patches) {
+    average_stress(grid, cells, elastic, displacement, stress);
+    return;
+  }
+  recover_stress(grid, cells, charts, free_faces(grid, loaded_groups), elastic,
+                 any_hardly_compresses(grid, elastic), displacement, stress);
+}
+
+void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
+                             const std::vector<CylinderChart>& charts, const std::vector<int>& loaded_groups,
+                             bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress,
+                             MPI_Comm communicator) {
+  const int n = n_ranks(communicator);
+  const auto rank_of_cell = ranks_of_cells(grid, n);
+  const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
+  std::vector<std::vector<std::int32_t>> nodes(n), counted_nodes(n);
+  Job job;
+  job.charts = charts;
+  job.loaded_groups = loaded_groups;
+  job.by_patches = by_patches ? 1 : 0;
+  job.hardly_compresses = any_hardly_compresses(grid, elastic) ? 1 : 0;  // somewhere in the body
+  for (int r = n - 1; r >= 0; --r) {
+    job.part = make_subdomain(grid, with_layers(grid, cells, cells_of_rank(rank_of_cell, r), n_layers));
+    job.elastic = elastic_of(job.part, elastic);
+    nodes[r] = job.part.node;
+    job.counted.clear();
+    for (std::size_t i = 0; i < job.part.node.size(); ++i)
+      if (rank_of_node[job.part.node[i]] == r) {
+        job.counted.push_back(static_cast<std::int32_t>(i));
+        counted_nodes[r].push_back(job.part.node[i]);
+      }
+    if (r == 0) continue;
+    Message message;
+    message << job;
+    message.send(r, communicator);
+  }
+  stress.setZero();
+  recover_share(communicator, job, {communicator, nodes}, {communicator, counted_nodes}, displacement,
+                stress);
+}
+
+void help_to_recover_stress(MPI_Comm communicator) {
+  Job job;
+  Message message = Message::receive(0, communicator);
+  message >> job;
+  message = {};
+  RowMajor none;
+  recover_share(communicator, job, {communicator, {}}, {communicator, {}}, none, none);
+}
+
+}  // namespace fem

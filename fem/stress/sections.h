@@ -1,0 +1,24 @@
+/// Plane sections and surface rings of a body: what the recovered stress says about them. Internal to fem.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/mesh/grid.h"
+#include "fem/values/unit_responses.h"
+
+namespace fem {
+
+/// sigma_r_theta and sigma_theta_z at a point (x, y) from an axis along z; stress xx, yy, zz, xy, yz, xz.
+std::array<double, 2> rim_shear(double x_m, double y_m, const double* stress_Pa);
+
+/// Fills planes, plane_area_m2 and sections from displacement and stress.
+/// @throws std::invalid_argument for a plane that no cell faces lie in, or that they do not fill, or without
+/// rim nodes
+void respond_on_sections(const Grid& grid, const std::vector<SectionPlane>& planes, UnitResponses& responses);
+
+/// Fills rings and ring_shear_Pa: nodes of curved boundary faces whose chart has no shift, and of fillets.
+void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& responses);
+
+}  // namespace fem

@@ -1,0 +1,23 @@
+#include "fem/stress/stress_recovery.h"
+
+#include <algorithm>
+
+#include "fem/stress/volumetric_stress.h"
+
+namespace fem {
+
+void recover_stress(const Grid& grid, const CellsOfNodes& cells, const std::vector<CylinderChart>& charts,
+                    const std::vector<BoundaryFace>& free, const PerCell<Lame>& elastic,
+                    bool hardly_compresses, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress) {
+  const auto samples = make_samples(grid, free);
+  RowMajor values = stress_at_samples(grid, free, elastic, displacement);
+  if (!hardly_compresses) return recover_by_patches(grid, cells, charts, samples, values, stress);
+  const auto volumetric = separate_volumetric(grid, elastic, displacement, samples, values);
+  recover_by_patches(grid, cells, charts, samples, values, stress, {grid.degree, true});
+  RowMajor part(stress.rows(), stress.cols());
+  recover_by_patches(grid, cells, charts, volumetric.samples, volumetric.values, part,
+                     {std::max(grid.degree - 1, 1), true});
+  stress += part;
+}
+
+}  // namespace fem

@@ -1,0 +1,14 @@
+/// How the cells of a body are shared among ranks. No deal.II.
+#pragma once
+
+#include <vector>
+
+#include "fem/values/unit_responses.h"
+
+namespace fem {
+
+/// The share, 0 .. n_shares - 1, of each cell: shares of equal number, cut across the longest extent of the
+/// body. As the ranks share them where no materials meet.
+std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares);
+
+}  // namespace fem

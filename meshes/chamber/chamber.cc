@@ -1,0 +1,57 @@
+#include "meshes/chamber/chamber.h"
+
+#include <sstream>
+
+#include "meshes/chamber/chamber_checks.h"
+#include "meshes/chamber/chamber_layout.h"
+#include "meshes/chamber/chamber_plan.h"
+#include "meshes/chamber/chamber_stations.h"
+#include "meshes/chamber/chamber_surfaces.h"
+#include "meshes/gmsh/msh_writer.h"
+#include "meshes/checks/quality.h"
+#include "meshes/values/refused.h"
+#include "meshes/checks/sharp_edges.h"
+#include "meshes/spacing/swept_plan.h"
+
+namespace meshes {
+
+namespace {
+
+void require_quality(const MeshQuality& quality, double wanted) {
+  if (quality.min_scaled_jacobian >= wanted) return;
+  std::ostringstream text;
+  text << "chamber mesh: the smallest scaled Jacobian is " << quality.min_scaled_jacobian
+       << " at (x, y, z) = (" << quality.worst_x_m * 1e3 << ", " << quality.worst_y_m * 1e3 << ", "
+       << quality.worst_z_m * 1e3 << ") mm, wanted " << wanted
+       << "; change the plate that lies there (lower webs, lugs as wide as their pads, feet further away), "
+          "or lower min_scaled_jacobian";
+  throw MeshRefused(text.str());
+}
+
+}  // namespace
+
+BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control,
+                       const std::filesystem::path& file) {
+  check_control(control);
+  check_sizes(chamber);
+  const ChamberLayout layout = lay_out(chamber, control);
+  check_clearances(chamber, layout);
+  const ChamberStations stations = place_stations(chamber, layout, control);
+  const ChamberSurfaces surfaces = name_surfaces(chamber, layout);
+  const HexMesh mesh = sweep(build_plan(chamber, layout, stations, surfaces, control), stations.z_m);
+
+  BodyMesh body;
+  body.file = file;
+  body.ports = ports_of(chamber, surfaces);
+  body.features = surfaces.features;
+  body.cylinders = cylinders_of(chamber, layout);
+  body.regions = regions_of_chamber();
+  body.sharp_edges = find_sharp_edges(mesh, surfaces.plates);
+  body.hot_spots = stations.hot_spots;
+  body.quality = measure_quality(mesh);
+  require_quality(body.quality, control.min_scaled_jacobian);
+  write_msh(mesh, group_names(surfaces), file);
+  return body;
+}
+
+}  // namespace meshes

@@ -1,0 +1,179 @@
+#include "meshes/imported/port_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "meshes/values/refused.h"
+
+namespace meshes {
+
+namespace {
+
+constexpr double near_share = 0.02;   // of the radius: what still counts as the cylinder meant
+constexpr double same_share = 1e-3;   // of the radius: surfaces on one and the same cylinder
+constexpr double range_share = 1e-3;  // of the length asked for, in z
+
+[[noreturn]] void refuse(const ImportPort& port, const std::string& what) {
+  throw GeometryRefused("port " + port.name + ": " + what);
+}
+
+std::string name_of(const Piece& piece) {
+  return piece.name.empty() ? "surface " + std::to_string(piece.tag) : piece.name;
+}
+
+std::string candidates(const ModelMesh& model, const std::vector<PieceShape>& shapes, bool only_cylinders) {
+  constexpr std::size_t most = 40;  // lines a person reads
+  std::string list;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (only_cylinders && !shapes[i].cylinder) continue;
+    if (++n <= most) list += "\n  " + name_of(model.pieces[i]) + ": " + describe(shapes[i]);
+  }
+  if (n > most) list += "\n  and " + std::to_string(n - most) + " more";
+  return list.empty() ? " none" : list;
+}
+
+struct Select {
+  const ImportPort& port;
+  const ModelMesh& model;
+  const std::vector<PieceShape>& shapes;
+
+  std::vector<int> operator()(const GroupSelection& group) const {
+    std::vector<int> chosen;
+    std::string names;
+    for (std::size_t i = 0; i < model.pieces.size(); ++i) {
+      if (model.pieces[i].name.empty()) continue;
+      names += (names.empty() ? "" : ", ") + model.pieces[i].name;
+      if (model.pieces[i].name == group.name) chosen.push_back(int(i));
+    }
+    if (chosen.empty())
+      refuse(port, "the body has no group of surfaces \"" + group.name + "\"; " +
+                       (names.empty() ? "it has no groups at all (STEP carries none): choose by a box or a "
+                                        "cylinder"
+                                      : "its groups are " + names));
+    return chosen;
+  }
+
+  std::vector<int> operator()(const BoxSelection& box) const {
+    std::vector<int> chosen;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      bool inside = true;
+      for (int d = 0; d < 3; ++d) {
+        const double tolerance = 1e-9 + 1e-6 * std::abs(box.high_m[d] - box.low_m[d]);
+        inside = inside && shapes[i].low_m[d] >= box.low_m[d] - tolerance &&
+                 shapes[i].high_m[d] <= box.high_m[d] + tolerance;
+      }
+      if (inside) chosen.push_back(int(i));
+    }
+    if (chosen.empty())
+      refuse(port, "no surface lies in its box; make the box larger; the surfaces are" +
+                       candidates(model, shapes, false));
+    return chosen;
+  }
+
+  std::vector<int> operator()(const CylinderSelection& wanted) const {
+    const double tolerance = range_share * (wanted.end_m - wanted.begin_m);
+    const auto distance = [&](const FoundCylinder& c) {
+      return std::hypot(c.axis_x_m - wanted.axis_x_m, c.axis_y_m - wanted.axis_y_m) +
+             std::abs(c.radius_m - wanted.radius_m);
+    };
+    const auto overlaps = [&](const PieceShape& shape) {
+      return shape.cylinder && shape.cylinder->inside == (wanted.side == CylinderSelection::Side::inside) &&
+             shape.high_m[2] > wanted.begin_m + tolerance && shape.low_m[2] < wanted.end_m - tolerance;
+    };
+    double nearest = near_share * wanted.radius_m;
+    bool found = false;
+    for (const auto& shape : shapes)
+      if (overlaps(shape) && distance(*shape.cylinder) <= nearest) {
+        nearest = distance(*shape.cylinder);
+        found = true;
+      }
+    if (!found)
+      refuse(port, "no surface lies on its cylinder; the cylinders parallel to z are" +
+                       candidates(model, shapes, true));
+    std::vector<int> chosen;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      if (!overlaps(shapes[i]) || distance(*shapes[i].cylinder) > nearest + same_share * wanted.radius_m)
+        continue;
+      if (shapes[i].low_m[2] < wanted.begin_m - tolerance || shapes[i].high_m[2] > wanted.end_m + tolerance)
+        refuse(port, name_of(model.pieces[i]) + " on its cylinder reaches out of its range of z: " +
+                         describe(shapes[i]) + "; give the whole range, or divide the surface in the CAD");
+      chosen.push_back(int(i));
+    }
+    return chosen;
+  }
+};
+
+void check_values(const ImportPort& port, std::set<std::string>& names) {
+  if (port.name.empty()) throw GeometryRefused("a port of the imported body has no name; give it one");
+  if (!names.insert(port.name).second)
+    throw GeometryRefused("two ports are called '" + port.name + "'; names must be unique");
+  if (const auto* box = std::get_if<BoxSelection>(&port.selection))
+    for (int d = 0; d < 3; ++d)
+      if (!(box->low_m[d] <= box->high_m[d])) refuse(port, "its box has a low corner above the high one");
+  if (const auto* cylinder = std::get_if<CylinderSelection>(&port.selection))
+    if (!(cylinder->radius_m > 0) || !(cylinder->end_m > cylinder->begin_m))
+      refuse(port, "its cylinder needs a positive radius, and an end beyond its begin");
+}
+
+}  // namespace
+
+std::vector<int> assign_ports(const std::vector<ImportPort>& ports, const ModelMesh& model,
+                              const std::vector<PieceShape>& shapes) {
+  std::set<std::string> names;
+  std::vector<int> port_of(model.pieces.size(), -1);
+  for (std::size_t p = 0; p < ports.size(); ++p) {
+    check_values(ports[p], names);
+    for (const int piece : std::visit(Select{ports[p], model, shapes}, ports[p].selection)) {
+      if (port_of[piece] >= 0)
+        refuse(ports[p], name_of(model.pieces[piece]) + " (" + describe(shapes[piece]) +
+                             ") already belongs to port " + ports[port_of[piece]].name +
+                             "; change one of the two selections");
+      port_of[piece] = int(p);
+    }
+  }
+  for (std::size_t i = 0; i < model.pieces.size(); ++i)
+    if (port_of[i] < 0 && names.count(model.pieces[i].name) > 0)
+      throw GeometryRefused("port " + model.pieces[i].name +
+                            " has the name of a group of surfaces that it does not take; rename it");
+  return port_of;
+}
+
+Port make_port(const ImportPort& port, const ModelMesh& model, const std::vector<PieceShape>& shapes,
+               const std::vector<int>& port_of_piece, int index, int boundary_id) {
+  Port made;
+  made.name = port.name;
+  made.kind = port.kind;
+  made.boundary_id = boundary_id;
+  made.begin_m = 1e300;
+  made.end_m = -1e300;
+  double area_m2 = 0;
+  std::vector<int> pieces;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (port_of_piece[i] != index) continue;
+    pieces.push_back(int(i));
+    made.begin_m = std::min(made.begin_m, shapes[i].low_m[2]);
+    made.end_m = std::max(made.end_m, shapes[i].high_m[2]);
+    made.axis_x_m += shapes[i].area_m2 * shapes[i].centre_m[0];
+    made.axis_y_m += shapes[i].area_m2 * shapes[i].centre_m[1];
+    area_m2 += shapes[i].area_m2;
+  }
+  made.axis_x_m /= area_m2;
+  made.axis_y_m /= area_m2;
+  if (port.kind == Port::Kind::face) return made;
+  const auto cylinder = common_cylinder(model.mesh, model.mesh.face_id, pieces);
+  if (!cylinder)
+    refuse(port, "its surfaces are no cylinder parallel to z, which a seat or bore must be; they are" +
+                     candidates(model, shapes, false) + "\nchoose others, or make it a face");
+  if (cylinder->inside != (port.kind == Port::Kind::bore))
+    refuse(port, std::string("its cylinder is the ") + (cylinder->inside ? "inside" : "outside") +
+                     " of one; make it a " + (cylinder->inside ? "bore" : "seat") + " or choose another");
+  made.axis_x_m = cylinder->axis_x_m;
+  made.axis_y_m = cylinder->axis_y_m;
+  made.radius_m = cylinder->radius_m;
+  return made;
+}
+
+}  // namespace meshes

@@ -1,0 +1,44 @@
+/// Shafts with keyways, which no blocks can follow: solids meshed with quadratic tetrahedra.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "meshes/shaft/shaft.h"
+#include "meshes/solids/solid_control.h"
+
+namespace meshes {
+
+/// A slot milled into the surface of a segment: a flat floor, walls parallel to the plane through the
+/// segment's axis and the slot's middle line.
+struct Keyway {
+  std::string segment;
+  double width_m = 0;
+  double depth_m = 0;       ///< from the surface at the middle line to the floor
+  double length_m = 0;      ///< over all, round ends included
+  double begin_m = 0;       ///< z of the end with the smaller z
+  double angle_rad = 0;     ///< of the middle line about the segment's axis, from +x
+  bool round_ends = false;  ///< half circles of the width (end mill); else square
+};
+
+/// What build_solid_shaft refuses before it meshes.
+/// @throws GeometryRefused as build_solid_shaft
+void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, const SolidControl& control);
+
+/// Meshes the shaft with its keyways and writes `file` (through a temporary name). Ports, and features of
+/// cylinders, fillets, shoulders, end faces and bores, are named and lie as build_shaft's; what a keyway
+/// leaves of a seat is the port. Keyway surfaces are "keyway <segment>", further ones on the segment "keyway
+/// <segment> 2" ... The bore has one diameter from end to end. Volume: "shaft". Sharp edges: shoulders
+/// without fillet and the floors of keyways.
+/// @throws GeometryRefused with the offending numbers: as build_shaft for the shaft; a bore that is not
+/// the same everywhere; a keyway on no segment, wider than 0.6 of the diameter, shallower than its own edges
+/// or so deep that less than a tenth of the diameter is left to the axis or the bore, out of the bare
+/// cylinder of its segment (only square ends may run out at the shaft's ends), with round ends on less than
+/// its width, or one that meets another
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian, or the file cannot be
+/// written
+BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways,
+                           const SolidControl& control, const std::filesystem::path& file);
+
+}  // namespace meshes

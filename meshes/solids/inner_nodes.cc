@@ -1,0 +1,113 @@
+#include "meshes/solids/inner_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "meshes/checks/curved_quality.h"
+
+namespace meshes {
+
+namespace {
+
+constexpr int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};  // gmsh's order
+
+class Mover {
+public:
+  explicit Mover(CellMesh& mesh) : mesh_(mesh), cells_of_(mesh.points.size()), fixed_(mesh.points.size(), 0) {
+    std::vector<int> volume(mesh.points.size(), 0);
+    for (std::size_t c = 0; c < mesh.n_cells(); ++c)
+      for (std::size_t i = 0; i < 10; ++i) {
+        const int node = mesh.cell(c)[i];
+        if (!cells_of_[node].empty() && volume[node] != mesh.volume_id[c]) fixed_[node] = 1;
+        volume[node] = mesh.volume_id[c];
+        cells_of_[node].push_back(c);
+      }
+    for (const int node : mesh.faces) fixed_[node] = 1;
+  }
+
+  /// Tries the 26 neighbours on a lattice whose step gets smaller; keeps the best.
+  bool improve(int node) {
+    if (fixed_[node]) return false;
+    const Group group = group_of(node);
+    const double before = worst_of(group.cells);
+    double best = before;
+    for (double step = 0.3 * group.size; step > 0.01 * group.size; step /= 2) {
+      Point best_move{};
+      for (int i = 0; i < 27; ++i) {
+        const Point move = {step * (i % 3 - 1), step * (i / 3 % 3 - 1), step * (i / 9 - 1)};
+        shift(group, move, 1);
+        if (const double quality = worst_of(group.cells); quality > best) {
+          best = quality;
+          best_move = move;
+        }
+        shift(group, move, -1);
+      }
+      shift(group, best_move, 1);
+    }
+    return best > before + 1e-6;
+  }
+
+private:
+  struct Group {
+    int node = 0;
+    std::vector<int> middles;        // inner ones of the edges at a corner
+    std::vector<std::size_t> cells;  // that any of these belongs to
+    double size = 1e300;             // shortest edge of the node's cells
+  };
+
+  Group group_of(int node) const {
+    Group group;
+    group.node = node;
+    std::set<int> middles;
+    std::set<std::size_t> cells(cells_of_[node].begin(), cells_of_[node].end());
+    for (const auto c : cells_of_[node])
+      for (int e = 0; e < 6; ++e) {
+        const int a = mesh_.cell(c)[edges[e][0]], b = mesh_.cell(c)[edges[e][1]], m = mesh_.cell(c)[4 + e];
+        double sum = 0;
+        for (int d = 0; d < 3; ++d) sum += std::pow(mesh_.points[a][d] - mesh_.points[b][d], 2);
+        group.size = std::min(group.size, std::sqrt(sum));
+        if ((a == node || b == node) && !fixed_[m]) middles.insert(m);
+      }
+    for (const int m : middles) cells.insert(cells_of_[m].begin(), cells_of_[m].end());
+    group.middles.assign(middles.begin(), middles.end());
+    group.cells.assign(cells.begin(), cells.end());
+    return group;
+  }
+  double worst_of(const std::vector<std::size_t>& cells) const {
+    double worst = 1;
+    for (const auto c : cells) worst = std::min(worst, scaled_jacobian(mesh_, c));
+    return worst;
+  }
+  void shift(const Group& group, const Point& move, double sign) {
+    for (int d = 0; d < 3; ++d) {
+      mesh_.points[group.node][d] += sign * move[d];
+      for (const int m : group.middles) mesh_.points[m][d] += sign * move[d] / 2;
+    }
+  }
+
+  CellMesh& mesh_;
+  std::vector<std::vector<std::size_t>> cells_of_;  // nodes
+  std::vector<char> fixed_;
+};
+
+}  // namespace
+
+void move_inner_nodes(CellMesh& mesh, double wanted) {
+  std::vector<std::size_t> bad;
+  for (std::size_t c = 0; c < mesh.n_cells(); ++c)
+    if (scaled_jacobian(mesh, c) < wanted) bad.push_back(c);
+  if (bad.empty()) return;
+  Mover mover(mesh);
+  constexpr int n_passes = 5;
+  bool any = true;
+  for (int pass = 0; pass < n_passes && any; ++pass) {
+    any = false;
+    for (const auto c : bad)
+      for (std::size_t i = 0; i < 10 && scaled_jacobian(mesh, c) < wanted; ++i)
+        any = mover.improve(mesh.cell(c)[i]) || any;
+  }
+}
+
+}  // namespace meshes

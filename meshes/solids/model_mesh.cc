@@ -1,0 +1,231 @@
+#include "meshes/solids/model_mesh.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "meshes/values/constants.h"
+#include "meshes/solids/inner_nodes.h"
+#include "meshes/values/refused.h"
+
+namespace meshes {
+
+namespace {
+
+/// The group of each entity of a dimension; entities that are in none are groups of their own.
+class Groups {
+public:
+  explicit Groups(int dimension) : dimension_(dimension) {
+    gmsh::vectorpair groups;
+    gmsh::model::getPhysicalGroups(groups, dimension);
+    for (const auto& group : groups) {
+      std::vector<int> entities;
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, group.second, entities);
+      for (const int entity : entities)
+        if (!group_of_.emplace(entity, group.second).second)
+          throw GeometryRefused(std::string(dimension == 2 ? "surface " : "volume ") +
+                                std::to_string(entity) + " is in several physical groups; give it one");
+    }
+  }
+  /// Place of an entity's group in `pieces`, added at its first call.
+  int place(int entity) {
+    const auto group = group_of_.find(entity);
+    const bool in_group = group != group_of_.end();
+    const auto [known, is_new] =
+        places_.emplace(std::pair(in_group, in_group ? group->second : entity), int(pieces.size()));
+    if (is_new) {
+      Piece piece;
+      piece.tag = known->first.second;
+      if (in_group) gmsh::model::getPhysicalName(dimension_, piece.tag, piece.name);
+      pieces.push_back(piece);
+    }
+    return known->second;
+  }
+  std::vector<Piece> pieces;
+
+private:
+  int dimension_;
+  std::map<int, int> group_of_;
+  std::map<std::pair<bool, int>, int> places_;
+};
+
+CellKind kind_of_cells() {
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, 3);
+  if (types.empty()) throw GeometryRefused("it has no cells: mesh the volumes, or give a solid");
+  if (types.size() > 1 || (types[0] != gmsh_tetrahedron_10 && types[0] != gmsh_hexahedron)) {
+    std::string names;
+    for (const int type : types) {
+      std::string name;
+      int dimension, order, n_nodes, n_primary;
+      std::vector<double> coordinates;
+      gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_nodes, coordinates, n_primary);
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    throw GeometryRefused("its cells are " + names +
+                          ": all must be tetrahedra, or all hexahedra; mesh it again");
+  }
+  return types[0] == gmsh_hexahedron ? CellKind::hexahedra : CellKind::tetrahedra;
+}
+
+/// Numbers nodes in the order of their first use.
+class Nodes {
+public:
+  explicit Nodes(double unit_m) {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, parametric;
+    gmsh::model::mesh::getNodes(tags, coordinates, parametric);
+    for (std::size_t i = 0; i < tags.size(); ++i)
+      position_[tags[i]] = {unit_m * coordinates[3 * i], unit_m * coordinates[3 * i + 1],
+                            unit_m * coordinates[3 * i + 2]};
+  }
+  int number(std::size_t tag, CellMesh& mesh) {
+    const auto [known, is_new] = numbers_.emplace(tag, int(mesh.points.size()));
+    if (is_new) mesh.points.push_back(position_.at(tag));
+    return known->second;
+  }
+  /// -1: of no cell
+  int known(std::size_t tag) const {
+    const auto found = numbers_.find(tag);
+    return found == numbers_.end() ? -1 : found->second;
+  }
+
+private:
+  std::map<std::size_t, Point> position_;
+  std::map<std::size_t, int> numbers_;
+};
+
+using Corners = std::array<int, 4>;  // ascending; the first -1 for triangles
+Corners corners_of(const int* face, std::size_t n_corners) {
+  Corners corners = {-1, -1, -1, -1};
+  std::copy_n(face, n_corners, corners.begin());
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// Turns a cell inside out by changing the places of nodes.
+void turn(CellKind kind, int* nodes) {
+  if (kind == CellKind::tetrahedra) {
+    std::swap(nodes[0], nodes[1]);
+    std::swap(nodes[5], nodes[6]);
+    std::swap(nodes[7], nodes[9]);
+  } else {
+    for (int i = 0; i < 4; ++i) std::swap(nodes[i], nodes[i + 4]);
+  }
+}
+
+bool is_inside_out(const CellMesh& mesh, const int* nodes) {
+  const bool tetrahedron = mesh.kind == CellKind::tetrahedra;
+  const Point &o = mesh.points[nodes[0]], &a = mesh.points[nodes[1]],
+              &b = mesh.points[nodes[tetrahedron ? 2 : 3]], &c = mesh.points[nodes[tetrahedron ? 3 : 4]];
+  double m[3][3];
+  for (int d = 0; d < 3; ++d) {
+    m[0][d] = a[d] - o[d];
+    m[1][d] = b[d] - o[d];
+    m[2][d] = c[d] - o[d];
+  }
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+             m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
+         0;
+}
+
+void collect_cells(Nodes& nodes, Groups& volumes, CellMesh& mesh) {
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, 3);
+  for (const auto& entity : entities) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, its_nodes;
+    gmsh::model::mesh::getElements(types, tags, its_nodes, 3, entity.second);
+    for (std::size_t t = 0; t < types.size(); ++t)
+      for (std::size_t e = 0; e < tags[t].size(); ++e) {
+        const std::size_t n = mesh.nodes_per_cell();
+        for (std::size_t i = 0; i < n; ++i) mesh.cells.push_back(nodes.number(its_nodes[t][n * e + i], mesh));
+        mesh.volume_id.push_back(volumes.place(entity.second));
+        int* own = mesh.cells.data() + mesh.cells.size() - n;
+        if (is_inside_out(mesh, own)) turn(mesh.kind, own);
+      }
+  }
+}
+
+/// Surface entity of every face that lies on one.
+std::map<Corners, int> surface_of_faces(const Nodes& nodes, std::size_t n_corners) {
+  std::map<Corners, int> surface;
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, 2);
+  for (const auto& entity : entities) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, its_nodes;
+    gmsh::model::mesh::getElements(types, tags, its_nodes, 2, entity.second);
+    for (std::size_t t = 0; t < types.size(); ++t) {
+      const std::size_t n = tags[t].empty() ? 0 : its_nodes[t].size() / tags[t].size();
+      for (std::size_t e = 0; e < tags[t].size(); ++e) {
+        int corners[4];
+        for (std::size_t i = 0; i < n_corners && i < n; ++i)
+          corners[i] = nodes.known(its_nodes[t][n * e + i]);
+        if (n >= n_corners) surface[corners_of(corners, n_corners)] = entity.second;
+      }
+    }
+  }
+  return surface;
+}
+
+void collect_faces(const std::map<Corners, int>& surface, Groups& groups, CellMesh& mesh) {
+  std::map<Corners, int> count;
+  const auto for_each_face = [&](const auto& handle) {
+    for (std::size_t c = 0; c < mesh.n_cells(); ++c)
+      for (const auto& local : local_faces(mesh.kind)) {
+        std::vector<int> face;
+        for (const int i : local) face.push_back(mesh.cell(c)[i]);
+        handle(face, corners_of(face.data(), mesh.corners_per_face()));
+      }
+  };
+  for_each_face([&](const auto&, const Corners& corners) { ++count[corners]; });
+  for_each_face([&](const auto& face, const Corners& corners) {
+    if (count[corners] > 1) return;
+    mesh.faces.insert(mesh.faces.end(), face.begin(), face.end());
+    const auto found = surface.find(corners);
+    mesh.face_id.push_back(groups.place(found == surface.end() ? 0 : found->second));
+  });
+}
+
+}  // namespace
+
+ModelMesh collect_model(double unit_m) {
+  ModelMesh model;
+  model.mesh.kind = kind_of_cells();
+  Nodes nodes(unit_m);
+  Groups volumes(3), surfaces(2);
+  collect_cells(nodes, volumes, model.mesh);
+  collect_faces(surface_of_faces(nodes, model.mesh.corners_per_face()), surfaces, model.mesh);
+  model.pieces = surfaces.pieces;
+  model.volumes = volumes.pieces;
+  return model;
+}
+
+ModelMesh mesh_and_collect(const SolidControl& control, double unit_m) {
+  constexpr double easily_reached = 0.15, hardly_reached = 0.3;  // the median is 0.6
+  mesh_solids(control, unit_m);
+  auto model = collect_model(unit_m);
+  move_inner_nodes(model.mesh, std::clamp(control.min_scaled_jacobian, easily_reached, hardly_reached));
+  return model;
+}
+
+int n_separate_parts(const CellMesh& mesh) {
+  std::vector<int> parent(mesh.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t c = 0; c < mesh.n_cells(); ++c)
+    for (std::size_t i = 1; i < mesh.nodes_per_cell(); ++i)
+      parent[root(mesh.cell(c)[i])] = root(mesh.cell(c)[0]);
+  int n = 0;
+  for (std::size_t i = 0; i < parent.size(); ++i) n += parent[i] == int(i);
+  return n;
+}
+
+}  // namespace meshes

@@ -1,0 +1,38 @@
+/// The mesh of gmsh's current model as values, its surface divided into the pieces it came in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "meshes/gmsh/cell_mesh.h"
+#include "meshes/solids/solid_control.h"
+
+namespace meshes {
+
+/// A surface of the model, or a physical group of surfaces.
+struct Piece {
+  std::string name;  ///< of the physical group; empty: none
+  int tag = 0;       ///< of the surface or of the group
+};
+
+/// face_id is a place among the pieces, volume_id among the volumes.
+struct ModelMesh {
+  CellMesh mesh;
+  std::vector<Piece> pieces;   ///< of the boundary
+  std::vector<Piece> volumes;  ///< groups, or volumes that are in none
+};
+
+/// Tetrahedra of 10 nodes or hexahedra of 8 with the faces that bound them; surfaces inside are passed over,
+/// and a part of the boundary on no surface is a piece without a tag. Cells that are inside out are turned.
+/// @param unit_m  length of the model's unit
+/// @throws GeometryRefused if there are no cells, or others, or both kinds, or a surface or volume is
+/// in several groups
+ModelMesh collect_model(double unit_m);
+
+/// Meshes the model's volumes and collects; inner nodes are moved where cells are flat.
+ModelMesh mesh_and_collect(const SolidControl& control, double unit_m);
+
+/// Parts of the mesh that share no node.
+int n_separate_parts(const CellMesh& mesh);
+
+}  // namespace meshes

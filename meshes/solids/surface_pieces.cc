@@ -1,0 +1,135 @@
+#include "meshes/solids/surface_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace meshes {
+
+namespace {
+
+struct Triangle {
+  Point centre{}, normal{};  // normal of the length of the area, outward
+};
+
+/// From the corners alone; a quadrangle by its diagonals.
+Triangle flat(const CellMesh& mesh, std::size_t face) {
+  const int* nodes = mesh.face(face);
+  const std::size_t n = mesh.corners_per_face();
+  const Point &a = mesh.points[nodes[0]], &b = mesh.points[nodes[1]], &c = mesh.points[nodes[2]],
+              &d = mesh.points[nodes[n - 1]];
+  Point u, v;
+  for (int k = 0; k < 3; ++k) {
+    u[k] = n == 3 ? b[k] - a[k] : c[k] - a[k];
+    v[k] = n == 3 ? c[k] - a[k] : d[k] - b[k];
+  }
+  Triangle t;
+  for (int k = 0; k < 3; ++k) {
+    t.normal[k] = (u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]) / 2;
+    for (std::size_t i = 0; i < n; ++i) t.centre[k] += mesh.points[nodes[i]][k] / double(n);
+  }
+  return t;
+}
+
+/// Circle x^2 + y^2 = 2 a x + 2 b y + c by least squares, about the mean of the points.
+std::optional<FoundCylinder> fit(const std::vector<Point>& points) {
+  double mx = 0, my = 0;
+  for (const auto& p : points) mx += p[0] / double(points.size()), my += p[1] / double(points.size());
+  double xx = 0, xy = 0, yy = 0, xq = 0, yq = 0, q_mean = 0;
+  for (const auto& p : points) {
+    const double x = p[0] - mx, y = p[1] - my, q = x * x + y * y;
+    xx += x * x, xy += x * y, yy += y * y, xq += x * q, yq += y * q;
+    q_mean += q / double(points.size());
+  }
+  const double determinant = xx * yy - xy * xy;
+  if (!(determinant > 1e-8 * (xx + yy) * (xx + yy))) return std::nullopt;  // as good as a plane
+  const double a = (xq * yy - yq * xy) / (2 * determinant), b = (yq * xx - xq * xy) / (2 * determinant);
+  FoundCylinder cylinder;
+  cylinder.axis_x_m = mx + a;
+  cylinder.axis_y_m = my + b;
+  cylinder.radius_m = std::sqrt(q_mean + a * a + b * b);
+  for (const auto& p : points)
+    if (std::abs(std::hypot(p[0] - cylinder.axis_x_m, p[1] - cylinder.axis_y_m) - cylinder.radius_m) >
+        1e-3 * cylinder.radius_m)
+      return std::nullopt;
+  return cylinder;
+}
+
+std::optional<FoundCylinder> cylinder_through(const CellMesh& mesh, const std::vector<std::size_t>& faces) {
+  std::set<int> nodes;
+  for (const auto f : faces) nodes.insert(mesh.face(f), mesh.face(f) + mesh.corners_per_face());
+  std::vector<Point> points;
+  for (const int node : nodes) points.push_back(mesh.points[node]);
+  auto cylinder = points.size() < 4 ? std::nullopt : fit(points);
+  if (!cylinder) return std::nullopt;
+  int n_out = 0, n_in = 0;
+  for (const auto f : faces) {
+    const Triangle t = flat(mesh, f);
+    const double x = t.centre[0] - cylinder->axis_x_m, y = t.centre[1] - cylinder->axis_y_m;
+    const double area =
+        std::sqrt(t.normal[0] * t.normal[0] + t.normal[1] * t.normal[1] + t.normal[2] * t.normal[2]);
+    const double along = (t.normal[0] * x + t.normal[1] * y) / (area * std::hypot(x, y));
+    if (std::abs(along) < 0.8) return std::nullopt;  // not along the radius: coarse facets have 0.87 and more
+    ++(along > 0 ? n_out : n_in);
+  }
+  if (n_out > 0 && n_in > 0) return std::nullopt;
+  cylinder->inside = n_in > 0;
+  return cylinder;
+}
+
+}  // namespace
+
+std::vector<PieceShape> shapes_of(const CellMesh& mesh, const std::vector<int>& of_face, std::size_t n) {
+  std::vector<PieceShape> shapes(n);
+  std::vector<std::vector<std::size_t>> faces(n);
+  for (auto& shape : shapes) {
+    shape.low_m.fill(1e300);
+    shape.high_m.fill(-1e300);
+  }
+  for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
+    auto& shape = shapes[of_face[f]];
+    faces[of_face[f]].push_back(f);
+    const Triangle t = flat(mesh, f);
+    const double area =
+        std::sqrt(t.normal[0] * t.normal[0] + t.normal[1] * t.normal[1] + t.normal[2] * t.normal[2]);
+    shape.area_m2 += area;
+    for (int d = 0; d < 3; ++d) {
+      shape.centre_m[d] += area * t.centre[d];
+      for (std::size_t i = 0; i < mesh.corners_per_face(); ++i) {
+        shape.low_m[d] = std::min(shape.low_m[d], mesh.points[mesh.face(f)[i]][d]);
+        shape.high_m[d] = std::max(shape.high_m[d], mesh.points[mesh.face(f)[i]][d]);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (double& x : shapes[i].centre_m) x /= shapes[i].area_m2;
+    shapes[i].cylinder = cylinder_through(mesh, faces[i]);
+  }
+  return shapes;
+}
+
+std::optional<FoundCylinder> common_cylinder(const CellMesh& mesh, const std::vector<int>& of_face,
+                                             const std::vector<int>& pieces) {
+  std::vector<std::size_t> faces;
+  for (std::size_t f = 0; f < mesh.n_faces(); ++f)
+    if (std::find(pieces.begin(), pieces.end(), of_face[f]) != pieces.end()) faces.push_back(f);
+  return cylinder_through(mesh, faces);
+}
+
+std::string describe(const PieceShape& shape) {
+  std::ostringstream text;
+  const auto mm = [](double x) { return std::abs(x) < 1e-12 ? 0 : x * 1e3; };
+  text.precision(5);
+  if (shape.cylinder)
+    text << (shape.cylinder->inside ? "inside" : "outside") << " of radius " << mm(shape.cylinder->radius_m)
+         << " mm about (" << mm(shape.cylinder->axis_x_m) << ", " << mm(shape.cylinder->axis_y_m)
+         << ") mm, z = " << mm(shape.low_m[2]) << " to " << mm(shape.high_m[2]) << " mm";
+  else
+    text << "x = " << mm(shape.low_m[0]) << " to " << mm(shape.high_m[0]) << ", y = " << mm(shape.low_m[1])
+         << " to " << mm(shape.high_m[1]) << ", z = " << mm(shape.low_m[2]) << " to " << mm(shape.high_m[2])
+         << " mm";
+  return text.str();
+}
+
+}  // namespace meshes

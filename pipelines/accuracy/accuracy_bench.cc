@@ -1,0 +1,109 @@
+#include "pipelines/accuracy/accuracy_bench.h"
+
+#include <algorithm>
+
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/analysis/fineness.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/common/refusal_of.h"
+
+namespace pipelines {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double usual_tolerance = 0.05;
+
+}  // namespace
+
+AccuracyBench::AccuracyBench(const Scene& scene, std::size_t body, const AccuracyOptions& options,
+                             StageClock& clock)
+    : scene_(scene), body_(body), options_(options), clock_(clock), start_(Clock::now()) {
+  fs::create_directories(scratch());
+  for (const auto& one : scene_.bodies)
+    meshed_.push_back(clock_.run(
+        "meshes", [&] { return mesh_body(one, scratch() / (one.name + ".msh"), springs_of(scene_)); }));
+  scene_ = with_effects_chosen(scene_, meshed_, negligible_share(tolerance()));
+  scene_.method = Method::solid;
+}
+
+AccuracyBench::~AccuracyBench() {
+  std::error_code ignored;
+  fs::remove_all(scratch(), ignored);
+}
+
+double AccuracyBench::tolerance() const {
+  if (options_.tolerance > 0) return options_.tolerance;
+  return scene_.wish.tolerance > 0 ? scene_.wish.tolerance : usual_tolerance;
+}
+
+double AccuracyBench::elapsed_s() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+SceneRunOptions AccuracyBench::run_options() const {
+  SceneRunOptions options;
+  options.directory = scratch();
+  options.n_threads = options_.n_threads;
+  options.fresh = true;
+  options.keep = false;
+  options.only = body_;
+  options.others = meshed_;
+  return options;
+}
+
+std::optional<SolidRun> AccuracyBench::run_solid(const std::string& rung, const std::string& name,
+                                                 const BodyScene& body) {
+  Scene scene = scene_;
+  scene.bodies[body_] = body;
+  std::optional<SceneRun> last;
+  AccuracyRow row;
+  const auto refused = refusal_of([&] {
+    row = repeated(name, [&] {
+      StageClock own;
+      last = run_scene(scene, run_options(), own);
+      auto result = row_of(rung, *last);
+      take_cost(result, own);
+      return result;
+    });
+  });
+  if (refused.empty()) return SolidRun{std::move(row), std::move(*last)};
+  leave_out(name, refused);
+  return std::nullopt;
+}
+
+void AccuracyBench::take_mean(AccuracyRow& row, const std::vector<double>& seconds) {
+  const auto [least, most] = std::minmax_element(seconds.begin(), seconds.end());
+  row.spread_s = *most - *least;
+  row.seconds = 0;
+  for (const double s : seconds) row.seconds += s / double(seconds.size());
+}
+
+AccuracyRow row_of(const std::string& rung, const SceneRun& run) {
+  const auto& analysis = run.analyses.front();
+  const auto stress = governing_stress(analysis);
+  AccuracyRow row;
+  row.rung = rung;
+  row.fineness = fineness_text(analysis.scene);
+  row.instants_per_turn = run.scene.sampling.instants_per_turn;
+  row.n_dofs = analysis.responses.n_dofs;
+  row.value_Pa = stress.value_Pa;
+  row.principal_Pa = analysis.envelope.principal.value_Pa[analysis.principal_node];
+  row.errors = stress.errors;
+  return row;
+}
+
+void take_cost(AccuracyRow& row, const StageClock& clock) {
+  row.stages = clock.costs();
+  row.seconds = total_seconds(row.stages);
+  row.gigabytes = peak_memory_gigabytes();
+}
+
+double total_seconds(const std::vector<StageCost>& stages) {
+  double sum = 0;
+  for (const auto& stage : stages) sum += stage.seconds;
+  return sum;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <optional>
+
+#include "fem/beam/beam_responses.h"
+#include "fem/beam/plated_tube.h"
+#include "pipelines/accuracy/accuracy_models.h"
+#include "pipelines/cheap_models/chamber_tube.h"
+#include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/analysis/fineness.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/common/refusal_of.h"
+
+namespace pipelines {
+namespace {
+
+/// Cells become half as large from one size of harmonics to the next. Ends of loaded zones let stress
+/// converge with first order only: of a change d, d is missing still, and 2 d on the coarser mesh. As
+/// learn_from_change takes it:
+constexpr double finer_of_two = 2, first_of_two = 1.5, harmonics_order = 1;
+
+/// Of the beam's own estimate: it knows nothing of loads beside a fillet, nor of short segments.
+constexpr double beam_safety = 3;
+
+/// What a fillet makes of stress that comes from a section going oval, at most: published factors in bending
+/// end there for fillets of a twentieth of the diameter.
+constexpr double fillet_factor = 2;
+
+/// A cheap model's responses, and what the model itself is known to be off by.
+struct CheapRung {
+  fem::UnitResponses responses;
+  double model_error = 0;  ///< relative
+  std::string method, fineness;
+};
+
+using Loads = std::vector<fem::UnitLoad>;
+
+std::optional<CheapRung> beam_rung(const BodyScene& body, const meshes::BodyMesh& mesh, const Loads& loads) {
+  auto responses = beam_responses(body, mesh, loads);
+  if (!responses) return std::nullopt;
+  return CheapRung{std::move(*responses), beam_safety * fem::beam_model_error(*beam_shaft(body, mesh)),
+                   "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
+                   "published fillet factors"};
+}
+
+std::optional<CheapRung> axisymmetric_rung(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                           const Loads& loads) {
+  auto rung = axisymmetric_responses(body, mesh, loads);
+  if (!rung) return std::nullopt;
+  return CheapRung{std::move(rung->responses), rung->model_error,
+                   "axisymmetric: eccentric shoulders taken as concentric", fineness_text(body)};
+}
+
+AccuracyRow row_of(const std::string& name, const AccuracyBench& bench, const LoadedScene& loaded,
+                   CheapRung rung, StageClock& clock) {
+  const auto& loads = loaded.body_loads[bench.index()];
+  const auto& mesh = bench.own().mesh;
+  const auto maximum = clock.run("superpose", [&] {
+    return envelope(loads.history, rung.responses, std::max(1, bench.options().n_threads));
+  });
+  const auto places = locate_nodes(rung.responses.nodes, mesh.features, mesh.ports, mesh.sharp_edges);
+  const auto node = peak_node(maximum.von_mises.value_Pa, places);
+  AccuracyRow row;
+  row.rung = name;
+  row.fineness = rung.fineness;
+  row.instants_per_turn = bench.scene().sampling.instants_per_turn;
+  row.n_dofs = rung.responses.n_dofs;
+  row.value_Pa = maximum.von_mises.value_Pa[node];
+  row.principal_Pa = maximum.principal.value_Pa[peak_node(maximum.principal.value_Pa, places)];
+  row.errors = self_estimate({{{node, 1.0}}, maximum.von_mises.instant[node]}, rung.responses, loads,
+                             bench.body().material, 0);
+  row.errors.model.push_back({"model", rung.method, rung.model_error * row.value_Pa});
+  take_cost(row, clock);
+  return row;
+}
+
+/// @param solve  gives the rung, if the body has it
+template <typename Solve>
+std::optional<AccuracyRow> cheap_rung(const std::string& name, AccuracyBench& bench, const BodyScene& body,
+                                      const LoadedScene& loaded, Solve&& solve) {
+  const auto& mesh = bench.own().mesh;
+  if (!beam_shaft(body, mesh)) return std::nullopt;
+  std::optional<AccuracyRow> row;
+  const auto refused = refusal_of([&] {
+    row = bench.repeated(name, [&] {
+      StageClock own;
+      auto rung =
+          own.run("solve", [&] { return solve(body, mesh, loaded.body_loads[bench.index()].unit_loads); });
+      return row_of(name, bench, loaded, std::move(rung.value()), own);
+    });
+  });
+  if (!refused.empty()) bench.leave_out(name + ", " + fineness_text(body), refused);
+  return row;
+}
+
+/// Each size learns from the one before; the first from the second.
+void learn_from_sizes(std::vector<AccuracyRow>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    auto& row = rows[i];
+    const double other_Pa = rows[i > 0 ? i - 1 : std::min<std::size_t>(1, rows.size() - 1)].value_Pa;
+    row.errors.set_numerical({"discretisation", "", 0});
+    learn_from_change(row.errors, row.value_Pa - other_Pa, i > 0 ? finer_of_two : first_of_two, 3,
+                      harmonics_order);
+    if (i > 0) row.seconds += rows[i - 1].seconds;
+  }
+}
+
+/// Weld toes have no other cheap rung.
+AccuracyRow shell_row(AccuracyBench& bench, const BodyLoads& loads) {
+  return bench.repeated("shell", [&] {
+    StageClock own;
+    const auto responses = own.run(
+        "solve", [&] { return plated_tube_responses(bench.body(), bench.own(), loads.unit_loads).value(); });
+    AccuracyRow row;
+    own.run("superpose", [&] {
+      const auto worst = hot_spot_stresses(bench.own().mesh.hot_spots, responses, loads.history).front();
+      const auto maximum = envelope(loads.history, responses, std::max(1, bench.options().n_threads));
+      const auto& principal = maximum.principal.value_Pa;
+      row.value_Pa = worst.von_mises_Pa;
+      row.principal_Pa = *std::max_element(principal.begin(), principal.end());
+      row.errors = self_estimate(stress_point(worst), responses, loads, bench.body().material, 0);
+    });
+    row.rung = "shell";
+    row.fineness = "rigid plates on a thin tube";
+    row.instants_per_turn = bench.scene().sampling.instants_per_turn;
+    row.n_dofs = responses.n_dofs;
+    row.errors.model.push_back({"model",
+                                "shell: rigid plates, diaphragms for flanges, loads through plates alone",
+                                fem::plated_tube_error * row.value_Pa});
+    take_cost(row, own);
+    return row;
+  });
+}
+
+}  // namespace
+
+std::vector<AccuracyRow> cheap_rungs(AccuracyBench& bench) {
+  std::vector<AccuracyRow> rows;
+  const bool is_chamber = std::holds_alternative<ChamberShape>(bench.body().shape);
+  if (!is_chamber && bench.has_hot_spots()) return rows;
+  StageClock silent;
+  const auto loaded = load_bodies(bench.scene(), bench.meshed(), silent);
+  if (is_chamber) {
+    if (bench.has_hot_spots()) rows.push_back(shell_row(bench, loaded.body_loads[bench.index()]));
+    return rows;
+  }
+  if (auto row = cheap_rung("beam", bench, bench.body(), loaded, beam_rung)) {
+    const double ring_Pa =
+        ring_stress_Pa(*beam_shaft(bench.body(), bench.own().mesh), loaded.body_loads[bench.index()]);
+    if (ring_Pa > 0)
+      row->errors.model.push_back(
+          {"ovalisation", "bored seats as rings, twice as much at a fillet", fillet_factor * ring_Pa});
+    const double spin_Pa = spin_stress_Pa(*beam_shaft(bench.body(), bench.own().mesh), bench.body().material,
+                                          loaded.body_loads[bench.index()]);
+    if (spin_Pa > 0) row->errors.model.push_back({"spin", "segments as long cylinders that turn", spin_Pa});
+    rows.push_back(std::move(*row));
+  }
+  std::vector<AccuracyRow> sizes;
+  for (const double factor : {0.5, 1.0, 2.0}) {
+    auto row =
+        cheap_rung("axisymmetric", bench, with_fineness(bench.body(), factor), loaded, axisymmetric_rung);
+    // The same mesh again tells nothing.
+    if (row && (sizes.empty() || row->n_dofs != sizes.back().n_dofs)) sizes.push_back(std::move(*row));
+  }
+  learn_from_sizes(sizes);
+  rows.insert(rows.end(), sizes.begin(), sizes.end());
+  return rows;
+}
+
+}  // namespace pipelines

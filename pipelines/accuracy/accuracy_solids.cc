@@ -1,0 +1,150 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <optional>
+
+#include "pipelines/accuracy/accuracy_models.h"
+#include "pipelines/effects/effect_report.h"
+#include "pipelines/analysis/fineness.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/common/refusal_of.h"
+
+namespace pipelines {
+namespace {
+
+/// Solids of one polynomial degree on the scene's mesh made finer or coarser.
+struct Series {
+  std::string rung;
+  int degree = 2;
+  std::vector<double> factors;
+  double share_of_time = 0;  ///< of what even meshes find; what is predicted to end later is left out
+};
+
+// Half the time is for even meshes, the rest for refined ones. Cells of degree 1 are there to show what they
+// cost, and those of degree 3 give on half as fine a mesh what the scene's own mesh gives.
+const Series linear{"Q1 solid", 1, {1, 2}, 0.25}, quadratic{"even mesh", 2, {0.5, 0.75, 1, 1.5, 2, 3}, 0.5},
+    cubic{"Q3 solid", 3, {0.5, 0.75}, 0.6};
+
+/// Seconds of the load stage that each effect is worth.
+std::vector<std::pair<std::string, double>> evaluation_seconds(const Scene& scene) {
+  std::vector<std::pair<std::string, double>> seconds;
+  const double n_instants = double(scene.sampling.turns) * scene.sampling.instants_per_turn;
+  for (const auto& worth : report_effects(scene, 0.01).effects)
+    seconds.push_back({worth.effect.name, worth.seconds_per_instant * n_instants});
+  return seconds;
+}
+
+/// The same responses at fewer instants: only loads and superposition are done anew.
+void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
+                    std::vector<AccuracyRow>& rows) {
+  Scene scene = bench.scene();
+  const auto body = bench.index();
+  for (const int divisor : {2, 4, 8}) {
+    scene.sampling.instants_per_turn = bench.scene().sampling.instants_per_turn / divisor;
+    if (scene.sampling.instants_per_turn < 8) return;
+    StageClock own;
+    run.loaded = load_bodies(scene, std::move(run.loaded.meshed), own);
+    auto& analysis = run.analyses.front();
+    analysis = superpose_body(scene, scene.bodies[body], run.loaded.meshed[body], run.loaded.body_loads[body],
+                              std::move(analysis.responses), bench.options().n_threads, own);
+    run.scene = scene;
+    auto row = row_of("fewer instants", run);
+    row.errors.set_numerical({"discretisation", "as at all instants", full.errors.of("discretisation")});
+    take_cost(row, own);
+    for (const auto& stage : full.stages)
+      if (stage.stage == "mesh" || stage.stage == "solve" || stage.stage == "write")
+        row.stages.push_back(stage);
+    row.seconds = total_seconds(row.stages);
+    row.gigabytes = full.gigabytes;
+    rows.push_back(std::move(row));
+  }
+}
+
+/// What the change from a coarser mesh tells.
+void learn(AccuracyRow& row, const AccuracyRow& coarser, double order) {
+  const double ratio = std::cbrt(double(row.n_dofs) / double(coarser.n_dofs));
+  learn_from_change(row.errors, row.value_Pa - coarser.value_Pa, ratio, 3, order);
+}
+
+/// Stress converges with first order in cells of degree 1, and beside sharp weld toes.
+double stress_order(const AccuracyBench& bench, int degree) {
+  return degree == 1 || bench.has_hot_spots() ? 1 : 2;
+}
+
+void run_series(AccuracyBench& bench, const Series& series, double end_s, SolidRungs& rungs) {
+  std::optional<AccuracyRow> before;  // its ledger as it says itself
+  const bool refinable = can_be_refined(bench.body());
+  for (const double factor : refinable ? series.factors : std::vector<double>{1}) {
+    const double dofs = double(bench.own().model->n_dofs()) * std::pow(factor * series.degree / 2, 3);
+    const double predicted =
+        before ? before->seconds * std::pow(dofs / double(before->n_dofs), AccuracyBench::growth_of_seconds)
+               : 0;
+    if (bench.elapsed_s() + predicted > end_s) return;
+    auto body = with_fineness(bench.body(), factor);
+    body.degree = series.degree;
+    auto solid = bench.run_solid(series.rung, fmt::format("{}, cells 1/{:g}", series.rung, factor), body);
+    // Too little finer for whole numbers of cells?
+    if (!solid || (before && before->n_dofs == solid->row.n_dofs)) continue;
+    auto& row = solid->row;
+    const AccuracyRow plain = row;
+    if (before) learn(row, *before, stress_order(bench, series.degree));
+    before = plain;
+    rungs.rows.push_back(row);
+    if (factor == 1 && series.degree == 2) {
+      rungs.effects = price_effects(solid->run.analyses.front(), seconds_of(row.stages, "solve"),
+                                    seconds_of(row.stages, "superpose"), evaluation_seconds(bench.scene()));
+      fewer_instants(bench, row, std::move(solid->run), rungs.rows);
+    }
+    if (factor >= 1 && row.errors.numerical_Pa() <= bench.overkill() * row.value_Pa) return;
+  }
+}
+
+bool of_hexahedra(const AccuracyBench& bench) {
+  const auto* shaft = bench.body().shaft();
+  return std::holds_alternative<ChamberShape>(bench.body().shape) ||
+         (shaft != nullptr && shaft->keyways.empty());
+}
+
+}  // namespace
+
+SolidRungs even_meshes(AccuracyBench& bench) {
+  SolidRungs rungs;
+  const double begin_s = bench.elapsed_s(), left_s = bench.seconds_left();
+  for (const auto* series : {&linear, &quadratic, &cubic})
+    if (series->degree == 2 || of_hexahedra(bench))
+      run_series(bench, *series, begin_s + series->share_of_time * left_s, rungs);
+  return rungs;
+}
+
+std::vector<AccuracyRow> refined_meshes(AccuracyBench& bench) {
+  std::vector<AccuracyRow> rows;
+  auto options = bench.run_options();
+  options.wish.tolerance = bench.overkill();
+  options.wish.time_limit_s = bench.seconds_left();
+  if (!can_be_refined(bench.body()) || options.wish.time_limit_s <= 0) return rows;
+  StageClock own;
+  std::optional<SceneRun> found;
+  const auto refused = refusal_of(
+      [&] { found = bench.timed("refined meshes", [&] { return run_scene(bench.scene(), options, own); }); });
+  if (!found) {
+    bench.leave_out("refined mesh", refused);
+    return rows;
+  }
+  const SceneRun& run = *found;
+  AccuracyRow row = row_of("refined mesh", run);
+  for (const auto& step : run.analyses.front().search.steps) {
+    row.fineness = step.fineness;
+    row.instants_per_turn = step.instants_per_turn;
+    row.n_dofs = step.n_dofs;
+    row.value_Pa = step.value_Pa;
+    row.errors = step.errors;
+    row.principal_Pa = step.principal_Pa;
+    row.seconds += step.seconds;
+    row.gigabytes = step.gigabytes;
+    row.stages = {{"all steps so far", row.seconds, row.gigabytes}};
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,72 @@
+#include "pipelines/accuracy/cost_calibration.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/common/errors.h"
+
+namespace pipelines {
+namespace {
+
+/// Superposition on two threads: of one product of channel and unit stress; what the measures of stress take
+/// at an instant, and a node's bookkeeping, in such products.
+constexpr double s_per_product = 1.5e-10, products_per_instant = 12, products_per_node = 7000;
+
+void move_half(double& factor, double measured) {
+  if (measured > 0 && std::isfinite(measured)) factor = std::sqrt(factor * measured);
+}
+
+}  // namespace
+
+std::filesystem::path calibration_file() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+    return std::filesystem::path(cache) / "millstress/costs.json";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return std::filesystem::path(home) / ".cache/millstress/costs.json";
+  return {};
+}
+
+CostCalibration read_calibration(const std::filesystem::path& file) {
+  CostCalibration kept;
+  std::ifstream in(file);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) return kept;
+  const auto factor = [&](const char* key) {
+    const auto found = json.find(key);
+    const double value = found != json.end() && found->is_number() ? found->get<double>() : 1.0;
+    return value > 0 && std::isfinite(value) ? value : 1.0;
+  };
+  kept.direct = factor("direct");
+  kept.iterative = factor("iterative");
+  kept.superposition = factor("superposition");
+  if (const auto runs = json.find("runs"); runs != json.end() && runs->is_number_integer())
+    kept.n_runs = runs->get<int>();
+  return kept;
+}
+
+void learn_cost(const std::filesystem::path& file, fem::Solver solver, double solve_ratio,
+                double superposition_ratio) {
+  if (file.empty()) return;
+  auto kept = read_calibration(file);
+  move_half(solver == fem::Solver::iterative ? kept.iterative : kept.direct, solve_ratio);
+  move_half(kept.superposition, superposition_ratio);
+  const nlohmann::ordered_json json{{"direct", kept.direct},
+                                    {"iterative", kept.iterative},
+                                    {"superposition", kept.superposition},
+                                    {"runs", kept.n_runs + 1}};
+  try {
+    write_text_file(file, json.dump(2) + "\n");
+  } catch (const FileError&) {  // a run need not be able to remember
+  } catch (const std::filesystem::filesystem_error&) {
+  }
+}
+
+double predicted_superposition_s(std::size_t n_nodes, std::size_t n_instants, std::size_t n_channels) {
+  return s_per_product * double(n_nodes) *
+         (double(n_instants) * (double(n_channels) + products_per_instant) + products_per_node);
+}
+
+}  // namespace pipelines

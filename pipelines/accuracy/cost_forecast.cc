@@ -1,0 +1,147 @@
+#include "pipelines/accuracy/cost_forecast.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <ostream>
+
+#include "fem/solvers/cost_prediction.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/analysis/fineness.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/common/refusal_of.h"
+#include "pipelines/search/second_model.h"
+
+namespace pipelines {
+namespace {
+
+constexpr double even_factors[] = {0.5, 0.75, 1.5, 2, 3};
+constexpr double beam_nodes = 1500, harmonic_s_per_unknown = 2e-5;  // measured on shafts
+
+class Forecaster {
+public:
+  Forecaster(const BodyScene& body, const ForecastLoads& loads, const CostCalibration& calibration)
+      : loads_(loads), calibration_(calibration) {
+    choice_.solver = body.solver;
+  }
+
+  RungForecast of(const std::string& rung, const MeshedBody& meshed) {
+    at_hand_ = fem::predict_solver(meshed.body, loads_.n_channels, choice_);
+    return of(rung, meshed.model->n_dofs(), *at_hand_);
+  }
+  /// Cells of the mesh looked at last become `factor` times smaller.
+  RungForecast finer(const std::string& rung, const MeshedBody& meshed, double factor) const {
+    const auto n_dofs = std::size_t(double(meshed.model->n_dofs()) * factor * factor * factor);
+    return of(rung, n_dofs,
+              fem::predict_solver(*at_hand_, n_dofs, meshed.body.degree, loads_.n_channels, choice_));
+  }
+  /// A rung that superposes `n_nodes` nodes.
+  RungForecast cheap(const std::string& rung, double n_dofs, double solve_s, double n_nodes) const {
+    RungForecast forecast{rung,    std::size_t(n_dofs),  fem::Solver::automatic,
+                          solve_s, superpose_s(n_nodes), 0};
+    forecast.gigabytes = responses_gigabytes(n_nodes);
+    return forecast;
+  }
+
+private:
+  double superpose_s(double n_nodes) const {
+    return calibration_.superposition *
+           predicted_superposition_s(std::size_t(n_nodes), loads_.n_instants, loads_.n_channels);
+  }
+  double responses_gigabytes(double n_nodes) const { return 72e-9 * n_nodes * double(loads_.n_channels); }
+
+  RungForecast of(const std::string& rung, std::size_t n_dofs, const fem::SolverReport& report) const {
+    const double factor =
+        report.used == fem::Solver::iterative ? calibration_.iterative : calibration_.direct;
+    const double n_nodes = double(n_dofs) / 3;
+    return {rung,
+            n_dofs,
+            report.used,
+            factor * report.predicted().seconds,
+            superpose_s(n_nodes),
+            1e-9 * report.predicted().bytes + responses_gigabytes(n_nodes)};
+  }
+
+  ForecastLoads loads_;
+  CostCalibration calibration_;
+  fem::SolverChoice choice_;
+  std::optional<fem::SolverReport> at_hand_;
+};
+
+}  // namespace
+
+std::vector<RungForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
+                                          const ForecastLoads& loads, const CostCalibration& calibration) {
+  Forecaster forecaster(body, loads, calibration);
+  std::vector<RungForecast> rungs{forecaster.of("the scene's mesh", meshed)};
+  const auto* shaft = body.shaft();
+  if (shaft != nullptr && shaft->keyways.empty()) {
+    rungs.push_back(forecaster.cheap("beam", 3 * beam_nodes, 0, beam_nodes));
+    // Meridian cells of degree 3 where the solid has 2; one problem for each harmonic.
+    const double n_harmonics = 1 + std::max(1, body.pressure_harmonics);
+    const double per_harmonic = 9.0 / 8 / shaft->mesh.n_sectors * double(meshed.model->n_dofs());
+    rungs.push_back(forecaster.cheap("axisymmetric", n_harmonics * per_harmonic,
+                                     harmonic_s_per_unknown * n_harmonics * per_harmonic, per_harmonic));
+  }
+  if (!can_be_refined(body)) return rungs;
+  for (const double factor : even_factors)
+    rungs.push_back(forecaster.finer(fmt::format("even mesh, cells 1/{:g}", factor), meshed, factor));
+  const AtomicFile scratch(std::filesystem::temp_directory_path() /
+                           ("millstress_forecast_" + body.name + ".msh"));
+  const std::string first = "first of a search";
+  std::string refused;
+  for (const auto& candidate : first_meshes(body)) {  // as a search tries them
+    refused = refusal_of([&] {
+      auto coarse = mesh_body(candidate, scratch.temporary(), loads.springs);
+      const auto model =
+          loads.of_body ? axisymmetric_second_model(candidate, coarse, *loads.of_body, 1) : std::nullopt;
+      if (model) coarse = mesh_body(guided_by(*model, candidate), scratch.temporary(), loads.springs);
+      rungs.push_back(forecaster.of(first, coarse));
+    });
+    if (refused.empty()) return rungs;
+  }
+  RungForecast forecast;
+  forecast.rung = first;
+  forecast.left_out = refused;
+  rungs.push_back(forecast);
+  return rungs;
+}
+
+void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
+                    const ForecastLoads& loads) {
+  const auto calibration = read_calibration(calibration_file());
+  const auto rungs = forecast_ladder(body, meshed, loads, calibration);
+  out << fmt::format("  {:<24}{:>12}{:>10}{:>13}{:>7}  solver\n", "will take, about", "unknowns", "solve s",
+                     "superpose s", "GB");
+  for (const auto& rung : rungs) {
+    if (!rung.left_out.empty()) {
+      out << fmt::format("    {:<22}refused: {}\n", rung.rung, rung.left_out);
+      continue;
+    }
+    out << fmt::format("    {:<22}{:>12}{:>10.2g}{:>13.2g}{:>7.2g}  {}\n", rung.rung, rung.n_dofs,
+                       rung.solve_s, rung.superpose_s, rung.gigabytes,
+                       rung.solver == fem::Solver::automatic   ? ""
+                       : rung.solver == fem::Solver::iterative ? "conjugate gradients"
+                                                               : "factorisation");
+  }
+  out << (calibration.n_runs > 0
+              ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)
+              : "  (seconds of the machine that the prediction was made on: no run yet on this one)\n");
+}
+
+void learn_from(const SceneRun& run) {
+  for (const auto& analysis : run.analyses) {
+    const auto& responses = analysis.responses;
+    const double predicted_s = responses.solver.predicted().seconds;
+    learn_cost(
+        calibration_file(), responses.solver.used,
+        analysis.solve_s > 0 && predicted_s > 0 ? analysis.solve_s / predicted_s : 0,
+        analysis.superpose_s / predicted_superposition_s(responses.nodes.n,
+                                                         std::size_t(analysis.loads.history.values.cols()),
+                                                         responses.channels.size()));
+  }
+}
+
+}  // namespace pipelines

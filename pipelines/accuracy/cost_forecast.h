@@ -1,0 +1,45 @@
+/// What a run will take before anything is solved, rung by rung of the ladder of fidelity, in seconds of this
+/// machine.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "fem/values/solver_choice.h"
+#include "pipelines/accuracy/cost_calibration.h"
+#include "pipelines/search/scene_run.h"
+
+namespace pipelines {
+
+/// Solve and superposition of one rung.
+struct RungForecast {
+  std::string rung;
+  std::size_t n_dofs = 0;
+  fem::Solver solver = fem::Solver::direct;  ///< automatic: the rung has its own
+  double solve_s = 0, superpose_s = 0;
+  double gigabytes = 0;    ///< of solver and unit responses
+  std::string left_out{};  ///< not empty: why its mesh was refused; nothing else is known of it
+};
+
+/// What the loads ask of every rung.
+struct ForecastLoads {
+  std::size_t n_channels = 0, n_instants = 0;
+  std::vector<kinetics::Spring> springs{};
+  const BodyLoads* of_body = nullptr;  ///< tell where a search's first mesh is fine; null: nowhere
+};
+
+/// First the scene's own mesh; then beam and harmonics (round shafts), even meshes whose cells are 1/0.5 to
+/// 1/3 of the scene's, and the mesh that a search for a tolerance begins with, which is built for it. Rungs
+/// that the body does not have are left out; one whose mesh is refused says why.
+std::vector<RungForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
+                                          const ForecastLoads& loads, const CostCalibration& calibration);
+
+/// The forecast of the calibration on this machine, as lines of `check`.
+void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
+                    const ForecastLoads& loads);
+
+/// What a run tells about this machine's speed goes into the calibration.
+void learn_from(const SceneRun& run);
+
+}  // namespace pipelines

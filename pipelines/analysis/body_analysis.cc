@@ -1,0 +1,274 @@
+#include "pipelines/analysis/body_analysis.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "fem/ranks/helper_ranks.h"
+#include "fem/model/model.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/common/finite.h"
+#include "pipelines/responses/iteration_memory.h"
+#include "pipelines/analysis/load_patch.h"
+#include "pipelines/responses/response_files.h"
+#include "pipelines/responses/response_key.h"
+
+namespace pipelines {
+namespace {
+
+std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPlane>& planes) {
+  std::vector<fem::SectionPlane> result;
+  for (const auto& plane : planes)
+    result.push_back({plane.z_m, plane.radius_m, plane.axis_x_m, plane.axis_y_m, plane.inner_radius_m});
+  return result;
+}
+
+std::string key_of(const fem::Body& body, const BodyLoads& loads,
+                   const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
+  auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
+  if (const int n = fem::n_ranks(MPI_COMM_WORLD); n > 1) key += "ranks " + std::to_string(n) + '\n';
+  return key;
+}
+
+std::filesystem::path kept_responses(const RunOptions& options) {
+  return options.directory / "unit_responses.h5";
+}
+
+/// The seconds of factorising depend on what a run before has left; results do not: where the iteration gives
+/// up, the direct solver takes over, and it is the direct solver from the start in the next run.
+fem::UnitResponses solve_or_reuse(const fem::Model& model, const fem::Body& body, const BodyLoads& loads,
+                                  const std::vector<fem::SectionPlane>& planes, fem::Solver solver,
+                                  const RunOptions& options, int n_threads, bool& reused, StageClock& clock) {
+  const auto key = key_of(body, loads, planes, solver, n_threads);
+  reused = false;
+  if (!options.fresh)
+    if (auto kept = clock.run("solve", [&] { return read_unit_responses(kept_responses(options), key); })) {
+      reused = true;
+      return std::move(*kept);
+    }
+  auto responses = clock.run("solve", [&] {
+    fem::SolverChoice choice;
+    choice.solver = solver;
+    choice.gave_up_before = !options.fresh && iteration_gave_up_before(options.directory, body_key(body));
+    return model.unit_responses(
+        loads.unit_loads, planes, fem::Recovery::patch,
+        [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
+  });
+  remember_iteration(options.directory, body_key(body), responses.solver.gave_up);
+  return responses;
+}
+
+void require_closure(const std::string& body, const Closure& closure) {
+  if (closure.holds()) return;
+  std::ostringstream text;
+  text << "the loads on the " << body << " do not close on the mesh: forces to " << closure.worst_force()
+       << ", moments to " << closure.worst_moment() << ", channels to " << closure.channel_resultant
+       << " of their scale; " << Closure::limit
+       << " is required. The scene's effects leave a resultant that nothing carries";
+  throw LoadsDoNotClose(text.str());
+}
+
+/// 6 x instants.
+Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, std::size_t node) {
+  const auto n_channels = analysis.responses.channels.size();
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> unit(
+      &analysis.responses.stress_Pa[node * n_channels * 6], 6, Eigen::Index(n_channels));
+  return unit * analysis.loads.history.values.matrix();
+}
+
+ErrorLedger errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
+  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
+                       geometry_share(analysis.geometry_error, analysis.responses.nodes, point),
+                       analysis.places.excluded);
+}
+
+Peak headline(const BodyAnalysis& analysis) {
+  const auto& maximum = analysis.envelope.von_mises;
+  Peak peak;
+  peak.node = peak_node(maximum.value_Pa, analysis.places);
+  std::copy_n(&analysis.responses.nodes.xyz_m[3 * peak.node], 3, peak.position_m.begin());
+  peak.value_Pa = maximum.value_Pa[peak.node];
+  peak.instant = maximum.instant[peak.node];
+  peak.stress_Pa = maximum.stress_Pa[peak.node];
+  peak.place = analysis.places.place[peak.node];
+  if (const auto feature = analysis.places.feature[peak.node]; feature >= 0)
+    peak.feature = analysis.places.feature_names[std::size_t(feature)];
+  peak.safety = analysis.scene.yield_strength_Pa / peak.value_Pa;
+  const std::size_t n_effects = analysis.loads.history.effects.size();
+  const auto shares = analysis.envelope.effect_share.begin() + std::ptrdiff_t(peak.node * n_effects);
+  peak.effect_share.assign(shares, shares + std::ptrdiff_t(n_effects));
+  peak.errors = errors_at({{{peak.node, 1.0}}, peak.instant}, analysis);
+  return peak;
+}
+
+/// Of all weld toes, and of the first zones: those that are shown.
+void estimate_errors(BodyAnalysis& analysis) {
+  auto& zones = analysis.zones.zones;
+  for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i)
+    zones[i].error_Pa = errors_at({{{zones[i].peak_node, 1.0}}, zones[i].instant}, analysis).numerical_Pa();
+  for (auto& spot : analysis.hot_spots) {
+    const auto errors = errors_at(stress_point(spot), analysis);
+    spot.error_Pa = errors.numerical_Pa();
+    if (&spot == &analysis.hot_spots.front()) analysis.hot_spot_errors = errors;
+  }
+}
+
+double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
+  return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
+}
+
+int threads(int wanted) {
+  return wanted > 0 ? wanted : int(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+BodyAnalysis::BodyAnalysis() = default;
+BodyAnalysis::BodyAnalysis(const BodyAnalysis&) = default;
+BodyAnalysis::BodyAnalysis(BodyAnalysis&&) noexcept = default;
+BodyAnalysis& BodyAnalysis::operator=(const BodyAnalysis&) = default;
+BodyAnalysis& BodyAnalysis::operator=(BodyAnalysis&&) noexcept = default;
+BodyAnalysis::~BodyAnalysis() = default;
+
+LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed) {
+  LoadedBody loaded{scene.name, meshed.mesh.ports, meshed.regions, scene.pressures};
+  for (const auto& port : meshed.mesh.ports) {
+    PressureModel usual;
+    usual.highest_harmonic = scene.pressure_harmonics;
+    loaded.pressures.try_emplace(port.name, usual);
+  }
+  return loaded;
+}
+
+BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
+                          const LoadedBody& loaded, const MassAgreement& masses) {
+  const auto& attached = masses.attached.at(body.name);
+  switch (body.role) {
+    case BodyRole::vibratory_shaft: {
+      VibratoryShaftOptions options;
+      options.gravity_m_s2 = scene.vibratory_mill().gravity_m_s2;
+      options.own_weight = scene.has_effect("gravity_shaft");
+      options.own_inertia = scene.has_effect("shaft_inertia");
+      options.debalance_shares = {body.debalance_shares.at(0), body.debalance_shares.at(1)};
+      return distribute_vibratory_shaft(history, loaded, options);
+    }
+    case BodyRole::chamber:
+      return distribute_chamber(history, std::get<kinetics::VibratoryMill>(masses.machine), loaded,
+                                {scene.effects, attached.structure, attached.exciter, body.pitch_guide});
+    case BodyRole::drum:
+      return distribute_drum(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded,
+                             {scene.effects, attached.structure});
+    case BodyRole::stub_axle: {
+      auto options = body.stub_axle;
+      options.effects = scene.effects;
+      return distribute_stub_axle(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded,
+                                  options);
+    }
+    case BodyRole::train_shaft: {
+      const auto& train = std::get<kinetics::DriveTrain>(masses.machine);
+      auto options = body.train;
+      options.effects = scene.effects;
+      options.attached = attached.structure;
+      options.forces.erase(std::remove_if(options.forces.begin(), options.forces.end(),
+                                          [&](const auto& force) { return !scene.has_effect(force.effect); }),
+                           options.forces.end());
+      return distribute_train_shaft(history, kinetics::mean_speed_rad_s(train, options.inertia), loaded,
+                                    options);
+    }
+    case BodyRole::table_body:
+      return distribute_table(std::get<kinetics::LoadTable>(scene.machine), scene.effects, scene.sampling,
+                              loaded, body.table);
+  }
+  throw std::logic_error("unknown role of a body");
+}
+
+void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions) {
+  if (loads.unit_loads.empty())
+    throw StageRefused("no effect of the scene loads the " + loads.history.body +
+                       "; name one that does, or remove [" + loads.history.body + "]");
+  std::vector<std::array<double, 6>> wanted;
+  for (const auto& load : loads.unit_loads) wanted.push_back(wanted_resultant(load, regions));
+  require_closure(loads.history.body, check_closure(loads, wanted, regions));
+}
+
+BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                          BodyLoads loads, const RunOptions& options, StageClock& clock) {
+  bool reused = false;
+  const auto start = std::chrono::steady_clock::now();
+  auto responses = solve_or_reuse(*meshed.model, meshed.body, loads, to_fem_planes(meshed.mesh.sections),
+                                  body.solver, options, threads(options.n_threads), reused, clock);
+  const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
+  auto analysis =
+      superpose_body(scene, body, meshed, std::move(loads), std::move(responses), options.n_threads, clock);
+  analysis.responses_reused = reused;
+  analysis.solve_s = reused ? 0 : solve.count();
+  return analysis;
+}
+
+BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
+                            std::optional<Envelope> known) {
+  const ShaftShape* shaft = body.shaft();
+  BodyAnalysis analysis;
+  analysis.scene = body;
+  analysis.mesh = meshed.mesh;
+  analysis.masses = meshed.masses;
+  analysis.geometry_error = meshed.geometry_error;
+  analysis.loads = std::move(loads);
+  analysis.responses = std::move(responses);
+  require_finite(analysis.responses);
+  analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
+  require_closure(body.name, analysis.closure);
+
+  const auto start = std::chrono::steady_clock::now();
+  analysis.envelope = clock.run("superpose", [&] {
+    return known ? std::move(*known)
+                 : envelope(analysis.loads.history, analysis.responses, threads(n_threads));
+  });
+  require_finite(body.name, analysis.envelope);
+  analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  clock.run("zones", [&] {
+    analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
+                                   analysis.mesh.sharp_edges);
+    analysis.peak = headline(analysis);
+    analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
+    analysis.zones = find_zones(analysis.responses.nodes, analysis.envelope.von_mises, analysis.places,
+                                zone_level(scene.zones, analysis.peak.value_Pa, body.yield_strength_Pa),
+                                body.yield_strength_Pa);
+    analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
+    estimate_errors(analysis);
+  });
+  clock.run("superpose", [&] { add_load_patch_error(analysis); });
+  if (shaft != nullptr && meshed.mesh.sections.size() > 1)
+    analysis.diagrams = clock.run("sections", [&] {
+      return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
+                              body.material.density_kg_m3, supporting_ports(body));
+    });
+  return analysis;
+}
+
+void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+                    const RunOptions& options, StageClock& clock) {
+  if (analysis.responses_reused) return;
+  clock.run("write", [&] {
+    const auto key = key_of(meshed.body, analysis.loads, to_fem_planes(meshed.mesh.sections), body.solver,
+                            threads(options.n_threads));
+    write_unit_responses(kept_responses(options), key, analysis.responses);
+  });
+}
+
+void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
+                   BodyAnalysis& analysis, StageClock& clock) {
+  if (analysis.scene.natural_frequencies <= 0) return;
+  analysis.vibration = clock.run("natural frequencies", [&] {
+    return vibration(scene, analysis.scene, meshed, history, stress_over_cycle(analysis, analysis.peak.node));
+  });
+  const double more = analysis.vibration->amplification.factor - 1;
+  analysis.peak.errors.set_model(
+      {"quasi_static", "dynamic amplification of the harmonics of the peak", more * analysis.peak.value_Pa});
+}
+
+}  // namespace pipelines

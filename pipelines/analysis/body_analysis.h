@@ -1,0 +1,130 @@
+/// From a load history to stress zones in a body: the stages tied together.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fem/values/unit_responses.h"
+#include "kinetics/load_history.h"
+#include "meshes/values/body_mesh.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/loads/closure.h"
+#include "pipelines/analysis/diagrams.h"
+#include "pipelines/analysis/vibration.h"
+#include "pipelines/analysis/error_budget.h"
+#include "pipelines/analysis/hot_spots.h"
+#include "pipelines/loads/machine_masses.h"
+#include "pipelines/scene/method.h"
+#include "pipelines/analysis/place_stress.h"
+#include "pipelines/scene/scene.h"
+#include "pipelines/analysis/search_record.h"
+#include "pipelines/common/stage_clock.h"
+#include "pipelines/superposition/superposition.h"
+#include "pipelines/superposition/zones.h"
+
+namespace pipelines {
+
+/// One headline stress: where, when, how much.
+struct Peak {
+  std::size_t node = 0;
+  std::array<double, 3> position_m{};
+  double value_Pa = 0;
+  std::int32_t instant = 0;
+  Stress stress_Pa{};
+  std::string feature;
+  Place place = Place::interior;
+  double safety = 0;                 ///< yield strength / von Mises
+  std::vector<double> effect_share;  ///< in the order of ChannelHistory::effects
+  ErrorLedger errors;
+};
+
+/// How far an effect that is off could move the governing stress of a body at most.
+struct EffectBound {
+  std::string effect;
+  double bound_Pa = 0;
+  double estimated_Pa = 0;  ///< part of it from channels that were not solved (effect_bounds.h)
+};
+
+/// Of the effects that `effects = "auto"` has switched off.
+struct DroppedBounds {
+  std::vector<EffectBound> effects;
+  EffectBound together;  ///< its effect has no name
+};
+
+struct BodyAnalysis {
+  BodyScene scene;
+  Method method = Method::solid;  ///< the model that the responses are of
+  meshes::BodyMesh mesh;
+  fem::MassProperties masses;
+  fem::GeometryError geometry_error;
+  BodyLoads loads;
+  fem::UnitResponses responses;
+  bool responses_reused = false;        ///< taken from an earlier run
+  double solve_s = 0, superpose_s = 0;  ///< wall time; solve_s: 0 if reused
+  Closure closure;
+  NodePlaces places;
+  Envelope envelope;
+  Zones zones;
+  Peak peak;                                ///< largest von Mises stress outside the exclusion distances
+  std::size_t principal_node = 0;           ///< largest principal stress, likewise
+  std::vector<HotSpotStress> hot_spots;     ///< descending
+  ErrorLedger hot_spot_errors;              ///< of the first
+  std::optional<Diagrams> diagrams;         ///< parametric shafts and drums only
+  std::vector<PlaceStress> place_stresses;  ///< what is known of every place that may govern, with its error
+  Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
+  std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
+  std::optional<DroppedBounds> dropped;  ///< where effects = "auto" has dropped any
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  BodyAnalysis();
+  BodyAnalysis(const BodyAnalysis&);
+  BodyAnalysis(BodyAnalysis&&) noexcept;
+  BodyAnalysis& operator=(const BodyAnalysis&);
+  BodyAnalysis& operator=(BodyAnalysis&&) noexcept;
+  ~BodyAnalysis();
+};
+
+/// Where a run keeps its files and what it may use.
+struct RunOptions {
+  std::filesystem::path directory;  ///< of this body
+  int n_threads = 0;                ///< 0: all cores
+  bool fresh = false;               ///< do not reuse unit responses of an earlier run
+};
+
+/// The loads of one body of a scene, by its role.
+/// @param history  of the load stage with the machine of `masses`
+BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
+                          const LoadedBody& loaded, const MassAgreement& masses);
+
+/// Whether channels and ports close, before anything is solved: by the resultants that they must have.
+/// @throws LoadsDoNotClose if forces or moments miss 1e-9 of their scale
+void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions);
+
+/// Solves and superposes. Writes no results.
+/// @throws fem::SolveFailed if the solve fails, LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
+BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                          BodyLoads loads, const RunOptions& options, StageClock& clock);
+
+/// Leaves the unit responses in unit_responses.h5 for the next run.
+void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+                    const RunOptions& options, StageClock& clock);
+
+/// The second half of analyse_body: everything that follows from unit responses.
+/// @param known  the envelope of these loads and responses, where it has been computed
+/// @throws LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
+BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
+                            std::optional<Envelope> known = std::nullopt);
+
+/// Natural frequencies and dynamic amplification, if the body asks for them; the latter also as an entry of
+/// the peak's ledger.
+/// @param history  of the load stage, that the analysis' loads were distributed from
+void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
+                   BodyAnalysis& analysis, StageClock& clock);
+
+/// What distribution needs to know of a meshed body.
+LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);
+
+}  // namespace pipelines

@@ -1,0 +1,92 @@
+/// The error ledger of a headline stress: what each source may be wrong by, and how that was found out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/model/model.h"
+#include "fem/values/unit_responses.h"
+#include "pipelines/loads/distribute.h"
+
+namespace pipelines {
+
+/// True errors were up to this many times the plain estimate on shafts of 2 to 16 cells per fillet quarter.
+inline constexpr double discretisation_safety = 3;
+
+/// One source of error of a von Mises stress.
+struct ErrorEntry {
+  std::string source;   ///< "time_sampling", "discretisation", ...
+  std::string method;   ///< in a few words: how the figure was found
+  double value_Pa = 0;  ///< estimate of the size, not negative
+  /// How many times the plain estimate the value is: what several meshes that agree may take back.
+  double safety = discretisation_safety;
+};
+
+/// Entries add up: signs are not known.
+struct ErrorLedger {
+  std::vector<ErrorEntry> numerical;  ///< of the calculation: finer runs make them smaller
+  std::vector<ErrorEntry> model;      ///< of assumptions that no mesh mends
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  ErrorLedger();
+  ErrorLedger(const ErrorLedger&);
+  ErrorLedger(ErrorLedger&&) noexcept;
+  ErrorLedger& operator=(const ErrorLedger&);
+  ErrorLedger& operator=(ErrorLedger&&) noexcept;
+  ~ErrorLedger();
+
+  double numerical_Pa() const;
+  double total_Pa() const;
+  /// Source of the largest numerical entry; empty without any.
+  std::string largest() const;
+  /// 0 if the ledger has no such entry.
+  double of(const std::string& source) const;
+  /// ErrorEntry::safety of a numerical entry; 1 if there is no such entry.
+  double safety_of(const std::string& source) const;
+  // Replace the entry of that source, or add it.
+  void set_numerical(const ErrorEntry& entry);
+  void set_model(const ErrorEntry& entry);
+};
+
+/// Where a headline stress comes from: the weighted sum of the stress at some nodes (one node for a peak, two
+/// for a stress extrapolated to a weld toe), at one instant.
+struct StressPoint {
+  struct Part {
+    std::size_t node = 0;
+    double weight = 1;
+  };
+  std::vector<Part> parts;
+  std::int32_t instant = 0;  ///< column of ChannelHistory::values
+};
+
+/// Unit stress at the point, per channel (xx, yy, zz, xy, yz, xz) [Pa].
+std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& responses,
+                                                  const StressPoint& point);
+
+/// Von Mises stress of unit stresses times factors [Pa].
+double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXd& factors);
+
+/// What one run can tell about itself:
+///   time_sampling       what a parabola through the neighbouring instants adds
+///   pressure_harmonics  what the highest harmonic of the seat pressures contributes
+///   discretisation      the largest difference between the recovered stress and that of one cell, over the
+///                       faces around the point, times discretisation_safety: a single cell may agree by
+///                       chance; of tetrahedra as tetrahedra_estimate.h
+///   geometry            geometry_share
+///   linear_solver       relative residual, or rounding if that is more
+/// Responses without cells (cheap models) get no discretisation entry here.
+/// @param geometry_share  as of the function of that name
+/// @param left_out  one per node, or empty: what stress does there tells nothing of the point
+ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
+                          const BodyLoads& loads, const fem::Material& material, double geometry_share,
+                          const std::vector<char>& left_out = {});
+
+/// What faces beside their surfaces cost at a point, relative: bending stress goes with the third power of
+/// the distance from the axis, a fillet's factor with the square root of its radius at most (sharp notches,
+/// Creager and Paris 1967). The largest over the surfaces around the point, 3 of_axis + of_fillet / 2; three
+/// times the largest error of the body, in radii, where none of them is curved.
+double geometry_share(const fem::GeometryError& error, const fem::Nodes& nodes, const StressPoint& point);
+
+}  // namespace pipelines

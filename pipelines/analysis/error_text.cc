@@ -1,0 +1,75 @@
+#include "pipelines/analysis/error_text.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pipelines {
+namespace {
+
+constexpr double negligible_share = 1e-3;  // of the stress
+
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string in_MPa(double value_Pa) {
+  return fixed(value_Pa / 1e6, 1);
+}
+
+/// What helps against an assumption.
+std::string remedy_of_model(const std::string& source) {
+  if (source == "load_patches")
+    return "give the seats' pressure as it is known (half_angle, harmonics); no mesh lowers it";
+  if (source == "quasi_static")
+    return "keep the natural frequencies away from the harmonics of the stress; no mesh lowers it";
+  if (source == "dropped_effects") return "name the effects instead of effects = \"auto\"";
+  return "no mesh lowers it";
+}
+
+std::string remedy_of_calculation(const Search& search) {
+  if (search.steps.empty()) return "--tolerance \"5 %\"";
+  if (search.met) return "a smaller --tolerance";
+  if (search.ended == "the time is up") return "more time (--time-limit)";
+  return "another mesh, since " + search.ended;
+}
+
+}  // namespace
+
+std::string fixed(double value, int decimals) {
+  const bool is_plain =
+      value == 0 || (std::abs(value) >= 0.5 * std::pow(10, -decimals) && std::abs(value) < 1e7);
+  return is_plain || !std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals)
+                                           : fmt::format("{:.3g}", value);
+}
+
+std::string value_with_errors(double value_Pa, const ErrorLedger& errors) {
+  auto text = in_MPa(value_Pa) + " MPa +- " + in_MPa(errors.numerical_Pa()) + " (numerical)";
+  bool is_any = false;
+  for (const auto& entry : errors.model) {
+    if (entry.value_Pa < negligible_share * value_Pa || entry.value_Pa == 0) continue;
+    text += fmt::format("{} +- {} from {}", is_any ? "," : " and", in_MPa(entry.value_Pa),
+                        in_words(entry.source));
+    is_any = true;
+  }
+  return is_any ? text + ", which no mesh lowers" : text;
+}
+
+std::string not_known_well(const GoverningStress& stress, const Search& search) {
+  const double total_Pa = stress.errors.total_Pa();
+  if (!(total_Pa > largest_plain_error * stress.value_Pa)) return {};
+  const auto smaller = [](const auto& a, const auto& b) { return a.value_Pa < b.value_Pa; };
+  const auto largest_of = [&](const std::vector<ErrorEntry>& entries) {
+    const auto found = std::max_element(entries.begin(), entries.end(), smaller);
+    return found == entries.end() ? ErrorEntry{} : *found;
+  };
+  const auto numerical = largest_of(stress.errors.numerical), model = largest_of(stress.errors.model);
+  const bool is_model = smaller(numerical, model);
+  return fmt::format("{} MPa +- {} MPa ({:.0f} %): {}; remedy: {}", in_MPa(stress.value_Pa), in_MPa(total_Pa),
+                     100 * total_Pa / stress.value_Pa, in_words((is_model ? model : numerical).source),
+                     is_model ? remedy_of_model(model.source) : remedy_of_calculation(search));
+}
+
+}  // namespace pipelines

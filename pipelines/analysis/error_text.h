@@ -1,0 +1,26 @@
+/// A stress and what it may be wrong by, in words for terminal and report.
+#pragma once
+
+#include <string>
+
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/analysis/search_record.h"
+
+namespace pipelines {
+
+/// With that many decimals; numbers that no column holds, or that would show as zero, with an exponent.
+std::string fixed(double value, int decimals);
+
+/// "105.2 MPa +- 1.3 (numerical) and +- 2.1 from load patches, which no mesh lowers". The numerical part is
+/// what a tolerance is compared with. Sources of the model below a thousandth of the stress are left out.
+std::string value_with_errors(double value_Pa, const ErrorLedger& errors);
+
+/// "30.8 MPa +- 12.8 MPa (42 %): discretisation; remedy: --tolerance "5 %"" where the whole error exceeds
+/// largest_plain_error, with the largest source; else empty.
+/// @param search  how the mesh was found; its steps are empty if it was the scene's own
+std::string not_known_well(const GoverningStress& stress, const Search& search);
+
+/// Relative. A stress that is known no better is stated as such, first, with what would help.
+inline constexpr double largest_plain_error = 0.2;
+
+}  // namespace pipelines

@@ -1,0 +1,57 @@
+#include "pipelines/analysis/governing_stress.h"
+
+#include <algorithm>
+
+namespace pipelines {
+namespace {
+
+/// The yield strength is the same all over a body: the larger stress has the smaller safety.
+bool hot_spot_governs(const BodyAnalysis& analysis) {
+  return !analysis.hot_spots.empty() && analysis.hot_spots.front().von_mises_Pa > analysis.peak.value_Pa;
+}
+
+}  // namespace
+
+std::string GoverningStress::name() const {
+  return kind == Kind::hot_spot ? "hot-spot stress" : "peak von Mises stress";
+}
+
+GoverningStress governing_stress(const BodyAnalysis& analysis) {
+  GoverningStress stress;
+  if (hot_spot_governs(analysis)) {
+    const auto& spot = analysis.hot_spots.front();
+    stress.kind = GoverningStress::Kind::hot_spot;
+    stress.place = spot.name;
+    stress.surface = Place::free_surface;
+    stress.position_m = spot.toe_m;
+    stress.instant = spot.instant;
+    stress.value_Pa = spot.von_mises_Pa;
+    stress.errors = analysis.hot_spot_errors;
+  } else {
+    const auto& peak = analysis.peak;
+    stress.place = peak.feature;
+    stress.surface = peak.place;
+    stress.position_m = peak.position_m;
+    stress.instant = peak.instant;
+    stress.value_Pa = peak.value_Pa;
+    stress.errors = peak.errors;
+  }
+  stress.safety = analysis.scene.yield_strength_Pa / stress.value_Pa;
+  return stress;
+}
+
+ErrorLedger& errors_of_governing(BodyAnalysis& analysis) {
+  return hot_spot_governs(analysis) ? analysis.hot_spot_errors : analysis.peak.errors;
+}
+
+std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone) {
+  return zone.peak_node == analysis.peak.node ? analysis.peak.errors.numerical_Pa() : zone.error_Pa;
+}
+
+double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot) {
+  const double first_Pa = analysis.hot_spots.front().error_Pa,
+               known_Pa = analysis.hot_spot_errors.numerical_Pa();
+  return first_Pa > 0 ? spot.error_Pa * (known_Pa / first_Pa) : std::max(spot.error_Pa, known_Pa);
+}
+
+}  // namespace pipelines

@@ -1,0 +1,45 @@
+/// The one stress by which a body is judged: that with the least safety of its peak and its weld toes'
+/// hot-spot stresses. Terminal, report, picture, summary and envelope.vtu all show it first.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "pipelines/analysis/body_analysis.h"
+
+namespace pipelines {
+
+struct GoverningStress {
+  enum class Kind { peak, hot_spot };
+  Kind kind = Kind::peak;
+  std::string place;                   ///< the feature, or the weld toe
+  Place surface = Place::interior;     ///< weld toes lie on free surface
+  std::array<double, 3> position_m{};  ///< of a hot spot: the toe
+  std::int32_t instant = 0;
+  double value_Pa = 0;
+  double safety = 0;  ///< yield strength / value
+  ErrorLedger errors;
+
+  /// "peak von Mises stress", "hot-spot stress"
+  std::string name() const;
+  /// Numerical part, relative; 0 where nothing is stressed.
+  double relative_error() const { return value_Pa > 0 ? errors.numerical_Pa() / value_Pa : 0; }
+};
+
+/// Of a peak and a hot spot of the same value the peak.
+GoverningStress governing_stress(const BodyAnalysis& analysis);
+
+/// The errors that governing_stress states.
+ErrorLedger& errors_of_governing(BodyAnalysis& analysis);
+
+/// Numerical error of a zone's peak: that of the body's peak, which a search may know better, or the zone's
+/// own estimate.
+std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone);
+
+/// Numerical error of a hot spot: its own estimate, times what a search has learnt at the first one of how
+/// far such estimates are from what is missing.
+double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot);
+
+}  // namespace pipelines

@@ -1,0 +1,76 @@
+#include "pipelines/analysis/hot_spots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace pipelines {
+namespace {
+
+using Eigen::ArrayXXd;
+
+constexpr double near_weight = 1.67, far_weight = -0.67;
+
+std::size_t node_at(const fem::Nodes& nodes, const std::array<double, 3>& p, const meshes::HotSpot& spot) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    const double* x = &nodes.xyz_m[3 * i];
+    const double d = std::hypot(x[0] - p[0], x[1] - p[1], x[2] - p[2]);
+    if (d < least) least = d, best = i;
+  }
+  if (!(least <= 1e-6 * spot.thickness_m))
+    throw std::runtime_error("hot spot \"" + spot.name + "\": no node of the mesh lies at its points");
+  return best;
+}
+
+/// Stress over the cycle at a node, 6 x n_instants.
+ArrayXXd course(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node) {
+  const auto n_channels = Eigen::Index(responses.channels.size());
+  const Eigen::Map<const Eigen::MatrixXd> unit(&responses.stress_Pa[node * std::size_t(n_channels) * 6], 6,
+                                               n_channels);
+  return (unit * loads.values.matrix()).array();
+}
+
+}  // namespace
+
+StressPoint stress_point(const HotSpotStress& spot) {
+  return {{{spot.near_node, near_weight}, {spot.far_node, far_weight}}, spot.instant};
+}
+
+std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>& spots,
+                                             const fem::UnitResponses& responses,
+                                             const ChannelHistory& loads) {
+  std::vector<HotSpotStress> results;
+  for (const auto& spot : spots) {
+    HotSpotStress result;
+    result.near_node = node_at(responses.nodes, spot.near_m, spot);
+    result.far_node = node_at(responses.nodes, spot.far_m, spot);
+    const ArrayXXd stress = near_weight * course(responses, loads, result.near_node) +
+                            far_weight * course(responses, loads, result.far_node);
+    Eigen::Vector3d across;
+    for (int d = 0; d < 3; ++d) across[d] = spot.near_m[std::size_t(d)] - spot.toe_m[std::size_t(d)];
+    across.normalize();
+    result.name = spot.name;
+    result.toe_m = spot.toe_m;
+    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+      Stress s;
+      for (std::size_t c = 0; c < 6; ++c) s[c] = stress(Eigen::Index(c), i);
+      const auto& n = across;
+      const double normal = s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2] +
+                            2 * (s[3] * n[0] * n[1] + s[4] * n[1] * n[2] + s[5] * n[0] * n[2]);
+      result.max_normal_Pa = i == 0 ? normal : std::max(result.max_normal_Pa, normal);
+      result.min_normal_Pa = i == 0 ? normal : std::min(result.min_normal_Pa, normal);
+      if (const double v = von_mises_Pa(s); v > result.von_mises_Pa) {
+        result.von_mises_Pa = v;
+        result.instant = std::int32_t(i);
+      }
+    }
+    results.push_back(result);
+  }
+  std::stable_sort(results.begin(), results.end(),
+                   [](const auto& a, const auto& b) { return a.von_mises_Pa > b.von_mises_Pa; });
+  return results;
+}
+
+}  // namespace pipelines

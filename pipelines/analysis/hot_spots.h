@@ -1,0 +1,36 @@
+/// Structural hot-spot stress of weld toes: the notch itself has no converged stress, so the stress of the
+/// plate is extrapolated to it from 0.4 and 1.0 plate thicknesses: 1.67 s(0.4 t) - 0.67 s(1.0 t), each
+/// component (IIW, Recommendations for fatigue design of welded joints, type "a" toes, fine mesh).
+#pragma once
+
+#include <vector>
+
+#include "fem/values/unit_responses.h"
+#include "meshes/values/body_mesh.h"
+#include "pipelines/loads/channels.h"
+#include "pipelines/analysis/error_budget.h"
+#include "pipelines/superposition/superposition.h"
+
+namespace pipelines {
+
+struct HotSpotStress {
+  std::string name;
+  std::array<double, 3> toe_m{};
+  std::size_t near_node = 0, far_node = 0;  ///< at 0.4 and 1.0 plate thicknesses
+  double von_mises_Pa = 0;                  ///< largest over the cycle
+  std::int32_t instant = 0;                 ///< of that
+  double error_Pa = 0;                      ///< numerical part, estimated on this mesh alone
+  double max_normal_Pa = 0,
+         min_normal_Pa = 0;  ///< across the toe, over the cycle: their range is what fatigue counts
+};
+
+/// The extrapolation at the instant of the largest von Mises stress.
+StressPoint stress_point(const HotSpotStress& spot);
+
+/// @return in descending order of the largest von Mises stress
+/// @throws std::runtime_error if a point of a hot spot is no node of the solution
+std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>& spots,
+                                             const fem::UnitResponses& responses,
+                                             const ChannelHistory& loads);
+
+}  // namespace pipelines

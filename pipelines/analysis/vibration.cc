@@ -1,0 +1,162 @@
+#include "pipelines/analysis/vibration.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fem/model/model.h"
+#include "kinetics/harmonics.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/superposition/superposition.h"
+
+namespace pipelines {
+namespace {
+
+constexpr double significant = 0.01;  // of the static peak
+constexpr double round_off = 1e-9;    // likewise; its sum over a few thousand lines stays far below the limit
+
+/// Far stiffer than any body of this material around the seat, whose own stiffness is of size E d.
+constexpr double rigid = 1e6;
+
+const meshes::Port& find(const std::vector<meshes::Port>& ports, const std::string& name) {
+  const auto found = std::find_if(ports.begin(), ports.end(), [&](const auto& p) { return p.name == name; });
+  if (found == ports.end()) throw StageRefused("port \"" + name + "\" is missing on the mesh");
+  return *found;
+}
+
+fem::ElasticSupport pin(const meshes::Port& port, double stiffness_N_m) {
+  fem::LoadSurface surface;
+  surface.kind =
+      port.kind == meshes::Port::Kind::face ? fem::LoadSurface::Kind::face : fem::LoadSurface::Kind::seat;
+  surface.boundary_id = port.boundary_id;
+  surface.centre_m = {port.axis_x_m, port.axis_y_m, 0.5 * (port.begin_m + port.end_m)};
+  if (surface.kind == fem::LoadSurface::Kind::seat) {
+    surface.radius_m = port.radius_m;
+    surface.length_m = port.end_m - port.begin_m;
+  }
+  return {surface, {stiffness_N_m, stiffness_N_m, 0}};
+}
+
+double amplification_at(double frequency_Hz, double f1_Hz) {
+  const double ratio = frequency_Hz / f1_Hz, rest = std::abs(1 - ratio * ratio);
+  return std::min(1 / rest, resonance_peak);
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
+                                           double spin_Hz, double f1_Hz) {
+  if (!(f1_Hz > 0))
+    throw std::invalid_argument(fmt::format("lowest natural frequency {} Hz: must be positive", f1_Hz));
+  double peak = 0;
+  for (Eigen::Index i = 0; i < stress_Pa.cols(); ++i) {
+    Stress s;
+    for (Eigen::Index c = 0; c < 6; ++c) s[std::size_t(c)] = stress_Pa(c, i);
+    peak = std::max(peak, von_mises_Pa(s));
+  }
+  DynamicAmplification result;
+  if (peak == 0) return result;
+  const int n_lines = int(stress_Pa.cols() / 2);
+  std::vector<Stress> cosine(std::size_t(n_lines) + 1), sine(std::size_t(n_lines) + 1);
+  for (Eigen::Index c = 0; c < 6; ++c) {
+    const auto spectrum = kinetics::line_spectrum(stress_Pa.row(c).transpose() / peak, turns, n_lines);
+    cosine[0][std::size_t(c)] = spectrum.mean;
+    for (std::size_t k = 1; k < cosine.size(); ++k) {
+      const auto& line = spectrum.lines[k - 1];
+      cosine[k][std::size_t(c)] = line.amplitude * std::cos(line.phase_rad);
+      sine[k][std::size_t(c)] = line.amplitude * std::sin(line.phase_rad);
+    }
+  }
+  for (std::size_t k = 0; k < cosine.size(); ++k) {
+    StressHarmonic line;
+    line.order = double(k) / turns;
+    line.frequency_Hz = line.order * turn_Hz + spin_Hz;
+    line.share = std::hypot(von_mises_Pa(cosine[k]), von_mises_Pa(sine[k]));
+    line.amplification = amplification_at(line.frequency_Hz, f1_Hz);
+    if (line.share > round_off) result.factor += line.share * std::abs(line.amplification - 1);
+    if (line.share > significant) result.highest = line;
+  }
+  return result;
+}
+
+std::vector<std::string> supporting_ports(const BodyScene& body) {
+  switch (body.role) {
+    case BodyRole::vibratory_shaft:
+      return {"main_bearing_1", "main_bearing_2"};
+    case BodyRole::drum:
+      return {"trunnion_1", "trunnion_2"};
+    case BodyRole::stub_axle:
+      return {"clamp"};
+    case BodyRole::train_shaft:
+      return {body.train.bearings[0], body.train.bearings[1]};
+    case BodyRole::table_body:
+      return body.table.bearings;
+    case BodyRole::chamber:
+      break;
+  }
+  return {};
+}
+
+fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
+  fem::Body body = meshed.body;
+  body.elastic_supports.clear();
+  for (const auto& name : supporting_ports(scene)) {
+    const auto& port = find(meshed.mesh.ports, name);
+    if (scene.role == BodyRole::stub_axle) {
+      body.clamps.push_back({port.boundary_id, {true, true, true}});
+      continue;
+    }
+    const double size_m = port.radius_m > 0 ? 2 * port.radius_m : std::cbrt(meshed.masses.volume_m3);
+    body.elastic_supports.push_back(pin(port, rigid * scene.material.youngs_modulus_Pa * size_m));
+  }
+  return body;
+}
+
+double spin_Hz(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& loads) {
+  const double turn_rad = 2 * M_PI;
+  if (body.role == BodyRole::vibratory_shaft) return std::abs(loads.speed_rad_s.mean()) / turn_rad;
+  if (body.role == BodyRole::drum)
+    return std::abs(loads.quantity("drum_relative_speed").values.mean()) / turn_rad;
+  if (body.role == BodyRole::train_shaft)
+    return std::abs(kinetics::mean_speed_rad_s(std::get<kinetics::DriveTrain>(scene.machine),
+                                               body.train.inertia)) /
+           turn_rad;
+  return 0;
+}
+
+Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                    const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa) {
+  Vibration result;
+  const auto held = held_body(body, meshed);
+  for (const auto& mode : fem::Model(held).natural_frequencies(body.natural_frequencies))
+    result.natural_frequencies_Hz.push_back(mode.frequency_Hz);
+  const auto ports = supporting_ports(body);
+  result.held =
+      ports.empty() ? "free" : (body.role == BodyRole::stub_axle ? "held at " : "pinned at ") + joined(ports);
+  const double period_s = (loads.time_s[1] - loads.time_s[0]) * scene.sampling.instants_per_turn;
+  result.amplification =
+      dynamic_amplification(peak_stress_Pa, scene.sampling.turns, 1 / period_s, spin_Hz(scene, body, loads),
+                            result.natural_frequencies_Hz.front());
+  return result;
+}
+
+std::string warning_of(const BodyScene& body, const Vibration& vibration) {
+  const auto& dynamic = vibration.amplification;
+  if (!(dynamic.factor > amplification_limit)) return {};
+  return fmt::format(
+      "the {}'s lowest natural frequency is {:.4g} Hz ({}): resonance adds about {:.2g} % to its peak "
+      "stress, "
+      "which is computed without; the highest harmonic of weight is at {:.4g} Hz",
+      body.name, vibration.natural_frequencies_Hz.front(), vibration.held, 100 * (dynamic.factor - 1),
+      dynamic.highest.frequency_Hz);
+}
+
+}  // namespace pipelines

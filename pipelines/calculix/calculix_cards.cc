@@ -1,0 +1,105 @@
+#include "pipelines/calculix/calculix_cards.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <set>
+
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/common/errors.h"
+
+namespace pipelines {
+namespace {
+
+constexpr std::size_t longest_name = 80;  // of CalculiX
+
+/// One load of one node set in one degree of freedom.
+struct Card {
+  std::string name, node_set;
+  int degree_of_freedom;
+  Eigen::ArrayXd values;
+};
+
+std::string card_name(const std::string& text) {
+  std::string name;
+  for (const char c : text)
+    name +=
+        std::isalnum(static_cast<unsigned char>(c)) ? char(std::toupper(static_cast<unsigned char>(c))) : '_';
+  return name;
+}
+
+void add(const std::string& role, const std::string& component, const Eigen::ArrayXd& values,
+         std::vector<Card>& cards) {
+  if ((values == 0).all()) return;
+  const bool is_moment = component == "torque" || component == "mx" || component == "my";
+  const int axis = component == "fx" || component == "mx"   ? 1
+                   : component == "fy" || component == "my" ? 2
+                                                            : 3;
+  const std::string set = "N_" + card_name(role) + (is_moment ? "_ROT" : "");
+  cards.push_back({"A_" + card_name(role + "." + component), set, axis, values});
+}
+
+std::vector<Card> cards_of(const kinetics::LoadHistory& loads) {
+  std::vector<Card> cards;
+  for (const auto& resultant : loads.resultants) {
+    add(resultant.role, "fx", resultant.total.row(0), cards);
+    add(resultant.role, "fy", resultant.total.row(1), cards);
+    add(resultant.role, "torque", resultant.total.row(2), cards);
+  }
+  for (const auto& quantity : loads.quantities) {
+    const auto dot = quantity.name.rfind('.');
+    const std::string component = dot == std::string::npos ? "" : quantity.name.substr(dot + 1);
+    if (loads.machine == "load_table" && (component == "fz" || component == "mx" || component == "my"))
+      add(quantity.name.substr(0, dot), component, quantity.values, cards);
+  }
+  std::set<std::string> names;
+  for (const auto& card : cards)
+    if (card.name.size() > longest_name || !names.insert(card.name).second)
+      throw StageRefused("the name " + card.name +
+                         " of a card is used twice or longer than 80 characters: rename the port");
+  return cards;
+}
+
+/// Room for every double, and few enough characters for eight in a line.
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12E", value);
+  return text;
+}
+
+std::string amplitude(const Card& card, const kinetics::LoadHistory& loads) {
+  const Eigen::Index n = loads.n_instants();
+  const double period_s = n > 1 ? loads.time_s[n - 1] + (loads.time_s[1] - loads.time_s[0]) : 1;
+  std::string text = "*AMPLITUDE, NAME=" + card.name + "\n";
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    text += number(i < n ? loads.time_s[i] : period_s) + "," + number(card.values[i < n ? i : 0]);
+    text += i % 4 == 3 || i == n ? "\n" : ",";
+  }
+  return text;
+}
+
+}  // namespace
+
+CalculixCards calculix_cards(const kinetics::LoadHistory& loads) {
+  CalculixCards result;
+  std::set<std::string> sets;
+  const std::string about = "** " + loads.machine + " (" + loads.convention + "); N, N m, s\n";
+  result.amplitudes = about;
+  result.loads = about;
+  for (const Card& card : cards_of(loads)) {
+    sets.insert(card.node_set);
+    result.amplitudes += amplitude(card, loads);
+    result.loads += "*CLOAD, AMPLITUDE=" + card.name + "\n" + card.node_set + "," +
+                    std::to_string(card.degree_of_freedom) + ",1.\n";
+  }
+  result.node_sets.assign(sets.begin(), sets.end());
+  return result;
+}
+
+void write_calculix_cards(const std::filesystem::path& prefix, const kinetics::LoadHistory& loads) {
+  const auto cards = calculix_cards(loads);
+  write_text_file(prefix.string() + "_amplitudes.inp", cards.amplitudes);
+  write_text_file(prefix.string() + "_loads.inp", cards.loads);
+}
+
+}  // namespace pipelines

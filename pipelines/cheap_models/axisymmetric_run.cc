@@ -1,0 +1,153 @@
+#include "pipelines/cheap_models/axisymmetric_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "fem/beam/beam_responses.h"
+#include "pipelines/cheap_models/axisymmetric_body.h"
+#include "pipelines/cheap_models/axisymmetric_refinement.h"
+#include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/common/stage_clock.h"
+
+namespace pipelines {
+namespace {
+
+/// Of the discretisation: half of a tolerance, and without one what a second buys.
+constexpr double share_of_tolerance = 0.5, usual_target = 0.01;
+int threads(int wanted) {
+  return wanted > 0 ? wanted : int(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+/// The node at the place of another one, turned about the axis; that one itself on the axis.
+std::size_t turned_node(const fem::Nodes& nodes, std::size_t node, double angle) {
+  const double *p = &nodes.xyz_m[3 * node], c = std::cos(angle), s = std::sin(angle);
+  const std::array<double, 3> to{c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
+  std::size_t nearest = node;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    const double* q = &nodes.xyz_m[3 * i];
+    const double distance = std::hypot(q[0] - to[0], q[1] - to[1], q[2] - to[2]);
+    if (distance < least) {
+      least = distance;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+/// What a parabola through the nodes beside the peak adds to it, at the peak's instant.
+double between_nodes_around_Pa(const BodyAnalysis& analysis, int n_angles) {
+  const auto at = [&](std::size_t node) {
+    return von_mises_Pa(stress_at(analysis.responses, analysis.loads.history, node, analysis.peak.instant));
+  };
+  const double step = 2 * M_PI / n_angles;
+  const auto& nodes = analysis.responses.nodes;
+  const double before = at(turned_node(nodes, analysis.peak.node, -step)), here = at(analysis.peak.node),
+               after = at(turned_node(nodes, analysis.peak.node, step));
+  const double curvature = before - 2 * here + after;
+  return curvature < 0 ? std::max(0.0, (before - after) / (-8 * curvature) * (before - after)) : 0;
+}
+
+SearchStep record(const Scene& scene, const BodyScene& body, const AxisymmetricStep& step) {
+  SearchStep entry;
+  entry.fineness = step.fineness;
+  entry.instants_per_turn = scene.sampling.instants_per_turn;
+  entry.pressure_harmonics = body.pressure_harmonics;
+  entry.n_dofs = step.responses.n_dofs;
+  entry.value_Pa = step.peak().value_Pa;
+  entry.errors.set_numerical({"discretisation", "change from the coarser section", step.peak_error_Pa()});
+  const auto& principal = step.envelope.principal.value_Pa;
+  entry.principal_Pa = principal[peak_node(principal, step.node_places)];
+  entry.seconds = step.seconds;
+  entry.gigabytes = peak_memory_gigabytes();
+  return entry;
+}
+
+/// Bending by axial force and torsion by force across, both by the offset of an eccentric segment's axis from
+/// that of the model; largest over sections and instants, as von Mises stress.
+double offset_axis_Pa(const BodyAnalysis& analysis) {
+  double largest_Pa = 0;
+  if (!analysis.diagrams) return 0;
+  for (const auto& section : analysis.diagrams->sections) {
+    const auto& plane = section.plane;
+    const double offset_m = std::hypot(plane.axis_x_m, plane.axis_y_m);
+    if (offset_m == 0) continue;
+    const double r = plane.radius_m, r_i = plane.inner_radius_m;
+    const double second_m4 = M_PI / 4 * (std::pow(r, 4) - std::pow(r_i, 4));
+    const double bending_Pa = section.by_statics.row(2).abs().maxCoeff() * offset_m * r / second_m4;
+    const double shear_Pa =
+        section.by_statics.topRows<2>().matrix().colwise().norm().maxCoeff() * offset_m * r / (2 * second_m4);
+    largest_Pa = std::max(largest_Pa, std::hypot(bending_Pa, std::sqrt(3.0) * shear_Pa));
+  }
+  return largest_Pa;
+}
+
+void enter_errors(BodyAnalysis& analysis, double discretisation_Pa) {
+  auto& errors = analysis.peak.errors;
+  errors.set_numerical({"discretisation",
+                        "change from the coarser section, of every place that may lead with it",
+                        discretisation_Pa});
+  errors.set_numerical(
+      {"geometry", "arcs are curves of degree 3: their changes are those of the discretisation", 0});
+  errors.set_numerical({"nodes_around", "parabola through the neighbouring nodes around the axis",
+                        between_nodes_around_Pa(analysis, fem::MeridianBody().n_angles)});
+  if (const auto beam = beam_shaft(analysis.scene, analysis.mesh))
+    if (const double share = fem::eccentricity_error(*beam); share > 0)
+      errors.set_model({"eccentric_segments",
+                        "eccentric shoulders taken as concentric: the fillets' factors at their heights",
+                        share * analysis.peak.value_Pa});
+  if (const double offset_Pa = offset_axis_Pa(analysis); offset_Pa > 0)
+    errors.set_model(
+        {"offset_axis", "bending and torsion by the offset of eccentric segments' axes", offset_Pa});
+}
+
+}  // namespace
+
+BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                                  BodyLoads loads, const RunOptions& options, StageClock& clock,
+                                  double tolerance) {
+  const auto start = std::chrono::steady_clock::now();
+  const int n_threads = threads(options.n_threads);
+  MeshedBody own = meshed;
+  own.mesh.sections = describe_revolved(body).mesh.sections;
+  const double target = tolerance > 0 ? share_of_tolerance * tolerance : usual_target;
+  AxisymmetricRefinement refinement(body, own, loads, n_threads);
+  Search search;
+  search.quantity = "peak von Mises stress";
+  search.tolerance = tolerance;
+  search.ended = "the tolerance is met";
+  auto step = refinement.next(clock);
+  search.steps.push_back(record(scene, body, step));
+  while (!AxisymmetricRefinement::is_met(step, target)) {
+    if (int(search.steps.size()) >= AxisymmetricRefinement::most_steps) {
+      search.ended = "too many steps";
+      break;
+    }
+    step = refinement.next(clock);
+    search.steps.push_back(record(scene, body, step));
+  }
+  const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
+  const double discretisation_Pa = step.peak_error_Pa();
+  auto analysis = superpose_body(scene, body, own, std::move(loads), std::move(step.responses),
+                                 options.n_threads, clock, std::move(step.envelope));
+  analysis.method = Method::axisymmetric;
+  analysis.solve_s = solve.count();
+  enter_errors(analysis, discretisation_Pa);
+  if (tolerance > 0) {
+    const double error_Pa = analysis.peak.errors.numerical_Pa() +
+                            analysis.peak.errors.of("eccentric_segments") +
+                            analysis.peak.errors.of("offset_axis");
+    search.met = error_Pa <= tolerance * analysis.peak.value_Pa;
+    if (!search.met && search.ended == "the tolerance is met")
+      search.ended = "the section is fine enough; what is left is not its error";
+    analysis.search = std::move(search);
+  }
+  return analysis;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,30 @@
+/// A whole run of a body on the axisymmetric model: the same files as of the solid, from the same functions.
+#pragma once
+
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/loads/body_mesh.h"
+
+namespace pipelines {
+
+/// The axisymmetric model in the place of analyse_body. The section is refined until no place of the body
+/// exceeds the stated peak by more than `target` with its error; `tolerance` > 0 enters the steps as a
+/// search. The peak's errors: time sampling and pressure harmonics as for the solid; discretisation from the
+/// change between sections, place by place; what lies between the nodes around; of eccentric segments the
+/// model's own (fem::eccentricity_error).
+/// @param meshed  of describe_revolved, or of the solid: masses, features, ports and sharp edges are taken
+/// @throws std::invalid_argument if why_not_axisymmetric is not empty
+/// @throws std::runtime_error if the loads do not close to 1e-9
+BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                                  BodyLoads loads, const RunOptions& options, StageClock& clock,
+                                  double tolerance = 0);
+
+/// By the axisymmetric model, refined until no place's error exceeds `target` of the largest value, or the
+/// step after would be too large. A second opinion on other models of the same loads: on concentric shafts
+/// values are within their errors of the elastic solution.
+/// @param meshed  features, ports, sharp edges and masses of whatever mesh the loads were made for
+/// @throws as analyse_axisymmetric
+std::vector<PlaceStress> axisymmetric_place_stresses(const BodyScene& body, const MeshedBody& meshed,
+                                                     const BodyLoads& loads, int n_threads,
+                                                     double target = 0.005);
+
+}  // namespace pipelines

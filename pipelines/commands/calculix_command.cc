@@ -1,0 +1,71 @@
+#include <fmt/core.h>
+
+#include <ostream>
+#include <variant>
+#include <vector>
+
+#include "fem/loads/nodal_loads.h"
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/calculix/calculix_model.h"
+#include "pipelines/commands/commands.h"
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/loads/effect_closure.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/common/fem_environment.h"
+#include "pipelines/loads/load_stage.h"
+
+namespace pipelines {
+namespace {
+
+void refuse_what_has_no_equal(const Scene& scene) {
+  if (scene.bodies.empty())
+    throw StageRefused(scene.file.string() +
+                       ": has no body, and only bodies have a mesh to write; add one, as [shaft], to "
+                       "the scene, or take `loads --calculix`");
+  for (const auto& body : scene.bodies)
+    if (body.elastic_feet)
+      throw StageRefused(body.origin +
+                         ": elastic_feet = true: the model for CalculiX is that of a free body; set it "
+                         "to false for this command");
+}
+
+}  // namespace
+
+void calculix_command(const CommandOptions& options, std::ostream& out) {
+  Scene scene = read_scene(options.scene);
+  refuse_what_has_no_equal(scene);
+  const auto directory =
+      options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
+  StageClock clock(progress_on_stderr(options.verbosity));
+  const FemEnvironment environment(options.n_threads);
+  const auto meshes = clock.run("mesh", [&] { return ScratchMeshes(scene); });
+  const auto& meshed = meshes.bodies();
+  scene = with_effects_chosen(scene, meshed, negligible_share(scene.wish.tolerance));
+  const auto masses = agree_masses(scene, meshed);
+  // Unit loads do not depend on the instants; one turn tells which there are.
+  auto coarse = scene;
+  if (!std::holds_alternative<kinetics::LoadTable>(scene.machine)) coarse.sampling.turns = 1;
+  const auto history = clock.run("loads", [&] { return load_stage(coarse, masses.machine); });
+  std::vector<BodyLoads> loads;
+  for (std::size_t i = 0; i < meshed.size(); ++i)
+    loads.push_back(clock.run("distribute", [&] {
+      return distribute_body(coarse, scene.bodies[i], history, loaded_body(scene.bodies[i], meshed[i]),
+                             masses);
+    }));
+  require_equilibrium(coarse, meshed, masses, loads);
+  for (std::size_t i = 0; i < meshed.size(); ++i) {
+    const auto& body = scene.bodies[i];
+    const auto nodal = fem::nodal_loads(meshed[i].body, loads[i].unit_loads);
+    std::vector<std::string> channels;
+    for (const auto& load : loads[i].unit_loads) channels.push_back(load.channel);
+    const auto file = directory / (body.name + ".inp");
+    clock.run("write", [&] {
+      write_calculix_model(file, scene.title + ", " + body.name, channels, body.material, nodal);
+    });
+    out << fmt::format("{}: {} elements, {} steps, one per unit load: {}\n", body.name, nodal.nodes.n_cells(),
+                       channels.size(), file.string());
+  }
+  out << fmt::format("run: cd {} && ccx -i {}\n", directory.string(), scene.bodies.front().name);
+}
+
+}  // namespace pipelines

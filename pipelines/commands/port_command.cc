@@ -1,0 +1,52 @@
+#include <fmt/core.h>
+
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "fem/values/body_nodes.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/commands/commands.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/pictures/port_picture.h"
+#include "pipelines/pictures/port_surface.h"
+#include "pipelines/scene/scene.h"
+
+namespace pipelines {
+
+void ports_command(const CommandOptions& options, std::ostream& out) {
+  const Scene scene = read_scene(options.scene);
+  if (scene.bodies.empty())
+    throw StageRefused(scene.file.string() +
+                       ": has no body, and only bodies have ports; add one, as [shaft], to the scene");
+  const auto directory =
+      options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
+  StageClock clock(progress_on_stderr(options.verbosity));
+
+  // All meshes before any file: a body that cannot be meshed leaves nothing behind.
+  std::vector<meshes::BodyMesh> meshed;
+  std::vector<fem::Nodes> nodes;
+  for (const auto& body : scene.bodies)
+    clock.run("mesh", [&] {
+      const AtomicFile scratch(std::filesystem::temp_directory_path() /
+                               ("millstress_ports_" + scene.file.stem().string() + "_" + body.name + ".msh"));
+      meshed.push_back(build_mesh(body, scratch.temporary()));
+      nodes.push_back(fem::body_nodes(to_fem_body(meshed.back(), body.material)));
+    });
+  for (std::size_t i = 0; i < meshed.size(); ++i) {
+    const auto& name = scene.bodies[i].name;
+    const auto vtu = directory / name / "ports.vtu", png = directory / name / "ports.png";
+    clock.run("write", [&] { write_port_surface(vtu, nodes[i], meshed[i]); });
+    const bool drawn = clock.run("pictures", [&] {
+      return write_port_picture(vtu, scene.title + ": ports of the " + name, png,
+                                cut_through_bores(meshed[i].ports));
+    });
+    if (!drawn)
+      std::cerr << "no picture: this machine offers no EGL (package libegl1); ports.vtu opens in ParaView\n";
+    out << fmt::format("{}: {} ports, {}{}\n", name, meshed[i].ports.size(), vtu.string(),
+                       drawn ? ", " + png.string() : "");
+  }
+}
+
+}  // namespace pipelines

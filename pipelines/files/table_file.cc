@@ -1,0 +1,138 @@
+#include "pipelines/files/table_file.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "pipelines/scene/scene.h"
+
+namespace pipelines {
+namespace {
+
+constexpr std::size_t most_errors = 10;
+
+struct Cell {
+  std::string text;
+  int column;  // of its first character, 1-based
+};
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+char separator_of(const std::string& titles) {
+  for (const char separator : {';', '\t'})
+    if (titles.find(separator) != std::string::npos) return separator;
+  return ',';
+}
+
+/// A quoted cell may hold the separator, and a quote as two quotes.
+std::vector<Cell> cells_of(const std::string& line, char separator) {
+  std::vector<Cell> cells{{"", 1}};
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back().text += line[++i];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == separator && !quoted)
+      cells.push_back({"", int(i) + 2});
+    else
+      cells.back().text += line[i];
+  }
+  for (auto& cell : cells) cell.text = trimmed(cell.text);
+  return cells;
+}
+
+class Reader {
+public:
+  explicit Reader(const std::filesystem::path& file) { table_.file = file; }
+
+  TableFile read() {
+    std::ifstream in(table_.file, std::ios::binary);
+    if (!std::filesystem::is_regular_file(table_.file) || !in)
+      refuse(0, 0, "", "", "cannot be read as a table; give the path of a CSV file, from the scene's folder");
+    int number = 0;
+    for (std::string line; errors_.size() < most_errors && std::getline(in, line);) read_line(line, ++number);
+    if (errors_.empty() && table_.columns.empty())
+      refuse(0, 0, "", "", "is empty; begin with a line of titles such as: time [s], pulley_seat.fx [N]");
+    if (errors_.empty() && table_.lines.empty())
+      refuse(0, 0, "", "", "has titles but no rows; add one row of numbers per sample");
+    if (!errors_.empty()) throw SceneError(std::move(errors_));
+    return std::move(table_);
+  }
+
+private:
+  void refuse(int line, int column, const std::string& key, const std::string& value,
+              const std::string& remedy) {
+    errors_.push_back({table_.file.string(), line, column, key, value, remedy});
+  }
+
+  void read_line(std::string line, int number) {
+    if (number == 1 && line.rfind("\xef\xbb\xbf", 0) == 0) line.erase(0, 3);
+    const std::string content = trimmed(line);
+    if (content.empty() || content[0] == '#') return;
+    if (table_.columns.empty())
+      read_titles(line, number);
+    else
+      read_row(line, number);
+  }
+
+  void read_titles(const std::string& line, int number) {
+    table_.title_line = number;
+    separator_ = separator_of(line);
+    for (const auto& cell : cells_of(line, separator_)) {
+      const auto open = cell.text.find('[');
+      TableColumn column;
+      column.name = trimmed(cell.text.substr(0, open));
+      column.column = cell.column;
+      if (open != std::string::npos) {
+        const auto close = cell.text.find(']', open);
+        column.unit = trimmed(cell.text.substr(open + 1, close - open - 1));
+        if (close == std::string::npos)
+          refuse(number, cell.column, column.name, cell.text,
+                 "the unit's bracket is not closed; write \"name [unit]\"");
+      }
+      if (column.name.empty())
+        refuse(number, cell.column, "", cell.text, "the column has no name; write \"name [unit]\"");
+      for (const auto& other : table_.columns)
+        if (other.name == column.name)
+          refuse(number, cell.column, column.name, cell.text,
+                 "names a second column so; rename one of the two");
+      table_.columns.push_back(std::move(column));
+    }
+  }
+
+  void read_row(const std::string& line, int number) {
+    const auto cells = cells_of(line, separator_);
+    if (cells.size() != table_.columns.size())
+      return refuse(number, 1, "", trimmed(line),
+                    "has " + std::to_string(cells.size()) + " cells where the titles name " +
+                        std::to_string(table_.columns.size()) + " columns; give one number per column");
+    table_.lines.push_back(number);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      double value = 0;
+      const std::string& text = cells[c].text;
+      const char* const begin = text.c_str() + (text[0] == '+' ? 1 : 0);
+      const char* const end = text.c_str() + text.size();
+      const auto [stop, error] = std::from_chars(begin, end, value);
+      if (error != std::errc() || stop != end || !std::isfinite(value))
+        refuse(number, cells[c].column, table_.columns[c].name, text,
+               "is not a finite number with a decimal point; correct the cell");
+      table_.columns[c].values.push_back(value);
+    }
+  }
+
+  TableFile table_;
+  std::vector<SceneFinding> errors_;
+  char separator_ = ',';
+};
+
+}  // namespace
+
+TableFile read_table_file(const std::filesystem::path& file) {
+  return Reader(file).read();
+}
+
+}  // namespace pipelines

@@ -1,0 +1,125 @@
+#include "pipelines/files/toml_tree.h"
+
+// The parser is in libtomlplusplus; this is the one file that sees the templates of its header.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace pipelines {
+namespace {
+
+SourcePosition to_position(const toml::source_position& p) {
+  return {static_cast<int>(p.line), static_cast<int>(p.column)};
+}
+
+/// Lines of the text, for cutting out values as they were written.
+class SourceLines {
+public:
+  explicit SourceLines(std::string_view text) {
+    while (!text.empty()) {
+      const auto end = std::min(text.find('\n'), text.size());
+      lines_.push_back(text.substr(0, end));
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+  }
+
+  /// From `begin` to `end`, cut at the end of the first line.
+  std::string cut(const toml::source_region& region) const {
+    if (region.begin.line < 1 || region.begin.line > lines_.size()) return {};
+    std::string_view line = lines_[region.begin.line - 1];
+    const bool goes_on = region.end.line > region.begin.line;
+    const std::size_t begin = byte_of(line, region.begin.column);
+    const std::size_t end = goes_on ? line.size() : byte_of(line, region.end.column);
+    std::string text(line.substr(begin, end - begin));
+    while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
+    return goes_on ? text + " ..." : text;
+  }
+
+private:
+  /// Offset of the 1-based column, counted in UTF-8 characters.
+  static std::size_t byte_of(std::string_view line, std::size_t column) {
+    std::size_t byte = 0;
+    for (std::size_t c = 1; c < column && byte < line.size(); ++c) do
+        ++byte;
+      while (byte < line.size() && (static_cast<unsigned char>(line[byte]) & 0xC0) == 0x80);
+    return byte;
+  }
+
+  std::vector<std::string_view> lines_;
+};
+
+TomlNode convert(const toml::node& node, const SourceLines& lines) {
+  TomlNode result;
+  result.at = to_position(node.source().begin);
+  if (const auto* table = node.as_table()) {
+    for (const auto& [key, value] : *table)
+      result.entries.push_back(
+          {std::string(key.str()), to_position(key.source().begin), convert(value, lines)});
+    std::sort(result.entries.begin(), result.entries.end(), [](const TomlEntry& a, const TomlEntry& b) {
+      return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
+    });
+    return result;
+  }
+  result.as_written = lines.cut(node.source());
+  if (const auto* array = node.as_array()) {
+    result.kind = TomlNode::Kind::array;
+    for (const auto& item : *array) result.items.push_back(convert(item, lines));
+  } else if (const auto* text = node.as_string()) {
+    result.kind = TomlNode::Kind::text;
+    result.text = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    result.kind = TomlNode::Kind::integer;
+    result.integer = integer->get();
+    result.number = static_cast<double>(result.integer);
+  } else if (const auto* number = node.as_floating_point()) {
+    result.kind = TomlNode::Kind::number;
+    result.number = number->get();
+  } else if (const auto* boolean = node.as_boolean()) {
+    result.kind = TomlNode::Kind::boolean;
+    result.boolean = boolean->get();
+  } else {
+    result.kind = TomlNode::Kind::date;
+  }
+  return result;
+}
+
+}  // namespace
+
+const TomlEntry* TomlNode::find(const std::string& key) const {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const TomlEntry& entry) { return entry.key == key; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+std::string describe(TomlNode::Kind kind) {
+  switch (kind) {
+    case TomlNode::Kind::table:
+      return "a table";
+    case TomlNode::Kind::array:
+      return "an array";
+    case TomlNode::Kind::text:
+      return "a text";
+    case TomlNode::Kind::integer:
+      return "a whole number";
+    case TomlNode::Kind::number:
+      return "a number";
+    case TomlNode::Kind::boolean:
+      return "true or false";
+    case TomlNode::Kind::date:
+      return "a date or time";
+  }
+  return "a value";
+}
+
+TomlNode parse_toml(const std::string& text) {
+  try {
+    const toml::table table = toml::parse(std::string_view(text));
+    return convert(table, SourceLines(text));
+  } catch (const toml::parse_error& error) {
+    throw TomlSyntaxError(to_position(error.source().begin), std::string(error.description()));
+  }
+}
+
+}  // namespace pipelines

@@ -1,0 +1,101 @@
+/// Fields on a body as VTK XML files that ParaView opens: 27-node hexahedra or 10-node tetrahedra, or the
+/// 9-node or 6-node faces of the surface. Points in m as 64-bit floats; data appended; no date, so the same
+/// input gives the same bytes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fem/values/unit_responses.h"
+
+namespace pipelines {
+
+enum class FieldPrecision { float32, float64 };
+
+/// Numbers at the nodes, looked at in place: `values` has to outlive the call it is given to.
+struct NodalField {
+  std::string name;  ///< with the unit: "von Mises stress [Pa]"
+  int n_components = 1;
+  const double* values = nullptr;  ///< n_nodes x n_components, the components of a node together
+  std::size_t n_values = 0;        ///< n_nodes * n_components, checked
+  std::vector<std::string> component_names = {};  ///< none, or one each
+  FieldPrecision precision = FieldPrecision::float32;
+};
+
+/// A field over a vector of n_nodes x n_components values.
+inline NodalField nodal_field(std::string name, const std::vector<double>& values, int n_components = 1,
+                              std::vector<std::string> component_names = {}) {
+  return {std::move(name), n_components, values.data(), values.size(), std::move(component_names)};
+}
+
+/// Ids: zones, boundaries, instants. At the nodes, or one per cell of the file (hexahedra, or faces of a
+/// surface).
+struct IdField {
+  enum class At { nodes, cells };
+  std::string name;
+  std::vector<std::int32_t> values;
+  At at = At::nodes;
+};
+
+/// Words for the ids of a field, kept beside the cells as field data.
+struct NameList {
+  std::string name;
+  std::vector<std::string> names;
+};
+
+/// Numbers of the whole body, kept likewise.
+struct NumberList {
+  std::string name;
+  std::vector<double> values;
+};
+
+struct FieldData {
+  std::vector<NameList> names;
+  std::vector<NumberList> numbers;
+};
+
+enum class VtuCompression { none, zlib };
+
+/// The whole body: VTK_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON or
+/// VTK_QUADRATIC_TETRA, all nodes in their order. VTK takes the nodes of cubic cells as evenly spaced in the
+/// cell's own coordinates, where they are Gauss-Lobatto points: exact at the nodes, a little off between
+/// them.
+/// @throws std::invalid_argument naming the field if its size does not fit the nodes or cells;
+///         std::runtime_error naming the file if it cannot be written
+void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
+                        const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
+                        VtuCompression compression = VtuCompression::zlib, const FieldData& data = {});
+
+/// The whole body in pieces, one file each beside the .pvtu that joins them: envelope.pvtu, envelope_0.vtu,
+/// envelope_1.vtu ... Nodes between pieces are in each of them.
+/// @param pvtu  path of the file that joins them
+/// @param piece_of_cell  0 .. n_pieces - 1
+/// @throws as write_envelope_vtu
+void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& nodes,
+                           const std::vector<int>& piece_of_cell, int n_pieces,
+                           const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
+                           VtuCompression compression = VtuCompression::zlib, const FieldData& data = {});
+
+/// The surface alone: the faces of these cells over the nodes that lie on a boundary
+/// face, in ascending order of their numbers; the cell field `boundary_id` is added.
+/// @param fields, ids  at all nodes of the body, as for write_envelope_vtu; ids at cells: one per boundary
+/// face
+/// @throws as write_envelope_vtu
+void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
+                                const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
+                                VtuCompression compression = VtuCompression::zlib,
+                                const std::vector<NameList>& names = {});
+
+struct PvdEntry {
+  double time_s = 0;
+  std::filesystem::path file;  ///< relative to the directory of the .pvd
+  std::string name;            ///< of the part, for ParaView's block names; may be empty
+};
+
+/// A collection of snapshots over time.
+/// @throws FileError naming the file if it cannot be written
+void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries);
+
+}  // namespace pipelines

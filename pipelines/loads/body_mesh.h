@@ -1,0 +1,44 @@
+/// A body of the scene, meshed, with what it weighs.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "fem/model/model.h"
+#include "meshes/values/body_mesh.h"
+#include "pipelines/scene/body_scene.h"
+#include "pipelines/loads/load_book.h"
+
+namespace pipelines {
+
+struct MeshedBody {
+  meshes::BodyMesh mesh;
+  fem::Body body;  ///< what the model was made of
+  std::shared_ptr<const fem::Model> model;
+  fem::MassProperties masses;  ///< of the whole mesh
+  fem::GeometryError geometry_error;
+  std::vector<RegionMass> regions;  ///< "structure" and "exciter" of a chamber; otherwise the whole body. A
+                                    ///< chamber of one piece is all structure: its exciter is an added mass
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  MeshedBody();
+  MeshedBody(const MeshedBody&);
+  MeshedBody(MeshedBody&&) noexcept;
+  MeshedBody& operator=(const MeshedBody&);
+  MeshedBody& operator=(MeshedBody&&) noexcept;
+  ~MeshedBody();
+};
+
+/// The mesh alone, written to `file`.
+/// @throws meshes::GeometryRefused, meshes::MeshRefused as the mesher
+meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file);
+
+/// Mesh, model and masses.
+/// @param springs  of the machine, for elastic feet; empty otherwise
+MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
+                     const std::vector<kinetics::Spring>& springs);
+
+/// What fem needs of a mesh.
+fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& material);
+
+}  // namespace pipelines

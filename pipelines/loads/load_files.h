@@ -1,0 +1,28 @@
+/// The load history as files: loads.h5 for programs, loads.csv for tables.
+///
+/// HDF5: /time, /phi, /speed, /acceleration; /quantities/<name>; /resultants/<role>/{fx,fy,torque};
+/// /effects/<effect>/<role>/{fx,fy,torque}; with bodies also /channels/<body>/<port>.<component> and
+/// /effects/<effect>/<body>/<port>.<component>. Each is one number per instant with its
+/// unit as attribute; machine, convention, effects and warnings belong to the file. CSV: one row per instant,
+/// the same series in the same order; a title is the path without its group, so "theta [rad]", "eccentric.fx
+/// [N]", "shaft/main_bearing_1.fx [N]", "charge_gravity/eccentric.fx [N]".
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "kinetics/load_history.h"
+#include "pipelines/loads/channels.h"
+
+namespace pipelines {
+
+/// Channels of bodies; none: the load stage alone.
+using BodyChannels = std::vector<const ChannelHistory*>;
+
+/// @throws StageRefused if a name is empty or has a slash; FileError naming the file if it cannot be written
+void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
+                    const BodyChannels& bodies = {});
+void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
+                     const BodyChannels& bodies = {});
+
+}  // namespace pipelines

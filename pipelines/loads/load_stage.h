@@ -1,0 +1,62 @@
+/// The load stage and what it hands to the bodies of a scene.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kinetics/load_history.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/loads/load_files.h"
+#include "pipelines/common/stage_clock.h"
+
+namespace pipelines {
+
+/// Loads of a machine over the scene's period, or its run-up.
+kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine);
+
+/// The springs of a vibratory mill; empty for other machines.
+std::vector<kinetics::Spring> springs_of(const Scene& scene);
+
+/// Meshes all bodies, each to a temporary name beside its place.
+std::vector<MeshedBody> mesh_bodies(const Scene& scene,
+                                    const std::vector<std::unique_ptr<AtomicFile>>& files);
+
+/// Meshes of all bodies for commands that solve nothing; the files are thrown away with this.
+class ScratchMeshes {
+public:
+  explicit ScratchMeshes(const Scene& scene);
+  const std::vector<MeshedBody>& bodies() const { return bodies_; }  ///< in the order of Scene::bodies
+
+private:
+  std::vector<std::unique_ptr<AtomicFile>> files_;
+  std::vector<MeshedBody> bodies_;
+};
+
+/// A scene's bodies, meshed and loaded: ready to be solved.
+struct LoadedScene {
+  std::vector<MeshedBody> meshed;  ///< in the order of Scene::bodies, like body_loads
+  MassAgreement masses;
+  kinetics::LoadHistory loads;
+  std::vector<BodyLoads> body_loads;
+  std::vector<BearingResult> bearings;
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  LoadedScene();
+  LoadedScene(const LoadedScene&);
+  LoadedScene(LoadedScene&&) noexcept;
+  LoadedScene& operator=(const LoadedScene&);
+  LoadedScene& operator=(LoadedScene&&) noexcept;
+  ~LoadedScene();
+
+  BodyChannels channels() const;
+};
+
+/// @param meshed  in the order of scene.bodies
+/// @throws SceneError if the scene's effects leave a body without loads or without equilibrium
+/// @throws StageRefused if masses of machine and mesh do not agree, supports are missing, or a bearing's load
+/// is none of the scene
+/// @throws NotFinite
+LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock);
+
+}  // namespace pipelines

@@ -1,0 +1,65 @@
+#include "pipelines/common/errors.h"
+#include "pipelines/loads/load_book.h"
+
+namespace pipelines {
+
+using Eigen::Array2Xd;
+using Eigen::Index;
+
+namespace {
+
+/// Moments about a point instead of the origin.
+Wrench about(const Wrench& load, const Eigen::Vector3d& p) {
+  Wrench moved = load;
+  moved.row(3) -= p[1] * load.row(2) - p[2] * load.row(1);
+  moved.row(4) -= p[2] * load.row(0) - p[0] * load.row(2);
+  moved.row(5) -= p[0] * load.row(1) - p[1] * load.row(0);
+  return moved;
+}
+
+}  // namespace
+
+void LoadBook::react(const std::string& first, const std::string& second,
+                     const std::map<std::string, Array2Xd>& resultant) {
+  const Eigen::Vector3d a = centre_of(find(first));
+  const double span_m = centre_of(find(second))[2] - a[2];
+  if (!(span_m != 0))
+    throw StageRefused("bearings \"" + first + "\" and \"" + second +
+                       "\" lie at the same place along the axis: they carry no tilting moment");
+  std::map<std::string, Wrench> loads = sums_;
+  for (const auto& [effect, sum] : resultant) loads.try_emplace(effect, Wrench::Zero(6, n_instants_));
+  for (const auto& [effect, load] : loads) {
+    const Wrench moved = about(load, a);
+    Array2Xd on_second(2, n_instants_);
+    on_second.row(0) = -moved.row(4) / span_m;
+    on_second.row(1) = moved.row(3) / span_m;
+    const auto given = resultant.find(effect);
+    const Array2Xd sum = given != resultant.end() ? given->second : Array2Xd(-load.topRows<2>());
+    force(first, effect, sum - on_second);
+    force(second, effect, on_second);
+  }
+}
+
+void LoadBook::react_force(const std::string& port) {
+  for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
+    force(port, effect, -load.topRows<2>());
+}
+
+void LoadBook::react_axial(const std::string& port) {
+  for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
+    axial_force(port, effect, -load.row(2).transpose());
+}
+
+void LoadBook::react_torque(const std::string& port) {
+  const Eigen::Vector3d p = centre_of(find(port));
+  for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
+    torque(port, effect, -about(load, p).row(5).transpose());
+}
+
+void LoadBook::react_tilt(const std::string& port) {
+  const Eigen::Vector3d p = centre_of(find(port));
+  for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
+    tilt(port, effect, -about(load, p).middleRows<2>(3));
+}
+
+}  // namespace pipelines

@@ -1,0 +1,206 @@
+#include "pipelines/report/envelope_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <limits>
+
+#include "fem/values/cell_shares.h"
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/report/results.h"
+#include "pipelines/files/vtk_files.h"
+
+namespace pipelines {
+namespace {
+
+using std::filesystem::path;
+
+constexpr double not_converged = std::numeric_limits<double>::quiet_NaN();
+const std::vector<std::string> names_of_components{"xx", "yy", "zz", "xy", "yz", "xz"};
+
+std::vector<double> flatten(const std::vector<Stress>& tensors) {
+  std::vector<double> values;
+  values.reserve(tensors.size() * 6);
+  for (const auto& tensor : tensors) values.insert(values.end(), tensor.begin(), tensor.end());
+  return values;
+}
+
+bool some_excluded(const NodePlaces& places) {
+  return std::any_of(places.excluded.begin(), places.excluded.end(), [](char c) { return c != 0; });
+}
+
+/// Fields with the values that they stand for.
+class Fields {
+public:
+  explicit Fields(const NodePlaces& places) : places_(places) {}
+
+  /// NaN at excluded nodes.
+  void add_result(const std::string& name, std::vector<double> values, int n_components = 1,
+                  const std::vector<std::string>& component_names = {}) {
+    const auto n = std::size_t(n_components);
+    for (std::size_t i = 0; i < places_.excluded.size(); ++i)
+      if (places_.excluded[i]) std::fill_n(values.begin() + std::ptrdiff_t(i * n), n, not_converged);
+    add(name, std::move(values), n_components, component_names);
+  }
+  /// The same, and the whole of it under a name that says what it is where nodes are excluded.
+  void add_result_and_whole(const std::string& name, const std::vector<double>& values, int n_components = 1,
+                            const std::vector<std::string>& component_names = {}) {
+    add_result(name, values, n_components, component_names);
+    if (some_excluded(places_)) add(unconverged(name), values, n_components, component_names);
+  }
+  void add(const std::string& name, std::vector<double> values, int n_components = 1,
+           const std::vector<std::string>& component_names = {}) {
+    values_.push_back(std::move(values));
+    fields_.push_back(nodal_field(name, values_.back(), n_components, component_names));
+  }
+  const std::vector<NodalField>& fields() const { return fields_; }
+
+private:
+  const NodePlaces& places_;
+  std::deque<std::vector<double>> values_;  // stay where they are
+  std::vector<NodalField> fields_;
+};
+
+IdField excluded_ids(const NodePlaces& places) {
+  return {excluded_field, std::vector<std::int32_t>(places.excluded.begin(), places.excluded.end())};
+}
+
+std::size_t nearest_node(const fem::Nodes& nodes, const std::array<double, 3>& p) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    const double* x = &nodes.xyz_m[3 * i];
+    const double d = std::hypot(x[0] - p[0], x[1] - p[1], x[2] - p[2]);
+    if (d < least) least = d, best = i;
+  }
+  return best;
+}
+
+std::vector<double> hot_spot_values(const BodyAnalysis& analysis) {
+  std::vector<double> values(analysis.responses.nodes.n, not_converged);
+  for (const auto& spot : analysis.hot_spots)  // a corner may be the toe of several: the largest comes first
+    if (auto& value = values[nearest_node(analysis.responses.nodes, spot.toe_m)]; std::isnan(value))
+      value = spot.von_mises_Pa;
+  return values;
+}
+
+FieldData governing_data(const BodyAnalysis& analysis) {
+  const auto stress = governing_stress(analysis);
+  FieldData data;
+  data.names = {{"governing stress, place", {stress.name() + " at " + stress.place}}};
+  data.numbers = {{"governing stress [Pa]", {stress.value_Pa}},
+                  {"governing stress, position [m]", {stress.position_m.begin(), stress.position_m.end()}}};
+  return data;
+}
+
+void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
+                    const BodyAnalysis& analysis, int n_pieces) {
+  const auto& nodes = analysis.responses.nodes;
+  const auto& envelope = analysis.envelope;
+  const auto& effects = analysis.loads.history.effects;
+  const auto angles = [&](const std::vector<std::int32_t>& instants) {
+    std::vector<double> degrees;
+    for (const auto instant : instants)
+      degrees.push_back(moment_of(scene, loads, instant).angle_rad * 180 / M_PI);
+    return degrees;
+  };
+  std::vector<double> safety;
+  for (const double stress : envelope.von_mises.value_Pa)
+    safety.push_back(stress > 0 ? std::min(analysis.scene.yield_strength_Pa / stress, 1e6) : 1e6);
+  std::vector<std::int32_t> turn;
+  for (const auto instant : envelope.von_mises.instant) turn.push_back(moment_of(scene, loads, instant).turn);
+
+  Fields fields(analysis.places);
+  fields.add_result_and_whole(von_mises_field, envelope.von_mises.value_Pa);
+  fields.add_result("drive angle of maximum [deg]", angles(envelope.von_mises.instant));
+  fields.add_result_and_whole("stress at maximum [Pa]", flatten(envelope.von_mises.stress_Pa), 6,
+                              names_of_components);
+  fields.add_result("safety against yield", safety);
+  fields.add_result("largest principal stress, maximum [Pa]", envelope.principal.value_Pa);
+  fields.add_result("drive angle of largest principal stress [deg]", angles(envelope.principal.instant));
+  fields.add_result("stress at largest principal stress [Pa]", flatten(envelope.principal.stress_Pa), 6,
+                    names_of_components);
+  fields.add_result("effect share", envelope.effect_share, int(effects.size()), effects);
+  if (!analysis.hot_spots.empty()) fields.add(hot_spot_field, hot_spot_values(analysis));
+  const std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},
+                                 {"turn of maximum", turn},
+                                 {"instant of maximum", envelope.von_mises.instant},
+                                 excluded_ids(analysis.places)};
+  const auto data = governing_data(analysis);
+  if (n_pieces > 1)
+    write_envelope_pieces(file, nodes, fem::shares_of_cells(nodes, n_pieces), n_pieces, fields.fields(), ids,
+                          VtuCompression::zlib, data);
+  else
+    write_envelope_vtu(file, nodes, fields.fields(), ids, VtuCompression::zlib, data);
+}
+
+/// What an earlier run on another number of ranks has left.
+void remove_other_envelopes(const path& directory, int n_pieces) {
+  if (n_pieces > 1)
+    std::filesystem::remove(directory / "envelope.vtu");
+  else
+    std::filesystem::remove(directory / "envelope.pvtu");
+  for (int piece = n_pieces > 1 ? n_pieces : 0;; ++piece)
+    if (!std::filesystem::remove(directory / ("envelope_" + std::to_string(piece) + ".vtu"))) return;
+}
+
+/// What an earlier run with other snapshots has left, so that the folder shows one run.
+void remove_other_snapshots(const path& directory, const std::vector<PvdEntry>& kept) {
+  std::vector<path> strangers;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    const auto name = entry.path().filename();
+    const bool snapshot = name.string().rfind("cycle_", 0) == 0 && name.extension() == ".vtu";
+    const bool listed = std::any_of(kept.begin(), kept.end(), [&](const auto& k) { return k.file == name; });
+    if ((snapshot && !listed) || (kept.empty() && name == "cycle.pvd")) strangers.push_back(entry.path());
+  }
+  for (const auto& stranger : strangers) std::filesystem::remove(stranger);
+}
+
+}  // namespace
+
+std::string unconverged(const std::string& field) {
+  return "not converged where excluded: " + field;
+}
+
+std::string pictured_field(const BodyAnalysis& analysis) {
+  return some_excluded(analysis.places) ? unconverged(von_mises_field) : von_mises_field;
+}
+
+void write_envelope_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
+                          const BodyAnalysis& analysis, int n_pieces) {
+  write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
+                 n_pieces);
+  remove_other_envelopes(directory, n_pieces);
+}
+
+void write_whole_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
+                          const BodyAnalysis& analysis) {
+  write_envelope(file, scene, loads, analysis, 1);
+}
+
+void write_cycle_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
+                       const BodyAnalysis& analysis) {
+  const Eigen::Index per_turn = scene.sampling.instants_per_turn;
+  const Eigen::Index first = governing_stress(analysis).instant / per_turn * per_turn;
+  std::vector<PvdEntry> entries;
+  std::vector<double> von_mises(analysis.responses.nodes.n);
+  for (int s = 0; s < scene.snapshots; ++s) {
+    const Eigen::Index instant = first + per_turn * s / scene.snapshots;
+    for (std::size_t node = 0; node < von_mises.size(); ++node)
+      von_mises[node] = von_mises_Pa(stress_at(analysis.responses, analysis.loads.history, node, instant));
+    Fields fields(analysis.places);
+    fields.add_result_and_whole("von Mises stress [Pa]", von_mises);
+    fields.add("displacement [m]", displacement_at(analysis.responses, analysis.loads.history, instant), 3,
+               {"x", "y", "z"});
+    char name[32];
+    std::snprintf(name, sizeof name, "cycle_%03d.vtu", s);
+    write_surface_snapshot_vtu(directory / name, analysis.responses.nodes, fields.fields(),
+                               {excluded_ids(analysis.places)});
+    entries.push_back({loads.time_s[instant], name, analysis.scene.name});
+  }
+  if (!entries.empty()) write_pvd(directory / "cycle.pvd", entries);
+  remove_other_snapshots(directory, entries);
+}
+
+}  // namespace pipelines

@@ -1,0 +1,267 @@
+#include "pipelines/report/html_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/files/html_page.h"
+
+namespace pipelines {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string file_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// JSON has no infinities: they are null or text there.
+std::string number(const Json& value, double factor = 1, const char* format = "{:.4g}") {
+  if (!value.is_number()) return value.is_string() ? value.get<std::string>() : "-";
+  return fmt::format(fmt::runtime(format), factor * value.get<double>());
+}
+
+std::string MPa(const Json& pascals) {
+  return number(pascals, 1e-6, "{:.1f}");
+}
+
+std::string where(const Json& at) {
+  const auto& x = at.at("position_m");
+  const std::string feature = at.at("feature").get<std::string>();
+  return fmt::format("{}{}({}, {}, {}) mm", feature, feature.empty() ? "" : ", ", number(x[0], 1e3, "{:.1f}"),
+                     number(x[1], 1e3, "{:.1f}"), number(x[2], 1e3, "{:.1f}"));
+}
+
+std::string moment(const Json& at) {
+  return fmt::format("turn {}, {} deg", at.at("turn").get<int>(),
+                     number(at.at("drive_angle_rad"), 57.29577951308232, "{:.0f}"));
+}
+
+std::string with_spaces(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+void add_ledger(HtmlPage& page, const std::string& of, const Json& error, double value_Pa) {
+  Rows rows;
+  for (const auto& [source, method] : error.at("methods").items())
+    rows.push_back({with_spaces(source), MPa(error.at(source)),
+                    number(error.at(source), value_Pa > 0 ? 100 / value_Pa : 0, "{:.2f} %"),
+                    method.get<std::string>()});
+  rows.push_back({"all together", MPa(error.at("total")),
+                  number(error.at("total"), value_Pa > 0 ? 100 / value_Pa : 0, "{:.2f} %"), "sum"});
+  page.heading(3, "How well the " + of + " is known");
+  page.table({"source of error", "MPa", "share", "how it was estimated"}, rows);
+}
+
+void add_headlines(HtmlPage& page, const Json& body) {
+  const auto& governing = body.at("governing");
+  const auto& peak = body.at("peak_von_mises");
+  Rows rows{
+      {governing.at("name").get<std::string>(), governing.at("text").get<std::string>(), where(governing),
+       moment(governing)},
+      {"safety against yield", number(governing.at("safety_against_yield"), 1, "{:.2f}"),
+       body.at("material").get<std::string>() + ", " + MPa(body.at("yield_strength").at("value")) + " MPa",
+       ""}};
+  if (governing.at("kind") != "peak_von_mises")
+    rows.push_back({"peak von Mises stress outside the exclusion distances",
+                    MPa(peak.at("value")) + " MPa, error " + MPa(peak.at("error").at("total")), where(peak),
+                    moment(peak)});
+  rows.push_back({"largest principal stress", MPa(body.at("peak_principal").at("value")) + " MPa",
+                  where(body.at("peak_principal")), moment(body.at("peak_principal"))});
+  if (body.contains("hot_spots") && governing.at("kind") != "hot_spot") {
+    const auto& spot = body.at("hot_spots")[0];
+    rows.push_back({"hot-spot stress",
+                    MPa(spot.at("von_mises_Pa")) + " MPa, error " + MPa(spot.at("error").at("total")),
+                    spot.at("name").get<std::string>(), ""});
+  }
+  if (body.contains("torsion")) {
+    const auto& shear = body.at("torsion").at("max_shear_stress");
+    rows.push_back({"largest torsional stress", MPa(shear.at("value")) + " MPa",
+                    shear.contains("feature") ? shear.at("feature").get<std::string>() : "", ""});
+  }
+  page.table({"", "value", "where", "when"}, rows);
+}
+
+void add_effects(HtmlPage& page, const Json& peak) {
+  if (!peak.contains("effect_share")) return;
+  Rows rows;
+  for (const auto& [effect, share] : peak.at("effect_share").items())
+    rows.push_back({effect, number(share, 100, "{:.2f} %")});
+  page.heading(3, "What the peak is made of");
+  page.table({"effect", "share"}, rows);
+}
+
+void add_zones(HtmlPage& page, const Json& body) {
+  Rows rows;
+  for (const auto& zone : body.at("zones"))
+    rows.push_back({fmt::format("{}", rows.size() + 1), MPa(zone.at("peak_von_mises_Pa")),
+                    MPa(zone.at("error_Pa")), number(zone.at("safety_against_yield"), 1, "{:.2f}"),
+                    number(zone.at("volume_m3"), 1e9, "{:.4g}"), where(zone), moment(zone),
+                    zone.at("place").get<std::string>()});
+  page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
+  page.table({"", "peak MPa", "error MPa", "safety", "volume mm3", "where", "when", "surface"}, rows);
+}
+
+void add_search(HtmlPage& page, const Json& body) {
+  if (!body.contains("search")) return;
+  const auto& search = body.at("search");
+  Rows rows;
+  for (const auto& step : search.at("steps"))
+    rows.push_back({fmt::format("{}", rows.size() + 1), number(step.at("dofs"), 1, "{:.0f}"),
+                    MPa(step.at("value_Pa")), MPa(step.at("error").at("total")),
+                    with_spaces(step.at("dominated_by").get<std::string>()),
+                    step.at("mesh").get<std::string>()});
+  page.heading(3, "The way to the tolerance of " + number(search.at("tolerance"), 100, "{:g} %"));
+  page.table({"step", "unknowns", "MPa", "error MPa", "dominated by", "mesh"}, rows);
+  page.paragraph("It ended because " + search.at("ended").get<std::string>() + ".");
+}
+
+void add_seats(HtmlPage& page, const Json& body) {
+  if (!body.contains("seats")) return;
+  Rows rows;
+  for (const auto& [port, seat] : body.at("seats").items())
+    rows.push_back({port, number(seat.at("max_deflection_m"), 1e3, "{:.4f}"),
+                    number(seat.at("max_slope_rad"), 1e3, "{:.3f}")});
+  page.heading(3, "Deflection and slope");
+  page.table({"seat", "deflection mm", "slope mrad"}, rows);
+}
+
+/// The model, and of a solid how it was solved.
+std::string solved_by(const Json& body) {
+  const auto& solver = body.at("solver");
+  const std::string method = body.value("method", "solid");
+  if (method == "beam") return "by the beam model: no section diagrams, no torsion, zones without volume";
+  if (method != "solid") return "by the " + method + " model";
+  return std::string("solved by ") +
+         (solver.at("used") == "iterative" ? "conjugate gradients" : "factorisation") + " (" +
+         solver.at("reason").get<std::string>() + ")";
+}
+
+void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
+              const Json& body) {
+  page.heading(2, "The " + name);
+  if (const auto trouble = body.at("governing").value("not_known_well", ""); !trouble.empty())
+    page.warning("Not known well: " + trouble);
+  page.paragraph(number(body.at("dofs"), 1, "{:.0f}") + " unknowns, " + number(body.at("mass").at("value")) +
+                 " kg, " + solved_by(body) + ".");
+  add_headlines(page, body);
+  page.picture(directory / name / "envelope.png", "Largest von Mises stress over the cycle, " + name);
+  add_zones(page, body);
+  const auto& governing = body.at("governing");
+  const auto& peak = body.at("peak_von_mises");
+  add_ledger(page, governing.at("name").get<std::string>(), governing.at("error"),
+             governing.at("value").get<double>());
+  add_search(page, body);
+  add_effects(page, peak);
+  add_seats(page, body);
+}
+
+void add_loads(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("loads")) return;  // a load table brings channels alone
+  Rows rows;
+  for (const auto& [name, load] : summary.at("loads").items())
+    rows.push_back({name, number(load.at("max")), number(load.at("min")), number(load.at("mean")),
+                    number(load.at("rms")), load.at("unit").get<std::string>()});
+  page.heading(2, "Loads over the cycle");
+  page.table({"load", "max", "min", "mean", "rms", "unit"}, rows);
+}
+
+void add_bearings(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("bearings")) return;
+  Rows rows;
+  for (const auto& [name, bearing] : summary.at("bearings").items())
+    rows.push_back(
+        {name, number(bearing.at("equivalent_load").at("value")),
+         number(bearing.at("largest_load").at("value")),
+         bearing.at("L10h").is_null() ? "-" : number(bearing.at("L10h").at("value"), 1, "{:.0f}")});
+  page.heading(2, "Bearings");
+  page.table({"bearing", "equivalent load N", "largest N", "L10h hours"}, rows);
+}
+
+void add_natural_frequencies(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("torsion")) return;
+  Rows rows;
+  for (const auto& frequency : summary.at("torsion").at("natural_frequencies"))
+    rows.push_back({fmt::format("{}", rows.size() + 1), number(frequency.at("value")),
+                    number(frequency.at("value"), 60 / 6.283185307179586)});
+  page.heading(2, "Torsional natural frequencies");
+  page.table({"mode", "rad/s", "per minute"}, rows);
+}
+
+void add_accuracy(HtmlPage& page, const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> tables;
+  if (std::filesystem::is_directory(directory))
+    for (const auto& entry : std::filesystem::directory_iterator(directory))
+      if (entry.path().extension() == ".txt") tables.push_back(entry.path());
+  if (tables.empty()) return;
+  std::sort(tables.begin(), tables.end());
+  page.heading(2, "What accuracy costs in time");
+  for (const auto& table : tables) {
+    auto chart = table;
+    page.picture(chart.replace_extension(".png"), "Error against seconds, " + table.stem().string());
+    page.preformatted(file_text(table));
+  }
+}
+
+void add_timing(HtmlPage& page, const Json& summary) {
+  Rows rows;
+  for (const auto& [stage, cost] : summary.at("timing").items())
+    rows.push_back({stage, number(cost.at("seconds"), 1, "{:.2f}"),
+                    number(cost.at("peak_memory_gigabytes"), 1, "{:.2f}")});
+  page.heading(2, "Time and memory");
+  page.table({"stage", "seconds", "largest memory so far, GB"}, rows);
+}
+
+std::string page_of(const Json& summary, const std::filesystem::path& directory) {
+  const auto& input = summary.at("input");
+  HtmlPage page(input.at("title").get<std::string>());
+  page.heading(1, input.at("title").get<std::string>());
+  page.paragraph(fmt::format("{}, {} turns of {} instants; scene {} ({}); millstress {}",
+                             with_spaces(input.at("machine").get<std::string>()),
+                             input.at("turns").get<int>(), input.at("instants_per_turn").get<int>(),
+                             input.at("scene").get<std::string>(), input.at("hash").get<std::string>(),
+                             summary.at("program").at("version").get<std::string>()));
+  for (const auto& warning : summary.at("warnings")) page.warning(warning.get<std::string>());
+  if (summary.contains("bodies"))
+    for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);
+  add_loads(page, summary);
+  add_bearings(page, summary);
+  add_natural_frequencies(page, summary);
+  add_accuracy(page, directory / "accuracy");
+  if (summary.contains("timing")) add_timing(page, summary);
+  return page.text();
+}
+
+}  // namespace
+
+void write_html_report(const std::filesystem::path& directory) {
+  const auto file = directory / "summary.json";
+  std::ifstream in(file);
+  if (!in)
+    throw OptionError(file.string() +
+                      ": there is no such file; give the result directory of a run "
+                      "(millstress run SCENE -o DIR leaves one)");
+  const auto refuse = [&](const std::string& why) {
+    throw OptionError(file.string() + ": is no summary of a run (" + why +
+                      "); run the scene again with this version");
+  };
+  std::string page;
+  try {
+    page = page_of(Json::parse(in), directory);
+  } catch (const nlohmann::json::exception& error) {
+    refuse(error.what());
+  }
+  write_text_file(directory / "report.html", page);
+}
+
+}  // namespace pipelines

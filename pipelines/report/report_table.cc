@@ -1,0 +1,244 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/report/results.h"
+#include "pipelines/common/statistics.h"
+#include "pipelines/report/summary.h"
+
+namespace pipelines {
+namespace {
+
+/// The quantities a reader of a terminal wants first; the rest is in summary.json.
+const std::vector<std::string> headline_loads{
+    "R_E",         "R_E_shaft", "X_E",       "Y_E",          "B",
+    "T",           "T_shaft",   "theta",     "spring_force", "spring_force_from_moments",
+    "drive_power", "X_A",       "Y_A",       "R_A",          "M_A",
+    "T1",          "T2",        "belt_power"};
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool is_headline(const std::string& machine, const std::string& quantity) {
+  if (machine == "drive_train") return ends_with(quantity, ".torque") || ends_with(quantity, ".shear_stress");
+  return machine == "load_table" ||
+         std::find(headline_loads.begin(), headline_loads.end(), quantity) != headline_loads.end();
+}
+
+void print_load(std::ostream& out, const std::string& name, const Eigen::ArrayXd& values) {
+  const auto s = statistics(values);
+  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", name, s.max, s.min, s.mean, s.rms);
+}
+
+void print_loads(std::ostream& out, const RunReport& report) {
+  out << fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}\n", "load", "max", "min", "mean", "rms");
+  for (const auto& quantity : report.loads.quantities)
+    if (is_headline(report.loads.machine, quantity.name))
+      print_load(out, quantity.name + " [" + quantity.unit + "]", quantity.values);
+  if (report.loads.machine != "load_table") return;
+  for (const auto& resultant : report.loads.resultants)
+    for (const auto& [row, component] : {std::pair{0, ".fx [N]"}, {1, ".fy [N]"}, {2, ".torque [N m]"}})
+      if ((resultant.total.row(row) != 0).any())
+        print_load(out, resultant.role + component, resultant.total.row(row));
+}
+
+std::string when(const RunReport& report, std::int32_t instant) {
+  const auto moment = moment_of(report.scene, report.loads, instant);
+  return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / M_PI);
+}
+
+std::string where(const std::array<double, 3>& p) {
+  return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", p[0] * 1e3, p[1] * 1e3, p[2] * 1e3);
+}
+
+void print_masses(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  for (const auto& figure : report.masses)
+    if (figure.body == analysis.scene.name)
+      out << fmt::format("  {}: {:.5g} {}{}\n", figure.name, figure.given, figure.unit,
+                         figure.from_mesh
+                             ? " from the mesh"
+                             : fmt::format(", the mesh has {:.5g}: {:.2g} % carried on {}", figure.mesh,
+                                           100 * figure.share(), analysis.scene.difference_port));
+  const auto& carried = analysis.loads.carried_moment_Nm;
+  if (carried.size() > 0)
+    out << fmt::format("  pitch is off: a guide carries a couple of up to {:.4g} N m, rms {:.4g} N m\n",
+                       carried.abs().maxCoeff(), std::sqrt(carried.square().mean()));
+}
+
+void print_hot_spots(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  if (analysis.hot_spots.empty()) return;
+  out << fmt::format("\n  {:<40}{:>14}{:>10}{:>20}  {}\n", "weld toe, hot-spot stress", "von Mises MPa",
+                     "+- MPa", "range across MPa", "moment");
+  constexpr std::size_t shown = 5;
+  for (std::size_t i = 0; i < std::min(shown, analysis.hot_spots.size()); ++i) {
+    const auto& spot = analysis.hot_spots[i];
+    out << fmt::format("  {:<40}{:>14.1f}{:>10}{:>20.1f}  {}\n", spot.name, spot.von_mises_Pa / 1e6,
+                       fixed(error_Pa(analysis, spot) / 1e6, 1),
+                       (spot.max_normal_Pa - spot.min_normal_Pa) / 1e6, when(report, spot.instant));
+  }
+}
+
+void print_search(std::ostream& out, const Search& search) {
+  if (search.steps.empty()) return;
+  out << fmt::format("\n  {:<24}{:>9}{:>10}{:>11}{:>9}  {}\n", search.quantity, "MPa", "error", "unknowns",
+                     "seconds", "dominated by, mesh");
+  int n = 0;
+  for (const auto& step : search.steps)
+    out << fmt::format("    step {:<17}{:>9}{:>9.1f}%{:>11}{:>9.1f}  {}; {}\n", ++n,
+                       fixed(step.value_Pa / 1e6, 1),
+                       step.value_Pa > 0 ? 100 * step.errors.numerical_Pa() / step.value_Pa : 0.0,
+                       step.n_dofs, step.seconds, step.errors.largest(), step.fineness);
+  out << fmt::format("  {}: {}", search.met ? "ended" : "NOT MET", search.ended);
+  if (search.tolerance > 0) out << fmt::format("; {:.3g} % was asked", 100 * search.tolerance);
+  if (search.ended == "the time is up")
+    out << fmt::format("; the next step needs about {:.0f} s", search.next_seconds);
+  out << '\n';
+}
+
+void print_vibration(std::ostream& out, const Vibration& vibration) {
+  out << "\n  natural frequencies [Hz]";
+  for (const double f : vibration.natural_frequencies_Hz) out << fmt::format("  {:.5g}", f);
+  const auto& dynamic = vibration.amplification;
+  out << fmt::format(
+      "   ({})\n  dynamic amplification    {:.4f} of the peak; harmonic {:.4g} at {:.4g} Hz: "
+      "{:.3g} % of it, times {:.4f}\n",
+      vibration.held, dynamic.factor, dynamic.highest.order, dynamic.highest.frequency_Hz,
+      100 * dynamic.highest.share, dynamic.highest.amplification);
+}
+
+/// What the body is judged by, first of all that it is not known well.
+void print_governing(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  const auto stress = governing_stress(analysis);
+  out << "\n  " << analysis.scene.name << ": ";
+  if (const auto trouble = not_known_well(stress, analysis.search); !trouble.empty())
+    out << "NOT KNOWN WELL: " << trouble << "\n  ";
+  out << fmt::format("{} {}, safety against yield {}\n    at {} ({}), {}, {}\n", stress.name(),
+                     value_with_errors(stress.value_Pa, stress.errors), fixed(stress.safety, 2), stress.place,
+                     to_string(stress.surface), where(stress.position_m), when(report, stress.instant));
+}
+
+/// The peak, where a hot spot is worse.
+void print_peak(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  if (governing_stress(analysis).kind == GoverningStress::Kind::peak) return;
+  const Peak& peak = analysis.peak;
+  out << fmt::format(
+      "\n  peak von Mises stress outside the exclusion distances {}, safety against yield {}\n",
+      value_with_errors(peak.value_Pa, peak.errors), fixed(peak.safety, 2));
+  out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place), where(peak.position_m),
+                     when(report, peak.instant));
+}
+
+void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  const auto& zones = analysis.zones.zones;
+  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>9}{:>13}  {:<20}{}\n",
+                     fixed(analysis.zones.level_Pa / 1e6, 1), "peak MPa", "+- MPa", "safety", "volume mm3",
+                     "  moment", "where");
+  for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i) {
+    const auto error = error_Pa(analysis, zones[i]);
+    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13.1f}  {:<20}{}\n", i + 1, zones[i].feature,
+                       fixed(zones[i].peak_Pa / 1e6, 1), error ? fixed(*error / 1e6, 1) : "-",
+                       fixed(zones[i].safety, 2), zones[i].volume_m3 * 1e9,
+                       "  " + when(report, zones[i].instant), to_string(zones[i].place));
+  }
+  if (zones.size() > n_zones_shown)
+    out << fmt::format("       and {} more in zones.csv\n", zones.size() - n_zones_shown);
+}
+
+void print_solver(std::ostream& out, const BodyAnalysis& analysis) {
+  out << fmt::format("  {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.responses.n_dofs,
+                     analysis.responses.channels.size(),
+                     analysis.responses_reused ? " (responses of an earlier run)" : "",
+                     analysis.masses.mass_kg);
+  const auto& solver = analysis.responses.solver;
+  if (analysis.method != Method::solid)
+    out << fmt::format("  by the {} model{}\n", to_string(analysis.method),
+                       analysis.method == Method::beam
+                           ? ": no section diagrams, no torsion along the shaft, zones without volume"
+                           : "");
+  else if (solver.used == fem::Solver::iterative)
+    out << fmt::format("  solved by conjugate gradients, {} iterations ({})\n", solver.n_iterations,
+                       solver.reason);
+  else
+    out << fmt::format("  solved by factorisation ({})\n", solver.reason);
+  if (analysis.method == Method::solid)
+    out << fmt::format("  the solver took {:.2f} GB, {:.2f} GB were predicted\n", 1e-9 * solver.used_bytes,
+                       1e-9 * solver.predicted().bytes);
+  for (std::size_t r = 0; r < solver.ranks.size(); ++r)
+    out << fmt::format("    rank {}: {} of the unknowns, {:.2f} GB\n", r, solver.ranks[r].n_unknowns,
+                       1e-9 * solver.ranks[r].bytes);
+}
+
+void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  print_governing(out, report, analysis);
+  print_solver(out, analysis);
+  out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
+                     analysis.closure.worst_moment());
+  print_masses(out, report, analysis);
+  print_peak(out, report, analysis);
+  print_search(out, analysis.search);
+  const std::size_t p = analysis.principal_node;
+  out << fmt::format("  largest principal stress {} MPa\n",
+                     fixed(analysis.envelope.principal.value_Pa[p] / 1e6, 1));
+  if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr)
+    out << fmt::format("  largest torsional stress {} MPa at {}, z = {:.1f} mm\n",
+                       fixed(ring->max_Pa / 1e6, 2), ring->feature, ring->z_m * 1e3);
+
+  print_zones(out, report, analysis);
+  if (analysis.vibration) print_vibration(out, *analysis.vibration);
+  print_hot_spots(out, report, analysis);
+  if (!analysis.diagrams) return;
+  out << fmt::format("\n  {:<28}{:>16}{:>16}\n", "seat", "deflection mm", "slope mrad");
+  for (const auto& seat : analysis.diagrams->seats)
+    out << fmt::format("  {:<28}{:>16.4f}{:>16.3f}\n", seat.port, seat.max_deflection_m * 1e3,
+                       seat.max_slope_rad * 1e3);
+}
+
+void print_resampling(std::ostream& out, const RunReport& report) {
+  const auto errors = resampling_errors(report.scene.machine, report.scene.sampling);
+  if (errors.empty()) return;
+  out << fmt::format("\n  {:<36}{:>14}{:>14}{:>18}\n", "samples", "largest", "jump at seam",
+                     "between samples");
+  for (const auto& e : errors)
+    out << fmt::format("  {:<36}{:>14.5g}{:>14.3g}{:>18.3g}\n", e.effect + "/" + e.port + "." + e.component,
+                       e.largest, e.jump, e.between);
+}
+
+void print_bearings(std::ostream& out, const RunReport& report) {
+  if (report.bearings.empty()) return;
+  out << fmt::format("\n  {:<28}{:>18}{:>14}{:>14}{:>12}\n", "bearing", "equivalent load N", "largest N",
+                     "revolutions", "L10h hours");
+  for (const auto& b : report.bearings)
+    out << fmt::format("  {:<28}{:>18.5g}{:>14.5g}{:>14}{:>12}\n", b.name, b.equivalent_load_N,
+                       b.largest_load_N,
+                       b.life ? fmt::format("{:.3g}", 1e6 * b.life->million_revolutions) : "unloaded",
+                       b.life ? fmt::format("{:.5g}", b.life->hours) : "-");
+}
+
+}  // namespace
+
+void print_report(std::ostream& out, const RunReport& report) {
+  out << fmt::format("\n{}: {} ({}), {} turns of {} instants\n\n", report.scene.title, report.loads.machine,
+                     report.loads.convention, report.scene.sampling.turns,
+                     report.scene.sampling.instants_per_turn);
+  print_loads(out, report);
+  for (const auto& analysis : report.bodies) print_body(out, report, analysis);
+  print_effect_choice(out, report.scene, report.bodies);
+  print_resampling(out, report);
+  print_bearings(out, report);
+  double total = 0;
+  out << fmt::format("\n  {:<28}{:>12}\n", "stage", "seconds");
+  for (const auto& cost : report.costs) {
+    out << fmt::format("  {:<28}{:>12.2f}\n", cost.stage, cost.seconds);
+    total += cost.seconds;
+  }
+  out << fmt::format("  {:<28}{:>12.2f}   peak memory {:.1f} GB\n", "total", total, peak_memory_gigabytes());
+  for (const auto& warning : report.scene.warnings) out << "  warning: " << warning << '\n';
+  for (const auto& warning : report.loads.warnings) out << "  warning: " << warning << '\n';
+}
+
+}  // namespace pipelines

@@ -1,0 +1,32 @@
+/// The result directory of a run: every file of design, written under a temporary name and renamed.
+#pragma once
+
+#include <filesystem>
+
+#include "kinetics/load_history.h"
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/loads/load_files.h"
+#include "pipelines/scene/scene.h"
+
+namespace pipelines {
+
+/// loads.h5 and loads.csv, with the channels of the bodies.
+void write_load_results(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
+                        const BodyChannels& bodies);
+
+/// In `directory`: envelope.vtu, cycle.pvd with cycle_*.vtu, zones.csv; hot_spots.csv for a body with weld
+/// toes; diagrams.csv, torsion.csv, torsion_cycle.csv for a parametric shaft or drum. Snapshots of an earlier
+/// run that this one does not write are removed, so that the folder shows one run.
+/// @param n_pieces  of the envelope, one for each MPI rank: with several of them envelope.pvtu and
+/// envelope_<rank>.vtu stand for envelope.vtu
+void write_body_results(const std::filesystem::path& directory, const Scene& scene,
+                        const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces = 1);
+
+/// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
+struct Moment {
+  int turn = 1;          ///< 1-based
+  double angle_rad = 0;  ///< within [0, 2 pi)
+};
+Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::Index instant);
+
+}  // namespace pipelines

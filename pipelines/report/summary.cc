@@ -1,0 +1,112 @@
+#include "pipelines/report/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/responses/response_key.h"
+#include "pipelines/common/statistics.h"
+#include "pipelines/report/summary_values.h"
+#include "pipelines/common/version.h"
+
+namespace pipelines {
+namespace {
+
+using namespace summary;
+
+/// The couple of a named guide: how large, and against what.
+Json carried_json(const BodyLoads& loads) {
+  if (loads.carried_moment_Nm.size() == 0) return 0.0;
+  const double most = loads.carried_moment_Nm.abs().maxCoeff();
+  return object({{"effect", "pitch_guide"},
+                 {"max_Nm", number(most)},
+                 {"rms_Nm", number(std::sqrt(loads.carried_moment_Nm.square().mean()))},
+                 {"share", number_or_none(most / loads.carried_moment_scale_Nm)}});
+}
+
+/// What effects = "auto" has switched off: shares of the loads, bounds of the governing stresses.
+Json choice_json(const RunReport& report) {
+  const auto& choice = report.scene.effect_choice;
+  Json json = object({{"limit", choice.limit},
+                      {"share_of_loads", number_or_none(choice.share)},
+                      {"load_change", object({{"load", choice.load_change.load},
+                                              {"share", number_or_none(choice.load_change.share)}})},
+                      {"taken_back", choice.taken_back},
+                      {"effects", Json::object()}});
+  for (const auto& dropped : choice.dropped)
+    json["effects"][dropped.effect]["share_of_loads"] = number_or_none(dropped.share);
+  for (const auto& analysis : report.bodies) {
+    if (!analysis.dropped) continue;
+    const auto bound = [&](const EffectBound& b) {
+      return object(
+          {{"bound_Pa", number_or_none(b.bound_Pa)}, {"estimated_Pa", number_or_none(b.estimated_Pa)}});
+    };
+    for (const auto& effect : analysis.dropped->effects)
+      json["effects"][effect.effect]["bodies"][analysis.scene.name] = bound(effect);
+    json["bodies"][analysis.scene.name] = bound(analysis.dropped->together);
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const RunReport& report) {
+  Json json;
+  json["program"] = object({{"name", "millstress"}, {"version", version}});
+  json["input"] = object({{"scene", report.scene.file.filename().string()},
+                          {"title", report.scene.title},
+                          {"hash", content_hash(report.scene.file)},
+                          {"machine", report.loads.machine},
+                          {"convention", report.loads.convention},
+                          {"effects", report.scene.effects},
+                          {"turns", report.scene.sampling.turns},
+                          {"instants_per_turn", report.scene.sampling.instants_per_turn}});
+  if (!report.scene.effect_choice.offered.empty()) json["dropped_effects"] = choice_json(report);
+  json["warnings"] = Json::array();
+  for (const auto& analysis : report.bodies)
+    if (const auto text = not_known_well(governing_stress(analysis), analysis.search); !text.empty())
+      json["warnings"].push_back(analysis.scene.name + ": NOT KNOWN WELL: " + text);
+  for (const auto* warnings : {&report.loads.warnings, &report.scene.warnings})
+    for (const auto& warning : *warnings) json["warnings"].push_back(warning);
+  for (const auto& quantity : report.loads.quantities) {
+    if (!quantity.has_statistics) continue;
+    const auto s = statistics(quantity.values);
+    json["loads"][quantity.name] = object({{"max", number(s.max)},
+                                           {"min", number(s.min)},
+                                           {"mean", number(s.mean)},
+                                           {"rms", number(s.rms)},
+                                           {"unit", quantity.unit}});
+  }
+  if (const auto* train = std::get_if<kinetics::DriveTrain>(&report.scene.machine))
+    for (const double w : kinetics::natural_modes(*train, kinetics::Shapes::none).frequency_rad_s)
+      json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
+  for (const auto& analysis : report.bodies) {
+    json["bodies"][analysis.scene.name] = body_json(report, analysis);
+    const Closure& closure = analysis.closure;
+    json["closure"][analysis.scene.name] = object({{"force", number(closure.worst_force())},
+                                                   {"moment", number(closure.worst_moment())},
+                                                   {"carried_moment", carried_json(analysis.loads)},
+                                                   {"force_scale_N", closure.force_scale_N},
+                                                   {"moment_scale_Nm", closure.moment_scale_Nm},
+                                                   {"channel_resultant", number(closure.channel_resultant)}});
+  }
+  for (const auto& e : resampling_errors(report.scene.machine, report.scene.sampling))
+    json["resampling"][e.effect + "/" + e.port + "." + e.component] =
+        object({{"largest", e.largest}, {"jump", e.jump}, {"between_samples", e.between}});
+  for (const auto& bearing : report.bearings) {
+    Json& entry = json["bearings"][bearing.name];
+    entry = object({{"load", bearing.load},
+                    {"equivalent_load", figure(bearing.equivalent_load_N, "N")},
+                    {"largest_load", figure(bearing.largest_load_N, "N")},
+                    {"speed", figure(bearing.speed_rad_s, "rad/s")}});
+    entry["L10"] = bearing.life ? Json(bearing.life->million_revolutions * 1e6) : Json(nullptr);
+    entry["L10h"] = bearing.life ? figure(bearing.life->hours, "h") : Json(nullptr);
+  }
+  for (const auto& cost : report.costs)
+    json["timing"][cost.stage] =
+        object({{"seconds", cost.seconds}, {"peak_memory_gigabytes", cost.peak_gigabytes}});
+  return json.dump(2) + "\n";
+}
+
+}  // namespace pipelines

@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/analysis/energy_errors.h"
+#include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/report/results.h"
+#include "pipelines/common/statistics.h"
+#include "pipelines/report/summary_values.h"
+
+namespace pipelines::summary {
+namespace {
+
+Json place_and_moment(const RunReport& report, const std::array<double, 3>& position,
+                      const std::string& feature, Place place, std::int32_t instant) {
+  const auto moment = moment_of(report.scene, report.loads, instant);
+  return object({{"feature", feature},
+                 {"place", to_string(place)},
+                 {"position_m", position},
+                 {"turn", moment.turn},
+                 {"drive_angle_rad", moment.angle_rad}});
+}
+
+/// "total" of all sources, "numerical" of those that a finer run would mend, "model" of the others.
+Json ledger_json(const ErrorLedger& ledger) {
+  Json json = object({{"total", number_or_none(ledger.total_Pa())},
+                      {"numerical", number_or_none(ledger.numerical_Pa())},
+                      {"model", number_or_none(ledger.total_Pa() - ledger.numerical_Pa())}});
+  for (const auto* entries : {&ledger.numerical, &ledger.model})
+    for (const auto& entry : *entries) {
+      json[entry.source] = number_or_none(entry.value_Pa);
+      json["methods"][entry.source] = entry.method;
+    }
+  return json;
+}
+
+/// Seconds are no part of it: they change from run to run.
+Json search_json(const Search& search) {
+  Json json = object({{"quantity", search.quantity},
+                      {"tolerance", number(search.tolerance)},
+                      {"met", search.met},
+                      {"ended", search.ended}});
+  for (const auto& step : search.steps)
+    json["steps"].push_back(object({{"mesh", step.fineness},
+                                    {"instants_per_turn", step.instants_per_turn},
+                                    {"pressure_harmonics", step.pressure_harmonics},
+                                    {"dofs", step.n_dofs},
+                                    {"value_Pa", number(step.value_Pa)},
+                                    {"error", ledger_json(step.errors)},
+                                    {"dominated_by", step.errors.largest()}}));
+  return json;
+}
+
+/// What the body is judged by.
+Json governing_json(const RunReport& report, const BodyAnalysis& analysis) {
+  const auto stress = governing_stress(analysis);
+  const bool is_hot_spot = stress.kind == GoverningStress::Kind::hot_spot;
+  Json json = figure(stress.value_Pa, "Pa");
+  json["kind"] = is_hot_spot ? "hot_spot" : "peak_von_mises";
+  json["name"] = stress.name();
+  json["text"] = value_with_errors(stress.value_Pa, stress.errors);
+  json["safety_against_yield"] = number_or_none(stress.safety);
+  json["error"] = ledger_json(stress.errors);
+  json.update(place_and_moment(report, stress.position_m, stress.place, stress.surface, stress.instant));
+  const auto trouble = not_known_well(stress, analysis.search);
+  if (!trouble.empty()) json["not_known_well"] = trouble;
+  return json;
+}
+
+Json peak_json(const RunReport& report, const BodyAnalysis& analysis) {
+  const Peak& peak = analysis.peak;
+  Json json = figure(peak.value_Pa, "Pa");
+  json["error"] = ledger_json(peak.errors);
+  json["safety_against_yield"] = number_or_none(peak.safety);
+  json.update(place_and_moment(report, peak.position_m, peak.feature, peak.place, peak.instant));
+  json["stress_Pa"] = peak.stress_Pa;
+  const auto& effects = analysis.loads.history.effects;
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    json["effect_share"][effects[i]] = number(peak.effect_share[i]);
+  return json;
+}
+
+Json principal_json(const RunReport& report, const BodyAnalysis& analysis) {
+  const std::size_t node = analysis.principal_node;
+  const auto& maximum = analysis.envelope.principal;
+  std::array<double, 3> position;
+  std::copy_n(&analysis.responses.nodes.xyz_m[3 * node], 3, position.begin());
+  const auto feature = analysis.places.feature[node];
+  Json json = figure(maximum.value_Pa[node], "Pa");
+  json.update(place_and_moment(report, position,
+                               feature >= 0 ? analysis.places.feature_names[std::size_t(feature)] : "",
+                               analysis.places.place[node], maximum.instant[node]));
+  json["stress_Pa"] = maximum.stress_Pa[node];
+  return json;
+}
+
+Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
+  Json json = Json::array();
+  for (const Zone& zone : analysis.zones.zones) {
+    const auto error = error_Pa(analysis, zone);
+    Json entry = object({{"peak_von_mises_Pa", number(zone.peak_Pa)},
+                         {"error_Pa", error ? number_or_none(*error) : Json(nullptr)},
+                         {"safety_against_yield", number_or_none(zone.safety)},
+                         {"volume_m3", number(zone.volume_m3)},
+                         {"nodes", zone.n_nodes}});
+    entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
+    json.push_back(entry);
+  }
+  return json;
+}
+
+Json torsion_json(const BodyAnalysis& analysis) {
+  const auto& diagrams = *analysis.diagrams;
+  const auto largest_in_section =
+      std::max_element(diagrams.sections.begin(), diagrams.sections.end(), [](const auto& a, const auto& b) {
+        return a.torsion_Pa.abs().maxCoeff() < b.torsion_Pa.abs().maxCoeff();
+      });
+  Json json;
+  const auto ring = largest_torsion_ring(diagrams);
+  json["max_shear_stress"] = figure(ring ? ring->max_Pa : 0.0, "Pa");
+  if (ring) {
+    json["max_shear_stress"]["feature"] = ring->feature;
+    json["max_shear_stress"]["z_m"] = ring->z_m;
+  }
+  json["max_section_shear_stress"] = figure(largest_in_section->torsion_Pa.abs().maxCoeff(), "Pa");
+  json["max_section_shear_stress"]["segment"] = largest_in_section->plane.segment;
+  json["max_section_shear_stress"]["z_m"] = largest_in_section->plane.z_m;
+  const auto mismatch = plain_torsion_mismatch(diagrams);
+  json["plain_sections_against_beam"] = number_or_none(mismatch);
+  return json;
+}
+
+/// How the quasi-static stress is meant: dynamic_amplification is the factor that resonance is expected to
+/// put on the peak.
+void add_vibration(const Vibration& vibration, Json& json) {
+  json["natural_frequencies"] = Json::array();
+  for (const double f : vibration.natural_frequencies_Hz)
+    json["natural_frequencies"].push_back(figure(f, "Hz"));
+  const auto& dynamic = vibration.amplification;
+  json["dynamic_amplification"] = figure(dynamic.factor, "1");
+  json["dynamic_amplification"]["held"] = vibration.held;
+  json["dynamic_amplification"]["limit"] = amplification_limit;
+  json["dynamic_amplification"]["highest_harmonic"] =
+      object({{"order", dynamic.highest.order},
+              {"frequency_Hz", dynamic.highest.frequency_Hz},
+              {"share", number_or_none(dynamic.highest.share)},
+              {"amplification", number(dynamic.highest.amplification)}});
+}
+
+Json energy_error_json(const BodyAnalysis& analysis) {
+  const auto errors = energy_errors(analysis.responses.energy_error, analysis.loads.history.values);
+  Json json = figure(errors.over_cycle, "1");
+  for (std::size_t k = 0; k < errors.channels.size(); ++k)
+    json["channels"][analysis.responses.channels[k]] = number(errors.channels[k]);
+  return json;
+}
+
+}  // namespace
+
+Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
+  const auto& quality = analysis.mesh.quality;
+  Json json;
+  json["governing"] = governing_json(report, analysis);
+  json["method"] = to_string(analysis.method);
+  json["dofs"] = analysis.responses.n_dofs;
+  json["cells"] = quality.n_cells;
+  json["min_scaled_jacobian"] = number(quality.min_scaled_jacobian);
+  json["median_scaled_jacobian"] = number(quality.median_scaled_jacobian);
+  json["max_aspect"] = number(quality.max_aspect);
+  json["geometry_error"] = object({{"relative", number(analysis.geometry_error.relative)},
+                                   {"faces", analysis.geometry_error.n_faces},
+                                   {"position_m", analysis.geometry_error.place_m}});
+  json["mass"] = figure(analysis.masses.mass_kg, "kg");
+  json["unbalance"] =
+      figure(std::hypot(analysis.masses.first_moment_kg_m[0], analysis.masses.first_moment_kg_m[1]), "kg m");
+  json["channels"] = analysis.responses.channels;
+  json["material"] = analysis.scene.material_name;
+  json["yield_strength"] = figure(analysis.scene.yield_strength_Pa, "Pa");
+  json["peak_von_mises"] = peak_json(report, analysis);
+  if (!analysis.responses.energy_error.norm_sqrtJ.empty()) json["energy_error"] = energy_error_json(analysis);
+  json["peak_principal"] = principal_json(report, analysis);
+  for (const auto& place : analysis.place_stresses)
+    json["places"].push_back(object({{"feature", place.feature},
+                                     {"von_mises_Pa", number(place.value_Pa)},
+                                     {"error_Pa", number_or_none(place.error_Pa)}}));
+  json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
+  json["zones"] = zones_json(report, analysis);
+  if (!analysis.search.steps.empty()) json["search"] = search_json(analysis.search);
+  if (analysis.vibration) add_vibration(*analysis.vibration, json);
+  if (analysis.diagrams) {
+    json["torsion"] = torsion_json(analysis);
+    for (const auto& seat : analysis.diagrams->seats)
+      json["seats"][seat.port] = object({{"z_m", seat.z_m},
+                                         {"max_deflection_m", seat.max_deflection_m},
+                                         {"max_slope_rad", seat.max_slope_rad}});
+    json["stress_against_statics"] = object({{"force", number_or_none(analysis.diagrams->force_mismatch)},
+                                             {"bending", number_or_none(analysis.diagrams->bending_mismatch)},
+                                             {"torque", number_or_none(analysis.diagrams->torque_mismatch)}});
+  }
+  for (const auto& spot : analysis.hot_spots)
+    json["hot_spots"].push_back(object({{"name", spot.name},
+                                        {"von_mises_Pa", number(spot.von_mises_Pa)},
+                                        {"error_Pa", number_or_none(error_Pa(analysis, spot))},
+                                        {"normal_max_Pa", number(spot.max_normal_Pa)},
+                                        {"normal_min_Pa", number(spot.min_normal_Pa)},
+                                        {"position_m", spot.toe_m}}));
+  if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = ledger_json(analysis.hot_spot_errors);
+  for (const auto& edge : analysis.mesh.sharp_edges)
+    json["singular"].push_back(object({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}}));
+  for (const auto& figure : report.masses)
+    if (figure.body == analysis.scene.name)
+      json["masses"].push_back(object({{"name", figure.name},
+                                       {"unit", figure.unit},
+                                       {"machine", figure.given},
+                                       {"mesh", figure.mesh},
+                                       {"from_mesh", figure.from_mesh},
+                                       {"difference", figure.share()}}));
+  const auto& solver = analysis.responses.solver;
+  json["solver"] = object({{"used", solver.used == fem::Solver::iterative ? "iterative" : "direct"},
+                           {"reason", solver.reason},
+                           {"iterations", solver.used == fem::Solver::iterative ? solver.n_iterations : 0},
+                           {"residual", number(analysis.responses.residual)},
+                           {"rounding", number(solver.rounding)},
+                           {"support_reaction", number(analysis.responses.support_reaction)},
+                           {"factor_gigabytes", number(analysis.responses.factor_gigabytes)},
+                           {"gave_up", solver.gave_up},
+                           {"bytes", number(solver.used_bytes)},
+                           {"predicted_bytes", number(solver.predicted().bytes)}});
+  for (const auto& rank : solver.ranks)
+    json["solver"]["ranks"].push_back(
+        object({{"cells", rank.n_cells}, {"unknowns", rank.n_unknowns}, {"bytes", number(rank.bytes)}}));
+  return json;
+}
+
+}  // namespace pipelines::summary

@@ -1,0 +1,49 @@
+#include "pipelines/report/torsion_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/common/errors.h"
+#include "pipelines/common/finite.h"
+
+namespace pipelines {
+
+TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
+  const auto* train = std::get_if<kinetics::DriveTrain>(&machine);
+  if (!train)
+    throw StageRefused(scene.file.string() +
+                       ": torsion needs a scene whose machine.type is \"drive_train\"; see "
+                       "pipelines/scenes/drive_train.toml");
+  const auto effects = scene.kinetics_effects();
+  const kinetics::DriveTrain on = kinetics::with_effects(*train, effects);
+  TorsionReport report;
+  report.modes = kinetics::natural_modes(on);
+  report.forced = kinetics::forced_response(on);
+  report.margins = kinetics::resonance_margins(on);
+  report.campbell = kinetics::campbell_table(on, scene.torsion.slowest_rad_s, scene.torsion.fastest_rad_s,
+                                             scene.torsion.n_speeds, scene.torsion.orders);
+  const auto history = compute_loads(machine, effects, scene.sampling);
+  for (std::size_t e = 0; e < on.elements.size(); ++e) {
+    const auto& name = on.elements[e].name;
+    const auto largest = [&](const std::string& quantity) {
+      return history.quantity(name + quantity).values.abs().maxCoeff();
+    };
+    report.torques.push_back({name, report.forced.mean_torque_Nm[Eigen::Index(e)], largest(".torque"),
+                              largest(".reduced_torque"),
+                              on.elements[e].diameter_m > 0 ? largest(".shear_stress") : 0});
+  }
+  if (scene.torsion.transient) {
+    auto run = *scene.torsion.transient;
+    for (const auto& torque : scene.torsion.torques)
+      run.loads.push_back({torque.inertia, kinetics::torque_table(torque.time_s, torque.torque_Nm)});
+    report.transient = kinetics::transient(on, run);
+  }
+  if (scene.torsion.published_tables) {
+    report.table_4 = kinetics::published_table_4(on);
+    report.table_7 = kinetics::published_table_7(on);
+  }
+  require_finite(report);
+  return report;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,47 @@
+/// A drive train in torsion: natural frequencies, modes, forced response, Campbell table, resonance margins.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinetics/drive_train.h"
+#include "pipelines/scene/scene.h"
+
+namespace pipelines {
+
+/// Torque of one element in the steady state under the excitations that are on.
+struct ElementTorque {
+  std::string element;
+  double mean_Nm = 0;             ///< on the shaft of its first inertia
+  double largest_Nm = 0;          ///< of |T| over the scene's window
+  double largest_reduced_Nm = 0;  ///< the same on the reference shaft
+  double largest_shear_Pa = 0;    ///< K_t T r / I_p; zero where no diameter is given
+};
+
+struct TorsionReport {
+  kinetics::NaturalModes modes;
+  kinetics::ForcedResponse forced;
+  std::vector<ElementTorque> torques;
+  std::vector<kinetics::ResonanceMargin> margins;
+  kinetics::CampbellTable campbell;
+  std::optional<kinetics::Transient> transient;              ///< where the scene asks for it
+  std::optional<kinetics::PublishedTable> table_4, table_7;  ///< where the scene asks for them
+};
+
+/// @param machine  the scene's, with the inertias that it leaves to a mesh
+/// @throws StageRefused if the scene's machine is no drive train; as kinetics does; NotFinite
+TorsionReport report_torsion(const Scene& scene, const Machine& machine);
+
+void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& report);
+std::string torsion_json(const Scene& scene, const TorsionReport& report);
+
+/// In `directory`: modes.csv (frequencies, shapes, energy shares), forced.csv (amplitude and phase of every
+/// harmonic at every inertia and element), campbell.csv, margins.csv; transient.csv
+/// (torque and angle over time, energies) where there is one.
+void write_torsion_files(const std::filesystem::path& directory, const Scene& scene,
+                         const TorsionReport& report);
+
+}  // namespace pipelines

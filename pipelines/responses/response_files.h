@@ -1,0 +1,24 @@
+/// Unit responses kept between runs, under a key that stands for all they depend on.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "fem/values/unit_responses.h"
+
+namespace pipelines {
+
+/// Writes every field, exactly. The large arrays are written in place, without copies.
+/// @throws std::invalid_argument naming the field if the sizes of the fields do not fit each other;
+///         std::runtime_error naming the file if it cannot be written
+void write_unit_responses(const std::filesystem::path& path, const std::string& key,
+                          const fem::UnitResponses& responses);
+
+/// @return empty if the file is missing, cannot be read as unit responses, or was written under another key:
+/// compute
+///         them anew then
+std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::path& path,
+                                                      const std::string& key);
+
+}  // namespace pipelines

@@ -1,0 +1,31 @@
+/// Effects that bodies add to those of their machine, and what the equilibrium of a body needs of both: the
+/// counterpart of the machines' tables in kinetics (coupling of loads and bodies, sections 2 to 6).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinetics/effect_info.h"
+#include "pipelines/scene/body_scene.h"
+#include "pipelines/scene/machine.h"
+
+namespace pipelines {
+
+struct Scene;
+
+/// What every body of that role adds, under fixed names: its own mass, whose size comes from its mesh.
+const std::vector<kinetics::EffectInfo>& own_effect_table(BodyRole role);
+
+/// The forces that the scene puts on a shaft of a drive train, each effect once.
+std::vector<kinetics::EffectInfo> force_effect_table(const TrainShaftOptions& shaft);
+
+/// All that a body adds.
+std::vector<kinetics::EffectInfo> body_effect_table(const BodyScene& body);
+
+/// Every effect that a machine and its bodies know, each with what it needs there. A machine's effect may
+/// need one of a body's: where a shaft of a drive train is a body, a torque that varies accelerates it, and
+/// `shaft_inertia` is what balances that.
+std::vector<kinetics::EffectInfo> effect_table(const Machine& machine, const std::vector<BodyScene>& bodies);
+std::vector<kinetics::EffectInfo> effect_table(const Scene& scene);
+
+}  // namespace pipelines

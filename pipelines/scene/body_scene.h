@@ -1,0 +1,85 @@
+/// A body as a scene describes it: shape, material, how loads meet it. Values in SI units.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fem/values/body.h"
+#include "fem/values/solver_choice.h"
+#include "meshes/chamber/chamber.h"
+#include "meshes/imported/imported.h"
+#include "meshes/shaft/shaft.h"
+#include "meshes/keyed_shaft/solid_shaft.h"
+#include "pipelines/loads/distribute.h"
+#include "pipelines/scene/pressure_pattern.h"
+
+namespace pipelines {
+
+/// What a body is in its machine: decides which loads enter where.
+enum class BodyRole { vibratory_shaft, chamber, drum, stub_axle, train_shaft, table_body };
+
+struct ShaftShape {
+  meshes::Shaft geometry;
+  meshes::ShaftMeshControl mesh;
+  std::vector<meshes::Keyway> keyways;  ///< some: the shaft is meshed with tetrahedra, by `solid`
+  meshes::SolidControl solid;
+};
+
+struct ChamberShape {
+  meshes::Chamber geometry;
+  meshes::ChamberMeshControl mesh;
+};
+
+/// Mass beside the mesh, as the scene gives it.
+struct AddedMass {
+  std::string name, port, region;  ///< region of the chamber: "structure" or "exciter"
+  double mass_kg = 0;
+  std::array<double, 2> centre_m{};  ///< from the port's own point
+  double polar_inertia_kg_m2 = 0;    ///< about its own centre
+};
+
+struct BodyScene {
+  std::string name;    ///< "shaft", "chamber", "drum", "axle", "part": table and directory
+  std::string origin;  ///< "file:line:column: table", named by errors that meshing brings to light
+  BodyRole role = BodyRole::vibratory_shaft;
+  std::variant<ShaftShape, ChamberShape, meshes::Import> shape;
+  fem::Material material;
+  std::string material_name;
+  double yield_strength_Pa = 0;
+  int pressure_harmonics = 4;                      ///< where `pressures` has no entry
+  std::map<std::string, PressureModel> pressures;  ///< by port
+  std::vector<AddedMass> added_masses;
+  fem::Solver solver = fem::Solver::automatic;
+  int degree =
+      2;  ///< of the polynomials in a cell (fem::Body); 2 in every scene, the ladder takes 1 and 3 too
+  int natural_frequencies = 0;  ///< how many to compute and compare with the loads; 0: none
+  std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
+
+  /// Places where a search found that stress grows without bound: kept out of the peak like sharp edges.
+  std::vector<meshes::SharpEdge> singular;
+
+  std::vector<double> debalance_shares = {0.5, 0.5};  ///< vibratory shaft
+  PitchGuide pitch_guide = PitchGuide::body;          ///< chamber
+  bool elastic_feet = false;                          ///< chamber
+  StubAxleOptions stub_axle;
+  TrainShaftOptions train;
+  TableBodyOptions table;
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  BodyScene();
+  BodyScene(const BodyScene&);
+  BodyScene(BodyScene&&) noexcept;
+  BodyScene& operator=(const BodyScene&);
+  BodyScene& operator=(BodyScene&&) noexcept;
+  ~BodyScene();
+
+  const ShaftShape* shaft() const { return std::get_if<ShaftShape>(&shape); }
+};
+
+/// Effects that a body adds to those of its machine: they need its mesh.
+std::vector<std::string> own_effects(BodyRole role);
+
+}  // namespace pipelines

@@ -1,0 +1,22 @@
+/// What a scene says that is legal but hardly meant: speeds that come from a wrong unit, mostly.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/scene/scene.h"
+
+namespace pipelines {
+
+/// Sentences for the user. Warned of are
+///   a drive faster than 3600 rpm: no motor turns faster on the mains of 60 Hz without gears or a converter;
+///   an acceleration of a vibratory mill's chamber above 20 g: such mills run at 3 to 12 g, eccentric ones of
+///     high energy at up to 16 g; of a planetary mill's drums above 100 g: mills of laboratories end there;
+///   a peripheral speed of a seat or belt above 50 m/s: of a rolling bearing this is a speed factor n d of
+///     1e6 mm/min, where oil jets begin; belts of rubber end at 40 to 50 m/s;
+///   a Poisson's ratio above 0.49, where cells of degree 2 lock (error_ledger.cc);
+///   a tolerance above 20 %, which says little more than the order of magnitude.
+/// @param scene  read without an error
+std::vector<std::string> implausible(const Scene& scene);
+
+}  // namespace pipelines

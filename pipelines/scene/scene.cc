@@ -1,0 +1,46 @@
+#include "pipelines/scene/scene.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "pipelines/scene/body_effects.h"
+
+namespace pipelines {
+BodyScene::BodyScene() = default;
+BodyScene::BodyScene(const BodyScene&) = default;
+BodyScene::BodyScene(BodyScene&&) noexcept = default;
+BodyScene& BodyScene::operator=(const BodyScene&) = default;
+BodyScene& BodyScene::operator=(BodyScene&&) noexcept = default;
+BodyScene::~BodyScene() = default;
+
+Scene::Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+std::vector<std::string> Scene::kinetics_effects() const {
+  std::vector<std::string> of_bodies;
+  for (const auto& body : bodies) {
+    for (const auto& effect : body_effect_table(body)) of_bodies.push_back(effect.name);
+  }
+  std::vector<std::string> names;
+  std::remove_copy_if(effects.begin(), effects.end(), std::back_inserter(names), [&](const auto& effect) {
+    return std::find(of_bodies.begin(), of_bodies.end(), effect) != of_bodies.end();
+  });
+  return names;
+}
+
+const BodyScene* Scene::body(const std::string& name) const {
+  const auto found =
+      std::find_if(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == name; });
+  return found == bodies.end() ? nullptr : &*found;
+}
+
+bool Scene::has_effect(const std::string& name) const {
+  return std::find(effects.begin(), effects.end(), name) != effects.end();
+}
+
+}  // namespace pipelines

@@ -1,0 +1,129 @@
+#include "pipelines/scene/scene_effects.h"
+
+#include <algorithm>
+
+#include "pipelines/scene/body_effects.h"
+#include "pipelines/common/name_lists.h"
+#include "pipelines/common/nearest_name.h"
+
+namespace pipelines {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table) {
+  std::vector<std::string> names;
+  for (const auto& effect : table)
+    if (!contains(names, effect.name)) names.push_back(effect.name);
+  return names;
+}
+
+const EffectRefusal* find_refusal(const EffectRules& rules, const std::string& effect) {
+  const auto refusal = std::find_if(rules.refused.begin(), rules.refused.end(),
+                                    [&](const auto& r) { return r.effect == effect; });
+  return refusal == rules.refused.end() ? nullptr : &*refusal;
+}
+
+std::string remedy_for_unknown(const std::string& name, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_name(name, known);
+  return nearest.empty() ? "unknown effect; known are: " + listed(known)
+                         : "unknown effect; did you mean \"" + nearest + "\"?";
+}
+
+/// Every effect that the scene has data for.
+std::vector<std::string> offered_effects(const EffectRules& rules) {
+  const auto known = names_of(rules.table);
+  std::vector<std::string> off = rules.lacking;
+  for (const auto& refusal : rules.refused) off.push_back(refusal.effect);
+  return names_without(known, with_dependents(rules.table, known, off));
+}
+
+/// "all" or "auto".
+void read_word(SceneTable& root, const EffectRules& rules, Scene& scene) {
+  const std::string word = root.text("effects");
+  if (word != "all" && word != "auto") {
+    const std::string nearest = nearest_name(word, {"all", "auto"});
+    if (!word.empty())
+      root.refuse("effects", "is no list of effects; write names such as [\"" + rules.table.front().name +
+                                 "\"], or \"all\", or \"auto\" for those that matter" +
+                                 (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+    return;
+  }
+  scene.effects = scene.effects_key.offered;
+  if (word == "all") return;
+  scene.effect_choice.offered = scene.effects;
+  scene.effect_choice.open = true;
+}
+
+}  // namespace
+
+EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft) {
+  using kinetics::Convention;
+  const bool is_published = convention == Convention::published;
+  EffectRules rules{kinetics::vibratory_mill_effects(convention)};
+  add_own_effects(rules, BodyRole::vibratory_shaft, has_shaft, "[shaft]");
+  const Convention other = is_published ? Convention::consistent : Convention::published;
+  for (const auto& name : names_of(kinetics::vibratory_mill_effects(other)))
+    if (!contains(names_of(rules.table), name))
+      rules.refused.push_back({name, "unknown under convention \"" +
+                                         std::string(is_published ? "published" : "consistent") +
+                                         "\", only under the other one; remove it, or change "
+                                         "machine.convention"});
+  return rules;
+}
+
+EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention) {
+  const bool is_consistent = convention == kinetics::PlanetaryConvention::consistent;
+  EffectRules rules{kinetics::planetary_mill_effects(convention)};
+  rules.refused.push_back(
+      {is_consistent ? "charge_relative" : "charge_offset",
+       is_consistent ? "is called \"charge_offset\" under the convention \"consistent\", where it is the "
+                       "transport inertia of the centroid; write that"
+                     : "is called \"charge_relative\" under the paper's conventions; write that"});
+  return rules;
+}
+
+void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std::string& table) {
+  for (const auto& effect : own_effect_table(role)) {
+    if (!contains(names_of(rules.table), effect.name)) rules.table.push_back(effect);
+    if (!has_body)
+      rules.refused.push_back(
+          {effect.name, "needs " + std::string(table == "[axle]" ? "an " : "a ") + table +
+                            ", whose mesh gives its mass; add the table or remove the effect"});
+  }
+}
+
+void read_effects(SceneTable& root, const EffectRules& rules, Scene& scene, SceneFindings& findings) {
+  const TextAt key = root.written_at("effects");
+  scene.effects_key = {key.at.line, key.at.column, key.as_written, offered_effects(rules)};
+  if (root.has("effects") && !root.has_list("effects")) return read_word(root, rules, scene);
+  const auto known = names_of(rules.table);
+
+  const std::vector<TextAt> listed_effects = root.texts("effects");
+  if (root.has("effects") && listed_effects.empty())
+    root.refuse("effects",
+                "no effect is named, so there is nothing to compute; name some of: " + listed(known));
+
+  const auto refuse = [&](const TextAt& effect, const std::string& remedy) {
+    findings.errors.push_back(
+        {findings.file, effect.at.line, effect.at.column, effect.key, effect.as_written, remedy});
+  };
+  std::vector<std::string> names;
+  for (const TextAt& effect : listed_effects) {
+    const EffectRefusal* const refusal = find_refusal(rules, effect.text);
+    const bool is_known = contains(known, effect.text);
+    if (refusal != nullptr)
+      refuse(effect, refusal->remedy);
+    else if (!is_known)
+      refuse(effect, remedy_for_unknown(effect.text, known));
+    else if (contains(names, effect.text))
+      refuse(effect, "is named twice; remove one of the two");
+    if (is_known && !contains(names, effect.text)) names.push_back(effect.text);
+  }
+  for (const auto& open : open_needs(rules.table, names))
+    for (const TextAt& effect : listed_effects)
+      if (effect.text == open.effect)
+        refuse(effect, "needs the effect \"" + open.need.effect + "\": " + open.need.reason +
+                           "; add that one or remove this one");
+  scene.effects = names;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,41 @@
+/// The list `effects` of a scene: known names, none twice, none without what it needs. Which effects there
+/// are and what they need is said by the tables of kinetics and of body_effects.h.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipelines/scene/scene_table.h"
+
+namespace pipelines {
+
+/// An effect that is known, but not in this scene.
+struct EffectRefusal {
+  std::string effect, remedy;
+};
+
+/// What a machine's scene may name.
+struct EffectRules {
+  std::vector<kinetics::EffectInfo> table;
+  std::vector<EffectRefusal> refused{};
+  /// The scene does not give their data: "all" and "auto" pass over them, and over what needs them.
+  std::vector<std::string> lacking{};
+};
+
+/// Effects of kinetics under the convention, then those that come from the shaft's mesh; what is known under
+/// the other convention only, or needs a shaft that the scene lacks, is refused with that reason.
+EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft);
+
+/// The one effect that has two names under the planetary mill's conventions is refused under the wrong one.
+EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention);
+
+/// Adds the effects that a body of that role brings; without the body they are refused, naming its table.
+void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std::string& table);
+
+/// Reads `effects` of the root table into scene.effects: a list of names, as written, each known, none twice;
+/// or "all", every effect that the scene has data for; or "auto", the same with the choice left open
+/// (effect_choice.h). Fills scene.effects_key. Errors go to the findings.
+void read_effects(SceneTable& root, const EffectRules& rules, Scene& scene, SceneFindings& findings);
+
+}  // namespace pipelines

@@ -1,0 +1,488 @@
+#include "pipelines/search/scene_run.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "fem/beam/beam_responses.h"
+#include "pipelines/cheap_models/axisymmetric_body.h"
+#include "pipelines/cheap_models/axisymmetric_run.h"
+#include "pipelines/cheap_models/beam_run.h"
+#include "pipelines/report/body_files.h"
+#include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/effects/effect_bounds.h"
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/analysis/fineness.h"
+#include "pipelines/search/peak_growth.h"
+#include "pipelines/analysis/place_errors.h"
+#include "pipelines/search/place_history.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/common/refusal_of.h"
+#include "pipelines/search/second_model.h"
+#include "pipelines/search/singular_edge.h"
+#include "pipelines/analysis/tetrahedra_estimate.h"
+
+namespace pipelines {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr int most_steps = 16;
+constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
+/// A step is taken if it is predicted to end in time; predictions are rough.
+constexpr double growth_of_seconds = 1.5;  // with the number of unknowns, for the direct solver
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What a finer mesh or a dearer model would lower: not the loads' own shape, nor what the scene leaves out.
+double lowered_by_other_models_Pa(const ErrorLedger& errors) {
+  double sum_Pa = errors.numerical_Pa();
+  for (const char* source : {"model", "eccentric_segments", "ovalisation", "spin"})
+    sum_Pa += errors.of(source);
+  return sum_Pa;
+}
+
+class SceneRunner {
+public:
+  SceneRunner(const Scene& scene, const SceneRunOptions& options, StageClock& clock)
+      : options_(options), clock_(clock), start_(Clock::now()) {
+    run_.scene = scene;
+    for (const auto& body : scene.bodies) files_.emplace_back(options.directory / body.name);
+  }
+
+  SceneRun run() {
+    std::vector<MeshedBody> meshed;
+    for (std::size_t i = 0; i < n_bodies(); ++i) {
+      methods_.push_back(is_wanted(i) ? first_method(i) : Method::solid);
+      meshed.push_back(is_wanted(i) ? first_meshed(i) : options_.others.at(i));
+    }
+    if (run_.scene.effect_choice.open)
+      run_.scene = clock_.run(
+          "effects", [&] { return with_effects_chosen(run_.scene, meshed, negligible_share(tolerance())); });
+    load(std::move(meshed));
+    const auto first_sampling = run_.scene.sampling.instants_per_turn;
+    for (const auto i : wanted()) {
+      run_.analyses.push_back(solve(i));
+      finish(i, run_.analyses.back());
+    }
+    if (is_search() && !options_.only &&
+        (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
+      agree_at_last();
+    for (const auto& warning : warnings_) run_.loaded.loads.warnings.push_back(warning);
+    return std::move(run_);
+  }
+
+private:
+  double tolerance() const {
+    if (options_.wish.once) return 0;
+    return options_.wish.tolerance > 0 ? options_.wish.tolerance : run_.scene.wish.tolerance;
+  }
+  std::size_t n_bodies() const { return run_.scene.bodies.size(); }
+  bool is_wanted(std::size_t i) const { return !options_.only || *options_.only == i; }
+  std::vector<std::size_t> wanted() const {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < n_bodies(); ++i)
+      if (is_wanted(i)) indices.push_back(i);
+    return indices;
+  }
+
+  bool is_search() const { return options_.wish.any(); }
+
+  /// A model that needs no cells of the whole body.
+  bool is_without_mesh(std::size_t i) const {
+    return methods_[i] == Method::axisymmetric || methods_[i] == Method::beam;
+  }
+
+  /// The model that is tried first: the one asked for; else the cheapest whose own error is within the
+  /// tolerance.
+  Method first_method(std::size_t i) const {
+    const auto& body = run_.scene.bodies[i];
+    if (run_.scene.method != Method::automatic) return run_.scene.method;
+    const bool is_asked = options_.wish.tolerance > 0 && body.natural_frequencies == 0;
+    if (!is_asked || !why_not_axisymmetric(body).empty()) return Method::solid;
+    const auto described = describe_revolved(body);
+    const auto beam = beam_shaft(body, described.mesh);
+    const double eccentric = beam ? fem::eccentricity_error(*beam) : 0;
+    if (beam && why_not_beam(body).empty() && 3 * fem::beam_model_error(*beam) <= options_.wish.tolerance)
+      return Method::beam;
+    return eccentric < options_.wish.tolerance ? Method::axisymmetric : Method::solid;
+  }
+
+  MeshedBody first_meshed(std::size_t i) {
+    if (is_without_mesh(i))
+      return clock_.run("section", [&] { return describe_revolved(run_.scene.bodies[i]); });
+    return is_search() ? first_mesh(i) : mesh(i);
+  }
+
+  /// The body by its model; with the choice left open, by the next dearer one where the tolerance is not met.
+  BodyAnalysis solve(std::size_t i) {
+    if (is_without_mesh(i)) {
+      if (run_.scene.method != Method::automatic) return analyse(i);
+      std::optional<BodyAnalysis> analysis;
+      const auto refusal = refusal_of([&] { analysis = analyse(i); });
+      if (refusal.empty()) {
+        const auto stress = governing_stress(*analysis);
+        if (lowered_by_other_models_Pa(stress.errors) <= tolerance() * stress.value_Pa)
+          return std::move(*analysis);
+      }
+      if (methods_[i] == Method::beam) {
+        methods_[i] = Method::axisymmetric;
+        return solve(i);
+      }
+      methods_[i] = Method::solid;
+      exchange_mesh(i, first_mesh(i));
+    }
+    return is_search() ? search_mesh(i) : solve_once(i);
+  }
+
+  MeshedBody mesh(std::size_t i) {
+    return clock_.run(
+        "mesh", [&] { return mesh_body(run_.scene.bodies[i], files_[i].mesh(), springs_of(run_.scene)); });
+  }
+
+  void load(std::vector<MeshedBody> meshed) {
+    run_.loaded = load_bodies(run_.scene, std::move(meshed), clock_);
+  }
+
+  RunOptions options_of(std::size_t i) const {
+    return {options_.directory / run_.scene.bodies[i].name, options_.n_threads, options_.fresh};
+  }
+
+  BodyAnalysis analyse(std::size_t i) {
+    if (methods_[i] == Method::axisymmetric)
+      return analyse_axisymmetric(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
+                                  run_.loaded.body_loads[i], options_of(i), clock_, tolerance());
+    if (methods_[i] == Method::beam)
+      return analyse_beam(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                          options_of(i), clock_);
+    return analyse_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                        options_of(i), clock_);
+  }
+
+  void finish(std::size_t i, BodyAnalysis& analysis) {
+    if (options_.keep && !is_without_mesh(i))
+      keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
+    add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
+    if (analysis.vibration)
+      if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
+        warnings_.push_back(warning);
+    clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
+    if (is_without_mesh(i))
+      remove_files_of_solid(i);
+    else
+      files_[i].finish(analysis, run_.loaded.meshed[i]);
+    run_.loaded.meshed[i].model.reset();
+  }
+
+  /// What an earlier run of the solid has left and this one does not, so that the folder shows one run. Its
+  /// unit responses stay for the next one.
+  void remove_files_of_solid(std::size_t i) const {
+    const auto folder = options_of(i).directory;
+    fs::remove(folder / "mesh.msh");
+    if (run_.scene.method != Method::beam) return;
+    for (const char* file : {"diagrams.csv", "torsion.csv", "torsion_cycle.csv"}) fs::remove(folder / file);
+  }
+
+  SearchStep record(std::size_t i, const GoverningStress& stress, const BodyAnalysis& analysis,
+                    double seconds) const {
+    return {fineness_text(run_.scene.bodies[i]),
+            "",
+            stress.place,
+            run_.scene.sampling.instants_per_turn,
+            run_.scene.bodies[i].pressure_harmonics,
+            analysis.responses.n_dofs,
+            stress.value_Pa,
+            stress.errors,
+            analysis.envelope.principal.value_Pa[analysis.principal_node],
+            seconds,
+            peak_memory_gigabytes()};
+  }
+
+  /// The first of a search's meshes that the mesher takes; the scene's own mesh is refused as in a plain run.
+  MeshedBody first_mesh(std::size_t i) {
+    auto candidates = first_meshes(run_.scene.bodies[i]);
+    const BodyScene own = std::move(candidates.back());
+    candidates.pop_back();
+    for (auto& candidate : candidates) {
+      run_.scene.bodies[i] = std::move(candidate);
+      std::optional<MeshedBody> meshed;
+      if (refusal_of([&] { meshed = mesh(i); }).empty()) return std::move(*meshed);
+    }
+    run_.scene.bodies[i] = own;
+    return mesh(i);
+  }
+
+  /// The scene's own mesh.
+  BodyAnalysis solve_once(std::size_t i) {
+    auto analysis = analyse(i);
+    PlaceHistory history(mesh_parts(run_.scene.bodies[i]));
+    history.add(places_of_one_mesh(analysis), std::nullopt);
+    take_place_errors(analysis, history.judged(),
+                      analysis.responses.nodes.shape().is_tetrahedron()
+                          ? tetrahedra_method
+                          : "single cells around, times a safety factor of 3");
+    return analysis;
+  }
+
+  std::optional<SecondModel> second_model(std::size_t i) {
+    if (!options_.second_model) return std::nullopt;
+    return clock_.run("second model", [&]() -> std::optional<SecondModel> {
+      std::optional<SecondModel> model;
+      const auto refusal = refusal_of([&] {
+        model = axisymmetric_second_model(run_.scene.bodies[i], run_.loaded.meshed[i],
+                                          run_.loaded.body_loads[i], options_.n_threads);
+      });
+      return refusal.empty() ? std::move(model) : std::nullopt;  // the solid has to do without
+    });
+  }
+
+  /// All that a search of one body knows.
+  struct SearchState {
+    explicit SearchState(const BodyScene& body) : history(mesh_parts(body), kept_share_of_own_error(body)) {}
+    Search search;
+    PlaceHistory history;
+    PeakGrowth growth;
+    std::optional<MeshStep> step;  ///< that led to the present mesh
+    std::set<MeshPart> exhausted;  ///< parts that cannot be finer
+    double end_s = 0;              ///< when the time is up, from the start of the run; 0: never
+    Clock::time_point step_start = Clock::now();
+  };
+
+  /// What is left of the time, shared evenly among the bodies that wait.
+  double end_of(std::size_t i) const {
+    const double limit_s = options_.wish.time_limit_s, now_s = seconds_since(start_);
+    if (limit_s <= 0) return 0;
+    const auto bodies = wanted();
+    const auto waiting = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t b) { return b >= i; });
+    return std::max(1e-3, now_s + (limit_s - now_s) / double(waiting));
+  }
+
+  /// A second model tells a shaft's mesh where to be fine.
+  void guide(std::size_t i, SearchState& state) {
+    if (auto model = second_model(i)) {
+      const Scene unguided = run_.scene;
+      run_.scene.bodies[i] = guided_by(*model, run_.scene.bodies[i]);
+      state.history.compare_with(std::move(*model));
+      std::optional<MeshedBody> guided;
+      if (refusal_of([&] { guided = mesh(i); }).empty())
+        exchange_mesh(i, std::move(*guided));
+      else {
+        run_.scene = unguided;
+        restore_mesh(i);
+      }
+    }
+  }
+
+  /// Enters the present mesh into what is known.
+  void take_stock(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
+    if (state.growth.at(analysis, state.step ? state.step->ratio : 1)) leave_out(i, analysis);
+    state.history.add(places_of_one_mesh(analysis), state.step);
+    take_place_errors(analysis, state.history.judged(),
+                      state.history.second_model()
+                          ? "changes of the stress with the mesh, and harmonics around the axis beside it"
+                          : "changes of the stress with the mesh, or cells around");
+    const auto stress = governing_stress(analysis);
+    state.search.quantity = stress.name();
+    state.search.steps.push_back(record(i, stress, analysis, seconds_since(state.step_start)));
+    state.search.steps.back().refined = state.step ? to_string(state.step->part) : "";
+    state.search.met = state.search.tolerance == 0 || stress.relative_error() <= state.search.tolerance;
+  }
+
+  /// Why no further step is taken; empty: one is.
+  /// @param of_blocks  shafts of hexahedra: elsewhere a stress may grow for some steps before its edge is
+  /// left out
+  static std::string reason_to_end(const Search& search, const GoverningStress& stress, bool of_blocks) {
+    if (search.tolerance > 0 && search.met) return "the tolerance is met";
+    if (stress.value_Pa == 0) return "nothing is stressed";
+    if (int(search.steps.size()) >= most_steps) return "too many steps";
+    if (of_blocks && stands_still(search)) return "finer meshes no longer lower the error";
+    return {};
+  }
+
+  /// Runs body i until its governing stress is good enough, or nothing more can be done.
+  BodyAnalysis search_mesh(std::size_t i) {
+    SearchState state(run_.scene.bodies[i]);
+    state.search.tolerance = options_.wish.tolerance;
+    state.search.time_limit_s = options_.wish.time_limit_s;
+    state.end_s = end_of(i);
+    guide(i, state);
+    BodyAnalysis analysis = analyse(i);
+    while (true) {
+      take_stock(i, state, analysis);
+      state.search.ended =
+          reason_to_end(state.search, governing_stress(analysis), is_block_shaft(analysis.scene));
+      if (!state.search.ended.empty() || !next_step(i, state, analysis)) break;
+    }
+    analysis.search = std::move(state.search);
+    return analysis;
+  }
+
+  /// Takes the step that promises most.
+  /// @return false if none can be taken: search.ended says why
+  bool next_step(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
+    state.step_start = Clock::now();
+    const double seconds_before = state.search.steps.back().seconds;
+    Scene next = run_.scene;
+    const auto other = refine_sampling_and_harmonics(next, i, governing_stress(analysis).errors);
+    if (other.possible && !other.mesh_matters) {
+      state.step.reset();
+      return take(std::move(next), i, run_.loaded.meshed[i], state, analysis, seconds_before);
+    }
+    const auto judged = analysis.place_stresses;
+    const auto& target = judged[judge(judged).holding_back].feature;
+    std::string refusal;
+    for (const auto part : state.history.by_promise(target)) {
+      if (state.exhausted.count(part)) continue;
+      Scene finer = next;
+      auto step = refine_mesh(finer.bodies[i], analysis, judged, part);
+      if (!step) continue;
+      auto mesh = try_to_mesh(i, finer, refusal);
+      if (!mesh) {
+        state.exhausted.insert(part);
+        continue;
+      }
+      state.step = std::move(step);
+      return take(std::move(finer), i, std::move(*mesh), state, analysis, seconds_before);
+    }
+    state.search.ended = "the mesh cannot be refined further" + (refusal.empty() ? "" : ": " + refusal);
+    if (!refusal.empty()) restore_mesh(i);
+    return false;
+  }
+
+  /// The body's mesh in another version of the scene; nothing if the mesher refuses it.
+  std::optional<MeshedBody> try_to_mesh(std::size_t i, const Scene& scene, std::string& refusal) {
+    const Scene present = std::exchange(run_.scene, scene);
+    std::optional<MeshedBody> result;
+    const auto refused = refusal_of([&] { result = mesh(i); });
+    if (!refused.empty()) refusal = refused;
+    run_.scene = present;
+    return result;
+  }
+
+  /// A stress that grows with every refinement has no peak to report: its place joins the sharp edges, which
+  /// are left out by a distance fixed in the geometry, and the search goes on for the rest. On a concave edge
+  /// the whole edge is left out: else the peak would only move along it.
+  void leave_out(std::size_t i, BodyAnalysis& analysis) {
+    const auto& p = analysis.peak.position_m;
+    const auto& nodes = analysis.responses.nodes;
+    const double distance_m = share_left_out * diagonal_m(nodes);
+    auto edge = concave_edge_through(nodes, analysis.peak.node, distance_m);
+    const bool is_edge = !edge.empty();
+    if (!is_edge) edge = {{p, p}};
+    const meshes::SharpEdge spot{"stress grows without bound at " + analysis.peak.feature, distance_m,
+                                 std::move(edge)};
+    warnings_.push_back(
+        fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} mm "
+                    "around {}({:.1f}, "
+                    "{:.1f}, {:.1f}) mm are left out of the peak",
+                    analysis.scene.name, analysis.peak.feature, 1e3 * spot.distance_m,
+                    is_edge ? "the edge at " : "", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]));
+    run_.scene.bodies[i].singular.push_back(spot);
+    run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
+    BodyAnalysis before = std::move(analysis);
+    analysis =
+        superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                       std::move(before.responses), options_.n_threads, clock_);
+    analysis.responses_reused = before.responses_reused;
+  }
+
+  /// Solves the next version of the scene, unless that would not end in time or does not fit into memory.
+  bool take(Scene next, std::size_t i, MeshedBody finer, SearchState& state, BodyAnalysis& analysis,
+            double seconds_before) {
+    auto& search = state.search;
+    const double growth = double(finer.model->n_dofs()) / double(analysis.responses.n_dofs);
+    search.next_seconds = seconds_before * std::pow(growth, growth_of_seconds);
+    if (state.end_s > 0 && seconds_since(start_) + search.next_seconds > state.end_s) {
+      search.ended = "the time is up";
+      restore_mesh(i);
+      return false;
+    }
+    const Scene previous = std::exchange(run_.scene, std::move(next));
+    exchange_mesh(i, std::move(finer));
+    try {
+      analysis = analyse(i);
+    } catch (const fem::DoesNotFit& error) {
+      search.ended = std::string("a finer mesh could not be solved: ") + error.what();
+      run_.scene = previous;
+      exchange_mesh(i, mesh(i));
+      return false;
+    }
+    const bool same_loads = previous.sampling.instants_per_turn == run_.scene.sampling.instants_per_turn &&
+                            previous.bodies[i].pressure_harmonics == run_.scene.bodies[i].pressure_harmonics;
+    if (!same_loads && state.history.second_model())
+      if (auto model = second_model(i)) state.history.compare_with(std::move(*model));
+    return true;
+  }
+
+  /// The file of the present mesh was replaced by that of one that is not taken.
+  void restore_mesh(std::size_t i) { run_.loaded.meshed[i] = mesh(i); }
+
+  /// Loads all bodies anew, one of them on another mesh.
+  void exchange_mesh(std::size_t i, MeshedBody other) {
+    auto meshed = std::move(run_.loaded.meshed);
+    meshed[i] = std::move(other);
+    load(std::move(meshed));
+  }
+
+  /// Masses and instants may have changed after a body was done: its loads are computed and superposed again,
+  /// with the responses it has.
+  void agree_at_last() {
+    auto meshed = std::move(run_.loaded.meshed);
+    load(std::move(meshed));
+    for (std::size_t i = 0; i < n_bodies(); ++i) {
+      BodyAnalysis before = std::move(run_.analyses[i]);
+      auto& after = run_.analyses[i];
+      after =
+          superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                         std::move(before.responses), options_.n_threads, clock_);
+      after.responses_reused = before.responses_reused;
+      after.search = std::move(before.search);
+      after.vibration = std::move(before.vibration);
+      take_place_errors(after, before.place_stresses, "as found by the body's search");
+      bound_dropped_effects(run_.scene, i, run_.loaded, after);
+    }
+  }
+
+  SceneRunOptions options_;
+  StageClock& clock_;
+  Clock::time_point start_;
+  SceneRun run_;
+  std::vector<BodyFiles> files_;
+  std::vector<Method> methods_;  // by body
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+SceneRun::SceneRun() = default;
+SceneRun::SceneRun(const SceneRun&) = default;
+SceneRun::SceneRun(SceneRun&&) noexcept = default;
+SceneRun& SceneRun::operator=(const SceneRun&) = default;
+SceneRun& SceneRun::operator=(SceneRun&&) noexcept = default;
+SceneRun::~SceneRun() = default;
+
+bool SceneRun::met() const {
+  return std::all_of(analyses.begin(), analyses.end(), [](const auto& a) { return a.search.met; });
+}
+
+SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock) {
+  Scene with_choice = scene;
+  while (true) {
+    SceneRun run = SceneRunner(with_choice, options, clock).run();
+    const auto back = effect_to_take_back(run.scene, run.analyses);
+    if (back.empty()) return run;
+    with_choice.effects = run.scene.effects;
+    with_choice.effect_choice = run.scene.effect_choice;
+    with_choice = with_effect_back(with_choice, back);
+  }
+}
+
+}  // namespace pipelines

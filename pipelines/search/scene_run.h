@@ -1,0 +1,49 @@
+/// The bodies of a scene from mesh to zones: once, as the scene has them, or refined until a tolerance is
+/// met.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/analysis/search_record.h"
+
+namespace pipelines {
+
+struct SceneRunOptions {
+  std::filesystem::path directory;  ///< every body has a folder of its own in it
+  int n_threads = 0;                ///< 0: all cores
+  bool fresh = false;               ///< reuse nothing of an earlier run
+  bool keep = true;                 ///< unit responses, for the next run
+  SearchWish wish{};
+  bool second_model = true;           ///< harmonics around the axis beside the solid, where they apply
+  std::optional<std::size_t> only{};  ///< this body alone is meshed and solved...
+  std::vector<MeshedBody> others{};   ///< ...beside these meshes, in the order of Scene::bodies
+};
+
+struct SceneRun {
+  Scene scene;  ///< with the meshes, instants and harmonics that were chosen
+  LoadedScene loaded;
+  std::vector<BodyAnalysis> analyses;  ///< in the order of Scene::bodies, or of the only body
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  SceneRun();
+  SceneRun(const SceneRun&);
+  SceneRun(SceneRun&&) noexcept;
+  SceneRun& operator=(const SceneRun&);
+  SceneRun& operator=(SceneRun&&) noexcept;
+  ~SceneRun();
+
+  /// False if a tolerance was asked for and is not reached.
+  bool met() const;
+};
+
+/// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the
+/// solve (effect_bounds.h) exceed the limit all the same, one comes back and the bodies are run again.
+/// Leaves mesh.msh and unit_responses.h5 in the bodies' folders. Needs an fem::Environment.
+/// @throws as load_bodies and analyse_body, before any earlier
+/// result is touched where the scene is wrong
+SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock);
+
+}  // namespace pipelines

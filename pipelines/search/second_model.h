@@ -1,0 +1,20 @@
+/// Harmonics around the axis as a second model beside a shaft of solid cells: it tells where the mesh has to
+/// be fine before anything is solved, and what the solid's stresses have to agree with.
+#pragma once
+
+#include <optional>
+
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/loads/distribute.h"
+#include "pipelines/search/place_history.h"
+
+namespace pipelines {
+
+/// Stresses of all places of a shaft by the axisymmetric model, to 0.2 % of the largest on concentric shafts,
+/// with the errors of its section and what nodes at a distance around the axis can miss of a peak between
+/// them.
+/// @return nothing for bodies that the model does not apply to
+std::optional<SecondModel> axisymmetric_second_model(const BodyScene& body, const MeshedBody& meshed,
+                                                     const BodyLoads& loads, int n_threads);
+
+}  // namespace pipelines

@@ -1,0 +1,69 @@
+/// Stress zones: connected regions of a body where the envelope exceeds a level, ranked by their peak.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fem/values/unit_responses.h"
+#include "meshes/values/body_mesh.h"
+#include "pipelines/superposition/superposition.h"
+
+namespace pipelines {
+
+/// Whether a node lies under a load, on free surface, or inside the body.
+enum class Place { loaded_seat, free_surface, interior };
+std::string to_string(Place place);
+
+/// Where each node of a body lies, from the features of its mesh.
+struct NodePlaces {
+  std::vector<std::string> feature_names;
+  std::vector<std::int32_t>
+      feature;  ///< per node: the feature it lies on (fillets before seats before others), -1 inside
+  std::vector<Place> place;    ///< per node
+  std::vector<char> excluded;  ///< per node: within the exclusion distance of a sharp re-entrant edge
+};
+
+NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Feature>& features,
+                        const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges);
+
+/// From a point to the nearest of the edge's pieces.
+double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& edge);
+
+/// One zone.
+struct Zone {
+  std::size_t peak_node = 0;
+  double peak_Pa = 0;
+  std::array<double, 3> peak_m{};
+  std::int32_t instant = 0;        ///< of the peak
+  Stress stress_Pa{};              ///< tensor at the peak and instant
+  double safety = 0;               ///< yield strength / peak
+  std::optional<double> error_Pa;  ///< of the peak, numerical part; none: not estimated
+  double volume_m3 = 0;
+  std::size_t n_nodes = 0;
+  std::string feature;            ///< the nearest feature or port
+  Place place = Place::interior;  ///< of the peak
+};
+
+/// How many of a body's zones the terminal shows, with errors.
+inline constexpr std::size_t n_zones_shown = 10;
+
+struct Zones {
+  double level_Pa = 0;
+  std::vector<Zone> zones;                 ///< descending peak
+  std::vector<std::int32_t> zone_of_node;  ///< 1-based rank, 0 outside all zones
+};
+
+/// The node with the largest value outside the excluded ones; lowest index among equals.
+/// @throws StageRefused if every node is excluded
+std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places);
+
+/// Nodes at or above the level, connected when they share a cell. The volume is that of the region where the
+/// envelope, linear between neighbouring nodes, is above the level (fem/region_volume.h). Excluded nodes and
+/// their share of the cells belong to no zone.
+Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places,
+                 double level_Pa, double yield_strength_Pa);
+
+}  // namespace pipelines
