@@ -5,13 +5,13 @@
 #include <map>
 #include <stdexcept>
 
-#include "fem/values/constants.h"
 #include "fem/axisymmetric/harmonic_loads.h"
 #include "fem/axisymmetric/harmonic_sections.h"
 #include "fem/axisymmetric/harmonic_solver.h"
 #include "fem/axisymmetric/harmonic_strain.h"
-#include "fem/common/parallel.h"
 #include "fem/axisymmetric/revolved_nodes.h"
+#include "fem/common/parallel.h"
+#include "fem/values/constants.h"
 
 namespace fem {
 namespace {

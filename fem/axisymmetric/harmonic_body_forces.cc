@@ -1,9 +1,9 @@
 #include <array>
 #include <stdexcept>
 
-#include "fem/values/constants.h"
-#include "fem/common/dense_algebra.h"
 #include "fem/axisymmetric/harmonic_loads.h"
+#include "fem/common/dense_algebra.h"
+#include "fem/values/constants.h"
 
 namespace fem {
 namespace {

@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/axisymmetric/harmonic_strain.h"
+#include "fem/common/dense_algebra.h"
 #include "fem/loads/axial_profile.h"
 #include "fem/values/constants.h"
-#include "fem/common/dense_algebra.h"
-#include "fem/axisymmetric/harmonic_strain.h"
 
 namespace fem {
 namespace {

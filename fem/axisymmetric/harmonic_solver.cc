@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "fem/common/dense_algebra.h"
 #include "fem/axisymmetric/harmonic_strain.h"
+#include "fem/common/dense_algebra.h"
 
 namespace fem {
 namespace {

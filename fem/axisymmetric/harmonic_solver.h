@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/solvers/cholmod_factor.h"
 #include "fem/axisymmetric/meridian_grid.h"
 #include "fem/operators/symmetric_matrix.h"
+#include "fem/solvers/cholmod_factor.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

@@ -1,8 +1,8 @@
 #include "fem/axisymmetric/harmonic_strain.h"
 
-#include "fem/values/constants.h"
 #include "fem/common/dense_algebra.h"
 #include "fem/common/parallel.h"
+#include "fem/values/constants.h"
 
 namespace fem {
 

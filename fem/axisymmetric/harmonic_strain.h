@@ -9,8 +9,8 @@
 
 #include <Eigen/Dense>
 
-#include "fem/values/body.h"
 #include "fem/axisymmetric/meridian_grid.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

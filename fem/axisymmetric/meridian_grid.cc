@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/values/constants.h"
 #include "fem/axisymmetric/meridian_mesh.h"
 #include "fem/axisymmetric/meridian_numbering.h"
+#include "fem/values/constants.h"
 
 namespace fem {
 namespace {

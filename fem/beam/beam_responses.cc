@@ -6,8 +6,8 @@
 #include <string>
 
 #include "fem/beam/beam_statics.h"
-#include "fem/values/constants.h"
 #include "fem/beam/fillet_factors.h"
+#include "fem/values/constants.h"
 
 namespace fem {
 namespace {

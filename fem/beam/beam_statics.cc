@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fem/loads/axial_profile.h"
 #include "fem/common/dense_algebra.h"
+#include "fem/loads/axial_profile.h"
 
 namespace fem {
 namespace {

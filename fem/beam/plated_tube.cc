@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/values/constants.h"
 #include "fem/common/dense_algebra.h"
+#include "fem/values/constants.h"
 
 namespace fem {
 namespace {

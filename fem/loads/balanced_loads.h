@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
+#include "fem/values/body.h"
 #include "fem/values/solver_choice.h"
 
 namespace fem {

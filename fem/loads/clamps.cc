@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/mesh/cell_geometry.h"
 #include "fem/common/dense_algebra.h"
+#include "fem/mesh/cell_geometry.h"
 
 namespace fem {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
 #include "fem/operators/symmetric_matrix.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

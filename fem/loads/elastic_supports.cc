@@ -5,8 +5,8 @@
 #include <string>
 
 #include "fem/common/dense_algebra.h"
-#include "fem/mesh/rigid_modes.h"
 #include "fem/loads/surface_loads.h"
+#include "fem/mesh/rigid_modes.h"
 
 namespace fem {
 

@@ -2,12 +2,12 @@
 
 #include <stdexcept>
 
-#include "fem/mesh/mesh_reader.h"
-#include "fem/operators/nodes_export.h"
-#include "fem/mesh/rigid_modes.h"
-#include "fem/operators/stiffness.h"
 #include "fem/loads/supports.h"
 #include "fem/loads/surface_loads.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/operators/nodes_export.h"
+#include "fem/operators/stiffness.h"
 
 namespace fem {
 

@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/common/dense_algebra.h"
 #include "fem/loads/axial_profile.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/values/constants.h"
-#include "fem/common/dense_algebra.h"
-#include "fem/values/errors.h"
 #include "fem/mesh/reference_cell.h"
+#include "fem/values/constants.h"
+#include "fem/values/errors.h"
 
 namespace fem {
 

@@ -15,10 +15,10 @@
 #include <string>
 
 #include "fem/mesh/cell_geometry.h"
-#include "fem/values/errors.h"
 #include "fem/mesh/manifolds.h"
 #include "fem/mesh/msh_file.h"
 #include "fem/mesh/tetrahedra_reader.h"
+#include "fem/values/errors.h"
 
 namespace fem {
 

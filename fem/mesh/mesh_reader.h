@@ -1,8 +1,8 @@
 /// From a .msh file and its charts to the nodes of the displacement space. Internal to fem.
 #pragma once
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

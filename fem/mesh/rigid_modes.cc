@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/mesh/cell_geometry.h"
 #include "fem/common/dense_algebra.h"
 #include "fem/common/parallel.h"
+#include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/reference_cell.h"
 
 namespace fem {

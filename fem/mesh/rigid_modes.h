@@ -4,8 +4,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
+#include "fem/values/body.h"
 #include "fem/values/per_cell.h"
 
 namespace fem {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/model/model.h"
 #include "fem/common/parallel.h"
+#include "fem/model/model.h"
 
 namespace fem {
 

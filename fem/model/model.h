@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fem/values/body.h"
+#include "fem/values/geometry_error.h"
 #include "fem/values/natural_mode.h"
 #include "fem/values/solver_choice.h"
 #include "fem/values/unit_load.h"
@@ -42,20 +43,6 @@ enum class Recovery {
   patch,    ///< superconvergent patch recovery (Zienkiewicz and Zhu 1992); surfaces that no load of the call
             ///< acts on also give their strains along the surface, with no traction across it
   average,  ///< mean of the cells' values at each node: a baseline for tests
-};
-
-/// Distance of curved faces from the cylinders and tori that they stand for.
-struct GeometryError {
-  /// Largest on one surface, relative.
-  struct OnSurface {
-    double of_axis = 0;    ///< distance over the distance from the axis of the cylinder or torus
-    double of_fillet = 0;  ///< distance over the radius of the fillet; 0: a cylinder
-  };
-  std::map<int, OnSurface> surfaces;  ///< by boundary id
-  std::size_t n_faces = 0;            ///< that were compared
-  double relative = 0;                ///< largest, in radii of its surface
-  double error_m = 0;                 ///< there
-  std::array<double, 3> place_m{};    ///< there
 };
 
 class Model {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "fem/common/dense_algebra.h"
-#include "fem/values/errors.h"
 #include "fem/common/lanczos.h"
+#include "fem/values/errors.h"
 
 namespace fem {
 

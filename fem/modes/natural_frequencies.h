@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "fem/values/natural_mode.h"
 #include "fem/modes/vibrating_body.h"
+#include "fem/values/natural_mode.h"
 
 namespace fem {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fem/loads/clamps.h"
 #include "fem/common/dense_algebra.h"
+#include "fem/loads/clamps.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/operators/stiffness.h"
 

@@ -7,14 +7,14 @@
 #include <optional>
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/operators/cell_materials.h"
-#include "fem/solvers/cholmod_factor.h"
 #include "fem/loads/elastic_supports.h"
-#include "fem/mesh/grid.h"
-#include "fem/operators/mass_matrix.h"
 #include "fem/loads/supports.h"
+#include "fem/mesh/grid.h"
+#include "fem/operators/cell_materials.h"
+#include "fem/operators/mass_matrix.h"
 #include "fem/operators/symmetric_matrix.h"
+#include "fem/solvers/cholmod_factor.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
 #include "fem/operators/stiffness.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "fem/mesh/cell_geometry.h"
 #include "fem/common/parallel.h"
+#include "fem/mesh/cell_geometry.h"
 
 namespace fem {
 

@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "fem/operators/block_vector.h"
-#include "fem/values/body.h"
 #include "fem/mesh/cell_order.h"
 #include "fem/mesh/grid.h"
+#include "fem/operators/block_vector.h"
 #include "fem/operators/shared_nodes.h"
 #include "fem/operators/stiffness.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/mesh/cell_geometry.h"
 #include "fem/common/parallel.h"
+#include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/reference_cell.h"
 
 namespace fem {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fem/mesh/grid.h"
-#include "fem/values/per_cell.h"
 #include "fem/operators/symmetric_matrix.h"
+#include "fem/values/per_cell.h"
 
 namespace fem {
 

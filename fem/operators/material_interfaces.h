@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/operators/cell_materials.h"
 #include "fem/mesh/grid.h"
+#include "fem/operators/cell_materials.h"
 
 namespace fem {
 

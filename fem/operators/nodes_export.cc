@@ -1,9 +1,9 @@
 #include "fem/operators/nodes_export.h"
 
-#include "fem/values/body_nodes.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/operators/material_interfaces.h"
 #include "fem/mesh/mesh_reader.h"
+#include "fem/operators/material_interfaces.h"
+#include "fem/values/body_nodes.h"
 #include "fem/values/vtk_order.h"
 
 namespace fem {

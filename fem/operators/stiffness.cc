@@ -5,8 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fem/mesh/cell_geometry.h"
 #include "fem/common/parallel.h"
+#include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/reference_cell.h"
 
 namespace fem {

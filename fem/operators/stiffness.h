@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
-#include "fem/values/per_cell.h"
 #include "fem/operators/symmetric_matrix.h"
+#include "fem/values/body.h"
+#include "fem/values/per_cell.h"
 
 namespace fem {
 

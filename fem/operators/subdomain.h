@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "fem/mesh/grid.h"
+#include "fem/operators/stiffness.h"
 #include "fem/ranks/message.h"
 #include "fem/values/per_cell.h"
-#include "fem/operators/stiffness.h"
 
 namespace fem {
 

@@ -22,6 +22,16 @@ void dismiss_helpers(int exit_code = 0, MPI_Comm communicator = MPI_COMM_WORLD);
 /// What rank 0 can ask for. Internal to fem.
 enum class Task { end, tell_memory, solve_directly, solve_iteratively, recover_stress };
 
+/// What rank 0 asks for. Internal to fem.
+struct HelperCall {
+  Task task = Task::end;
+  int exit_code = 0;  ///< with Task::end
+};
+
+/// On a helper: the next call of rank 0. Sleeps meanwhile: rank 0 may be long in meshing or superposing, and
+/// needs the processor. Internal to fem.
+HelperCall wait_for_call(MPI_Comm communicator);
+
 /// Rank 0: the others take part in the task that it begins now. Internal to fem.
 void call_helpers(Task task, MPI_Comm communicator);
 

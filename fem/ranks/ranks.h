@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/errors.h"
 #include "fem/ranks/helper_ranks.h"
+#include "fem/values/errors.h"
 #include "fem/values/solver_choice.h"
 
 namespace fem {

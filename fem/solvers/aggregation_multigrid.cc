@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
-#include "fem/solvers/aggregates.h"
 #include "fem/common/parallel.h"
+#include "fem/solvers/aggregates.h"
 #include "fem/solvers/rigid_galerkin.h"
 
 namespace fem {
@@ -14,8 +14,8 @@ namespace {
 
 constexpr double strong = 0.08;
 constexpr Chebyshev::Control smoothing{5, 20};
-constexpr std::size_t small = 800;  // aggregates: factorised and solved in no time
-constexpr std::size_t grain = 512;  // nodes
+constexpr std::size_t small = 800;         // aggregates: factorised and solved in no time
+constexpr std::size_t rows_at_once = 512;  // nodes
 
 std::vector<double> diagonal(const BlockMatrix<double>& matrix) {
   std::vector<double> blocks;
@@ -97,7 +97,7 @@ std::size_t AggregationMultigrid::bytes() const {
 
 void AggregationMultigrid::multiply(const BlockMatrix<float>& matrix, bool keep, const Lanes& lanes,
                                     const BlockVector<float>& x, BlockVector<float>& y) const {
-  parallel_for(matrix.n_rows(), grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(matrix.n_rows(), rows_at_once, [&](std::size_t begin, std::size_t end) {
     kernels_->combine_blocks(lanes.view(), matrix.n_rows(), matrix.n_columns, begin, end, view(matrix), keep,
                              x.data(), y.data());
   });

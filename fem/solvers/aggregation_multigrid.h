@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "fem/mesh/rigid_modes.h"
 #include "fem/operators/block_matrix.h"
 #include "fem/solvers/chebyshev.h"
 #include "fem/solvers/cholmod_factor.h"
-#include "fem/mesh/rigid_modes.h"
 
 namespace fem {
 

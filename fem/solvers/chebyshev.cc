@@ -11,7 +11,7 @@ namespace fem {
 
 namespace {
 
-constexpr std::size_t grain = 2048;  // nodes
+constexpr std::size_t nodes_at_once = 2048;  // nodes
 
 std::vector<float> invert(const std::vector<double>& blocks) {
   std::vector<float> result(blocks.size());
@@ -57,7 +57,7 @@ void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* s
   const auto combine = [&](const Eigen::ArrayXd& a, BlockVector<float>& x, const Eigen::ArrayXd& b,
                            const BlockVector<float>& y) {
     const Eigen::ArrayXf to = a.cast<float>(), from = b.cast<float>();
-    parallel_for(3 * n_nodes(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(3 * n_nodes(), nodes_at_once, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin * lanes.n_lanes; i < end * lanes.n_lanes; i += lanes.n_lanes)
         for (std::size_t l = 0; l < lanes.n_lanes; ++l)
           x.data()[i + l] = to[l] * x.data()[i + l] + from[l] * y.data()[i + l];
@@ -67,7 +67,7 @@ void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* s
   Eigen::ArrayXXd diagonal = Eigen::ArrayXXd::Zero(lanes.n_lanes, n_steps), beside = diagonal;
   Eigen::ArrayXd step = one, ratio = none, rz = none;
   for (int k = 0; k < n_steps; ++k) {
-    parallel_for(n_nodes(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(n_nodes(), nodes_at_once, [&](std::size_t begin, std::size_t end) {
       kernels_->chebyshev(lanes.view(), n_nodes(), begin, end, {0, 1, true}, inverse_blocks_.data(), r.data(),
                           nullptr, q.data(), z.data());
     });
@@ -106,7 +106,7 @@ void Chebyshev::smooth(const Lanes& lanes, const Apply& apply, const BlockVector
       rho = next;
     }
     if (!coefficients.from_zero) apply(lanes, x, work.image);
-    parallel_for(n_nodes(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(n_nodes(), nodes_at_once, [&](std::size_t begin, std::size_t end) {
       kernels_->chebyshev(lanes.view(), n_nodes(), begin, end, coefficients, inverse_blocks_.data(), b.data(),
                           work.image.data(), work.direction.data(), x.data());
     });
@@ -116,7 +116,7 @@ void Chebyshev::smooth(const Lanes& lanes, const Apply& apply, const BlockVector
 void Chebyshev::residual(const Lanes& lanes, const Apply& apply, const BlockVector<float>& b,
                          const BlockVector<float>& x, WorkSpace& work) const {
   apply(lanes, x, work.image);
-  parallel_for(n_nodes(), grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n_nodes(), nodes_at_once, [&](std::size_t begin, std::size_t end) {
     kernels_->residual(lanes.view(), n_nodes(), begin, end, b.data(), work.image.data());
   });
 }

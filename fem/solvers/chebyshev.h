@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "fem/operators/block_vector.h"
 #include "fem/common/elastic_kernel.h"
+#include "fem/operators/block_vector.h"
 #include "fem/operators/shared_nodes.h"
 
 namespace fem {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/errors.h"
 #include "fem/common/parallel.h"
+#include "fem/values/errors.h"
 
 namespace fem {
 

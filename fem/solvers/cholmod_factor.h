@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "fem/values/solver_choice.h"
 #include "fem/operators/symmetric_matrix.h"
+#include "fem/values/solver_choice.h"
 
 namespace fem {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "fem/solvers/coarse_solver.h"
 #include "fem/operators/shared_nodes.h"
+#include "fem/solvers/coarse_solver.h"
 
 namespace fem {
 

@@ -6,13 +6,13 @@
 #include <memory>
 #include <vector>
 
-#include "fem/solvers/aggregation_multigrid.h"
-#include "fem/operators/block_vector.h"
-#include "fem/solvers/cholmod_factor.h"
+#include "fem/loads/supports.h"
 #include "fem/mesh/grid.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/operators/block_vector.h"
+#include "fem/solvers/aggregation_multigrid.h"
+#include "fem/solvers/cholmod_factor.h"
 #include "fem/values/solver_choice.h"
-#include "fem/loads/supports.h"
 
 namespace fem {
 

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "fem/mesh/cell_geometry.h"
 #include "fem/common/parallel.h"
+#include "fem/mesh/cell_geometry.h"
 
 namespace fem {
 

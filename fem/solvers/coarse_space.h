@@ -6,15 +6,15 @@
 #include <memory>
 #include <vector>
 
-#include "fem/operators/block_vector.h"
+#include "fem/common/elastic_kernel.h"
 #include "fem/mesh/cell_order.h"
+#include "fem/mesh/grid.h"
+#include "fem/operators/block_vector.h"
+#include "fem/operators/shared_nodes.h"
+#include "fem/operators/stiffness.h"
 #include "fem/solvers/coarse_on_first_rank.h"
 #include "fem/solvers/coarse_solver.h"
-#include "fem/common/elastic_kernel.h"
-#include "fem/mesh/grid.h"
-#include "fem/operators/shared_nodes.h"
 #include "fem/values/solver_choice.h"
-#include "fem/operators/stiffness.h"
 
 namespace fem {
 

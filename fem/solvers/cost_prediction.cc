@@ -1,9 +1,9 @@
 #include "fem/solvers/cost_prediction.h"
 
-#include "fem/operators/cell_materials.h"
-#include "fem/solvers/direct_solve.h"
 #include "fem/common/memory.h"
 #include "fem/mesh/mesh_reader.h"
+#include "fem/operators/cell_materials.h"
+#include "fem/solvers/direct_solve.h"
 #include "fem/solvers/solver_prediction.h"
 
 namespace fem {

@@ -5,22 +5,22 @@
 #include <optional>
 #include <utility>
 
-#include "fem/solvers/cholmod_factor.h"
 #include "fem/loads/clamps.h"
-#include "fem/solvers/direct_solve.h"
-#include "fem/solvers/mumps_factor.h"
-#include "fem/ranks/node_exchange.h"
-#include "fem/ranks/ranks.h"
+#include "fem/loads/supports.h"
 #include "fem/operators/stiffness.h"
 #include "fem/operators/subdomain.h"
-#include "fem/loads/supports.h"
+#include "fem/ranks/node_exchange.h"
+#include "fem/ranks/ranks.h"
+#include "fem/solvers/cholmod_factor.h"
+#include "fem/solvers/direct_solve.h"
+#include "fem/solvers/mumps_factor.h"
 
 namespace fem {
 
 namespace {
 
 /// What a rank is given.
-struct Job {
+struct DirectJob {
   Subdomain part;
   std::vector<Lame> elastic;
   std::int64_t n_unknowns = 0;     // of the body
@@ -28,17 +28,17 @@ struct Job {
   std::vector<std::int64_t> held;  // unknowns of the part, ascending
 };
 
-Message& operator<<(Message& message, const Job& job) {
+Message& operator<<(Message& message, const DirectJob& job) {
   return message << job.part << job.elastic << job.n_unknowns << job.clamped << job.held;
 }
 
-Message& operator>>(Message& message, Job& job) {
+Message& operator>>(Message& message, DirectJob& job) {
   return message >> job.part >> job.elastic >> job.n_unknowns >> job.clamped >> job.held;
 }
 
-Job make_job(const Grid& grid, const std::vector<int>& rank_of_cell, int rank, const PerCell<Lame>& elastic,
-             const BalancedLoads& loads) {
-  Job job;
+DirectJob make_job(const Grid& grid, const std::vector<int>& rank_of_cell, int rank,
+                   const PerCell<Lame>& elastic, const BalancedLoads& loads) {
+  DirectJob job;
   job.part = make_subdomain(grid, cells_of_rank(rank_of_cell, rank));
   job.elastic = elastic_of(job.part, elastic);
   job.n_unknowns = static_cast<std::int64_t>(3 * grid.n_nodes);
@@ -56,7 +56,7 @@ Job make_job(const Grid& grid, const std::vector<int>& rank_of_cell, int rank, c
 /// The stiffness of one rank's cells and its part of the factor. Called on all ranks.
 class Share {
 public:
-  Share(MPI_Comm communicator, Job job, NodeExchange exchange)
+  Share(MPI_Comm communicator, DirectJob job, NodeExchange exchange)
       : communicator_(communicator), job_(std::move(job)), exchange_(std::move(exchange)) {}
 
   void assemble() {
@@ -104,7 +104,7 @@ public:
 
 private:
   MPI_Comm communicator_;
-  Job job_;
+  DirectJob job_;
   NodeExchange exchange_;
   SymmetricMatrix matrix_;
   std::optional<Supports> supports_;
@@ -133,9 +133,9 @@ Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, co
   const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
   const auto elastic = materials.elastic();
   std::vector<std::vector<std::int32_t>> nodes(n);
-  Job own;
+  DirectJob own;
   for (int r = n - 1; r >= 0; --r) {
-    Job job = make_job(grid, rank_of_cell, r, elastic, loads);
+    DirectJob job = make_job(grid, rank_of_cell, r, elastic, loads);
     nodes[r] = job.part.node;
     if (r > 0) {
       Message message;
@@ -201,7 +201,7 @@ Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, co
 
 void help_to_solve_directly(MPI_Comm communicator) {
   Message message = Message::receive(0, communicator);
-  Job job;
+  DirectJob job;
   std::size_t n_unknowns = 0;
   message >> job >> n_unknowns;
   message = {};

@@ -6,14 +6,14 @@
 #include <optional>
 #include <sstream>
 
-#include "fem/solvers/cholmod_factor.h"
-#include "fem/loads/clamps.h"
-#include "fem/values/errors.h"
 #include "fem/common/memory.h"
 #include "fem/common/parallel.h"
-#include "fem/solvers/solver_prediction.h"
-#include "fem/operators/stiffness.h"
+#include "fem/loads/clamps.h"
 #include "fem/loads/supports.h"
+#include "fem/operators/stiffness.h"
+#include "fem/solvers/cholmod_factor.h"
+#include "fem/solvers/solver_prediction.h"
+#include "fem/values/errors.h"
 
 namespace fem {
 

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "fem/mesh/cell_order.h"
-#include "fem/solvers/iterative_solve.h"
-#include "fem/ranks/node_exchange.h"
-#include "fem/ranks/ranks.h"
 #include "fem/operators/shared_nodes.h"
 #include "fem/operators/subdomain.h"
+#include "fem/ranks/node_exchange.h"
+#include "fem/ranks/ranks.h"
+#include "fem/solvers/iterative_solve.h"
 
 namespace fem {
 
 namespace {
 
 /// What a rank is given.
-struct Job {
+struct IterativeJob {
   Subdomain part;
   std::vector<Lame> elastic;
   std::vector<char> counted;  // nodes that this rank counts
@@ -27,12 +27,12 @@ struct Job {
   Eigen::RowVectorXd norm, largest_entry;  // of the loads
 };
 
-Message& operator<<(Message& message, const Job& job) {
+Message& operator<<(Message& message, const IterativeJob& job) {
   return message << job.part << job.elastic << job.counted << job.neighbours << job.modulus_Pa << job.width
                  << job.choice << job.norm << job.largest_entry;
 }
 
-Message& operator>>(Message& message, Job& job) {
+Message& operator>>(Message& message, IterativeJob& job) {
   return message >> job.part >> job.elastic >> job.counted >> job.neighbours >> job.modulus_Pa >> job.width >>
          job.choice >> job.norm >> job.largest_entry;
 }
@@ -46,7 +46,7 @@ void count_first(const std::vector<char>& counted, std::vector<std::int32_t>& no
     node_place[node_at[place]] = static_cast<std::int32_t>(place);
 }
 
-SharedNodes share_nodes(MPI_Comm communicator, const Job& job, const CellOrder& order) {
+SharedNodes share_nodes(MPI_Comm communicator, const IterativeJob& job, const CellOrder& order) {
   auto neighbours = job.neighbours;
   for (auto& neighbour : neighbours)
     for (auto& node : neighbour.nodes) node = order.node_place[node];
@@ -58,9 +58,10 @@ SharedNodes share_nodes(MPI_Comm communicator, const Job& job, const CellOrder& 
 
 /// Called on all ranks.
 /// @return displacements of the nodes that this rank counts; their reports are those of the body
-std::optional<Solution> iterate_share(MPI_Comm communicator, const Job& job, const NodeExchange& all_nodes,
-                                      const NodeExchange& counted_nodes, const Eigen::MatrixXd& force,
-                                      const StepReport& progress, std::string& failure) {
+std::optional<Solution> iterate_share(MPI_Comm communicator, const IterativeJob& job,
+                                      const NodeExchange& all_nodes, const NodeExchange& counted_nodes,
+                                      const Eigen::MatrixXd& force, const StepReport& progress,
+                                      std::string& failure) {
   CellOrder order = order_cells(job.part.grid);
   count_first(job.counted, order.node_place);
   const SharedNodes shared = share_nodes(communicator, job, order);
@@ -99,7 +100,7 @@ std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellM
   for (int r = 0; r < n; ++r) parts.push_back(make_subdomain(grid, cells_of_rank(rank_of_cell, r)));
   auto neighbours = find_neighbours(parts, grid.n_nodes);
   std::vector<std::vector<std::int32_t>> nodes(n), counted_nodes(n);
-  Job job;
+  IterativeJob job;
   job.modulus_Pa = materials.largest_modulus_Pa();
   const auto elastic = materials.elastic(job.modulus_Pa);
   job.width = static_cast<Eigen::Index>(loads_per_block(3 * grid.n_nodes));
@@ -131,7 +132,7 @@ std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellM
 }
 
 void help_to_solve_iteratively(MPI_Comm communicator) {
-  Job job;
+  IterativeJob job;
   Message message = Message::receive(0, communicator);
   message >> job;
   message = {};

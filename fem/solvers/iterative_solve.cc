@@ -4,8 +4,8 @@
 #include <sstream>
 #include <utility>
 
-#include "fem/solvers/block_cg.h"
 #include "fem/common/parallel.h"
+#include "fem/solvers/block_cg.h"
 
 namespace fem {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "fem/loads/balanced_loads.h"
-#include "fem/operators/cell_materials.h"
 #include "fem/mesh/cell_order.h"
+#include "fem/operators/cell_materials.h"
 #include "fem/operators/shared_nodes.h"
 #include "fem/values/solver_choice.h"
 

@@ -8,7 +8,7 @@ namespace {
 
 // Measured on shafts: 4 to 6 steps cost the same; the wider range suits stretched cells.
 constexpr Chebyshev::Control smoothing{5, 20};
-constexpr std::size_t grain = 2048;  // nodes
+constexpr std::size_t level_nodes_at_once = 2048;  // nodes
 
 }  // namespace
 
@@ -51,12 +51,12 @@ void PolynomialMultigrid::apply(const Lanes& lanes, const BlockVector<float>& b,
   };
   smoother_->smooth(lanes, stiffness, b, x, true, work.smoothing);
   smoother_->residual(lanes, stiffness, b, x, work.smoothing);
-  parallel_for(n_coarse, grain / 8, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n_coarse, level_nodes_at_once / 8, [&](std::size_t begin, std::size_t end) {
     kernels_->combine(lanes.view(), n_coarse, n_nodes, begin, end, coarse_.restriction().view(), false,
                       work.smoothing.image.data(), work.coarse_force.data());
   });
   coarse_.solve(lanes, work.coarse_force, work.coarse, work.below);
-  parallel_for(n_nodes, grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n_nodes, level_nodes_at_once, [&](std::size_t begin, std::size_t end) {
     kernels_->combine(lanes.view(), n_nodes, n_coarse, begin, end, coarse_.interpolation().view(), true,
                       work.coarse.data(), x.data());
   });

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "fem/operators/block_vector.h"
+#include "fem/operators/elastic_operator.h"
 #include "fem/solvers/chebyshev.h"
 #include "fem/solvers/coarse_space.h"
-#include "fem/operators/elastic_operator.h"
 
 namespace fem {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "fem/solvers/aggregates.h"
 #include "fem/operators/block_matrix.h"
+#include "fem/solvers/aggregates.h"
 #include "fem/solvers/cholmod_factor.h"
 
 namespace fem {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "fem/values/errors.h"
 #include "fem/solvers/iterative_solve.h"
+#include "fem/values/errors.h"
 
 namespace fem {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "fem/operators/cell_materials.h"
 #include "fem/mesh/grid.h"
+#include "fem/operators/cell_materials.h"
 #include "fem/values/solver_choice.h"
 
 namespace fem {

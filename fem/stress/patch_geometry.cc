@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "fem/common/parallel.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/charts.h"
 #include "fem/values/constants.h"
-#include "fem/common/parallel.h"
 
 namespace fem {
 

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
 #include "fem/stress/patch_fit.h"
 #include "fem/stress/stress_samples.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "fem/mesh/cell_geometry.h"
 #include "fem/common/parallel.h"
+#include "fem/mesh/cell_geometry.h"
 #include "fem/stress/patch_fit.h"
 #include "fem/stress/patch_geometry.h"
 #include "fem/stress/stress_recovery.h"

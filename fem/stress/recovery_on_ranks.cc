@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "fem/operators/subdomain.h"
 #include "fem/ranks/node_exchange.h"
 #include "fem/ranks/ranks.h"
 #include "fem/stress/stress_recovery.h"
 #include "fem/stress/stress_samples.h"
-#include "fem/operators/subdomain.h"
 #include "fem/stress/volumetric_stress.h"
 
 namespace fem {
@@ -19,7 +19,7 @@ namespace {
 constexpr int n_layers = 6;
 
 /// What a rank is given.
-struct Job {
+struct RecoveryJob {
   Subdomain part;
   std::vector<Lame> elastic;
   std::vector<CylinderChart> charts;
@@ -28,18 +28,18 @@ struct Job {
   std::vector<std::int32_t> counted;  // nodes of the part that this rank counts
 };
 
-Message& operator<<(Message& message, const Job& job) {
+Message& operator<<(Message& message, const RecoveryJob& job) {
   return message << job.part << job.elastic << job.charts << job.loaded_groups << job.by_patches
                  << job.hardly_compresses << job.counted;
 }
 
-Message& operator>>(Message& message, Job& job) {
+Message& operator>>(Message& message, RecoveryJob& job) {
   return message >> job.part >> job.elastic >> job.charts >> job.loaded_groups >> job.by_patches >>
          job.hardly_compresses >> job.counted;
 }
 
 /// Called on all ranks.
-void recover_share(MPI_Comm communicator, const Job& job, const NodeExchange& all_nodes,
+void recover_share(MPI_Comm communicator, const RecoveryJob& job, const NodeExchange& all_nodes,
                    const NodeExchange& counted_nodes, const RowMajor& displacement,
                    Eigen::Ref<RowMajor> stress) {
   const RowMajor own = all_nodes.from_first(displacement, 1);
@@ -81,7 +81,7 @@ void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const 
   const auto rank_of_cell = ranks_of_cells(grid, n);
   const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
   std::vector<std::vector<std::int32_t>> nodes(n), counted_nodes(n);
-  Job job;
+  RecoveryJob job;
   job.charts = charts;
   job.loaded_groups = loaded_groups;
   job.by_patches = by_patches ? 1 : 0;
@@ -107,7 +107,7 @@ void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const 
 }
 
 void help_to_recover_stress(MPI_Comm communicator) {
-  Job job;
+  RecoveryJob job;
   Message message = Message::receive(0, communicator);
   message >> job;
   message = {};

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/stress/cell_stress.h"
 #include "fem/mesh/grid.h"
 #include "fem/operators/stiffness.h"
+#include "fem/stress/cell_stress.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

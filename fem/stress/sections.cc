@@ -6,9 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fem/common/dense_algebra.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/values/constants.h"
-#include "fem/common/dense_algebra.h"
 
 namespace fem {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
+#include "fem/values/body.h"
 #include "fem/values/unit_responses.h"
 
 namespace fem {

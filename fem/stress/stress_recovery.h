@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/stress/cell_stress.h"
 #include "fem/mesh/grid.h"
+#include "fem/stress/cell_stress.h"
 #include "fem/stress/stress_samples.h"
+#include "fem/values/body.h"
 
 namespace fem {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/stress/cell_stress.h"
 #include "fem/mesh/grid.h"
+#include "fem/stress/cell_stress.h"
 
 namespace fem {
 

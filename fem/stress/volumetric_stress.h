@@ -5,8 +5,8 @@
 /// makes that larger than the stress itself.
 #pragma once
 
-#include "fem/stress/cell_stress.h"
 #include "fem/mesh/grid.h"
+#include "fem/stress/cell_stress.h"
 #include "fem/stress/stress_samples.h"
 
 namespace fem {

@@ -7,11 +7,11 @@
 #include "meshes/chamber/chamber_plan.h"
 #include "meshes/chamber/chamber_stations.h"
 #include "meshes/chamber/chamber_surfaces.h"
-#include "meshes/gmsh/msh_writer.h"
 #include "meshes/checks/quality.h"
-#include "meshes/values/refused.h"
 #include "meshes/checks/sharp_edges.h"
+#include "meshes/gmsh/msh_writer.h"
 #include "meshes/spacing/swept_plan.h"
+#include "meshes/values/refused.h"
 
 namespace meshes {
 

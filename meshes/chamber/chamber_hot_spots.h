@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "meshes/spacing/break_points.h"
 #include "meshes/chamber/chamber_layout.h"
+#include "meshes/spacing/break_points.h"
 
 namespace meshes {
 

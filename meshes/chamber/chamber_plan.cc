@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshes/values/constants.h"
 #include "meshes/chamber/foot_plan.h"
 #include "meshes/spacing/grading.h"
 #include "meshes/spacing/plan_blocks.h"
+#include "meshes/values/constants.h"
 
 namespace meshes {
 

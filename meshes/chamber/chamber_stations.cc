@@ -5,10 +5,10 @@
 #include <functional>
 #include <limits>
 
-#include "meshes/spacing/break_points.h"
 #include "meshes/chamber/chamber_hot_spots.h"
-#include "meshes/values/constants.h"
+#include "meshes/spacing/break_points.h"
 #include "meshes/spacing/grading.h"
+#include "meshes/values/constants.h"
 
 namespace meshes {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "meshes/chamber/chamber_layout.h"
-#include "meshes/gmsh/msh_writer.h"
 #include "meshes/checks/sharp_edges.h"
+#include "meshes/gmsh/msh_writer.h"
 
 namespace meshes {
 

@@ -12,11 +12,6 @@ namespace meshes {
 
 namespace {
 
-double determinant(const Point& a, const Point& b, const Point& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
 /// Columns of dx/dxi of a quadratic tetrahedron at barycentric coordinates.
 std::array<Point, 3> tangents(const CellMesh& mesh, const int* nodes, const std::array<double, 4>& at) {
   static const int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};  // gmsh's order
@@ -38,7 +33,7 @@ double scaled_at(const std::array<Point, 3>& t) {
   const double a = length(t[0]), b = length(t[1]), c = length(t[2]), ab = length(minus(t[1], t[0])),
                bc = length(minus(t[2], t[1])), ca = length(minus(t[0], t[2]));
   const double product = std::max({a * b * c, a * ab * ca, b * ab * bc, c * bc * ca});
-  return product > 0 ? std::sqrt(2.0) * determinant(t[0], t[1], t[2]) / product : 0;
+  return product > 0 ? std::sqrt(2.0) * triple_product(t[0], t[1], t[2]) / product : 0;
 }
 
 double scaled_tetrahedron(const CellMesh& mesh, const int* nodes) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "meshes/values/vectors.h"
+
 namespace meshes {
 
 namespace {
@@ -12,11 +14,6 @@ Point unit_edge(const Point& from, const Point& to) {
   const Point d = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
   const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   return {d[0] / length, d[1] / length, d[2] / length};
-}
-
-double determinant(const Point& a, const Point& b, const Point& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 }  // namespace
@@ -29,7 +26,7 @@ double scaled_jacobian(const HexMesh& mesh, const Hex& hex) {
   for (int i = 0; i < 8; ++i) {
     const Point& corner = mesh.points[hex.nodes[i]];
     const auto edge = [&](int k) { return unit_edge(corner, mesh.points[hex.nodes[neighbours[i][k]]]); };
-    smallest = std::min(smallest, determinant(edge(0), edge(1), edge(2)));
+    smallest = std::min(smallest, triple_product(edge(0), edge(1), edge(2)));
   }
   return smallest;
 }

@@ -2,8 +2,8 @@
 
 #include <gmsh.h>
 
-#include "meshes/values/constants.h"
 #include "meshes/gmsh/gmsh_session.h"
+#include "meshes/values/constants.h"
 
 namespace meshes {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "meshes/gmsh/msh_writer.h"
 #include "meshes/values/body_mesh.h"
 #include "meshes/values/hex_mesh.h"
-#include "meshes/gmsh/msh_writer.h"
 
 namespace meshes {
 

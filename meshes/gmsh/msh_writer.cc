@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "meshes/values/constants.h"
 #include "meshes/gmsh/gmsh_session.h"
+#include "meshes/values/constants.h"
 
 namespace meshes {
 

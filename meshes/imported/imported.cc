@@ -7,9 +7,9 @@
 #include <set>
 
 #include "meshes/checks/curved_quality.h"
+#include "meshes/checks/reentrant_edges.h"
 #include "meshes/gmsh/gmsh_session.h"
 #include "meshes/imported/port_selection.h"
-#include "meshes/checks/reentrant_edges.h"
 #include "meshes/values/refused.h"
 
 namespace meshes {

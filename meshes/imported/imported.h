@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "meshes/values/body_mesh.h"
 #include "meshes/solids/solid_control.h"
+#include "meshes/values/body_mesh.h"
 
 namespace meshes {
 

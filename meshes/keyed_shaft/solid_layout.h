@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "meshes/values/hex_mesh.h"
 #include "meshes/keyed_shaft/solid_shaft.h"
+#include "meshes/values/hex_mesh.h"
 
 namespace meshes {
 

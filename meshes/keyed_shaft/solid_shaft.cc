@@ -8,13 +8,13 @@
 #include <stdexcept>
 
 #include "meshes/checks/curved_quality.h"
-#include "meshes/gmsh/gmsh_session.h"
-#include "meshes/solids/model_mesh.h"
 #include "meshes/checks/reentrant_edges.h"
-#include "meshes/values/refused.h"
-#include "meshes/shaft/shaft_checks.h"
+#include "meshes/gmsh/gmsh_session.h"
 #include "meshes/keyed_shaft/solid_layout.h"
+#include "meshes/shaft/shaft_checks.h"
+#include "meshes/solids/model_mesh.h"
 #include "meshes/solids/surface_pieces.h"
+#include "meshes/values/refused.h"
 
 namespace meshes {
 

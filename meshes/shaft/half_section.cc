@@ -52,8 +52,7 @@ HalfSection build_half_section(const Shaft& shaft, const ShaftMeshControl& contr
   const Meridian meridian = build_meridian(layout, name_surfaces(concentric, layout), before);
   HalfSection half{meridian.points, meridian.quads, meridian.edges};
   const int n = control.subdivisions, n_rows = n * std::max(n > 1 ? 1 : 2, before.n_sectors / 8);
-  for (const CoreLine& core : meridian.cores)
-    fill_core(core, layout, n_rows, half);
+  for (const CoreLine& core : meridian.cores) fill_core(core, layout, n_rows, half);
   return half;
 }
 

@@ -5,10 +5,10 @@
 #include <set>
 #include <utility>
 
-#include "meshes/values/constants.h"
 #include "meshes/shaft/fillet_fan.h"
-#include "meshes/spacing/grading.h"
 #include "meshes/shaft/row_radii.h"
+#include "meshes/spacing/grading.h"
+#include "meshes/values/constants.h"
 
 namespace meshes {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "meshes/values/constants.h"
 #include "meshes/spacing/grading.h"
+#include "meshes/values/constants.h"
 
 namespace meshes {
 

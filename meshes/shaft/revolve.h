@@ -1,9 +1,9 @@
 /// From the meridian to the solid: revolved about z, cores filled, eccentric segments shifted.
 #pragma once
 
+#include "meshes/shaft/meridian.h"
 #include "meshes/spacing/disc.h"
 #include "meshes/values/hex_mesh.h"
-#include "meshes/shaft/meridian.h"
 
 namespace meshes {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshes/values/constants.h"
 #include "meshes/spacing/grading.h"
+#include "meshes/values/constants.h"
 
 namespace meshes {
 

@@ -4,16 +4,16 @@
 #include <sstream>
 #include <utility>
 
-#include "meshes/spacing/disc.h"
-#include "meshes/shaft/meridian.h"
-#include "meshes/gmsh/msh_writer.h"
 #include "meshes/checks/quality.h"
-#include "meshes/values/refused.h"
+#include "meshes/gmsh/msh_writer.h"
+#include "meshes/shaft/meridian.h"
 #include "meshes/shaft/revolve.h"
 #include "meshes/shaft/shaft_checks.h"
 #include "meshes/shaft/shaft_description.h"
 #include "meshes/shaft/shaft_layout.h"
 #include "meshes/shaft/shaft_surfaces.h"
+#include "meshes/spacing/disc.h"
+#include "meshes/values/refused.h"
 
 namespace meshes {
 

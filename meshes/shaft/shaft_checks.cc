@@ -6,10 +6,10 @@
 #include <string>
 
 #include "meshes/shaft/bore_checks.h"
+#include "meshes/shaft/shaft_layout.h"
 #include "meshes/values/constants.h"
 #include "meshes/values/refusal.h"
 #include "meshes/values/refused.h"
-#include "meshes/shaft/shaft_layout.h"
 
 namespace meshes {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshes/values/constants.h"
-#include "meshes/spacing/grading.h"
 #include "meshes/shaft/fixed_radius_lines.h"
 #include "meshes/shaft/radial_rows.h"
+#include "meshes/spacing/grading.h"
+#include "meshes/values/constants.h"
 
 namespace meshes {
 

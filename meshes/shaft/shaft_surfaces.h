@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "meshes/spacing/disc.h"
 #include "meshes/shaft/shaft_layout.h"
+#include "meshes/spacing/disc.h"
 
 namespace meshes {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
-#include "meshes/values/constants.h"
 #include "meshes/solids/inner_nodes.h"
+#include "meshes/values/constants.h"
 #include "meshes/values/refused.h"
 
 namespace meshes {

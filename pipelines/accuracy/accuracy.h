@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/effects/effect_prices.h"
-#include "pipelines/analysis/error_budget.h"
 #include "pipelines/accuracy/grid_convergence.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/analysis/error_budget.h"
 #include "pipelines/common/stage_clock.h"
+#include "pipelines/effects/effect_prices.h"
+#include "pipelines/scene/scene.h"
 
 namespace pipelines {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "pipelines/effects/effect_choice.h"
 #include "pipelines/analysis/fineness.h"
-#include "pipelines/search/refinement.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/search/refinement.h"
 
 namespace pipelines {
 namespace {

@@ -4,11 +4,11 @@
 #include "fem/beam/beam_responses.h"
 #include "fem/beam/plated_tube.h"
 #include "pipelines/accuracy/accuracy_models.h"
+#include "pipelines/analysis/fineness.h"
 #include "pipelines/cheap_models/chamber_tube.h"
 #include "pipelines/cheap_models/cheap_responses.h"
-#include "pipelines/analysis/fineness.h"
-#include "pipelines/search/refinement.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/search/refinement.h"
 
 namespace pipelines {
 namespace {

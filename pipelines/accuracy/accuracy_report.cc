@@ -10,10 +10,10 @@
 #include <ostream>
 #include <thread>
 
+#include "pipelines/common/version.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/hdf5_file.h"
-#include "pipelines/common/version.h"
 
 namespace pipelines {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "pipelines/accuracy/accuracy_models.h"
-#include "pipelines/effects/effect_report.h"
 #include "pipelines/analysis/fineness.h"
-#include "pipelines/search/refinement.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/effects/effect_report.h"
+#include "pipelines/search/refinement.h"
 
 namespace pipelines {
 namespace {

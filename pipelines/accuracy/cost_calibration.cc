@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/files/atomic_file.h"
 
 namespace pipelines {
 namespace {

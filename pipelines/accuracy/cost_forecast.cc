@@ -8,10 +8,10 @@
 #include <ostream>
 
 #include "fem/solvers/cost_prediction.h"
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/analysis/fineness.h"
-#include "pipelines/search/refinement.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/search/refinement.h"
 #include "pipelines/search/second_model.h"
 
 namespace pipelines {

@@ -9,18 +9,19 @@
 #include "fem/values/unit_responses.h"
 #include "kinetics/load_history.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/closure.h"
 #include "pipelines/analysis/diagrams.h"
-#include "pipelines/analysis/vibration.h"
 #include "pipelines/analysis/error_budget.h"
 #include "pipelines/analysis/hot_spots.h"
+#include "pipelines/analysis/place_stress.h"
+#include "pipelines/analysis/search_record.h"
+#include "pipelines/analysis/vibration.h"
+#include "pipelines/common/stage_clock.h"
+#include "pipelines/loads/body_loads.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/loads/closure.h"
 #include "pipelines/loads/machine_masses.h"
 #include "pipelines/scene/method.h"
-#include "pipelines/analysis/place_stress.h"
 #include "pipelines/scene/scene.h"
-#include "pipelines/analysis/search_record.h"
-#include "pipelines/common/stage_clock.h"
 #include "pipelines/superposition/superposition.h"
 #include "pipelines/superposition/zones.h"
 
@@ -93,15 +94,6 @@ struct RunOptions {
   bool fresh = false;               ///< do not reuse unit responses of an earlier run
 };
 
-/// The loads of one body of a scene, by its role.
-/// @param history  of the load stage with the machine of `masses`
-BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
-                          const LoadedBody& loaded, const MassAgreement& masses);
-
-/// Whether channels and ports close, before anything is solved: by the resultants that they must have.
-/// @throws LoadsDoNotClose if forces or moments miss 1e-9 of their scale
-void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions);
-
 /// Solves and superposes. Writes no results.
 /// @throws fem::SolveFailed if the solve fails, LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
@@ -123,8 +115,5 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
 /// @param history  of the load stage, that the analysis' loads were distributed from
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
                    BodyAnalysis& analysis, StageClock& clock);
-
-/// What distribution needs to know of a meshed body.
-LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);
 
 }  // namespace pipelines

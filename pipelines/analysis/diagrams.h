@@ -9,8 +9,8 @@
 
 #include "fem/values/body.h"
 #include "fem/values/unit_responses.h"
-#include "meshes/values/body_mesh.h"
 #include "meshes/shaft/shaft.h"
+#include "meshes/values/body_mesh.h"
 #include "pipelines/loads/distribute.h"
 
 namespace pipelines {

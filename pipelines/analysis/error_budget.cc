@@ -5,8 +5,8 @@
 #include <set>
 
 #include "fem/stress/cell_stress_at_node.h"
-#include "pipelines/superposition/superposition.h"
 #include "pipelines/analysis/tetrahedra_estimate.h"
+#include "pipelines/superposition/superposition.h"
 
 namespace pipelines {
 namespace {

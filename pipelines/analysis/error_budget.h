@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/model/model.h"
+#include "fem/values/body.h"
 #include "fem/values/unit_responses.h"
 #include "pipelines/loads/distribute.h"
 

@@ -7,8 +7,8 @@
 
 #include "fem/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/loads/channels.h"
 #include "pipelines/analysis/error_budget.h"
+#include "pipelines/loads/channels.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {

@@ -32,23 +32,4 @@ struct Search {
   std::vector<SearchStep> steps{};  ///< none: the scene's own mesh, once
 };
 
-/// What a run is asked for beside the scene's mesh; neither: that mesh as it is.
-struct SearchWish {
-  double tolerance = 0, time_limit_s = 0;
-  /// tolerance = "none": solved once, on the mesh that the scene gives; both others are 0 then.
-  bool once = false;
-  bool by_default = false;  ///< nobody asked: `run` took its own
-  bool any() const { return tolerance > 0 || time_limit_s > 0; }
-};
-
-/// What `run` does where neither scene nor command line ask for anything: 5 % within a minute, whichever comes
-/// first.
-inline SearchWish with_default(SearchWish wish) {
-  if (wish.once || wish.any()) return wish;
-  wish.tolerance = 0.05;
-  wish.time_limit_s = 60;
-  wish.by_default = true;
-  return wish;
-}
-
 }  // namespace pipelines

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/files/atomic_file.h"
 #include "pipelines/loads/rigid_part.h"
 
 namespace pipelines {

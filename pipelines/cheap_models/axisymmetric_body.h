@@ -6,18 +6,8 @@
 #include "fem/axisymmetric/meridian_body.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/scene/body_scene.h"
-#include "pipelines/scene/method.h"
 
 namespace pipelines {
-
-/// Empty if the axisymmetric model applies to the body; else why not, as the end of "the shaft ...".
-std::string why_not_axisymmetric(const BodyScene& body);
-
-/// The same for a beam.
-std::string why_not_beam(const BodyScene& body);
-
-/// Empty for methods that apply to every body.
-std::string why_not(Method method, const BodyScene& body);
 
 /// The body with blocks as coarse as they can be, 2 cells on every fillet quarter: the section's cells are
 /// cut where stress asks for it.

@@ -10,8 +10,9 @@
 
 #include "fem/axisymmetric/axisymmetric_responses.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
-#include "pipelines/common/errors.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/scene/why_not.h"
 
 namespace pipelines {
 namespace {

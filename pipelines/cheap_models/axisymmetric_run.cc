@@ -11,7 +11,6 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/cheap_models/cheap_responses.h"
-#include "pipelines/search/refinement.h"
 #include "pipelines/common/stage_clock.h"
 
 namespace pipelines {

@@ -7,9 +7,10 @@
 
 #include "fem/beam/beam_responses.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
-#include "pipelines/common/errors.h"
 #include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/loads/closure.h"
+#include "pipelines/scene/why_not.h"
 
 namespace pipelines {
 namespace {

@@ -2,14 +2,14 @@
 #include <sstream>
 
 #include "pipelines/accuracy/accuracy.h"
-#include "pipelines/pictures/accuracy_chart.h"
 #include "pipelines/accuracy/accuracy_report.h"
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/commands/commands.h"
+#include "pipelines/commands/option_value.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/fem_environment.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/pictures/accuracy_chart.h"
 #include "pipelines/report/html_report.h"
-#include "pipelines/commands/option_value.h"
 
 namespace pipelines {
 

@@ -8,10 +8,10 @@
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/calculix/calculix_model.h"
 #include "pipelines/commands/commands.h"
-#include "pipelines/effects/effect_choice.h"
-#include "pipelines/loads/effect_closure.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/fem_environment.h"
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
 
 namespace pipelines {

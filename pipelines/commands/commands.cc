@@ -11,33 +11,33 @@
 #include <utility>
 
 #include "fem/ranks/helper_ranks.h"
-#include "pipelines/files/atomic_file.h"
-#include "pipelines/analysis/body_analysis.h"
-#include "pipelines/effects/body_effect_report.h"
-#include "pipelines/scene/body_effects.h"
-#include "pipelines/calculix/calculix_cards.h"
 #include "pipelines/accuracy/cost_forecast.h"
-#include "pipelines/effects/effect_choice.h"
-#include "pipelines/loads/effect_closure.h"
-#include "pipelines/effects/effect_report.h"
-#include "pipelines/report/envelope_files.h"
+#include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/calculix/calculix_cards.h"
+#include "pipelines/commands/option_value.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/fem_environment.h"
-#include "pipelines/analysis/governing_stress.h"
-#include "pipelines/report/html_report.h"
+#include "pipelines/effects/body_effect_report.h"
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/effects/effect_report.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_files.h"
 #include "pipelines/loads/load_statistics.h"
-#include "pipelines/report/mill_reports.h"
-#include "pipelines/commands/option_value.h"
 #include "pipelines/pictures/picture.h"
-#include "pipelines/scene/requested_method.h"
+#include "pipelines/report/envelope_files.h"
+#include "pipelines/report/html_report.h"
+#include "pipelines/report/mill_reports.h"
 #include "pipelines/report/results.h"
-#include "pipelines/scene/scene.h"
-#include "pipelines/search/scene_run.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/report/torsion_report.h"
+#include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/requested_method.h"
+#include "pipelines/scene/scene.h"
+#include "pipelines/search/scene_run.h"
 
 namespace pipelines {
 namespace {
@@ -78,7 +78,7 @@ void finish_run(const CommandOptions& options, std::ostream& out, const std::fil
   report(out, options, content);
 }
 
-SearchWish wish_of(const CommandOptions& options, const Scene& scene) {
+RequestedAccuracy wish_of(const CommandOptions& options, const Scene& scene) {
   return requested_search(options.tolerance, options.time_limit, scene.wish);
 }
 
@@ -130,7 +130,8 @@ void warn_of_default(SceneRun& run) {
     if (analysis.search.met) continue;
     const auto stress = governing_stress(analysis);
     const auto text = fmt::format(
-        "{}: {:.3g} MPa is known to {:.2g} % only, since {}; the default is 5 % within 60 s. Give --time-limit "
+        "{}: {:.3g} MPa is known to {:.2g} % only, since {}; the default is 5 % within 60 s. Give "
+        "--time-limit "
         "or --tolerance for another",
         analysis.scene.name, stress.value_Pa / 1e6, 100 * stress.relative_error(), analysis.search.ended);
     std::cerr << "millstress: " << text << '\n';
@@ -166,8 +167,7 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings});
   if (!options.json && torsion) print_torsion(out, reported, *torsion);
   if (!options.json) out << "\n  results in " << directory.string() << '\n';
-  if (!run.met() && !wish.by_default)
-    throw ToleranceNotMet("the tolerance is not met; the results are kept");
+  if (!run.met() && !wish.by_default) throw ToleranceNotMet("the tolerance is not met; the results are kept");
 }
 
 }  // namespace

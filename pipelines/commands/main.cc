@@ -2,8 +2,8 @@
 #include <iostream>
 #include <optional>
 
-#include "fem/ranks/helper_ranks.h"
 #include "fem/model/model.h"
+#include "fem/ranks/helper_ranks.h"
 #include "pipelines/commands/commands.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/fem_environment.h"

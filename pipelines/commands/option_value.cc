@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "pipelines/common/errors.h"
-#include "pipelines/scene/scene_findings.h"
 #include "pipelines/common/units.h"
+#include "pipelines/scene/scene_findings.h"
 
 namespace pipelines {
 namespace {
@@ -34,8 +34,9 @@ double option_in_si(const char* option, const std::string& text, const std::stri
   }
 }
 
-SearchWish requested_search(const std::string& tolerance, const std::string& time_limit, SearchWish scene) {
-  SearchWish wish = scene;
+RequestedAccuracy requested_search(const std::string& tolerance, const std::string& time_limit,
+                                   RequestedAccuracy scene) {
+  RequestedAccuracy wish = scene;
   if (tolerance == "none") {
     if (!time_limit.empty())
       throw OptionError(

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/analysis/search_record.h"
+#include "pipelines/scene/requested_accuracy.h"
 
 namespace pipelines {
 
@@ -19,7 +19,8 @@ double option_in_si(const char* option, const std::string& text, const std::stri
 /// once, on the scene's mesh; a time limit alone takes a scene's "none" back.
 /// @param tolerance, time_limit  as given; empty: not given
 /// @throws OptionError for what is no tolerance or limit, and for a limit beside "none"
-SearchWish requested_search(const std::string& tolerance, const std::string& time_limit, SearchWish scene);
+RequestedAccuracy requested_search(const std::string& tolerance, const std::string& time_limit,
+                                   RequestedAccuracy scene);
 
 /// @throws OptionError if the file's name promises another format than the option writes
 /// @param remedy  what to do instead

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "fem/values/body_nodes.h"
-#include "pipelines/files/atomic_file.h"
-#include "pipelines/loads/body_mesh.h"
 #include "pipelines/commands/commands.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/loads/body_mesh.h"
 #include "pipelines/pictures/port_picture.h"
 #include "pipelines/pictures/port_surface.h"
 #include "pipelines/scene/scene.h"

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "pipelines/scene/body_effects.h"
 #include "pipelines/effects/effect_choice.h"
+#include "pipelines/scene/body_effects.h"
 
 namespace pipelines {
 namespace {
@@ -83,10 +83,6 @@ void add_forces(const Scene& scene, const BodyScene& body, BodyEffect& effect) {
   }
   for (const auto& port : ports)
     for (const auto& share : shares_on(scene, body, port, effect.effect.name)) effect.shares.push_back(share);
-}
-
-std::string percent(double share) {
-  return fmt::format("{:.3g} %", 100 * share);
 }
 
 std::string where_to_look(const Scene& scene, const std::string& body) {

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "kinetics/machine_refused.h"
+#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/stress_under_changed_loads.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/effects/effect_choice.h"
-#include "pipelines/common/errors.h"
-#include "pipelines/search/refinement.h"
 
 namespace pipelines {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "pipelines/analysis/body_analysis.h"
 #include "pipelines/loads/load_stage.h"
 
 namespace pipelines {

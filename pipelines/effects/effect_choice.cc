@@ -6,11 +6,11 @@
 #include <map>
 #include <optional>
 
-#include "pipelines/scene/body_effects.h"
-#include "pipelines/loads/closure.h"
 #include "pipelines/common/name_lists.h"
-#include "pipelines/loads/effect_closure.h"
 #include "pipelines/effects/effect_report.h"
+#include "pipelines/loads/closure.h"
+#include "pipelines/loads/effect_closure.h"
+#include "pipelines/scene/body_effects.h"
 
 namespace pipelines {
 namespace {

@@ -2,15 +2,15 @@
 
 #include <ostream>
 
+#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
-#include "pipelines/search/refinement.h"
 #include "pipelines/report/summary.h"
 
 namespace pipelines {
 namespace {
 
-std::string percent(double share) {
+std::string rough_percent(double share) {
   return fmt::format("{:.2g} %", 100 * share);
 }
 
@@ -18,7 +18,7 @@ std::string percent(double share) {
 std::string bound_text(const EffectBound& bound, const BodyAnalysis& analysis) {
   const double stress_Pa = governing_stress(analysis).value_Pa;
   if (!(stress_Pa > 0)) return "-";
-  return percent(bound.bound_Pa / stress_Pa) + (bound.estimated_Pa > 0 ? " (est.)" : "");
+  return rough_percent(bound.bound_Pa / stress_Pa) + (bound.estimated_Pa > 0 ? " (est.)" : "");
 }
 
 const EffectBound* find(const DroppedBounds& bounds, const std::string& effect) {
@@ -45,7 +45,7 @@ void print_effect_choice(std::ostream& out, const Scene& scene, const std::vecto
   if (choice.offered.empty()) return;
   const std::string off = "off by effects = \"auto\"";
   if (choice.dropped.empty())
-    out << fmt::format("\n  {}: none, with a limit of {}{}\n", off, percent(choice.limit),
+    out << fmt::format("\n  {}: none, with a limit of {}{}\n", off, rough_percent(choice.limit),
                        std::holds_alternative<kinetics::LoadTable>(scene.machine)
                            ? "; a load table's histories all count"
                            : "");
@@ -53,7 +53,7 @@ void print_effect_choice(std::ostream& out, const Scene& scene, const std::vecto
     out << fmt::format("\n  {:<30}{:>16}", off, "of the loads");
     for (const auto& analysis : bodies) out << fmt::format("{:>22}", analysis.scene.name + ", at most");
     const auto row = [&](const std::string& name, double share, bool together) {
-      out << fmt::format("\n    {:<28}{:>16}", name, percent(share));
+      out << fmt::format("\n    {:<28}{:>16}", name, rough_percent(share));
       for (const auto& analysis : bodies) {
         const EffectBound* bound = nullptr;
         if (analysis.dropped) bound = together ? &analysis.dropped->together : find(*analysis.dropped, name);
@@ -64,7 +64,8 @@ void print_effect_choice(std::ostream& out, const Scene& scene, const std::vecto
     row(choice.taken_back.empty() ? "all of these" : "all, before any came back", choice.share, true);
     print_groups(out, choice);
     out << fmt::format("\n    limit {}; the load that changes most, felt by a body or not, is {}, by {}\n",
-                       percent(choice.limit), choice.load_change.load, percent(choice.load_change.share));
+                       rough_percent(choice.limit), choice.load_change.load,
+                       rough_percent(choice.load_change.share));
   }
   if (!choice.taken_back.empty())
     out << fmt::format("    on again, their bound was too large: {}\n", listed(choice.taken_back));

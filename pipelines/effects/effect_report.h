@@ -59,6 +59,9 @@ EffectReport report_effects(const Scene& scene, double threshold, bool timed = t
 /// joint that carries none) does not count.
 LoadChange largest_change(const kinetics::LoadHistory& all, const kinetics::LoadHistory& other);
 
+/// "1.23 %"; "-" where the share is not finite.
+std::string percent(double share);
+
 void print_effects(std::ostream& out, const Scene& scene, const EffectReport& report);
 std::string effects_json(const Scene& scene, const EffectReport& report);
 

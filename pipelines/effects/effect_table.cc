@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "pipelines/effects/effect_report.h"
 #include "pipelines/common/nearest_name.h"
+#include "pipelines/effects/effect_report.h"
 
 namespace pipelines {
 namespace {
@@ -16,11 +16,11 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+}  // namespace
+
 std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : "-";
 }
-
-}  // namespace
 
 void print_effects(std::ostream& out, const Scene& scene, const EffectReport& report) {
   out << fmt::format("\n{}: the effects and what they are worth\n", scene.title);

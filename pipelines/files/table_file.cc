@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "pipelines/scene/scene.h"
+#include "pipelines/common/errors.h"
 
 namespace pipelines {
 namespace {

@@ -23,9 +23,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
-#include "pipelines/common/errors.h"
 #include "pipelines/files/markup.h"
 
 namespace pipelines {

@@ -24,14 +24,6 @@ double speed_of(const BearingScene& bearing, const kinetics::LoadHistory& loads)
 
 }  // namespace
 
-std::vector<std::string> known_forces(const kinetics::LoadHistory& loads) {
-  std::vector<std::string> names;
-  for (const auto& resultant : loads.resultants) names.push_back(resultant.role);
-  for (const auto& quantity : loads.quantities)
-    if (quantity.unit == "N") names.push_back(quantity.name);
-  return names;
-}
-
 std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::LoadHistory& loads,
                                        const std::vector<const ChannelHistory*>& channels) {
   for (const auto* body : channels) {
@@ -39,11 +31,7 @@ std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::
     if (fx && fy) return (fx->square() + fy->square()).sqrt();
     if (fx || fy) return (fx ? *fx : *fy).abs();  // the other one is never fed
   }
-  if (loads.has_resultant(load))
-    return loads.resultant(load).total.topRows<2>().matrix().colwise().norm().transpose();
-  for (const auto& quantity : loads.quantities)
-    if (quantity.name == load && quantity.unit == "N") return quantity.values.abs();
-  return std::nullopt;
+  return force_of(load, loads);
 }
 
 std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearings,

@@ -5,9 +5,10 @@
 #include <memory>
 
 #include "fem/model/model.h"
+#include "kinetics/vibratory_mill.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/scene/body_scene.h"
 #include "pipelines/loads/load_book.h"
+#include "pipelines/scene/body_scene.h"
 
 namespace pipelines {
 

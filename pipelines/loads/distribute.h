@@ -39,12 +39,6 @@ struct VibratoryShaftOptions {
 BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const LoadedBody& body,
                                      const VibratoryShaftOptions& options);
 
-/// Where the couple of an attitude that is held goes (effect `pitch_guide`, with `pitch` off).
-enum class PitchGuide {
-  body,  ///< a body load without resultant, about the mass centre
-  feet   ///< opposite vertical forces on the first two feet
-};
-
 /// How the vibratory mill's chamber takes its loads.
 struct ChamberOptions {
   std::vector<std::string> effects;     ///< of the scene
@@ -80,15 +74,6 @@ struct DrumOptions {
 BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::PlanetaryMill& mill,
                           const LoadedBody& body, const DrumOptions& options);
 
-/// One of the two stubs that carry the drum's bearings, fixed to the carrier.
-struct StubAxleOptions {
-  std::vector<std::string> effects;  ///< of the scene; `axle_gravity`, `axle_transport` are the body's own
-  double bearing_span_m = 0;         ///< between the drum's two bearings
-  double pulley_plane_m = 0;         ///< of the belt, from the middle between the bearings
-  double pulley_mass_kg = 0;         ///< of m_A, in the pulley's plane
-  bool pulley_side = true;           ///< which of the two stubs
-};
-
 /// The stub axle, in the carrier's axes.
 ///
 /// Ports: bearing (its share of the load on the axle: what acts at mid-span half, belt and pulley by their
@@ -97,40 +82,11 @@ struct StubAxleOptions {
 BodyLoads distribute_stub_axle(const kinetics::LoadHistory& loads, const kinetics::PlanetaryMill& mill,
                                const LoadedBody& body, const StubAxleOptions& options);
 
-/// A shaft of a drive train that carries one of its inertias.
-struct TrainShaftOptions {
-  struct Torque {
-    std::string port, role;  ///< role of the resultant, "<element>_on_<inertia>"
-  };
-  std::string inertia;          ///< the inertia of the train that the shaft is
-  std::vector<Torque> torques;  ///< of all elements on that inertia
-  std::vector<AttachedMass> attached;
-  std::array<std::string, 2> bearings{"bearing_1", "bearing_2"};
-  std::string axial_bearing;  ///< takes axial forces; empty: there are none
-  bool damping_at_bearings = true;
-  std::vector<std::string> effects;
-  // Optional effects, as forces at ports: constant in the fixed frame (belt pull) or in the shaft's
-  // (imbalance).
-  struct Force {
-    std::string effect, port;
-    std::array<double, 3> force_N{};
-    bool turns_with_shaft = false;
-  };
-  std::vector<Force> forces;
-};
-
 /// A shaft of a drive train, in the frame that turns with it, counter-clockwise; its angle is the uniform
 /// running plus the vibration. Torques at their ports, inertia as -rho phi'' z x p (effect `shaft_inertia`),
 /// viscous drag of the inertia at its bearings; bending only by the optional forces.
 BodyLoads distribute_train_shaft(const kinetics::LoadHistory& loads, double mean_speed_rad_s,
                                  const LoadedBody& body, const TrainShaftOptions& options);
-
-/// A body under the loads of a table, in its own frame.
-struct TableBodyOptions {
-  std::vector<std::string> bearings;  ///< none, or two that balance forces across and tilting moments
-  std::string axial_support;          ///< balances fz; empty: nothing does
-  std::string torque_support;         ///< balances the torque; empty: nothing does
-};
 
 /// Every load of the table goes to the port of its name, "volume" being the body itself (ax, ay, az, spin).
 /// What does not close is balanced by the supports that the scene names, effect by effect.

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/loads/distribute.h"
-#include "pipelines/common/errors.h"
 
 namespace pipelines {
 

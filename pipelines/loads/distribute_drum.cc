@@ -2,9 +2,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/loads/distribute.h"
-#include "pipelines/common/errors.h"
 
 namespace pipelines {
 

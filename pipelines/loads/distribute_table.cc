@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "pipelines/loads/distribute.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/loads/distribute.h"
 
 namespace pipelines {
 

@@ -1,6 +1,6 @@
 
-#include "pipelines/loads/distribute.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/loads/distribute.h"
 
 namespace pipelines {
 

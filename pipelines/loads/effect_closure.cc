@@ -4,11 +4,11 @@
 #include <array>
 
 #include "kinetics/machine_refused.h"
-#include "pipelines/analysis/body_analysis.h"
-#include "pipelines/scene/body_effects.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/common/name_lists.h"
+#include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/body_effects.h"
 
 namespace pipelines {
 namespace {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "pipelines/analysis/body_analysis.h"
-#include "pipelines/scene/body_effects.h"
 #include "pipelines/common/name_lists.h"
+#include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/effect_closure.h"
+#include "pipelines/scene/body_effects.h"
 
 #include "kinetics/machine_refused.h"
 #include "pipelines/common/errors.h"

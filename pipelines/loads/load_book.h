@@ -13,6 +13,7 @@
 #include "fem/values/unit_load.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/channels.h"
+#include "pipelines/scene/body_options.h"
 #include "pipelines/scene/pressure_pattern.h"
 
 namespace pipelines {
@@ -34,15 +35,6 @@ struct LoadedBody {
 
   /// @throws std::out_of_range naming the region
   const RegionMass& region(const std::string& region_name = "") const;
-};
-
-/// Mass that moves with the body without being meshed: covers, a pulley, the difference between the mass that
-/// the load stage has and that of the mesh. It loads a port; about the origin of the body's frame.
-struct AttachedMass {
-  std::string name, port;
-  double mass_kg = 0;                         ///< negative where the mesh has too much
-  std::array<double, 2> first_moment_kg_m{};  ///< m x, m y
-  double polar_inertia_kg_m2 = 0;             ///< integral of rho (x^2 + y^2)
 };
 
 /// d'Alembert's field  a(p) = translation + angular z x p + spin (x, y, 0)  over the instants, by rows.

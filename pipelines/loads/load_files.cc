@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
-#include "pipelines/common/errors.h"
 #include "pipelines/files/hdf5_file.h"
 
 namespace pipelines {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "pipelines/loads/effect_closure.h"
-#include "pipelines/common/finite.h"
+#include "pipelines/loads/finite_loads.h"
 #include "pipelines/loads/open_loads.h"
 
 namespace pipelines {

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
-#include "pipelines/files/atomic_file.h"
-#include "pipelines/analysis/body_analysis.h"
-#include "pipelines/loads/load_files.h"
 #include "pipelines/common/stage_clock.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/loads/bearings.h"
+#include "pipelines/loads/body_loads.h"
+#include "pipelines/loads/load_files.h"
 
 namespace pipelines {
 

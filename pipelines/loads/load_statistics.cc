@@ -5,8 +5,8 @@
 
 #include "kinetics/harmonics.h"
 #include "kinetics/load_spectrum.h"
-#include "pipelines/files/csv.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/files/csv.h"
 
 namespace pipelines {
 namespace {

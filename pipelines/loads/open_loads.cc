@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
-#include "pipelines/loads/closure.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/loads/closure.h"
 
 namespace pipelines {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "pipelines/scene/body_scene.h"
 #include "pipelines/loads/load_book.h"
+#include "pipelines/scene/body_scene.h"
 
 namespace pipelines {
 

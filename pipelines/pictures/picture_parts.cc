@@ -17,8 +17,8 @@
 
 #include <algorithm>
 
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/files/atomic_file.h"
 
 namespace pipelines {
 

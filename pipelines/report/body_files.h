@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/analysis/body_analysis.h"
+#include "pipelines/files/atomic_file.h"
 
 namespace pipelines {
 

@@ -8,8 +8,8 @@
 
 #include "fem/values/cell_shares.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/report/results.h"
 #include "pipelines/files/vtk_files.h"
+#include "pipelines/report/results.h"
 
 namespace pipelines {
 namespace {

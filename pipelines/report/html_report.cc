@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/files/atomic_file.h"
 #include "pipelines/files/html_page.h"
 
 namespace pipelines {

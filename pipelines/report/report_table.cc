@@ -6,8 +6,8 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/report/results.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/report/results.h"
 #include "pipelines/report/summary.h"
 
 namespace pipelines {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <functional>
 
-#include "pipelines/files/csv.h"
-#include "pipelines/report/envelope_files.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/loads/load_files.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/files/csv.h"
+#include "pipelines/loads/load_files.h"
+#include "pipelines/report/envelope_files.h"
 
 namespace pipelines {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/responses/response_key.h"
 #include "pipelines/common/statistics.h"
-#include "pipelines/report/summary_values.h"
 #include "pipelines/common/version.h"
+#include "pipelines/report/summary_values.h"
+#include "pipelines/responses/response_key.h"
 
 namespace pipelines {
 namespace {

@@ -8,8 +8,9 @@
 
 #include "kinetics/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
-#include "pipelines/scene/scene.h"
 #include "pipelines/common/stage_clock.h"
+#include "pipelines/loads/bearings.h"
+#include "pipelines/scene/scene.h"
 
 namespace pipelines {
 

@@ -4,8 +4,8 @@
 #include "pipelines/analysis/energy_errors.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/report/results.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/report/results.h"
 #include "pipelines/report/summary_values.h"
 
 namespace pipelines::summary {

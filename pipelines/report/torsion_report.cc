@@ -46,4 +46,28 @@ TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
   return report;
 }
 
+void require_finite(const TorsionReport& torsion) {
+  const std::string stage = "torsion";
+  const auto check = [&](const std::string& what, const auto& values) {
+    if (values.size() > 0 && !values.allFinite()) refuse_not_finite(stage, what, "");
+  };
+  check("a natural frequency [rad/s]", torsion.modes.frequency_rad_s);
+  check("a mode's shape", torsion.modes.shape);
+  check("a mode's share of kinetic energy", torsion.modes.kinetic_share);
+  check("a mode's share of potential energy", torsion.modes.potential_share);
+  check("a mean torque [N m]", torsion.forced.mean_torque_Nm);
+  for (const auto& harmonic : torsion.forced.harmonics) {
+    check("a forced angle [rad]", harmonic.angle_rad.cwiseAbs().eval());
+    check("a forced torque [N m]", harmonic.torque_Nm.cwiseAbs().eval());
+  }
+  for (const auto& t : torsion.torques)
+    for (const double value : {t.mean_Nm, t.largest_Nm, t.largest_reduced_Nm, t.largest_shear_Pa})
+      require_finite(stage, "the torque of \"" + t.element + "\" [N m] or its stress [Pa]", value);
+  if (!torsion.transient) return;
+  const auto& transient = *torsion.transient;
+  check("a torque of the transient [N m]", transient.motion.torque_Nm);
+  check("an angle of the transient [rad]", transient.motion.angle_rad);
+  check("an energy of the transient [J]", (transient.kinetic_J + transient.potential_J).eval());
+}
+
 }  // namespace pipelines

@@ -44,4 +44,7 @@ std::string torsion_json(const Scene& scene, const TorsionReport& report);
 void write_torsion_files(const std::filesystem::path& directory, const Scene& scene,
                          const TorsionReport& report);
 
+/// @throws NotFinite naming the first quantity of it that is not finite
+void require_finite(const TorsionReport& torsion);
+
 }  // namespace pipelines

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/files/atomic_file.h"
 #include "pipelines/files/hdf5_file.h"
 
 namespace pipelines {

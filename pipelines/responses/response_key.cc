@@ -6,8 +6,8 @@
 #include <memory>
 #include <sstream>
 
-#include "pipelines/files/csv.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/files/csv.h"
 
 namespace pipelines {
 namespace {

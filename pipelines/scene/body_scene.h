@@ -11,9 +11,9 @@
 #include "fem/values/solver_choice.h"
 #include "meshes/chamber/chamber.h"
 #include "meshes/imported/imported.h"
-#include "meshes/shaft/shaft.h"
 #include "meshes/keyed_shaft/solid_shaft.h"
-#include "pipelines/loads/distribute.h"
+#include "meshes/shaft/shaft.h"
+#include "pipelines/scene/body_options.h"
 #include "pipelines/scene/pressure_pattern.h"
 
 namespace pipelines {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "kinetics/run_up.h"
-#include "pipelines/loads/bearings.h"
-#include "pipelines/scene/body_scene.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/scene/bearing_scene.h"
+#include "pipelines/scene/body_scene.h"
 #include "pipelines/scene/machine.h"
 #include "pipelines/scene/method.h"
-#include "pipelines/analysis/search_record.h"
+#include "pipelines/scene/requested_accuracy.h"
 
 namespace pipelines {
 
@@ -94,7 +94,7 @@ struct Scene {
   bool drum_axes = false;  ///< of a planetary mill: the trunnions' load also in axes that turn with the drum
   std::vector<BearingScene> bearings;
   Method method = Method::automatic;  ///< the model of every body
-  SearchWish wish;                    ///< how well the stresses are to be known, and in what time
+  RequestedAccuracy wish;             ///< how well the stresses are to be known, and in what time
   ZoneRule zones;
   int snapshots = 24;    ///< over the turn that contains the peak; 0: none
   bool pictures = true;  ///< of the envelope, as PNG

@@ -3,7 +3,7 @@
 namespace pipelines {
 namespace {
 
-constexpr double most_length_m = 10;
+constexpr double longest_chamber_m = 10;
 
 meshes::ChamberMeshControl read_mesh(SceneTable mesh) {
   const meshes::ChamberMeshControl usual;
@@ -11,7 +11,7 @@ meshes::ChamberMeshControl read_mesh(SceneTable mesh) {
   control.cells_through_wall = mesh.count_or("cells_through_wall", 1, 16, usual.cells_through_wall,
                                              "quadratic cells through the tube's wall");
   mesh.know("size");
-  if (mesh.has("size")) control.size_m = mesh.quantity("size", "m", positive(most_length_m));
+  if (mesh.has("size")) control.size_m = mesh.quantity("size", "m", positive(longest_chamber_m));
   control.growth = mesh.quantity_or("growth", "1", between(0.05, 2), usual.growth,
                                     "slope of the cell size away from weld toes");
   control.min_scaled_jacobian = mesh.quantity_or("min_scaled_jacobian", "1", between(0.01, 0.99),
@@ -24,7 +24,7 @@ meshes::ChamberMeshControl read_mesh(SceneTable mesh) {
 
 ChamberShape read_chamber_shape(SceneTable& body, const kinetics::VibratoryMill& mill,
                                 const std::optional<MillingSpace>& space) {
-  const Range length = positive(most_length_m);
+  const Range length = positive(longest_chamber_m);
   ChamberShape shape;
   auto& g = shape.geometry;
   SceneTable tube = body.table("tube");
@@ -53,7 +53,7 @@ ChamberShape read_chamber_shape(SceneTable& body, const kinetics::VibratoryMill&
   SceneTable webs = body.table("webs");
   g.webs.thickness_m = webs.quantity("thickness", "m", length);
   g.webs.height_m = webs.quantity("height", "m", length);
-  g.webs.z_m = webs.list("places", "m", between(-most_length_m, most_length_m));
+  g.webs.z_m = webs.list("places", "m", between(-longest_chamber_m, longest_chamber_m));
   webs.finish();
   SceneTable feet = body.table("feet");
   g.lugs.thickness_m = feet.quantity("lug_thickness", "m", length);

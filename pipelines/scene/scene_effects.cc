@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "pipelines/scene/body_effects.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
+#include "pipelines/scene/body_effects.h"
 
 namespace pipelines {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "pipelines/common/nearest_name.h"
-#include "pipelines/files/table_file.h"
 #include "pipelines/common/units.h"
+#include "pipelines/files/table_file.h"
 
 namespace pipelines {
 namespace {

@@ -11,7 +11,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double most_speed_rad_s = 1e4;
 constexpr double most_mass_kg = 1e6;
-constexpr double most_length_m = 100;
+constexpr double longest_machine_m = 100;
 constexpr double most_bulk_density_kg_m3 = 1e4;  // balls of tungsten carbide
 
 Eigen::Vector2d pair(SceneTable& table, const std::string& name, const std::string& unit,
@@ -89,7 +89,7 @@ void read_charge(SceneTable charge, const std::vector<std::string>& effects, kin
                                   {"gravity_charge", "charge_translation", "charge_centripetal",
                                    "charge_coriolis", "charge_relative", "charge_follows_pitch"},
                                   effects);
-  mill.charge_offset_m = charge.quantity("offset", "m", not_negative(most_length_m));
+  mill.charge_offset_m = charge.quantity("offset", "m", not_negative(longest_machine_m));
   const auto is_ratio =
       one_of(charge, "turn_ratio", "relative_speed",
              "turn_ratio, turns of the charge per turn of the drive as seen from outside, or relative_speed "
@@ -109,7 +109,7 @@ void read_charge(SceneTable charge, const std::vector<std::string>& effects, kin
 void read_structure(SceneTable structure, const std::vector<std::string>& effects,
                     kinetics::VibratoryMill& mill) {
   mill.structure_mass_kg = read_mass(structure, {"gravity_structure", "structure_inertia", "pitch"}, effects);
-  mill.structure_centre_m = pair(structure, "centre", "m", between(-most_length_m, most_length_m));
+  mill.structure_centre_m = pair(structure, "centre", "m", between(-longest_machine_m, longest_machine_m));
   structure.know("pitch_inertia");
   if (contains(effects, "pitch") || structure.has("pitch_inertia"))
     mill.pitch_inertia_kg_m2 = structure.quantity("pitch_inertia", "kg m2", positive(1e9));
@@ -123,13 +123,13 @@ void read_structure(SceneTable structure, const std::vector<std::string>& effect
 
 std::optional<MillingSpace> read_chamber(SceneTable chamber, SceneTable charge,
                                          kinetics::VibratoryMill& mill) {
-  mill.chamber_centre_m = pair(chamber, "centre", "m", between(-most_length_m, most_length_m));
+  mill.chamber_centre_m = pair(chamber, "centre", "m", between(-longest_machine_m, longest_machine_m));
   chamber.know("inner_radius");
   chamber.know("inner_length");
   std::optional<MillingSpace> space;
   if (chamber.has("inner_radius") || chamber.has("inner_length")) {
-    const double radius_m = chamber.quantity("inner_radius", "m", positive(most_length_m));
-    const double length_m = chamber.quantity("inner_length", "m", positive(most_length_m));
+    const double radius_m = chamber.quantity("inner_radius", "m", positive(longest_machine_m));
+    const double length_m = chamber.quantity("inner_length", "m", positive(longest_machine_m));
     space = MillingSpace{radius_m, length_m};
     if (mill.charge_offset_m >= radius_m) {
       charge.refuse("offset",
@@ -159,7 +159,7 @@ void read_springs(SceneTable& machine, const std::vector<std::string>& effects,
   std::vector<SceneTable> springs = machine.tables("springs");
   for (SceneTable& table : springs) {
     kinetics::Spring spring;
-    spring.position_m = pair(table, "position", "m", between(-most_length_m, most_length_m));
+    spring.position_m = pair(table, "position", "m", between(-longest_machine_m, longest_machine_m));
     spring.stiffness_N_m = pair(table, "stiffness", "N/m", not_negative(1e12));
     spring.damping_N_s_m = pair(table, "damping", "N s/m", not_negative(1e9));
     table.know("preload");

@@ -1,10 +1,10 @@
 #include <stdexcept>
 
-#include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/nearest_name.h"
 #include "pipelines/scene/requested_method.h"
 #include "pipelines/scene/scene_stages.h"
+#include "pipelines/scene/why_not.h"
 
 namespace pipelines {
 namespace {
@@ -40,8 +40,7 @@ Method requested_method(const std::string& option, const Scene& scene) {
   if (option.empty()) return scene.method;
   const auto method = method_of(option);
   if (!method)
-    throw OptionError("--method " + option + ": unknown model; write one of " +
-                                listed(method_names()));
+    throw OptionError("--method " + option + ": unknown model; write one of " + listed(method_names()));
   if (const auto remedy = remedy_for(*method, scene); !remedy.empty())
     throw OptionError("--method " + option + ": " + remedy);
   return *method;

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "kinetics/machine_refused.h"
-#include "pipelines/scene/body_effects.h"
 #include "pipelines/common/nearest_name.h"
+#include "pipelines/common/units.h"
+#include "pipelines/files/toml_tree.h"
+#include "pipelines/scene/body_effects.h"
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene.h"
 #include "pipelines/scene/scene_body.h"
@@ -19,8 +21,6 @@
 #include "pipelines/scene/scene_stages.h"
 #include "pipelines/scene/scene_table.h"
 #include "pipelines/scene/scene_train.h"
-#include "pipelines/files/toml_tree.h"
-#include "pipelines/common/units.h"
 
 namespace pipelines {
 namespace {

@@ -3,10 +3,11 @@
 
 #include "kinetics/machine_refused.h"
 #include "meshes/chamber/chamber_checks.h"
-#include "meshes/values/refused.h"
 #include "meshes/shaft/shaft_checks.h"
+#include "meshes/values/refused.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
+#include "pipelines/scene/known_forces.h"
 #include "pipelines/scene/scene_body.h"
 #include "pipelines/scene/scene_stages.h"
 
@@ -45,7 +46,7 @@ void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, Scen
   }
   if (scene.drum_axes) of_bodies.push_back("trunnions_turning");
   for (const auto& bearing : scene.bearings)
-    if (!force_of(bearing.load, loads, {}) && !contains(of_bodies, bearing.load))
+    if (!force_of(bearing.load, loads) && !contains(of_bodies, bearing.load))
       root.refuse("bearings", "the load \"" + bearing.load + "\" of \"" + bearing.name +
                                   "\" is no force here; known are: " + listed(known_forces(loads)) +
                                   (of_bodies.empty() ? "" : ", " + listed(of_bodies)));

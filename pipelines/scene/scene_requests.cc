@@ -1,11 +1,11 @@
 #include "pipelines/common/nearest_name.h"
-#include "pipelines/scene/scene_stages.h"
 #include "pipelines/common/units.h"
+#include "pipelines/scene/scene_stages.h"
 
 namespace pipelines {
 
-SearchWish read_wish(SceneTable& root) {
-  SearchWish wish;
+RequestedAccuracy read_wish(SceneTable& root) {
+  RequestedAccuracy wish;
   for (const char* key : {"tolerance", "time_limit"}) root.know(key);
   if (root.has("tolerance") && root.holds("tolerance", "none"))
     wish.once = true;

@@ -6,10 +6,10 @@
 namespace pipelines {
 namespace {
 
-constexpr double most_length_m = 100;
+constexpr double longest_part_m = 100;
 
 std::array<double, 3> point(SceneTable& table, const std::string& name) {
-  const auto values = table.quantities(name, "m", between(-most_length_m, most_length_m), 3);
+  const auto values = table.quantities(name, "m", between(-longest_part_m, longest_part_m), 3);
   return values.size() == 3 ? std::array<double, 3>{values[0], values[1], values[2]}
                             : std::array<double, 3>{};
 }
@@ -18,14 +18,14 @@ meshes::CylinderSelection read_cylinder(SceneTable table) {
   meshes::CylinderSelection cylinder;
   table.know("axis");
   if (table.has("axis")) {
-    const auto axis = table.quantities("axis", "m", between(-most_length_m, most_length_m), 2);
+    const auto axis = table.quantities("axis", "m", between(-longest_part_m, longest_part_m), 2);
     if (axis.size() == 2) cylinder.axis_x_m = axis[0], cylinder.axis_y_m = axis[1];
   } else {
     table.record_default("axis", "[0, 0]", "the z axis");
   }
-  cylinder.radius_m = table.quantity("diameter", "m", positive(most_length_m)) / 2;
-  cylinder.begin_m = table.quantity("begin", "m", between(-most_length_m, most_length_m));
-  cylinder.end_m = table.quantity("end", "m", between(-most_length_m, most_length_m));
+  cylinder.radius_m = table.quantity("diameter", "m", positive(longest_part_m)) / 2;
+  cylinder.begin_m = table.quantity("begin", "m", between(-longest_part_m, longest_part_m));
+  cylinder.end_m = table.quantity("end", "m", between(-longest_part_m, longest_part_m));
   if (cylinder.end_m <= cylinder.begin_m)
     table.refuse("end", "must lie beyond begin: they are the ends of the range in z");
   const std::string side = table.text_or("side", "outside", "of a shaft; \"inside\" of a hole");
@@ -88,16 +88,16 @@ meshes::SolidControl read_solid_control(SceneTable mesh) {
   const meshes::SolidControl usual;
   meshes::SolidControl control;
   mesh.know("size");
-  if (mesh.has("size")) control.size_m = mesh.quantity("size", "m", positive(most_length_m));
+  if (mesh.has("size")) control.size_m = mesh.quantity("size", "m", positive(longest_part_m));
   mesh.know("smallest_size");
   if (mesh.has("smallest_size"))
-    control.smallest_size_m = mesh.quantity("smallest_size", "m", positive(most_length_m));
+    control.smallest_size_m = mesh.quantity("smallest_size", "m", positive(longest_part_m));
   control.cells_per_circle =
       mesh.count_or("cells_per_circle", 6, 400, usual.cells_per_circle, "around every curved surface");
   control.min_scaled_jacobian = mesh.quantity_or("min_scaled_jacobian", "1", between(0.001, 0.99),
                                                  usual.min_scaled_jacobian, "worse meshes are refused");
   mesh.know("exclusion");
-  if (mesh.has("exclusion")) control.exclusion_m = mesh.quantity("exclusion", "m", positive(most_length_m));
+  if (mesh.has("exclusion")) control.exclusion_m = mesh.quantity("exclusion", "m", positive(longest_part_m));
   mesh.finish();
   return control;
 }
@@ -129,10 +129,10 @@ std::vector<meshes::Keyway> read_keyways(SceneTable& body) {
   for (SceneTable& table : body.tables("keyways")) {
     meshes::Keyway keyway;
     keyway.segment = table.text("segment");
-    keyway.width_m = table.quantity("width", "m", positive(most_length_m));
-    keyway.depth_m = table.quantity("depth", "m", positive(most_length_m));
-    keyway.length_m = table.quantity("length", "m", positive(most_length_m));
-    keyway.begin_m = table.quantity("begin", "m", between(-most_length_m, most_length_m));
+    keyway.width_m = table.quantity("width", "m", positive(longest_part_m));
+    keyway.depth_m = table.quantity("depth", "m", positive(longest_part_m));
+    keyway.length_m = table.quantity("length", "m", positive(longest_part_m));
+    keyway.begin_m = table.quantity("begin", "m", between(-longest_part_m, longest_part_m));
     keyway.angle_rad =
         table.quantity_or("angle", "rad", between(-10, 10), 0, "its middle line lies along +x");
     keyway.round_ends = table.flag_or("round_ends", true, "milled with an end mill");

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/scene/scene_findings.h"
 #include "pipelines/files/toml_tree.h"
+#include "pipelines/scene/scene_findings.h"
 
 namespace pipelines {
 

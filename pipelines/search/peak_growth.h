@@ -9,8 +9,8 @@
 
 namespace pipelines {
 
-/// The peak's values at one place, mesh after mesh. Of tetrahedra each feature's own: they all become finer where
-/// they may lead, and the peak goes from one to the other where several are alike.
+/// The peak's values at one place, mesh after mesh. Of tetrahedra each feature's own: they all become finer
+/// where they may lead, and the peak goes from one to the other where several are alike.
 class PeakGrowth {
 public:
   /// @param ratio  of cell sizes from the step before to this one

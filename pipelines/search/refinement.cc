@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "pipelines/common/name_lists.h"
 #include "pipelines/analysis/fineness.h"
+#include "pipelines/common/name_lists.h"
 #include "pipelines/search/solid_refinement.h"
 
 namespace pipelines {

@@ -9,8 +9,8 @@
 
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/search/place_history.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/search/place_history.h"
 
 namespace pipelines {
 

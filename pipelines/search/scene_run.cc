@@ -10,22 +10,23 @@
 #include <utility>
 
 #include "fem/beam/beam_responses.h"
+#include "pipelines/analysis/fineness.h"
+#include "pipelines/analysis/place_errors.h"
+#include "pipelines/analysis/tetrahedra_estimate.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
-#include "pipelines/report/body_files.h"
 #include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_bounds.h"
 #include "pipelines/effects/effect_choice.h"
-#include "pipelines/analysis/fineness.h"
+#include "pipelines/report/body_files.h"
+#include "pipelines/scene/why_not.h"
 #include "pipelines/search/peak_growth.h"
-#include "pipelines/analysis/place_errors.h"
 #include "pipelines/search/place_history.h"
 #include "pipelines/search/refinement.h"
-#include "pipelines/common/refusal_of.h"
 #include "pipelines/search/second_model.h"
 #include "pipelines/search/singular_edge.h"
-#include "pipelines/analysis/tetrahedra_estimate.h"
 
 namespace pipelines {
 namespace {

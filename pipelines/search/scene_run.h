@@ -6,8 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/analysis/body_analysis.h"
 #include "pipelines/loads/load_stage.h"
-#include "pipelines/analysis/search_record.h"
+#include "pipelines/scene/requested_accuracy.h"
 
 namespace pipelines {
 
@@ -16,7 +17,7 @@ struct SceneRunOptions {
   int n_threads = 0;                ///< 0: all cores
   bool fresh = false;               ///< reuse nothing of an earlier run
   bool keep = true;                 ///< unit responses, for the next run
-  SearchWish wish{};
+  RequestedAccuracy wish{};
   bool second_model = true;           ///< harmonics around the axis beside the solid, where they apply
   std::optional<std::size_t> only{};  ///< this body alone is meshed and solved...
   std::vector<MeshedBody> others{};   ///< ...beside these meshes, in the order of Scene::bodies

@@ -4,6 +4,7 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/scene/why_not.h"
 
 namespace pipelines {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dealii_operator.h"
-#include "fem/operators/elastic_operator.h"
 #include "fem/mesh/mesh_reader.h"
+#include "fem/operators/elastic_operator.h"
 #include "fem/operators/stiffness.h"
 #include "process.h"
 

@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/common/memory.h"
+#include "fem/common/parallel.h"
+#include "fem/loads/surface_loads.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/rigid_modes.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/iterative_solve.h"
-#include "fem/common/memory.h"
-#include "fem/mesh/mesh_reader.h"
-#include "fem/common/parallel.h"
-#include "fem/mesh/rigid_modes.h"
 #include "fem/solvers/solver_prediction.h"
-#include "fem/loads/surface_loads.h"
 #include "process.h"
 
 namespace measure {

@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pipelines/analysis/fineness.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/fem_environment.h"
-#include "pipelines/analysis/fineness.h"
 #include "pipelines/search/scene_run.h"
 #include "tests/cases/step_shafts.h"
 

@@ -130,8 +130,8 @@ TEST(EffectsAuto, WhatIsOffIsNotSolved) {
             1e-4 * chosen["peak_von_mises"]["value"].get<double>());
 
   const results_test::Directory directory;
-  auto named =
-      run(directory.path, with_effects(scene, runs.chosen["input"]["effects"].dump()), "--method solid --tolerance '100 %'");
+  auto named = run(directory.path, with_effects(scene, runs.chosen["input"]["effects"].dump()),
+                   "--method solid --tolerance '100 %'");
   ASSERT_FALSE(named.is_null());
   for (const char* quantity : {"channels", "peak_principal", "zones", "dofs", "torsion"})
     EXPECT_EQ(named["bodies"]["shaft"][quantity], chosen[quantity]) << quantity;

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <set>
 
+#include "fem/loads/surface_loads.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/operators/stiffness.h"
 #include "fem/solvers/aggregates.h"
 #include "fem/solvers/cholmod_factor.h"
 #include "fem/solvers/iterative_solve.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/solvers/rigid_galerkin.h"
-#include "fem/mesh/rigid_modes.h"
-#include "fem/operators/stiffness.h"
-#include "fem/loads/surface_loads.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "fem/beam/beam_responses.h"
-#include "fem/values/constants.h"
 #include "fem/beam/fillet_factors.h"
+#include "fem/values/constants.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -6,15 +6,15 @@
 #include <fstream>
 #include <random>
 
-#include "fem/values/body_nodes.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/values/constants.h"
-#include "fem/operators/mass_matrix.h"
 #include "fem/mesh/mesh_reader.h"
-#include "fem/model/model.h"
 #include "fem/mesh/reference_cell.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/model/model.h"
+#include "fem/operators/mass_matrix.h"
 #include "fem/operators/stiffness.h"
+#include "fem/values/body_nodes.h"
+#include "fem/values/constants.h"
 #include "scratch_directory.h"
 #include "shaft_bodies.h"
 #include "tetrahedra.h"

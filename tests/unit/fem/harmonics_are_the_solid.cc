@@ -8,8 +8,8 @@
 
 #include "fem/axisymmetric/axisymmetric_responses.h"
 #include "fem/beam/beam_responses.h"
-#include "fem/stress/cell_stress_at_node.h"
 #include "fem/model/model.h"
+#include "fem/stress/cell_stress_at_node.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "fem/axisymmetric/axisymmetric_responses.h"
-#include "fem/values/constants.h"
 #include "fem/model/model.h"
+#include "fem/values/constants.h"
 #include "meridian_tube.h"
 #include "shaft_bodies.h"
 

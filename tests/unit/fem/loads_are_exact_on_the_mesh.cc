@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "fem/mesh/mesh_reader.h"
 #include "fem/loads/surface_loads.h"
+#include "fem/mesh/mesh_reader.h"
 #include "shaft_bodies.h"
 
 namespace {

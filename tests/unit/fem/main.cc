@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "fem/model/model.h"
 #include "fem/common/parallel.h"
+#include "fem/model/model.h"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "fem/values/constants.h"
 #include "fem/model/model.h"
+#include "fem/values/constants.h"
 #include "shaft_bodies.h"
 
 namespace {

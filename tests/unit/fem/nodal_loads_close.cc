@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "fem/model/model.h"
 #include "fem/loads/nodal_loads.h"
+#include "fem/model/model.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
-#include "fem/values/body_nodes.h"
-#include "fem/stress/cell_stress_at_node.h"
 #include "fem/model/model.h"
+#include "fem/stress/cell_stress_at_node.h"
 #include "fem/stress/surface_stress.h"
+#include "fem/values/body_nodes.h"
 #include "shaft_bodies.h"
 
 using fem_tests::steel;

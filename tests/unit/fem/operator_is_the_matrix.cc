@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "fem/operators/elastic_operator.h"
 #include "fem/mesh/mesh_reader.h"
+#include "fem/operators/elastic_operator.h"
 #include "shaft_bodies.h"
 
 namespace {

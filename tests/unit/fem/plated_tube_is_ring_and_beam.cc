@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fem/values/constants.h"
 #include "fem/beam/plated_tube.h"
+#include "fem/values/constants.h"
 
 namespace {
 

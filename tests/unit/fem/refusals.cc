@@ -3,10 +3,10 @@
 #include <fstream>
 #include <functional>
 
+#include "fem/loads/surface_loads.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/mesh_reader.h"
 #include "fem/model/model.h"
-#include "fem/loads/surface_loads.h"
 #include "shaft_bodies.h"
 
 namespace {

@@ -6,11 +6,11 @@
 #include <functional>
 #include <numeric>
 
-#include "fem/values/body_nodes.h"
-#include "fem/values/constants.h"
 #include "fem/model/model.h"
 #include "fem/operators/nodes_export.h"
 #include "fem/stress/region_volume.h"
+#include "fem/values/body_nodes.h"
+#include "fem/values/constants.h"
 #include "meshes/keyed_shaft/solid_shaft.h"
 #include "shaft_bodies.h"
 #include "tetrahedra.h"

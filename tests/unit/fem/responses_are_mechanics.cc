@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "fem/loads/surface_loads.h"
 #include "fem/mesh/mesh_reader.h"
 #include "fem/model/model.h"
 #include "fem/stress/stress_recovery.h"
-#include "fem/loads/surface_loads.h"
 #include "fem/values/vtk_order.h"
 #include "shaft_bodies.h"
 

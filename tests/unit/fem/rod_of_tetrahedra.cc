@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "fem/values/constants.h"
 #include "fem/model/model.h"
+#include "fem/values/constants.h"
 #include "meshes/keyed_shaft/solid_shaft.h"
 #include "shaft_bodies.h"
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/axisymmetric/meridian_body.h"
+#include "fem/values/body.h"
 #include "fem/values/unit_load.h"
 #include "fem/values/unit_responses.h"
 #include "meshes/shaft/shaft.h"

@@ -6,12 +6,12 @@
 #include <fstream>
 
 #include "fem/mesh/cell_geometry.h"
-#include "fem/stress/cell_stress_at_node.h"
-#include "fem/values/constants.h"
 #include "fem/mesh/mesh_reader.h"
-#include "fem/model/model.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/model/model.h"
+#include "fem/stress/cell_stress_at_node.h"
 #include "fem/stress/tetrahedra_error.h"
+#include "fem/values/constants.h"
 #include "tetrahedra.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "fem/mesh/cell_geometry.h"
-#include "fem/stress/stress_recovery.h"
 #include "fem/operators/symmetric_matrix.h"
+#include "fem/stress/stress_recovery.h"
 #include "tetrahedra.h"
 
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "meshes/checks/quality.h"
 #include "meshes/spacing/disc.h"
 #include "meshes/spacing/grading.h"
-#include "meshes/checks/quality.h"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <functional>
 
-#include "meshes/values/constants.h"
 #include "meshes/gmsh/gmsh_session.h"
 #include "meshes/imported/imported.h"
+#include "meshes/values/constants.h"
 #include "tests/unit/meshes/example_shafts.h"
 #include "tests/unit/meshes/tetrahedra_file.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "meshes/values/constants.h"
 #include "meshes/keyed_shaft/solid_shaft.h"
+#include "meshes/values/constants.h"
 #include "tests/unit/meshes/example_shafts.h"
 #include "tests/unit/meshes/shaft_volume.h"
 #include "tests/unit/meshes/tetrahedra_file.h"

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "meshes/shaft/half_section.h"
 #include "meshes/spacing/disc.h"
 #include "meshes/spacing/grading.h"
-#include "meshes/shaft/half_section.h"
 #include "tests/unit/meshes/example_shafts.h"
 #include "tests/unit/meshes/mesh_file.h"
 #include "tests/unit/meshes/random_bodies.h"

@@ -10,12 +10,13 @@
 #include "edited_scene.h"
 #include "fem/model/model.h"
 #include "laboratory.h"
+#include "pipelines/analysis/place_stress.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
 #include "pipelines/loads/load_stage.h"
-#include "pipelines/analysis/place_stress.h"
 #include "pipelines/scene/requested_method.h"
+#include "pipelines/scene/why_not.h"
 #include "results_directory.h"
 
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "pipelines/search/refinement.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/search/refinement.h"
 
 using namespace pipelines;
 

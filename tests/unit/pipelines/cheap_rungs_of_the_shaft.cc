@@ -7,8 +7,8 @@
 
 #include "fem/beam/beam_responses.h"
 #include "laboratory.h"
-#include "pipelines/loads/body_mesh.h"
 #include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/loads/body_mesh.h"
 #include "pipelines/loads/statics.h"
 #include "pipelines/superposition/zones.h"
 #include "results_directory.h"

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "pipelines/analysis/body_analysis.h"
 #include "pipelines/effects/effect_bounds.h"
 #include "pipelines/effects/effect_choice.h"
 #include "tests/unit/pipelines/bodies.h"

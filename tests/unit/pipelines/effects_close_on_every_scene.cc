@@ -6,10 +6,10 @@
 #include <fstream>
 #include <set>
 
-#include "pipelines/scene/body_effects.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/body_effects.h"
 #include "tests/unit/pipelines/bodies.h"
 #include "tests/unit/pipelines/results_directory.h"
 #include "tests/unit/pipelines/shared_environment.h"

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "pipelines/effects/body_effect_report.h"
-#include "pipelines/scene/body_effects.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/body_effects.h"
 #include "tests/unit/pipelines/edited_scene.h"
 #include "tests/unit/pipelines/plain_body.h"
 

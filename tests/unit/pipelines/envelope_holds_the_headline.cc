@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/report/envelope_files.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/report/envelope_files.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 

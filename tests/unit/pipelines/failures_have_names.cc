@@ -14,8 +14,8 @@
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
-#include "pipelines/loads/load_stage.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/loads/load_stage.h"
 #include "pipelines/scene/scene.h"
 
 namespace {

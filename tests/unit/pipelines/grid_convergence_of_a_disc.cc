@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "pipelines/loads/body_mesh.h"
 #include "pipelines/accuracy/grid_convergence.h"
 #include "pipelines/accuracy/systematic_meshes.h"
+#include "pipelines/loads/body_mesh.h"
 #include "results_directory.h"
 #include "tests/unit/pipelines/shared_environment.h"
 

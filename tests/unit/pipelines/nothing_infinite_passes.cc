@@ -6,7 +6,9 @@
 
 #include "pipelines/common/errors.h"
 #include "pipelines/common/finite.h"
+#include "pipelines/loads/finite_loads.h"
 #include "pipelines/report/torsion_report.h"
+#include "pipelines/superposition/finite_stress.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "pipelines/common/errors.h"
 #include "pipelines/commands/option_value.h"
+#include "pipelines/common/errors.h"
 
 namespace {
 
@@ -40,7 +40,7 @@ TEST(Options, ABareTimeIsInSecondsAndOtherBareNumbersAreRefused) {
 }
 
 TEST(Options, OfASearchComeBeforeTheScenes) {
-  const SearchWish scene{0.05, 60};
+  const RequestedAccuracy scene{0.05, 60};
   EXPECT_EQ(requested_search("", "", scene).tolerance, 0.05);
   EXPECT_EQ(requested_search("2 %", "", scene).tolerance, 0.02);
   EXPECT_EQ(requested_search("2 %", "", scene).time_limit_s, 60);

@@ -1,10 +1,10 @@
 /// A promise about the largest stress of a body is one about every place that may hold it.
 #include <gtest/gtest.h>
 
-#include "pipelines/search/place_history.h"
 #include "pipelines/analysis/place_stress.h"
-#include "pipelines/search/refinement.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/search/place_history.h"
+#include "pipelines/search/refinement.h"
 
 using namespace pipelines;
 

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "pipelines/files/vtk_files.h"
 #include "pipelines/pictures/cut_surface.h"
 #include "pipelines/pictures/picture.h"
 #include "pipelines/pictures/picture_surface.h"
-#include "pipelines/files/vtk_files.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 

@@ -19,8 +19,8 @@
 #include "pipelines/pictures/label_rows.h"
 #include "pipelines/pictures/port_picture.h"
 #include "pipelines/pictures/port_surface.h"
-#include "pipelines/scene/scene.h"
 #include "pipelines/pictures/port_visibility.h"
+#include "pipelines/scene/scene.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"
 

@@ -6,8 +6,8 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include "pipelines/responses/response_files.h"
 #include "pipelines/files/vtk_files.h"
+#include "pipelines/responses/response_files.h"
 #include "pipelines/superposition/zones.h"
 #include "tests/unit/pipelines/results_bar.h"
 #include "tests/unit/pipelines/results_directory.h"

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "pipelines/common/nearest_name.h"
-#include "pipelines/scene/scene.h"
 #include "pipelines/files/toml_tree.h"
+#include "pipelines/scene/scene.h"
 
 namespace {
 

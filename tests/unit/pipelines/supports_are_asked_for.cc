@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pipelines/loads/closure.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/loads/closure.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/scene/scene.h"
 #include "tests/unit/pipelines/results_directory.h"

@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "pipelines/scene/scene.h"
 #include "pipelines/files/table_file.h"
+#include "pipelines/scene/scene.h"
 #include "tests/unit/pipelines/results_directory.h"
 
 using results_test::Directory;

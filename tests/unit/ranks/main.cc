@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "fem/ranks/helper_ranks.h"
 #include "fem/model/model.h"
+#include "fem/ranks/helper_ranks.h"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -1,9 +1,9 @@
 // A rank recovers the stress of its nodes on a part of the mesh, and takes the same steps as on the whole.
 #include <gtest/gtest.h>
 
+#include "fem/mesh/mesh_reader.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/ranks/helper_ranks.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/stress/recovery_on_ranks.h"
 #include "shaft_bodies.h"
 #include "tetrahedra.h"

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <set>
 
-#include "fem/ranks/helper_ranks.h"
 #include "fem/mesh/mesh_reader.h"
 #include "fem/model/model.h"
 #include "fem/operators/subdomain.h"
+#include "fem/ranks/helper_ranks.h"
 #include "shaft_bodies.h"
 #include "tetrahedra.h"
 

@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "fem/model/model.h"
-#include "pipelines/loads/body_mesh.h"
 #include "pipelines/calculix/calculix_comparison.h"
 #include "pipelines/calculix/calculix_model.h"
+#include "pipelines/loads/body_mesh.h"
 #include "tests/benchmarks/benchmark_shaft.h"
 #include "tests/unit/pipelines/results_directory.h"
 

@@ -89,7 +89,7 @@ meshes::Chamber small_random_chamber(std::mt19937& random) {
 }
 
 pipelines::SceneRun run(const pipelines::Scene& scene, const std::filesystem::path& directory,
-                        const pipelines::SearchWish& wish) {
+                        const pipelines::RequestedAccuracy& wish) {
   pipelines::SceneRunOptions options;
   options.directory = directory;
   options.n_threads = 1;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "block_mesh.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/loads/surface_loads.h"
+#include "fem/mesh/mesh_reader.h"
 #include "figures.h"
 
 namespace {

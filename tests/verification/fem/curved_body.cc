@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "block_mesh.h"
-#include "fem/solvers/cholmod_factor.h"
 #include "fem/loads/clamps.h"
 #include "fem/mesh/mesh_reader.h"
+#include "fem/solvers/cholmod_factor.h"
 #include "field_errors.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "fem/mesh/geometry_error.h"
+#include "fem/mesh/geometry_distance.h"
 
 #include <algorithm>
 #include <cmath>

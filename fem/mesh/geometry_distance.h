@@ -3,9 +3,10 @@
 
 #include <vector>
 
-#include "fem/values/body.h"
 #include "fem/mesh/grid.h"
-#include "fem/model/model.h"
+#include "fem/values/body.h"
+#include "fem/values/geometry_error.h"
+#include "fem/values/unit_load.h"
 
 namespace fem {
 

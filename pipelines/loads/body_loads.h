@@ -1,0 +1,30 @@
+/// The loads of a scene's bodies, whatever their role.
+#pragma once
+
+#include <vector>
+
+#include "kinetics/load_history.h"
+#include "pipelines/loads/body_mesh.h"
+#include "pipelines/loads/closure.h"
+#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/machine_masses.h"
+#include "pipelines/scene/scene.h"
+
+namespace pipelines {
+
+/// What distribution needs to know of a meshed body.
+LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);
+
+/// The loads of one body of a scene, by its role.
+/// @param history  of the load stage with the machine of `masses`
+BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
+                          const LoadedBody& loaded, const MassAgreement& masses);
+
+/// Whether channels and ports close, before anything is solved: by the resultants that they must have.
+/// @throws LoadsDoNotClose if forces or moments miss 1e-9 of their scale
+void require_closed_loads(const BodyLoads& loads, const std::vector<RegionMass>& regions);
+
+/// @throws LoadsDoNotClose if the loads miss Closure::limit of their scale
+void require_closure(const std::string& body, const Closure& closure);
+
+}  // namespace pipelines

@@ -1,0 +1,22 @@
+/// A rolling bearing as a scene describes it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "kinetics/bearing_life.h"
+
+namespace pipelines {
+
+/// One entry [[bearings]] of a scene.
+struct BearingScene {
+  std::string name;
+  std::string load;  ///< a quantity ("R_E"), the role of a resultant, or a port of a body
+  double share = 1;  ///< of that load, in (0, 1]
+  double dynamic_rating_N = 0;
+  kinetics::RollingElement element = kinetics::RollingElement::ball;
+  std::optional<double> speed_rad_s;  ///< of one ring against the other; default: the drive's mean speed, in
+                                      ///< a planetary mill the drum's against the carrier
+};
+
+}  // namespace pipelines
