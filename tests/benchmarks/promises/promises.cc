@@ -2,6 +2,7 @@
 ///   promises [shafts [first seed [seconds for each search]]] [--alone] [--short]
 /// --alone: the search has no second model beside it; --short: for 5 and 2 % only.
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -115,7 +116,7 @@ int main(int argc, char** argv) {
   const Options options = options_of(argc, argv);
   const FemEnvironment environment(2);
   const fs::path directory =
-      fs::temp_directory_path() / fmt::format("millstress_promises_{}", options.first_seed);
+      fs::temp_directory_path() / fmt::format("millstress_promises_{}_{}", options.first_seed, getpid());
   fs::create_directories(directory);
   Tally tally;
   int n_shafts = 0, n_refused = 0;
