@@ -7,6 +7,7 @@
 
 #include "fem/beam/beam_shaft.h"
 #include "fem/values/unit_responses.h"
+#include "pipelines/loads/load_book.h"
 #include "pipelines/scene/body_scene.h"
 
 namespace pipelines {

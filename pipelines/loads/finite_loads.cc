@@ -17,8 +17,8 @@ struct HistoryGuard {
     for (Eigen::Index i = 0; i < values.cols(); ++i)
       if (!values.col(i).allFinite())
         refuse_not_finite(stage, what,
-             i < time_s.size() ? fmt::format(" at t = {:.6g} s", time_s[i])
-                               : fmt::format(" at instant {}", i));
+                          i < time_s.size() ? fmt::format(" at t = {:.6g} s", time_s[i])
+                                            : fmt::format(" at instant {}", i));
   }
 };
 

@@ -12,8 +12,8 @@ struct RequestedAccuracy {
   bool any() const { return tolerance > 0 || time_limit_s > 0; }
 };
 
-/// What `run` does where neither scene nor command line ask for anything: 5 % within a minute, whichever comes
-/// first.
+/// What `run` does where neither scene nor command line ask for anything: 5 % within a minute, whichever
+/// comes first.
 inline RequestedAccuracy with_default(RequestedAccuracy accuracy) {
   if (accuracy.once || accuracy.any()) return accuracy;
   accuracy.tolerance = 0.05;

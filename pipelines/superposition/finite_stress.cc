@@ -24,7 +24,8 @@ void check_nodes(const std::string& stage, const std::string& what, const std::v
                  std::size_t per_node) {
   const Eigen::Map<const Eigen::ArrayXd> all(values.data(), Eigen::Index(values.size()));
   if (const auto at = first_fault(all); at >= 0)
-    refuse_not_finite(stage, what, fmt::format(" at node {}", std::size_t(at) / std::max<std::size_t>(1, per_node)));
+    refuse_not_finite(stage, what,
+                      fmt::format(" at node {}", std::size_t(at) / std::max<std::size_t>(1, per_node)));
 }
 
 void check_maximum(const std::string& stage, const std::string& what, const NodalMaximum& maximum) {

@@ -1,4 +1,4 @@
-#include "dealii_operator.h"
+#include "tests/benchmarks/dealii_operator.h"
 
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>

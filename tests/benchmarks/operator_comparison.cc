@@ -1,14 +1,14 @@
-#include "operator_comparison.h"
+#include "tests/benchmarks/operator_comparison.h"
 
 #include <cstdio>
 #include <random>
 #include <vector>
 
-#include "dealii_operator.h"
 #include "fem/mesh/mesh_reader.h"
 #include "fem/operators/elastic_operator.h"
 #include "fem/operators/stiffness.h"
-#include "process.h"
+#include "tests/benchmarks/dealii_operator.h"
+#include "tests/benchmarks/process.h"
 
 namespace measure {
 

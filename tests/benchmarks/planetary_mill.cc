@@ -1,6 +1,6 @@
 // The planetary mill's load stage, all effects, one turn of the carrier.
 #include "../unit/kinetics/planetary_machines.h"
-#include "measure.h"
+#include "tests/benchmarks/measure.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "solver_comparison.h"
+#include "tests/benchmarks/solver_comparison.h"
 
 #include <cmath>
 #include <cstdio>
@@ -13,7 +13,7 @@
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/iterative_solve.h"
 #include "fem/solvers/solver_prediction.h"
-#include "process.h"
+#include "tests/benchmarks/process.h"
 
 namespace measure {
 

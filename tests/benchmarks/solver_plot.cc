@@ -1,4 +1,4 @@
-#include "solver_plot.h"
+#include "tests/benchmarks/solver_plot.h"
 
 #include <algorithm>
 #include <cmath>

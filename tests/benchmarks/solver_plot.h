@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "solver_comparison.h"
+#include "tests/benchmarks/solver_comparison.h"
 
 namespace measure {
 

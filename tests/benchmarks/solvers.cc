@@ -11,12 +11,12 @@
 #include <string>
 
 #include "fem/model/model.h"
-#include "operator_comparison.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/scene/scene.h"
-#include "solver_comparison.h"
-#include "solver_plot.h"
 #include "tests/benchmarks/benchmark_shaft.h"
+#include "tests/benchmarks/operator_comparison.h"
+#include "tests/benchmarks/solver_comparison.h"
+#include "tests/benchmarks/solver_plot.h"
 
 namespace {
 

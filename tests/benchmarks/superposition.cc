@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "measure.h"
+#include "tests/benchmarks/measure.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The vibratory mill's load stage: what an instant costs, and that effects which are off cost nothing.
 #include "../unit/kinetics/machines.h"
-#include "measure.h"
+#include "tests/benchmarks/measure.h"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/unit/pipelines/results_directory.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace cases {
 

@@ -6,7 +6,7 @@
 
 #include "kinetics/effect_info.h"
 #include "kinetics/planetary_mill.h"
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 using namespace kinetics;
 

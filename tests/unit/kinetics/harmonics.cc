@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

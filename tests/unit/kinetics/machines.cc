@@ -1,4 +1,4 @@
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 #include <algorithm>
 

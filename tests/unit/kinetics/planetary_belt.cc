@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "planetary_machines.h"
+#include "tests/unit/kinetics/planetary_machines.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "moment_sum.h"
-#include "planetary_machines.h"
+#include "tests/unit/kinetics/moment_sum.h"
+#include "tests/unit/kinetics/planetary_machines.h"
 
 namespace {
 

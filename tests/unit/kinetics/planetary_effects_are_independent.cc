@@ -5,8 +5,8 @@
 #include <set>
 
 #include "kinetics/planetary/balance.h"
-#include "planetary_machines.h"
-#include "whole_history.h"
+#include "tests/unit/kinetics/planetary_machines.h"
+#include "tests/unit/kinetics/whole_history.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "planetary_machines.h"
+#include "tests/unit/kinetics/planetary_machines.h"
 
 #include <algorithm>
 #include <cmath>

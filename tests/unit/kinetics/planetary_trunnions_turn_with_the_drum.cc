@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include "planetary_machines.h"
+#include "tests/unit/kinetics/planetary_machines.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kinetics/vibratory/affine_optimum.h"
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kinetics/constants.h"
-#include "trains.h"
+#include "tests/unit/kinetics/trains.h"
 
 namespace {
 

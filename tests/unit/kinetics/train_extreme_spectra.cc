@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "trains.h"
+#include "tests/unit/kinetics/trains.h"
 
 namespace {
 

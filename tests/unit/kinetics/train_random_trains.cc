@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "kinetics/torsion/reduced.h"
-#include "trains.h"
+#include "tests/unit/kinetics/trains.h"
 
 namespace {
 

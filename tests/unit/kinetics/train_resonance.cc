@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "trains.h"
+#include "tests/unit/kinetics/trains.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "trains.h"
+#include "tests/unit/kinetics/trains.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "trains.h"
+#include "tests/unit/kinetics/trains.h"
 
 #include <cmath>
 #include <map>

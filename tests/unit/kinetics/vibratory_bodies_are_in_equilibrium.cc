@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "kinetics/load_history.h"
-#include "machines.h"
-#include "moment_sum.h"
+#include "tests/unit/kinetics/machines.h"
+#include "tests/unit/kinetics/moment_sum.h"
 
 namespace {
 

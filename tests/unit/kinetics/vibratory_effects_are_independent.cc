@@ -7,8 +7,8 @@
 #include "kinetics/vibratory/balance.h"
 #include "kinetics/vibratory/published.h"
 #include "kinetics/vibratory/table.h"
-#include "machines.h"
-#include "whole_history.h"
+#include "tests/unit/kinetics/machines.h"
+#include "tests/unit/kinetics/whole_history.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Limits in which a formula could divide by zero or an effect should vanish.
 #include <gtest/gtest.h>
 
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "kinetics/vibratory/effect.h"
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

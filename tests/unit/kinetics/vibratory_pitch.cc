@@ -4,7 +4,7 @@
 
 #include "kinetics/vibratory/pitch.h"
 #include "kinetics/vibratory/springs.h"
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

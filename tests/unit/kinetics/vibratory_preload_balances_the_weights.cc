@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "kinetics/vibratory/springs.h"
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

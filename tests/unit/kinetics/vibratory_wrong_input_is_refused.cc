@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "machines.h"
+#include "tests/unit/kinetics/machines.h"
 
 namespace {
 

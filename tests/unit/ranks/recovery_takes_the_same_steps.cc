@@ -5,8 +5,8 @@
 #include "fem/operators/cell_materials.h"
 #include "fem/ranks/helper_ranks.h"
 #include "fem/stress/recovery_on_ranks.h"
-#include "shaft_bodies.h"
-#include "tetrahedra.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/unit/fem/examples/tetrahedra.h"
 
 namespace {
 

@@ -11,8 +11,8 @@
 #include "fem/model/model.h"
 #include "fem/operators/subdomain.h"
 #include "fem/ranks/helper_ranks.h"
-#include "shaft_bodies.h"
-#include "tetrahedra.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/unit/fem/examples/tetrahedra.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "pipelines/calculix/calculix_results.h"
-#include "tests/unit/pipelines/results_directory.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace {
 

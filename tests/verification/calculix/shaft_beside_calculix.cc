@@ -10,7 +10,7 @@
 #include "pipelines/calculix/calculix_model.h"
 #include "pipelines/loads/body_mesh.h"
 #include "tests/benchmarks/benchmark_shaft.h"
-#include "tests/unit/pipelines/results_directory.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace {
 

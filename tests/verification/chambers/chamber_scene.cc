@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "pipelines/common/stage_clock.h"
-#include "tests/unit/meshes/example_chambers.h"
-#include "tests/unit/pipelines/edited_scene.h"
+#include "tests/unit/meshes/examples/example_chambers.h"
+#include "tests/unit/pipelines/examples/edited_scene.h"
 
 namespace chambers {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pipelines/analysis/fineness.h"
-#include "tests/unit/pipelines/results_directory.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
 #include "tests/verification/chambers/chamber_scene.h"
 
 namespace {

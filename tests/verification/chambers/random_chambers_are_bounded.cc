@@ -9,8 +9,8 @@
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/search/refinement.h"
-#include "tests/unit/meshes/example_chambers.h"
-#include "tests/unit/pipelines/results_directory.h"
+#include "tests/unit/meshes/examples/example_chambers.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
 #include "tests/verification/chambers/chamber_scene.h"
 
 namespace {

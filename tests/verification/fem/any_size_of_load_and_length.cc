@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "block_mesh.h"
-#include "distorted_beam.h"
-#include "figures.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/distorted_beam.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

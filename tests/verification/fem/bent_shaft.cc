@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "figures.h"
-#include "shaft_bodies.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "block_mesh.h"
+#include "tests/verification/fem/block_mesh.h"
 
 #include <fstream>
 #include <map>
 #include <string>
 
-#include "scratch_directory.h"
-#include "tetrahedra.h"
+#include "tests/unit/fem/examples/scratch_directory.h"
+#include "tests/unit/fem/examples/tetrahedra.h"
 
 namespace verification {
 

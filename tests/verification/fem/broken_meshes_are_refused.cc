@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "block_mesh.h"
-#include "figures.h"
-#include "scratch_directory.h"
-#include "tetrahedra.h"
+#include "tests/unit/fem/examples/scratch_directory.h"
+#include "tests/unit/fem/examples/tetrahedra.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

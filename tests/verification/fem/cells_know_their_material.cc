@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "block_mesh.h"
 #include "fem/stress/cell_stress_at_node.h"
-#include "figures.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

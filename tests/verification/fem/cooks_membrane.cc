@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "block_mesh.h"
 #include "fem/loads/surface_loads.h"
 #include "fem/mesh/mesh_reader.h"
-#include "figures.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

@@ -6,11 +6,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "block_mesh.h"
 #include "fem/loads/clamps.h"
 #include "fem/mesh/mesh_reader.h"
 #include "fem/solvers/cholmod_factor.h"
-#include "field_errors.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/field_errors.h"
 
 namespace {
 

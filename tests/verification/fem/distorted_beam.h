@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "block_mesh.h"
 #include "fem/values/body.h"
+#include "tests/verification/fem/block_mesh.h"
 
 namespace verification {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fem/mesh/mesh_reader.h"
-#include "plane_strain_cylinder.h"
+#include "tests/verification/fem/plane_strain_cylinder.h"
 
 namespace {
 

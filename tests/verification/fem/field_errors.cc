@@ -1,4 +1,4 @@
-#include "field_errors.h"
+#include "tests/verification/fem/field_errors.h"
 
 #include <cmath>
 

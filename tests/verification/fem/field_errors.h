@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fem/stress/cell_stress.h"
-#include "figures.h"
+#include "tests/verification/fem/figures.h"
 
 namespace verification {
 

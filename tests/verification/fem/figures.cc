@@ -1,4 +1,4 @@
-#include "figures.h"
+#include "tests/verification/fem/figures.h"
 
 #include <gtest/gtest.h>
 

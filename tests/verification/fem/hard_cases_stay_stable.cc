@@ -5,10 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "block_mesh.h"
-#include "distorted_beam.h"
-#include "figures.h"
-#include "plane_strain_cylinder.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/distorted_beam.h"
+#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/plane_strain_cylinder.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "block_mesh.h"
-#include "figures.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

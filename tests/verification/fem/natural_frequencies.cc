@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "block_mesh.h"
 #include "fem/values/body_nodes.h"
-#include "figures.h"
-#include "shaft_bodies.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "block_mesh.h"
-#include "field_errors.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/field_errors.h"
 
 namespace verification {
 

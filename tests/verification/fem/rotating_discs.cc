@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "cylinder_quarter.h"
-#include "field_errors.h"
-#include "shaft_bodies.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/verification/fem/cylinder_quarter.h"
+#include "tests/verification/fem/field_errors.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "block_mesh.h"
-#include "figures.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

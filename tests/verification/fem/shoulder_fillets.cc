@@ -12,8 +12,8 @@
 #include <cstdio>
 
 #include "fem/model/model.h"
-#include "figures.h"
-#include "shaft_bodies.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

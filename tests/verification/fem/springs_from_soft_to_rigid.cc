@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "block_mesh.h"
 #include "fem/values/body_nodes.h"
-#include "figures.h"
+#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

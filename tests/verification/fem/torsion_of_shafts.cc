@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "figures.h"
-#include "shaft_bodies.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/verification/fem/figures.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "kinetics/planetary/hodograph.h"
-#include "planetary_sets.h"
+#include "tests/verification/kinetics/planetary_sets.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "planetary_sets.h"
+#include "tests/verification/kinetics/planetary_sets.h"
 
 #include <cmath>
 #include <fstream>

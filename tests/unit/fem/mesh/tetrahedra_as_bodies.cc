@@ -1,0 +1,244 @@
+// Quadratic tetrahedra from the file to the responses.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/model/model.h"
+#include "fem/stress/cell_stress_at_node.h"
+#include "fem/stress/tetrahedra_error.h"
+#include "fem/values/constants.h"
+#include "tests/unit/fem/examples/tetrahedra.h"
+
+namespace {
+
+using fem_tests::Point;
+using Component = fem::SurfaceResultant::Component;
+using fem::pi;
+
+/// A .msh in the directory for temporary files, which goes with the object.
+struct MeshFile {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("tetrahedra_" + std::to_string(::getpid()) + ".msh");
+  explicit MeshFile(const std::string& text) { std::ofstream(path) << text; }
+  ~MeshFile() { std::filesystem::remove(path); }
+  fem::Body body() const {
+    fem::Body body;
+    body.mesh = path;
+    body.material = {206e9, 0.3, 7850};
+    return body;
+  }
+};
+
+std::string refusal(const std::string& text, const std::function<void(fem::Body&)>& change = {}) {
+  const MeshFile file(text);
+  auto body = file.body();
+  if (change) change(body);
+  try {
+    fem::read_grid(body);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+  for (const auto& word : words) EXPECT_NE(text.find(word), std::string::npos) << text;
+}
+
+const auto bent = [](const Point& x) { return Point(x[0] + 0.1 * x[1] * x[2], x[1], 3 * x[2]); };
+
+// The cube below shows two of the four faces only.
+TEST(TetrahedraFaces, point_outwards_with_middles_between_corners) {
+  const auto at = fem::nodes_in_cell({fem::CellKind::tetrahedra, 2}).point;
+  const auto x = [&](int node) { return Point(at[node][0], at[node][1], at[node][2]); };
+  for (int f = 0; f < 4; ++f) {
+    const auto face = fem::face_nodes({fem::CellKind::tetrahedra, 2}, f);
+    ASSERT_EQ(face.size(), 6u);
+    const Point normal = (x(face[1]) - x(face[0])).cross(x(face[2]) - x(face[0]));
+    EXPECT_LT(normal.dot(x(f) - x(face[0])), 0);  // away from the opposite corner
+    for (int e = 0; e < 3; ++e) EXPECT_EQ((2 * x(face[3 + e]) - x(face[e]) - x(face[(e + 1) % 3])).norm(), 0);
+  }
+}
+
+TEST(TetrahedraFile, comes_back_as_it_was) {
+  const auto written = fem_tests::tetrahedra_cube(2, bent);
+  const MeshFile file(fem_tests::as_msh(written));
+  const auto read = fem::read_grid(file.body());
+  EXPECT_EQ(read.kind, fem::CellKind::tetrahedra);
+  EXPECT_EQ(read.xyz_m, written.xyz_m);
+  EXPECT_EQ(read.cell_nodes, written.cell_nodes);
+  EXPECT_EQ(read.volume_id, written.volume_id);
+  ASSERT_EQ(read.boundary.size(), written.boundary.size());
+  for (std::size_t f = 0; f < read.boundary.size(); ++f) {
+    EXPECT_EQ(read.boundary[f].cell, written.boundary[f].cell);
+    EXPECT_EQ(read.boundary[f].face, written.boundary[f].face);
+    EXPECT_EQ(read.boundary[f].boundary_id, written.boundary[f].boundary_id);
+  }
+}
+
+TEST(TetrahedraFile, is_refused_in_words) {
+  const auto text = fem_tests::as_msh(fem_tests::tetrahedra_cube(1, bent));
+  EXPECT_EQ(refusal(text), "accepted");
+  for (const double share : {0.1, 0.3, 0.6, 0.9})
+    expect_words(refusal(text.substr(0, std::size_t(share * double(text.size())))), {"cut off"});
+  expect_words(refusal(replaced(text, "3 7 11 6\n", "3 7 11 900\n")), {"$Elements", "damaged"});
+  expect_words(refusal(replaced(text, "0 0 6 1\n1 0 0 0 1 1 1 1 1 0\n", "0 0 6 1\n1 0 0 0 1 1 1 0 0\n")),
+               {"surface near", "physical group"});
+  expect_words(refusal(replaced(text, "7 0 0 0 1 1 1 1 7 0\n", "7 0 0 0 1 1 1 0 0\n")),
+               {"volume 7", "no physical group"});
+  expect_words(refusal(replaced(text, "7 0 0 0 1 1 1 1 7 0\n", "7 0 0 0 1 1 1 2 7 8 0\n")),
+               {"volume 7", "several physical groups"});
+  expect_words(refusal(replaced(replaced(text, "$Elements\n7 18 1 18\n", "$Elements\n8 19 1 19\n"),
+                                "$EndElements", "3 7 4 1\n19 500000 499995 499990 499985\n$EndElements")),
+               {"4 nodes", "second order"});
+  expect_words(
+      refusal(replaced(replaced(text, "$Elements\n7 18 1 18\n", "$Elements\n8 19 1 19\n"), "$EndElements",
+                       "3 7 6 1\n19 500000 499995 499990 499985 499980 499975\n$EndElements")),
+      {"mixes tetrahedra", "type 6"});
+  expect_words(refusal(text, [](auto& b) { b.degree = 3; }), {"degree = 3", "must be 2"});
+  expect_words(refusal(text, [](auto& b) { b.cylinders.emplace_back(); }), {"charts are for hexahedra"});
+  expect_words(refusal(fem_tests::as_msh(
+                   fem_tests::tetrahedra_cube(1, [](const Point& x) { return Point(-x[0], x[1], x[2]); }))),
+               {"inverted", "volume 7"});
+}
+
+// The surface's nodes lie on the sphere; parabolas between them leave its volume to the order 4.
+TEST(TetrahedraMass, of_a_ball_converges_with_the_order_of_the_map) {
+  const auto ball = [](const Point& x) {
+    const Point c = 2 * x - Point(1, 1, 1), s = c.cwiseAbs2();
+    const auto one = [&](int a, int b, int d) {
+      return c[a] * std::sqrt(1 - s[b] / 2 - s[d] / 2 + s[b] * s[d] / 3);
+    };
+    return Point(one(0, 1, 2), one(1, 0, 2), one(2, 0, 1));
+  };
+  const auto error = [&](int n) {
+    const auto grid = fem_tests::tetrahedra_cube(n, ball);
+    const auto mass = fem::mass_properties(
+        grid, fem::integrate_nodes(grid, fem::colour_cells(grid, fem::cells_of_nodes(grid))), 3);
+    EXPECT_NEAR(mass.first_moment_kg_m[0], 0, 1e-12);
+    return std::array<double, 2>{mass.mass_kg / (4 * pi) - 1,
+                                 mass.second_moments_kg_m2[0] / (4 * pi / 5) - 1};
+  };
+  const auto coarse = error(4), fine = error(8);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_GT(std::log2(coarse[k] / fine[k]), 3.5) << coarse[k] << " " << fine[k];
+    EXPECT_LT(std::abs(fine[k]), 1e-3);
+  }
+}
+
+/// A bar of 1 x 1 x 3 m under moments and forces at its ends.
+struct Bar : testing::Test {
+  static constexpr std::array<Component, 4> components = {Component::fz, Component::mx, Component::my,
+                                                          Component::torque};
+  void SetUp() override {
+    const MeshFile file(fem_tests::as_msh(fem_tests::tetrahedra_cube(
+        3, [](const Point& x) { return Point(x[0] - 0.5, x[1] - 0.5, 3 * x[2]); })));
+    std::vector<fem::UnitLoad> loads;
+    for (int end = 0; end < 2; ++end)
+      for (const auto c : components) {
+        fem::LoadSurface surface;
+        surface.kind = fem::LoadSurface::Kind::face;
+        surface.boundary_id = 5 + end;
+        surface.centre_m = {0, 0, 3.0 * end};
+        surface.radius_m = 0.5;
+        loads.push_back(
+            {"end_" + std::to_string(end) + "." + std::to_string(int(c)), fem::SurfaceResultant{surface, c}});
+      }
+    responses = fem::Model(file.body()).unit_responses(loads, {});
+  }
+  /// Component k of the stress at a node, +1 of a load at the upper end and -1 at the lower one.
+  double stress(std::size_t node, std::size_t load, int k) const {
+    return responses.stress_Pa[(node * 8 + 4 + load) * 6 + k] -
+           responses.stress_Pa[(node * 8 + load) * 6 + k];
+  }
+  fem::UnitResponses responses;
+};
+
+// Tension and bending are linear and quadratic displacements: exact.
+TEST_F(Bar, has_the_stress_of_beams) {
+  EXPECT_EQ(responses.nodes.kind, fem::CellKind::tetrahedra);
+  EXPECT_LT(responses.residual, 1e-9);
+  EXPECT_LT(responses.support_reaction, 1e-8);
+  for (std::size_t i = 0; i < responses.nodes.n; ++i) {
+    const double *x = &responses.nodes.xyz_m[3 * i], tolerance = 1e-7;  // of 6 Pa
+    for (int k = 0; k < 6; ++k) {
+      EXPECT_NEAR(stress(i, 0, k), k == 2 ? 1 : 0, tolerance);
+      EXPECT_NEAR(stress(i, 1, k), k == 2 ? 12 * x[1] : 0, tolerance);
+      EXPECT_NEAR(stress(i, 2, k), k == 2 ? -12 * x[0] : 0, tolerance);
+    }
+  }
+}
+
+TEST_F(Bar, cells_agree_where_stress_is_linear) {
+  const fem::Material material{206e9, 0.3, 7850};
+  for (const std::size_t node : {std::size_t(0), responses.nodes.n / 2, responses.nodes.n - 1}) {
+    const auto cells = fem::cell_stress_at_node_Pa(responses, material, node);
+    ASSERT_FALSE(cells.empty());
+    for (const auto& cell : cells)
+      for (int k = 0; k < 6; ++k)
+        EXPECT_NEAR(cell[5][k] - cell[1][k], stress(node, 1, k), 1e-7) << node << " " << k;
+  }
+}
+
+// Quadratic displacement: cells and recovery both have its stress. With one node moved they no longer agree
+// in the cells around it, and at once everywhere else.
+TEST_F(Bar, cells_and_recovered_stress_agree_where_it_is_linear) {
+  const fem::Material material{206e9, 0.3, 7850};
+  std::vector<double> factors(responses.channels.size(), 0.0);
+  factors[5] = 1;
+  factors[1] = -1;
+  const auto corner = std::size_t(responses.nodes.cell(0)[0]),
+             middle = std::size_t(responses.nodes.cell(0)[4]);
+  for (const std::size_t node : {corner, middle}) {
+    const auto agreed = fem::cells_against_recovered(responses, material, node, factors);
+    EXPECT_LT(agreed.difference_Pa, 1e-7);  // of 6 Pa
+  }
+  auto moved = responses;
+  const double before = fem::cells_against_recovered(moved, material, middle, factors).recovered_Pa;
+  moved.displacement_m[(middle * moved.channels.size() + 5) * 3 + 2] += 1e-12;
+  const auto off = fem::cells_against_recovered(moved, material, middle, factors);
+  EXPECT_EQ(off.recovered_Pa, before);
+  EXPECT_GT(off.difference_Pa, 1e-3);
+  EXPECT_THROW(fem::cells_against_recovered(responses, material, responses.nodes.n, factors),
+               std::invalid_argument);
+  EXPECT_THROW(fem::cells_against_recovered(responses, material, 0, {1.0}), std::invalid_argument);
+}
+
+// The cell fields and volumes that pipelines takes.
+TEST_F(Bar, nodes_are_in_vtk_order) {
+  const auto& nodes = responses.nodes;
+  const auto x = [&](std::int32_t i) { return Eigen::Map<const Point>(&nodes.xyz_m[3 * i]); };
+  ASSERT_EQ(nodes.n_cells(), 6u * 27);
+  ASSERT_EQ(nodes.n_faces(), 6u * 18);
+  ASSERT_EQ(nodes.face_boundary_id.size(), nodes.n_faces());
+  constexpr int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  double volume = 0;
+  for (const double v : nodes.volume_m3) volume += v;
+  EXPECT_NEAR(volume, 3, 1e-12);
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto cell = nodes.cell(c);
+    EXPECT_GT((x(cell[1]) - x(cell[0])).cross(x(cell[2]) - x(cell[0])).dot(x(cell[3]) - x(cell[0])), 0);
+    for (int e = 0; e < 6; ++e)
+      EXPECT_LT((2 * x(cell[4 + e]) - x(cell[edges[e][0]]) - x(cell[edges[e][1]])).norm(), 1e-14);
+  }
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    const Point normal = (x(face[1]) - x(face[0])).cross(x(face[2]) - x(face[0]));
+    EXPECT_GT(normal.dot(x(face[0]) - Point(0, 0, 1.5)), 0);
+    for (int e = 0; e < 3; ++e)
+      EXPECT_LT((2 * x(face[3 + e]) - x(face[e]) - x(face[(e + 1) % 3])).norm(), 1e-14);
+  }
+}
+
+}  // namespace

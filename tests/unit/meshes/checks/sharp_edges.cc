@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/meshes/examples/example_shafts.h"
+
+namespace {
+
+/// A closed circle about z of at least n_sectors straight pieces with their ends on it.
+void expect_circle(const meshes::SharpEdge& edge, double z_m, double radius_m, std::size_t n_sectors) {
+  SCOPED_TRACE(edge.name);
+  ASSERT_GE(edge.pieces.size(), n_sectors);
+  double turned = 0;
+  for (std::size_t i = 0; i < edge.pieces.size(); ++i) {
+    const auto& [from, to] = edge.pieces[i];
+    EXPECT_EQ(to, edge.pieces[(i + 1) % edge.pieces.size()][0]);
+    EXPECT_NEAR(std::hypot(from[0], from[1]), radius_m, 1e-15);
+    EXPECT_EQ(from[2], z_m);
+    turned += std::atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]);
+  }
+  EXPECT_NEAR(turned, 2 * std::acos(-1.0), 1e-12);
+}
+
+TEST(SharpEdges, are_the_sharp_shoulders) {
+  EXPECT_TRUE(meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("no_edges")).sharp_edges.empty());
+  const auto body = meshes::build_shaft(sharp_eccentric_shaft(), {}, temporary_msh("edges"));
+  ASSERT_EQ(body.sharp_edges.size(), 2u);
+  EXPECT_EQ(body.sharp_edges[0].name, "left/disc");
+  EXPECT_DOUBLE_EQ(body.sharp_edges[0].distance_m, 0.004);  // a tenth of 40 mm
+  expect_circle(body.sharp_edges[0], 0.1, 0.02, 16);
+  EXPECT_EQ(body.sharp_edges[1].name, "disc/right");
+  EXPECT_DOUBLE_EQ(body.sharp_edges[1].distance_m, 0.003);
+  expect_circle(body.sharp_edges[1], 0.15, 0.015, 16);
+}
+
+TEST(SharpEdges, are_the_bore_steps_within_the_thickness_of_the_wall) {
+  meshes::ShaftMeshControl control;
+  control.n_sectors = 24;
+  const auto drum = meshes::build_shaft(planetary_drum(), control, temporary_msh("drum_edges"));
+  ASSERT_EQ(drum.sharp_edges.size(), 2u);
+  EXPECT_EQ(drum.sharp_edges[0].name, "bore cover_1/shell");
+  EXPECT_NEAR(drum.sharp_edges[0].distance_m, 0.008, 1e-15);
+  expect_circle(drum.sharp_edges[0], drum.sharp_edges[0].pieces[0][0][2], 0.1, 24);
+  EXPECT_NEAR(drum.sharp_edges[0].pieces[0][0][2], -0.5, 1e-15);
+  EXPECT_EQ(drum.sharp_edges[1].name, "bore shell/cover_2");
+
+  const auto flanged = meshes::build_shaft(stepped_bores()[1], control, temporary_msh("flanged_edges"));
+  ASSERT_EQ(flanged.sharp_edges.size(), 2u);  // inside and outside at one plane
+  EXPECT_EQ(flanged.sharp_edges[0].name, "pipe/thick");
+  EXPECT_DOUBLE_EQ(flanged.sharp_edges[0].distance_m, 0.008);
+  expect_circle(flanged.sharp_edges[0], 0.1, 0.04, 24);
+  EXPECT_EQ(flanged.sharp_edges[1].name, "bore pipe/thick");
+  EXPECT_NEAR(flanged.sharp_edges[1].distance_m, 0.010, 1e-15);
+  expect_circle(flanged.sharp_edges[1], 0.1, 0.03, 24);
+}
+
+}  // namespace

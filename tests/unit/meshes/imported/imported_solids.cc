@@ -1,0 +1,279 @@
+// STEP files that gmsh's OpenCASCADE wrote, and .msh files of every kind, as bodies.
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include "meshes/gmsh/gmsh_session.h"
+#include "meshes/imported/imported.h"
+#include "meshes/values/constants.h"
+#include "tests/unit/meshes/examples/example_shafts.h"
+#include "tests/unit/meshes/examples/tetrahedra_file.h"
+
+namespace {
+
+using meshes::BoxSelection;
+using meshes::CylinderSelection;
+using meshes::GroupSelection;
+using meshes::Import;
+using meshes::ImportPort;
+using meshes::Port;
+namespace occ = gmsh::model::occ;
+using meshes::pi;
+constexpr int cells_around = 10;  // cells: coarse, for speed
+
+/// Runs a construction in a session of its own and writes what it left.
+std::filesystem::path written(const std::string& name, const std::function<void()>& construct) {
+  const auto file = temporary_msh("sample").parent_path() / name;
+  meshes::with_gmsh("making a sample", [&] {
+    gmsh::model::add("sample");
+    construct();
+    gmsh::write(file.string());
+  });
+  return file;
+}
+
+/// In mm: diameter 40 from z = 0 to 60 with a fillet of 5 to diameter 60 up to z = 100, a hole of 10 all
+/// through.
+void stepped_shaft() {
+  const int p[] = {occ::addPoint(5, 0, 0),   occ::addPoint(20, 0, 0),  occ::addPoint(20, 0, 55),
+                   occ::addPoint(25, 0, 60), occ::addPoint(30, 0, 60), occ::addPoint(30, 0, 100),
+                   occ::addPoint(5, 0, 100)};
+  const int centre = occ::addPoint(25, 0, 55);
+  const int wire =
+      occ::addWire({occ::addLine(p[0], p[1]), occ::addLine(p[1], p[2]), occ::addCircleArc(p[2], centre, p[3]),
+                    occ::addLine(p[3], p[4]), occ::addLine(p[4], p[5]), occ::addLine(p[5], p[6]),
+                    occ::addLine(p[6], p[0])});
+  gmsh::vectorpair parts;
+  occ::revolve({{2, occ::addPlaneSurface({wire})}}, 0, 0, 0, 0, 0, 1, 2 * pi, parts);
+  occ::synchronize();
+}
+
+double stepped_volume_m3() {
+  // A fillet of radius f at the radius a: pi f ((a + f)^2 - (a + f) f pi/2 + 2 f^2 / 3), as in
+  // shaft_volume.h.
+  const double f = 5, a = 20;
+  return 1e-9 * (pi * 400 * 55 + pi * f * ((a + f) * (a + f) - (a + f) * f * pi / 2 + 2 * f * f / 3) +
+                 pi * 900 * 40 - pi * 25 * 100);
+}
+
+ImportPort cylinder(const std::string& name, Port::Kind kind, double radius_m, double begin_m, double end_m) {
+  CylinderSelection selection;
+  selection.radius_m = radius_m;
+  selection.begin_m = begin_m;
+  selection.end_m = end_m;
+  selection.side =
+      kind == Port::Kind::bore ? CylinderSelection::Side::inside : CylinderSelection::Side::outside;
+  return {name, kind, selection};
+}
+
+ImportPort box(const std::string& name, double low_z_m, double high_z_m) {
+  return {name, Port::Kind::face, BoxSelection{{-1, -1, low_z_m}, {1, 1, high_z_m}}};
+}
+
+Import import_of(const std::filesystem::path& geometry, const std::vector<ImportPort>& ports) {
+  Import import;
+  import.geometry = geometry;
+  import.ports = ports;
+  import.control.cells_per_circle = cells_around;
+  return import;
+}
+
+std::string refused(Import import) {
+  import.control.smallest_size_m = 0.006;  // a few hundred cells
+  return refusal_of([&] { meshes::build_imported(import, temporary_msh("refused")); });
+}
+
+struct SteppedStep : testing::Test {
+  std::filesystem::path step = written("stepped.step", stepped_shaft);
+  std::vector<ImportPort> ports = {cylinder("seat", Port::Kind::seat, 0.0201, 0, 0.055),
+                                   cylinder("hole", Port::Kind::bore, 0.005, 0, 0.1),
+                                   box("foot", -1e-6, 1e-6)};
+};
+
+TEST_F(SteppedStep, is_found_meshed_and_curved) {
+  const auto file = temporary_msh("imported");
+  const auto body = meshes::build_imported(import_of(step, ports), file);
+  EXPECT_EQ(int(body.cells), int(meshes::CellKind::tetrahedra));
+  ASSERT_EQ(body.ports.size(), 3u);
+  const auto expect = [&](std::size_t p, Port::Kind kind, double radius_m, double begin_m, double end_m) {
+    EXPECT_EQ(int(body.ports[p].kind), int(kind));
+    EXPECT_NEAR(body.ports[p].radius_m, radius_m, 1e-9);
+    EXPECT_NEAR(body.ports[p].begin_m, begin_m, 1e-9);
+    EXPECT_NEAR(body.ports[p].end_m, end_m, 1e-9);
+    EXPECT_NEAR(body.ports[p].axis_x_m, 0, 1e-5);
+    EXPECT_NEAR(body.ports[p].axis_y_m, 0, 1e-5);
+  };
+  expect(0, Port::Kind::seat, 0.020, 0, 0.055);
+  expect(1, Port::Kind::bore, 0.005, 0, 0.1);
+  expect(2, Port::Kind::face, 0, 0, 0);
+  EXPECT_EQ(body.features.size(), 7u);
+  EXPECT_TRUE(body.regions.empty());
+  EXPECT_TRUE(body.sharp_edges.empty());  // the fillet is none
+
+  const auto read = read_tetrahedra(file);
+  // Chords instead of parabolas would lose 6e-2.
+  EXPECT_NEAR(read.volume_m3 / stepped_volume_m3(), 1, 1.2 * lost_by_parabolas(cells_around));
+  EXPECT_NEAR(read.area_of.at("foot") / (1e-6 * pi * (400 - 25)), 1, 1.2 * lost_by_parabolas(cells_around));
+  for (const auto& x : read.nodes_of.at("seat")) ASSERT_NEAR(std::hypot(x[0], x[1]), 0.02, 1e-9);
+  for (const auto& x : read.nodes_of.at("hole")) ASSERT_NEAR(std::hypot(x[0], x[1]), 0.005, 1e-9);
+  int n_on_fillet = 0;
+  for (const auto& feature : body.features)
+    if (feature.begin_m > 0.0549 && feature.end_m < 0.0601 && feature.end_m > feature.begin_m + 0.001)
+      for (const auto& x : read.nodes_of.at(feature.name)) {
+        ASSERT_NEAR(std::hypot(std::hypot(x[0], x[1]) - 0.025, x[2] - 0.055), 0.005, 1e-8);
+        ++n_on_fillet;
+      }
+  EXPECT_GT(n_on_fillet, 100);
+}
+
+TEST_F(SteppedStep, gives_the_same_bytes_twice) {
+  const auto first = temporary_msh("first"), second = temporary_msh("second");
+  meshes::build_imported(import_of(step, ports), first);
+  meshes::build_imported(import_of(step, {}), temporary_msh("between"));
+  meshes::build_imported(import_of(step, ports), second);
+  EXPECT_TRUE(bytes_of(first) == bytes_of(second));
+}
+
+TEST_F(SteppedStep, wrong_ports_are_refused_with_what_there_is) {
+  const auto with = [&](const ImportPort& port) { return refused(import_of(step, {port})); };
+  expect_words(with(cylinder("seat", Port::Kind::seat, 0.022, 0, 0.055)),
+               {"port seat", "cylinders parallel to z are", "outside of radius 20 mm about (0, 0) mm",
+                "z = 0 to 55 mm", "inside of radius 5 mm", "outside of radius 30 mm"});
+  expect_words(with(cylinder("seat", Port::Kind::seat, 0.02, 0, 0.04)), {"reaches out", "0 to 55 mm", "CAD"});
+  auto wrong_side = cylinder("seat", Port::Kind::seat, 0.005, 0, 0.1);
+  std::get<CylinderSelection>(wrong_side.selection).side = CylinderSelection::Side::inside;
+  expect_words(with(wrong_side), {"port seat", "inside", "make it a bore"});
+  auto flat = box("foot", -1e-6, 1e-6);
+  flat.kind = Port::Kind::seat;
+  expect_words(with(flat), {"port foot", "no cylinder parallel to z"});
+  expect_words(with(box("foot", 0.01, 0.02)), {"port foot", "no surface lies in its box", "surface 1"});
+  expect_words(with({"foot", Port::Kind::face, GroupSelection{"pads"}}), {"\"pads\"", "STEP carries none"});
+  expect_words(refused(import_of(step, {ports[0], box("all", -1, 1)})),
+               {"port all", "already belongs to port seat"});
+  expect_words(refused(import_of(step, {ports[0], ports[0]})), {"two ports are called 'seat'"});
+}
+
+TEST(Imported, wrong_files_are_refused) {
+  expect_words(refused(import_of("/nonexistent/part.step", {})), {"/nonexistent/part.step", "no file"});
+  expect_words(refused(import_of("/nonexistent/part.iges", {})), {".step, .stp or .msh"});
+  const auto broken = temporary_msh("x").parent_path() / "broken.step";
+  std::ofstream(broken) << "ISO-10303-21;\nHEADER;\n";
+  expect_words(refused(import_of(broken, {})), {"broken.step"});
+  expect_words(refused(import_of(written("shell.step",
+                                         [] {
+                                           occ::addRectangle(0, 0, 0, 10, 10);
+                                           occ::synchronize();
+                                         }),
+                                 {})),
+               {"shell.step", "no solid"});
+  expect_words(refused(import_of(written("apart.step",
+                                         [] {
+                                           occ::addBox(0, 0, 0, 10, 10, 10);
+                                           occ::addBox(20, 0, 0, 10, 10, 10);
+                                           occ::synchronize();
+                                         }),
+                                 {})),
+               {"apart.step", "2 parts that do not touch"});
+  auto import = import_of(written("box.step",
+                                  [] {
+                                    occ::addBox(0, 0, 0, 10, 10, 10);
+                                    occ::synchronize();
+                                  }),
+                          {});
+  import.control.min_scaled_jacobian = 0.95;
+  expect_words(refused(import), {"smallest scaled Jacobian", "wanted 0.95", "mm"});
+  import.scale_to_m = -1;
+  expect_words(refused(import), {"scale_to_m = -1"});
+}
+
+TEST(Imported, solids_that_touch_are_one_body_and_its_corners_are_sharp) {
+  const auto step = written("l.step", [] {
+    occ::addBox(0, 0, 0, 30, 10, 10);
+    occ::addBox(0, 10, 0, 10, 20, 10);
+    occ::synchronize();
+  });
+  const auto file = temporary_msh("l");
+  const auto body = meshes::build_imported(import_of(step, {}), file);
+  EXPECT_NEAR(read_tetrahedra(file).volume_m3, 5e-6, 1e-14);
+  ASSERT_EQ(body.sharp_edges.size(), 1u);  // the inner corner, 10 mm long at (10, 10)
+  double length_m = 0;
+  for (const auto& piece : body.sharp_edges[0].pieces) {
+    length_m += std::abs(piece[1][2] - piece[0][2]);
+    for (const auto& end : piece) EXPECT_NEAR(std::hypot(end[0] - 0.01, end[1] - 0.01), 0, 1e-9);
+  }
+  EXPECT_NEAR(length_m, 0.01, 1e-9);
+  EXPECT_NEAR(body.sharp_edges[0].distance_m, 0.01 * 1e-3 * std::sqrt(900. + 900. + 100.), 1e-9);
+}
+
+/// Two boxes that share a face, groups "low" and "high", their bottom "foot"; order and version as asked for.
+void grouped_boxes(int order, double version, bool hexahedra) {
+  occ::addBox(0, 0, 0, 1, 1, 1);
+  occ::addBox(0, 0, 1, 1, 1, 1);
+  gmsh::vectorpair parts, faces;
+  std::vector<gmsh::vectorpair> map;
+  occ::fragment({{3, 1}}, {{3, 2}}, parts, map);
+  occ::synchronize();
+  for (const auto& part : parts) {
+    double x[6];
+    gmsh::model::getBoundingBox(3, part.second, x[0], x[1], x[2], x[3], x[4], x[5]);
+    const int tag = gmsh::model::addPhysicalGroup(3, {part.second}, x[5] < 1.5 ? 10 : 11);
+    gmsh::model::setPhysicalName(3, tag, x[5] < 1.5 ? "low" : "high");
+  }
+  gmsh::model::getBoundary(parts, faces, true, false);
+  std::vector<int> foot, rest;
+  for (const auto& face : faces) {
+    double x[6];
+    gmsh::model::getBoundingBox(2, face.second, x[0], x[1], x[2], x[3], x[4], x[5]);
+    (x[5] < 0.5 ? foot : rest).push_back(face.second);
+  }
+  gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, foot, 20), "foot");
+  gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, rest, 21), "sides");
+  gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+  gmsh::option::setNumber("Mesh.MshFileVersion", version);
+  if (hexahedra) gmsh::model::mesh::setTransfiniteAutomatic();
+  gmsh::model::mesh::generate(3);
+  if (order == 2) gmsh::model::mesh::setOrder(2);
+}
+
+TEST(Imported, a_msh_with_groups_goes_in_and_out) {
+  for (const int order : {1, 2})
+    for (const double version : {2.2, 4.1}) {
+      const auto msh = written("grouped.msh", [&] { grouped_boxes(order, version, false); });
+      const auto file = temporary_msh("regrouped");
+      const auto body =
+          meshes::build_imported(import_of(msh, {{"base", Port::Kind::face, GroupSelection{"foot"}}}), file);
+      const auto read = read_tetrahedra(file);
+      EXPECT_NEAR(read.volume_of.at("low"), 1, 1e-9);
+      EXPECT_NEAR(read.volume_of.at("high"), 1, 1e-9);
+      EXPECT_NEAR(read.area_of.at("base"), 1, 1e-9);
+      EXPECT_NEAR(read.area_of.at("sides"), 9, 1e-9);  // the face between the boxes is no boundary
+      ASSERT_EQ(body.regions.size(), 2u);
+      EXPECT_EQ(body.regions[0].volume_ids.size(), 1u);
+      ASSERT_EQ(body.ports.size(), 1u);
+      EXPECT_NEAR(body.ports[0].axis_x_m, 0.5, 1e-12);
+      expect_words(refused(import_of(msh, {{"base", Port::Kind::face, GroupSelection{"feet"}}})),
+                   {"\"feet\"", "groups are", "foot", "sides"});
+      auto in_mm = import_of(msh, {});
+      in_mm.scale_to_m = 1e-3;
+      meshes::build_imported(in_mm, file);
+      EXPECT_NEAR(read_tetrahedra(file).volume_m3, 2e-9, 1e-17);
+    }
+}
+
+TEST(Imported, hexahedra_pass_through) {
+  const auto msh = written("hexahedra.msh", [] { grouped_boxes(1, 4.1, true); });
+  const auto probe = refusal_of([&] { read_tetrahedra(msh); });
+  ASSERT_NE(probe.find("another type"), std::string::npos) << "gmsh made no hexahedra: " << probe;
+  const auto file = temporary_msh("hexahedra");
+  const auto body =
+      meshes::build_imported(import_of(msh, {{"base", Port::Kind::face, GroupSelection{"foot"}}}), file);
+  EXPECT_EQ(int(body.cells), int(meshes::CellKind::hexahedra));
+  EXPECT_EQ(body.regions.size(), 2u);
+  EXPECT_NEAR(body.quality.min_scaled_jacobian, 1, 1e-9);
+  EXPECT_EQ(body.features.size(), 2u);
+}
+
+}  // namespace

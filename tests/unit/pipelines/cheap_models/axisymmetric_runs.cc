@@ -1,0 +1,248 @@
+// Whole runs on the axisymmetric model and the beam: tables without a mesh, masses, places, sections, errors.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+
+#include "fem/model/model.h"
+#include "pipelines/analysis/place_stress.h"
+#include "pipelines/cheap_models/axisymmetric_body.h"
+#include "pipelines/cheap_models/axisymmetric_run.h"
+#include "pipelines/cheap_models/beam_run.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/requested_method.h"
+#include "pipelines/scene/why_not.h"
+#include "tests/unit/pipelines/examples/edited_scene.h"
+#include "tests/unit/pipelines/examples/laboratory.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
+
+namespace {
+
+using namespace pipelines;
+
+/// A plain load table on a concentric shaft; the force at its end bends it most at the first fillet, while
+/// the bearing under the thick segment presses.
+const char* overhung = R"(
+title = "Overhung"
+effects = ["pull"]
+[machine]
+type = "load_table"
+speed = "600 rpm"
+[[machine.constants]]
+effect = "pull"
+load = "left.fy"
+value = "12 kN"
+[sampling]
+instants_per_turn = 24
+turns = 1
+[shaft]
+contour = [
+  { port = "left",    diameter = "44 mm", length = "18 mm" },
+  { name = "thin",    diameter = "44 mm", length = "26 mm" },
+  { fillet = "2 mm" },
+  { name = "thick",   diameter = "54 mm", length = "70 mm" },
+  { port = "b1",      diameter = "54 mm", length = "20 mm" },
+  { name = "between", diameter = "54 mm", length = "20 mm" },
+  { port = "right",   diameter = "54 mm", length = "20 mm" },
+]
+bearings = ["b1", "right"]
+axial_support = "right"
+torque_support = "right"
+[shaft.material]
+name = "C45"
+youngs_modulus = "210 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "305 MPa"
+)";
+
+Scene scene_of(const std::string& text) {
+  const results_test::Directory at;
+  std::ofstream(at / "scene.toml", std::ios::binary) << text;
+  return read_scene(at / "scene.toml");
+}
+
+/// A scene's only body, described and loaded.
+struct LoadedShaft {
+  Scene scene;
+  StageClock clock;
+  LoadedScene loaded;
+
+  explicit LoadedShaft(Scene given) : scene(std::move(given)) {
+    loaded = load_bodies(scene, {describe_revolved(scene.bodies[0])}, clock);
+  }
+  const BodyScene& body() const { return scene.bodies[0]; }
+  BodyAnalysis axisymmetric(double tolerance = 0) {
+    return analyse_axisymmetric(scene, body(), loaded.meshed[0], loaded.body_loads[0], {"", 1}, clock,
+                                tolerance);
+  }
+  BodyAnalysis beam() {
+    return analyse_beam(scene, body(), loaded.meshed[0], loaded.body_loads[0], {"", 1}, clock);
+  }
+  std::vector<PlaceStress> places(double target) {
+    return axisymmetric_place_stresses(body(), loaded.meshed[0], loaded.body_loads[0], 1, target);
+  }
+};
+
+TEST(AxisymmetricRun, describes_the_shaft_as_its_mesh_does) {
+  const results_test::Directory at;
+  const auto scene = laboratory::scene();
+  const auto& body = *scene.body("shaft");
+  const auto built = build_mesh(body, at / "shaft.msh");
+  const auto described = describe_revolved(body);
+  ASSERT_EQ(described.mesh.features.size(), built.features.size());
+  for (std::size_t i = 0; i < built.features.size(); ++i) {
+    EXPECT_EQ(described.mesh.features[i].name, built.features[i].name);
+    EXPECT_EQ(described.mesh.features[i].boundary_id, built.features[i].boundary_id);
+  }
+  ASSERT_EQ(described.mesh.ports.size(), built.ports.size());
+  for (std::size_t i = 0; i < built.ports.size(); ++i) {
+    EXPECT_EQ(described.mesh.ports[i].name, built.ports[i].name);
+    EXPECT_EQ(described.mesh.ports[i].boundary_id, built.ports[i].boundary_id);
+    EXPECT_EQ(described.mesh.ports[i].begin_m, built.ports[i].begin_m);
+    EXPECT_EQ(described.mesh.ports[i].end_m, built.ports[i].end_m);
+    EXPECT_EQ(described.mesh.ports[i].axis_x_m, built.ports[i].axis_x_m);
+  }
+  EXPECT_TRUE(described.mesh.file.empty());
+}
+
+// Cylinders, the offsets of eccentric ones, and the rings that fillets add: between the corner and an arc of
+// radius r about (R + r) the area (1 - pi / 4) r^2, by Pappus with the centroid of square less quarter disc.
+TEST(AxisymmetricRun, weighs_the_shaft_exactly) {
+  const auto scene = laboratory::scene();
+  const auto& body = *scene.body("shaft");
+  const auto& [segments, fillets_m] = body.shaft()->geometry;
+  double mass = 0, moment_x = 0;
+  const double density = body.material.density_kg_m3;
+  for (const auto& s : segments) {
+    const double own =
+        density * M_PI / 4 * (s.diameter_m * s.diameter_m - s.bore_m * s.bore_m) * (s.end_m - s.begin_m);
+    mass += own;
+    moment_x += own * s.eccentricity_m * std::cos(s.eccentricity_angle_rad);
+  }
+  for (std::size_t i = 0; i < fillets_m.size(); ++i) {
+    const double r = fillets_m[i], R = std::min(segments[i].diameter_m, segments[i + 1].diameter_m) / 2;
+    if (r == 0 || segments[i].diameter_m == segments[i + 1].diameter_m) continue;
+    // Square r x r from R to R + r, less the quarter disc about (R + r): its centroid is 4 r / 3 pi below.
+    mass += density * 2 * M_PI * (r * r * (R + r / 2) - M_PI / 4 * r * r * (R + r - 4 * r / (3 * M_PI)));
+  }
+  const auto masses = describe_revolved(body).masses;
+  EXPECT_NEAR(masses.mass_kg, mass, 1e-8 * mass);
+  EXPECT_NEAR(masses.first_moment_kg_m[0], moment_x, 1e-9 * mass * 0.01);
+}
+
+// The force at the overhang: 12 kN, 35 mm from the seat's middle to the fillet's foot; Peterson's factor of
+// D/d 1.23, r/d 0.045 is 2.1 to 2.3.
+TEST(AxisymmetricRun, finds_the_fillet_that_governs) {
+  LoadedShaft shaft(scene_of(overhung));
+  const auto analysis = shaft.axisymmetric();
+  EXPECT_EQ(analysis.method, Method::axisymmetric);
+  EXPECT_EQ(analysis.peak.feature, "fillet thin/thick");
+  const double nominal = 12e3 * (0.044 - 0.002 - 0.009) * 32 / (M_PI * std::pow(0.044, 3));
+  EXPECT_GT(analysis.peak.value_Pa, 1.9 * nominal);
+  EXPECT_LT(analysis.peak.value_Pa, 2.5 * nominal);
+  EXPECT_LT(analysis.peak.errors.numerical_Pa(), 0.02 * analysis.peak.value_Pa);
+  EXPECT_LE(analysis.closure.worst_moment(), 1e-9);
+  EXPECT_EQ(analysis.peak.value_Pa, analysis.envelope.von_mises.value_Pa[analysis.peak.node]);
+}
+
+// What a run states holds against a run ten times stricter, place by place.
+TEST(AxisymmetricRun, errors_of_places_hold) {
+  for (const auto& scene : {scene_of(overhung), edited::scene("stub_axle", {})}) {
+    LoadedShaft shaft(scene);
+    const auto usual = shaft.places(0.01), strict = shaft.places(0.001);
+    ASSERT_EQ(usual.size(), strict.size());
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+      EXPECT_EQ(usual[i].feature, strict[i].feature);
+      std::printf("%-24s %8.3f +- %.3f MPa, strict %8.3f +- %.3f\n", usual[i].feature.c_str(),
+                  usual[i].value_Pa / 1e6, usual[i].error_Pa / 1e6, strict[i].value_Pa / 1e6,
+                  strict[i].error_Pa / 1e6);
+      EXPECT_LE(std::abs(usual[i].value_Pa - strict[i].value_Pa), usual[i].error_Pa + strict[i].error_Pa)
+          << usual[i].feature;
+    }
+  }
+}
+
+// Sections carry what statics says of the loads, and rings what a beam twists by.
+TEST(AxisymmetricRun, sections_carry_statics) {
+  LoadedShaft shaft(edited::scene("load_table", {}));
+  const auto analysis = shaft.axisymmetric();
+  ASSERT_TRUE(analysis.diagrams);
+  // The stress of cubic cells is of third order: 1e-3 of the largest beside loads.
+  EXPECT_LT(analysis.diagrams->force_mismatch, 5e-3);
+  EXPECT_LT(analysis.diagrams->bending_mismatch, 1e-3);
+  EXPECT_LT(analysis.diagrams->torque_mismatch, 1e-3);
+  EXPECT_LT(plain_torsion_mismatch(*analysis.diagrams), 0.01);
+  ASSERT_NE(largest_torsion_ring(*analysis.diagrams), nullptr);
+  EXPECT_FALSE(analysis.zones.zones.empty());
+  double zone_m3 = 0, body_m3 = 0;
+  for (const auto& zone : analysis.zones.zones) zone_m3 += zone.volume_m3;
+  for (const double v : analysis.responses.nodes.volume_m3) body_m3 += v;
+  EXPECT_GT(zone_m3, 0);
+  EXPECT_NEAR(body_m3, analysis.masses.volume_m3, 1e-6 * body_m3);
+}
+
+// Place by place the solid's values on the same shaft, its own coarse cells apart.
+TEST(AxisymmetricRun, places_are_those_of_the_solid) {
+  LoadedShaft shaft(scene_of(overhung));
+  auto body = shaft.body();
+  auto& control = std::get<ShaftShape>(body.shape).mesh;
+  control.cells_per_fillet_quarter = 6;
+  control.n_sectors = 16;
+  const results_test::Directory at;
+  const auto meshed = mesh_body(body, at / "shaft.msh", {});
+  const auto loads = load_bodies(shaft.scene, {meshed}, shaft.clock).body_loads[0];
+  const auto solid = analyse_body(shaft.scene, body, meshed, loads, {at / "out", 1, true}, shaft.clock);
+  const auto own = axisymmetric_place_stresses(body, meshed, loads, 1);
+  std::map<std::string, double> of_solid;
+  for (const auto& place : largest_by_feature(solid.responses.nodes, solid.envelope.von_mises.value_Pa,
+                                              solid.mesh.features, solid.places))
+    of_solid[place.feature] = place.value_Pa;
+  for (const auto& place : own) {
+    if (place.feature == inside_the_body || place.value_Pa < 0.2 * solid.peak.value_Pa) continue;
+    ASSERT_TRUE(of_solid.count(place.feature)) << place.feature;
+    std::printf("%-24s %8.3f +- %.3f MPa, solid %8.3f\n", place.feature.c_str(), place.value_Pa / 1e6,
+                place.error_Pa / 1e6, of_solid[place.feature] / 1e6);
+    // 16 sectors of quadratic cells, six on the fillet's quarter: 6 %. At seams the place's own error counts.
+    EXPECT_NEAR(of_solid[place.feature], place.value_Pa, 0.06 * place.value_Pa + place.error_Pa)
+        << place.feature;
+  }
+}
+
+TEST(AxisymmetricRun, a_beam_is_within_its_own_error) {
+  LoadedShaft shaft(edited::scene("load_table", {}));
+  const auto beam = shaft.beam(), own = shaft.axisymmetric();
+  EXPECT_EQ(beam.method, Method::beam);
+  EXPECT_NEAR(beam.peak.value_Pa, own.peak.value_Pa, beam.peak.errors.total_Pa());
+  // Its cells only show it: nothing is recovered from them.
+  EXPECT_EQ(beam.peak.errors.of("discretisation"), 0);
+  EXPECT_FALSE(beam.diagrams);
+  EXPECT_GT(beam.responses.nodes.n_cells(), 0u);
+  EXPECT_LT(beam.zones.zones.size(), 10u);
+}
+
+TEST(AxisymmetricRun, is_refused_where_there_is_no_such_model) {
+  const auto scene = laboratory::scene();
+  EXPECT_EQ(why_not_axisymmetric(*scene.body("shaft")), "");
+  EXPECT_NE(why_not_axisymmetric(*scene.body("chamber")), "");
+  auto with_keyway = *scene.body("shaft");
+  std::get<ShaftShape>(with_keyway.shape).keyways.emplace_back();
+  EXPECT_NE(why_not_axisymmetric(with_keyway).find("keyways"), std::string::npos);
+  EXPECT_NE(why_not_beam(with_keyway), "");
+  auto rubber = *scene.body("shaft");
+  rubber.material.poisson_ratio = 0.4999;
+  EXPECT_NE(why_not_axisymmetric(rubber).find("0.4999"), std::string::npos);
+  EXPECT_EQ(requested_method("", scene), scene.method);
+  EXPECT_EQ(requested_method("solid", scene), Method::solid);
+  for (const char* option : {"axisymmetric", "beam", "fast"}) try {
+      requested_method(option, scene);
+      ADD_FAILURE() << option;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("--method ") + option), std::string::npos);
+    }
+}
+
+}  // namespace

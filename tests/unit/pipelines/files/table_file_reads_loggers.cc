@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "pipelines/files/table_file.h"
+#include "pipelines/scene/scene.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
+
+using results_test::Directory;
+
+namespace {
+
+pipelines::TableFile read_table(const std::string& text) {
+  const Directory directory;
+  std::ofstream(directory / "log.csv", std::ios::binary) << text;
+  return pipelines::read_table_file(directory / "log.csv");
+}
+
+/// The refusals as "line:column key = value", without file and remedy.
+std::vector<std::string> refusals(const std::string& text) {
+  try {
+    read_table(text);
+  } catch (const pipelines::SceneError& refused) {
+    std::vector<std::string> places;
+    for (const auto& e : refused.findings()) {
+      EXPECT_FALSE(e.remedy.empty());
+      places.push_back(std::to_string(e.line) + ":" + std::to_string(e.column) + " " + e.key + " = " +
+                       e.value);
+    }
+    return places;
+  }
+  return {};
+}
+
+using Places = std::vector<std::string>;
+
+}  // namespace
+
+TEST(TableFile, ReadsCommasSemicolonsTabsQuotesAndWindowsLines) {
+  for (const std::string text :
+       {"time [s],a.fx [N]\n0,1\n0.5,-2e3\n", "time [s];a.fx [N]\r\n0;1\r\n0.5;-2e3\r\n",
+        "\xef\xbb\xbf# logger 7\n\ntime [s]\ta.fx [N]\n0\t 1\n# pause\n+0.5\t-2000\n",
+        "\"time [s]\",\"a.fx [N]\"\n 0 , 1\n.5,\"-2000\""}) {
+    const auto table = read_table(text);
+    ASSERT_EQ(table.columns.size(), 2u) << text;
+    EXPECT_EQ(table.columns[0].name, "time");
+    EXPECT_EQ(table.columns[0].unit, "s");
+    EXPECT_EQ(table.columns[1].name, "a.fx");
+    EXPECT_EQ(table.columns[1].unit, "N");
+    EXPECT_EQ(table.columns[0].values, (std::vector<double>{0, 0.5})) << text;
+    EXPECT_EQ(table.columns[1].values, (std::vector<double>{1, -2000})) << text;
+  }
+  EXPECT_EQ(read_table("\"a \"\"b\"\", c\" [m],t\n1,2\n").columns[0].name, "a \"b\", c");
+  EXPECT_EQ(read_table("# first\n\nt [s],x\n\n1,2\n3,4\n").lines, (std::vector<int>{5, 6}));
+}
+
+TEST(TableFile, NamesEveryWrongCellAtItsPlace) {
+  EXPECT_EQ(refusals("t [s],x [N]\n1,2\n3,4;5\n"), Places{"3:3 x = 4;5"});
+  EXPECT_EQ(refusals("t [s],x [N]\n1,nan\n,2\n1e999,0x10\n"),
+            (Places{"2:3 x = nan", "3:1 t = ", "4:1 t = 1e999", "4:7 x = 0x10"}));
+  EXPECT_EQ(refusals("t [s],x [N]\n1,2\n3\n"), Places{"3:1  = 3"});
+  EXPECT_EQ(refusals("t [s],t [N]\n1,2\n"), Places{"1:7 t = t [N]"});
+  EXPECT_EQ(refusals("t [s], \n1,2\n"), Places{"1:7  = "});
+  EXPECT_EQ(refusals("t [s,x\n1,2\n"), Places{"1:1 t = t [s"});
+  EXPECT_EQ(refusals(""), Places{"0:0  = "});
+  EXPECT_EQ(refusals("t [s],x [N]\n"), Places{"0:0  = "});
+  EXPECT_EQ(refusals("t [s],x [N]\n" +
+                     [] {
+                       std::string rows;
+                       for (int i = 0; i < 50; ++i) rows += "a,b\n";
+                       return rows;
+                     }())
+                .size(),
+            10u);
+  EXPECT_THROW(pipelines::read_table_file("/nowhere/log.csv"), pipelines::SceneError);
+  EXPECT_THROW(pipelines::read_table_file("/tmp"), pipelines::SceneError);
+}

@@ -1,0 +1,76 @@
+// Loads of a table that nothing carries: the refusal names the body's table, the key and what to write.
+// Statics by hand: the torque is that of the belt, the force along the axis the disc's weight.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "pipelines/common/errors.h"
+#include "pipelines/loads/closure.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/scene.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace pipelines;
+
+/// Loads the shipped scene with an edit; what the load stage says if it refuses.
+std::string refusal_with(const std::string& old_text, const std::string& new_text) {
+  const results_test::Directory directory;
+  const auto scenes = fs::path(SOURCE_DIR) / "pipelines/scenes";
+  fs::copy(scenes / "belt_pull.csv", directory / "belt_pull.csv");
+  std::string text = results_test::bytes(scenes / "load_table.toml");
+  const auto at = text.find(old_text);
+  EXPECT_NE(at, std::string::npos) << old_text;
+  text.replace(at, old_text.size(), new_text);
+  std::ofstream(directory / "scene.toml") << text;
+  const auto scene = read_scene(directory / "scene.toml");
+  StageClock silent;
+  try {
+    load_bodies(scene, {mesh_body(scene.bodies.front(), directory / "mesh.msh", {})}, silent);
+  } catch (const StageRefused& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
+bool says(const std::string& text, const std::string& fragment) {
+  return text.find(fragment) != std::string::npos;
+}
+
+TEST(Supports, AreAskedForByName) {
+  EXPECT_EQ(refusal_with("[shaft]", "[shaft]"), "");
+  const auto torque = refusal_with("torque_support = \"disc_seat\"\n", "");
+  EXPECT_TRUE(says(torque, "scene.toml:46:1: shaft.torque_support: is missing")) << torque;
+  EXPECT_TRUE(says(torque, "torque_support = \"pulley_seat\"")) << torque;
+  const auto axial = refusal_with("axial_support = \"bearing_1\"\n", "");
+  EXPECT_TRUE(says(axial, "shaft.axial_support: is missing: the loads leave up to 118 N along the axis"))
+      << axial;
+  const auto bearings = refusal_with("bearings = [\"bearing_1\", \"bearing_2\"]\n", "");
+  EXPECT_TRUE(says(bearings, "shaft.bearings: is missing")) << bearings;
+}
+
+// An end face at the origin: its own place is no arm to judge the moment of its force by. The mesh's
+// resultants are those of the port but for round-off.
+TEST(Supports, AForceOnTheFaceAtTheOriginCloses) {
+  LoadedBody body;
+  body.regions.resize(1);
+  body.regions.front().masses.mass_kg = 1;
+  body.regions.front().masses.second_moments_kg_m2 = {1e-4, 1e-4, 1e-2, 0, 0, 0};
+  fem::SurfaceResultant force;
+  force.surface.kind = fem::LoadSurface::Kind::face;
+  force.component = fem::SurfaceResultant::Component::fx;
+  BodyLoads loads;
+  loads.unit_loads = {{"end_1.fx", force}};
+  loads.history.channels = {{"end_1.fx", "N"}};
+  loads.history.values = Eigen::ArrayXXd::Ones(1, 4);
+  auto resultant = wanted_resultant(loads.unit_loads.front(), body.regions);
+  for (double& component : resultant) component += 1e-14;
+  EXPECT_LT(check_closure(loads, {resultant}, body.regions).channel_resultant, 1e-12);
+  resultant[5] += 1e-6;  // an arm of a micrometre is no round-off
+  EXPECT_GT(check_closure(loads, {resultant}, body.regions).channel_resultant, 1e-6);
+}
+
+}  // namespace

@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "pipelines/responses/iteration_memory.h"
+#include "pipelines/responses/response_key.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
+
+namespace {
+
+TEST(IterationMemory, lasts_for_one_body_until_it_is_taken_back) {
+  const results_test::Directory scratch;
+  EXPECT_FALSE(pipelines::iteration_gave_up_before(scratch.path, "mesh 1\n"));
+  pipelines::remember_iteration(scratch.path, "mesh 1\n", true);
+  EXPECT_TRUE(pipelines::iteration_gave_up_before(scratch.path, "mesh 1\n"));
+  EXPECT_FALSE(pipelines::iteration_gave_up_before(scratch.path, "mesh 2\n"));
+  pipelines::remember_iteration(scratch.path, "mesh 1\n", false);
+  EXPECT_FALSE(pipelines::iteration_gave_up_before(scratch.path, "mesh 1\n"));
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path));
+}
+
+TEST(IterationMemory, key_is_that_of_mesh_and_material_and_begins_the_responses_key) {
+  const results_test::Directory scratch;
+  fem::Body body;
+  body.mesh = scratch.path / "a.msh";
+  std::ofstream(body.mesh) << "a mesh";
+  body.material = {206e9, 0.3, 7850};
+  const auto key = pipelines::body_key(body);
+  EXPECT_EQ(pipelines::response_key(body, {}, {}, fem::Solver::direct, 2).rfind(key, 0), 0u);
+  auto other = body;
+  other.material.poisson_ratio = 0.4;
+  EXPECT_NE(pipelines::body_key(other), key);
+  std::ofstream(body.mesh) << "another mesh";
+  EXPECT_NE(pipelines::body_key(body), key);
+}
+
+}  // namespace

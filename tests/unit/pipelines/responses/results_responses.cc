@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "pipelines/responses/response_files.h"
+#include "tests/unit/pipelines/examples/results_bar.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
+
+using namespace pipelines;
+using results_test::bytes;
+using results_test::Directory;
+
+namespace {
+
+/// Every field filled with numbers of its own, among them some that only exact storage keeps.
+fem::UnitResponses example_responses() {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  fem::UnitResponses r;
+  r.channels = {"main_bearing_1.fx", "pulley.mz"};
+  r.nodes = results_test::mapped_cube(2, 1, 3, results_test::quadratic_map);
+  r.displacement_m.resize(r.nodes.n * 2 * 3);
+  r.stress_Pa.resize(r.nodes.n * 2 * 6);
+  for (auto* values : {&r.displacement_m, &r.stress_Pa})
+    for (double& value : *values) value = number(random);
+  r.displacement_m[0] = 5e-324;
+  r.displacement_m[1] = -0.0;
+  r.stress_Pa[0] = std::numeric_limits<double>::quiet_NaN();
+  const auto fill = [&](auto& entries) {
+    for (double& entry : entries) entry = number(random);
+  };
+  r.resultants.resize(2);
+  for (auto& resultant : r.resultants) fill(resultant);
+  r.planes = {{0.1, 0.05, 0.001, -0.002}, {0.2, 0.06, 0.003, -0.004}, {0.3, 0.07, 0.005, -0.006}};
+  r.plane_area_m2 = {0.1, 0.2, 0.3};
+  r.sections.resize(3 * 2);
+  for (auto& section : r.sections) {
+    fill(section.resultant);
+    fill(section.mean_rim_shear_Pa);
+    fill(section.translation_m);
+    fill(section.rotation_rad);
+  }
+  r.rings = {{0.15, 0.05, 11}, {0.25, 0.06, 12}};
+  r.ring_shear_Pa.resize(2 * 2);
+  for (auto& ring : r.ring_shear_Pa) fill(ring);
+  r.nodes.cell_volume_id.resize(r.nodes.n_cells());
+  for (auto& volume : r.nodes.cell_volume_id) volume = std::int32_t(random() % 5);
+  r.energy_error.norm_sqrtJ.resize(2);
+  r.energy_error.energy.resize(4);
+  r.energy_error.error.resize(4);
+  r.energy_error.of_cells.resize(r.nodes.n_cells() * 2);
+  fill(r.energy_error.norm_sqrtJ);
+  fill(r.energy_error.energy);
+  fill(r.energy_error.error);
+  fill(r.energy_error.of_cells);
+  r.support_reaction = 1e-13;
+  r.residual = 1. / 3e12;
+  r.n_dofs = 634047;
+  r.factor_gigabytes = 2.7;
+  r.solver.gave_up = true;
+  r.solver.reason = "stalled";
+  r.solver.used_bytes = 3e9;
+  r.solver.predicted_direct.bytes = 2e9;
+  return r;
+}
+
+template <class Element>
+bool same_bits(const std::vector<Element>& a, const std::vector<Element>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0;
+}
+
+TEST(ResponseFiles, come_back_bit_for_bit) {
+  const Directory at;
+  const auto written = example_responses();
+  write_unit_responses(at / "unit_responses.h5", "key 1", written);
+  const auto read = read_unit_responses(at / "unit_responses.h5", "key 1");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->channels, written.channels);
+  EXPECT_EQ(read->nodes.n, written.nodes.n);
+  EXPECT_TRUE(same_bits(read->nodes.xyz_m, written.nodes.xyz_m));
+  EXPECT_TRUE(same_bits(read->nodes.volume_m3, written.nodes.volume_m3));
+  EXPECT_EQ(read->nodes.cells, written.nodes.cells);
+  EXPECT_EQ(read->nodes.faces, written.nodes.faces);
+  EXPECT_EQ(read->nodes.face_boundary_id, written.nodes.face_boundary_id);
+  EXPECT_TRUE(same_bits(read->displacement_m, written.displacement_m));
+  EXPECT_TRUE(same_bits(read->stress_Pa, written.stress_Pa));
+  EXPECT_TRUE(same_bits(read->resultants, written.resultants));
+  EXPECT_TRUE(same_bits(read->planes, written.planes));
+  EXPECT_TRUE(same_bits(read->plane_area_m2, written.plane_area_m2));
+  EXPECT_TRUE(same_bits(read->sections, written.sections));
+  ASSERT_EQ(read->rings.size(), written.rings.size());
+  for (std::size_t i = 0; i < read->rings.size(); ++i) {
+    EXPECT_EQ(read->rings[i].z_m, written.rings[i].z_m);
+    EXPECT_EQ(read->rings[i].radius_m, written.rings[i].radius_m);
+    EXPECT_EQ(read->rings[i].boundary_id, written.rings[i].boundary_id);
+  }
+  EXPECT_TRUE(same_bits(read->ring_shear_Pa, written.ring_shear_Pa));
+  EXPECT_EQ(read->nodes.cell_volume_id, written.nodes.cell_volume_id);
+  EXPECT_TRUE(same_bits(read->energy_error.norm_sqrtJ, written.energy_error.norm_sqrtJ));
+  EXPECT_TRUE(same_bits(read->energy_error.energy, written.energy_error.energy));
+  EXPECT_TRUE(same_bits(read->energy_error.error, written.energy_error.error));
+  EXPECT_TRUE(same_bits(read->energy_error.of_cells, written.energy_error.of_cells));
+  EXPECT_EQ(read->support_reaction, written.support_reaction);
+  EXPECT_EQ(read->residual, written.residual);
+  EXPECT_EQ(read->n_dofs, written.n_dofs);
+  EXPECT_EQ(read->factor_gigabytes, written.factor_gigabytes);
+  EXPECT_EQ(read->solver.gave_up, written.solver.gave_up);
+  EXPECT_EQ(read->solver.reason, written.solver.reason);
+  EXPECT_EQ(read->solver.used_bytes, written.solver.used_bytes);
+  EXPECT_EQ(read->solver.predicted().bytes, written.solver.predicted().bytes);
+}
+
+TEST(ResponseFiles, two_writes_give_the_same_bytes) {
+  const Directory at;
+  write_unit_responses(at / "a.h5", "key", example_responses());
+  write_unit_responses(at / "b.h5", "key", example_responses());
+  EXPECT_EQ(bytes(at / "a.h5"), bytes(at / "b.h5"));
+}
+
+TEST(ResponseFiles, every_degree_comes_back) {
+  const Directory at;
+  for (const int degree : {1, 2, 3}) {
+    fem::UnitResponses written;
+    written.channels = {"seat.fx"};
+    written.resultants.resize(1);
+    written.nodes.degree = degree;
+    const auto n = std::int32_t(written.nodes.nodes_per_cell());
+    for (std::int32_t i = 0; i < n; ++i) written.nodes.cells.push_back(n - 1 - i);
+    for (std::int32_t i = 0; i < std::int32_t(written.nodes.nodes_per_face()); ++i)
+      written.nodes.faces.push_back(i);
+    written.nodes.face_boundary_id = {7};
+    write_unit_responses(at / "r.h5", "key", written);
+    const auto read = read_unit_responses(at / "r.h5", "key");
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->nodes.degree, degree);
+    EXPECT_EQ(read->nodes.n_cells(), 1u);
+    EXPECT_EQ(read->nodes.n_faces(), 1u);
+    EXPECT_EQ(read->nodes.cells, written.nodes.cells);
+    EXPECT_EQ(read->nodes.faces, written.nodes.faces);
+  }
+}
+
+TEST(ResponseFiles, an_axisymmetric_or_empty_body_comes_back) {
+  const Directory at;
+  fem::UnitResponses written;
+  written.channels = {"seat.fx"};
+  written.resultants.resize(1);
+  write_unit_responses(at / "r.h5", "key", written);
+  const auto read = read_unit_responses(at / "r.h5", "key");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->channels, written.channels);
+  EXPECT_TRUE(read->nodes.cells.empty());
+}
+
+TEST(ResponseFiles, what_does_not_fit_counts_as_missing) {
+  const Directory at;
+  EXPECT_FALSE(read_unit_responses(at / "none.h5", "key"));
+  EXPECT_FALSE(read_unit_responses(at.path, "key"));
+  write_unit_responses(at / "r.h5", "key", example_responses());
+  EXPECT_TRUE(read_unit_responses(at / "r.h5", "key"));
+  EXPECT_FALSE(read_unit_responses(at / "r.h5", "key 2"));
+  const std::string whole = bytes(at / "r.h5");
+  testing::internal::CaptureStderr();
+  for (const std::size_t size : {std::size_t{0}, std::size_t{100}, whole.size() / 2, whole.size() - 1}) {
+    std::ofstream(at / "cut.h5", std::ios::binary) << whole.substr(0, size);
+    EXPECT_FALSE(read_unit_responses(at / "cut.h5", "key")) << size;
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(ResponseFiles, sizes_that_do_not_fit_are_refused_and_the_old_file_stays) {
+  const Directory at;
+  write_unit_responses(at / "r.h5", "key", example_responses());
+  const std::string old = bytes(at / "r.h5");
+  auto wrong = example_responses();
+  wrong.stress_Pa.pop_back();
+  try {
+    write_unit_responses(at / "r.h5", "key", wrong);
+    FAIL() << "was written";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("/stress"), std::string::npos);
+  }
+  EXPECT_EQ(bytes(at / "r.h5"), old);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(at.path), {}), 1);
+}
+
+}  // namespace

@@ -1,0 +1,187 @@
+/// Drum, stub axle, train shaft and table body of a scene: values in SI, defaults, masses left to the mesh.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/pipelines/examples/edited_scene.h"
+
+namespace {
+
+using edited::has_default;
+using pipelines::BodyRole;
+using pipelines::Scene;
+
+void expect_same_size(double value, double expected) {
+  EXPECT_NEAR(value, expected, 1e-14 * std::abs(expected));
+}
+
+const meshes::ShaftSegment& segment(const pipelines::BodyScene& body, const std::string& name) {
+  for (const auto& s : body.shaft()->geometry.segments)
+    if (s.name == name) return s;
+  throw std::out_of_range(name);
+}
+
+TEST(SceneDrum, HasSetB) {
+  const Scene scene = edited::scene("planetary_mill", {});
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  const auto& body = *scene.body("drum");
+  EXPECT_EQ(body.role, BodyRole::drum);
+  ASSERT_TRUE(body.shaft());
+  // coupling.md 7.3; z = 0 in the middle of the inner wall, bearings at +-560, pulley at 629.
+  struct Expected {
+    const char* name;
+    double begin_mm, end_mm, diameter_mm, bore_mm;
+    bool is_port;
+  };
+  for (const auto& e : {Expected{"trunnion_1", -580, -540, 80, 40, true},
+                        {"root_1", -540, -520, 95, 40, false},
+                        {"cover_1", -520, -500, 216, 40, false},
+                        {"shell", -500, 500, 216, 200, false},
+                        {"root_2", 520, 540, 95, 40, false},
+                        {"trunnion_2", 540, 580, 80, 40, true},
+                        {"pulley_seat", 580, 678, 70, 40, true}}) {
+    const auto& s = segment(body, e.name);
+    EXPECT_NEAR(s.begin_m, e.begin_mm / 1e3, 1e-15) << e.name;  // sums of lengths: rounding of 1 m
+    EXPECT_NEAR(s.end_m, e.end_mm / 1e3, 1e-15) << e.name;
+    expect_same_size(s.diameter_m, e.diameter_mm / 1e3);
+    expect_same_size(s.bore_m, e.bore_mm / 1e3);
+    EXPECT_EQ(s.is_port, e.is_port) << e.name;
+  }
+  EXPECT_EQ(segment(body, "shell").bore_port, "inner_wall");
+  EXPECT_EQ(body.shaft()->geometry.fillets_m, (std::vector<double>{0.003, 0.01, 0, 0, 0.01, 0.003, 0.003}));
+  EXPECT_EQ(body.difference_port, "pulley_seat");
+  ASSERT_EQ(body.added_masses.size(), 1u);
+  expect_same_size(body.added_masses[0].mass_kg, 21.1);
+  EXPECT_EQ(body.added_masses[0].region, "");
+  EXPECT_EQ(body.shaft()->mesh.n_sectors, 24);
+  EXPECT_TRUE(has_default(scene, "drum.pressure_harmonics", "4"));
+  EXPECT_TRUE(scene.masses_from_mesh.empty());
+  EXPECT_TRUE(scene.has_effect("drum_spin"));
+  const auto of_kinetics = scene.kinetics_effects();
+  EXPECT_EQ(std::count(of_kinetics.begin(), of_kinetics.end(), "drum_spin"), 0);
+}
+
+TEST(SceneDrum, LeavesItsMassToTheMesh) {
+  const Scene scene = edited::scene(
+      "planetary_mill", {{"mass = \"79.47 kg\"        # shell, covers, trunnions and pulley\n", ""}});
+  EXPECT_EQ(scene.masses_from_mesh, std::vector<std::string>{"drum"});
+  EXPECT_TRUE(has_default(scene, "machine.drum.mass", "from the mesh"));
+}
+
+TEST(SceneDrum, BeltWrapsThePulleysSeat) {
+  const Scene scene = edited::scene(
+      "planetary_mill", {{"[[drum.added_masses]]",
+                          "[drum.pressure.pulley_seat]\npattern = \"uniform\"\nhalf_angle = \"80 deg\"\n"
+                          "harmonics = 9\n\n[[drum.added_masses]]"}});
+  const auto& seat = scene.body("drum")->pressures.at("pulley_seat");
+  EXPECT_EQ(seat.pattern.kind, pipelines::PressurePattern::Kind::uniform);
+  expect_same_size(seat.pattern.half_angle_rad, 80 * M_PI / 180);
+  EXPECT_EQ(seat.highest_harmonic, 9);
+}
+
+TEST(SceneAxle, HasTheStub) {
+  const Scene scene = edited::scene("stub_axle", {});
+  const auto& body = *scene.body("axle");
+  EXPECT_EQ(body.role, BodyRole::stub_axle);
+  expect_same_size(body.stub_axle.bearing_span_m, 1.12);
+  expect_same_size(body.stub_axle.pulley_plane_m, 0.629);
+  expect_same_size(body.stub_axle.pulley_mass_kg, 21.1);
+  EXPECT_FALSE(body.stub_axle.pulley_side) << "the plain side carries more";
+  EXPECT_EQ(body.shaft()->geometry.segments.front().begin_m, 0) << "from the clamped end";
+  expect_same_size(segment(body, "bearing").end_m, 0.13);
+  EXPECT_TRUE(has_default(scene, "axle.begin", "0 m"));
+  EXPECT_TRUE(body.added_masses.empty());
+  const auto of_kinetics = scene.kinetics_effects();
+  EXPECT_EQ(of_kinetics.size(), scene.effects.size() - 2) << "axle_gravity and axle_transport are its own";
+  const Scene other = edited::scene(
+      "stub_axle", {{"side = \"plain\" ", "side = \"pulley\" "}, {"pulley_mass = \"21.1 kg\" ", "# "}});
+  EXPECT_TRUE(other.body("axle")->stub_axle.pulley_side);
+  EXPECT_TRUE(has_default(other, "axle.pulley_mass", "0 kg"));
+  const Scene silent = edited::scene("stub_axle", {{"side = \"plain\" ", "# "}});
+  EXPECT_TRUE(has_default(silent, "axle.side", "\"plain\""));
+}
+
+TEST(SceneTrainShaft, HasThePeelers) {
+  const Scene scene = edited::scene("root_peeler_shaft", {});
+  const auto& body = *scene.body("shaft");
+  EXPECT_EQ(body.role, BodyRole::train_shaft);
+  const auto& train = body.train;
+  EXPECT_EQ(train.inertia, "working_shaft");
+  ASSERT_EQ(train.torques.size(), 2u);
+  EXPECT_EQ(train.torques[0].port, "pulley_seat");
+  EXPECT_EQ(train.torques[0].role, "working_shaft_1_on_working_shaft");
+  EXPECT_EQ(train.torques[1].port, "disc_seat");
+  EXPECT_EQ(train.torques[1].role, "working_shaft_2_on_working_shaft");
+  EXPECT_EQ(train.bearings, (std::array<std::string, 2>{"bearing_1", "bearing_2"}));
+  EXPECT_EQ(train.axial_bearing, "bearing_1");
+  ASSERT_EQ(train.forces.size(), 3u);
+  EXPECT_EQ(train.forces[0].effect, "belt_pull");
+  EXPECT_EQ(train.forces[0].force_N, (std::array<double, 3>{240, 0, 0}));
+  EXPECT_FALSE(train.forces[0].turns_with_shaft);
+  EXPECT_TRUE(train.forces[1].turns_with_shaft);
+  EXPECT_EQ(train.forces[2].force_N, (std::array<double, 3>{0, 0, -118}));
+  EXPECT_TRUE(has_default(scene, "shaft.forces[1].turns_with_shaft", "false"));
+  EXPECT_EQ(scene.masses_from_mesh, std::vector<std::string>{"working_shaft"});
+  expect_same_size(segment(body, "disc_seat").end_m, 0.184);
+  // Its own effects and its forces are no business of the train.
+  EXPECT_EQ(scene.kinetics_effects(), (std::vector<std::string>{"motor_torque", "peeling_torque"}));
+}
+
+TEST(SceneTrainShaft, NeedsNoForces) {
+  const Scene scene = edited::scene(
+      "root_peeler_shaft",
+      {{"  \"belt_pull\", \"disc_imbalance\", \"disc_weight\",\n", ""},
+       {"axial_bearing = \"bearing_1\"\n", ""},
+       {"[[shaft.forces]]      # across [x, y] and along [z]; the shaft stands upright, so weights act "
+        "along it\neffect = \"belt_pull\"\nport = \"pulley_seat\"\nforce = [\"240 N\", \"0 N\", \"0 N\"]\n",
+        ""},
+       {"[[shaft.forces]]\neffect = \"disc_imbalance\"\nport = \"disc_seat\"\n"
+        "force = [\"860 N\", \"0 N\", \"0 N\"]  # 3 kg of roots 0.1 m off the axis at 510 rpm\n"
+        "turns_with_shaft = true\n",
+        ""},
+       {"[[shaft.forces]]\neffect = \"disc_weight\"\nport = \"disc_seat\"\n"
+        "force = [\"0 N\", \"0 N\", \"-118 N\"]\n",
+        ""}});
+  EXPECT_TRUE(scene.body("shaft")->train.forces.empty());
+  EXPECT_TRUE(has_default(scene, "shaft.axial_bearing", "\"bearing_1\""));
+}
+
+const char* part_table = R"(
+[part]
+contour = [
+  { port = "bearing_1", diameter = "25 mm", length = "15 mm", bore = "10 mm" },
+  { fillet = "1 mm" },
+  { port = "pulley_seat", diameter = "30 mm", length = "64 mm", bore = "10 mm", bore_port = "inside" },
+  { fillet = "1 mm" },
+  { port = "disc_seat", diameter = "26 mm", length = "15 mm", bore = "10 mm" },
+  { port = "bearing_2", diameter = "25 mm", length = "15 mm", bore = "10 mm" },
+]
+begin = "-20 mm"
+bearings = ["bearing_1", "bearing_2"]
+axial_support = "end_1"
+torque_support = "bearing_2"
+[part.material]
+name = "C45+N"
+youngs_modulus = "206 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "305 MPa"
+[part.mesh]
+largest_cell = "5 mm"
+)";
+
+TEST(ScenePart, TakesAnyPortAndItsSupports) {
+  const Scene scene = edited::scene(
+      "load_table", {{"turns = 1  # the period of the samples", "turns = 1\n" + std::string(part_table)}});
+  const auto& body = *scene.body("part");
+  EXPECT_EQ(body.role, BodyRole::table_body);
+  EXPECT_EQ(body.table.bearings, (std::vector<std::string>{"bearing_1", "bearing_2"}));
+  EXPECT_EQ(body.table.axial_support, "end_1");
+  EXPECT_EQ(body.table.torque_support, "bearing_2");
+  expect_same_size(body.shaft()->geometry.segments.front().begin_m, -0.02);
+  EXPECT_EQ(segment(body, "pulley_seat").bore_port, "inside");
+  expect_same_size(body.shaft()->mesh.largest_cell_m, 0.005);
+  EXPECT_EQ(body.difference_port, "") << "a table has no masses of its own";
+}
+
+}  // namespace
