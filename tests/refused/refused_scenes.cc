@@ -1,10 +1,5 @@
-/// Every *.toml of this folder is a scene that must be refused, and says itself with which errors. Comment
-/// lines:
-///   # BASE: mill.toml            the scene is base/mill.toml with the edits below; without it, this file is
-///   the scene # REPLACE: old -> new        `old` occurs exactly once; \n in `new` begins a line # EXPECT:
-///   9:9: fragment      one error, at line:column of the edited scene (0:0: the file as a whole), whose text
-///                                holds the fragment; there are as many errors as EXPECT lines
-/// @SOURCE@ in a scene stands for the source tree.
+/// Every *.toml in the folders beside `base` is a scene that must be refused, and says itself with which errors:
+/// README.md describes its directives.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -45,7 +40,7 @@ RefusedScene load(const fs::path& file) {
       return line.rfind(prefix, 0) == 0 ? line.substr(prefix.size()) : std::string();
     };
     if (const std::string base = value_of("BASE"); !base.empty()) {
-      result.scene = read(file.parent_path() / "base" / base);
+      result.scene = read(fs::path(TEST_DATA) / "base" / base);
     } else if (const std::string edit = value_of("REPLACE"); !edit.empty()) {
       const auto arrow = edit.find(" -> ");
       const std::string old_text = edit.substr(0, arrow);
@@ -81,8 +76,9 @@ bool fits(const pipelines::SceneFinding& error, const std::string& expectation) 
 
 std::vector<fs::path> refused_files() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(TEST_DATA))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  for (const auto& entry : fs::recursive_directory_iterator(TEST_DATA))
+    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "base")
+      files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
