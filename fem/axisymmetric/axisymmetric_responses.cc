@@ -36,12 +36,12 @@ std::vector<Harmonic> load_harmonics(const MeridianGrid& grid, const HarmonicLoa
     auto forces = load_of(loads[k]);
     r.channels.push_back(loads[k].channel);
     r.resultants.push_back(load_of.resultant(forces));
-    for (auto& [m, twin, force] : forces) {
+    for (auto& [m, turned, force] : forces) {
       const double applied = force.norm();
       load_of.balance(m, force);
       // A uniform acceleration is what balances a load: nothing but rounding is left of it.
       if (!(force.norm() > 1e-12 * applied)) continue;
-      by_harmonic[m].parts.push_back({k, twin});
+      by_harmonic[m].parts.push_back({k, turned});
       by_harmonic[m].force.push_back(std::move(force));
     }
   }
@@ -105,9 +105,9 @@ void add_at_node(const std::vector<Harmonic>& harmonics, Eigen::Index point, dou
   for (const auto& harmonic : harmonics) {
     const double cos_m = std::cos(harmonic.m * angle), sin_m = std::sin(harmonic.m * angle);
     const double* amplitudes = harmonic.amplitudes.row(point).data();
-    for (const auto& [channel, twin] : harmonic.parts) {
-      const double even = twin ? sin_m : cos_m;
-      const double odd = harmonic.m == 0 ? 1 : twin ? -cos_m : sin_m;
+    for (const auto& [channel, turned] : harmonic.parts) {
+      const double even = turned ? sin_m : cos_m;
+      const double odd = harmonic.m == 0 ? 1 : turned ? -cos_m : sin_m;
       const std::size_t at = node * n_channels + channel;
       add_at_angle(amplitudes, even, odd, cos, sin, &r.displacement_m[3 * at], &r.stress_Pa[6 * at]);
       amplitudes += 9;

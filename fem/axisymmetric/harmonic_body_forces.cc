@@ -102,12 +102,12 @@ void HarmonicLoads::make_resultant(const std::array<double, 6>& wanted, Harmonic
   const auto is = resultant(forces);
   std::array<double, 6> missing;
   for (std::size_t c = 0; c < 6; ++c) missing[c] = wanted[c] - is[c];
-  const auto make = [&](int m, bool twin, double force, double couple) {
+  const auto make = [&](int m, bool turned, double force, double couple) {
     if (force == 0 && couple == 0) return;
     const auto &rigid = modes_[std::size_t(m)], &mass = mass_modes_[std::size_t(m)];
     const Eigen::Vector2d acceleration =
         solve(transposed_product(rigid, mass), Eigen::Vector2d(force, couple));
-    add_to(forces, m, twin, product(mass, acceleration));
+    add_to(forces, m, turned, product(mass, acceleration));
   };
   make(0, false, missing[2], missing[5]);
   make(1, false, missing[0], missing[4]);

@@ -15,13 +15,13 @@ using Eigen::Vector3d;
 
 }  // namespace
 
-void add_to(HarmonicForces& forces, int m, bool twin, const Eigen::VectorXd& force) {
+void add_to(HarmonicForces& forces, int m, bool turned, const Eigen::VectorXd& force) {
   for (auto& known : forces)
-    if (known.m == m && known.twin == twin) {
+    if (known.m == m && known.turned == turned) {
       known.force += force;
       return;
     }
-  forces.push_back({m, twin, force});
+  forces.push_back({m, turned, force});
 }
 
 HarmonicLoads::HarmonicLoads(const MeridianGrid& grid, const MeridianBody& body)
@@ -142,7 +142,7 @@ HarmonicForces HarmonicLoads::forces_of(const SurfaceResultant& load) const {
     case Component::fz:
       add_to(forces, 0, false, own.axial);
       if (x != 0) add_to(forces, 1, false, -x * own.couple);
-      if (y != 0) add_to(forces, 1, true, -y * own.couple);  // the twin's couple is about -x
+      if (y != 0) add_to(forces, 1, true, -y * own.couple);  // the turned one's couple is about -x
       break;
     case Component::mx:
       add_to(forces, 1, true, -own.couple);
@@ -189,7 +189,7 @@ std::array<double, 6> HarmonicLoads::resultant(const HarmonicForces& forces) con
     if (part.m == 0) {
       sum[2] += r[0];
       sum[5] += r[1];
-    } else if (part.twin) {
+    } else if (part.turned) {
       sum[1] += r[0];
       sum[3] -= r[1];
     } else {

@@ -12,18 +12,18 @@
 
 namespace fem {
 
-/// Nodal forces that work on the amplitudes of one harmonic (twin: of the turned one).
+/// Nodal forces that work on the amplitudes of one harmonic (turned: of the turned one).
 struct HarmonicForce {
   int m = 0;
-  bool twin = false;
+  bool turned = false;
   Eigen::VectorXd force;
 };
 
-/// One load: a few harmonics, each (m, twin) at most once.
+/// One load: a few harmonics, each (m, turned) at most once.
 using HarmonicForces = std::vector<HarmonicForce>;
 
 /// Adds to the harmonic that is there, or a new one.
-void add_to(HarmonicForces& forces, int m, bool twin, const Eigen::VectorXd& force);
+void add_to(HarmonicForces& forces, int m, bool turned, const Eigen::VectorXd& force);
 
 class HarmonicLoads {
 public:
@@ -45,7 +45,7 @@ public:
 
 private:
   /// Amplitudes with exact unit resultants about a height: of m = 0, axial force and torque; of m = 1, force
-  /// across and the couple about the axis square to it (the twin's couple has the other sign).
+  /// across and the couple about the axis square to it (the turned one's couple has the other sign).
   struct Basis {
     Eigen::VectorXd axial, torque, force, couple;
   };

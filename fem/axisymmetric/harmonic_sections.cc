@@ -97,7 +97,7 @@ void HarmonicSections::add_resultants(std::size_t plane, int m, const std::vecto
   const auto& axis = responses.planes[plane];
   const double ax = axis.axis_x_m, ay = axis.axis_y_m;
   for (Eigen::Index k = 0; k < displacement.cols(); ++k) {
-    const auto [channel, twin] = parts[std::size_t(k)];
+    const auto [channel, turned] = parts[std::size_t(k)];
     auto& r = responses.sections[plane * responses.channels.size() + channel];
     if (m == 0) {
       r.resultant[2] += around * sum(5, k);
@@ -112,11 +112,11 @@ void HarmonicSections::add_resultants(std::size_t plane, int m, const std::vecto
     // The mean square of x over the section is half of that of r.
     const double across = around * (sum(0, k) - sum(1, k)) / area_m2;
     const double tilt = around * levers(2, k) / (second_m4 / 2);
-    r.resultant[twin ? 1 : 0] += around * (sum(6, k) - sum(8, k));
-    r.resultant[twin ? 3 : 4] += (twin ? around : -around) * levers(5, k);
-    r.rotation_rad[twin ? 0 : 1] += twin ? tilt : -tilt;
-    r.translation_m[twin ? 1 : 0] += across;
-    r.translation_m[2] += tilt * (twin ? ay : ax);
+    r.resultant[turned ? 1 : 0] += around * (sum(6, k) - sum(8, k));
+    r.resultant[turned ? 3 : 4] += (turned ? around : -around) * levers(5, k);
+    r.rotation_rad[turned ? 0 : 1] += turned ? tilt : -tilt;
+    r.translation_m[turned ? 1 : 0] += across;
+    r.translation_m[2] += tilt * (turned ? ay : ax);
   }
 }
 

@@ -12,7 +12,7 @@ namespace fem {
 /// What one harmonic adds to one channel: nine columns of its amplitudes.
 struct HarmonicPart {
   std::size_t channel;
-  bool twin;
+  bool turned;
 };
 
 class HarmonicSections {

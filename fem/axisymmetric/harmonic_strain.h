@@ -1,8 +1,8 @@
 /// Elasticity of one Fourier harmonic of a body of revolution. Internal to fem.
 ///
 /// Displacement of the harmonic m:  u_r = U cos m theta, u_theta = V sin m theta, u_z = W cos m theta; its
-/// twin, turned by a quarter of its period, has sin, -cos, sin. Both have the same stiffness. At m = 0 the
-/// amplitudes (U, W) and V stand for themselves: axial and radial motion, and torsion. Unknown 3 i + c is
+/// counterpart, turned by a quarter of its period, has sin, -cos, sin. Both have the same stiffness. At m = 0
+/// the amplitudes (U, W) and V stand for themselves: axial and radial motion, and torsion. Unknown 3 i + c is
 /// component c of (U, V, W) at node i. Strain and stress amplitudes: rr, tt, zz, rz with the cosine, rt, tz
 /// with the sine; shear strains are gamma.
 #pragma once

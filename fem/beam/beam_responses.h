@@ -1,4 +1,4 @@
-/// The cheapest rung of the ladder: a shaft as a Timoshenko beam with published stress concentration factors
+/// The cheapest model: a shaft as a Timoshenko beam with published stress concentration factors
 /// at its fillets. Milliseconds. Eigen in the .cc files only, no deal.II.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// The cheapest rung of chambers: a thin cylindrical tube with plates welded to its outside, loaded through
+/// The cheapest model of chambers: a thin cylindrical tube with plates welded to its outside, loaded through
 /// the plates. Milliseconds. Eigen in the .cc file only, no deal.II.
 ///
 /// Conventions: tube along z; angles about its axis from +x, counter-clockwise; radial displacement and

@@ -165,7 +165,8 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
 }
 
 /// By the solver that the report names; by the other one if the iterative one gives up, if the factor does
-/// not fit into memory, or if it turns out too dear for cells of middling stretch; the report then tells.
+/// not fit into memory, or if it turns out too expensive for cells of middling stretch; the report then
+/// tells.
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
@@ -186,7 +187,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     return std::move(*solution);
   }
   const auto is_dear = [&](const FactorSize& factor) {
-    return is_too_dear(factor, report, std::size_t(loads.force.cols()));
+    return is_too_expensive(factor, report, std::size_t(loads.force.cols()));
   };
   try {
     if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, is_dear))
@@ -200,7 +201,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     throw;
   }
   report.used = Solver::iterative;
-  report.reason += ", but the factor is dear";
+  report.reason += ", but the factor is expensive";
   if (auto solution = iterate()) return std::move(*solution);
   return *solve_directly(grid, cells, colours, materials, loads, progress);
 }

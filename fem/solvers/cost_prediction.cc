@@ -15,7 +15,7 @@ SolverReport predict_solver(const Body& body, std::size_t n_loads, const SolverC
   if (report.used == Solver::direct && 3 * grid.n_nodes <= most_analysed) {
     report.factor = analyse_factor(grid, cells_of_nodes(grid));
     report.predicted_direct = predict_direct(report.factor, n_loads);
-    if (is_too_dear(report.factor, report, n_loads)) report.used = Solver::iterative;
+    if (is_too_expensive(report.factor, report, n_loads)) report.used = Solver::iterative;
   }
   return report;
 }
@@ -34,8 +34,8 @@ SolverReport predict_solver(const SolverReport& at_hand, std::size_t n_dofs, int
   report.predicted_iterative =
       predict_iterative(n_dofs, degree, n_loads, report.largest_aspect, report.coarse_level);
   if (at_hand.by_analysis) {
-    const bool dear = report.factor.n_dofs > 0 && is_too_dear(report.factor, report, n_loads);
-    report.used = dear ? Solver::iterative : Solver::direct;
+    const bool expensive = report.factor.n_dofs > 0 && is_too_expensive(report.factor, report, n_loads);
+    report.used = expensive ? Solver::iterative : Solver::direct;
     return report;
   }
   const bool cost_decided = (at_hand.used == Solver::iterative) == iterative_is_faster;

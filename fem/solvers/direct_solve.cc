@@ -56,7 +56,7 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
                                        const std::vector<std::vector<std::int32_t>>& colours,
                                        const CellMaterials& materials, const BalancedLoads& loads,
                                        const StepReport& progress,
-                                       const std::function<bool(const FactorSize&)>& is_too_dear) {
+                                       const std::function<bool(const FactorSize&)>& is_too_expensive) {
   progress(0.05, "assemble");
   const NodeGraph graph = make_node_graph(grid, cells);
   auto order =
@@ -71,7 +71,7 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
 
   progress(0.1, "order");
   CholmodFactor factor(matrix, order.get());
-  if (is_too_dear && is_too_dear(factor.size())) return std::nullopt;
+  if (is_too_expensive && is_too_expensive(factor.size())) return std::nullopt;
   // CHOLMOD turns the matrix into its own order; displacements, stress and what becomes of them follow.
   const double more = 16.0 * static_cast<double>(matrix.value.size()) +
                       bytes_per_response * static_cast<double>(loads.force.size());

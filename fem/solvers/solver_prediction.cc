@@ -17,8 +17,8 @@ namespace {
 constexpr double worth_seconds = 1;
 // Cells more stretched than that cost more iterations than they save.
 constexpr double most_stretched = 12;
-// Up to this, and if few cells are, they do not where the factor is dear: 82 iterations at 1 : 17, 7 % of
-// the cells beyond 1 : 12. A disc of cells that are all 1 : 16 does not end in a hundred.
+// Up to this, and if few cells are, they do not where the factor is expensive: 82 iterations at 1 : 17, 7 %
+// of the cells beyond 1 : 12. A disc of cells that are all 1 : 16 does not end in a hundred.
 constexpr double stretched_at_all = 25;
 constexpr double most_stretched_cells = 0.1;
 constexpr double stretched_safety = 2;
@@ -122,7 +122,7 @@ bool suits_multigrid(double aspect) {
   return aspect <= most_stretched;
 }
 
-bool is_too_dear(const FactorSize& factor, const SolverReport& report, std::size_t n_loads) {
+bool is_too_expensive(const FactorSize& factor, const SolverReport& report, std::size_t n_loads) {
   return report.by_analysis && stretched_safety * report.predicted_iterative.seconds + worth_seconds <
                                    predict_direct(factor, n_loads).seconds;
 }

@@ -50,7 +50,7 @@ bool suits_multigrid(double aspect);
 
 /// Whether an analysed factor is predicted to cost more than twice what the iteration does on cells of
 /// middling stretch, whose number of iterations is known less well.
-bool is_too_dear(const FactorSize& factor, const SolverReport& report, std::size_t n_loads);
+bool is_too_expensive(const FactorSize& factor, const SolverReport& report, std::size_t n_loads);
 
 /// Whether stretched cells may be iterated where the factor does not fit into memory: at most half of them
 /// beyond 1 : 12 (a third of a stepped shaft's cells, up to 1 : 39: 95 iterations), so that it may take up to

@@ -59,7 +59,7 @@ struct SolverReport {
   Solver used = Solver::direct;
   std::string reason;        ///< why this one; if the iterative one gave up, how
   bool gave_up = false;      ///< the iterative one stalled, here or before (SolverChoice::gave_up_before)
-  bool by_analysis = false;  ///< direct, unless the analysed factor turns out too dear
+  bool by_analysis = false;  ///< direct, unless the analysed factor turns out too expensive
   SolverCost predicted_direct, predicted_iterative;
   FactorSize
       factor{};  ///< of the direct one, once its matrix was analysed: then what is predicted follows from it

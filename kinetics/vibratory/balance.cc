@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kinetics/vibratory/books.h"
+#include "kinetics/vibratory/effect_sums.h"
 #include "kinetics/vibratory/pitch.h"
 
 namespace kinetics::vibratory {
@@ -14,12 +14,12 @@ using Eigen::Index;
 
 constexpr Index block_size = 256;
 
-/// Books the placed forces of the effects over one block of instants.
-class BlockBooking {
+/// Adds the placed forces of the effects over one block of instants.
+class BlockSums {
 public:
-  BlockBooking(const VibratoryMill& mill, Index first, Index count, Books& books)
+  BlockSums(const VibratoryMill& mill, Index first, Index count, EffectSums& sums)
       : mill_(mill),
-        at_(part_of(books.motion, first, count)),
+        at_(part_of(sums.motion, first, count)),
         first_(first),
         n_(count),
         translation_m_(translation(mill, at_)),
@@ -27,7 +27,7 @@ public:
         chamber_N_(2, count),
         shaft_N_(2, count),
         shaft_Nm_(count),
-        books_(books) {}
+        sums_(sums) {}
 
   void book(std::size_t index, const NamedEffect& effect) {
     bool on_chamber = false, on_shaft = false;
@@ -38,7 +38,7 @@ public:
         on_shaft = true;
         shaft_N_ += placed.force_N;
         shaft_Nm_ += cross(arm_m, placed.force_N);
-        books_.shaft.add(first_, arm_m, placed.force_N);
+        sums_.shaft.add(first_, arm_m, placed.force_N);
       } else {
         on_chamber = true;
         chamber_N_ += placed.force_N;
@@ -52,24 +52,24 @@ public:
 
   /// The joints' loads by the equations above, and what the sums of both bodies then leave.
   void close() {
-    const auto total = [&](RoleIndex role) { return books_.roles[role].total.middleCols(first_, n_); };
-    const Array2Xd chamber_N = books_.chamber.force_N.middleCols(first_, n_);
-    const Array2Xd frame_N = -chamber_N - books_.shaft.force_N.middleCols(first_, n_);
-    const ArrayXd drive_Nm = -cross(translation_m_, chamber_N) - books_.shaft.moment_Nm.segment(first_, n_);
+    const auto total = [&](RoleIndex role) { return sums_.roles[role].total.middleCols(first_, n_); };
+    const Array2Xd chamber_N = sums_.chamber.force_N.middleCols(first_, n_);
+    const Array2Xd frame_N = -chamber_N - sums_.shaft.force_N.middleCols(first_, n_);
+    const ArrayXd drive_Nm = -cross(translation_m_, chamber_N) - sums_.shaft.moment_Nm.segment(first_, n_);
     total(eccentric).topRows<2>() = chamber_N;
     total(housing_bore).topRows<2>() = -chamber_N;
     total(frame_bearings).topRows<2>() = frame_N;
     total(drive).row(2) = drive_Nm.transpose();
 
     const Array2Xd at_pivot_m = Array2Xd::Zero(2, n_);
-    books_.chamber.add(first_, at_pivot_m, -chamber_N);
-    books_.shaft.add(first_, translation_m_, chamber_N);
-    books_.shaft.add(first_, at_pivot_m, frame_N);
-    books_.shaft.add_couple(first_, drive_Nm);
+    sums_.chamber.add(first_, at_pivot_m, -chamber_N);
+    sums_.shaft.add(first_, translation_m_, chamber_N);
+    sums_.shaft.add(first_, at_pivot_m, frame_N);
+    sums_.shaft.add_couple(first_, drive_Nm);
   }
 
 private:
-  Columns share_of(std::size_t effect, std::size_t role) { return books_.to_fill(role, effect, first_, n_); }
+  Columns share_of(std::size_t effect, std::size_t role) { return sums_.to_fill(role, effect, first_, n_); }
 
   void fill_eccentric(std::size_t effect) {
     Columns on_shaft = share_of(effect, eccentric), on_chamber = share_of(effect, housing_bore);
@@ -84,7 +84,7 @@ private:
     Columns own = share_of(effect, debalance);
     own.topRows<2>() = shaft_N_;
     own.row(2) = shaft_Nm_.transpose();
-    books_.roles[debalance].total.middleCols(first_, n_) += own;
+    sums_.roles[debalance].total.middleCols(first_, n_) += own;
   }
 
   void fill_supports(std::size_t effect) {
@@ -99,22 +99,22 @@ private:
 
   void book_on_chamber(std::size_t index, const std::string& effect, const PlacedForce& placed,
                        const Array2Xd& arm_m) {
-    books_.chamber.add(first_, arm_m, placed.force_N);
+    sums_.chamber.add(first_, arm_m, placed.force_N);
     if (placed.couple_Nm.size() > 0) {
-      books_.chamber.add_couple(first_, placed.couple_Nm);
-      books_.couple_Nm.segment(first_, n_) += placed.couple_Nm;
+      sums_.chamber.add_couple(first_, placed.couple_Nm);
+      sums_.couple_Nm.segment(first_, n_) += placed.couple_Nm;
     }
     const bool charge = placed.place == Place::charge_centre || placed.place == Place::chamber_centre;
     if (charge) book_at_port(index, inner_wall, placed);
-    if (charge) add_taken(placed.force_N, arm_m, books_.charge_power_W);
+    if (charge) add_taken(placed.force_N, arm_m, sums_.charge_power_W);
     if (placed.place == Place::spring_foot) book_at_port(index, first_spring_foot + placed.foot, placed);
-    if (effect == "spring_damping") add_taken(placed.force_N, arm_m, books_.damping_power_W);
+    if (effect == "spring_damping") add_taken(placed.force_N, arm_m, sums_.damping_power_W);
   }
 
   /// The load that reaches the chamber itself, at its own port.
   void book_at_port(std::size_t effect, std::size_t role, const PlacedForce& placed) {
-    Columns share = books_.to_add(role, effect, first_, n_);
-    auto total = books_.roles[role].total.middleCols(first_, n_);
+    Columns share = sums_.to_add(role, effect, first_, n_);
+    auto total = sums_.roles[role].total.middleCols(first_, n_);
     share.topRows<2>() += placed.force_N;
     total.topRows<2>() += placed.force_N;
     if (placed.place != Place::charge_centre) return;
@@ -134,9 +134,9 @@ private:
   const Instants at_;
   const Index first_, n_;
   const Array2Xd translation_m_, velocity_m_s_;
-  Array2Xd chamber_N_, shaft_N_;  ///< of the effect that is being booked
+  Array2Xd chamber_N_, shaft_N_;  ///< of the effect that is being added
   ArrayXd shaft_Nm_;
-  Books& books_;
+  EffectSums& sums_;
 };
 
 }  // namespace
@@ -160,13 +160,13 @@ ArrayXd times_s(const VibratoryMill& mill, const Instants& steady) {
 
 void balance_over(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Instants& motion,
                   LoadHistory& history) {
-  Books books(mill, effects.size(), motion);
+  EffectSums sums(mill, effects.size(), motion);
   for (Index first = 0; first < motion.size(); first += block_size) {
-    BlockBooking block(mill, first, std::min(block_size, motion.size() - first), books);
+    BlockSums block(mill, first, std::min(block_size, motion.size() - first), sums);
     for (std::size_t i = 0; i < effects.size(); ++i) block.book(i, effects[i]);
     block.close();
   }
-  write_results(mill, effects, books, history);
+  write_results(mill, effects, sums, history);
 }
 
 LoadHistory balance(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,

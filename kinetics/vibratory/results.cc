@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "kinetics/vibratory/books.h"
+#include "kinetics/vibratory/effect_sums.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics::vibratory {
@@ -31,7 +31,7 @@ void write_motion(const VibratoryMill& mill, const Instants& at, bool pitching, 
                  mill.structure_mass_kg * mill.structure_centre_m.norm() * at.theta_rad_s.square()});
 }
 
-void write_reactions(const Books& books, LoadHistory& history) {
+void write_reactions(const EffectSums& sums, LoadHistory& history) {
   const Array2Xd B = history.resultant("housing_bore").total.topRows<2>();
   const Array2Xd R = history.resultant("frame_bearings").total.topRows<2>();
   const ArrayXd T = -history.resultant("drive").total.row(2).transpose();
@@ -47,10 +47,10 @@ void write_reactions(const Books& books, LoadHistory& history) {
       {"R_E", "N", "reaction of the frame's bearings on the shaft, magnitude; replaces (44)", magnitude(R)});
   q.push_back({"T", "N m", "drive torque on the shaft, clockwise positive (the sense of rotation)", T});
   q.push_back({"drive_power", "W", "T phi'", T * history.speed_rad_s});
-  q.push_back({"couple", "N m", "pitch inertia beyond m1 at l: -(I_E - m1 |l|^2) theta''", books.couple_Nm});
+  q.push_back({"couple", "N m", "pitch inertia beyond m1 at l: -(I_E - m1 |l|^2) theta''", sums.couple_Nm});
 }
 
-void write_springs(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Books& books,
+void write_springs(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const EffectSums& sums,
                    LoadHistory& history) {
   if (!contains(effects, "springs") && !contains(effects, "spring_damping")) return;
   auto& q = history.quantities;
@@ -71,13 +71,13 @@ void write_springs(const VibratoryMill& mill, const std::vector<NamedEffect>& ef
   q.push_back(
       {"spring_force", "N", "vertical force of all springs on the chamber; replaces (31)", vertical_N});
   if (contains(effects, "spring_damping"))
-    q.push_back({"damping_power", "W", "power that spring_damping dissipates", books.damping_power_W});
+    q.push_back({"damping_power", "W", "power that spring_damping dissipates", sums.damping_power_W});
 }
 
-void write_charge(const VibratoryMill& mill, const Books& books, LoadHistory& history) {
+void write_charge(const VibratoryMill& mill, const EffectSums& sums, LoadHistory& history) {
   if (!history.has_resultant("inner_wall")) return;
   const auto& force = history.resultant("inner_wall").total;
-  const Array2Xd at_m = position(mill, {Place::charge_centre, 0, {}, {}}, books.motion);
+  const Array2Xd at_m = position(mill, {Place::charge_centre, 0, {}, {}}, sums.motion);
   auto& q = history.quantities;
   q.push_back(
       {"charge_on_wall.fx", "N", "force of the charge on the wall, horizontal", force.row(0).transpose()});
@@ -88,19 +88,19 @@ void write_charge(const VibratoryMill& mill, const Books& books, LoadHistory& hi
   q.push_back({"charge_power", "W",
                "power that the charge takes from the chamber, -F . velocity; negative where the "
                "prescribed circulation gives",
-               books.charge_power_W});
+               sums.charge_power_W});
 }
 
-void write_closure(const Books& books, LoadHistory& history) {
-  const ArrayXd chamber_force = relative(magnitude(books.chamber.force_N), books.chamber.force_scale_N);
-  const ArrayXd shaft_force = relative(magnitude(books.shaft.force_N), books.shaft.force_scale_N);
-  const ArrayXd chamber_moment = relative(books.chamber.moment_Nm.abs(), books.chamber.moment_scale_Nm);
-  const ArrayXd shaft_moment = relative(books.shaft.moment_Nm.abs(), books.shaft.moment_scale_Nm);
+void write_closure(const EffectSums& sums, LoadHistory& history) {
+  const ArrayXd chamber_force = relative(magnitude(sums.chamber.force_N), sums.chamber.force_scale_N);
+  const ArrayXd shaft_force = relative(magnitude(sums.shaft.force_N), sums.shaft.force_scale_N);
+  const ArrayXd chamber_moment = relative(sums.chamber.moment_Nm.abs(), sums.chamber.moment_scale_Nm);
+  const ArrayXd shaft_moment = relative(sums.shaft.moment_Nm.abs(), sums.shaft.moment_scale_Nm);
   auto& q = history.quantities;
   q.push_back({"moment_residual", "N m",
                "moment about E' that the chamber's loads leave, counter-clockwise: round-off "
                "with pitch on, what a guide carries with pitch off",
-               books.chamber.moment_Nm});
+               sums.chamber.moment_Nm});
   q.push_back({"closure_force", "1", "|sum of forces| / sum of |forces|, the worse of chamber and shaft",
                chamber_force.max(shaft_force)});
   q.push_back({"closure_moment", "1",
@@ -139,15 +139,15 @@ void write_warnings(const VibratoryMill& mill, const LoadHistory& history, bool 
 
 }  // namespace
 
-void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, Books& books,
+void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, EffectSums& sums,
                    LoadHistory& history) {
-  history.resultants = books.take_resultants(effects);
+  history.resultants = sums.take_resultants(effects);
   const bool pitching = contains(effects, "pitch");
-  write_motion(mill, books.motion, pitching, history);
-  write_reactions(books, history);
-  write_springs(mill, effects, books, history);
-  write_charge(mill, books, history);
-  write_closure(books, history);
+  write_motion(mill, sums.motion, pitching, history);
+  write_reactions(sums, history);
+  write_springs(mill, effects, sums, history);
+  write_charge(mill, sums, history);
+  write_closure(sums, history);
   write_warnings(mill, history, pitching, history.warnings);
 }
 

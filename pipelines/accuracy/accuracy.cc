@@ -16,7 +16,7 @@ AccuracyStudy study_accuracy(const Scene& scene, std::size_t body, const Accurac
   const auto add = [&](const std::vector<AccuracyRow>& rows) {
     study.rows.insert(study.rows.end(), rows.begin(), rows.end());
   };
-  add(cheap_rungs(bench));
+  add(cheap_models(bench));
   if (options.grid_convergence) {  // first: it was asked for
     auto systematic = systematic_meshes(bench);
     add(systematic.rows);

@@ -1,4 +1,4 @@
-/// What accuracy costs in time: one body of a scene on every rung of the ladder of fidelity, against a
+/// What accuracy costs in time: one body of a scene on every model, from beam to solid, against a
 /// reference.
 #pragma once
 
@@ -15,17 +15,17 @@
 
 namespace pipelines {
 
-/// One run on one rung.
+/// One run of one model.
 struct AccuracyRow {
   /// "beam", "axisymmetric", "shell", "Q1 solid", "even mesh" (Q2 solid), "Q3 solid", "systematic mesh",
   /// "refined mesh", "fewer instants"
-  std::string rung;
+  std::string model;
   std::string fineness;  ///< in words
   int instants_per_turn = 0;
   std::size_t n_dofs = 0;
   double value_Pa = 0;               ///< of the governing stress (refinement.h)
   double principal_Pa = 0;           ///< largest principal stress outside the exclusion distances
-  ErrorLedger errors;                ///< of the governing stress
+  ErrorBudget errors;                ///< of the governing stress
   std::vector<StageCost> stages;     ///< what this run itself took; a refined mesh: all steps up to it
   double seconds = 0, spread_s = 0;  ///< mean and range over the repeats
   double gigabytes = 0;              ///< largest resident memory during the run
@@ -65,7 +65,7 @@ struct AccuracyStudy {
   std::string body, quantity;
   std::vector<AccuracyRow> rows;  ///< cheapest first
   double reference_Pa = 0;
-  double reference_error_Pa = 0;      ///< of an overkill run by its own ledger; 0: a known value
+  double reference_error_Pa = 0;      ///< of an overkill run by its own budget; 0: a known value
   std::string reference;              ///< what it is, in words
   double tolerance = 0;               ///< relative
   std::optional<std::size_t> chosen;  ///< cheapest row whose estimate is within the tolerance
@@ -92,7 +92,7 @@ struct AccuracyOptions {
   bool grid_convergence = false;  ///< three systematic meshes too
 };
 
-/// Runs the ladder for one body, cheapest first: beam and axisymmetric harmonics (round shafts), the scene's
+/// Runs all models of one body, cheapest first: beam and axisymmetric harmonics (round shafts), the scene's
 /// mesh from half as fine to several times finer, with fewer instants, and meshes refined where stress asks
 /// for it; where asked for, systematic meshes, the finest of which has the grid convergence index as its
 /// discretisation error. It ends at a tenth of the tolerance, by the estimates, or when the time is up; the

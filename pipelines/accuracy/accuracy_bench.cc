@@ -35,7 +35,7 @@ AccuracyBench::~AccuracyBench() {
 
 double AccuracyBench::tolerance() const {
   if (options_.tolerance > 0) return options_.tolerance;
-  return scene_.wish.tolerance > 0 ? scene_.wish.tolerance : usual_tolerance;
+  return scene_.accuracy.tolerance > 0 ? scene_.accuracy.tolerance : usual_tolerance;
 }
 
 double AccuracyBench::elapsed_s() const {
@@ -53,7 +53,7 @@ SceneRunOptions AccuracyBench::run_options() const {
   return options;
 }
 
-std::optional<SolidRun> AccuracyBench::run_solid(const std::string& rung, const std::string& name,
+std::optional<SolidRun> AccuracyBench::run_solid(const std::string& model, const std::string& name,
                                                  const BodyScene& body) {
   Scene scene = scene_;
   scene.bodies[body_] = body;
@@ -63,7 +63,7 @@ std::optional<SolidRun> AccuracyBench::run_solid(const std::string& rung, const 
     row = repeated(name, [&] {
       StageClock own;
       last = run_scene(scene, run_options(), own);
-      auto result = row_of(rung, *last);
+      auto result = row_of(model, *last);
       take_cost(result, own);
       return result;
     });
@@ -80,11 +80,11 @@ void AccuracyBench::take_mean(AccuracyRow& row, const std::vector<double>& secon
   for (const double s : seconds) row.seconds += s / double(seconds.size());
 }
 
-AccuracyRow row_of(const std::string& rung, const SceneRun& run) {
+AccuracyRow row_of(const std::string& model, const SceneRun& run) {
   const auto& analysis = run.analyses.front();
   const auto stress = governing_stress(analysis);
   AccuracyRow row;
-  row.rung = rung;
+  row.model = model;
   row.fineness = fineness_text(analysis.scene);
   row.instants_per_turn = run.scene.sampling.instants_per_turn;
   row.n_dofs = analysis.responses.n_dofs;

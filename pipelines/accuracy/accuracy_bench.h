@@ -1,4 +1,5 @@
-/// What all rungs of one accuracy study share: the scene with its meshes, the clock, how a run becomes a row.
+/// What all models of one accuracy study share: the scene with its meshes, the clock, how a run becomes a
+/// row.
 #pragma once
 
 #include <chrono>
@@ -75,13 +76,13 @@ public:
   /// The scene with `body` in the place of the studied one, from mesh to stress.
   /// @param name  of the stage that shows
   /// @return nothing if the mesh is refused or cannot be solved; then it is among those left out
-  std::optional<SolidRun> run_solid(const std::string& rung, const std::string& name, const BodyScene& body);
+  std::optional<SolidRun> run_solid(const std::string& model, const std::string& name, const BodyScene& body);
 
   void leave_out(const std::string& name, const std::string& why) { left_out_.push_back({name, why}); }
   const std::vector<LeftOutModel>& left_out() const { return left_out_; }
 
 private:
-  std::filesystem::path scratch() const { return options_.directory / "rungs"; }
+  std::filesystem::path scratch() const { return options_.directory / "models"; }
   static void take_mean(AccuracyRow& row, const std::vector<double>& seconds);
 
   Scene scene_;
@@ -93,8 +94,8 @@ private:
   std::vector<LeftOutModel> left_out_;
 };
 
-/// Governing stress, ledger and mesh of a run of one body.
-AccuracyRow row_of(const std::string& rung, const SceneRun& run);
+/// Governing stress, budget and mesh of a run of one body.
+AccuracyRow row_of(const std::string& model, const SceneRun& run);
 
 /// Stages, seconds and memory of a run.
 void take_cost(AccuracyRow& row, const StageClock& clock);

@@ -26,7 +26,7 @@ constexpr double beam_safety = 3;
 constexpr double fillet_factor = 2;
 
 /// A cheap model's responses, and what the model itself is known to be off by.
-struct CheapRung {
+struct CheapModel {
   fem::UnitResponses responses;
   double model_error = 0;  ///< relative
   std::string method, fineness;
@@ -34,58 +34,59 @@ struct CheapRung {
 
 using Loads = std::vector<fem::UnitLoad>;
 
-std::optional<CheapRung> beam_rung(const BodyScene& body, const meshes::BodyMesh& mesh, const Loads& loads) {
+std::optional<CheapModel> beam_model(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                     const Loads& loads) {
   auto responses = beam_responses(body, mesh, loads);
   if (!responses) return std::nullopt;
-  return CheapRung{std::move(*responses), beam_safety * fem::beam_model_error(*beam_shaft(body, mesh)),
-                   "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
-                   "published fillet factors"};
+  return CheapModel{std::move(*responses), beam_safety * fem::beam_model_error(*beam_shaft(body, mesh)),
+                    "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
+                    "published fillet factors"};
 }
 
-std::optional<CheapRung> axisymmetric_rung(const BodyScene& body, const meshes::BodyMesh& mesh,
-                                           const Loads& loads) {
-  auto rung = axisymmetric_responses(body, mesh, loads);
-  if (!rung) return std::nullopt;
-  return CheapRung{std::move(rung->responses), rung->model_error,
-                   "axisymmetric: eccentric shoulders taken as concentric", fineness_text(body)};
+std::optional<CheapModel> axisymmetric_model(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                             const Loads& loads) {
+  auto model = axisymmetric_responses(body, mesh, loads);
+  if (!model) return std::nullopt;
+  return CheapModel{std::move(model->responses), model->model_error,
+                    "axisymmetric: eccentric shoulders taken as concentric", fineness_text(body)};
 }
 
 AccuracyRow row_of(const std::string& name, const AccuracyBench& bench, const LoadedScene& loaded,
-                   CheapRung rung, StageClock& clock) {
+                   CheapModel model, StageClock& clock) {
   const auto& loads = loaded.body_loads[bench.index()];
   const auto& mesh = bench.own().mesh;
   const auto maximum = clock.run("superpose", [&] {
-    return envelope(loads.history, rung.responses, std::max(1, bench.options().n_threads));
+    return envelope(loads.history, model.responses, std::max(1, bench.options().n_threads));
   });
-  const auto places = locate_nodes(rung.responses.nodes, mesh.features, mesh.ports, mesh.sharp_edges);
+  const auto places = locate_nodes(model.responses.nodes, mesh.features, mesh.ports, mesh.sharp_edges);
   const auto node = peak_node(maximum.von_mises.value_Pa, places);
   AccuracyRow row;
-  row.rung = name;
-  row.fineness = rung.fineness;
+  row.model = name;
+  row.fineness = model.fineness;
   row.instants_per_turn = bench.scene().sampling.instants_per_turn;
-  row.n_dofs = rung.responses.n_dofs;
+  row.n_dofs = model.responses.n_dofs;
   row.value_Pa = maximum.von_mises.value_Pa[node];
   row.principal_Pa = maximum.principal.value_Pa[peak_node(maximum.principal.value_Pa, places)];
-  row.errors = self_estimate({{{node, 1.0}}, maximum.von_mises.instant[node]}, rung.responses, loads,
+  row.errors = self_estimate({{{node, 1.0}}, maximum.von_mises.instant[node]}, model.responses, loads,
                              bench.body().material, 0);
-  row.errors.model.push_back({"model", rung.method, rung.model_error * row.value_Pa});
+  row.errors.model.push_back({"model", model.method, model.model_error * row.value_Pa});
   take_cost(row, clock);
   return row;
 }
 
-/// @param solve  gives the rung, if the body has it
+/// @param solve  gives the model, if the body has it
 template <typename Solve>
-std::optional<AccuracyRow> cheap_rung(const std::string& name, AccuracyBench& bench, const BodyScene& body,
-                                      const LoadedScene& loaded, Solve&& solve) {
+std::optional<AccuracyRow> cheap_model(const std::string& name, AccuracyBench& bench, const BodyScene& body,
+                                       const LoadedScene& loaded, Solve&& solve) {
   const auto& mesh = bench.own().mesh;
   if (!beam_shaft(body, mesh)) return std::nullopt;
   std::optional<AccuracyRow> row;
   const auto refused = refusal_of([&] {
     row = bench.repeated(name, [&] {
       StageClock own;
-      auto rung =
+      auto model =
           own.run("solve", [&] { return solve(body, mesh, loaded.body_loads[bench.index()].unit_loads); });
-      return row_of(name, bench, loaded, std::move(rung.value()), own);
+      return row_of(name, bench, loaded, std::move(model.value()), own);
     });
   });
   if (!refused.empty()) bench.leave_out(name + ", " + fineness_text(body), refused);
@@ -104,7 +105,7 @@ void learn_from_sizes(std::vector<AccuracyRow>& rows) {
   }
 }
 
-/// Weld toes have no other cheap rung.
+/// Weld toes have no other cheap model.
 AccuracyRow shell_row(AccuracyBench& bench, const BodyLoads& loads) {
   return bench.repeated("shell", [&] {
     StageClock own;
@@ -119,7 +120,7 @@ AccuracyRow shell_row(AccuracyBench& bench, const BodyLoads& loads) {
       row.principal_Pa = *std::max_element(principal.begin(), principal.end());
       row.errors = self_estimate(stress_point(worst), responses, loads, bench.body().material, 0);
     });
-    row.rung = "shell";
+    row.model = "shell";
     row.fineness = "rigid plates on a thin tube";
     row.instants_per_turn = bench.scene().sampling.instants_per_turn;
     row.n_dofs = responses.n_dofs;
@@ -133,7 +134,7 @@ AccuracyRow shell_row(AccuracyBench& bench, const BodyLoads& loads) {
 
 }  // namespace
 
-std::vector<AccuracyRow> cheap_rungs(AccuracyBench& bench) {
+std::vector<AccuracyRow> cheap_models(AccuracyBench& bench) {
   std::vector<AccuracyRow> rows;
   const bool is_chamber = std::holds_alternative<ChamberShape>(bench.body().shape);
   if (!is_chamber && bench.has_hot_spots()) return rows;
@@ -143,7 +144,7 @@ std::vector<AccuracyRow> cheap_rungs(AccuracyBench& bench) {
     if (bench.has_hot_spots()) rows.push_back(shell_row(bench, loaded.body_loads[bench.index()]));
     return rows;
   }
-  if (auto row = cheap_rung("beam", bench, bench.body(), loaded, beam_rung)) {
+  if (auto row = cheap_model("beam", bench, bench.body(), loaded, beam_model)) {
     const double ring_Pa =
         ring_stress_Pa(*beam_shaft(bench.body(), bench.own().mesh), loaded.body_loads[bench.index()]);
     if (ring_Pa > 0)
@@ -157,7 +158,7 @@ std::vector<AccuracyRow> cheap_rungs(AccuracyBench& bench) {
   std::vector<AccuracyRow> sizes;
   for (const double factor : {0.5, 1.0, 2.0}) {
     auto row =
-        cheap_rung("axisymmetric", bench, with_fineness(bench.body(), factor), loaded, axisymmetric_rung);
+        cheap_model("axisymmetric", bench, with_fineness(bench.body(), factor), loaded, axisymmetric_model);
     // The same mesh again tells nothing.
     if (row && (sizes.empty() || row->n_dofs != sizes.back().n_dofs)) sizes.push_back(std::move(*row));
   }

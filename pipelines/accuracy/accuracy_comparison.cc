@@ -50,7 +50,7 @@ double effectivity(const AccuracyRow& row) {
 
 void compare_runs(AccuracyStudy& study, double known_Pa) {
   auto& rows = study.rows;
-  if (rows.empty()) throw ToleranceNotMet(study.body + ": no rung of the ladder could be run in this time");
+  if (rows.empty()) throw ToleranceNotMet(study.body + ": no model could be run in this time");
   if (known_Pa > 0) {
     study.reference_Pa = known_Pa;
     study.reference = "known value";
@@ -61,7 +61,7 @@ void compare_runs(AccuracyStudy& study, double known_Pa) {
     best->is_reference = true;
     study.reference_Pa = best->value_Pa;
     study.reference_error_Pa = best->errors.total_Pa();
-    study.reference = fmt::format("overkill run: {}, {} unknowns", best->rung, best->n_dofs);
+    study.reference = fmt::format("overkill run: {}, {} unknowns", best->model, best->n_dofs);
   }
   for (auto& row : rows) {
     row.true_error_Pa = std::abs(row.value_Pa - study.reference_Pa);

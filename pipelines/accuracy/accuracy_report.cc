@@ -65,9 +65,9 @@ std::vector<double> numbers(const std::vector<AccuracyRow>& rows, Value&& value)
 
 std::vector<CsvColumn> columns(const AccuracyStudy& study) {
   const auto& rows = study.rows;
-  std::vector<std::string> rungs, meshes, marks;
+  std::vector<std::string> models, meshes, marks;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rungs.push_back(rows[i].rung);
+    models.push_back(rows[i].model);
     meshes.push_back(rows[i].fineness);
     marks.push_back(rows[i].is_reference      ? "reference"
                     : study.chosen == i       ? "chosen"
@@ -75,7 +75,7 @@ std::vector<CsvColumn> columns(const AccuracyStudy& study) {
                     : rows[i].on_frontier     ? "frontier"
                                               : "");
   }
-  std::vector<CsvColumn> result{{"rung", "", rungs}, {"mesh", "", meshes}, {"mark", "", marks}};
+  std::vector<CsvColumn> result{{"model", "", models}, {"mesh", "", meshes}, {"mark", "", marks}};
   const auto add = [&](const std::string& name, const std::string& unit, auto&& value) {
     result.push_back({name, unit, numbers(rows, value)});
   };
@@ -125,7 +125,7 @@ std::string where_tolerances_end(const AccuracyStudy& study) {
   std::string text;
   for (const double tolerance : {0.05, 0.02, 0.01}) {
     const auto row = std::find_if(study.rows.begin(), study.rows.end(), [&](const auto& r) {
-      return r.rung == "refined mesh" && r.errors.numerical_Pa() <= tolerance * r.value_Pa;
+      return r.model == "refined mesh" && r.errors.numerical_Pa() <= tolerance * r.value_Pa;
     });
     text += row == study.rows.end()
                 ? fmt::format("    {:g} %: not reached\n", 100 * tolerance)
@@ -140,7 +140,7 @@ std::string disagreements(const AccuracyStudy& study) {
   std::string text;
   for (const auto& row : study.rows)
     if (row.is_contradicted)
-      text += fmt::format("    {} ({}, {} unknowns): {:.2f} +- {:.2f} MPa\n", row.rung, row.fineness,
+      text += fmt::format("    {} ({}, {} unknowns): {:.2f} +- {:.2f} MPa\n", row.model, row.fineness,
                           row.n_dofs, row.value_Pa / 1e6, row.errors.total_Pa() / 1e6);
   if (text.empty()) return text;
   return fmt::format(
@@ -158,7 +158,7 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
   out << (study.reference_error_Pa > 0
               ? fmt::format("; its own estimate {:.2f} MPa)\n\n", study.reference_error_Pa / 1e6)
               : ")\n\n");
-  out << fmt::format("    {:<16}{:>10}{:>9}{:>10}{:>10}{:>9}{:>9}{:>7}  {}\n", "rung", "unknowns", "MPa",
+  out << fmt::format("    {:<16}{:>10}{:>9}{:>10}{:>10}{:>9}{:>9}{:>7}  {}\n", "model", "unknowns", "MPa",
                      "estimate", "true", "seconds", "spread", "GB", "mesh");
   for (std::size_t i = 0; i < study.rows.size(); ++i) {
     const auto& row = study.rows[i];
@@ -169,7 +169,7 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
                       : row.on_frontier     ? '*'
                                             : ' ';
     out << fmt::format("  {} {:<16}{:>10}{:>9.2f}{:>9.2f}%{:>9.2f}%{:>9.3g}{:>9.2g}{:>7.2g}  {}\n", mark,
-                       row.rung, row.n_dofs, row.value_Pa / 1e6, percent * row.errors.total_Pa(),
+                       row.model, row.n_dofs, row.value_Pa / 1e6, percent * row.errors.total_Pa(),
                        percent * row.true_error_Pa, row.seconds, row.spread_s, row.gigabytes, row.fineness);
   }
   for (const auto& model : study.left_out)

@@ -27,7 +27,7 @@ void print_grid_study(std::ostream& out, const GridStudy& study);
 /// @throws FileError naming the file if it cannot be written
 void write_grid_csv(const std::filesystem::path& file, const GridStudy& study);
 
-/// One row per run: rung, mesh, unknowns, stress, every entry of the ledger, true error, seconds per stage,
+/// One row per run: model, mesh, unknowns, stress, every entry of the budget, true error, seconds per stage,
 /// memory.
 /// @throws FileError naming the file if it cannot be written
 void write_accuracy_csv(const std::filesystem::path& file, const AccuracyStudy& study);

@@ -14,7 +14,7 @@ namespace {
 
 /// Solids of one polynomial degree on the scene's mesh made finer or coarser.
 struct Series {
-  std::string rung;
+  std::string model;
   int degree = 2;
   std::vector<double> factors;
   double share_of_time = 0;  ///< of what even meshes find; what is predicted to end later is left out
@@ -71,8 +71,8 @@ double stress_order(const AccuracyBench& bench, int degree) {
   return degree == 1 || bench.has_hot_spots() ? 1 : 2;
 }
 
-void run_series(AccuracyBench& bench, const Series& series, double end_s, SolidRungs& rungs) {
-  std::optional<AccuracyRow> before;  // its ledger as it says itself
+void run_series(AccuracyBench& bench, const Series& series, double end_s, SolidModels& models) {
+  std::optional<AccuracyRow> before;  // its budget as it says itself
   const bool refinable = can_be_refined(bench.body());
   for (const double factor : refinable ? series.factors : std::vector<double>{1}) {
     const double dofs = double(bench.own().model->n_dofs()) * std::pow(factor * series.degree / 2, 3);
@@ -82,18 +82,18 @@ void run_series(AccuracyBench& bench, const Series& series, double end_s, SolidR
     if (bench.elapsed_s() + predicted > end_s) return;
     auto body = with_fineness(bench.body(), factor);
     body.degree = series.degree;
-    auto solid = bench.run_solid(series.rung, fmt::format("{}, cells 1/{:g}", series.rung, factor), body);
+    auto solid = bench.run_solid(series.model, fmt::format("{}, cells 1/{:g}", series.model, factor), body);
     // Too little finer for whole numbers of cells?
     if (!solid || (before && before->n_dofs == solid->row.n_dofs)) continue;
     auto& row = solid->row;
     const AccuracyRow plain = row;
     if (before) learn(row, *before, stress_order(bench, series.degree));
     before = plain;
-    rungs.rows.push_back(row);
+    models.rows.push_back(row);
     if (factor == 1 && series.degree == 2) {
-      rungs.effects = price_effects(solid->run.analyses.front(), seconds_of(row.stages, "solve"),
-                                    seconds_of(row.stages, "superpose"), evaluation_seconds(bench.scene()));
-      fewer_instants(bench, row, std::move(solid->run), rungs.rows);
+      models.effects = price_effects(solid->run.analyses.front(), seconds_of(row.stages, "solve"),
+                                     seconds_of(row.stages, "superpose"), evaluation_seconds(bench.scene()));
+      fewer_instants(bench, row, std::move(solid->run), models.rows);
     }
     if (factor >= 1 && row.errors.numerical_Pa() <= bench.overkill() * row.value_Pa) return;
   }
@@ -107,21 +107,21 @@ bool of_hexahedra(const AccuracyBench& bench) {
 
 }  // namespace
 
-SolidRungs even_meshes(AccuracyBench& bench) {
-  SolidRungs rungs;
+SolidModels even_meshes(AccuracyBench& bench) {
+  SolidModels models;
   const double begin_s = bench.elapsed_s(), left_s = bench.seconds_left();
   for (const auto* series : {&linear, &quadratic, &cubic})
     if (series->degree == 2 || of_hexahedra(bench))
-      run_series(bench, *series, begin_s + series->share_of_time * left_s, rungs);
-  return rungs;
+      run_series(bench, *series, begin_s + series->share_of_time * left_s, models);
+  return models;
 }
 
 std::vector<AccuracyRow> refined_meshes(AccuracyBench& bench) {
   std::vector<AccuracyRow> rows;
   auto options = bench.run_options();
-  options.wish.tolerance = bench.overkill();
-  options.wish.time_limit_s = bench.seconds_left();
-  if (!can_be_refined(bench.body()) || options.wish.time_limit_s <= 0) return rows;
+  options.accuracy.tolerance = bench.overkill();
+  options.accuracy.time_limit_s = bench.seconds_left();
+  if (!can_be_refined(bench.body()) || options.accuracy.time_limit_s <= 0) return rows;
   StageClock own;
   std::optional<SceneRun> found;
   const auto refused = refusal_of(

@@ -52,19 +52,19 @@ void add(GridStudy& study, const SolidRun& solid) {
 
 }  // namespace
 
-SystematicRungs systematic_meshes(AccuracyBench& bench) {
-  SystematicRungs rungs;
-  auto& study = rungs.study;
+SystematicModels systematic_meshes(AccuracyBench& bench) {
+  SystematicModels models;
+  auto& study = models.study;
   if (!can_be_refined(bench.body())) {
     study.convergence.refusal = "a finished .msh is taken as it is: there is no series of meshes";
-    return rungs;
+    return models;
   }
   int before_level = 0;
   for (const int level : systematic_levels) {
     if (study.meshes.size() == 3 && study.convergence.usable()) break;
     const double predicted = before_level > 0
-                                 ? rungs.rows.back().seconds * std::pow(double(level) / before_level,
-                                                                        3 * AccuracyBench::growth_of_seconds)
+                                 ? models.rows.back().seconds * std::pow(double(level) / before_level,
+                                                                         3 * AccuracyBench::growth_of_seconds)
                                  : 0;
     if (predicted > bench.seconds_left()) break;
     auto solid = bench.run_solid("systematic mesh", fmt::format("systematic mesh {}", level),
@@ -72,16 +72,16 @@ SystematicRungs systematic_meshes(AccuracyBench& bench) {
     if (!solid) continue;
     before_level = level;
     add(study, *solid);
-    rungs.rows.push_back(std::move(solid->row));
+    models.rows.push_back(std::move(solid->row));
   }
   if (study.meshes.empty()) study.convergence = converge(study.meshes, bench.body().degree);
   if (study.convergence.usable())
-    rungs.rows.back().errors.set_numerical(
+    models.rows.back().errors.set_numerical(
         {"discretisation",
          fmt::format("grid convergence index of {} meshes, factor {:g}, and what lies between nodes",
                      study.convergence.n_meshes, study.convergence.safety),
          study.index_Pa()});
-  return rungs;
+  return models;
 }
 
 }  // namespace pipelines

@@ -27,20 +27,20 @@ public:
     choice_.solver = body.solver;
   }
 
-  RungForecast of(const std::string& rung, const MeshedBody& meshed) {
+  ModelForecast of(const std::string& model, const MeshedBody& meshed) {
     at_hand_ = fem::predict_solver(meshed.body, loads_.n_channels, choice_);
-    return of(rung, meshed.model->n_dofs(), *at_hand_);
+    return of(model, meshed.model->n_dofs(), *at_hand_);
   }
   /// Cells of the mesh looked at last become `factor` times smaller.
-  RungForecast finer(const std::string& rung, const MeshedBody& meshed, double factor) const {
+  ModelForecast finer(const std::string& model, const MeshedBody& meshed, double factor) const {
     const auto n_dofs = std::size_t(double(meshed.model->n_dofs()) * factor * factor * factor);
-    return of(rung, n_dofs,
+    return of(model, n_dofs,
               fem::predict_solver(*at_hand_, n_dofs, meshed.body.degree, loads_.n_channels, choice_));
   }
-  /// A rung that superposes `n_nodes` nodes.
-  RungForecast cheap(const std::string& rung, double n_dofs, double solve_s, double n_nodes) const {
-    RungForecast forecast{rung,    std::size_t(n_dofs),  fem::Solver::automatic,
-                          solve_s, superpose_s(n_nodes), 0};
+  /// A model that superposes `n_nodes` nodes.
+  ModelForecast cheap(const std::string& model, double n_dofs, double solve_s, double n_nodes) const {
+    ModelForecast forecast{model,   std::size_t(n_dofs),  fem::Solver::automatic,
+                           solve_s, superpose_s(n_nodes), 0};
     forecast.gigabytes = responses_gigabytes(n_nodes);
     return forecast;
   }
@@ -52,11 +52,11 @@ private:
   }
   double responses_gigabytes(double n_nodes) const { return 72e-9 * n_nodes * double(loads_.n_channels); }
 
-  RungForecast of(const std::string& rung, std::size_t n_dofs, const fem::SolverReport& report) const {
+  ModelForecast of(const std::string& model, std::size_t n_dofs, const fem::SolverReport& report) const {
     const double factor =
         report.used == fem::Solver::iterative ? calibration_.iterative : calibration_.direct;
     const double n_nodes = double(n_dofs) / 3;
-    return {rung,
+    return {model,
             n_dofs,
             report.used,
             factor * report.predicted().seconds,
@@ -72,22 +72,22 @@ private:
 
 }  // namespace
 
-std::vector<RungForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
-                                          const ForecastLoads& loads, const CostCalibration& calibration) {
+std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
+                                           const ForecastLoads& loads, const CostCalibration& calibration) {
   Forecaster forecaster(body, loads, calibration);
-  std::vector<RungForecast> rungs{forecaster.of("the scene's mesh", meshed)};
+  std::vector<ModelForecast> models{forecaster.of("the scene's mesh", meshed)};
   const auto* shaft = body.shaft();
   if (shaft != nullptr && shaft->keyways.empty()) {
-    rungs.push_back(forecaster.cheap("beam", 3 * beam_nodes, 0, beam_nodes));
+    models.push_back(forecaster.cheap("beam", 3 * beam_nodes, 0, beam_nodes));
     // Meridian cells of degree 3 where the solid has 2; one problem for each harmonic.
     const double n_harmonics = 1 + std::max(1, body.pressure_harmonics);
     const double per_harmonic = 9.0 / 8 / shaft->mesh.n_sectors * double(meshed.model->n_dofs());
-    rungs.push_back(forecaster.cheap("axisymmetric", n_harmonics * per_harmonic,
-                                     harmonic_s_per_unknown * n_harmonics * per_harmonic, per_harmonic));
+    models.push_back(forecaster.cheap("axisymmetric", n_harmonics * per_harmonic,
+                                      harmonic_s_per_unknown * n_harmonics * per_harmonic, per_harmonic));
   }
-  if (!can_be_refined(body)) return rungs;
+  if (!can_be_refined(body)) return models;
   for (const double factor : even_factors)
-    rungs.push_back(forecaster.finer(fmt::format("even mesh, cells 1/{:g}", factor), meshed, factor));
+    models.push_back(forecaster.finer(fmt::format("even mesh, cells 1/{:g}", factor), meshed, factor));
   const AtomicFile scratch(std::filesystem::temp_directory_path() /
                            ("millstress_forecast_" + body.name + ".msh"));
   const std::string first = "first of a search";
@@ -98,33 +98,33 @@ std::vector<RungForecast> forecast_ladder(const BodyScene& body, const MeshedBod
       const auto model =
           loads.of_body ? axisymmetric_second_model(candidate, coarse, *loads.of_body, 1) : std::nullopt;
       if (model) coarse = mesh_body(guided_by(*model, candidate), scratch.temporary(), loads.springs);
-      rungs.push_back(forecaster.of(first, coarse));
+      models.push_back(forecaster.of(first, coarse));
     });
-    if (refused.empty()) return rungs;
+    if (refused.empty()) return models;
   }
-  RungForecast forecast;
-  forecast.rung = first;
+  ModelForecast forecast;
+  forecast.model = first;
   forecast.left_out = refused;
-  rungs.push_back(forecast);
-  return rungs;
+  models.push_back(forecast);
+  return models;
 }
 
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
                     const ForecastLoads& loads) {
   const auto calibration = read_calibration(calibration_file());
-  const auto rungs = forecast_ladder(body, meshed, loads, calibration);
+  const auto models = forecast_ladder(body, meshed, loads, calibration);
   out << fmt::format("  {:<24}{:>12}{:>10}{:>13}{:>7}  solver\n", "will take, about", "unknowns", "solve s",
                      "superpose s", "GB");
-  for (const auto& rung : rungs) {
-    if (!rung.left_out.empty()) {
-      out << fmt::format("    {:<22}refused: {}\n", rung.rung, rung.left_out);
+  for (const auto& model : models) {
+    if (!model.left_out.empty()) {
+      out << fmt::format("    {:<22}refused: {}\n", model.model, model.left_out);
       continue;
     }
-    out << fmt::format("    {:<22}{:>12}{:>10.2g}{:>13.2g}{:>7.2g}  {}\n", rung.rung, rung.n_dofs,
-                       rung.solve_s, rung.superpose_s, rung.gigabytes,
-                       rung.solver == fem::Solver::automatic   ? ""
-                       : rung.solver == fem::Solver::iterative ? "conjugate gradients"
-                                                               : "factorisation");
+    out << fmt::format("    {:<22}{:>12}{:>10.2g}{:>13.2g}{:>7.2g}  {}\n", model.model, model.n_dofs,
+                       model.solve_s, model.superpose_s, model.gigabytes,
+                       model.solver == fem::Solver::automatic   ? ""
+                       : model.solver == fem::Solver::iterative ? "conjugate gradients"
+                                                                : "factorisation");
   }
   out << (calibration.n_runs > 0
               ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)

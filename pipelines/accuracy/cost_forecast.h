@@ -1,4 +1,4 @@
-/// What a run will take before anything is solved, rung by rung of the ladder of fidelity, in seconds of this
+/// What a run will take before anything is solved, model by model, in seconds of this
 /// machine.
 #pragma once
 
@@ -12,17 +12,17 @@
 
 namespace pipelines {
 
-/// Solve and superposition of one rung.
-struct RungForecast {
-  std::string rung;
+/// Solve and superposition of one model.
+struct ModelForecast {
+  std::string model;
   std::size_t n_dofs = 0;
-  fem::Solver solver = fem::Solver::direct;  ///< automatic: the rung has its own
+  fem::Solver solver = fem::Solver::direct;  ///< automatic: the model has its own
   double solve_s = 0, superpose_s = 0;
   double gigabytes = 0;    ///< of solver and unit responses
   std::string left_out{};  ///< not empty: why its mesh was refused; nothing else is known of it
 };
 
-/// What the loads ask of every rung.
+/// What the loads ask of every model.
 struct ForecastLoads {
   std::size_t n_channels = 0, n_instants = 0;
   std::vector<kinetics::Spring> springs{};
@@ -30,10 +30,10 @@ struct ForecastLoads {
 };
 
 /// First the scene's own mesh; then beam and harmonics (round shafts), even meshes whose cells are 1/0.5 to
-/// 1/3 of the scene's, and the mesh that a search for a tolerance begins with, which is built for it. Rungs
+/// 1/3 of the scene's, and the mesh that a search for a tolerance begins with, which is built for it. Models
 /// that the body does not have are left out; one whose mesh is refused says why.
-std::vector<RungForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
-                                          const ForecastLoads& loads, const CostCalibration& calibration);
+std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
+                                           const ForecastLoads& loads, const CostCalibration& calibration);
 
 /// The forecast of the calibration on this machine, as lines of `check`.
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,

@@ -69,7 +69,7 @@ Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, std::size_t node
   return unit * analysis.loads.history.values.matrix();
 }
 
-ErrorLedger errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
+ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
   return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
                        geometry_share(analysis.geometry_error, analysis.responses.nodes, point),
                        analysis.places.excluded);

@@ -38,7 +38,7 @@ struct Peak {
   Place place = Place::interior;
   double safety = 0;                 ///< yield strength / von Mises
   std::vector<double> effect_share;  ///< in the order of ChannelHistory::effects
-  ErrorLedger errors;
+  ErrorBudget errors;
 };
 
 /// How far an effect that is off could move the governing stress of a body at most.
@@ -71,7 +71,7 @@ struct BodyAnalysis {
   Peak peak;                                ///< largest von Mises stress outside the exclusion distances
   std::size_t principal_node = 0;           ///< largest principal stress, likewise
   std::vector<HotSpotStress> hot_spots;     ///< descending
-  ErrorLedger hot_spot_errors;              ///< of the first
+  ErrorBudget hot_spot_errors;              ///< of the first
   std::optional<Diagrams> diagrams;         ///< parametric shafts and drums only
   std::vector<PlaceStress> place_stresses;  ///< what is known of every place that may govern, with its error
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
@@ -111,7 +111,7 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                             std::optional<Envelope> known = std::nullopt);
 
 /// Natural frequencies and dynamic amplification, if the body asks for them; the latter also as an entry of
-/// the peak's ledger.
+/// the peak's budget.
 /// @param history  of the load stage, that the analysis' loads were distributed from
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
                    BodyAnalysis& analysis, StageClock& clock);

@@ -1,4 +1,4 @@
-/// What a mesh misses of a body's stress as a whole, beside the ledger of the peak.
+/// What a mesh misses of a body's stress as a whole, beside the budget of the peak.
 #pragma once
 
 #include <Eigen/Dense>

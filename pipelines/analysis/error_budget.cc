@@ -90,45 +90,45 @@ double discretisation_error(const StressPoint& point, const fem::UnitResponses& 
 
 }  // namespace
 
-ErrorLedger::ErrorLedger() = default;
-ErrorLedger::ErrorLedger(const ErrorLedger&) = default;
-ErrorLedger::ErrorLedger(ErrorLedger&&) noexcept = default;
-ErrorLedger& ErrorLedger::operator=(const ErrorLedger&) = default;
-ErrorLedger& ErrorLedger::operator=(ErrorLedger&&) noexcept = default;
-ErrorLedger::~ErrorLedger() = default;
+ErrorBudget::ErrorBudget() = default;
+ErrorBudget::ErrorBudget(const ErrorBudget&) = default;
+ErrorBudget::ErrorBudget(ErrorBudget&&) noexcept = default;
+ErrorBudget& ErrorBudget::operator=(const ErrorBudget&) = default;
+ErrorBudget& ErrorBudget::operator=(ErrorBudget&&) noexcept = default;
+ErrorBudget::~ErrorBudget() = default;
 
-double ErrorLedger::numerical_Pa() const {
+double ErrorBudget::numerical_Pa() const {
   return sum_of(numerical);
 }
 
-double ErrorLedger::total_Pa() const {
+double ErrorBudget::total_Pa() const {
   return numerical_Pa() + sum_of(model);
 }
 
-std::string ErrorLedger::largest() const {
+std::string ErrorBudget::largest() const {
   const auto entry = std::max_element(numerical.begin(), numerical.end(),
                                       [](const auto& a, const auto& b) { return a.value_Pa < b.value_Pa; });
   return entry == numerical.end() ? "" : entry->source;
 }
 
-double ErrorLedger::of(const std::string& source) const {
+double ErrorBudget::of(const std::string& source) const {
   for (const auto* entries : {&numerical, &model})
     for (const auto& entry : *entries)
       if (entry.source == source) return entry.value_Pa;
   return 0;
 }
 
-double ErrorLedger::safety_of(const std::string& source) const {
+double ErrorBudget::safety_of(const std::string& source) const {
   for (const auto& entry : numerical)
     if (entry.source == source) return entry.safety;
   return 1;
 }
 
-void ErrorLedger::set_numerical(const ErrorEntry& entry) {
+void ErrorBudget::set_numerical(const ErrorEntry& entry) {
   set(numerical, entry);
 }
 
-void ErrorLedger::set_model(const ErrorEntry& entry) {
+void ErrorBudget::set_model(const ErrorEntry& entry) {
   set(model, entry);
 }
 
@@ -166,7 +166,7 @@ double locking_share(const fem::UnitResponses& responses, const fem::Material& m
 
 }  // namespace
 
-ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
+ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
                           const BodyLoads& loads, const fem::Material& material, double geometry_share,
                           const std::vector<char>& left_out) {
   const auto& values = loads.history.values;
@@ -174,30 +174,30 @@ ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& re
   const auto unit = unit_stress_at(responses, point);
   const double value = von_mises_of(unit, factors);
 
-  ErrorLedger ledger;
-  ledger.numerical.push_back({"time_sampling", "parabola through the neighbouring instants",
+  ErrorBudget budget;
+  budget.numerical.push_back({"time_sampling", "parabola through the neighbouring instants",
                               time_sampling_error(unit, values, point.instant)});
   Eigen::ArrayXd without = factors;
   const auto belongs = highest_harmonic(loads.unit_loads);
   for (std::size_t k = 0; k < belongs.size(); ++k)
     if (belongs[k]) without[Eigen::Index(k)] = 0;
-  ledger.numerical.push_back({"pressure_harmonics", "what the highest harmonic contributes",
+  budget.numerical.push_back({"pressure_harmonics", "what the highest harmonic contributes",
                               std::abs(von_mises_of(unit, without) - value)});
   if (responses.nodes.n_cells() > 0 && responses.nodes.shape().is_tetrahedron())
-    ledger.numerical.push_back(
+    budget.numerical.push_back(
         tetrahedra_estimate(point, responses, material, {factors.begin(), factors.end()}));
   else if (responses.nodes.n_cells() > 0 && !responses.energy_error.norm_sqrtJ.empty())
-    ledger.numerical.push_back(
+    budget.numerical.push_back(
         {"discretisation", "recovered stress against single cells around, times a safety factor of 3",
          discretisation_safety * discretisation_error(point, responses, material, factors, left_out)});
   if (const double share = locking_share(responses, material); share > 0)
-    ledger.model.push_back(
+    budget.model.push_back(
         {"locking", "displacement cells of an almost incompressible material, fitted", share * value});
-  ledger.numerical.push_back(
+  budget.numerical.push_back(
       {"geometry", "distance of curved faces around from their surfaces", geometry_share * value});
-  ledger.numerical.push_back({"linear_solver", "relative residual, or rounding",
+  budget.numerical.push_back({"linear_solver", "relative residual, or rounding",
                               std::max(responses.residual, responses.solver.rounding) * value});
-  return ledger;
+  return budget;
 }
 
 double geometry_share(const fem::GeometryError& error, const fem::Nodes& nodes, const StressPoint& point) {

@@ -1,4 +1,4 @@
-/// The error ledger of a headline stress: what each source may be wrong by, and how that was found out.
+/// The error budget of a headline stress: what each source may be wrong by, and how that was found out.
 #pragma once
 
 #include <cstdint>
@@ -25,23 +25,23 @@ struct ErrorEntry {
 };
 
 /// Entries add up: signs are not known.
-struct ErrorLedger {
+struct ErrorBudget {
   std::vector<ErrorEntry> numerical;  ///< of the calculation: finer runs make them smaller
   std::vector<ErrorEntry> model;      ///< of assumptions that no mesh mends
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
-  ErrorLedger();
-  ErrorLedger(const ErrorLedger&);
-  ErrorLedger(ErrorLedger&&) noexcept;
-  ErrorLedger& operator=(const ErrorLedger&);
-  ErrorLedger& operator=(ErrorLedger&&) noexcept;
-  ~ErrorLedger();
+  ErrorBudget();
+  ErrorBudget(const ErrorBudget&);
+  ErrorBudget(ErrorBudget&&) noexcept;
+  ErrorBudget& operator=(const ErrorBudget&);
+  ErrorBudget& operator=(ErrorBudget&&) noexcept;
+  ~ErrorBudget();
 
   double numerical_Pa() const;
   double total_Pa() const;
   /// Source of the largest numerical entry; empty without any.
   std::string largest() const;
-  /// 0 if the ledger has no such entry.
+  /// 0 if the budget has no such entry.
   double of(const std::string& source) const;
   /// ErrorEntry::safety of a numerical entry; 1 if there is no such entry.
   double safety_of(const std::string& source) const;
@@ -79,7 +79,7 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 /// Responses without cells (cheap models) get no discretisation entry here.
 /// @param geometry_share  as of the function of that name
 /// @param left_out  one per node, or empty: what stress does there tells nothing of the point
-ErrorLedger self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
+ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
                           const BodyLoads& loads, const fem::Material& material, double geometry_share,
                           const std::vector<char>& left_out = {});
 

@@ -45,7 +45,7 @@ std::string fixed(double value, int decimals) {
                                            : fmt::format("{:.3g}", value);
 }
 
-std::string value_with_errors(double value_Pa, const ErrorLedger& errors) {
+std::string value_with_errors(double value_Pa, const ErrorBudget& errors) {
   auto text = in_MPa(value_Pa) + " MPa +- " + in_MPa(errors.numerical_Pa()) + " (numerical)";
   bool is_any = false;
   for (const auto& entry : errors.model) {

@@ -13,7 +13,7 @@ std::string fixed(double value, int decimals);
 
 /// "105.2 MPa +- 1.3 (numerical) and +- 2.1 from load patches, which no mesh lowers". The numerical part is
 /// what a tolerance is compared with. Sources of the model below a thousandth of the stress are left out.
-std::string value_with_errors(double value_Pa, const ErrorLedger& errors);
+std::string value_with_errors(double value_Pa, const ErrorBudget& errors);
 
 /// "30.8 MPa +- 12.8 MPa (42 %): discretisation; remedy: --tolerance "5 %"" where the whole error exceeds
 /// largest_plain_error, with the largest source; else empty.

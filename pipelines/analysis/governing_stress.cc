@@ -40,7 +40,7 @@ GoverningStress governing_stress(const BodyAnalysis& analysis) {
   return stress;
 }
 
-ErrorLedger& errors_of_governing(BodyAnalysis& analysis) {
+ErrorBudget& errors_of_governing(BodyAnalysis& analysis) {
   return hot_spot_governs(analysis) ? analysis.hot_spot_errors : analysis.peak.errors;
 }
 

@@ -20,7 +20,7 @@ struct GoverningStress {
   std::int32_t instant = 0;
   double value_Pa = 0;
   double safety = 0;  ///< yield strength / value
-  ErrorLedger errors;
+  ErrorBudget errors;
 
   /// "peak von Mises stress", "hot-spot stress"
   std::string name() const;
@@ -32,7 +32,7 @@ struct GoverningStress {
 GoverningStress governing_stress(const BodyAnalysis& analysis);
 
 /// The errors that governing_stress states.
-ErrorLedger& errors_of_governing(BodyAnalysis& analysis);
+ErrorBudget& errors_of_governing(BodyAnalysis& analysis);
 
 /// Numerical error of a zone's peak: that of the body's peak, which a search may know better, or the zone's
 /// own estimate.

@@ -94,9 +94,9 @@ double unsolved_Pa(const BodyAnalysis& analysis, const std::map<std::string, Pre
   return sum_Pa;
 }
 
-void enter(ErrorLedger& ledger, double change_Pa, double unsolved_Pa) {
+void enter(ErrorBudget& budget, double change_Pa, double unsolved_Pa) {
   if (change_Pa + unsolved_Pa > 0)
-    ledger.set_model({"load_patches",
+    budget.set_model({"load_patches",
                       std::string("seat pressure over half angles 25 % narrower and wider") +
                           (unsolved_Pa > 0 ? ", harmonics that were not solved by their neighbours" : ""),
                       change_Pa + unsolved_Pa});

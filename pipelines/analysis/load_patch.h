@@ -14,7 +14,7 @@ inline constexpr double contact_variation = 0.25;
 /// it would lose its resultant).
 PressurePattern with_contact(PressurePattern pattern, double factor);
 
-/// Adds the entry `load_patches` to the model part of the ledgers of peak and hot-spot stress: the largest
+/// Adds the entry `load_patches` to the model part of the budgets of peak and hot-spot stress: the largest
 /// change of that stress when all seat pressures of the body reach 25 % less or more far round. The
 /// resultants stay, only the Fourier coefficients of the harmonics n = 0, 2, 3 ... change, and these are
 /// factors of responses that are solved already. A harmonic that the scene's pattern has not (n = 3 of a

@@ -16,7 +16,7 @@ struct SearchStep {
   int instants_per_turn = 0, pressure_harmonics = 0;
   std::size_t n_dofs = 0;
   double value_Pa = 0;      ///< of the governing stress
-  ErrorLedger errors;       ///< likewise
+  ErrorBudget errors;       ///< likewise
   double principal_Pa = 0;  ///< largest principal stress outside the exclusion distances
   double seconds = 0;       ///< of this step
   double gigabytes = 0;     ///< the program's largest memory up to the end of this step

@@ -1,5 +1,5 @@
-/// The cheapest rung of a chamber: hot-spot stresses at the weld toes of its tube, taken as a thin shell that
-/// webs and lugs load as rigid plates (fem/plated_tube.h).
+/// The cheapest model of a chamber: hot-spot stresses at the weld toes of its tube, taken as a thin shell
+/// that webs and lugs load as rigid plates (fem/beam/plated_tube.h).
 #pragma once
 
 #include <optional>

@@ -99,12 +99,12 @@ double spin_stress_Pa(const fem::BeamShaft& shaft, const fem::Material& material
   return per_rad2_s2 * largest_rad2_s2;
 }
 
-std::optional<AxisymmetricRung> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
-                                                       const std::vector<fem::UnitLoad>& loads) {
+std::optional<AxisymmetricModel> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                                        const std::vector<fem::UnitLoad>& loads) {
   const auto beam = beam_shaft(body, mesh);
   if (!beam) return std::nullopt;
-  return AxisymmetricRung{fem::axisymmetric_responses(meridian_body(body, mesh), loads),
-                          fem::eccentricity_error(*beam)};
+  return AxisymmetricModel{fem::axisymmetric_responses(meridian_body(body, mesh), loads),
+                           fem::eccentricity_error(*beam)};
 }
 
 }  // namespace pipelines

@@ -1,4 +1,4 @@
-/// The cheap rungs of the ladder of fidelity: unit responses of a shaft in the solid's channels, so that
+/// The cheap models: unit responses of a shaft in the solid's channels, so that
 /// envelope, peak and places come out of the same functions as the solid's.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 #include "fem/beam/beam_shaft.h"
 #include "fem/values/unit_responses.h"
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 #include "pipelines/scene/body_scene.h"
 
 namespace pipelines {
@@ -15,8 +15,8 @@ namespace pipelines {
 /// The shaft as a beam; nothing for other bodies, nor with keyways.
 std::optional<fem::BeamShaft> beam_shaft(const BodyScene& body, const meshes::BodyMesh& mesh);
 
-/// Beam theory with stress concentration factors (fem/beam_responses.h). Locate its nodes with the features,
-/// ports and sharp edges of `mesh`.
+/// Beam theory with stress concentration factors (fem/beam/beam_responses.h). Locate its nodes with the
+/// features, ports and sharp edges of `mesh`.
 /// @param mesh  of the same body: its boundary ids
 /// @return nothing if the body is no shaft, or has keyways
 /// @throws std::invalid_argument as fem::beam_responses
@@ -36,16 +36,16 @@ double ring_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads);
 double spin_stress_Pa(const fem::BeamShaft& shaft, const fem::Material& material, const BodyLoads& loads);
 
 /// Unit responses and what the model behind them leaves out.
-struct AxisymmetricRung {
+struct AxisymmetricModel {
   fem::UnitResponses responses;
   double model_error = 0;  ///< relative, of a peak at a fillet: fem::eccentricity_error
 };
 
-/// Harmonics around the axis (fem/axisymmetric_responses.h) on the half section of the solid's blocks, for
-/// the same features, ports and sharp edges.
+/// Harmonics around the axis (fem/axisymmetric/axisymmetric_responses.h) on the half section of the solid's
+/// blocks, for the same features, ports and sharp edges.
 /// @return nothing if the body is no shaft, or has keyways
 /// @throws as fem::axisymmetric_responses
-std::optional<AxisymmetricRung> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
-                                                       const std::vector<fem::UnitLoad>& loads);
+std::optional<AxisymmetricModel> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,
+                                                        const std::vector<fem::UnitLoad>& loads);
 
 }  // namespace pipelines

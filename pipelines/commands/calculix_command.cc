@@ -40,7 +40,7 @@ void calculix_command(const CommandOptions& options, std::ostream& out) {
   const FemEnvironment environment(options.n_threads);
   const auto meshes = clock.run("mesh", [&] { return ScratchMeshes(scene); });
   const auto& meshed = meshes.bodies();
-  scene = with_effects_chosen(scene, meshed, negligible_share(scene.wish.tolerance));
+  scene = with_effects_chosen(scene, meshed, negligible_share(scene.accuracy.tolerance));
   const auto masses = agree_masses(scene, meshed);
   // Unit loads do not depend on the instants; one turn tells which there are.
   auto coarse = scene;

@@ -78,8 +78,8 @@ void finish_run(const CommandOptions& options, std::ostream& out, const std::fil
   report(out, options, content);
 }
 
-RequestedAccuracy wish_of(const CommandOptions& options, const Scene& scene) {
-  return requested_search(options.tolerance, options.time_limit, scene.wish);
+RequestedAccuracy requested_accuracy_of(const CommandOptions& options, const Scene& scene) {
+  return requested_search(options.tolerance, options.time_limit, scene.accuracy);
 }
 
 /// The scene with the masses that it leaves to a mesh: a report must not take what stands for them until
@@ -112,7 +112,7 @@ std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machi
 
 void run_load_stage(const CommandOptions& options, std::ostream& out, const Scene& given,
                     const std::filesystem::path& directory, StageClock& clock) {
-  const Scene scene = chosen_by_loads(given, wish_of(options, given).tolerance);
+  const Scene scene = chosen_by_loads(given, requested_accuracy_of(options, given).tolerance);
   const auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
   std::filesystem::create_directories(directory);
@@ -141,11 +141,11 @@ void warn_of_default(SceneRun& run) {
 
 void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& scene,
                 const std::filesystem::path& directory, StageClock& clock) {
-  const auto wish = with_default(wish_of(options, scene));
+  const auto accuracy = with_default(requested_accuracy_of(options, scene));
   const FemEnvironment environment(options.n_threads);
-  auto run = run_scene(scene, {directory, options.n_threads, options.fresh, true, wish}, clock);
+  auto run = run_scene(scene, {directory, options.n_threads, options.fresh, true, accuracy}, clock);
   learn_from(run);
-  if (wish.by_default) warn_of_default(run);
+  if (accuracy.by_default) warn_of_default(run);
   const auto& loads = run.loaded.loads;
   const auto channels = run.loaded.channels();
   for (const auto& analysis : run.analyses) {
@@ -167,7 +167,8 @@ void run_bodies(const CommandOptions& options, std::ostream& out, const Scene& s
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings});
   if (!options.json && torsion) print_torsion(out, reported, *torsion);
   if (!options.json) out << "\n  results in " << directory.string() << '\n';
-  if (!run.met() && !wish.by_default) throw ToleranceNotMet("the tolerance is not met; the results are kept");
+  if (!run.met() && !accuracy.by_default)
+    throw ToleranceNotMet("the tolerance is not met; the results are kept");
 }
 
 }  // namespace
@@ -187,7 +188,7 @@ namespace {
 /// meshed for that has to be in equilibrium, too.
 /// @param scene  on return with its effects chosen
 kinetics::LoadHistory loads_of(Scene& scene, const CommandOptions& options, StageClock& clock) {
-  const double limit = negligible_share(scene.wish.tolerance);
+  const double limit = negligible_share(scene.accuracy.tolerance);
   if (!needs_meshes(scene)) {
     if (scene.bodies.empty()) scene = with_effects_chosen(std::move(scene), {}, limit);
     return clock.run("loads", [&] { return load_stage(scene, scene.machine); });
@@ -235,7 +236,7 @@ void loads_command(const CommandOptions& options, std::ostream& out) {
 
 void effects_command(const CommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
-  const double usual = scene.effect_choice.open ? negligible_share(scene.wish.tolerance) : 0.01;
+  const double usual = scene.effect_choice.open ? negligible_share(scene.accuracy.tolerance) : 0.01;
   const double threshold =
       options.threshold.empty() ? usual : option_in_si("--threshold", options.threshold, "1");
   const EffectReport worth = report_effects(scene, threshold);
@@ -301,7 +302,7 @@ void check(const CommandOptions& options, std::ostream& out) {
   if (scene.defaults.empty()) out << "  none\n";
   for (const auto& warning : scene.warnings) out << "warning: " << warning << '\n';
   if (scene.bodies.empty()) {
-    const double tolerance = scene.wish.tolerance;
+    const double tolerance = scene.accuracy.tolerance;
     scene = chosen_by_loads(std::move(scene), tolerance);
     print_effect_choice(out, scene, {});
     print_load_warnings(out, load_stage(for_a_look(scene), scene.machine));
@@ -315,7 +316,7 @@ void check(const CommandOptions& options, std::ostream& out) {
   const ScratchMeshes meshes(scene);
   const auto& meshed = meshes.bodies();
   const auto masses = agree_masses(scene, meshed);
-  const double limit = negligible_share(scene.wish.tolerance);
+  const double limit = negligible_share(scene.accuracy.tolerance);
   scene = with_effects_chosen(std::move(scene), meshed, limit);
   print_effect_choice(out, scene, {});
   StageClock silent;

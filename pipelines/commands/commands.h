@@ -49,7 +49,7 @@ void springs_command(const CommandOptions& options, std::ostream& out);
 /// `millstress extremes`: a vibratory mill's loads over all angles of drive and charge.
 void extremes_command(const CommandOptions& options, std::ostream& out);
 
-/// `millstress accuracy`: error against seconds on every rung of the ladder of fidelity, as table, CSV, HDF5
+/// `millstress accuracy`: error against seconds on every model, from beam to solid, as table, CSV, HDF5
 /// and chart. The directory defaults to results/<scene's name>; files go into its folder accuracy.
 void accuracy_command(const CommandOptions& options, std::ostream& out);
 

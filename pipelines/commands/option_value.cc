@@ -36,23 +36,23 @@ double option_in_si(const char* option, const std::string& text, const std::stri
 
 RequestedAccuracy requested_search(const std::string& tolerance, const std::string& time_limit,
                                    RequestedAccuracy scene) {
-  RequestedAccuracy wish = scene;
+  RequestedAccuracy accuracy = scene;
   if (tolerance == "none") {
     if (!time_limit.empty())
       throw OptionError(
           "--time-limit " + time_limit +
           ": has no use with --tolerance none, which solves once on the scene's mesh; leave one out");
-    wish = {};
-    wish.once = true;
-    return wish;
+    accuracy = {};
+    accuracy.once = true;
+    return accuracy;
   }
-  if (!tolerance.empty()) wish.tolerance = option_in_si("--tolerance", tolerance, "1");
-  if (!time_limit.empty()) wish.time_limit_s = option_in_si("--time-limit", time_limit, "s");
-  if (!tolerance.empty() || !time_limit.empty()) wish.once = false;
-  if (wish.tolerance < 0 || wish.tolerance > 1)
+  if (!tolerance.empty()) accuracy.tolerance = option_in_si("--tolerance", tolerance, "1");
+  if (!time_limit.empty()) accuracy.time_limit_s = option_in_si("--time-limit", time_limit, "s");
+  if (!tolerance.empty() || !time_limit.empty()) accuracy.once = false;
+  if (accuracy.tolerance < 0 || accuracy.tolerance > 1)
     throw OptionError("--tolerance " + tolerance + ": must lie between 0 and 100 %");
-  if (wish.time_limit_s < 0) throw OptionError("--time-limit " + time_limit + ": is negative");
-  return wish;
+  if (accuracy.time_limit_s < 0) throw OptionError("--time-limit " + time_limit + ": is negative");
+  return accuracy;
 }
 
 void require_extension(const char* option, const std::filesystem::path& file,

@@ -8,7 +8,7 @@
 
 #include "kinetics/effect_info.h"
 #include "pipelines/effects/effect_report.h"
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {

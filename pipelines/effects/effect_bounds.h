@@ -9,7 +9,7 @@
 namespace pipelines {
 
 /// Fills analysis.dropped and enters the bound of all dropped effects together as `dropped_effects` into the
-/// model part of the ledgers of peak and hot-spot stress.
+/// model part of the budgets of peak and hot-spot stress.
 ///
 /// Stress is linear in the channels and von Mises stress is a norm, so no point's stress moves by more than
 /// the von Mises stress of the dropped part of the loads there: the loads with the effects less the loads

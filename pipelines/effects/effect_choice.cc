@@ -97,7 +97,7 @@ struct Candidate {
   double share = indispensable;
 };
 
-/// One for each effect: it and what needs it; from the least to the most telling. What the scene cannot be
+/// One for each effect: it and what needs it; from the least to the most important. What the scene cannot be
 /// without comes last: others may have gone by then.
 std::vector<Candidate> candidates_of(const Scene& scene, const Judge& judge) {
   std::vector<Candidate> candidates;

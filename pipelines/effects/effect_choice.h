@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {
@@ -28,7 +28,7 @@ UnitSize size_of_unit(const fem::UnitLoad& load, const std::vector<RegionMass>& 
 /// @return 0 where nothing differs; infinite where something does and `all` is nothing
 double share_of_loads(const BodyLoads& all, const BodyLoads& other, const std::vector<RegionMass>& regions);
 
-/// Settles an open choice: from the least to the most telling, effects go off as long as leaving out all of
+/// Settles an open choice: from the least to the most important, effects go off as long as leaving out all of
 /// them together changes the loads on no body, nor the load of a bearing whose life is asked for, by more
 /// than the limit. The load stage and the distribution to the bodies are run anew without them, so that
 /// effects that build on each other or cancel are judged by what remains. Effects that need each other, by

@@ -118,7 +118,7 @@ Trial try_without(const Scene& scene, const std::vector<std::string>& off) {
 }
 
 /// For each effect, it and what needs it, where leaving them out changes no load by more than the threshold;
-/// from the least to the most telling.
+/// from the least to the most important.
 std::vector<EffectStep> steps_below(const Scene& scene, const LoadHistory& all, const EffectReport& report) {
   const auto table = effects_of(scene.machine);
   std::vector<EffectStep> steps;

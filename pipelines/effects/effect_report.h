@@ -47,7 +47,7 @@ struct EffectReport {
 };
 
 /// Runs the load stage with all effects of the scene, and once more without each. Effects are taken from the
-/// least to the most telling into the list of the dispensable as long as leaving out all of them together
+/// least to the most important into the list of the dispensable as long as leaving out all of them together
 /// changes no load by more than the threshold: effects that cancel each other are not dropped one by one,
 /// and those that need each other go together. Of the machine's effects; body_effect_report.h has the
 /// bodies'.

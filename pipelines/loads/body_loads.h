@@ -6,7 +6,7 @@
 #include "kinetics/load_history.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/loads/closure.h"
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 #include "pipelines/loads/machine_masses.h"
 #include "pipelines/scene/scene.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 
 namespace pipelines {
 

@@ -16,7 +16,7 @@
 #include "kinetics/load_table.h"
 #include "kinetics/planetary_mill.h"
 #include "kinetics/vibratory_mill.h"
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 
 namespace pipelines {
 

@@ -27,8 +27,8 @@ Array2Xd inertial_translation(const kinetics::LoadHistory& loads, double eccentr
 /// Everything that is accelerated, part by part.
 class Chamber {
 public:
-  Chamber(LoadBook& book, const LoadedBody& body, const ChamberOptions& options)
-      : book_(book), body_(body), options_(options) {}
+  Chamber(LoadCollector& collector, const LoadedBody& body, const ChamberOptions& options)
+      : book_(collector), body_(body), options_(options) {}
 
   void structure(const std::string& effect, const AccelerationField& field) {
     book_.accelerate(body_.region("structure"), effect, field);
@@ -67,7 +67,7 @@ public:
   }
 
 private:
-  LoadBook& book_;
+  LoadCollector& book_;
   const LoadedBody& body_;
   const ChamberOptions& options_;
 };
@@ -82,15 +82,15 @@ void guide_by_body(Chamber& chamber, const ArrayXd& couple_Nm) {
   chamber.all("pitch_guide", field);
 }
 
-void guide_by_feet(LoadBook& book, const LoadedBody& body, const ArrayXd& couple_Nm) {
+void guide_by_feet(LoadCollector& collector, const LoadedBody& body, const ArrayXd& couple_Nm) {
   std::array<double, 2> x{};
   for (const auto& port : body.ports)
     for (std::size_t i = 0; i < 2; ++i)
       if (port.name == "spring_foot_" + std::to_string(i + 1)) x[i] = port.axis_x_m;
   Array2Xd force = Array2Xd::Zero(2, couple_Nm.size());
   force.row(1) = (couple_Nm / (x[1] - x[0])).transpose();
-  book.force("spring_foot_2", "pitch_guide", force);
-  book.force("spring_foot_1", "pitch_guide", -force);
+  collector.force("spring_foot_2", "pitch_guide", force);
+  collector.force("spring_foot_1", "pitch_guide", -force);
 }
 
 }  // namespace
@@ -102,21 +102,22 @@ BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics:
                        "\" has no closed loads for a chamber: analyse bodies under \"consistent\"");
   const Index n = loads.n_instants();
   const auto& bore = loads.resultant("housing_bore");
-  LoadBook book(body, loads.effects, n, bore.total.topRows<2>().abs().maxCoeff());
-  for (const auto& part : bore.contributions) book.force("housing_bore", part.effect, part.load.topRows<2>());
+  LoadCollector collector(body, loads.effects, n, bore.total.topRows<2>().abs().maxCoeff());
+  for (const auto& part : bore.contributions)
+    collector.force("housing_bore", part.effect, part.load.topRows<2>());
   for (std::size_t i = 1; i <= mill.springs.size(); ++i) {
     const std::string foot = "spring_foot_" + std::to_string(i);
     if (!loads.has_resultant(foot)) continue;
     for (const auto& part : loads.resultant(foot).contributions)
-      book.force(foot, part.effect, part.load.topRows<2>());
+      collector.force(foot, part.effect, part.load.topRows<2>());
   }
   if (loads.has_resultant("inner_wall"))
     for (const auto& part : loads.resultant("inner_wall").contributions) {
-      book.force("inner_wall", part.effect, part.load.topRows<2>());
-      book.torque("inner_wall", part.effect, part.load.row(2).transpose());
+      collector.force("inner_wall", part.effect, part.load.topRows<2>());
+      collector.torque("inner_wall", part.effect, part.load.row(2).transpose());
     }
 
-  Chamber chamber(book, body, options);
+  Chamber chamber(collector, body, options);
   AccelerationField weight{Array3Xd::Zero(3, n), {}, {}}, inertia = weight;
   weight.translation_m_s2.row(1) = -mill.gravity_m_s2;
   inertia.translation_m_s2.topRows<2>() = inertial_translation(loads, mill.eccentricity_m);
@@ -128,18 +129,18 @@ BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics:
     chamber.all("pitch", {{}, -loads.quantity("theta_ddot").values, {}});
 
   ArrayXd carried;
-  const double scale = book.moment_scale_Nm();
+  const double scale = collector.moment_scale_Nm();
   if (!contains(options.effects, "pitch")) {
-    carried = -book.sum().row(5).transpose();
+    carried = -collector.sum().row(5).transpose();
     if (options.guide == PitchGuide::body)
       guide_by_body(chamber, carried);
     else
-      guide_by_feet(book, body, carried);
+      guide_by_feet(collector, body, carried);
   }
-  book.react_tilt("housing_bore");
-  book.pressure("housing_bore");
-  book.pressure("inner_wall");
-  auto result = book.finish();
+  collector.react_tilt("housing_bore");
+  collector.pressure("housing_bore");
+  collector.pressure("inner_wall");
+  auto result = collector.finish();
   result.carried_moment_Nm = carried;
   result.carried_moment_scale_Nm = scale;
   return result;

@@ -57,12 +57,12 @@ BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::Pl
                           const LoadedBody& body, const DrumOptions& options) {
   require_equilibrium(loads);
   const ArrayXd& psi = loads.quantity("psi").values;
-  LoadBook book(body, loads.effects, loads.n_instants(), typical_force(loads));
+  LoadCollector collector(body, loads.effects, loads.n_instants(), typical_force(loads));
   const auto enter = [&](const std::string& role, const std::string& port) {
     if (!loads.has_resultant(role)) return;
     for (const auto& part : loads.resultant(role).contributions) {
-      book.force(port, part.effect, turned(part.load.topRows<2>(), psi));
-      book.torque(port, part.effect, part.load.row(2).transpose());
+      collector.force(port, part.effect, turned(part.load.topRows<2>(), psi));
+      collector.torque(port, part.effect, part.load.row(2).transpose());
     }
   };
   enter("inner_wall", "inner_wall");
@@ -70,8 +70,8 @@ BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::Pl
 
   const auto accelerate = [&](const std::string& effect, const AccelerationField& field) {
     if (!contains(options.effects, effect)) return;
-    book.accelerate(body.region(), effect, field);
-    for (const auto& mass : options.attached) book.accelerate(mass, effect, field);
+    collector.accelerate(body.region(), effect, field);
+    for (const auto& mass : options.attached) collector.accelerate(mass, effect, field);
   };
   accelerate("drum_transport", translation(turned(transport(loads, mill), psi)));
   accelerate("drum_gravity", translation(turned(gravity(loads, mill.gravity_m_s2), psi)));
@@ -80,15 +80,15 @@ BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::Pl
   std::map<std::string, Array2Xd> reaction;
   for (const auto& part : loads.resultant("trunnions").contributions)
     reaction[part.effect] = turned(part.load.topRows<2>(), psi);
-  book.react("trunnion_1", "trunnion_2", reaction);
-  for (const char* port : {"inner_wall", "pulley_seat", "trunnion_1", "trunnion_2"}) book.pressure(port);
-  return book.finish();
+  collector.react("trunnion_1", "trunnion_2", reaction);
+  for (const char* port : {"inner_wall", "pulley_seat", "trunnion_1", "trunnion_2"}) collector.pressure(port);
+  return collector.finish();
 }
 
 BodyLoads distribute_stub_axle(const kinetics::LoadHistory& loads, const kinetics::PlanetaryMill& mill,
                                const LoadedBody& body, const StubAxleOptions& options) {
   require_equilibrium(loads);
-  LoadBook book(body, loads.effects, loads.n_instants(), typical_force(loads));
+  LoadCollector collector(body, loads.effects, loads.n_instants(), typical_force(loads));
   const double off_middle = options.pulley_plane_m / options.bearing_span_m * (options.pulley_side ? 1 : -1);
   const Array2Xd acceleration_of_gravity = gravity(loads, mill.gravity_m_s2),
                  acceleration_of_transport = transport(loads, mill);
@@ -98,21 +98,21 @@ BodyLoads distribute_stub_axle(const kinetics::LoadHistory& loads, const kinetic
     if (part.effect == "drum_gravity") share += off_middle * options.pulley_mass_kg * acceleration_of_gravity;
     if (part.effect == "drum_transport")
       share += off_middle * options.pulley_mass_kg * acceleration_of_transport;
-    book.force("bearing", part.effect, share);
+    collector.force("bearing", part.effect, share);
   }
   const double omega2 = mill.speed_rad_s * mill.speed_rad_s;
   if (contains(options.effects, "axle_gravity"))
-    book.accelerate(body.region(), "axle_gravity", translation(acceleration_of_gravity));
+    collector.accelerate(body.region(), "axle_gravity", translation(acceleration_of_gravity));
   if (contains(options.effects, "axle_transport")) {
     auto field = translation(acceleration_of_transport);
     field.spin_rad2_s2 = ArrayXd::Constant(loads.n_instants(), omega2);
-    book.accelerate(body.region(), "axle_transport", field);
+    collector.accelerate(body.region(), "axle_transport", field);
   }
-  book.pressure("bearing");  // before the clamp: what it carries spreads over the whole face
-  book.react_force("clamp");
-  book.react_tilt("clamp");
-  book.react_torque("clamp");
-  return book.finish();
+  collector.pressure("bearing");  // before the clamp: what it carries spreads over the whole face
+  collector.react_force("clamp");
+  collector.react_tilt("clamp");
+  collector.react_torque("clamp");
+  return collector.finish();
 }
 
 }  // namespace pipelines

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kinetics/load_history.h"
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 
 namespace pipelines {
 

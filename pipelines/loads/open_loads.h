@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 #include "pipelines/scene/body_scene.h"
 
 namespace pipelines {

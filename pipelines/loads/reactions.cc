@@ -1,5 +1,5 @@
 #include "pipelines/common/errors.h"
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 
 namespace pipelines {
 
@@ -19,8 +19,8 @@ Wrench about(const Wrench& load, const Eigen::Vector3d& p) {
 
 }  // namespace
 
-void LoadBook::react(const std::string& first, const std::string& second,
-                     const std::map<std::string, Array2Xd>& resultant) {
+void LoadCollector::react(const std::string& first, const std::string& second,
+                          const std::map<std::string, Array2Xd>& resultant) {
   const Eigen::Vector3d a = centre_of(find(first));
   const double span_m = centre_of(find(second))[2] - a[2];
   if (!(span_m != 0))
@@ -40,23 +40,23 @@ void LoadBook::react(const std::string& first, const std::string& second,
   }
 }
 
-void LoadBook::react_force(const std::string& port) {
+void LoadCollector::react_force(const std::string& port) {
   for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
     force(port, effect, -load.topRows<2>());
 }
 
-void LoadBook::react_axial(const std::string& port) {
+void LoadCollector::react_axial(const std::string& port) {
   for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
     axial_force(port, effect, -load.row(2).transpose());
 }
 
-void LoadBook::react_torque(const std::string& port) {
+void LoadCollector::react_torque(const std::string& port) {
   const Eigen::Vector3d p = centre_of(find(port));
   for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
     torque(port, effect, -about(load, p).row(5).transpose());
 }
 
-void LoadBook::react_tilt(const std::string& port) {
+void LoadCollector::react_tilt(const std::string& port) {
   const Eigen::Vector3d p = centre_of(find(port));
   for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
     tilt(port, effect, -about(load, p).middleRows<2>(3));

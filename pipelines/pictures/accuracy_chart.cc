@@ -73,7 +73,7 @@ public:
       if (row.seconds > 0) seconds.push_back(row.seconds);
       for (const double error : {percent(row.errors.total_Pa()), percent(row.true_error_Pa)})
         if (error > smallest_percent) errors.push_back(error);
-      if (std::find(rungs_.begin(), rungs_.end(), row.rung) == rungs_.end()) rungs_.push_back(row.rung);
+      if (std::find(rungs_.begin(), rungs_.end(), row.model) == rungs_.end()) rungs_.push_back(row.model);
     }
     if (seconds.empty()) throw std::invalid_argument("no run with a time: nothing to draw");
     x_ = axis_over(seconds, left, right);
@@ -88,7 +88,7 @@ public:
     draw_axes();
     draw_tolerance();
     draw_frontier();
-    for (std::size_t i = 0; i < rungs_.size(); ++i) draw_rung(rungs_[i], colours[i % colours.size()]);
+    for (std::size_t i = 0; i < rungs_.size(); ++i) draw_model(rungs_[i], colours[i % colours.size()]);
     draw_chosen();
     draw_legend();
     words(machine_and_versions(), 14, 20, 12);
@@ -156,7 +156,7 @@ private:
       for (const auto& row : study_.rows) {
         const double x = x_.at(row.seconds), y = shown_y(row);
         if (meets(x, y, x, y_of(row.errors.total_Pa()))) return true;
-        const auto*& last = before[row.rung];
+        const auto*& last = before[row.model];
         if (last && meets(x_.at(last->seconds), shown_y(*last), x, y)) return true;
         last = &row;
       }
@@ -182,11 +182,11 @@ private:
     line.put(renderer_, frontier_grey, 7);
   }
 
-  void draw_rung(const std::string& rung, const Colour& colour) {
+  void draw_model(const std::string& model, const Colour& colour) {
     Drawing curve, bars, marks;
     const AccuracyRow* before = nullptr;
     for (const auto& row : study_.rows) {
-      if (row.rung != rung) continue;
+      if (row.model != model) continue;
       const double x = x_.at(row.seconds), y = shown_y(row), estimate = y_of(row.errors.total_Pa());
       if (before) curve.line(x_.at(before->seconds), shown_y(*before), x, y);
       bars.line(x, y, x, estimate);

@@ -8,7 +8,7 @@
 
 namespace pipelines {
 
-/// One curve per rung: discs at the true errors, a bar from each up or down to its estimate; the efficient
+/// One curve per model: discs at the true errors, a bar from each up or down to its estimate; the efficient
 /// frontier as a broad grey line, a ring around the chosen run, the tolerance as a horizontal line. The
 /// reference, whose true error is not known, is a square at its own estimate.
 /// @return false if the machine offers no EGL

@@ -10,7 +10,7 @@ namespace {
 
 /// Centres of the labels `chosen` (ascending anchors) side by side, least squares from their anchors: pools
 /// of labels that touch move together.
-std::vector<double> centres(const std::vector<LabelWish>& wishes, const std::vector<std::size_t>& chosen,
+std::vector<double> centres(const std::vector<LabelRequest>& requests, const std::vector<std::size_t>& chosen,
                             const LabelRows& rows) {
   struct Pool {
     double sum = 0;
@@ -20,10 +20,10 @@ std::vector<double> centres(const std::vector<LabelWish>& wishes, const std::vec
   // Of each label the place where the first one would be if all before it touched.
   std::vector<double> offset(chosen.size(), 0);
   for (std::size_t i = 1; i < chosen.size(); ++i)
-    offset[i] = offset[i - 1] + 0.5 * (wishes[chosen[i - 1]].width + wishes[chosen[i]].width) + rows.gap;
+    offset[i] = offset[i - 1] + 0.5 * (requests[chosen[i - 1]].width + requests[chosen[i]].width) + rows.gap;
   std::vector<Pool> pools;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    pools.push_back({wishes[chosen[i]].anchor_x - offset[i], 1});
+    pools.push_back({requests[chosen[i]].anchor_x - offset[i], 1});
     while (pools.size() > 1 && pools[pools.size() - 2].mean() > pools.back().mean()) {
       pools[pools.size() - 2].sum += pools.back().sum;
       pools[pools.size() - 2].n += pools.back().n;
@@ -32,8 +32,8 @@ std::vector<double> centres(const std::vector<LabelWish>& wishes, const std::vec
   }
   std::vector<double> result;
   if (chosen.empty()) return result;
-  const double lowest = rows.left + 0.5 * wishes[chosen.front()].width;
-  const double highest = rows.right - 0.5 * wishes[chosen.back()].width - offset.back();
+  const double lowest = rows.left + 0.5 * requests[chosen.front()].width;
+  const double highest = rows.right - 0.5 * requests[chosen.back()].width - offset.back();
   for (const auto& pool : pools)
     for (std::size_t i = 0; i < pool.n; ++i)
       result.push_back(std::max(lowest, std::min(highest, pool.mean())) + offset[result.size()]);
@@ -56,12 +56,12 @@ bool cross(const Leader& a, const Leader& b) {
 
 }  // namespace
 
-std::vector<LabelPlace> place_labels(const std::vector<LabelWish>& wishes, const LabelRows& rows) {
-  const std::size_t n = wishes.size();
+std::vector<LabelPlace> place_labels(const std::vector<LabelRequest>& requests, const LabelRows& rows) {
+  const std::size_t n = requests.size();
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return wishes[a].anchor_x < wishes[b].anchor_x; });
+                   [&](std::size_t a, std::size_t b) { return requests[a].anchor_x < requests[b].anchor_x; });
 
   std::vector<LabelPlace> best(n);
   double least = std::numeric_limits<double>::infinity();
@@ -73,16 +73,16 @@ std::vector<LabelPlace> place_labels(const std::vector<LabelWish>& wishes, const
       std::vector<std::size_t> chosen;
       for (const std::size_t i : order)
         if (above[i] == row) chosen.push_back(i);
-      const auto middle = centres(wishes, chosen, rows);
+      const auto middle = centres(requests, chosen, rows);
       const double y = row ? rows.above_y : rows.below_y;
       double end = rows.left;
       for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const auto& wish = wishes[chosen[i]];
-        places[chosen[i]] = {row, middle[i] - 0.5 * wish.width};
-        leaders.push_back({wish.anchor_x, wish.anchor_y, middle[i], y});
-        cost += std::pow(middle[i] - wish.anchor_x, 2) + std::pow(y - wish.anchor_y, 2);
+        const auto& request = requests[chosen[i]];
+        places[chosen[i]] = {row, middle[i] - 0.5 * request.width};
+        leaders.push_back({request.anchor_x, request.anchor_y, middle[i], y});
+        cost += std::pow(middle[i] - request.anchor_x, 2) + std::pow(y - request.anchor_y, 2);
         if (places[chosen[i]].left < end - 0.5) cost += 1e9;  // overlaps its neighbour or leaves the row
-        end = places[chosen[i]].left + wish.width;
+        end = places[chosen[i]].left + request.width;
       }
     }
     for (std::size_t i = 0; i < leaders.size(); ++i)

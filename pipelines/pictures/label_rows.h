@@ -6,7 +6,7 @@
 namespace pipelines {
 
 /// What a label names, and how wide it is.
-struct LabelWish {
+struct LabelRequest {
   double anchor_x = 0, anchor_y = 0, width = 0;
 };
 
@@ -24,6 +24,6 @@ struct LabelRows {
 
 /// Labels that do not overlap as long as the rows are long enough, each in the row and near the place that
 /// make the leaders short and keep them from crossing. Rows too short: labels overlap evenly.
-std::vector<LabelPlace> place_labels(const std::vector<LabelWish>& wishes, const LabelRows& rows);
+std::vector<LabelPlace> place_labels(const std::vector<LabelRequest>& requests, const LabelRows& rows);
 
 }  // namespace pipelines

@@ -57,16 +57,16 @@ std::vector<Pixel> disc(double x, double y, double radius) {
 void add_labels(vtkRenderer* renderer, const Panel& panel, const std::vector<std::string>& names,
                 const std::vector<std::size_t>& ports) {
   std::vector<vtkTextActor*> texts;
-  std::vector<LabelWish> wishes;
+  std::vector<LabelRequest> requests;
   for (const std::size_t p : ports) {
     texts.push_back(add_words(renderer, names[p], font, 0, 0));
     double box[4];
     texts.back()->GetBoundingBox(renderer, box);
-    wishes.push_back({panel.seen[p].x, panel.seen[p].y, swatch + space + box[1] - box[0]});
+    requests.push_back({panel.seen[p].x, panel.seen[p].y, swatch + space + box[1] - box[0]});
   }
   const LabelRows rows{0.5 * margin, panel.width - 0.5 * margin, double(row), double(panel.height - row),
                        2.5 * space};
-  const auto places = place_labels(wishes, rows);
+  const auto places = place_labels(requests, rows);
   Drawing leaders;
   for (std::size_t i = 0; i < ports.size(); ++i) {
     const auto& place = places[i];
@@ -79,9 +79,9 @@ void add_labels(vtkRenderer* renderer, const Panel& panel, const std::vector<std
                  {place.left + swatch, bottom + swatch},
                  {place.left, bottom + swatch}});
     square.put(renderer, colour, 1);
-    leaders.line(wishes[i].anchor_x, wishes[i].anchor_y, place.left + 0.5 * wishes[i].width,
+    leaders.line(requests[i].anchor_x, requests[i].anchor_y, place.left + 0.5 * requests[i].width,
                  place.above ? rows.above_y : rows.below_y);
-    leaders.area(disc(wishes[i].anchor_x, wishes[i].anchor_y, 4));
+    leaders.area(disc(requests[i].anchor_x, requests[i].anchor_y, 4));
   }
   leaders.put(renderer, ink, 1.5);
 }

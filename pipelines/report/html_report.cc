@@ -51,7 +51,7 @@ std::string with_spaces(std::string name) {
   return name;
 }
 
-void add_ledger(HtmlPage& page, const std::string& of, const Json& error, double value_Pa) {
+void add_budget(HtmlPage& page, const std::string& of, const Json& error, double value_Pa) {
   Rows rows;
   for (const auto& [source, method] : error.at("methods").items())
     rows.push_back({with_spaces(source), MPa(error.at(source)),
@@ -159,7 +159,7 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   add_zones(page, body);
   const auto& governing = body.at("governing");
   const auto& peak = body.at("peak_von_mises");
-  add_ledger(page, governing.at("name").get<std::string>(), governing.at("error"),
+  add_budget(page, governing.at("name").get<std::string>(), governing.at("error"),
              governing.at("value").get<double>());
   add_search(page, body);
   add_effects(page, peak);

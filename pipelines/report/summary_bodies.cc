@@ -22,11 +22,11 @@ Json place_and_moment(const RunReport& report, const std::array<double, 3>& posi
 }
 
 /// "total" of all sources, "numerical" of those that a finer run would mend, "model" of the others.
-Json ledger_json(const ErrorLedger& ledger) {
-  Json json = object({{"total", number_or_none(ledger.total_Pa())},
-                      {"numerical", number_or_none(ledger.numerical_Pa())},
-                      {"model", number_or_none(ledger.total_Pa() - ledger.numerical_Pa())}});
-  for (const auto* entries : {&ledger.numerical, &ledger.model})
+Json budget_json(const ErrorBudget& budget) {
+  Json json = object({{"total", number_or_none(budget.total_Pa())},
+                      {"numerical", number_or_none(budget.numerical_Pa())},
+                      {"model", number_or_none(budget.total_Pa() - budget.numerical_Pa())}});
+  for (const auto* entries : {&budget.numerical, &budget.model})
     for (const auto& entry : *entries) {
       json[entry.source] = number_or_none(entry.value_Pa);
       json["methods"][entry.source] = entry.method;
@@ -46,7 +46,7 @@ Json search_json(const Search& search) {
                                     {"pressure_harmonics", step.pressure_harmonics},
                                     {"dofs", step.n_dofs},
                                     {"value_Pa", number(step.value_Pa)},
-                                    {"error", ledger_json(step.errors)},
+                                    {"error", budget_json(step.errors)},
                                     {"dominated_by", step.errors.largest()}}));
   return json;
 }
@@ -60,7 +60,7 @@ Json governing_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["name"] = stress.name();
   json["text"] = value_with_errors(stress.value_Pa, stress.errors);
   json["safety_against_yield"] = number_or_none(stress.safety);
-  json["error"] = ledger_json(stress.errors);
+  json["error"] = budget_json(stress.errors);
   json.update(place_and_moment(report, stress.position_m, stress.place, stress.surface, stress.instant));
   const auto trouble = not_known_well(stress, analysis.search);
   if (!trouble.empty()) json["not_known_well"] = trouble;
@@ -70,7 +70,7 @@ Json governing_json(const RunReport& report, const BodyAnalysis& analysis) {
 Json peak_json(const RunReport& report, const BodyAnalysis& analysis) {
   const Peak& peak = analysis.peak;
   Json json = figure(peak.value_Pa, "Pa");
-  json["error"] = ledger_json(peak.errors);
+  json["error"] = budget_json(peak.errors);
   json["safety_against_yield"] = number_or_none(peak.safety);
   json.update(place_and_moment(report, peak.position_m, peak.feature, peak.place, peak.instant));
   json["stress_Pa"] = peak.stress_Pa;
@@ -204,7 +204,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
                                         {"normal_max_Pa", number(spot.max_normal_Pa)},
                                         {"normal_min_Pa", number(spot.min_normal_Pa)},
                                         {"position_m", spot.toe_m}}));
-  if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = ledger_json(analysis.hot_spot_errors);
+  if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = budget_json(analysis.hot_spot_errors);
   for (const auto& edge : analysis.mesh.sharp_edges)
     json["singular"].push_back(object({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}}));
   for (const auto& figure : report.masses)

@@ -54,7 +54,7 @@ struct BodyScene {
   std::vector<AddedMass> added_masses;
   fem::Solver solver = fem::Solver::automatic;
   int degree =
-      2;  ///< of the polynomials in a cell (fem::Body); 2 in every scene, the ladder takes 1 and 3 too
+      2;  ///< of the polynomials in a cell (fem::Body); 2 in every scene, accuracy studies take 1 and 3 too
   int natural_frequencies = 0;  ///< how many to compute and compare with the loads; 0: none
   std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
 

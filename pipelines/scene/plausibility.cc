@@ -116,11 +116,11 @@ std::vector<std::string> implausible(const Scene& scene) {
                       "the solid's stress comes out too low; the error \"locking\" states by how much",
                       body.name, body.material.poisson_ratio));
   }
-  if (scene.wish.tolerance > most_tolerance)
+  if (scene.accuracy.tolerance > most_tolerance)
     doubts.texts.push_back(
         fmt::format("tolerance = {:g} %: a stress known no better tells little more than "
                     "its order of magnitude; a bare number is a share, 0.05 is 5 %",
-                    100 * scene.wish.tolerance));
+                    100 * scene.accuracy.tolerance));
   return doubts.texts;
 }
 

@@ -14,7 +14,7 @@ namespace pipelines {
 ///     high energy at up to 16 g; of a planetary mill's drums above 100 g: mills of laboratories end there;
 ///   a peripheral speed of a seat or belt above 50 m/s: of a rolling bearing this is a speed factor n d of
 ///     1e6 mm/min, where oil jets begin; belts of rubber end at 40 to 50 m/s;
-///   a Poisson's ratio above 0.49, where cells of degree 2 lock (error_ledger.cc);
+///   a Poisson's ratio above 0.49, where cells of degree 2 lock (error_budget.cc);
 ///   a tolerance above 20 %, which says little more than the order of magnitude.
 /// @param scene  read without an error
 std::vector<std::string> implausible(const Scene& scene);

@@ -66,7 +66,7 @@ struct EffectChoice {
   std::vector<std::string> offered;     ///< in order; empty: the scene names its effects
   bool open = false;                    ///< nothing is switched off yet: all that are offered are on
   double limit = 0;                     ///< of what may change: a tenth of the tolerance
-  std::vector<Dropped> dropped;         ///< from the least to the most telling
+  std::vector<Dropped> dropped;         ///< from the least to the most important
   double share = 0;                     ///< of the loads, all of these together
   LoadChange load_change;               ///< of the load that changes most, whether a body feels it or not
   std::vector<std::string> taken_back;  ///< dropped at first, but its bound after the solve was too large
@@ -94,7 +94,7 @@ struct Scene {
   bool drum_axes = false;  ///< of a planetary mill: the trunnions' load also in axes that turn with the drum
   std::vector<BearingScene> bearings;
   Method method = Method::automatic;  ///< the model of every body
-  RequestedAccuracy wish;             ///< how well the stresses are to be known, and in what time
+  RequestedAccuracy accuracy;         ///< how well the stresses are to be known, and in what time
   ZoneRule zones;
   int snapshots = 24;    ///< over the turn that contains the peak; 0: none
   bool pictures = true;  ///< of the envelope, as PNG

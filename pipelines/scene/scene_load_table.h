@@ -9,7 +9,7 @@ namespace pipelines {
 
 /// Reads the table and closes it:
 ///   speed = "510 rpm"
-///   [[machine.files]]      effect = "measured"  file = "belt.csv"   (pipelines/table_file.h)
+///   [[machine.files]]      effect = "measured"  file = "belt.csv"   (pipelines/files/table_file.h)
 ///   [[machine.harmonics]]  effect = "imbalance" load = "disc_seat.fy" amplitude = "12 N" order = 1
 ///   [[machine.constants]]  effect = "weight"    load = "disc_seat.fy" value = "-30 N"
 /// A file has a column "time" or "angle", then one per load, "<port>.<component> [unit]".

@@ -238,7 +238,7 @@ Scene read_scene(const std::filesystem::path& file) {
   if (bodies.empty() && (root.has("zones") || root.has("results")))
     findings.warnings.push_back("without a body ([shaft], [chamber] ...) [zones] and [results] have no use");
   scene.bearings = read_bearings(root);
-  scene.wish = read_wish(root);
+  scene.accuracy = read_requested_accuracy(root);
   scene.method = read_method(root, scene);
   scene.zones = read_zones(root.table_or_empty("zones"));
   read_results(root.table_or_empty("results"), scene);

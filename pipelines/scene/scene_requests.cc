@@ -4,17 +4,17 @@
 
 namespace pipelines {
 
-RequestedAccuracy read_wish(SceneTable& root) {
-  RequestedAccuracy wish;
+RequestedAccuracy read_requested_accuracy(SceneTable& root) {
+  RequestedAccuracy accuracy;
   for (const char* key : {"tolerance", "time_limit"}) root.know(key);
   if (root.has("tolerance") && root.holds("tolerance", "none"))
-    wish.once = true;
+    accuracy.once = true;
   else if (root.has("tolerance"))
-    wish.tolerance = root.quantity("tolerance", "1", between(1e-4, 0.5));
-  if (wish.once && root.has("time_limit"))
+    accuracy.tolerance = root.quantity("tolerance", "1", between(1e-4, 0.5));
+  if (accuracy.once && root.has("time_limit"))
     root.refuse("time_limit", "has no use with tolerance = \"none\", which solves once; remove one of them");
-  if (root.has("time_limit")) wish.time_limit_s = root.quantity("time_limit", "s", positive(1e7));
-  return wish;
+  if (root.has("time_limit")) accuracy.time_limit_s = root.quantity("time_limit", "s", positive(1e7));
+  return accuracy;
 }
 
 /// "50 % of peak", "40 % of yield"

@@ -13,7 +13,7 @@ namespace pipelines {
 kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneFindings& findings);
 
 /// `tolerance` and `time_limit` of the root.
-RequestedAccuracy read_wish(SceneTable& root);
+RequestedAccuracy read_requested_accuracy(SceneTable& root);
 
 /// `method` of the root.
 /// @param scene  with its bodies read: a body without that model is refused

@@ -225,7 +225,7 @@ BodyScene guided_by(const SecondModel& model, const BodyScene& body) {
   return result;
 }
 
-OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const ErrorLedger& errors) {
+OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const ErrorBudget& errors) {
   BodyScene& body = scene.bodies[index];
   const double mesh = errors.of("discretisation") + errors.of("geometry") + errors.of("other_places");
   const double harmonics = errors.of("pressure_harmonics"), sampling = errors.of("time_sampling");
@@ -271,17 +271,17 @@ bool stands_still(const Search& search) {
                      [&](const auto& step) { return error(step) > 0.9 * before; });
 }
 
-void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes, double order) {
+void learn_from_change(ErrorBudget& budget, double change_Pa, double ratio, int n_meshes, double order) {
   if (!(ratio > 1)) return;
   const double missing_Pa = std::abs(change_Pa) / (std::pow(ratio, order) - 1);
   const double share = n_meshes <= 2 ? 1 : 0.5;
-  const double own_Pa = share * ledger.of("discretisation") / ledger.safety_of("discretisation");
+  const double own_Pa = share * budget.of("discretisation") / budget.safety_of("discretisation");
   if (missing_Pa > own_Pa)
-    ledger.set_numerical(
+    budget.set_numerical(
         {"discretisation",
          fmt::format("change from the coarser mesh over (ratio of cell sizes)^{} - 1", order), missing_Pa});
   else
-    ledger.set_numerical(
+    budget.set_numerical(
         {"discretisation",
          std::string(n_meshes <= 2 ? "" : "half of ") +
              "recovered stress against single cells around: the change from the coarser mesh is "

@@ -43,7 +43,7 @@ struct OtherRefinement {
   bool possible = false;     ///< something of the two became finer
   bool mesh_matters = true;  ///< the mesh dominates
 };
-OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t body, const ErrorLedger& errors);
+OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t body, const ErrorBudget& errors);
 
 /// Makes the mesh finer where the place that holds the error back feels it most: `part` of a shaft's mesh (on
 /// those fillets only whose stress with its error could be the largest); weld toes of a chamber, half as
@@ -70,7 +70,7 @@ bool stands_still(const Search& search);
 /// fillets). The discretisation entry becomes that, or a share of what single cells differ by if that is
 /// more: two meshes may agree by chance, each further one makes that less likely.
 /// @param n_meshes  tried so far: all of what single cells differ by for two, half beyond
-void learn_from_change(ErrorLedger& ledger, double change_Pa, double ratio, int n_meshes = 3,
+void learn_from_change(ErrorBudget& budget, double change_Pa, double ratio, int n_meshes = 3,
                        double order = 2);
 
 }  // namespace pipelines

@@ -43,8 +43,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What a finer mesh or a dearer model would lower: not the loads' own shape, nor what the scene leaves out.
-double lowered_by_other_models_Pa(const ErrorLedger& errors) {
+/// What a finer mesh or a more expensive model would lower: not the loads' own shape, nor what the scene
+/// leaves out.
+double lowered_by_other_models_Pa(const ErrorBudget& errors) {
   double sum_Pa = errors.numerical_Pa();
   for (const char* source : {"model", "eccentric_segments", "ovalisation", "spin"})
     sum_Pa += errors.of(source);
@@ -83,8 +84,8 @@ public:
 
 private:
   double tolerance() const {
-    if (options_.wish.once) return 0;
-    return options_.wish.tolerance > 0 ? options_.wish.tolerance : run_.scene.wish.tolerance;
+    if (options_.accuracy.once) return 0;
+    return options_.accuracy.tolerance > 0 ? options_.accuracy.tolerance : run_.scene.accuracy.tolerance;
   }
   std::size_t n_bodies() const { return run_.scene.bodies.size(); }
   bool is_wanted(std::size_t i) const { return !options_.only || *options_.only == i; }
@@ -95,7 +96,7 @@ private:
     return indices;
   }
 
-  bool is_search() const { return options_.wish.any(); }
+  bool is_search() const { return options_.accuracy.any(); }
 
   /// A model that needs no cells of the whole body.
   bool is_without_mesh(std::size_t i) const {
@@ -107,14 +108,14 @@ private:
   Method first_method(std::size_t i) const {
     const auto& body = run_.scene.bodies[i];
     if (run_.scene.method != Method::automatic) return run_.scene.method;
-    const bool is_asked = options_.wish.tolerance > 0 && body.natural_frequencies == 0;
+    const bool is_asked = options_.accuracy.tolerance > 0 && body.natural_frequencies == 0;
     if (!is_asked || !why_not_axisymmetric(body).empty()) return Method::solid;
     const auto described = describe_revolved(body);
     const auto beam = beam_shaft(body, described.mesh);
     const double eccentric = beam ? fem::eccentricity_error(*beam) : 0;
-    if (beam && why_not_beam(body).empty() && 3 * fem::beam_model_error(*beam) <= options_.wish.tolerance)
+    if (beam && why_not_beam(body).empty() && 3 * fem::beam_model_error(*beam) <= options_.accuracy.tolerance)
       return Method::beam;
-    return eccentric < options_.wish.tolerance ? Method::axisymmetric : Method::solid;
+    return eccentric < options_.accuracy.tolerance ? Method::axisymmetric : Method::solid;
   }
 
   MeshedBody first_meshed(std::size_t i) {
@@ -123,7 +124,8 @@ private:
     return is_search() ? first_mesh(i) : mesh(i);
   }
 
-  /// The body by its model; with the choice left open, by the next dearer one where the tolerance is not met.
+  /// The body by its model; with the choice left open, by the next more expensive one where the tolerance is
+  /// not met.
   BodyAnalysis solve(std::size_t i) {
     if (is_without_mesh(i)) {
       if (run_.scene.method != Method::automatic) return analyse(i);
@@ -259,7 +261,7 @@ private:
 
   /// What is left of the time, shared evenly among the bodies that wait.
   double end_of(std::size_t i) const {
-    const double limit_s = options_.wish.time_limit_s, now_s = seconds_since(start_);
+    const double limit_s = options_.accuracy.time_limit_s, now_s = seconds_since(start_);
     if (limit_s <= 0) return 0;
     const auto bodies = wanted();
     const auto waiting = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t b) { return b >= i; });
@@ -311,8 +313,8 @@ private:
   /// Runs body i until its governing stress is good enough, or nothing more can be done.
   BodyAnalysis search_mesh(std::size_t i) {
     SearchState state(run_.scene.bodies[i]);
-    state.search.tolerance = options_.wish.tolerance;
-    state.search.time_limit_s = options_.wish.time_limit_s;
+    state.search.tolerance = options_.accuracy.tolerance;
+    state.search.time_limit_s = options_.accuracy.time_limit_s;
     state.end_s = end_of(i);
     guide(i, state);
     BodyAnalysis analysis = analyse(i);

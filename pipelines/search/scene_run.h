@@ -17,7 +17,7 @@ struct SceneRunOptions {
   int n_threads = 0;                ///< 0: all cores
   bool fresh = false;               ///< reuse nothing of an earlier run
   bool keep = true;                 ///< unit responses, for the next run
-  RequestedAccuracy wish{};
+  RequestedAccuracy accuracy{};
   bool second_model = true;           ///< harmonics around the axis beside the solid, where they apply
   std::optional<std::size_t> only{};  ///< this body alone is meshed and solved...
   std::vector<MeshedBody> others{};   ///< ...beside these meshes, in the order of Scene::bodies

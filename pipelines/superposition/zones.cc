@@ -34,7 +34,7 @@ private:
   std::vector<std::size_t> parent_;
 };
 
-/// A node shared by several features is named after the most telling one.
+/// A node shared by several features is named after the most specific one.
 int precedence(meshes::Feature::Kind kind) {
   using Kind = meshes::Feature::Kind;
   switch (kind) {

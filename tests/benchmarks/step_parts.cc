@@ -66,7 +66,7 @@ Outcome row(const StepShaft& shaft, const Reference& truth, const std::string& m
   options.directory = directory / "run";
   options.fresh = true;
   options.keep = false;
-  options.wish.tolerance = tolerance;
+  options.accuracy.tolerance = tolerance;
   pipelines::StageClock clock;
   const auto start = std::chrono::steady_clock::now();
   const auto run = pipelines::run_scene(scene, options, clock);

@@ -50,10 +50,10 @@ private:
 
 }  // namespace
 
-// The whole ladder: every rung is there, dearer runs come later, and estimates bound the errors against the
-// best run, whose own estimate counts too (one run of nineteen may stick out). A rung whose model error were
+// All models are there, more expensive runs come later, and estimates bound the errors against the
+// best run, whose own estimate counts too (one run of nineteen may stick out). A model whose model error were
 // forgotten would.
-TEST(Accuracy, EveryRungBoundsItsError) {
+TEST(Accuracy, EveryModelBoundsItsError) {
   const results_test::Directory directory;
   write(directory / "small.toml", stepped_shaft());
   const auto outcome =
@@ -61,24 +61,24 @@ TEST(Accuracy, EveryRungBoundsItsError) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("the next factor of two in accuracy costs"), std::string::npos) << outcome.out;
   const auto files = directory / "out/accuracy";
-  const auto rungs = first_column(files / "shaft.csv");
-  for (const std::string rung :
+  const auto models = first_column(files / "shaft.csv");
+  for (const std::string model :
        {"beam", "axisymmetric", "Q1 solid", "even mesh", "Q3 solid", "fewer instants", "refined mesh"})
-    EXPECT_NE(std::find(rungs.begin(), rungs.end(), rung), rungs.end()) << rung << outcome.out;
+    EXPECT_NE(std::find(models.begin(), models.end(), model), models.end()) << model << outcome.out;
 
-  const Study study(files / "accuracy.h5", rungs.size());
+  const Study study(files / "accuracy.h5", models.size());
   const auto estimated = study.column("error_estimated"), truth = study.column("error_true"),
              seconds = study.column("seconds"), value = study.column("value"),
              unknowns = study.column("unknowns");
   const double reference_error = *std::min_element(estimated.begin(), estimated.end());
   std::size_t n_bounded = 0;
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
+  for (std::size_t i = 0; i < models.size(); ++i) {
     n_bounded += estimated[i] + reference_error >= truth[i];
-    EXPECT_GT(value[i], 0) << rungs[i];
+    EXPECT_GT(value[i], 0) << models[i];
     EXPECT_GE(seconds[i], seconds[i > 0 ? i - 1 : 0]) << "cheapest first";
-    EXPECT_GT(unknowns[i], rungs[i] == "even mesh" || rungs[i] == "Q3 solid" ? 1000 : 0) << rungs[i];
+    EXPECT_GT(unknowns[i], models[i] == "even mesh" || models[i] == "Q3 solid" ? 1000 : 0) << models[i];
   }
-  EXPECT_GE(n_bounded + 1, rungs.size()) << outcome.out;
+  EXPECT_GE(n_bounded + 1, models.size()) << outcome.out;
 
   const auto png = results_test::bytes(files / "shaft.png");
   EXPECT_EQ(png.substr(1, 3), "PNG");
@@ -101,8 +101,8 @@ TEST(Accuracy, GridConvergenceIndexOfAFillet) {
   const auto files = directory / "out/accuracy";
   EXPECT_EQ(first_column(files / "shaft_gci.csv").size(), 3u);
 
-  const auto rungs = first_column(files / "shaft.csv");
-  const Study study(files / "accuracy.h5", rungs.size());
+  const auto models = first_column(files / "shaft.csv");
+  const Study study(files / "accuracy.h5", models.size());
   const double order = study.attribute("grid_convergence_order"),
                index = study.attribute("grid_convergence_index_Pa"),
                extrapolated = study.attribute("grid_convergence_extrapolated_Pa");
@@ -110,11 +110,11 @@ TEST(Accuracy, GridConvergenceIndexOfAFillet) {
   EXPECT_LE(order, 4);
   const auto value = study.column("value"), entry = study.column("error.discretisation"),
              unknowns = study.column("unknowns");
-  std::size_t finest = rungs.size();
-  for (std::size_t i = 0; i < rungs.size(); ++i)
-    if (rungs[i] == "systematic mesh" && (finest == rungs.size() || unknowns[i] > unknowns[finest]))
+  std::size_t finest = models.size();
+  for (std::size_t i = 0; i < models.size(); ++i)
+    if (models[i] == "systematic mesh" && (finest == models.size() || unknowns[i] > unknowns[finest]))
       finest = i;
-  ASSERT_LT(finest, rungs.size());
+  ASSERT_LT(finest, models.size());
   EXPECT_EQ(entry[finest], index);
   EXPECT_LE(std::abs(value[finest] - known_Pa), index);
   EXPECT_LT(index, 0.005 * known_Pa);
@@ -126,7 +126,7 @@ TEST(Accuracy, GridConvergenceIndexOfAFillet) {
   EXPECT_LE(std::abs(extrapolated - known_Pa), std::abs(value[finest] - known_Pa));
 }
 
-// The lowest rung of a chamber bounds what solids say of its weld toes.
+// The cheapest model of a chamber bounds what solids say of its weld toes.
 TEST(Accuracy, AThinShellBoundsAChambersHotSpot) {
   const results_test::Directory directory;
   write(directory / "mill.toml", chamber_alone({{"instants_per_turn = 120", "instants_per_turn = 24"},
@@ -135,10 +135,10 @@ TEST(Accuracy, AThinShellBoundsAChambersHotSpot) {
       millstress(directory.path, "accuracy mill.toml -o out --tolerance '50 %' --time-limit '60 s'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto files = directory / "out/accuracy";
-  const auto rungs = first_column(files / "chamber.csv");
-  ASSERT_EQ(rungs.front(), "shell") << "cheapest first" << outcome.out;
-  ASSERT_NE(std::find(rungs.begin(), rungs.end(), "even mesh"), rungs.end()) << outcome.out;
-  const Study study(files / "accuracy.h5", rungs.size(), "chamber");
+  const auto models = first_column(files / "chamber.csv");
+  ASSERT_EQ(models.front(), "shell") << "cheapest first" << outcome.out;
+  ASSERT_NE(std::find(models.begin(), models.end(), "even mesh"), models.end()) << outcome.out;
+  const Study study(files / "accuracy.h5", models.size(), "chamber");
   const auto estimated = study.column("error_estimated"), truth = study.column("error_true"),
              seconds = study.column("seconds"), value = study.column("value");
   EXPECT_LE(truth[0], estimated[0]) << outcome.out;
@@ -146,7 +146,7 @@ TEST(Accuracy, AThinShellBoundsAChambersHotSpot) {
   EXPECT_LT(seconds[0], 2);
 }
 
-TEST(Accuracy, WrongWishesAreRefused) {
+TEST(Accuracy, WrongRequestesAreRefused) {
   const results_test::Directory directory;
   write(directory / "small.toml", stepped_shaft());
   for (const auto& [arguments, word] :

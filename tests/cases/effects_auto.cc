@@ -45,7 +45,7 @@ std::set<std::string> dropped(const nlohmann::json& json) {
   return result;
 }
 
-/// The stress that the tolerance refers to, with its ledger.
+/// The stress that the tolerance refers to, with its budget.
 nlohmann::json governing(const nlohmann::json& json, const std::string& body) {
   const auto& solved = json["bodies"][body];
   if (!solved.contains("hot_spots")) return solved["peak_von_mises"];

@@ -94,7 +94,7 @@ TEST(NaturalFrequencies, CostNothingUnlessAskedFor) {
     for (auto* json : {&stripped, &without}) json->erase("timing");
     stripped["bodies"]["shaft"].erase("natural_frequencies");
     stripped["bodies"]["shaft"].erase("dynamic_amplification");
-    auto& error = stripped["bodies"]["shaft"]["peak_von_mises"]["error"];  // the ledger has an entry of it
+    auto& error = stripped["bodies"]["shaft"]["peak_von_mises"]["error"];  // the budget has an entry of it
     error["total"] = error["numerical"].get<double>() + error.value("load_patches", 0.0);
     error["methods"].erase("quasi_static");
     EXPECT_EQ(error.erase("quasi_static"), 1u);

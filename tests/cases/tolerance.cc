@@ -83,19 +83,19 @@ TEST(Tolerance, AMeshThatDoesNotFitEndsTheSearchWithWhatItHas) {
 
 // `check` knows the meshes of a run and of a search to the last unknown, the solver's memory to a factor of
 // two, and multiplies seconds by what earlier runs have taught.
-TEST(Tolerance, CheckForecastsTheRungs) {
+TEST(Tolerance, CheckForecastsTheModels) {
   const results_test::Directory directory;
   write(directory / "small.toml", solid_shaft());
-  struct Rung {
+  struct Model {
     double unknowns = 0, solve_s = 0, superpose_s = 0, gigabytes = 0;
   };
-  const auto forecast = [&](const std::string& rung) {
+  const auto forecast = [&](const std::string& model) {
     const auto check = millstress(directory.path, "check small.toml");
     EXPECT_EQ(check.exit_code, 0) << check.err;
-    const auto at = check.out.find(rung);
-    EXPECT_NE(at, std::string::npos) << rung << check.out;
-    std::istringstream numbers(check.out.substr(at == std::string::npos ? 0 : at + rung.size()));
-    Rung result;
+    const auto at = check.out.find(model);
+    EXPECT_NE(at, std::string::npos) << model << check.out;
+    std::istringstream numbers(check.out.substr(at == std::string::npos ? 0 : at + model.size()));
+    Model result;
     numbers >> result.unknowns >> result.solve_s >> result.superpose_s >> result.gigabytes;
     return result;
   };
@@ -151,7 +151,7 @@ TEST(Tolerance, NoneSolvesOnceOnTheScenesMesh) {
             summary(directory / "command")["bodies"]["shaft"]["peak_von_mises"]);
 }
 
-TEST(Tolerance, WrongWishesAreRefused) {
+TEST(Tolerance, WrongRequestesAreRefused) {
   const results_test::Directory directory;
   write(directory / "small.toml", solid_shaft());
   write(directory / "wrong.toml", solid_shaft("tolerance = \"2 mm\""));

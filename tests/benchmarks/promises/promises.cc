@@ -57,8 +57,8 @@ Outcome search(const Scene& scene, const promises::Reference& reference, double 
   run_options.fresh = true;
   run_options.keep = false;
   run_options.second_model = options.second_model;
-  run_options.wish.tolerance = tolerance;
-  run_options.wish.time_limit_s = options.time_limit_s;
+  run_options.accuracy.tolerance = tolerance;
+  run_options.accuracy.time_limit_s = options.time_limit_s;
   const auto start = std::chrono::steady_clock::now();
   const auto run = run_scene(scene, run_options, clock);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

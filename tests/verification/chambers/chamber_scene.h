@@ -22,6 +22,6 @@ meshes::Chamber small_random_chamber(std::mt19937& random);
 meshes::Chamber small_chamber();
 
 pipelines::SceneRun run(const pipelines::Scene& scene, const std::filesystem::path& directory,
-                        const pipelines::RequestedAccuracy& wish = {});
+                        const pipelines::RequestedAccuracy& accuracy = {});
 
 }  // namespace chambers

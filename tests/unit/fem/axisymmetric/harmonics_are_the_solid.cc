@@ -62,7 +62,7 @@ Peak peak_on(const fem::UnitResponses& r, const fem_tests::LoadCase& sum, const 
 }
 
 /// The small eccentric shaft as a solid and as harmonics.
-struct Rungs {
+struct Models {
   meshes::Shaft shaft = fem_tests::small_eccentric_shaft();
   meshes::ShaftMeshControl control;
   fem_tests::ShaftBody solid_body;
@@ -70,7 +70,7 @@ struct Rungs {
   std::vector<int> fillets;
   double model_error = 0;
 
-  explicit Rungs(double eccentricity_m, double angle_rad) {
+  explicit Models(double eccentricity_m, double angle_rad) {
     shaft.segments[1].eccentricity_m = eccentricity_m;
     shaft.segments[1].eccentricity_angle_rad = angle_rad;
     control.cells_per_fillet_quarter = 4;
@@ -106,19 +106,19 @@ struct Rungs {
 constexpr double own = 0.01;
 
 TEST(HarmonicsAndSolid, agree_on_an_eccentric_shaft_within_the_stated_error) {
-  const Rungs rungs(0.002, 0.7);
-  EXPECT_GT(rungs.model_error, 0.01);
-  const int seat = rungs.solid_body.features.at("seat");
-  rungs.compare("n = 2", {{"seat.c2", 1}}, {seat}, own);
+  const Models models(0.002, 0.7);
+  EXPECT_GT(models.model_error, 0.01);
+  const int seat = models.solid_body.features.at("seat");
+  models.compare("n = 2", {{"seat.c2", 1}}, {seat}, own);
   for (const auto* c : {".fx", ".fy"})
-    rungs.compare(c,
-                  {{std::string("seat") + c, 1},
-                   {std::string("bearing_1") + c, -0.5},
-                   {std::string("bearing_2") + c, -0.5}},
-                  rungs.fillets, own);
-  rungs.compare("torsion", {{"seat.torque", 1}, {"bearing_1.torque", -1}}, rungs.fillets, own);
+    models.compare(c,
+                   {{std::string("seat") + c, 1},
+                    {std::string("bearing_1") + c, -0.5},
+                    {std::string("bearing_2") + c, -0.5}},
+                   models.fillets, own);
+  models.compare("torsion", {{"seat.torque", 1}, {"bearing_1.torque", -1}}, models.fillets, own);
   // The seat's own centrifugal field is off by its eccentricity over its radius.
-  rungs.compare("spin", {{"spin", 1}}, rungs.fillets, own + 0.08);
+  models.compare("spin", {{"spin", 1}}, models.fillets, own + 0.08);
 }
 
 // Resultants about the origin, with the levers of an eccentric seat and of its mass.

@@ -1,4 +1,4 @@
-// The beam rung against closed forms: what statics and Timoshenko's beam say by hand.
+// The beam model against closed forms: what statics and Timoshenko's beam say by hand.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -127,7 +127,7 @@ TEST(FactorSize, tells_seconds_and_bytes) {
   EXPECT_DOUBLE_EQ(larger.flops, 4 * compact.flops);
 }
 
-// Cells of middling stretch take more iterations than is known: the factor has to be twice as dear.
+// Cells of middling stretch take more iterations than is known: the factor has to be twice as expensive.
 TEST(FactorSize, decides_where_cells_are_of_middling_stretch) {
   auto report = fem::choose_solver(few_stretched(18), fem_tests::steel, 12, {}, 1e13);
   EXPECT_EQ(report.used, fem::Solver::direct);
@@ -136,10 +136,10 @@ TEST(FactorSize, decides_where_cells_are_of_middling_stretch) {
   fem::FactorSize factor{600'000, 1e8, 0, 1e9};
   const auto with_seconds = [&](double seconds) {
     const double rest_s = fem::predict_direct(factor, 12).seconds;
-    auto dear = factor;
-    dear.flops = (seconds - rest_s) / 3.5e-11;
-    EXPECT_NEAR(fem::predict_direct(dear, 12).seconds, seconds, 1e-9 * seconds);
-    return fem::is_too_dear(dear, report, 12);
+    auto expensive = factor;
+    expensive.flops = (seconds - rest_s) / 3.5e-11;
+    EXPECT_NEAR(fem::predict_direct(expensive, 12).seconds, seconds, 1e-9 * seconds);
+    return fem::is_too_expensive(expensive, report, 12);
   };
   EXPECT_TRUE(with_seconds(2.1 * iterative_s + 1));
   EXPECT_FALSE(with_seconds(1.9 * iterative_s + 1));

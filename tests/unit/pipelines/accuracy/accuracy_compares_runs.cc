@@ -7,9 +7,9 @@ using namespace pipelines;
 
 namespace {
 
-AccuracyRow row(const std::string& rung, double seconds, double value_MPa, double estimate_MPa) {
+AccuracyRow row(const std::string& model, double seconds, double value_MPa, double estimate_MPa) {
   AccuracyRow result;
-  result.rung = rung;
+  result.model = model;
   result.seconds = seconds;
   result.value_Pa = 1e6 * value_MPa;
   result.errors.set_numerical({"discretisation", "", 1e6 * estimate_MPa});
@@ -32,10 +32,10 @@ TEST(CompareRuns, CheapestFirstFrontierAndChoice) {
   compare_runs(study, 100e6);
   ASSERT_EQ(study.rows.size(), 4u);
   const char* order[] = {"beam", "coarse", "slow", "solid"};
-  const bool frontier[] = {true, true, false, true};  // "slow" is dearer than "coarse" and worse
+  const bool frontier[] = {true, true, false, true};  // "slow" is more expensive than "coarse" and worse
   const double truth[] = {10, 2, 4, 0.5};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(study.rows[i].rung, order[i]);
+    EXPECT_EQ(study.rows[i].model, order[i]);
     EXPECT_EQ(study.rows[i].on_frontier, frontier[i]) << order[i];
     EXPECT_NEAR(study.rows[i].true_error_Pa, 1e6 * truth[i], 1e-6);
     EXPECT_FALSE(study.rows[i].is_reference);
@@ -71,7 +71,7 @@ TEST(CompareRuns, NothingWithinTheToleranceIsSaid) {
 }
 
 // A run stops at the first step whose own estimate is within the tolerance, however close it is by luck;
-// other rungs are no steps of it.
+// other models are no steps of it.
 TEST(AccuracyReport, TellsWhereTolerancesEnd) {
   AccuracyStudy study;
   study.rows = {row("refined mesh", 3, 99, 6), row("refined mesh", 7, 103, 4), row("even mesh", 1, 100, 0.1),
@@ -90,7 +90,7 @@ TEST(AccuracyReport, WarnsWhereRunsDisagree) {
   study.rows = {row("refined mesh", 3, 79, 5), row("even mesh", 7, 104, 4),
                 row("axisymmetric", 20, 106, 0.1)};
   compare_runs(study, 0);
-  EXPECT_EQ(study.rows[*study.chosen].rung, "even mesh") << "the cheapest one is contradicted";
+  EXPECT_EQ(study.rows[*study.chosen].model, "even mesh") << "the cheapest one is contradicted";
   const auto text = disagreements(study);
   EXPECT_NE(text.find("disagree with the reference, 106.00 +- 0.10 MPa"), std::string::npos) << text;
   EXPECT_NE(text.find("refined mesh (, 0 unknowns): 79.00 +- 5.00 MPa"), std::string::npos) << text;

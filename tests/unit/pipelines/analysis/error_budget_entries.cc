@@ -47,34 +47,34 @@ Eigen::Index largest(const Eigen::ArrayXXd& values) {
 
 // A cosine between its samples: 1 - cos(d) is missing, d the angle from the next sample to the crest. The
 // parabola through three samples finds all but the fourth order, (d^2 + h^2)^2 / 24 with h = 15 degrees.
-TEST(ErrorLedger, TimeSamplingFindsTheCrestBetweenInstants) {
+TEST(ErrorBudget, TimeSamplingFindsTheCrestBetweenInstants) {
   constexpr int n = 24;
   for (const double shift : {0.0, 0.05, 0.1, 0.13}) {
     Eigen::ArrayXXd values(1, n);
     for (int i = 0; i < n; ++i) values(0, i) = 2 + std::cos(2 * M_PI * i / n - shift);
-    const auto ledger = self_estimate({{{0, 1.0}}, std::int32_t(largest(values))},
+    const auto budget = self_estimate({{{0, 1.0}}, std::int32_t(largest(values))},
                                       at_one_node({{1, 0, 0, 0, 0, 0}}), loads_of(values), {}, 0);
-    EXPECT_NEAR(ledger.of("time_sampling"), 1 - std::cos(shift), 3e-4) << shift;
+    EXPECT_NEAR(budget.of("time_sampling"), 1 - std::cos(shift), 3e-4) << shift;
   }
 }
 
 // The cycle closes: a crest just before the first instant is seen from there.
-TEST(ErrorLedger, TimeSamplingTakesTheCycleAsPeriodic) {
+TEST(ErrorBudget, TimeSamplingTakesTheCycleAsPeriodic) {
   Eigen::ArrayXXd values(1, 24);
   for (int i = 0; i < 24; ++i) values(0, i) = 2 + std::cos(2 * M_PI * i / 24 + 0.1);
-  const auto ledger =
+  const auto budget =
       self_estimate({{{0, 1.0}}, 0}, at_one_node({{1, 0, 0, 0, 0, 0}}), loads_of(values), {}, 0);
-  EXPECT_NEAR(ledger.of("time_sampling"), 1 - std::cos(0.1), 3e-4);
+  EXPECT_NEAR(budget.of("time_sampling"), 1 - std::cos(0.1), 3e-4);
 }
 
 // Uniaxial stresses of harmonics 1, 2 and 4 add up; the highest one brings 0.3 of 1.8.
-TEST(ErrorLedger, PressureHarmonicsAreWhatTheHighestBrings) {
+TEST(ErrorBudget, PressureHarmonicsAreWhatTheHighestBrings) {
   const std::array<double, 6> unit{1, 0, 0, 0, 0, 0};
   Eigen::ArrayXXd values(3, 3);
   values << 1, 1, 1, 0.5, 0.5, 0.5, 0.3, 0.3, 0.3;
   const auto loads = loads_of(values, {pressure(1), pressure(2), pressure(4)});
-  const auto ledger = self_estimate({{{0, 1.0}}, 1}, at_one_node({unit, unit, unit}), loads, {}, 0);
-  EXPECT_NEAR(ledger.of("pressure_harmonics"), 0.3, 1e-14);
+  const auto budget = self_estimate({{{0, 1.0}}, 1}, at_one_node({unit, unit, unit}), loads, {}, 0);
+  EXPECT_NEAR(budget.of("pressure_harmonics"), 0.3, 1e-14);
   // The first harmonic carries the force: it is no correction of the pattern.
   const auto first =
       self_estimate({{{0, 1.0}}, 1}, at_one_node({unit}), loads_of(values.topRows(1), {pressure(1)}), {}, 0);
@@ -83,24 +83,24 @@ TEST(ErrorLedger, PressureHarmonicsAreWhatTheHighestBrings) {
 
 // Three radii's worth of relative error: sigma = M r / I ~ r^-3. Without curved faces around it is the
 // body's worst.
-TEST(ErrorLedger, GeometryGoesWithTheThirdPowerOfTheRadius) {
+TEST(ErrorBudget, GeometryGoesWithTheThirdPowerOfTheRadius) {
   const Eigen::ArrayXXd values = Eigen::ArrayXXd::Constant(1, 3, 5.0);
   const auto responses = at_one_node({{1, 0, 0, 0, 0, 0}});
   const StressPoint point{{{0, 1.0}}, 0};
   fem::GeometryError error;
   error.relative = 1e-3;
-  const auto ledger =
+  const auto budget =
       self_estimate(point, responses, loads_of(values), {}, geometry_share(error, responses.nodes, point));
   const double r = 1, off = 1 + 1e-3;
-  EXPECT_NEAR(ledger.of("geometry"), 5 * (1 - std::pow(r / off, 3)), 0.01 * ledger.of("geometry"));
-  EXPECT_EQ(ledger.largest(), "geometry");
-  EXPECT_EQ(ledger.of("discretisation"), 0);  // no cells, no such estimate
+  EXPECT_NEAR(budget.of("geometry"), 5 * (1 - std::pow(r / off, 3)), 0.01 * budget.of("geometry"));
+  EXPECT_EQ(budget.largest(), "geometry");
+  EXPECT_EQ(budget.of("discretisation"), 0);  // no cells, no such estimate
 }
 
 // A coarse fillet far away does not make the peak at another one worse: only surfaces that meet at the point
 // count. A notch's stress goes with the square root of its radius, bending with the third power of the
 // shaft's.
-TEST(ErrorLedger, GeometryIsThatOfTheSurfacesAround) {
+TEST(ErrorBudget, GeometryIsThatOfTheSurfacesAround) {
   fem::Nodes nodes;
   nodes.n = 25;
   for (int face = 0; face < 2; ++face)
@@ -119,7 +119,7 @@ TEST(ErrorLedger, GeometryIsThatOfTheSurfacesAround) {
 }
 
 // Weights of an extrapolation act on the tensors, before von Mises.
-TEST(ErrorLedger, ExtrapolatedStressIsTheWeightedSumOfTensors) {
+TEST(ErrorBudget, ExtrapolatedStressIsTheWeightedSumOfTensors) {
   auto responses = at_one_node({{3, 1, 0, 2, 0, 0}});
   responses.nodes.n = 2;
   responses.stress_Pa.insert(responses.stress_Pa.end(), {1, -2, 4, 0, 1, 0});
@@ -135,45 +135,45 @@ TEST(LearnFromChange, IsExactForItsOrder) {
   for (const double order : {1.0, 2.0})
     for (const double ratio : {4.0 / 3, 2.0, 3.0}) {
       const auto stress = [&](double h) { return 100 * (1 - 0.2 * std::pow(h, order)); };
-      ErrorLedger ledger;
-      ledger.set_numerical({"discretisation", "", 1.0});
-      learn_from_change(ledger, stress(1 / ratio) - stress(1), ratio, 3, order);
-      EXPECT_NEAR(ledger.of("discretisation"), 100 - stress(1 / ratio), 1e-12) << ratio << ' ' << order;
-      EXPECT_EQ(ledger.numerical.size(), 1u);
+      ErrorBudget budget;
+      budget.set_numerical({"discretisation", "", 1.0});
+      learn_from_change(budget, stress(1 / ratio) - stress(1), ratio, 3, order);
+      EXPECT_NEAR(budget.of("discretisation"), 100 - stress(1 / ratio), 1e-12) << ratio << ' ' << order;
+      EXPECT_EQ(budget.numerical.size(), 1u);
     }
 }
 
 // Two meshes may agree by chance: the cells' own disagreement stays as a floor. Without a ratio nothing is
 // learnt.
 TEST(LearnFromChange, KeepsAFloorOfTheMeshesOwnEstimate) {
-  ErrorLedger ledger;
-  ledger.set_numerical({"discretisation", "", 6.0});
-  ErrorLedger same = ledger;
+  ErrorBudget budget;
+  budget.set_numerical({"discretisation", "", 6.0});
+  ErrorBudget same = budget;
   learn_from_change(same, 3.0, 1.0);
   EXPECT_EQ(same.of("discretisation"), 6);
   for (const auto& [n_meshes, share] :
        {std::pair(2, 1.0), std::pair(3, 0.5), std::pair(4, 0.5), std::pair(9, 0.5)}) {
-    ErrorLedger learnt = ledger;
+    ErrorBudget learnt = budget;
     learn_from_change(learnt, 0.0, 2.0, n_meshes);
     EXPECT_NEAR(learnt.of("discretisation"), share * 6 / discretisation_safety, 1e-14) << n_meshes;
   }
 }
 
-TEST(ErrorLedger, AddsUpWithoutSigns) {
-  ErrorLedger ledger;
-  ledger.set_numerical({"a", "", 1});
-  ledger.set_numerical({"b", "", 3});
-  ledger.set_numerical({"a", "", 2});
-  ledger.model.push_back({"beam", "", 10});
-  EXPECT_EQ(ledger.numerical_Pa(), 5);
-  EXPECT_EQ(ledger.total_Pa(), 15);
-  EXPECT_EQ(ledger.largest(), "b");
-  EXPECT_EQ(ledger.of("beam"), 10);
+TEST(ErrorBudget, AddsUpWithoutSigns) {
+  ErrorBudget budget;
+  budget.set_numerical({"a", "", 1});
+  budget.set_numerical({"b", "", 3});
+  budget.set_numerical({"a", "", 2});
+  budget.model.push_back({"beam", "", 10});
+  EXPECT_EQ(budget.numerical_Pa(), 5);
+  EXPECT_EQ(budget.total_Pa(), 15);
+  EXPECT_EQ(budget.largest(), "b");
+  EXPECT_EQ(budget.of("beam"), 10);
 }
 
 // Stress at a node is compared with that of the cells around it, over the nodes of the faces that hold it;
 // one of them beside a sharp edge, whose stress has no converged value, tells nothing of the others.
-TEST(ErrorLedger, NodesThatAreLeftOutTellNothing) {
+TEST(ErrorBudget, NodesThatAreLeftOutTellNothing) {
   fem::UnitResponses responses;
   responses.nodes = results_test::mapped_cube(1, 1, 1, [](results_test::Point p) { return p; });
   const std::size_t n = responses.nodes.n, corner = 0, beside = 1;

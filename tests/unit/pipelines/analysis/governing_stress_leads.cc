@@ -74,7 +74,7 @@ TEST(GoverningStress, ZonesHaveTheirOwnErrorsAndTheFirstThatOfThePeak) {
 
 // What a tolerance is compared with is the figure that stands first; what no mesh lowers has its own name.
 TEST(ErrorText, SetsApartWhatNoMeshLowers) {
-  ErrorLedger errors;
+  ErrorBudget errors;
   errors.set_numerical({"discretisation", "", 1.1e6});
   errors.set_numerical({"pressure_harmonics", "", 0.2e6});
   EXPECT_EQ(value_with_errors(105.2e6, errors), "105.2 MPa +- 1.3 (numerical)");

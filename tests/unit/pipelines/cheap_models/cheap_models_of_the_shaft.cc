@@ -1,4 +1,4 @@
-// The cheap rungs of the shipped shaft: its mesh's features found on their nodes, statics in their stress.
+// The cheap models of the shipped shaft: its mesh's features found on their nodes, statics in their stress.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,9 +96,9 @@ TEST_F(ShippedShaft, as_a_beam_peaks_at_the_fillet_of_the_eccentric_seat) {
 }
 
 TEST_F(ShippedShaft, as_harmonics_stands_on_the_surface_of_the_mesh) {
-  const auto rung = pipelines::axisymmetric_responses(body, mesh, loads);
-  ASSERT_TRUE(rung);
-  const auto& nodes = rung->responses.nodes;
+  const auto model = pipelines::axisymmetric_responses(body, mesh, loads);
+  ASSERT_TRUE(model);
+  const auto& nodes = model->responses.nodes;
   const auto places = pipelines::locate_nodes(nodes, mesh.features, mesh.ports, mesh.sharp_edges);
   std::vector<char> met(mesh.features.size(), 0);
   for (std::size_t i = 0; i < nodes.n; ++i) {
@@ -112,10 +112,10 @@ TEST_F(ShippedShaft, as_harmonics_stands_on_the_surface_of_the_mesh) {
 }
 
 // The beam's peak may miss that of the harmonics by what it states, and by what the harmonics state.
-TEST_F(ShippedShaft, peaks_alike_on_both_rungs) {
+TEST_F(ShippedShaft, peaks_alike_on_both_models) {
   const auto beam = pipelines::beam_responses(body, mesh, loads);
-  const auto rung = pipelines::axisymmetric_responses(body, mesh, loads);
-  ASSERT_TRUE(beam && rung);
+  const auto model = pipelines::axisymmetric_responses(body, mesh, loads);
+  ASSERT_TRUE(beam && model);
   const auto peak_of = [&](const fem::UnitResponses& r) {
     const auto places = pipelines::locate_nodes(r.nodes, mesh.features, mesh.ports, mesh.sharp_edges);
     const auto value = von_mises(r);
@@ -123,12 +123,12 @@ TEST_F(ShippedShaft, peaks_alike_on_both_rungs) {
     EXPECT_EQ(places.feature_names[std::size_t(places.feature[node])].substr(0, 6), "fillet");
     return value[node];
   };
-  const double a = peak_of(*beam), b = peak_of(rung->responses);
+  const double a = peak_of(*beam), b = peak_of(model->responses);
   std::printf("beam %.0f Pa, harmonics %.0f Pa: %+.2f %%; stated %.1f %% and %.1f %%\n", a, b,
               100 * (a / b - 1), 100 * fem::beam_model_error(*pipelines::beam_shaft(body, mesh)),
-              100 * rung->model_error);
-  EXPECT_NEAR(a, b, (fem::beam_model_error(*pipelines::beam_shaft(body, mesh)) + rung->model_error) * b);
-  EXPECT_GT(rung->model_error, 0);
+              100 * model->model_error);
+  EXPECT_NEAR(a, b, (fem::beam_model_error(*pipelines::beam_shaft(body, mesh)) + model->model_error) * b);
+  EXPECT_GT(model->model_error, 0);
 }
 
 TEST_F(ShippedShaft, has_no_cheap_rung_with_a_keyway) {

@@ -94,9 +94,9 @@ TEST(Failures, TheForecastSaysWhyAMeshIsLeftOut) {
   std::get<ShaftShape>(body.shape).mesh.min_scaled_jacobian = 0.95;
   const auto rows = forecast_ladder(body, meshed, {10, 100}, {});
   std::filesystem::remove(directory / "failures_forecast.msh");
-  ASSERT_EQ(rows.back().rung, "first of a search");
+  ASSERT_EQ(rows.back().model, "first of a search");
   EXPECT_NE(rows.back().left_out.find("scaled Jacobian"), std::string::npos) << rows.back().left_out;
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i) EXPECT_EQ(rows[i].left_out, "") << rows[i].rung;
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) EXPECT_EQ(rows[i].left_out, "") << rows[i].model;
 }
 
 // So does the table of `accuracy`.

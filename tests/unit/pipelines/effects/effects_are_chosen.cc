@@ -73,10 +73,10 @@ Eigen::Array2Xd along_x(double force_N) {
 /// Forces along x on both seats, at the second of two instants.
 BodyLoads forces(double left_N, double right_N) {
   const auto body = bar();
-  LoadBook book(body, {"a"}, 2, 1);
-  book.force("left", "a", along_x(left_N));
-  book.force("right", "a", along_x(right_N));
-  return book.finish();
+  LoadCollector collector(body, {"a"}, 2, 1);
+  collector.force("left", "a", along_x(left_N));
+  collector.force("right", "a", along_x(right_N));
+  return collector.finish();
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipelines/loads/closure.h"
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 
 namespace bodies {
 

@@ -125,23 +125,23 @@ TEST(PortSurface, of_the_drum_has_the_areas_of_its_trunnions_and_its_wall) {
                 {"end_2", ring(0.07, 0.04)}});
 }
 
-// Over random wishes: in their rows, side by side, in the order of their anchors; leaders of one row do not
+// Over random requests: in their rows, side by side, in the order of their anchors; leaders of one row do not
 // cross.
 TEST(LabelRows, of_random_labels_do_not_overlap) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> anywhere(0, 1000), wide(40, 130);
   for (int n = 0; n < 50; ++n) {
-    std::vector<LabelWish> wishes(std::size_t(n % 11));
-    for (auto& wish : wishes) wish = {anywhere(random), 200 + 0.1 * anywhere(random), wide(random)};
+    std::vector<LabelRequest> requests(std::size_t(n % 11));
+    for (auto& request : requests) request = {anywhere(random), 200 + 0.1 * anywhere(random), wide(random)};
     const LabelRows rows{0, 1000, 30, 470, 10};
-    const auto places = place_labels(wishes, rows);
-    ASSERT_EQ(places.size(), wishes.size());
-    for (std::size_t i = 0; i < wishes.size(); ++i) {
+    const auto places = place_labels(requests, rows);
+    ASSERT_EQ(places.size(), requests.size());
+    for (std::size_t i = 0; i < requests.size(); ++i) {
       EXPECT_GE(places[i].left, -1e-9);
-      EXPECT_LE(places[i].left + wishes[i].width, 1000 + 1e-9);
-      for (std::size_t j = 0; j < wishes.size(); ++j)
-        if (i != j && places[i].above == places[j].above && wishes[i].anchor_x < wishes[j].anchor_x) {
-          EXPECT_LE(places[i].left + wishes[i].width + 10, places[j].left + 1e-9);
+      EXPECT_LE(places[i].left + requests[i].width, 1000 + 1e-9);
+      for (std::size_t j = 0; j < requests.size(); ++j)
+        if (i != j && places[i].above == places[j].above && requests[i].anchor_x < requests[j].anchor_x) {
+          EXPECT_LE(places[i].left + requests[i].width + 10, places[j].left + 1e-9);
         }
     }
   }

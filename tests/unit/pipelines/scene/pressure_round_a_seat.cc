@@ -11,7 +11,7 @@ namespace {
 using Eigen::Array2Xd;
 using Eigen::ArrayXd;
 using pipelines::BodyLoads;
-using pipelines::LoadBook;
+using pipelines::LoadCollector;
 using pipelines::LoadedBody;
 
 constexpr double degree_rad = M_PI / 180;
@@ -50,12 +50,12 @@ ArrayXd sizes() {
 BodyLoads loads_at(const LoadedBody& loaded, const std::string& port) {
   const auto whole = pointing(directions(), sizes());
   const auto across = pointing(directions() + 1.2, 3 * sizes());
-  LoadBook book(loaded, {"a", "b", "c"}, n_directions, 1000);
-  book.force(port, "a", 0.25 * whole + across);
-  book.force(port, "b", 0.75 * whole);
-  book.force(port, "c", -across);
-  book.pressure(port);
-  return book.finish();
+  LoadCollector collector(loaded, {"a", "b", "c"}, n_directions, 1000);
+  collector.force(port, "a", 0.25 * whole + across);
+  collector.force(port, "b", 0.75 * whole);
+  collector.force(port, "c", -across);
+  collector.pressure(port);
+  return collector.finish();
 }
 
 /// Pressure in units of |F| / (pi R b) from the channels: n = 1 pushes the way of the force's sign.
@@ -162,10 +162,10 @@ TEST(PressureShares, NoForceNoPressure) {
   const auto loaded = body(90 * degree_rad, 4);
   Array2Xd f = pointing(directions(), sizes());
   f.col(3).setZero();
-  LoadBook book(loaded, {"a"}, n_directions, 1000);
-  book.force("outside", "a", f);
-  book.pressure("outside");
-  const auto loads = book.finish();
+  LoadCollector collector(loaded, {"a"}, n_directions, 1000);
+  collector.force("outside", "a", f);
+  collector.pressure("outside");
+  const auto loads = collector.finish();
   EXPECT_TRUE(loads.history.values.isFinite().all());
   EXPECT_EQ(bodies::largest(loads.history.values.col(3)), 0);
 }

@@ -1,4 +1,4 @@
-#include "pipelines/loads/load_book.h"
+#include "pipelines/loads/load_collector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,8 +51,8 @@ const RegionMass& LoadedBody::region(const std::string& region_name) const {
   throw std::out_of_range("the " + name + " has no region \"" + region_name + "\"");
 }
 
-LoadBook::LoadBook(const LoadedBody& body, std::vector<std::string> effects, Index n_instants,
-                   double force_scale_N)
+LoadCollector::LoadCollector(const LoadedBody& body, std::vector<std::string> effects, Index n_instants,
+                             double force_scale_N)
     : body_(body),
       effects_(std::move(effects)),
       n_instants_(n_instants),
@@ -64,7 +64,7 @@ LoadBook::LoadBook(const LoadedBody& body, std::vector<std::string> effects, Ind
   }
 }
 
-const meshes::Port& LoadBook::find(const std::string& name) const {
+const meshes::Port& LoadCollector::find(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& port : body_.ports) {
     if (port.name == name) return port;
@@ -74,7 +74,7 @@ const meshes::Port& LoadBook::find(const std::string& name) const {
                      ": load enters there; it has " + listed(names));
 }
 
-fem::LoadSurface LoadBook::surface_of(const meshes::Port& port) const {
+fem::LoadSurface LoadCollector::surface_of(const meshes::Port& port) const {
   fem::LoadSurface surface;
   surface.boundary_id = port.boundary_id;
   const Eigen::Vector3d centre = centre_of(port);
@@ -91,15 +91,15 @@ fem::LoadSurface LoadBook::surface_of(const meshes::Port& port) const {
   return surface;
 }
 
-std::size_t LoadBook::index_of(const std::string& effect) {
+std::size_t LoadCollector::index_of(const std::string& effect) {
   const auto found = std::find(effects_.begin(), effects_.end(), effect);
   if (found != effects_.end()) return std::size_t(found - effects_.begin());
   effects_.push_back(effect);
   return effects_.size() - 1;
 }
 
-void LoadBook::add(const fem::UnitLoad& load, const std::string& unit, const std::string& effect,
-                   const ArrayXd& values, double scale) {
+void LoadCollector::add(const fem::UnitLoad& load, const std::string& unit, const std::string& effect,
+                        const ArrayXd& values, double scale) {
   if (values.size() == 0 || largest(values) <= negligible * scale) return;
   const auto [position, is_new] = index_.try_emplace(load.channel, channels_.size());
   if (is_new) channels_.push_back({load, unit, {}});
@@ -107,8 +107,8 @@ void LoadBook::add(const fem::UnitLoad& load, const std::string& unit, const std
   if (!is_first) part->second += values;
 }
 
-void LoadBook::count(const std::string& place, const std::string& effect, const Eigen::Vector3d& p,
-                     const Wrench& load) {
+void LoadCollector::count(const std::string& place, const std::string& effect, const Eigen::Vector3d& p,
+                          const Wrench& load) {
   Wrench about_origin = load;
   about_origin.row(3) += p[1] * load.row(2) - p[2] * load.row(1);
   about_origin.row(4) += p[2] * load.row(0) - p[0] * load.row(2);
@@ -121,8 +121,8 @@ void LoadBook::count(const std::string& place, const std::string& effect, const 
   if (!is_first) sum->second += about_origin;
 }
 
-void LoadBook::enter(const meshes::Port& port, const char* component, Component which,
-                     const std::string& effect, const ArrayXd& values) {
+void LoadCollector::enter(const meshes::Port& port, const char* component, Component which,
+                          const std::string& effect, const ArrayXd& values) {
   const bool is_force = which <= Component::fz;
   add({port.name + "." + component, fem::SurfaceResultant{surface_of(port), which}}, is_force ? "N" : "N m",
       effect, values, is_force ? force_scale_N_ : force_scale_N_ * length_scale_m_);
@@ -131,7 +131,7 @@ void LoadBook::enter(const meshes::Port& port, const char* component, Component 
   count(port.name, effect, centre_of(port), load);
 }
 
-void LoadBook::force(const std::string& name, const std::string& effect, const Array2Xd& force_N) {
+void LoadCollector::force(const std::string& name, const std::string& effect, const Array2Xd& force_N) {
   const auto& port = find(name);
   enter(port, "fx", Component::fx, effect, force_N.row(0).transpose());
   enter(port, "fy", Component::fy, effect, force_N.row(1).transpose());
@@ -139,21 +139,21 @@ void LoadBook::force(const std::string& name, const std::string& effect, const A
   if (!is_first) known->second += force_N;
 }
 
-void LoadBook::axial_force(const std::string& port, const std::string& effect, const ArrayXd& force_N) {
+void LoadCollector::axial_force(const std::string& port, const std::string& effect, const ArrayXd& force_N) {
   enter(find(port), "fz", Component::fz, effect, force_N);
 }
 
-void LoadBook::torque(const std::string& port, const std::string& effect, const ArrayXd& moment_Nm) {
+void LoadCollector::torque(const std::string& port, const std::string& effect, const ArrayXd& moment_Nm) {
   enter(find(port), "torque", Component::torque, effect, moment_Nm);
 }
 
-void LoadBook::tilt(const std::string& name, const std::string& effect, const Array2Xd& moment_Nm) {
+void LoadCollector::tilt(const std::string& name, const std::string& effect, const Array2Xd& moment_Nm) {
   const auto& port = find(name);
   enter(port, "mx", Component::mx, effect, moment_Nm.row(0).transpose());
   enter(port, "my", Component::my, effect, moment_Nm.row(1).transpose());
 }
 
-void LoadBook::pressure(const std::string& name) {
+void LoadCollector::pressure(const std::string& name) {
   const auto& port = find(name);
   const auto forces = forces_.find(name);
   if (forces == forces_.end() || port.kind == meshes::Port::Kind::face) return;
@@ -188,8 +188,8 @@ void LoadBook::pressure(const std::string& name) {
   }
 }
 
-void LoadBook::accelerate(const RegionMass& region, const std::string& effect,
-                          const AccelerationField& field) {
+void LoadCollector::accelerate(const RegionMass& region, const std::string& effect,
+                               const AccelerationField& field) {
   using Field = fem::BodyForce::Field;
   const std::string prefix = region.name.empty() ? "volume." : "volume." + region.name + ".";
   const double mass = region.masses.mass_kg;
@@ -220,8 +220,8 @@ void LoadBook::accelerate(const RegionMass& region, const std::string& effect,
   count(prefix, effect, Eigen::Vector3d::Zero(), load);
 }
 
-void LoadBook::accelerate(const AttachedMass& mass, const std::string& effect,
-                          const AccelerationField& field) {
+void LoadCollector::accelerate(const AttachedMass& mass, const std::string& effect,
+                               const AccelerationField& field) {
   const auto& s = mass.first_moment_kg_m;
   Array3Xd force = Array3Xd::Zero(3, n_instants_);
   ArrayXd moment = ArrayXd::Zero(n_instants_);  // about the origin
@@ -252,24 +252,24 @@ void LoadBook::accelerate(const AttachedMass& mass, const std::string& effect,
   torque(mass.port, effect, moment - (p[0] * force.row(1) - p[1] * force.row(0)).transpose());
 }
 
-Wrench LoadBook::sum(const std::string& effect) const {
+Wrench LoadCollector::sum(const std::string& effect) const {
   const auto found = sums_.find(effect);
   return found != sums_.end() ? found->second : Wrench::Zero(6, n_instants_);
 }
 
-Wrench LoadBook::sum() const {
+Wrench LoadCollector::sum() const {
   Wrench total = Wrench::Zero(6, n_instants_);
   for (const auto& [effect, part] : sums_) total += part;
   return total;
 }
 
-double LoadBook::moment_scale_Nm() const {
+double LoadCollector::moment_scale_Nm() const {
   ArrayXd sizes = ArrayXd::Zero(n_instants_);
   for (const auto& [place, moments] : moments_Nm_) sizes += moments.abs().colwise().sum().transpose();
   return largest(sizes);
 }
 
-BodyLoads LoadBook::finish() const {
+BodyLoads LoadCollector::finish() const {
   BodyLoads result;
   const auto n_channels = Index(channels_.size());
   result.history.body = body_.name;

@@ -1,4 +1,5 @@
-/// The book's sums against points with masses, its reactions against the formulas of coupling.md section 1.
+/// The collector's sums against points with masses, its reactions against the formulas of coupling.md
+/// section 1.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -12,7 +13,7 @@ using Eigen::Array2Xd;
 using Eigen::ArrayXd;
 using Eigen::Vector3d;
 using pipelines::AccelerationField;
-using pipelines::LoadBook;
+using pipelines::LoadCollector;
 using pipelines::LoadedBody;
 using pipelines::Wrench;
 using Kind = meshes::Port::Kind;
@@ -81,9 +82,9 @@ double relative(const Wrench& a, const Wrench& b) {
   return bodies::largest(a - b) / bodies::largest(b);
 }
 
-TEST(LoadBook, AddsForcesAndMomentsAboutTheOrigin) {
+TEST(LoadCollector, AddsForcesAndMomentsAboutTheOrigin) {
   std::mt19937 random(1);
-  LoadBook book(body(), {"a", "b"}, n, 100);
+  LoadCollector collector(body(), {"a", "b"}, n, 100);
   Wrench wanted = Wrench::Zero(6, n);
   for (const char* effect : {"a", "b", "a"})
     for (const auto& port : body().ports) {
@@ -93,10 +94,10 @@ TEST(LoadBook, AddsForcesAndMomentsAboutTheOrigin) {
       Array2Xd f(2, n), tilt(2, n);
       f << fx.transpose(), fy.transpose();
       tilt << mx.transpose(), my.transpose();
-      book.force(port.name, effect, f);
-      book.axial_force(port.name, effect, fz);
-      book.torque(port.name, effect, mz);
-      book.tilt(port.name, effect, tilt);
+      collector.force(port.name, effect, f);
+      collector.axial_force(port.name, effect, fz);
+      collector.torque(port.name, effect, mz);
+      collector.tilt(port.name, effect, tilt);
       const Vector3d p(port.axis_x_m, port.axis_y_m, (port.begin_m + port.end_m) / 2);
       for (Eigen::Index i = 0; i < n; ++i) {
         const Vector3d force(fx[i], fy[i], fz[i]), moment = p.cross(force) + Vector3d(mx[i], my[i], mz[i]);
@@ -104,25 +105,25 @@ TEST(LoadBook, AddsForcesAndMomentsAboutTheOrigin) {
         wanted.col(i).tail<3>() += moment.array();
       }
     }
-  EXPECT_LT(relative(book.sum(), wanted), bodies::round_off);
-  EXPECT_LT(relative(book.sum("a") + book.sum("b"), wanted), bodies::round_off);
-  EXPECT_EQ(bodies::largest(book.sum("c")), 0);
+  EXPECT_LT(relative(collector.sum(), wanted), bodies::round_off);
+  EXPECT_LT(relative(collector.sum("a") + collector.sum("b"), wanted), bodies::round_off);
+  EXPECT_EQ(bodies::largest(collector.sum("c")), 0);
   // What leaves as channels is what was entered.
-  EXPECT_LT(relative(bodies::residual(book.finish(), body().regions), wanted), bodies::round_off);
+  EXPECT_LT(relative(bodies::residual(collector.finish(), body().regions), wanted), bodies::round_off);
 }
 
-TEST(LoadBook, AcceleratesARegionAsItsPoints) {
+TEST(LoadCollector, AcceleratesARegionAsItsPoints) {
   std::mt19937 random(2);
   const auto field = random_field(random);
-  LoadBook book(body(), {"inertia"}, n, 100);
-  book.accelerate(body().region(), "inertia", field);
+  LoadCollector collector(body(), {"inertia"}, n, 100);
+  collector.accelerate(body().region(), "inertia", field);
   const auto wanted = of_points(points, field);
-  EXPECT_LT(relative(book.sum("inertia"), wanted), bodies::round_off);
-  EXPECT_LT(relative(bodies::residual(book.finish(), body().regions), wanted), bodies::round_off);
+  EXPECT_LT(relative(collector.sum("inertia"), wanted), bodies::round_off);
+  EXPECT_LT(relative(bodies::residual(collector.finish(), body().regions), wanted), bodies::round_off);
 }
 
 // An attached mass lies in its port's middle plane; it loads the port by r x m a about the port's own point.
-TEST(LoadBook, AttachedMassLoadsItsPortAsItsPoints) {
+TEST(LoadCollector, AttachedMassLoadsItsPortAsItsPoints) {
   std::mt19937 random(3);
   for (const char* port : {"seat", "bore", "pad"}) {
     const auto field = random_field(random);
@@ -132,15 +133,15 @@ TEST(LoadBook, AttachedMassLoadsItsPortAsItsPoints) {
     auto flat = points;
     for (auto& point : flat) point.place_m[2] = (at.begin_m + at.end_m) / 2;
     const auto m = masses_of(flat);
-    LoadBook book(loaded, {"inertia"}, n, 100);
-    book.accelerate({"rings",
-                     port,
-                     m.mass_kg,
-                     {m.first_moment_kg_m[0], m.first_moment_kg_m[1]},
-                     m.second_moments_kg_m2[0] + m.second_moments_kg_m2[1]},
-                    "inertia", field);
-    EXPECT_LT(relative(book.sum("inertia"), of_points(flat, field)), bodies::round_off) << port;
-    const auto loads = book.finish();
+    LoadCollector collector(loaded, {"inertia"}, n, 100);
+    collector.accelerate({"rings",
+                          port,
+                          m.mass_kg,
+                          {m.first_moment_kg_m[0], m.first_moment_kg_m[1]},
+                          m.second_moments_kg_m2[0] + m.second_moments_kg_m2[1]},
+                         "inertia", field);
+    EXPECT_LT(relative(collector.sum("inertia"), of_points(flat, field)), bodies::round_off) << port;
+    const auto loads = collector.finish();
     for (const auto& channel : loads.history.channels)
       EXPECT_EQ(channel.name.rfind(std::string(port) + ".", 0), 0u) << channel.name;
     EXPECT_FALSE(bodies::has(loads, std::string(port) + ".p0c")) << "it clings, it does not press";
@@ -150,10 +151,10 @@ TEST(LoadBook, AttachedMassLoadsItsPortAsItsPoints) {
 // coupling.md section 1, term by term:
 //   R_Bx = -sum(F_xj (z_j - z_A) + my_j - x_j F_zj) / (z_B - z_A)        R_Ax = -sum F_xj - R_Bx
 //   R_By = -sum(F_yj (z_j - z_A) - mx_j - y_j F_zj) / (z_B - z_A)        R_Ay = -sum F_yj - R_By
-TEST(LoadBook, ReactsByAxialStatics) {
+TEST(LoadCollector, ReactsByAxialStatics) {
   std::mt19937 random(4);
   const auto loaded = body();
-  LoadBook book(loaded, {"a", "b"}, n, 100);
+  LoadCollector collector(loaded, {"a", "b"}, n, 100);
   const double z_A = -0.5, z_B = 0.7;
   for (const std::string effect : {"a", "b"}) {
     ArrayXd x_sum = ArrayXd::Zero(n), y_sum = x_sum, fx_sum = x_sum, fy_sum = x_sum;
@@ -166,15 +167,15 @@ TEST(LoadBook, ReactsByAxialStatics) {
       Array2Xd f(2, n), tilt(2, n);
       f << fx.transpose(), fy.transpose();
       tilt << mx.transpose(), my.transpose();
-      book.force(port.name, effect, f);
-      book.axial_force(port.name, effect, fz);
-      book.tilt(port.name, effect, tilt);
+      collector.force(port.name, effect, f);
+      collector.axial_force(port.name, effect, fz);
+      collector.tilt(port.name, effect, tilt);
       x_sum += fx * (z - z_A) + my - port.axis_x_m * fz;
       y_sum += fy * (z - z_A) - mx - port.axis_y_m * fz;
       fx_sum += fx;
       fy_sum += fy;
     }
-    LoadBook copy = book;  // so that each effect is looked at before the next one reacts
+    LoadCollector copy = collector;  // so that each effect is looked at before the next one reacts
     copy.react("first", "second");
     const auto loads = copy.finish();
     const ArrayXd R_Bx = -x_sum / (z_B - z_A), R_By = -y_sum / (z_B - z_A);
@@ -189,51 +190,51 @@ TEST(LoadBook, ReactsByAxialStatics) {
 }
 
 // With the axial force and the torque taken too, nothing is left in any of the six equations.
-TEST(LoadBook, SupportsCloseAllSix) {
+TEST(LoadCollector, SupportsCloseAllSix) {
   std::mt19937 random(5);
-  LoadBook book(body(), {"inertia"}, n, 100);
-  book.accelerate(body().region(), "inertia", random_field(random));
-  book.react("first", "second");
-  book.react_axial("first");
-  book.react_torque("second");
-  const auto closure = bodies::closure_of(book.finish(), body().regions);
+  LoadCollector collector(body(), {"inertia"}, n, 100);
+  collector.accelerate(body().region(), "inertia", random_field(random));
+  collector.react("first", "second");
+  collector.react_axial("first");
+  collector.react_torque("second");
+  const auto closure = bodies::closure_of(collector.finish(), body().regions);
   EXPECT_LT(closure.worst_force(), bodies::round_off);
   EXPECT_LT(closure.worst_moment(), bodies::round_off);
 }
 
 // A clamp off the axis, under axial forces too, closes by force and moments about its own point.
-TEST(LoadBook, ClampClosesAllSix) {
+TEST(LoadCollector, ClampClosesAllSix) {
   std::mt19937 random(6);
-  LoadBook book(body(), {"inertia"}, n, 100);
-  book.accelerate(body().region(), "inertia", random_field(random));
-  book.axial_force("bore", "push", random_course(random, 100));
-  book.react_force("pad");
-  book.react_tilt("pad");
-  book.react_torque("pad");
-  const auto rest = bodies::residual(book.finish(), body().regions);
+  LoadCollector collector(body(), {"inertia"}, n, 100);
+  collector.accelerate(body().region(), "inertia", random_field(random));
+  collector.axial_force("bore", "push", random_course(random, 100));
+  collector.react_force("pad");
+  collector.react_tilt("pad");
+  collector.react_torque("pad");
+  const auto rest = bodies::residual(collector.finish(), body().regions);
   const auto closed = rest.topRows<2>().abs().maxCoeff() + rest.row(5).abs().maxCoeff();
   EXPECT_LT(closed, 1e-11);
   EXPECT_GT(rest.row(2).abs().maxCoeff(), 1) << "nobody was asked to take the axial force";
-  book.react_axial("pad");
-  const auto closure = bodies::closure_of(book.finish(), body().regions);
+  collector.react_axial("pad");
+  const auto closure = bodies::closure_of(collector.finish(), body().regions);
   EXPECT_LT(closure.worst_force(), bodies::round_off);
   EXPECT_LT(closure.worst_moment(), bodies::round_off);
 }
 
 // A reaction that the load stage gives is taken as it is: whether the body closes stays a question.
-TEST(LoadBook, GivenReactionIsNotCorrected) {
-  LoadBook book(body(), {"a"}, n, 100);
-  book.force("seat", "a", Array2Xd::Constant(2, n, 100));
-  book.react("first", "second", {{"a", Array2Xd::Constant(2, n, -90)}});
-  const auto loads = book.finish();
+TEST(LoadCollector, GivenReactionIsNotCorrected) {
+  LoadCollector collector(body(), {"a"}, n, 100);
+  collector.force("seat", "a", Array2Xd::Constant(2, n, 100));
+  collector.react("first", "second", {{"a", Array2Xd::Constant(2, n, -90)}});
+  const auto loads = collector.finish();
   EXPECT_NEAR(bodies::residual(loads, body().regions)(0, 2), 10, 1e-12);
   EXPECT_GT(bodies::closure_of(loads, body().regions).worst_force(), 0.05);
 }
 
-TEST(LoadBook, RefusesWhatItCannotPlace) {
-  LoadBook book(body(), {"a"}, n, 100);
-  EXPECT_THROW(book.torque("sea", "a", ArrayXd::Ones(n)), std::invalid_argument);
-  EXPECT_THROW(book.react("first", "first"), std::invalid_argument);
+TEST(LoadCollector, RefusesWhatItCannotPlace) {
+  LoadCollector collector(body(), {"a"}, n, 100);
+  EXPECT_THROW(collector.torque("sea", "a", ArrayXd::Ones(n)), std::invalid_argument);
+  EXPECT_THROW(collector.react("first", "first"), std::invalid_argument);
   EXPECT_THROW(body().region("exciter"), std::out_of_range);
 }
 

@@ -1,4 +1,4 @@
-/// The book of all loads on one body: what enters at which port, by which effect, in the body's frame. It
+/// Collects all loads on one body: what enters at which port, by which effect, in the body's frame. It
 /// keeps the sum of forces and moments of every effect, so that statics can find the reactions, and turns
 /// what was entered into channels and unit loads.
 #pragma once
@@ -66,11 +66,11 @@ struct BodyLoads {
 /// Rows fx, fy, fz [N], mx, my, mz [N m] about the origin; a column per instant.
 using Wrench = Eigen::Array<double, 6, Eigen::Dynamic>;
 
-class LoadBook {
+class LoadCollector {
 public:
   /// @param force_scale_N  a typical force: what stays below 1e-13 of it is round-off, and no channel
-  LoadBook(const LoadedBody& body, std::vector<std::string> effects, Eigen::Index n_instants,
-           double force_scale_N);
+  LoadCollector(const LoadedBody& body, std::vector<std::string> effects, Eigen::Index n_instants,
+                double force_scale_N);
 
   // Loads at a port, in the body's frame. Force through the port's own point, moments about it.
   // @throws StageRefused if the body has no such port
@@ -97,7 +97,7 @@ public:
 
   /// Bearing forces at two ports by statics, effect by effect, moments about the first one's centre. Where
   /// `resultant` holds an effect, that is the sum of its two reactions (and closing is then up to the load
-  /// stage); elsewhere they balance the book.
+  /// stage); elsewhere they balance what was collected.
   void react(const std::string& first, const std::string& second,
              const std::map<std::string, Eigen::Array2Xd>& resultant = {});
   // Whatever is left of that component about the port's own point, with the opposite sign, effect by effect.

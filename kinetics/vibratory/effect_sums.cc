@@ -1,4 +1,4 @@
-#include "kinetics/vibratory/books.h"
+#include "kinetics/vibratory/effect_sums.h"
 
 #include <cmath>
 
@@ -35,7 +35,7 @@ void BodySums::add_couple(Index first, const ArrayXd& couple_Nm) {
   moment_scale_Nm.segment(first, couple_Nm.size()) += couple_Nm.abs();
 }
 
-Books::Books(const VibratoryMill& mill, std::size_t n_effects, const Instants& motion)
+EffectSums::EffectSums(const VibratoryMill& mill, std::size_t n_effects, const Instants& motion)
     : motion(motion),
       chamber(motion.size()),
       shaft(motion.size()),
@@ -56,7 +56,7 @@ Books::Books(const VibratoryMill& mill, std::size_t n_effects, const Instants& m
     open("spring_foot_" + std::to_string(i + 1), "force of the spring on the chamber at its foot");
 }
 
-Columns Books::to_fill(std::size_t role, std::size_t effect, Index first, Index count) {
+Columns EffectSums::to_fill(std::size_t role, std::size_t effect, Index first, Index count) {
   Share& share = roles[role].shares[effect];
   if (share.load.size() == 0) share.load.resize(3, motion.size());
   if (share.n_filled < first) share.load.middleCols(share.n_filled, first - share.n_filled).setZero();
@@ -64,14 +64,14 @@ Columns Books::to_fill(std::size_t role, std::size_t effect, Index first, Index 
   return share.load.middleCols(first, count);
 }
 
-Columns Books::to_add(std::size_t role, std::size_t effect, Index first, Index count) {
+Columns EffectSums::to_add(std::size_t role, std::size_t effect, Index first, Index count) {
   const bool filled = roles[role].shares[effect].n_filled > first;
   Columns columns = to_fill(role, effect, first, count);
   if (!filled) columns.setZero();
   return columns;
 }
 
-std::vector<Resultant> Books::take_resultants(const std::vector<NamedEffect>& effects) {
+std::vector<Resultant> EffectSums::take_resultants(const std::vector<NamedEffect>& effects) {
   std::vector<Resultant> resultants;
   for (std::size_t index = 0; index < roles.size(); ++index) {
     Role& role = roles[index];

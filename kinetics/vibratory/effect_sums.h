@@ -21,7 +21,7 @@ struct BodySums {
   void add_couple(Eigen::Index first, const Eigen::ArrayXd& couple_Nm);
 };
 
-/// Roles of the books in the order of the documentation; the feet of the springs are the last.
+/// Roles of the sums in the order of the documentation; the feet of the springs are the last.
 enum RoleIndex : std::size_t {
   eccentric,
   debalance,
@@ -48,9 +48,9 @@ struct Role {
   std::vector<Share> shares;  ///< by effect
 };
 
-/// Books over all instants of a motion, which must outlive them. Blocks are booked in the order of time.
-struct Books {
-  Books(const VibratoryMill& mill, std::size_t n_effects, const Instants& motion);
+/// Sums over all instants of a motion, which must outlive them. Blocks are added in the order of time.
+struct EffectSums {
+  EffectSums(const VibratoryMill& mill, std::size_t n_effects, const Instants& motion);
 
   const Instants& motion;
   std::vector<Role> roles;  ///< by RoleIndex
@@ -61,13 +61,13 @@ struct Books {
   Columns to_fill(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count);
   /// The same, to be added to: zero at first.
   Columns to_add(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count);
-  /// The roles as resultants, which takes them out of the books. Those that only carry an effect's own load
+  /// The roles as resultants, which takes them out of the sums. Those that only carry an effect's own load
   /// are left out if nothing was posted to them.
   std::vector<Resultant> take_resultants(const std::vector<NamedEffect>& effects);
 };
 
 /// Turns the collected sums into the history's resultants and quantities, with warnings.
-void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, Books& books,
+void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, EffectSums& sums,
                    LoadHistory& history);
 
 }  // namespace kinetics::vibratory
