@@ -105,6 +105,13 @@ double ErrorBudget::total_Pa() const {
   return numerical_Pa() + sum_of(model);
 }
 
+double ErrorBudget::reducible_Pa() const {
+  double sum_Pa = numerical_Pa();
+  for (const char* source : {"model", "eccentric_segments", "offset_axis", "ovalisation", "spin"})
+    sum_Pa += of(source);
+  return sum_Pa;
+}
+
 std::string ErrorBudget::largest() const {
   const auto entry = std::max_element(numerical.begin(), numerical.end(),
                                       [](const auto& a, const auto& b) { return a.value_Pa < b.value_Pa; });

@@ -39,6 +39,9 @@ struct ErrorBudget {
 
   double numerical_Pa() const;
   double total_Pa() const;
+  /// What a finer mesh or a more expensive model lowers: all but the loads' own shape and what the scene
+  /// leaves out.
+  double reducible_Pa() const;
   /// Source of the largest numerical entry; empty without any.
   std::string largest() const;
   /// 0 if the budget has no such entry.
