@@ -9,31 +9,14 @@
 /// without damping of its own. Source: ours; Newmark (1959).
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "kinetics/load_history.h"
-#include "kinetics/vibratory_mill.h"
+#include "kinetics/vibratory/drive_course.h"
+#include "kinetics/vibratory/mill.h"
 
 namespace kinetics {
-
-/// Pitch and its rate at the start.
-struct PitchState {
-  double theta_rad = 0;
-  double theta_rad_s = 0;
-};
-
-/// What the drive does. VibratoryMill::speed_rad_s remains the nominal speed: it gives the charge's ratio and
-/// the loss angle of charge_lag, which is kept.
-struct RunUp {
-  std::vector<double> time_s;       ///< rising, at least two entries
-  std::vector<double> speed_rad_s;  ///< >= 0, of the drive at those times; linear in between
-  double step_s = 0;                ///< longest step of integration; zero: 1/200 of the shortest period, of
-                                    ///< pitch or twice the fastest angle
-  int steps_per_instant = 1;        ///< of so many steps one is an instant of the history, >= 1
-  std::optional<PitchState> start;  ///< default: steady running at the first speed; static balance if zero
-};
 
 /// From one speed to another at constant acceleration, then on at the latter.
 /// @param hold_s  may be zero

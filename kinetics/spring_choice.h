@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/vibratory_mill.h"
+#include "kinetics/load_history.h"
+#include "kinetics/vibratory/mill.h"
 
 namespace kinetics {
 

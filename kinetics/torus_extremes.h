@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/vibratory_mill.h"
+#include "kinetics/vibratory/mill.h"
 
 namespace kinetics {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kinetics/run_up.h"
+#include "kinetics/vibratory/drive_course.h"
 #include "kinetics/vibratory/motion.h"
 
 namespace kinetics::vibratory {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "kinetics/vibratory/mill.h"
 #include "kinetics/vibratory/motion.h"
-#include "kinetics/vibratory_mill.h"
 
 namespace kinetics::vibratory {
 

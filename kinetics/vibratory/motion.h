@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "kinetics/load_history.h"
-#include "kinetics/vibratory_mill.h"
+#include "kinetics/vibratory/mill.h"
 
 namespace kinetics::vibratory {
 

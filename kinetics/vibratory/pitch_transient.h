@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "kinetics/run_up.h"
+#include "kinetics/vibratory/drive_course.h"
 #include "kinetics/vibratory/pitch.h"
 
 namespace kinetics::vibratory {

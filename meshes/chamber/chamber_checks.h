@@ -1,7 +1,7 @@
 /// Refusals of chambers that cannot be meshed.
 #pragma once
 
-#include "meshes/chamber/chamber.h"
+#include "meshes/chamber/chamber_geometry.h"
 #include "meshes/chamber/chamber_layout.h"
 
 namespace meshes {

@@ -5,6 +5,7 @@
 
 #include "meshes/chamber/chamber_layout.h"
 #include "meshes/spacing/break_points.h"
+#include "meshes/values/body_mesh.h"
 
 namespace meshes {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/chamber/chamber.h"
+#include "meshes/chamber/chamber_geometry.h"
 
 namespace meshes {
 

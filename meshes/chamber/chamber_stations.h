@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "meshes/chamber/chamber_layout.h"
+#include "meshes/values/body_mesh.h"
 
 namespace meshes {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "meshes/imported/imported.h"
+#include "meshes/imported/import.h"
 #include "meshes/solids/model_mesh.h"
 #include "meshes/solids/surface_pieces.h"
 

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "meshes/keyed_shaft/solid_shaft.h"
+#include "meshes/keyed_shaft/keyway.h"
+#include "meshes/shaft/shaft_geometry.h"
 #include "meshes/values/hex_mesh.h"
 
 namespace meshes {

@@ -1,7 +1,7 @@
 /// Refusals of bores that cannot be meshed.
 #pragma once
 
-#include "meshes/shaft/shaft.h"
+#include "meshes/shaft/shaft_geometry.h"
 
 namespace meshes {
 

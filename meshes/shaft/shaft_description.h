@@ -1,7 +1,8 @@
 /// What is known of a shaft before it is meshed.
 #pragma once
 
-#include "meshes/shaft/shaft.h"
+#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/values/body_mesh.h"
 
 namespace meshes {
 

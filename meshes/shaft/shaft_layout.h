@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "meshes/shaft/shaft.h"
+#include "meshes/shaft/shaft_geometry.h"
 
 namespace meshes {
 

@@ -5,6 +5,7 @@
 
 #include "meshes/shaft/shaft_layout.h"
 #include "meshes/spacing/disc.h"
+#include "meshes/values/body_mesh.h"
 
 namespace meshes {
 

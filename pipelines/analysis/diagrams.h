@@ -9,7 +9,7 @@
 
 #include "fem/values/body.h"
 #include "fem/values/unit_responses.h"
-#include "meshes/shaft/shaft.h"
+#include "meshes/shaft/shaft_geometry.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/distribute.h"
 

@@ -1,5 +1,9 @@
 #include "pipelines/loads/body_mesh.h"
 
+#include "meshes/chamber/chamber.h"
+#include "meshes/imported/imported.h"
+#include "meshes/keyed_shaft/solid_shaft.h"
+#include "meshes/shaft/shaft.h"
 #include "meshes/values/refused.h"
 
 namespace pipelines {

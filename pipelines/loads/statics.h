@@ -5,7 +5,7 @@
 #include <array>
 
 #include "fem/values/unit_load.h"
-#include "meshes/shaft/shaft.h"
+#include "meshes/shaft/shaft_geometry.h"
 
 namespace pipelines {
 

@@ -9,10 +9,10 @@
 
 #include "fem/values/body.h"
 #include "fem/values/solver_choice.h"
-#include "meshes/chamber/chamber.h"
-#include "meshes/imported/imported.h"
-#include "meshes/keyed_shaft/solid_shaft.h"
-#include "meshes/shaft/shaft.h"
+#include "meshes/chamber/chamber_geometry.h"
+#include "meshes/imported/import.h"
+#include "meshes/keyed_shaft/keyway.h"
+#include "meshes/shaft/shaft_geometry.h"
 #include "pipelines/scene/body_options.h"
 #include "pipelines/scene/pressure_pattern.h"
 

@@ -3,6 +3,7 @@
 
 #include "kinetics/machine_refused.h"
 #include "meshes/chamber/chamber_checks.h"
+#include "meshes/keyed_shaft/solid_shaft.h"
 #include "meshes/shaft/shaft_checks.h"
 #include "meshes/values/refused.h"
 #include "pipelines/common/name_lists.h"

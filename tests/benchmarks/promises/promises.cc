@@ -39,7 +39,7 @@ struct Options {
 
 /// What one search came to.
 struct Outcome {
-  double stated = 0, truth = 0;  ///< relative errors
+  double stated = 0, truth = 0;  ///< errors, as shares of the reference
   bool met = false, right_place = false;
 };
 
@@ -65,7 +65,7 @@ Outcome search(const Scene& scene, const promises::Reference& reference, double 
   const auto& analysis = run.analyses.front();
   const auto stress = governing_stress(analysis);
   Outcome outcome;
-  outcome.stated = stress.errors.numerical_Pa() / stress.value_Pa;
+  outcome.stated = stress.errors.numerical_Pa() / reference.peak_Pa;
   outcome.truth = std::abs(stress.value_Pa / reference.peak_Pa - 1);
   outcome.met = analysis.search.met;
   const auto place =

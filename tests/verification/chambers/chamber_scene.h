@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "meshes/chamber/chamber.h"
+#include "meshes/chamber/chamber_geometry.h"
 #include "pipelines/scene/scene.h"
 #include "pipelines/search/scene_run.h"
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "kinetics/run_up.h"
+#include "kinetics/vibratory_mill.h"
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include "meshes/shaft/shaft.h"
 
 #include "meshes/shaft/half_section.h"
 #include "tests/unit/fem/examples/scratch_directory.h"

@@ -12,7 +12,7 @@
 #include "fem/values/body.h"
 #include "fem/values/unit_load.h"
 #include "fem/values/unit_responses.h"
-#include "meshes/shaft/shaft.h"
+#include "meshes/shaft/shaft_geometry.h"
 
 namespace fem_tests {
 

@@ -7,6 +7,7 @@
 #include "fem/model/model.h"
 #include "fem/values/constants.h"
 #include "meshes/keyed_shaft/solid_shaft.h"
+#include "meshes/shaft/shaft.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

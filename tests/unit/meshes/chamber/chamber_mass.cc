@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "meshes/chamber/chamber.h"
 #include "tests/unit/meshes/examples/chamber_solids.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 #include "tests/unit/meshes/examples/example_shafts.h"

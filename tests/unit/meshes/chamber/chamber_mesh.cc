@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "meshes/chamber/chamber.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/mesh_file.h"

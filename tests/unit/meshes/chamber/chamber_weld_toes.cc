@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "meshes/chamber/chamber.h"
 #include "meshes/checks/sharp_edges.h"
 #include "meshes/spacing/swept_plan.h"
 #include "tests/unit/meshes/examples/chamber_solids.h"

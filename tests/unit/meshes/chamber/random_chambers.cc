@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "meshes/chamber/chamber.h"
 #include "tests/unit/meshes/examples/chamber_solids.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 #include "tests/unit/meshes/examples/example_shafts.h"

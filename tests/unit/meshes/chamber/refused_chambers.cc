@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "meshes/chamber/chamber.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 

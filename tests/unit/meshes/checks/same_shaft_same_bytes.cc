@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "meshes/shaft/shaft.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "meshes/shaft/shaft.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/faces.h"
 #include "tests/unit/meshes/examples/shaft_volume.h"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "meshes/shaft/shaft.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/watertight_body.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/chamber/chamber.h"
+#include "meshes/chamber/chamber_geometry.h"
 #include "tests/unit/meshes/examples/mesh_file.h"
 
 using Corners = std::vector<std::array<double, 2>>;

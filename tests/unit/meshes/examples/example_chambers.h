@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "meshes/chamber/chamber.h"
+#include "meshes/chamber/chamber_geometry.h"
 
 /// The laboratory chamber; coupling spec, section 7.2.
 meshes::Chamber laboratory_chamber();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/shaft/shaft.h"
+#include "meshes/shaft/shaft_geometry.h"
 
 /// The laboratory shaft with the eccentric seat; coupling spec, section 7.1.
 meshes::Shaft laboratory_shaft();

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "meshes/keyed_shaft/solid_shaft.h"
+#include "meshes/shaft/shaft.h"
 #include "meshes/values/constants.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/shaft_volume.h"

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "meshes/shaft/shaft.h"
 #include "meshes/values/constants.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/mesh_file.h"

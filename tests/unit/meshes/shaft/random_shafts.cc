@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 
+#include "meshes/shaft/shaft.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/mesh_file.h"
 #include "tests/unit/meshes/examples/random_bodies.h"

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "meshes/shaft/shaft.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/refusals.h"
 

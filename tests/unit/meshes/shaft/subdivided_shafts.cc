@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "meshes/shaft/half_section.h"
+#include "meshes/shaft/shaft.h"
 #include "meshes/spacing/disc.h"
 #include "meshes/spacing/grading.h"
 #include "tests/unit/meshes/examples/example_shafts.h"

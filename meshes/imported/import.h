@@ -1,0 +1,47 @@
+/// A body of the user's own, as a file and its ports.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "meshes/solids/solid_control.h"
+#include "meshes/values/body_mesh.h"
+
+namespace meshes {
+
+/// All surfaces of a physical group of the .msh (STEP has none).
+struct GroupSelection {
+  std::string name;
+};
+
+/// All surfaces whose vertices lie in the box.
+struct BoxSelection {
+  std::array<double, 3> low_m{}, high_m{};
+};
+
+/// All surfaces on the cylinder parallel to z that is nearest in axis and radius (within 2 % of the radius)
+/// and lies in the range of z.
+struct CylinderSelection {
+  enum class Side { outside, inside };  ///< the outside of a shaft, the inside of a hole
+  double axis_x_m = 0, axis_y_m = 0, radius_m = 0;
+  double begin_m = 0, end_m = 0;
+  Side side = Side::outside;
+};
+
+struct ImportPort {
+  std::string name;
+  Port::Kind kind = Port::Kind::seat;  ///< seats and bores must be cylinders parallel to z
+  std::variant<GroupSelection, BoxSelection, CylinderSelection> selection;
+};
+
+struct Import {
+  std::filesystem::path geometry;  ///< .step, .stp, or .msh of any version
+  double scale_to_m = 0;           ///< length of the file's unit; 0: 1e-3 for STEP (mm), 1 for .msh
+  std::vector<ImportPort> ports;
+  SolidControl control;  ///< for a .msh only min_scaled_jacobian and exclusion_m count
+};
+
+}  // namespace meshes
