@@ -5,6 +5,7 @@
 
 #include "pipelines/accuracy/accuracy_models.h"
 #include "pipelines/analysis/fineness.h"
+#include "pipelines/analysis/superpose_body.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_report.h"
 #include "pipelines/search/refinement.h"

@@ -99,21 +99,4 @@ struct RunOptions {
 BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                           BodyLoads loads, const RunOptions& options, StageClock& clock);
 
-/// Leaves the unit responses in unit_responses.h5 for the next run.
-void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
-                    const RunOptions& options, StageClock& clock);
-
-/// The second half of analyse_body: everything that follows from unit responses.
-/// @param known  the envelope of these loads and responses, where it has been computed
-/// @throws LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
-BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
-                            std::optional<Envelope> known = std::nullopt);
-
-/// Natural frequencies and dynamic amplification, if the body asks for them; the latter also as an entry of
-/// the peak's budget.
-/// @param history  of the load stage, that the analysis' loads were distributed from
-void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
-                   BodyAnalysis& analysis, StageClock& clock);
-
 }  // namespace pipelines

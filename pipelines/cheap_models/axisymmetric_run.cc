@@ -9,6 +9,7 @@
 
 #include "fem/beam/beam_responses.h"
 #include "pipelines/analysis/place_errors.h"
+#include "pipelines/analysis/superpose_body.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/cheap_models/cheap_responses.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fem/beam/beam_responses.h"
+#include "pipelines/analysis/superpose_body.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/errors.h"

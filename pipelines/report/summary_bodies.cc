@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/analysis/body_vibration.h"
 #include "pipelines/analysis/energy_errors.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"

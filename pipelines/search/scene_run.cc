@@ -10,8 +10,11 @@
 #include <utility>
 
 #include "fem/beam/beam_responses.h"
+#include "pipelines/analysis/body_vibration.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/place_errors.h"
+#include "pipelines/analysis/respond.h"
+#include "pipelines/analysis/superpose_body.h"
 #include "pipelines/analysis/tetrahedra_estimate.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"

@@ -1,0 +1,14 @@
+/// A body's natural frequencies beside its loads.
+#pragma once
+
+#include "pipelines/analysis/body_analysis.h"
+
+namespace pipelines {
+
+/// Natural frequencies and dynamic amplification, if the body asks for them; the latter also as an entry of
+/// the peak's budget.
+/// @param history  of the load stage, that the analysis' loads were distributed from
+void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
+                   BodyAnalysis& analysis, StageClock& clock);
+
+}  // namespace pipelines

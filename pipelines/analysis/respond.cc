@@ -1,0 +1,70 @@
+#include "pipelines/analysis/respond.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "fem/ranks/helper_ranks.h"
+#include "pipelines/responses/iteration_memory.h"
+#include "pipelines/responses/response_files.h"
+#include "pipelines/responses/response_key.h"
+
+namespace pipelines {
+namespace {
+
+std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPlane>& planes) {
+  std::vector<fem::SectionPlane> result;
+  for (const auto& plane : planes)
+    result.push_back({plane.z_m, plane.radius_m, plane.axis_x_m, plane.axis_y_m, plane.inner_radius_m});
+  return result;
+}
+
+std::string key_of(const fem::Body& body, const BodyLoads& loads,
+                   const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
+  auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
+  if (const int n = fem::n_ranks(MPI_COMM_WORLD); n > 1) key += "ranks " + std::to_string(n) + '\n';
+  return key;
+}
+
+std::filesystem::path kept_responses(const RunOptions& options) {
+  return options.directory / "unit_responses.h5";
+}
+
+}  // namespace
+
+int threads(int wanted) {
+  return wanted > 0 ? wanted : int(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+/// The seconds of factorising depend on what a run before has left; results do not: where the iteration gives
+/// up, the direct solver takes over, and it is the direct solver from the start in the next run.
+Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads& loads,
+               const RunOptions& options, StageClock& clock) {
+  const auto planes = to_fem_planes(meshed.mesh.sections);
+  const auto key = key_of(meshed.body, loads, planes, body.solver, threads(options.n_threads));
+  if (!options.fresh)
+    if (auto kept = clock.run("solve", [&] { return read_unit_responses(kept_responses(options), key); }))
+      return {std::move(*kept), true};
+  auto responses = clock.run("solve", [&] {
+    fem::SolverChoice choice;
+    choice.solver = body.solver;
+    choice.gave_up_before =
+        !options.fresh && iteration_gave_up_before(options.directory, body_key(meshed.body));
+    return meshed.model->unit_responses(
+        loads.unit_loads, planes, fem::Recovery::patch,
+        [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
+  });
+  remember_iteration(options.directory, body_key(meshed.body), responses.solver.gave_up);
+  return {std::move(responses), false};
+}
+
+void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+                    const RunOptions& options, StageClock& clock) {
+  if (analysis.responses_reused) return;
+  clock.run("write", [&] {
+    const auto key = key_of(meshed.body, analysis.loads, to_fem_planes(meshed.mesh.sections), body.solver,
+                            threads(options.n_threads));
+    write_unit_responses(kept_responses(options), key, analysis.responses);
+  });
+}
+
+}  // namespace pipelines

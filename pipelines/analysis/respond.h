@@ -1,0 +1,25 @@
+/// The unit responses of a body: those of an earlier run where they are of the same body and loads, else
+/// solved.
+#pragma once
+
+#include "pipelines/analysis/body_analysis.h"
+
+namespace pipelines {
+
+struct Answer {
+  fem::UnitResponses responses;
+  bool reused = false;  ///< taken from an earlier run
+};
+
+/// @throws fem::SolveFailed, fem::DoesNotFit as fem::Model::unit_responses
+Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads& loads,
+               const RunOptions& options, StageClock& clock);
+
+/// Leaves the unit responses in unit_responses.h5 for the next run.
+void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+                    const RunOptions& options, StageClock& clock);
+
+/// So many threads, or as many as the machine has where the number is not positive.
+int threads(int wanted);
+
+}  // namespace pipelines

@@ -1,0 +1,98 @@
+#include "pipelines/analysis/superpose_body.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "pipelines/analysis/load_patch.h"
+#include "pipelines/analysis/respond.h"
+#include "pipelines/superposition/finite_stress.h"
+
+namespace pipelines {
+namespace {
+
+ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
+  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
+                       geometry_share(analysis.geometry_error, analysis.responses.nodes, point),
+                       analysis.places.excluded);
+}
+
+Peak headline(const BodyAnalysis& analysis) {
+  const auto& maximum = analysis.envelope.von_mises;
+  Peak peak;
+  peak.node = peak_node(maximum.value_Pa, analysis.places);
+  std::copy_n(&analysis.responses.nodes.xyz_m[3 * peak.node], 3, peak.position_m.begin());
+  peak.value_Pa = maximum.value_Pa[peak.node];
+  peak.instant = maximum.instant[peak.node];
+  peak.stress_Pa = maximum.stress_Pa[peak.node];
+  peak.place = analysis.places.place[peak.node];
+  if (const auto feature = analysis.places.feature[peak.node]; feature >= 0)
+    peak.feature = analysis.places.feature_names[std::size_t(feature)];
+  peak.safety = analysis.scene.yield_strength_Pa / peak.value_Pa;
+  const std::size_t n_effects = analysis.loads.history.effects.size();
+  const auto shares = analysis.envelope.effect_share.begin() + std::ptrdiff_t(peak.node * n_effects);
+  peak.effect_share.assign(shares, shares + std::ptrdiff_t(n_effects));
+  peak.errors = errors_at({{{peak.node, 1.0}}, peak.instant}, analysis);
+  return peak;
+}
+
+/// Of all weld toes, and of the first zones: those that are shown.
+void estimate_errors(BodyAnalysis& analysis) {
+  auto& zones = analysis.zones.zones;
+  for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i)
+    zones[i].error_Pa = errors_at({{{zones[i].peak_node, 1.0}}, zones[i].instant}, analysis).numerical_Pa();
+  for (auto& spot : analysis.hot_spots) {
+    const auto errors = errors_at(stress_point(spot), analysis);
+    spot.error_Pa = errors.numerical_Pa();
+    if (&spot == &analysis.hot_spots.front()) analysis.hot_spot_errors = errors;
+  }
+}
+
+double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
+  return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
+}
+
+}  // namespace
+
+BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
+                            std::optional<Envelope> known) {
+  const ShaftShape* shaft = body.shaft();
+  BodyAnalysis analysis;
+  analysis.scene = body;
+  analysis.mesh = meshed.mesh;
+  analysis.masses = meshed.masses;
+  analysis.geometry_error = meshed.geometry_error;
+  analysis.loads = std::move(loads);
+  analysis.responses = std::move(responses);
+  require_finite(analysis.responses);
+  analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
+  require_closure(body.name, analysis.closure);
+
+  const auto start = std::chrono::steady_clock::now();
+  analysis.envelope = clock.run("superpose", [&] {
+    return known ? std::move(*known)
+                 : envelope(analysis.loads.history, analysis.responses, threads(n_threads));
+  });
+  require_finite(body.name, analysis.envelope);
+  analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  clock.run("zones", [&] {
+    analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
+                                   analysis.mesh.sharp_edges);
+    analysis.peak = headline(analysis);
+    analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
+    analysis.zones = find_zones(analysis.responses.nodes, analysis.envelope.von_mises, analysis.places,
+                                zone_level(scene.zones, analysis.peak.value_Pa, body.yield_strength_Pa),
+                                body.yield_strength_Pa);
+    analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
+    estimate_errors(analysis);
+  });
+  clock.run("superpose", [&] { add_load_patch_error(analysis); });
+  if (shaft != nullptr && meshed.mesh.sections.size() > 1)
+    analysis.diagrams = clock.run("sections", [&] {
+      return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
+                              body.material.density_kg_m3, supporting_ports(body));
+    });
+  return analysis;
+}
+
+}  // namespace pipelines
