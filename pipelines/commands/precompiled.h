@@ -1,4 +1,4 @@
-/// Private precompiled header of the program: CLI11 costs every command 3 s. The code builds without it too.
+/// Private precompiled header of the program: CLI11 costs 3 s. The code builds without it too.
 #pragma once
 
 #include <CLI/CLI.hpp>
