@@ -31,10 +31,9 @@
 namespace pipelines {
 namespace {
 
-/// Empty: the scene's.
 struct RunCommandOptions : SceneOptions {
-  std::filesystem::path output;  ///< directory; empty: the default
-  std::string tolerance, time_limit, method;
+  std::filesystem::path output;               ///< directory; empty: the default
+  std::string tolerance, time_limit, method;  ///< empty: the scene's
   int n_threads = all_cores;
   bool fresh = false;
   bool json = false;
