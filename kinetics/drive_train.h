@@ -192,7 +192,7 @@ Transient transient(const DriveTrain& train, const TransientRun& run);
 
 /// An excitation line against the speed of the reference shaft: order * speed + constant.
 struct ExcitationLine {
-  std::string excitation;
+  std::string excitation;      ///< empty: a further order of a Campbell table, which no excitation has
   double order = 0;            ///< of the reference shaft; zero: a constant frequency
   double frequency_rad_s = 0;  ///< at the train's mean speed
 };

@@ -17,7 +17,7 @@ std::vector<ExcitationLine> lines_of(const DriveTrain& train, const torsion::Red
     require_finite("orders", order);
     if (order <= 0)
       refuse("orders", order, "must be positive; give multiples of the reference shaft's speed");
-    lines.push_back({"order " + number(order), order, order * train.reference_speed_rad_s});
+    lines.push_back({"", order, order * train.reference_speed_rad_s});
   }
   return lines;
 }

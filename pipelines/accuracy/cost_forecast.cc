@@ -109,23 +109,26 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
   return models;
 }
 
-void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
-                    const ForecastLoads& loads) {
-  const auto calibration = read_calibration(calibration_file());
-  const auto models = forecast_ladder(body, meshed, loads, calibration);
-  out << fmt::format("  {:<24}{:>12}{:>10}{:>13}{:>7}  solver\n", "will take, about", "unknowns", "solve s",
+void print_models(std::ostream& out, const std::vector<ModelForecast>& models) {
+  out << fmt::format("  {:<24}{:>12}{:>10}{:>13}{:>10}  solver\n", "will take, about", "unknowns", "solve s",
                      "superpose s", "GB");
   for (const auto& model : models) {
     if (!model.left_out.empty()) {
       out << fmt::format("    {:<22}refused: {}\n", model.model, model.left_out);
       continue;
     }
-    out << fmt::format("    {:<22}{:>12}{:>10.2g}{:>13.2g}{:>7.2g}  {}\n", model.model, model.n_dofs,
+    out << fmt::format("    {:<22}{:>12}{:>10.2g}{:>13.2g}{:>10.2g}  {}\n", model.model, model.n_dofs,
                        model.solve_s, model.superpose_s, model.gigabytes,
                        model.solver == fem::Solver::automatic   ? ""
                        : model.solver == fem::Solver::iterative ? "conjugate gradients"
                                                                 : "factorisation");
   }
+}
+
+void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
+                    const ForecastLoads& loads) {
+  const auto calibration = read_calibration(calibration_file());
+  print_models(out, forecast_ladder(body, meshed, loads, calibration));
   out << (calibration.n_runs > 0
               ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)
               : "  (seconds of the machine that the prediction was made on: no run yet on this one)\n");

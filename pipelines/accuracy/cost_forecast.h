@@ -35,6 +35,9 @@ struct ForecastLoads {
 std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
                                            const ForecastLoads& loads, const CostCalibration& calibration);
 
+/// A table with one line for each model.
+void print_models(std::ostream& out, const std::vector<ModelForecast>& models);
+
 /// The forecast of the calibration on this machine, as lines of `check`.
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
                     const ForecastLoads& loads);

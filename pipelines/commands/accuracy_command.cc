@@ -1,10 +1,13 @@
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "pipelines/accuracy/accuracy.h"
 #include "pipelines/accuracy/accuracy_report.h"
-#include "pipelines/commands/commands.h"
 #include "pipelines/commands/option_value.h"
+#include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/files/atomic_file.h"
@@ -12,34 +15,43 @@
 #include "pipelines/report/html_report.h"
 
 namespace pipelines {
+namespace {
 
-void accuracy_command(const CommandOptions& options, std::ostream& out) {
+struct AccuracyCommandOptions : SceneOptions {
+  std::filesystem::path output;       ///< directory; empty: the default
+  std::string body;                   ///< empty: all
+  std::string tolerance, time_limit;  ///< empty: the scene's, or the usual ones
+  std::string reference;              ///< a known stress; empty: none
+  bool grid_convergence = false;      ///< systematic meshes too
+  int n_repeats = 1;                  ///< of each run
+  int n_threads = all_cores;
+};
+
+AccuracyOptions study_options_of(const AccuracyCommandOptions& options, const Scene& scene) {
+  AccuracyOptions study;
+  study.n_threads = options.n_threads;
+  study.n_repeats = options.n_repeats;
+  study.grid_convergence = options.grid_convergence;
+  if (!options.time_limit.empty()) study.time_limit_s = time_limit_option(options.time_limit);
+  if (!options.tolerance.empty()) study.tolerance = tolerance_option(options.tolerance);
+  if (!options.reference.empty()) {
+    if (scene.bodies.size() > 1 && options.body.empty())
+      throw OptionError("--reference " + options.reference + ": of which body? Add --body");
+    study.reference_Pa = option_in_si("--reference", options.reference, "Pa");
+  }
+  if (!options.body.empty() && scene.body(options.body) == nullptr)
+    throw OptionError("--body " + options.body + ": the scene has no such body");
+  return study;
+}
+
+void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   if (scene.bodies.empty())
     throw StageRefused(scene.file.string() +
                        ": has no body, and the load stage alone is exact; add one, as [shaft], to the scene");
-  AccuracyOptions study_options;
-  study_options.n_threads = options.n_threads;
-  study_options.n_repeats = options.n_repeats;
-  study_options.grid_convergence = options.grid_convergence;
-  if (!options.time_limit.empty())
-    study_options.time_limit_s = option_in_si("--time-limit", options.time_limit, "s");
-  if (!options.tolerance.empty())
-    study_options.tolerance = option_in_si("--tolerance", options.tolerance, "1");
-  if (!options.reference.empty()) {
-    if (scene.bodies.size() > 1 && options.body.empty())
-      throw OptionError("--reference " + options.reference + ": of which body? Add --body");
-    study_options.reference_Pa = option_in_si("--reference", options.reference, "Pa");
-  }
-  if (!options.body.empty() && scene.body(options.body) == nullptr)
-    throw OptionError("--body " + options.body + ": the scene has no such body");
-  if (study_options.time_limit_s <= 0 || (!options.tolerance.empty() && study_options.tolerance <= 0))
-    throw OptionError("--time-limit and --tolerance must be positive");
-
-  const auto directory =
-      (options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output) /
-      "accuracy";
-  StageClock clock(progress_on_stderr(options.verbosity));
+  AccuracyOptions study_options = study_options_of(options, scene);
+  const auto directory = results_directory(options.output, scene) / "accuracy";
+  StageClock clock(progress_on_stderr(options.verbosity()));
   const FemEnvironment environment(options.n_threads);
   std::vector<AccuracyStudy> studies;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -63,6 +75,27 @@ void accuracy_command(const CommandOptions& options, std::ostream& out) {
   if (std::filesystem::exists(directory.parent_path() / "summary.json"))
     write_html_report(directory.parent_path());
   out << "\n  results in " << directory.string() << '\n';
+}
+
+}  // namespace
+
+void add_accuracy_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<AccuracyCommandOptions>();
+  auto* command = add_scene_command(
+      app, "accuracy", "what accuracy costs in time: error against seconds, as table and chart", *options);
+  add_results_option(*command, options->output);
+  command->add_option("--body", options->body, "this body alone, like shaft");
+  command->add_option("--tolerance", options->tolerance,
+                      "what a run is chosen for (default: the scene's, or \"5 %\")");
+  command->add_option("--time-limit", options->time_limit, "for each body (default: \"600 s\")");
+  command->add_option("--reference", options->reference,
+                      "a known stress, like \"104.8 MPa\" (default: an overkill run)");
+  command->add_flag("--gci", options->grid_convergence,
+                    "three systematic meshes too: observed order and grid convergence index");
+  command->add_option("--repeats", options->n_repeats, "of every run, for the spread of its seconds")
+      ->check(CLI::Range(1, 100));
+  add_threads_option(*command, options->n_threads, chosen);
+  command->callback(to_choose(chosen, options, accuracy));
 }
 
 }  // namespace pipelines

@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <ostream>
 #include <variant>
@@ -7,7 +8,7 @@
 #include "fem/loads/nodal_loads.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/calculix/calculix_model.h"
-#include "pipelines/commands/commands.h"
+#include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/effects/effect_choice.h"
@@ -16,6 +17,10 @@
 
 namespace pipelines {
 namespace {
+
+struct CalculixCommandOptions : SceneOptions {
+  std::filesystem::path output;  ///< directory; empty: the default
+};
 
 void refuse_what_has_no_equal(const Scene& scene) {
   if (scene.bodies.empty())
@@ -29,15 +34,12 @@ void refuse_what_has_no_equal(const Scene& scene) {
                          "to false for this command");
 }
 
-}  // namespace
-
-void calculix_command(const CommandOptions& options, std::ostream& out) {
+void calculix(const CalculixCommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene);
   refuse_what_has_no_equal(scene);
-  const auto directory =
-      options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
-  StageClock clock(progress_on_stderr(options.verbosity));
-  const FemEnvironment environment(options.n_threads);
+  const auto directory = results_directory(options.output, scene);
+  StageClock clock(progress_on_stderr(options.verbosity()));
+  const FemEnvironment environment(all_cores);
   const auto meshes = clock.run("mesh", [&] { return ScratchMeshes(scene); });
   const auto& meshed = meshes.bodies();
   scene = with_effects_chosen(scene, meshed, negligible_share(scene.accuracy.tolerance));
@@ -66,6 +68,17 @@ void calculix_command(const CommandOptions& options, std::ostream& out) {
                        channels.size(), file.string());
   }
   out << fmt::format("run: cd {} && ccx -i {}\n", directory.string(), scene.bodies.front().name);
+}
+
+}  // namespace
+
+void add_calculix_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<CalculixCommandOptions>();
+  auto* command = add_scene_command(app, "calculix",
+                                    "the bodies' meshes and unit loads as input files of CalculiX", *options);
+  command->add_option("-o,--output", options->output,
+                      "directory of the <body>.inp (default: results/<scene>)");
+  command->callback(to_choose(chosen, options, calculix));
 }
 
 }  // namespace pipelines

@@ -1,71 +1,70 @@
-/// The commands of the program, one function each. Results on `out`, progress on stderr. They throw what went
-/// wrong; the program turns that into a message and an exit code.
+/// The commands of the program: each is registered and carried out in a file of its own, <name>_command.cc.
+/// Results go to the stream that a command is given, progress to stderr. Commands throw what went wrong; the
+/// program turns that into a message and an exit code.
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <iosfwd>
-#include <string>
+#include <memory>
 
-#include "pipelines/common/progress.h"
+namespace CLI {
+class App;
+}
 
 namespace pipelines {
 
-struct CommandOptions {
-  std::filesystem::path scene;
-  std::filesystem::path
-      output;  ///< run, ports, calculix: directory; loads: .h5 file; empty: the default or none (loads)
-  std::filesystem::path csv;         ///< loads only; empty: none
-  std::filesystem::path calculix;    ///< loads only: prefix of the files of cards; empty: none
-  std::filesystem::path statistics;  ///< loads only: directory of statistics; empty: none
-  std::string threshold;             ///< effects only: what may change when effects are left out; empty: 1 %,
-                                     ///< for a scene with effects = "auto" what it allows
-  std::string tolerance, time_limit;  ///< run, accuracy: override the scene's; empty: the scene's
-  std::string method;                 ///< run only: overrides the scene's; empty: the scene's
-  std::string body, reference;        ///< accuracy: of this body alone; a known stress; empty: all, none
-  bool grid_convergence = false;      ///< accuracy: systematic meshes too
-  int n_repeats = 1;                  ///< accuracy: of each run
-  int n_threads = 0;                  ///< 0: all cores
-  bool fresh = false;
-  bool json = false;  ///< the summary as JSON instead of the table
-  Verbosity verbosity = Verbosity::normal;
+/// The command that the arguments ask for, told by its callback. It runs after they are parsed, so that what
+/// it throws is no mistake of the command line.
+struct ChosenCommand {
+  std::function<void(std::ostream& out)> run;
+  int n_threads = 0;  ///< that helper ranks use, too; 0: all cores
 };
 
+/// The callback of a command: it is chosen, and will be carried out with its options.
+/// @param carry_out  called with the options and the stream for results
+template <typename Options, typename CarryOut>
+std::function<void()> to_choose(ChosenCommand& chosen, std::shared_ptr<Options> options, CarryOut carry_out) {
+  return [&chosen, options, carry_out] {
+    chosen.run = [options, carry_out](std::ostream& out) { carry_out(*options, out); };
+  };
+}
+
 /// `millstress run`: everything. The directory defaults to results/<scene's name>.
-void run_command(const CommandOptions& options, std::ostream& out);
+void add_run_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress loads`: the load stage alone.
-void loads_command(const CommandOptions& options, std::ostream& out);
+void add_loads_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress effects`: what each effect of the scene is worth in the loads, and what it costs.
-void effects_command(const CommandOptions& options, std::ostream& out);
+void add_effects_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress torsion`: a drive train's natural frequencies, forced response and resonances. -o: a directory
 /// of CSV files.
-void torsion_command(const CommandOptions& options, std::ostream& out);
+void add_torsion_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress springs`: the stiffness that loads a vibratory mill's bearings least.
-void springs_command(const CommandOptions& options, std::ostream& out);
+void add_springs_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress extremes`: a vibratory mill's loads over all angles of drive and charge.
-void extremes_command(const CommandOptions& options, std::ostream& out);
+void add_extremes_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress accuracy`: error against seconds on every model, from beam to solid, as table, CSV, HDF5
 /// and chart. The directory defaults to results/<scene's name>; files go into its folder accuracy.
-void accuracy_command(const CommandOptions& options, std::ostream& out);
+void add_accuracy_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress ports`: every body's surface with its ports marked, as VTU and as a picture. The directory
 /// defaults to results/<scene's name>. Meshes the bodies, solves nothing.
-void ports_command(const CommandOptions& options, std::ostream& out);
+void add_ports_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress calculix`: every body's mesh and unit loads as <body>.inp for CalculiX. The directory defaults
 /// to results/<scene's name>. Solves nothing.
-void calculix_command(const CommandOptions& options, std::ostream& out);
+void add_calculix_command(CLI::App& app, ChosenCommand& chosen);
 
-/// `millstress report`: report.html of a result directory (`output`), anew.
-void report_command(const CommandOptions& options, std::ostream& out);
+/// `millstress report`: report.html of a result directory, anew.
+void add_report_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.
-void check_command(const CommandOptions& options, std::ostream& out);
+void add_check_command(CLI::App& app, ChosenCommand& chosen);
 
 }  // namespace pipelines

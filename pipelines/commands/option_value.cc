@@ -34,6 +34,20 @@ double option_in_si(const char* option, const std::string& text, const std::stri
   }
 }
 
+double tolerance_option(const std::string& text, const std::string& or_else) {
+  const double tolerance = option_in_si("--tolerance", text, "1");
+  if (tolerance >= least_tolerance && tolerance <= largest_tolerance) return tolerance;
+  throw OptionError("--tolerance " + text + ": must lie between " + shown(100 * least_tolerance) + " and " +
+                    shown(100 * largest_tolerance) + " %; write " +
+                    (tolerance > 0 ? "one in between" : "a tolerance above 0") + or_else);
+}
+
+double time_limit_option(const std::string& text) {
+  const double time_limit_s = option_in_si("--time-limit", text, "s");
+  if (time_limit_s > 0) return time_limit_s;
+  throw OptionError("--time-limit " + text + ": must be positive; write a time above 0, or leave it out");
+}
+
 RequestedAccuracy requested_search(const std::string& tolerance, const std::string& time_limit,
                                    RequestedAccuracy scene) {
   RequestedAccuracy accuracy = scene;
@@ -46,12 +60,9 @@ RequestedAccuracy requested_search(const std::string& tolerance, const std::stri
     accuracy.once = true;
     return accuracy;
   }
-  if (!tolerance.empty()) accuracy.tolerance = option_in_si("--tolerance", tolerance, "1");
-  if (!time_limit.empty()) accuracy.time_limit_s = option_in_si("--time-limit", time_limit, "s");
+  if (!tolerance.empty()) accuracy.tolerance = tolerance_option(tolerance, ", or none");
+  if (!time_limit.empty()) accuracy.time_limit_s = time_limit_option(time_limit);
   if (!tolerance.empty() || !time_limit.empty()) accuracy.once = false;
-  if (accuracy.tolerance < 0 || accuracy.tolerance > 1)
-    throw OptionError("--tolerance " + tolerance + ": must lie between 0 and 100 %");
-  if (accuracy.time_limit_s < 0) throw OptionError("--time-limit " + time_limit + ": is negative");
   return accuracy;
 }
 

@@ -15,6 +15,15 @@ namespace pipelines {
 /// @throws OptionError naming option, value and remedy
 double option_in_si(const char* option, const std::string& text, const std::string& unit);
 
+/// --tolerance, within the limits that a scene's has.
+/// @param or_else  end of the remedy: what else the option may be
+/// @throws OptionError naming option, value and remedy
+double tolerance_option(const std::string& text, const std::string& or_else = "");
+
+/// --time-limit, which is positive [s].
+/// @throws OptionError naming option, value and remedy
+double time_limit_option(const std::string& text);
+
 /// What a run is asked for: --tolerance and --time-limit before the scene's own. "--tolerance none" solves
 /// once, on the scene's mesh; a time limit alone takes a scene's "none" back.
 /// @param tolerance, time_limit  as given; empty: not given

@@ -3,6 +3,9 @@
 
 namespace pipelines {
 
+/// The tolerances that a scene and the command line may ask for.
+constexpr double least_tolerance = 1e-4, largest_tolerance = 0.5;
+
 /// What a run is asked for beside the scene's mesh; neither: that mesh as it is.
 struct RequestedAccuracy {
   double tolerance = 0, time_limit_s = 0;

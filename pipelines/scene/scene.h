@@ -122,7 +122,7 @@ struct Scene {
   const kinetics::VibratoryMill& vibratory_mill() const { return std::get<kinetics::VibratoryMill>(machine); }
 };
 
-/// Reads and checks a scene. scenes/vibratory_mill.toml shows every key with its meaning.
+/// Reads and checks a scene. pipelines/scenes/vibratory_mill.toml shows every key with its meaning.
 /// @throws SceneError with every error found, in the order of the file
 /// @throws FileError if the unit database of udunits2 is not installed
 Scene read_scene(const std::filesystem::path& file);

@@ -33,7 +33,7 @@ std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status))
-    refuse_file(file, "there is no such file; give the path of a scene, such as scenes/vibratory_mill.toml");
+    refuse_file(file, "there is no such file; give the path of a scene, such as pipelines/scenes/vibratory_mill.toml");
   if (std::filesystem::is_directory(status))
     refuse_file(file, "is a directory; give the path of a scene, a .toml file");
   constexpr std::uintmax_t most_bytes = 10'000'000;
@@ -55,7 +55,7 @@ TomlNode parse(const std::filesystem::path& file) {
                        "is not TOML: " + std::string(error.what()) + "; correct the line"}});
   }
   if (root.entries.empty())
-    refuse_file(file, "the scene is empty; begin with a copy of scenes/vibratory_mill.toml");
+    refuse_file(file, "the scene is empty; begin with a copy of pipelines/scenes/vibratory_mill.toml");
   return root;
 }
 

@@ -10,7 +10,7 @@ RequestedAccuracy read_requested_accuracy(SceneTable& root) {
   if (root.has("tolerance") && root.holds("tolerance", "none"))
     accuracy.once = true;
   else if (root.has("tolerance"))
-    accuracy.tolerance = root.quantity("tolerance", "1", between(1e-4, 0.5));
+    accuracy.tolerance = root.quantity("tolerance", "1", between(least_tolerance, largest_tolerance));
   if (accuracy.once && root.has("time_limit"))
     root.refuse("time_limit", "has no use with tolerance = \"none\", which solves once; remove one of them");
   if (root.has("time_limit")) accuracy.time_limit_s = root.quantity("time_limit", "s", positive(1e7));

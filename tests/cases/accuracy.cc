@@ -146,7 +146,7 @@ TEST(Accuracy, AThinShellBoundsAChambersHotSpot) {
   EXPECT_LT(seconds[0], 2);
 }
 
-TEST(Accuracy, WrongRequestesAreRefused) {
+TEST(Accuracy, WrongRequestsAreRefused) {
   const results_test::Directory directory;
   write(directory / "small.toml", stepped_shaft());
   for (const auto& [arguments, word] :

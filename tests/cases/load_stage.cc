@@ -100,6 +100,9 @@ TEST(LoadStage, DriveTrainGivesTheSpecsFrequenciesAndTorques) {
   EXPECT_LT(json["transient"]["energy_balance"].get<double>(), 1e-10);
   for (const char* file : {"modes.csv", "forced.csv", "campbell.csv", "margins.csv", "transient.csv"})
     EXPECT_FALSE(csv(directory / "t" / file).empty()) << file;
+  // The further orders of the scene are titled by themselves.
+  const auto campbell = csv(directory / "t/campbell.csv");
+  for (const char* column : {"order 1", "order 2"}) EXPECT_EQ(campbell.count(column), 1u) << column;
   // `run` leaves the same beside the loads, under the summary's stable key.
   const auto run = millstress(directory.path, "run '" + shipped("drive_train.toml").string() + "' -o all");
   ASSERT_EQ(run.exit_code, 0) << run.err;

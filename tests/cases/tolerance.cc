@@ -117,7 +117,7 @@ TEST(Tolerance, CheckForecastsTheModels) {
   const double used_GB = run["solver"]["bytes"].get<double>() / 1e9;
   EXPECT_LT(once.gigabytes, 2 * used_GB);
   EXPECT_GT(once.gigabytes, used_GB / 2);
-  ASSERT_EQ(millstress(directory.path, "run small.toml -o search --tolerance '90 %'").exit_code, 0);
+  ASSERT_EQ(millstress(directory.path, "run small.toml -o search --tolerance '50 %'").exit_code, 0);
   EXPECT_EQ(shaft_of(summary(directory / "search"))["search"]["steps"][0]["dofs"].get<double>(),
             first.unknowns);
   // Both runs were learnt from: this machine is not ten times slower than predicted.
@@ -151,7 +151,7 @@ TEST(Tolerance, NoneSolvesOnceOnTheScenesMesh) {
             summary(directory / "command")["bodies"]["shaft"]["peak_von_mises"]);
 }
 
-TEST(Tolerance, WrongRequestesAreRefused) {
+TEST(Tolerance, WrongRequestsAreRefused) {
   const results_test::Directory directory;
   write(directory / "small.toml", solid_shaft());
   write(directory / "wrong.toml", solid_shaft("tolerance = \"2 mm\""));

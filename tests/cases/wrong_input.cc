@@ -74,6 +74,7 @@ TEST(WrongInput, FormatsAndBareNumbersAreNotGuessed) {
       {"loads" + scene + "-o x.csv", "--csv x.csv"},
       {"loads" + scene + "--csv x.h5", "-o x.h5"},
       {"run" + scene + "--tolerance 0.5", "\"50 %\""},
+      {"run" + scene + "--tolerance '0 %'", "write a tolerance above 0, or none"},
       {"effects" + scene + "--threshold 1", "\"1 %\""},
       {"run" + scene + "--tolerance none --time-limit 60", "--tolerance none"}};
   for (const auto& [arguments, fragment] : wrong) {

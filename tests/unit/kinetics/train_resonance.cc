@@ -102,6 +102,9 @@ TEST(TrainResonance, margins_and_campbell_name_order_and_mode) {
   EXPECT_NEAR(margins[1].line.frequency_rad_s, 3 * train.reference_speed_rad_s, 1e-10);
   const auto table = campbell_table(train, 0, 300, 4, {6.0});
   ASSERT_EQ(table.lines.size(), 3u);
+  EXPECT_EQ(table.lines[1].excitation, "blades");
+  EXPECT_EQ(table.lines[2].excitation, "") << "nothing excites a further order";
+  EXPECT_EQ(table.lines[2].order, 6);
   EXPECT_EQ(table.line_frequency_rad_s(0, 0), table.line_frequency_rad_s(0, 3));
   EXPECT_DOUBLE_EQ(table.line_frequency_rad_s(1, 2), 600);
   ASSERT_EQ(table.crossings.size(), 2u);

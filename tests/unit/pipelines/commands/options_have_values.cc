@@ -54,8 +54,31 @@ TEST(Options, OfASearchComeBeforeTheScenes) {
     EXPECT_TRUE(asked.any());
   }
   EXPECT_NE(option_refusal([] { requested_search("none", "60 s", {}); }), "");
-  EXPECT_NE(option_refusal([] { requested_search("200 %", "", {}); }), "");
   EXPECT_NE(option_refusal([] { requested_search("", "-1 s", {}); }), "");
+}
+
+// 0 % would mean that nobody asked, and the default of 5 %.
+TEST(Options, AToleranceHasTheLimitsOfAScenes) {
+  for (const char* text : {"0 %", "-2 %"})
+    EXPECT_EQ(option_refusal([&] { requested_search(text, "", {}); }),
+              std::string("--tolerance ") + text +
+                  ": must lie between 0.01 and 50 %; write a tolerance above 0, or none");
+  for (const char* text : {"0.009 %", "51 %", "200 %"})
+    EXPECT_EQ(option_refusal([&] { requested_search(text, "", {}); }),
+              std::string("--tolerance ") + text +
+                  ": must lie between 0.01 and 50 %; write one in between, or none");
+  EXPECT_EQ(requested_search("0.01 %", "", {}).tolerance, least_tolerance);
+  EXPECT_EQ(requested_search("50 %", "", {}).tolerance, largest_tolerance);
+  // A study of accuracy knows no "none".
+  EXPECT_EQ(option_refusal([] { tolerance_option("0 %"); }),
+            "--tolerance 0 %: must lie between 0.01 and 50 %; write a tolerance above 0");
+}
+
+TEST(Options, ATimeLimitIsPositive) {
+  for (const char* text : {"0", "0 s", "-1 min"})
+    EXPECT_NE(option_refusal([&] { requested_search("", text, {}); }).find("must be positive"),
+              std::string::npos)
+        << text;
 }
 
 TEST(Options, FilesAreNamedAfterTheirFormat) {

@@ -45,7 +45,7 @@ ScratchFile written(const std::string& name, const std::string& text) {
 TEST(scene_file, missing) {
   EXPECT_EQ(refusal("/nowhere/scene.toml"),
             "/nowhere/scene.toml: there is no such file; give the path of a scene, such as "
-            "scenes/vibratory_mill.toml");
+            "pipelines/scenes/vibratory_mill.toml");
 }
 
 TEST(scene_file, directory) {

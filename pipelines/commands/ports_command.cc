@@ -1,28 +1,31 @@
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <iostream>
-#include <memory>
 #include <vector>
 
 #include "fem/values/body_nodes.h"
-#include "pipelines/commands/commands.h"
+#include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/pictures/port_picture.h"
 #include "pipelines/pictures/port_surface.h"
-#include "pipelines/scene/scene.h"
 
 namespace pipelines {
+namespace {
 
-void ports_command(const CommandOptions& options, std::ostream& out) {
+struct PortsCommandOptions : SceneOptions {
+  std::filesystem::path output;  ///< directory; empty: the default
+};
+
+void ports(const PortsCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   if (scene.bodies.empty())
     throw StageRefused(scene.file.string() +
                        ": has no body, and only bodies have ports; add one, as [shaft], to the scene");
-  const auto directory =
-      options.output.empty() ? std::filesystem::path("results") / scene.file.stem() : options.output;
-  StageClock clock(progress_on_stderr(options.verbosity));
+  const auto directory = results_directory(options.output, scene);
+  StageClock clock(progress_on_stderr(options.verbosity()));
 
   // All meshes before any file: a body that cannot be meshed leaves nothing behind.
   std::vector<meshes::BodyMesh> meshed;
@@ -47,6 +50,16 @@ void ports_command(const CommandOptions& options, std::ostream& out) {
     out << fmt::format("{}: {} ports, {}{}\n", name, meshed[i].ports.size(), vtu.string(),
                        drawn ? ", " + png.string() : "");
   }
+}
+
+}  // namespace
+
+void add_ports_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<PortsCommandOptions>();
+  auto* command =
+      add_scene_command(app, "ports", "pictures of the bodies with their ports coloured and named", *options);
+  add_results_option(*command, options->output);
+  command->callback(to_choose(chosen, options, ports));
 }
 
 }  // namespace pipelines

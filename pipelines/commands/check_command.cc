@@ -1,0 +1,131 @@
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <ostream>
+#include <sstream>
+#include <utility>
+#include <variant>
+
+#include "pipelines/accuracy/cost_forecast.h"
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/common/fem_environment.h"
+#include "pipelines/effects/body_effect_report.h"
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/loads/effect_closure.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/report/summary.h"
+#include "pipelines/report/torsion_report.h"
+#include "pipelines/scene/body_effects.h"
+
+namespace pipelines {
+namespace {
+
+/// The scene over no more turns than take a second; a table's samples need all of theirs.
+Scene for_a_look(Scene scene) {
+  constexpr int most_instants = 20'000;
+  if (!std::holds_alternative<kinetics::LoadTable>(scene.machine))
+    scene.sampling.turns =
+        std::clamp(most_instants / scene.sampling.instants_per_turn, 1, scene.sampling.turns);
+  return scene;
+}
+
+void print_load_warnings(std::ostream& out, const kinetics::LoadHistory& loads) {
+  for (const auto& warning : loads.warnings) out << "warning: " << warning << '\n';
+}
+
+/// Effects, defaults and warnings.
+void print_scene(std::ostream& out, const Scene& scene) {
+  out << scene.file.string() << ": the scene is valid\n\neffects\n";
+  for (const auto& effect : effect_table(scene))
+    out << fmt::format("  {:<4}{:<24}{} ({})\n", scene.has_effect(effect.name) ? "on" : "off", effect.name,
+                       effect.description, effect.source);
+  out << "\ndefaults used\n";
+  for (const auto& d : scene.defaults) out << fmt::format("  {} = {}  ({})\n", d.key, d.value, d.reason);
+  if (scene.defaults.empty()) out << "  none\n";
+  for (const auto& warning : scene.warnings) out << "warning: " << warning << '\n';
+}
+
+/// Mesh, masses, ports, cost and channels of one body.
+void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                const MassAgreement& masses, const BodyLoads& loads) {
+  const auto& quality = meshed.mesh.quality;
+  out << fmt::format(
+      "\n{}: {} cells, scaled Jacobian at least {:.2f}, median {:.2f}; aspect at most {:.0f}\n", body.name,
+      quality.n_cells, quality.min_scaled_jacobian, quality.median_scaled_jacobian, quality.max_aspect);
+  const auto& geometry = meshed.geometry_error;
+  out << fmt::format("  curved faces off by at most {:.2g} of their radius ({} faces)\n", geometry.relative,
+                     geometry.n_faces);
+  out << fmt::format("  mass {:.4g} kg\n", meshed.masses.mass_kg);
+  for (const auto& figure : masses.figures)
+    if (figure.body == body.name)
+      out << fmt::format("    {:<28}machine {:.5g} {}, mesh and added masses {:.5g}{}\n", figure.name,
+                         figure.given, figure.unit, figure.mesh, figure.from_mesh ? " (from the mesh)" : "");
+  out << "  ports\n";
+  for (const auto& port : meshed.mesh.ports)
+    out << fmt::format(
+        "    {:<24}z {:8.2f} .. {:8.2f} mm, diameter {:6.2f} mm, axis at ({:.2f}, {:.2f}) mm\n", port.name,
+        port.begin_m * 1e3, port.end_m * 1e3, port.radius_m * 2e3, port.axis_x_m * 1e3, port.axis_y_m * 1e3);
+  const auto& channels = loads.history.channels;
+  print_forecast(
+      out, body, meshed,
+      {channels.size(), std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn),
+       springs_of(scene), &loads});
+  print_effect_sizes(out, loads, meshed.regions);
+  out << fmt::format("  {} channels\n", channels.size());
+  for (const auto& channel : channels)
+    out << fmt::format("    {}/{} [{}]\n", body.name, channel.name, channel.unit);
+}
+
+/// Throws what the torsional analysis of a drive train would.
+void try_torsion(const Scene& scene, const Machine& machine) {
+  if (std::holds_alternative<kinetics::DriveTrain>(machine)) report_torsion(scene, machine);
+}
+
+void check_load_stage(std::ostream& out, Scene scene) {
+  const double limit = negligible_share(scene.accuracy.tolerance);
+  scene = with_effects_chosen(std::move(scene), {}, limit);
+  print_effect_choice(out, scene, {});
+  print_load_warnings(out, load_stage(for_a_look(scene), scene.machine));
+  try_torsion(scene, scene.machine);
+}
+
+/// The mesh is a second's work and the only honest answer to what will be solved; it is made aside and thrown
+/// away.
+void check_bodies(std::ostream& out, Scene scene) {
+  const FemEnvironment environment(all_cores);
+  const ScratchMeshes meshes(scene);
+  const auto& meshed = meshes.bodies();
+  const auto masses = agree_masses(scene, meshed);
+  const double limit = negligible_share(scene.accuracy.tolerance);
+  scene = with_effects_chosen(std::move(scene), meshed, limit);
+  print_effect_choice(out, scene, {});
+  StageClock silent;
+  const auto loaded = load_bodies(for_a_look(scene), meshed, silent);
+  print_load_warnings(out, loaded.loads);
+  try_torsion(scene, masses.machine);
+  for (std::size_t i = 0; i < meshed.size(); ++i)
+    print_body(out, scene, scene.bodies[i], meshed[i], masses, loaded.body_loads[i]);
+}
+
+/// Throws what a run would throw before it solves.
+void check(const SceneOptions& options, std::ostream& printed) {
+  const Scene scene = read_scene(options.scene);
+  std::ostringstream out;  // nothing is called valid before all of it is
+  print_scene(out, scene);
+  (scene.bodies.empty() ? check_load_stage : check_bodies)(out, scene);
+  printed << out.str();
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<SceneOptions>();
+  auto* command = add_scene_command(
+      app, "check",
+      "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing",
+      *options);
+  command->callback(to_choose(chosen, options, check));
+}
+
+}  // namespace pipelines

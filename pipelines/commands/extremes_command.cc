@@ -1,0 +1,27 @@
+#include <CLI/CLI.hpp>
+
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/report/mill_reports.h"
+
+namespace pipelines {
+namespace {
+
+struct ExtremesCommandOptions : SceneOptions {
+  bool json = false;
+};
+
+void extremes(const ExtremesCommandOptions& options, std::ostream& out) {
+  print_torus_extremes(out, read_scene(options.scene), options.json);
+}
+
+}  // namespace
+
+void add_extremes_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<ExtremesCommandOptions>();
+  auto* command = add_scene_command(app, "extremes",
+                                    "a vibratory mill's loads over all angles of drive and charge", *options);
+  command->add_flag("--json", options->json, "print JSON instead of the table");
+  command->callback(to_choose(chosen, options, extremes));
+}
+
+}  // namespace pipelines

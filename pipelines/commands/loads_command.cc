@@ -1,0 +1,100 @@
+#include <CLI/CLI.hpp>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+#include "pipelines/calculix/calculix_cards.h"
+#include "pipelines/commands/option_value.h"
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/common/fem_environment.h"
+#include "pipelines/effects/body_effect_report.h"
+#include "pipelines/effects/effect_choice.h"
+#include "pipelines/loads/effect_closure.h"
+#include "pipelines/loads/load_files.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/loads/load_statistics.h"
+#include "pipelines/report/summary.h"
+
+namespace pipelines {
+namespace {
+
+/// Files to write; empty: none.
+struct LoadsCommandOptions : SceneOptions {
+  std::filesystem::path output;  ///< .h5
+  std::filesystem::path csv;
+  std::filesystem::path statistics;  ///< directory
+  std::filesystem::path calculix;    ///< prefix of the files of cards
+  bool json = false;
+};
+
+/// Whether the loads of a scene cannot be told without its bodies' meshes: masses come from there, or effects
+/// are to be chosen by what the bodies feel.
+bool needs_meshes(const Scene& scene) {
+  return !scene.bodies.empty() && (!scene.masses_from_mesh.empty() || scene.effect_choice.open);
+}
+
+/// The load stage, with the effects that the scene's bodies leave on and the masses that they have. What is
+/// meshed for that has to be in equilibrium, too.
+/// @param scene  on return with its effects chosen
+kinetics::LoadHistory loads_of(Scene& scene, StageClock& clock) {
+  const double limit = negligible_share(scene.accuracy.tolerance);
+  if (!needs_meshes(scene)) {
+    if (scene.bodies.empty()) scene = with_effects_chosen(std::move(scene), {}, limit);
+    return clock.run("loads", [&] { return load_stage(scene, scene.machine); });
+  }
+  const FemEnvironment environment(all_cores);
+  const auto meshed = clock.run("mesh", [&] { return ScratchMeshes(scene).bodies(); });
+  scene = clock.run("effects", [&] { return with_effects_chosen(std::move(scene), meshed, limit); });
+  const auto masses = agree_masses(scene, meshed);
+  auto trial = clock.run("loads", [&] { return try_effects(scene, meshed, masses); });
+  require_equilibrium(scene, meshed, masses, trial.bodies);
+  scene.machine = masses.machine;  // a report must not take what stands for its masses until then
+  return std::move(trial.history);
+}
+
+void loads(const LoadsCommandOptions& options, std::ostream& out) {
+  require_extension(
+      "--output", options.output, {".h5", ".hdf5", ".hdf"},
+      "is written as HDF5; for a table write --csv " + options.output.string() + ", or end the name in .h5");
+  require_extension(
+      "--csv", options.csv, {".csv", ".txt"},
+      "is written as CSV; for HDF5 write -o " + options.csv.string() + ", or end the name in .csv");
+  Scene scene = read_scene(options.scene);
+  StageClock clock(progress_on_stderr(options.verbosity()));
+  const auto history = loads_of(scene, clock);
+  std::vector<BearingScene> bearings;  // those at a port of a body need `run`
+  for (const auto& bearing : scene.bearings)
+    if (scene.bodies.empty() || force_of(bearing.load, history, {})) bearings.push_back(bearing);
+  const auto lives = bearing_lives(bearings, history, {});
+  if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, history); });
+  if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, history); });
+  if (!options.statistics.empty())
+    clock.run("write", [&] {
+      write_statistics(options.statistics, history, scene.run_up ? 0 : scene.sampling.turns);
+    });
+  if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, history); });
+  const RunReport content{scene, history, {}, {}, clock.costs(), lives};
+  if (options.json) {
+    out << with_effects_of_bodies(summary_json(content), scene);
+  } else {
+    print_report(out, content);
+    print_effects_of_bodies(out, scene);
+  }
+}
+
+}  // namespace
+
+void add_loads_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<LoadsCommandOptions>();
+  auto* command = add_scene_command(app, "loads", "the load stage alone", *options);
+  command->add_option("-o,--output", options->output, "write the load history to this HDF5 file");
+  command->add_option("--csv", options->csv, "write the load history to this CSV file");
+  command->add_option("--statistics", options->statistics,
+                      "write extremes, harmonics, polar plots and load spectra to this directory");
+  command->add_option("--calculix", options->calculix,
+                      "write PREFIX_amplitudes.inp and PREFIX_loads.inp for CalculiX");
+  command->add_flag("--json", options->json, "print the summary as JSON instead of the table");
+  command->callback(to_choose(chosen, options, loads));
+}
+
+}  // namespace pipelines

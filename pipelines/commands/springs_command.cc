@@ -1,0 +1,27 @@
+#include <CLI/CLI.hpp>
+
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/report/mill_reports.h"
+
+namespace pipelines {
+namespace {
+
+struct SpringsCommandOptions : SceneOptions {
+  bool json = false;
+};
+
+void springs(const SpringsCommandOptions& options, std::ostream& out) {
+  print_spring_choice(out, read_scene(options.scene), options.json);
+}
+
+}  // namespace
+
+void add_springs_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<SpringsCommandOptions>();
+  auto* command = add_scene_command(app, "springs",
+                                    "the stiffness that loads a vibratory mill's bearings least", *options);
+  command->add_flag("--json", options->json, "print JSON instead of the table");
+  command->callback(to_choose(chosen, options, springs));
+}
+
+}  // namespace pipelines

@@ -1,0 +1,49 @@
+#include <CLI/CLI.hpp>
+#include <ostream>
+
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/common/fem_environment.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/loads/machine_masses.h"
+#include "pipelines/report/torsion_report.h"
+
+namespace pipelines {
+namespace {
+
+struct TorsionCommandOptions : SceneOptions {
+  std::filesystem::path output;  ///< directory; empty: none
+  bool json = false;
+};
+
+/// Masses that only a mesh can tell; the meshes are thrown away.
+Machine machine_with_masses(const Scene& scene) {
+  if (scene.masses_from_mesh.empty()) return scene.machine;
+  const FemEnvironment environment(all_cores);
+  return agree_masses(scene, ScratchMeshes(scene).bodies()).machine;
+}
+
+void torsion(const TorsionCommandOptions& options, std::ostream& out) {
+  const Scene scene = read_scene(options.scene);
+  const TorsionReport report = report_torsion(scene, machine_with_masses(scene));
+  if (!options.output.empty()) write_torsion_files(options.output, scene, report);
+  if (options.json) {
+    out << torsion_json(scene, report);
+    return;
+  }
+  print_torsion(out, scene, report);
+  for (const auto& warning : scene.warnings) out << "  warning: " << warning << '\n';
+}
+
+}  // namespace
+
+void add_torsion_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<TorsionCommandOptions>();
+  auto* command = add_scene_command(
+      app, "torsion", "natural frequencies, forced response and resonances of a drive train", *options);
+  command->add_option("-o,--output", options->output,
+                      "write modes, response, Campbell table to this directory");
+  command->add_flag("--json", options->json, "print JSON instead of the tables");
+  command->callback(to_choose(chosen, options, torsion));
+}
+
+}  // namespace pipelines
