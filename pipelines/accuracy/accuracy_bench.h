@@ -23,8 +23,6 @@ struct SolidRun {
 
 class AccuracyBench {
 public:
-  static constexpr double growth_of_seconds = 1.6;  ///< of a run, with the number of unknowns
-
   /// Meshes all bodies of the scene into scratch files, which go with this object.
   AccuracyBench(const Scene& scene, std::size_t body, const AccuracyOptions& options, StageClock& clock);
   ~AccuracyBench();

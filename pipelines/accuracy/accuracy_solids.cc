@@ -78,8 +78,7 @@ void run_series(AccuracyBench& bench, const Series& series, double end_s, SolidM
   for (const double factor : refinable ? series.factors : std::vector<double>{1}) {
     const double dofs = double(bench.own().model->n_dofs()) * std::pow(factor * series.degree / 2, 3);
     const double predicted =
-        before ? before->seconds * std::pow(dofs / double(before->n_dofs), AccuracyBench::growth_of_seconds)
-               : 0;
+        before ? before->seconds * std::pow(dofs / double(before->n_dofs), growth_of_seconds) : 0;
     if (bench.elapsed_s() + predicted > end_s) return;
     auto body = with_fineness(bench.body(), factor);
     body.degree = series.degree;

@@ -62,10 +62,10 @@ SystematicModels systematic_meshes(AccuracyBench& bench) {
   int before_level = 0;
   for (const int level : systematic_levels) {
     if (study.meshes.size() == 3 && study.convergence.usable()) break;
-    const double predicted = before_level > 0
-                                 ? models.rows.back().seconds * std::pow(double(level) / before_level,
-                                                                         3 * AccuracyBench::growth_of_seconds)
-                                 : 0;
+    const double predicted =
+        before_level > 0
+            ? models.rows.back().seconds * std::pow(double(level) / before_level, 3 * growth_of_seconds)
+            : 0;
     if (predicted > bench.seconds_left()) break;
     auto solid = bench.run_solid("systematic mesh", fmt::format("systematic mesh {}", level),
                                  systematic_mesh(bench.body(), level));

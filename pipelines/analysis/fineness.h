@@ -9,6 +9,9 @@
 
 namespace pipelines {
 
+/// Seconds of a run grow like this power of the number of unknowns, with the direct solver.
+inline constexpr double growth_of_seconds = 1.5;
+
 /// The body with cells `factor` times smaller in every direction (2: half as long), as far as its mesher's
 /// whole numbers allow: even counts on fillets, multiples of 4 around, whole cells through a wall.
 BodyScene with_fineness(const BodyScene& body, double factor);

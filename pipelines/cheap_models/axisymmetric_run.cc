@@ -4,11 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <thread>
 
 #include "fem/beam/beam_responses.h"
 #include "pipelines/analysis/place_errors.h"
+#include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/superpose_body.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_refinement.h"
@@ -20,9 +19,6 @@ namespace {
 
 /// Of the discretisation: half of a tolerance, and without one what a second buys.
 constexpr double share_of_tolerance = 0.5, usual_target = 0.01;
-int threads(int wanted) {
-  return wanted > 0 ? wanted : int(std::max(1u, std::thread::hardware_concurrency()));
-}
 
 /// The node at the place of another one, turned about the axis; that one itself on the axis.
 std::size_t turned_node(const fem::Nodes& nodes, std::size_t node, double angle) {

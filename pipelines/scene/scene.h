@@ -100,6 +100,8 @@ struct Scene {
   bool pictures = true;  ///< of the envelope, as PNG
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;  ///< sentences for the user: legal, but worth a look
+  /// Every key that the reader knows in this scene, whether it is there or not: dotted, items counted from 1.
+  std::vector<std::string> known_keys;
 
   /// Masses that the scene leaves to the mesh: "structure", "exciter", "drum", or the name of a train's
   /// inertia.

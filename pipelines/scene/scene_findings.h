@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct SceneFindings {
   std::vector<SceneFinding> errors;
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;
+  std::set<std::string> keys;  ///< every key that the reader knows here, dotted, items counted from 1
 };
 
 /// The values that a quantity may take, in SI.

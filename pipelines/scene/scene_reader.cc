@@ -33,7 +33,9 @@ std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status))
-    refuse_file(file, "there is no such file; give the path of a scene, such as pipelines/scenes/vibratory_mill.toml");
+    refuse_file(
+        file,
+        "there is no such file; give the path of a scene, such as pipelines/scenes/vibratory_mill.toml");
   if (std::filesystem::is_directory(status))
     refuse_file(file, "is a directory; give the path of a scene, a .toml file");
   constexpr std::uintmax_t most_bytes = 10'000'000;
@@ -248,6 +250,7 @@ Scene read_scene(const std::filesystem::path& file) {
   if (!findings.errors.empty()) throw_sorted(std::move(findings.errors));
   scene.defaults = std::move(findings.defaults);
   scene.warnings = std::move(findings.warnings);
+  scene.known_keys.assign(findings.keys.begin(), findings.keys.end());
   for (auto& doubt : implausible(scene)) scene.warnings.push_back(std::move(doubt));
   return scene;
 }

@@ -31,7 +31,9 @@ std::string SceneTable::dotted(const std::string& name) const {
 }
 
 void SceneTable::know(const std::string& name) {
-  if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
+  if (std::find(known_.begin(), known_.end(), name) != known_.end()) return;
+  known_.push_back(name);
+  findings_->keys.insert(dotted(name));
 }
 
 bool SceneTable::has(const std::string& name) const {

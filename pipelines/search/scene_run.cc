@@ -40,7 +40,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int most_steps = 16;
 constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
 /// A step is taken if it is predicted to end in time; predictions are rough.
-constexpr double growth_of_seconds = 1.5;  // with the number of unknowns, for the direct solver
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
