@@ -1,5 +1,5 @@
-/// Every *.toml in the folders beside `base` is a scene that must be refused, and says itself with which errors:
-/// README.md describes its directives.
+/// Every *.toml in the folders beside `base` is a scene that must be refused, and says itself with which
+/// errors: README.md describes its directives.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -85,7 +85,7 @@ std::vector<fs::path> refused_files() {
 
 class Refused : public testing::TestWithParam<fs::path> {};
 
-TEST_P(Refused, with_the_expected_errors) {
+TEST_P(Refused, WithTheExpectedErrors) {
   const RefusedScene wrong = load(GetParam());
   ASSERT_FALSE(wrong.expectations.empty()) << "no # EXPECT line in " << GetParam();
   const fs::path file =
@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(scenes, Refused, testing::ValuesIn(refused_files()), []
   return name;
 });
 
-TEST(refused, the_bases_of_the_refused_scenes_are_accepted) {
+TEST(refused, TheBasesOfTheRefusedScenesAreAccepted) {
   for (const auto& entry : fs::directory_iterator(fs::path(TEST_DATA) / "base")) {
     std::string scene = read(entry.path());
     replace_all(scene, "@SOURCE@", SOURCE_DIR);

@@ -21,7 +21,7 @@ constexpr double round_off = 1e-14;
 
 }  // namespace
 
-TEST(BearingLife, constant_load_is_its_own_equivalent) {
+TEST(BearingLife, ConstantLoadIsItsOwnEquivalent) {
   for (const auto element : {ball, roller}) {
     EXPECT_NEAR(equivalent_load_N(ArrayXd::Constant(7, -1200), element) / 1200, 1, round_off);
     EXPECT_NEAR(equivalent_load_N(ArrayXd::Constant(7, 1e200), element) / 1e200, 1, round_off);
@@ -29,7 +29,7 @@ TEST(BearingLife, constant_load_is_its_own_equivalent) {
   }
 }
 
-TEST(BearingLife, two_levels) {
+TEST(BearingLife, TwoLevels) {
   ArrayXd force_N(4);
   force_N << 1000, 3000, -1000, 1000;
   EXPECT_NEAR(equivalent_load_N(force_N, ball), std::cbrt((3 * 1e9 + 27e9) / 4), round_off * 3000);
@@ -45,12 +45,12 @@ TEST(BearingLife, two_levels) {
 
 // mean |sin|^3 over a turn is 4 / (3 pi). Equidistant instants: |sin|^3 has a kink in its third derivative
 // twice a turn, so the sum errs by some n^-4.
-TEST(BearingLife, sinusoidal_load) {
+TEST(BearingLife, SinusoidalLoad) {
   const ArrayXd angle = ArrayXd::LinSpaced(2000, 0, 2 * pi * 1999 / 2000);
   EXPECT_NEAR(equivalent_load_N(500 * angle.sin(), ball), 500 * std::cbrt(4 / (3 * pi)), 1e-8);
 }
 
-TEST(BearingLife, rating_life) {
+TEST(BearingLife, RatingLife) {
   // 1500 revolutions a minute, a tenth of the rating: 1000 million revolutions.
   const double speed_rad_s = 1500 * 2 * pi / 60;
   const auto balls = kinetics::rating_life(50e3, 5e3, ball, speed_rad_s);
@@ -64,7 +64,7 @@ TEST(BearingLife, rating_life) {
 }
 
 // No number stands for an unlimited life: the caller has to say what it means to him.
-TEST(BearingLife, without_load_there_is_no_life_to_state) {
+TEST(BearingLife, WithoutLoadThereIsNoLifeToState) {
   EXPECT_FALSE(kinetics::rating_life(50e3, 0, ball, 100));
   EXPECT_FALSE(kinetics::rating_life(50e3, 1e-300, ball, 100)) << "overflow";
   EXPECT_TRUE(kinetics::rating_life(50e3, 1e-6, ball, 100));
@@ -72,7 +72,7 @@ TEST(BearingLife, without_load_there_is_no_life_to_state) {
   EXPECT_EQ(kinetics::reliability(0, 500, 20e3), 1);
 }
 
-TEST(BearingLife, reliability_and_rating_are_inverse) {
+TEST(BearingLife, ReliabilityAndRatingAreInverse) {
   const kinetics::WeibullLife rollers{0.05, 4.0, 1.3, 10.0 / 3};
   for (const auto& law : {kinetics::WeibullLife{}, rollers})
     for (const double R : {0.01, 0.5, 0.9, 0.99, 0.9999}) {
@@ -83,7 +83,7 @@ TEST(BearingLife, reliability_and_rating_are_inverse) {
   EXPECT_LT(kinetics::required_rating_N(1000, 540, 0.9), kinetics::required_rating_N(1000, 540, 0.95));
 }
 
-TEST(BearingLife, wrong_input_is_refused) {
+TEST(BearingLife, WrongInputIsRefused) {
   const double bad = std::numeric_limits<double>::quiet_NaN();
   ArrayXd with_nan = ArrayXd::Ones(3);
   with_nan[1] = bad;

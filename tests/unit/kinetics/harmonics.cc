@@ -29,7 +29,7 @@ ArrayXd noise(int n) {
 }  // namespace
 
 // The phase is a lag: the crest of line n is at n angle = phase.
-TEST(Harmonics, amplitude_phase_and_order_of_a_known_series) {
+TEST(Harmonics, AmplitudePhaseAndOrderOfAKnownSeries) {
   const ArrayXd angle = angles(4, 240);
   const auto spectrum = line_spectrum(
       7 + 2 * (angle - 0.6).cos() + 0.5 * (0.25 * angle + 1.1).cos() + (3 * angle).sin(), 4, 20);
@@ -45,7 +45,7 @@ TEST(Harmonics, amplitude_phase_and_order_of_a_known_series) {
 
 // All lines together are the series, for even and odd numbers of instants: the last line of an even number is
 // the one that a wrong factor of two shows in.
-TEST(Harmonics, lines_add_up_to_the_series) {
+TEST(Harmonics, LinesAddUpToTheSeries) {
   for (const int n : {1, 2, 7, 64, 101}) {
     const ArrayXd values = noise(n);
     const auto spectrum = line_spectrum(values, 1, n / 2);
@@ -56,7 +56,7 @@ TEST(Harmonics, lines_add_up_to_the_series) {
   }
 }
 
-TEST(Harmonics, parseval) {
+TEST(Harmonics, Parseval) {
   for (const int n : {63, 64}) {
     const ArrayXd values = noise(n);
     const auto spectrum = line_spectrum(values, 3, n / 2);
@@ -69,7 +69,7 @@ TEST(Harmonics, parseval) {
 
 // The laboratory mill's reaction: weights, then the drive's order 1, and the slow circulation of the charge
 // at (omega_e + omega_r) / omega_e = -1/20. Nothing else with the pitch held.
-TEST(Harmonics, orders_of_the_mill) {
+TEST(Harmonics, OrdersOfTheMill) {
   const auto mill = machines::laboratory();
   const auto loads = compute_loads(
       mill, machines::effects_without(mill, {"charge_lag", "pitch", "charge_follows_pitch"}), {20, 60});
@@ -81,7 +81,7 @@ TEST(Harmonics, orders_of_the_mill) {
   EXPECT_NEAR(spectrum.lines[0].amplitude, 20 * 0.03 * std::pow(151.844 - 159.4362, 2), 1e-9);
 }
 
-TEST(Harmonics, polar_series) {
+TEST(Harmonics, PolarSeries) {
   ArrayXd fx(6), fy(6);
   fx << 3, 0, -1, 0, -0.0, -2;
   fy << 4, 2, -0.0, -5, 0, 2;
@@ -94,7 +94,7 @@ TEST(Harmonics, polar_series) {
   }
 }
 
-TEST(Harmonics, wrong_input_is_refused) {
+TEST(Harmonics, WrongInputIsRefused) {
   ArrayXd with_nan = ArrayXd::Ones(8);
   with_nan[3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(line_spectrum(with_nan, 1, 2), std::invalid_argument);

@@ -6,7 +6,7 @@
 
 // Goes red when kinetics reaches for a mesh, a solver, a file format or another folder: headers of those
 // compile from any target here, so only reading the sources shows it.
-TEST(Kinetics, includes_only_itself_eigen_and_std) {
+TEST(Kinetics, IncludesOnlyItselfEigenAndStd) {
   const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   const std::regex allowed(R"(kinetics/.*|Eigen/.*|[a-z_]+)");
   int n_files = 0;

@@ -27,14 +27,14 @@ std::string message_of(const std::function<void()>& action) {
 
 }  // namespace
 
-TEST(LoadHistory, finds_by_name) {
+TEST(LoadHistory, FindsByName) {
   EXPECT_EQ(history().quantity("T").unit, "N m");
   EXPECT_EQ(history().resultant("drive").total(2, 1), 1);
   EXPECT_TRUE(history().has_resultant("drive"));
   EXPECT_FALSE(history().has_resultant("inner_wall"));
 }
 
-TEST(LoadHistory, says_what_is_missing_and_what_there_is) {
+TEST(LoadHistory, SaysWhatIsMissingAndWhatThereIs) {
   const auto quantity = message_of([] { history().quantity("R_E"); });
   EXPECT_NE(quantity.find("\"R_E\""), std::string::npos) << quantity;
   EXPECT_NE(quantity.find("it has: T"), std::string::npos) << quantity;
@@ -43,7 +43,7 @@ TEST(LoadHistory, says_what_is_missing_and_what_there_is) {
   EXPECT_NE(role.find("it has: drive"), std::string::npos) << role;
 }
 
-TEST(WrongInput, nearest_word_takes_the_fewest_changes) {
+TEST(WrongInput, NearestWordTakesTheFewestChanges) {
   const std::vector<std::string> known{"springs", "spring_damping", "pitch", "charge_lag"};
   EXPECT_EQ(kinetics::nearest("sprigns", known), "springs");
   EXPECT_EQ(kinetics::nearest("Pitch", known), "pitch");

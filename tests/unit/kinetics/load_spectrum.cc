@@ -93,7 +93,7 @@ Counts smallest_first(const ArrayXd& values) {
 
 }  // namespace
 
-TEST(LoadSpectrum, turning_points) {
+TEST(LoadSpectrum, TurningPoints) {
   const auto found = [](std::initializer_list<double> values) {
     const ArrayXd points = kinetics::turning_points(series(values));
     return std::vector<double>(points.begin(), points.end());
@@ -106,7 +106,7 @@ TEST(LoadSpectrum, turning_points) {
   EXPECT_EQ(found({1, 2}), (V{1, 2}));
 }
 
-TEST(LoadSpectrum, agrees_with_another_algorithm) {
+TEST(LoadSpectrum, AgreesWithAnotherAlgorithm) {
   std::mt19937 generator(7);
   for (const int band : {2, 5, 1000})
     for (int n = 1; n < 200; ++n) {
@@ -117,7 +117,7 @@ TEST(LoadSpectrum, agrees_with_another_algorithm) {
     }
 }
 
-TEST(LoadSpectrum, repeating_history_has_no_direction_and_no_beginning) {
+TEST(LoadSpectrum, RepeatingHistoryHasNoDirectionAndNoBeginning) {
   std::mt19937 generator(8);
   for (int n = 2; n < 100; ++n) {
     const ArrayXd values = random_series(generator, n, 6);
@@ -138,7 +138,7 @@ TEST(LoadSpectrum, repeating_history_has_no_direction_and_no_beginning) {
 }
 
 // Every excursion is closed: twice the sum of the full cycles is the way up and down round the period.
-TEST(LoadSpectrum, repeating_history_counts_the_whole_way) {
+TEST(LoadSpectrum, RepeatingHistoryCountsTheWholeWay) {
   std::mt19937 generator(9);
   const ArrayXd values = random_series(generator, 500, 50);
   double way = std::abs(values[0] - values[499]), counted = 0;
@@ -150,7 +150,7 @@ TEST(LoadSpectrum, repeating_history_counts_the_whole_way) {
   EXPECT_EQ(counted, way);
 }
 
-TEST(LoadSpectrum, constant_series_has_no_cycles) {
+TEST(LoadSpectrum, ConstantSeriesHasNoCycles) {
   const ArrayXd constant = ArrayXd::Constant(50, 3.5);
   EXPECT_TRUE(kinetics::rainflow(constant).empty());
   EXPECT_TRUE(kinetics::rainflow_repeating(constant).empty());
@@ -158,7 +158,7 @@ TEST(LoadSpectrum, constant_series_has_no_cycles) {
   EXPECT_EQ(kinetics::equivalent_amplitude({}, 3), 0);
 }
 
-TEST(LoadSpectrum, merges_equal_cycles_by_falling_range) {
+TEST(LoadSpectrum, MergesEqualCyclesByFallingRange) {
   const auto merged = kinetics::spectrum({{2, 0, 0.5}, {4, 1, 1}, {2, 0, 0.5}, {2, -1, 1}});
   ASSERT_EQ(merged.size(), 3u);
   EXPECT_EQ(merged[0].range, 4);
@@ -166,7 +166,7 @@ TEST(LoadSpectrum, merges_equal_cycles_by_falling_range) {
   EXPECT_EQ(merged[2].count, 1);
 }
 
-TEST(LoadSpectrum, every_cycle_falls_in_one_class) {
+TEST(LoadSpectrum, EveryCycleFallsInOneClass) {
   std::mt19937 generator(10);
   const auto cycles = kinetics::rainflow(random_series(generator, 300, 20));
   double all = 0;
@@ -183,7 +183,7 @@ TEST(LoadSpectrum, every_cycle_falls_in_one_class) {
   EXPECT_EQ(bins[3].count, 1);
 }
 
-TEST(LoadSpectrum, equivalent_amplitude) {
+TEST(LoadSpectrum, EquivalentAmplitude) {
   // One size only: its own amplitude, whatever the exponent. Tolerances: a few roundings of pow.
   EXPECT_NEAR(kinetics::equivalent_amplitude({{6, 1, 2}, {6, -1, 0.5}}, 5), 3, 1e-14);
   // Half the cycles do nothing: 2^(-1/m) of the rest.
@@ -193,7 +193,7 @@ TEST(LoadSpectrum, equivalent_amplitude) {
   EXPECT_NEAR(kinetics::equivalent_amplitude({{2e300, 0, 1}}, 15) / 1e300, 1, 1e-14) << "no overflow";
 }
 
-TEST(LoadSpectrum, wrong_input_is_refused) {
+TEST(LoadSpectrum, WrongInputIsRefused) {
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(kinetics::turning_points(ArrayXd()), std::invalid_argument);
   EXPECT_THROW(kinetics::rainflow_repeating(ArrayXd()), std::invalid_argument);

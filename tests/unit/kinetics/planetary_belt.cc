@@ -37,7 +37,7 @@ const double wrap = std::acos(-1.0) - 2 * std::asin(1.0 / 9);
 
 }  // namespace
 
-TEST(PlanetaryBelt, ratio) {
+TEST(PlanetaryBelt, Ratio) {
   auto mill = machines::printed_planetary();
   mill.belt = kinetics::RatioBelt{3};
   EXPECT_DOUBLE_EQ(of(mill, 100).T2_N[0], 50);
@@ -52,7 +52,7 @@ TEST(PlanetaryBelt, ratio) {
   EXPECT_DOUBLE_EQ(of(mill, -100).sum_N[0], -200);
 }
 
-TEST(PlanetaryBelt, eytelwein) {
+TEST(PlanetaryBelt, Eytelwein) {
   auto mill = machines::printed_planetary();
   mill.belt = kinetics::EytelweinBelt{0.3};
   for (const double difference : {100.0, -100.0, 1e-6}) {
@@ -69,7 +69,7 @@ TEST(PlanetaryBelt, eytelwein) {
   EXPECT_NEAR(of(mill, 100).T1_N[0], 200, 1e-11);
 }
 
-TEST(PlanetaryBelt, pretensioned) {
+TEST(PlanetaryBelt, Pretensioned) {
   auto mill = machines::printed_planetary();
   mill.belt = kinetics::PretensionedBelt{1000, 0.3};
   EXPECT_DOUBLE_EQ(of(mill, 100).T1_N[0], 1050);
@@ -78,7 +78,7 @@ TEST(PlanetaryBelt, pretensioned) {
   EXPECT_DOUBLE_EQ(of(mill, -2400).T1_N[0], -200);
 }
 
-TEST(PlanetaryBelt, wrap_is_that_of_the_smaller_pulley) {
+TEST(PlanetaryBelt, WrapIsThatOfTheSmallerPulley) {
   auto mill = machines::printed_planetary();
   EXPECT_NEAR(planetary_geometry(mill).wrap_rad, wrap, 1e-15);
   mill.geometry = kinetics::PlanetaryLengths{0.9, 0.1, 0.2};
@@ -87,7 +87,7 @@ TEST(PlanetaryBelt, wrap_is_that_of_the_smaller_pulley) {
 }
 
 // At 1 rad/s the weight's moment exceeds the inertia's: T1 - T2 changes its sign.
-TEST(PlanetaryBelt, warnings) {
+TEST(PlanetaryBelt, Warnings) {
   using C = PlanetaryConvention;
   EXPECT_TRUE(warned(slow(kinetics::RatioBelt{}, C::consistent), "changes sides"));
   EXPECT_FALSE(warned(slow(kinetics::RatioBelt{}, C::consistent), "cannot push"));

@@ -142,7 +142,7 @@ void expect_energy_balance(const PlanetaryMill& mill, const LoadHistory& loads) 
 
 }  // namespace
 
-TEST(PlanetaryEquilibrium, printed_machine) {
+TEST(PlanetaryEquilibrium, PrintedMachine) {
   const auto mill = machines::printed_planetary();
   const auto loads = compute_loads(mill, machines::effects_without(mill, {}), {1, 360});
   expect_equilibrium(mill, loads);
@@ -150,7 +150,7 @@ TEST(PlanetaryEquilibrium, printed_machine) {
 }
 
 // 1000 machines, because the printed one hides terms: gamma = 90 deg, b = 1, phi0 = 0, c = 1/2.
-TEST(PlanetaryEquilibrium, random_machines) {
+TEST(PlanetaryEquilibrium, RandomMachines) {
   std::mt19937 generator(20240611);
   for (int k = 0; k < 1000 && !HasFailure(); ++k) {
     SCOPED_TRACE("machine " + std::to_string(k));
@@ -162,7 +162,7 @@ TEST(PlanetaryEquilibrium, random_machines) {
 }
 
 // Without the belt the drive couple is all that replaces it: the same check without strands.
-TEST(PlanetaryEquilibrium, drive_couple_replaces_the_belt) {
+TEST(PlanetaryEquilibrium, DriveCoupleReplacesTheBelt) {
   std::mt19937 generator(7);
   for (int k = 0; k < 50; ++k) {
     const auto mill = machines::random_planetary(generator);
@@ -181,7 +181,7 @@ TEST(PlanetaryEquilibrium, drive_couple_replaces_the_belt) {
 
 // The paper's signs leave over what the documentation says: -2 dT sin(beta) along y, and the moment of the
 // weight by which sin(phi) and sin(phi + alpha) differ.
-TEST(PlanetaryEquilibrium, as_published_leaves_what_is_documented) {
+TEST(PlanetaryEquilibrium, AsPublishedLeavesWhatIsDocumented) {
   auto mill = machines::printed_planetary();
   mill.convention = kinetics::PlanetaryConvention::as_published;
   const auto loads = compute_loads(mill, machines::effects_without(mill, {}), {1, 36});

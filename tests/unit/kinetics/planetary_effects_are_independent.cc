@@ -35,7 +35,7 @@ std::set<std::string> contributing(const LoadHistory& loads) {
 }  // namespace
 
 // Goes red when the balance evaluates an effect for its own purposes, or more often than needed.
-TEST(PlanetaryEffects, only_named_effects_are_evaluated_and_once_per_block) {
+TEST(PlanetaryEffects, OnlyNamedEffectsAreEvaluatedAndOncePerBlock) {
   const std::vector<std::string> names{"charge_transport", "drum_gravity", "belt"};
   std::map<std::string, int> count;
   const auto machine = kinetics::planetary::make_machine(printed());
@@ -52,7 +52,7 @@ TEST(PlanetaryEffects, only_named_effects_are_evaluated_and_once_per_block) {
   EXPECT_EQ(contributing(loads), std::set<std::string>(names.begin(), names.end()));
 }
 
-TEST(PlanetaryEffects, each_alone_contributes_alone_and_is_finite) {
+TEST(PlanetaryEffects, EachAloneContributesAloneAndIsFinite) {
   for (const auto convention : conventions)
     for (const auto& info : kinetics::planetary_mill_effects(convention)) {
       SCOPED_TRACE(info.name);
@@ -67,7 +67,7 @@ TEST(PlanetaryEffects, each_alone_contributes_alone_and_is_finite) {
 
 // All but the belt are independent of each other: single runs add up. The belt answers to the charge's
 // moment; it is the difference that it makes to a run with all the others.
-TEST(PlanetaryEffects, single_runs_add_up_to_all) {
+TEST(PlanetaryEffects, SingleRunsAddUpToAll) {
   for (const auto convention : conventions) {
     const auto mill = printed(convention);
     const auto all = compute_loads(mill, effects_without(mill, {}), one_turn);
@@ -93,7 +93,7 @@ TEST(PlanetaryEffects, single_runs_add_up_to_all) {
   }
 }
 
-TEST(PlanetaryEffects, switching_one_off_leaves_the_others_shares) {
+TEST(PlanetaryEffects, SwitchingOneOffLeavesTheOthersShares) {
   for (const auto convention : conventions) {
     const auto mill = printed(convention);
     const auto all = compute_loads(mill, effects_without(mill, {}), one_turn);
@@ -112,7 +112,7 @@ TEST(PlanetaryEffects, switching_one_off_leaves_the_others_shares) {
 }
 
 // A load role is there exactly if an effect loads it; axle and trunnions are always there.
-TEST(PlanetaryEffects, roles_follow_the_effects) {
+TEST(PlanetaryEffects, RolesFollowTheEffects) {
   const auto roles = [](const std::vector<std::string>& effects) {
     std::vector<std::string> names;
     for (const auto& r : compute_loads(printed(), effects, one_turn).resultants) names.push_back(r.role);
@@ -125,7 +125,7 @@ TEST(PlanetaryEffects, roles_follow_the_effects) {
   EXPECT_EQ(roles({"belt", "drum_transport"}), (Names{"axle", "trunnions", "drum", "pulley"}));
 }
 
-TEST(PlanetaryEffects, contributions_add_up_to_totals) {
+TEST(PlanetaryEffects, ContributionsAddUpToTotals) {
   std::mt19937 generator(11);
   for (int k = 0; k < 20; ++k) {
     const auto mill = machines::random_planetary(generator);
@@ -143,7 +143,7 @@ TEST(PlanetaryEffects, contributions_add_up_to_totals) {
 }
 
 // Instants that belong to several grids: blocks and their borders must not show.
-TEST(PlanetaryEffects, an_instant_does_not_depend_on_the_grid) {
+TEST(PlanetaryEffects, AnInstantDoesNotDependOnTheGrid) {
   const auto names = effects_without(printed(), {});
   const auto coarse = compute_loads(printed(), names, one_turn);
   const auto fine = compute_loads(printed(), names, {1, 36 * 20});
@@ -157,7 +157,7 @@ TEST(PlanetaryEffects, an_instant_does_not_depend_on_the_grid) {
 }
 
 // The order in which a scene names effects must not change a bit of the result.
-TEST(PlanetaryEffects, order_of_naming_does_not_matter) {
+TEST(PlanetaryEffects, OrderOfNamingDoesNotMatter) {
   auto names = effects_without(printed(), {});
   const auto forward = compute_loads(printed(), names, one_turn);
   std::reverse(names.begin(), names.end());
@@ -167,7 +167,7 @@ TEST(PlanetaryEffects, order_of_naming_does_not_matter) {
     EXPECT_TRUE((quantity.values == backward.quantity(quantity.name).values).all()) << quantity.name;
 }
 
-TEST(PlanetaryEffects, offset_is_the_consistent_name) {
+TEST(PlanetaryEffects, OffsetIsTheConsistentName) {
   EXPECT_EQ(kinetics::planetary_mill_effects(PlanetaryConvention::consistent)[2].name, "charge_offset");
   EXPECT_EQ(kinetics::planetary_mill_effects(PlanetaryConvention::as_plotted)[2].name, "charge_relative");
 }

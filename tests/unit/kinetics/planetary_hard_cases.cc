@@ -41,7 +41,7 @@ PlanetaryMill with_c(double c, PlanetaryConvention convention = PlanetaryConvent
 
 // The paper's "zone of indeterminacy" (E11): R_A runs through c = 1 without a jump, and the drum does not
 // spin there.
-TEST(PlanetaryHardCases, pulleys_of_one_size_are_no_special_case) {
+TEST(PlanetaryHardCases, PulleysOfOneSizeAreNoSpecialCase) {
   for (const auto convention : {PlanetaryConvention::as_published, PlanetaryConvention::as_plotted,
                                 PlanetaryConvention::consistent}) {
     const auto at_one = all_effects(with_c(1, convention));
@@ -61,7 +61,7 @@ TEST(PlanetaryHardCases, pulleys_of_one_size_are_no_special_case) {
 }
 
 // abs in (5) leaves a kink of the slope at c = 1; the signed sine does not.
-TEST(PlanetaryHardCases, signed_belt_angle_has_no_kink) {
+TEST(PlanetaryHardCases, SignedBeltAngleHasNoKink) {
   const auto Y = [](double c, PlanetaryConvention convention) {
     return compute_loads(with_c(c, convention), {"charge_transport", "belt"}, a_turn)
         .quantity("Y_A")
@@ -79,7 +79,7 @@ TEST(PlanetaryHardCases, signed_belt_angle_has_no_kink) {
 
 // First moments vanish like the void's share, so full and empty drums have no belt load left; no NaN on the
 // way, and q_C follows its limit (2/3) (r gamma)^3 = 2 pi r^3 f.
-TEST(PlanetaryHardCases, from_empty_to_full) {
+TEST(PlanetaryHardCases, FromEmptyToFull) {
   auto mill = machines::printed_planetary();
   mill.charge.half_angle_rad.reset();
   for (const double share : {0.0, 1e-300, 1e-200, 1e-100, 1e-16, 1e-15, 1e-8, 0.5}) {
@@ -112,7 +112,7 @@ TEST(PlanetaryHardCases, from_empty_to_full) {
 }
 
 // A carrier that hardly turns: weights alone, turning backwards in its frame; the belt swaps its strands.
-TEST(PlanetaryHardCases, carrier_that_hardly_turns) {
+TEST(PlanetaryHardCases, CarrierThatHardlyTurns) {
   auto mill = machines::printed_planetary();
   mill.speed_rad_s = 1e-9;
   const auto loads = all_effects(mill);
@@ -126,7 +126,7 @@ TEST(PlanetaryHardCases, carrier_that_hardly_turns) {
 }
 
 // Strands diverge as 1/r_A, the rest stays: Y_A does not know r_A at all at a given c.
-TEST(PlanetaryHardCases, small_drum_pulley) {
+TEST(PlanetaryHardCases, SmallDrumPulley) {
   auto mill = machines::printed_planetary();
   const auto Y = [&](double r_A) {
     mill.geometry = kinetics::PlanetaryLengths{0.9, 2 * r_A, r_A};
@@ -142,7 +142,7 @@ TEST(PlanetaryHardCases, small_drum_pulley) {
 
 // Pulleys that just touch in their plane, k = c / (1 + 2c), are allowed whatever the rounding; the touch from
 // within, c = k, is the last belt there is.
-TEST(PlanetaryHardCases, pulleys_that_just_touch) {
+TEST(PlanetaryHardCases, PulleysThatJustTouch) {
   for (const double c : {0.1, 0.3, 0.37, 0.5, 0.7, 1.0}) {
     auto mill = with_c(c);
     std::get<PlanetaryRatios>(mill.geometry).k = c / (1 + 2 * c);
@@ -162,7 +162,7 @@ TEST(PlanetaryHardCases, pulleys_that_just_touch) {
 }
 
 // Both descriptions of one machine give one result.
-TEST(PlanetaryHardCases, ratios_and_lengths_agree) {
+TEST(PlanetaryHardCases, RatiosAndLengthsAgree) {
   auto mill = machines::printed_planetary();
   const auto by_ratios = all_effects(mill);
   mill.geometry = kinetics::PlanetaryLengths{0.9, 0.2, 0.1};
@@ -176,7 +176,7 @@ TEST(PlanetaryHardCases, ratios_and_lengths_agree) {
 }
 
 // Turning the start turns the history: the carrier's angle is all that weights depend on.
-TEST(PlanetaryHardCases, initial_angles_shift_the_history) {
+TEST(PlanetaryHardCases, InitialAnglesShiftTheHistory) {
   auto mill = machines::printed_planetary();
   const auto start = all_effects(mill);
   mill.initial_angle_rad = 9 * 2 * machines::pi / 36;

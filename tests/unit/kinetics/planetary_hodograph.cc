@@ -50,7 +50,7 @@ void expect_ellipse(const PlanetaryMill& mill, const std::vector<std::string>& e
 
 }  // namespace
 
-TEST(PlanetaryHodograph, random_machines_all_conventions) {
+TEST(PlanetaryHodograph, RandomMachinesAllConventions) {
   std::mt19937 generator(5);
   for (int k = 0; k < 100 && !HasFailure(); ++k) {
     SCOPED_TRACE("machine " + std::to_string(k));
@@ -67,7 +67,7 @@ TEST(PlanetaryHodograph, random_machines_all_conventions) {
 }
 
 // R at first order is good to the second: (swing / mean)^2.
-TEST(PlanetaryHodograph, first_order_of_R) {
+TEST(PlanetaryHodograph, FirstOrderOfR) {
   const auto mill = machines::printed_planetary();
   const auto h = hodograph(mill, machines::effects_without(mill, {}));
   ASSERT_TRUE(h);
@@ -78,7 +78,7 @@ TEST(PlanetaryHodograph, first_order_of_R) {
 }
 
 // A circle about the origin, R constant, and nothing at all: no NaN, no endless search.
-TEST(PlanetaryHodograph, degenerate_ellipses) {
+TEST(PlanetaryHodograph, DegenerateEllipses) {
   const auto mill = machines::printed_planetary();
   const auto weight = hodograph(mill, {"drum_gravity"});
   ASSERT_TRUE(weight);

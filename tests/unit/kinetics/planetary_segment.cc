@@ -56,7 +56,7 @@ long double centroid_l(long double smaller_half_angle, bool nearly_empty) {
 
 }  // namespace
 
-TEST(PlanetarySegment, filling_and_void_give_angle_and_centroid) {
+TEST(PlanetarySegment, FillingAndVoidGiveAngleAndCentroid) {
   for (const double share :
        {1e-300, 1e-200, 1e-100, 1e-40, 1e-20, 1e-12, 1e-9,  3e-8, 1e-6, 1e-4, 1e-3,     0.01,
         0.05,   0.1,    0.1957, 0.2,   0.25,  0.3,   0.333, 0.4,  0.45, 0.49, 0.499999, 0.5}) {
@@ -75,7 +75,7 @@ TEST(PlanetarySegment, filling_and_void_give_angle_and_centroid) {
 }
 
 // 1 - f is exact for f >= 1/2, so a filling near one says as much as its void.
-TEST(PlanetarySegment, filling_near_one_is_its_void) {
+TEST(PlanetarySegment, FillingNearOneIsItsVoid) {
   for (const double filling : {1 - 1e-15, 1 - 1e-12, 1 - 1e-6, 0.999, 0.9, 0.75, 0.51}) {
     const Segment a = kinetics::planetary::segment_of_filling(filling);
     const Segment b = kinetics::planetary::segment_of_void(1 - filling);
@@ -86,7 +86,7 @@ TEST(PlanetarySegment, filling_near_one_is_its_void) {
 }
 
 // The opening of a half angle near pi needs more digits of pi than a double has.
-TEST(PlanetarySegment, half_angle_gives_the_filling) {
+TEST(PlanetarySegment, HalfAngleGivesTheFilling) {
   for (const double gamma : {1e-100, 1e-12, 1e-6, 1e-3, 0.1, 0.5, 0.7499, 0.7501, 1.0, 1.5, 1.5707963, 1.58,
                              2.0, 2.5, 3.0, 3.14, 3.14159, 3.1415926}) {
     SCOPED_TRACE(gamma);
@@ -104,7 +104,7 @@ TEST(PlanetarySegment, half_angle_gives_the_filling) {
   }
 }
 
-TEST(PlanetarySegment, limits) {
+TEST(PlanetarySegment, Limits) {
   const Segment empty = kinetics::planetary::segment_of_filling(0);
   EXPECT_EQ(empty.half_angle_rad, 0);
   EXPECT_EQ(empty.sine, 0);
@@ -123,7 +123,7 @@ TEST(PlanetarySegment, limits) {
 }
 
 // Charge and void together are the drum: their first moments cancel, their masses add up.
-TEST(PlanetarySegment, charge_and_void_make_up_the_drum) {
+TEST(PlanetarySegment, ChargeAndVoidMakeUpTheDrum) {
   auto mill = machines::printed_planetary();
   mill.charge.half_angle_rad.reset();
   const double full_kg = 4600 * machines::pi * 0.01;

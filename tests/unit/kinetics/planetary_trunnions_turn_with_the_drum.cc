@@ -26,7 +26,7 @@ double line(const Eigen::Array3Xd& force, int order) {
 }  // namespace
 
 // Section 5 of the specification, set B: printed to four digits.
-TEST(PlanetaryTrunnions, spectrum_of_the_printed_machine) {
+TEST(PlanetaryTrunnions, SpectrumOfThePrintedMachine) {
   const auto mill = machines::printed_planetary();
   const auto loads = compute_loads(mill, machines::effects_without(mill, {}), {1, 360});
   const auto turned = turned_with_drum(loads, loads.resultant("trunnions")).total;
@@ -38,7 +38,7 @@ TEST(PlanetaryTrunnions, spectrum_of_the_printed_machine) {
 
 // Weights hang still in space. Seen from the drum they turn with its absolute spin against its sense,
 // psi' + Omega = Omega (c - 1) / c; from a drum that does not spin (c = 1) they are constant.
-TEST(PlanetaryTrunnions, weight_turns_with_the_absolute_spin) {
+TEST(PlanetaryTrunnions, WeightTurnsWithTheAbsoluteSpin) {
   for (const double c : {0.5, 1.0, 2.0, 0.25}) {
     auto mill = machines::printed_planetary();
     mill.initial_angle_rad = 0.7, mill.initial_drum_angle_rad = -0.4;
@@ -55,7 +55,7 @@ TEST(PlanetaryTrunnions, weight_turns_with_the_absolute_spin) {
   }
 }
 
-TEST(PlanetaryTrunnions, size_torque_and_shares_are_kept) {
+TEST(PlanetaryTrunnions, SizeTorqueAndSharesAreKept) {
   const auto mill = machines::printed_planetary();
   const auto loads = compute_loads(mill, machines::effects_without(mill, {}), {1, 90});
   const auto& wall = loads.resultant("inner_wall");
@@ -69,7 +69,7 @@ TEST(PlanetaryTrunnions, size_torque_and_shares_are_kept) {
   EXPECT_LE((sum - turned.total).abs().maxCoeff(), 1e-14 * before.maxCoeff());
 }
 
-TEST(PlanetaryTrunnions, period) {
+TEST(PlanetaryTrunnions, Period) {
   auto mill = machines::printed_planetary();
   const auto period = [&](double c) {
     std::get<kinetics::PlanetaryRatios>(mill.geometry).c = c;

@@ -58,7 +58,7 @@ bool warned(const PlanetaryMill& mill, const std::string& of) {
 
 }  // namespace
 
-TEST(PlanetaryWrongInput, parameters) {
+TEST(PlanetaryWrongInput, Parameters) {
   expect_refused({
       {[](auto& m) { m.gravity_m_s2 = -9.81; }, {}, {"gravity_m_s2 = -9.81", "must not be negative"}},
       {[](auto& m) { m.speed_rad_s = 0; }, {}, {"speed_rad_s = 0", "must be positive", "mirror"}},
@@ -98,7 +98,7 @@ TEST(PlanetaryWrongInput, parameters) {
   });
 }
 
-TEST(PlanetaryWrongInput, filling) {
+TEST(PlanetaryWrongInput, Filling) {
   const std::vector<std::string> on{"charge_transport"};
   const auto give = [](std::optional<double> filling, std::optional<double> empty,
                        std::optional<double> gamma) {
@@ -120,7 +120,7 @@ TEST(PlanetaryWrongInput, filling) {
   EXPECT_EQ(refusal(mill, {"drum_transport", "drum_gravity", "belt"}), "accepted");
 }
 
-TEST(PlanetaryWrongInput, belt) {
+TEST(PlanetaryWrongInput, Belt) {
   expect_refused({
       {[](auto& m) { m.belt = kinetics::RatioBelt{1}; }, {}, {"belt.ratio = 1", "above 1"}},
       {[](auto& m) { m.belt = kinetics::RatioBelt{not_a_number}; }, {}, {"belt.ratio = nan"}},
@@ -138,7 +138,7 @@ TEST(PlanetaryWrongInput, belt) {
   });
 }
 
-TEST(PlanetaryWrongInput, effects) {
+TEST(PlanetaryWrongInput, Effects) {
   expect_refused({
       {unchanged, {"drum_gravty"}, {"drum_gravty: unknown", "did you mean drum_gravity?"}},
       {unchanged, {"belt", "drum_gravity", "belt"}, {"belt: named twice"}},
@@ -149,7 +149,7 @@ TEST(PlanetaryWrongInput, effects) {
   });
 }
 
-TEST(PlanetaryWrongInput, machines_that_cannot_be_built) {
+TEST(PlanetaryWrongInput, MachinesThatCannotBeBuilt) {
   expect_refused({
       {[](auto& m) {
          ratios(m) = {0.26, 1, 0.5};
@@ -181,7 +181,7 @@ TEST(PlanetaryWrongInput, machines_that_cannot_be_built) {
 }
 
 // The conventions of the paper compute what it plots, and say that it cannot be built.
-TEST(PlanetaryWrongInput, the_papers_machines_are_warned_of) {
+TEST(PlanetaryWrongInput, ThePapersMachinesAreWarnedOf) {
   auto mill = machines::printed_planetary();
   as_plotted(mill);
   ratios(mill) = {0.4, 1, 0.5};
@@ -198,7 +198,7 @@ TEST(PlanetaryWrongInput, the_papers_machines_are_warned_of) {
 }
 
 // Where w differs from Omega the forces still close, so closure alone would let it pass.
-TEST(PlanetaryWrongInput, the_papers_offset_speed_is_warned_of) {
+TEST(PlanetaryWrongInput, ThePapersOffsetSpeedIsWarnedOf) {
   auto mill = machines::printed_planetary();
   as_plotted(mill);
   EXPECT_TRUE(compute_loads(mill, {"charge_relative"}, {1, 12}).warnings.empty());
@@ -208,7 +208,7 @@ TEST(PlanetaryWrongInput, the_papers_offset_speed_is_warned_of) {
   EXPECT_NE(loads.warnings[0].find("0.0625 times"), std::string::npos) << loads.warnings[0];
 }
 
-TEST(PlanetaryWrongInput, grid) {
+TEST(PlanetaryWrongInput, Grid) {
   EXPECT_NE(refusal(machines::printed_planetary(), {}, {0, 12}).find("turns = 0"), std::string::npos);
   EXPECT_NE(refusal(machines::printed_planetary(), {}, {1, 3}).find("instants_per_turn = 3"),
             std::string::npos);

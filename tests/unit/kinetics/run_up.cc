@@ -62,7 +62,7 @@ std::string refusal(const RunUp& run, const VibratoryMill& mill = machines::labo
 
 // Constant speed from a wrong start: once that has died out the loads are those of steady running, up to
 // the integration's period error (w h)^2 / 12 with w h = 2 pi / 360 at order 1.
-TEST(RunUp, constant_speed_becomes_steady) {
+TEST(RunUp, ConstantSpeedBecomesSteady) {
   const auto mill = well_damped();
   const double turn_s = 2 * std::acos(-1.0) / mill.speed_rad_s;
   RunUp run = kinetics::ramp(mill.speed_rad_s, mill.speed_rad_s, 60 * turn_s);
@@ -84,7 +84,7 @@ TEST(RunUp, constant_speed_becomes_steady) {
 
 // The default start is steady, at the run's own first speed rather than the nominal one: nothing happens at
 // constant speed.
-TEST(RunUp, starts_steadily) {
+TEST(RunUp, StartsSteadily) {
   const auto nominal = undamped();
   auto slower = nominal;
   slower.speed_rad_s *= 0.625;
@@ -98,7 +98,7 @@ TEST(RunUp, starts_steadily) {
   }
 }
 
-TEST(RunUp, at_rest_it_hangs_in_its_springs) {
+TEST(RunUp, AtRestItHangsInItsSprings) {
   const auto mill = machines::laboratory();
   const auto loads = compute_run_up(mill, all_effects(mill), kinetics::ramp(0, 0, 1));
   EXPECT_GT(std::abs(theta(loads)[0]), 1e-3);
@@ -112,7 +112,7 @@ TEST(RunUp, at_rest_it_hangs_in_its_springs) {
     }
 }
 
-TEST(RunUp, motion_follows_the_table) {
+TEST(RunUp, MotionFollowsTheTable) {
   auto mill = machines::laboratory();
   mill.initial_angle_rad = 0.4;
   RunUp run;
@@ -133,7 +133,7 @@ TEST(RunUp, motion_follows_the_table) {
 }
 
 // Through the resonance without damping: after 1e6 steps the books of the pitch's energy are still balanced.
-TEST(RunUp, energy_of_the_pitch_is_balanced) {
+TEST(RunUp, EnergyOfThePitchIsBalanced) {
   for (const bool damped : {false, true}) {
     const auto mill = damped ? machines::laboratory() : undamped();
     RunUp run = kinetics::ramp(0, 150, 3, 2);
@@ -151,7 +151,7 @@ TEST(RunUp, energy_of_the_pitch_is_balanced) {
   }
 }
 
-TEST(RunUp, runs_to_twice_the_steps_keep_the_instants) {
+TEST(RunUp, RunsToTwiceTheStepsKeepTheInstants) {
   const auto mill = machines::laboratory();
   RunUp run = kinetics::ramp(0, 100, 0.5);
   run.step_s = 1e-3;
@@ -164,7 +164,7 @@ TEST(RunUp, runs_to_twice_the_steps_keep_the_instants) {
             1e-12 * largest(fine.quantity("R_E").values));
 }
 
-TEST(RunUp, wrong_input_is_refused) {
+TEST(RunUp, WrongInputIsRefused) {
   const double bad = std::numeric_limits<double>::quiet_NaN();
   const auto table = [](std::vector<double> time_s, std::vector<double> speed_rad_s) {
     RunUp run;

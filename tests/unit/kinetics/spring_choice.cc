@@ -63,7 +63,7 @@ VibratoryMill round_springs() {
 
 // Springs that are alike in both directions can carry all that turns with the drive: k* = omega^2 (M + m3 KE
 // / ecc). Nothing is then left but the debalance's own term if masses are missing from the sum.
-TEST(SpringChoice, round_springs_carry_what_turns_with_the_drive) {
+TEST(SpringChoice, RoundSpringsCarryWhatTurnsWithTheDrive) {
   const auto mill = round_springs();
   const double w2 = 151.844 * 151.844;
   const Names effects{"structure_inertia", "exciter_inertia", "charge_translation", "debalance_inertia",
@@ -82,7 +82,7 @@ TEST(SpringChoice, round_springs_carry_what_turns_with_the_drive) {
 }
 
 // Lateral stiffness a = kx / ky: least squares share k* by (1 + a) / (1 + a^2).
-TEST(SpringChoice, lateral_stiffness_enters_in_proportion) {
+TEST(SpringChoice, LateralStiffnessEntersInProportion) {
   const auto mill = machines::laboratory();
   const double a = 14000 / 27500.0, w2 = 151.844 * 151.844;
   const auto choice = choose_springs(mill, {"structure_inertia", "springs"}, grid, SpringAim::rms);
@@ -91,7 +91,7 @@ TEST(SpringChoice, lateral_stiffness_enters_in_proportion) {
 
 // The paper's formulas: vertical springs only, so that X_E stays. Least squares: k* = m omega^2; for the peak
 // every k up to 2 m omega^2 is as good, as |X_E| at phi = 0 is the largest anyhow: the smallest is none.
-TEST(SpringChoice, published) {
+TEST(SpringChoice, Published) {
   auto mill = machines::laboratory();
   mill.convention = Convention::published;
   const Names effects{"charge_translation", "springs"};
@@ -103,7 +103,7 @@ TEST(SpringChoice, published) {
   EXPECT_TRUE(warned(peak, "k* = 0"));
 }
 
-TEST(SpringChoice, no_stiffness_scanned_by_brute_force_is_better) {
+TEST(SpringChoice, NoStiffnessScannedByBruteForceIsBetter) {
   std::mt19937 generator(17);
   for (int i = 0; i < 12; ++i) {
     auto mill = i == 0 ? machines::laboratory() : machines::random(generator);
@@ -124,7 +124,7 @@ TEST(SpringChoice, no_stiffness_scanned_by_brute_force_is_better) {
   }
 }
 
-TEST(SpringChoice, reaction_is_affine_with_the_pitch_held) {
+TEST(SpringChoice, ReactionIsAffineWithThePitchHeld) {
   const auto mill = machines::laboratory();
   const auto vector_at = [&](double scale) -> Array2Xd {
     return compute_loads(scaled(mill, scale), held(mill), grid)
@@ -135,7 +135,7 @@ TEST(SpringChoice, reaction_is_affine_with_the_pitch_held) {
   EXPECT_LE((seven - (6 * two - 5 * one)).abs().maxCoeff(), 1e-12 * seven.abs().maxCoeff());
 }
 
-TEST(SpringChoice, smallest_of_equally_good_ones) {
+TEST(SpringChoice, SmallestOfEquallyGoodOnes) {
   Array2Xd R0(2, 2), G(2, 2);
   R0 << 8, 0, 0, 5;  // |8 - k| and a constant 5: all of [3, 13] is optimal
   G << -1, 0, 0, 0;
@@ -153,7 +153,7 @@ TEST(SpringChoice, smallest_of_equally_good_ones) {
 }
 
 // With pitch on the objective has resonances; what is found must not be above a scan ten times as fine.
-TEST(SpringChoice, free_pitch_against_a_fine_scan) {
+TEST(SpringChoice, FreePitchAgainstAFineScan) {
   const auto mill = machines::laboratory();
   const Names effects = effects_without(mill, {"charge_lag", "charge_follows_pitch"});
   for (const auto aim : both) {
@@ -171,7 +171,7 @@ TEST(SpringChoice, free_pitch_against_a_fine_scan) {
   }
 }
 
-TEST(SpringChoice, resonances_are_named) {
+TEST(SpringChoice, ResonancesAreNamed) {
   const auto mill = machines::laboratory();
   const Names effects = effects_without(mill, {"charge_lag", "charge_follows_pitch"});
   const auto choice = choose_springs(mill, effects, {20, 24}, SpringAim::rms);
@@ -196,7 +196,7 @@ TEST(SpringChoice, resonances_are_named) {
   EXPECT_FALSE(std::isfinite(beside.reaction_given_N));
 }
 
-TEST(SpringChoice, wrong_input_is_refused) {
+TEST(SpringChoice, WrongInputIsRefused) {
   auto mill = machines::laboratory();
   EXPECT_NE(refusal(mill, {"structure_inertia"}).find("the effect is off"), std::string::npos);
   EXPECT_NE(refusal(mill, {"springs"}, {0, 1, 10}).find("least_scale = 0"), std::string::npos);

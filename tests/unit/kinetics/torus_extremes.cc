@@ -40,7 +40,7 @@ double gap(const LoadHistory& loads, const TorusExtremes& bound) {
 
 }  // namespace
 
-TEST(TorusExtremes, names_what_the_effects_make) {
+TEST(TorusExtremes, NamesWhatTheEffectsMake) {
   const auto names = [](const std::vector<TorusExtremes>& all) {
     std::vector<std::string> list;
     for (const auto& one : all) list.push_back(one.quantity);
@@ -56,7 +56,7 @@ TEST(TorusExtremes, names_what_the_effects_make) {
 }
 
 // Charge and chamber turn by themselves: at the extremes their forces are parallel or opposite.
-TEST(TorusExtremes, closed_form) {
+TEST(TorusExtremes, ClosedForm) {
   const auto mill = machines::laboratory();
   const auto found = torus_extremes(mill, {"structure_inertia", "charge_relative"}, {"R_E", "X_E"});
   const double structure_N = 30 * 0.004 * std::pow(151.844, 2), charge_N = 20 * 0.03 * std::pow(159.4362, 2);
@@ -69,14 +69,14 @@ TEST(TorusExtremes, closed_form) {
 }
 
 // Equal forces cancel at one pair of angles: the magnitude has a cone there, not a flat bottom.
-TEST(TorusExtremes, a_reaction_that_vanishes) {
+TEST(TorusExtremes, AReactionThatVanishes) {
   auto mill = machines::laboratory();
   mill.structure_mass_kg = 20 * 0.03 * std::pow(159.4362 / 151.844, 2) / 0.004;
   const auto found = torus_extremes(mill, {"structure_inertia", "charge_relative"}, {"R_E"});
   EXPECT_LE(found[0].least.value, 1e-7 * found[0].most.value);  // the step of the angles times the slope
 }
 
-TEST(TorusExtremes, every_window_lies_inside) {
+TEST(TorusExtremes, EveryWindowLiesInside) {
   std::mt19937 generator(33);
   for (int i = 0; i < 6; ++i) {
     auto mill = i == 0 ? machines::laboratory() : machines::random(generator);
@@ -92,7 +92,7 @@ TEST(TorusExtremes, every_window_lies_inside) {
 }
 
 // Longer windows of a quasi-periodic motion come closer to the bounds, from inside.
-TEST(TorusExtremes, long_windows_approach_them) {
+TEST(TorusExtremes, LongWindowsApproachThem) {
   const auto mill = incommensurate();
   ASSERT_EQ(period_in_turns(mill), std::nullopt);
   const auto effects = effects_without(mill, {"charge_lag"});
@@ -112,7 +112,7 @@ TEST(TorusExtremes, long_windows_approach_them) {
 }
 
 // 1e4 turns: the angles grow to 6e4 rad and their rounding to 1e-11, no more.
-TEST(TorusExtremes, ten_thousand_turns) {
+TEST(TorusExtremes, TenThousandTurns) {
   const auto mill = incommensurate();
   const std::vector<std::string> effects{"gravity_charge",
                                          "structure_inertia",
@@ -130,7 +130,7 @@ TEST(TorusExtremes, ten_thousand_turns) {
   for (const auto& bound : bounds) EXPECT_LT(gap(loads, bound), 0.2) << bound.quantity;  // 1 - cos(pi / 5)
 }
 
-TEST(TorusExtremes, wrong_input_is_refused) {
+TEST(TorusExtremes, WrongInputIsRefused) {
   const auto refusal = [](const std::string& name, Convention convention) -> std::string {
     auto mill = machines::laboratory();
     mill.convention = convention;

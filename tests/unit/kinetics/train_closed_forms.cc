@@ -12,7 +12,7 @@ using kinetics::pi;
 
 }  // namespace
 
-TEST(TrainClosedForms, two_masses) {
+TEST(TrainClosedForms, TwoMasses) {
   const double J1 = 0.02, J2 = 3, C = 1.7e4;
   const auto modes = natural_modes(trains::chain({J1, J2}, {C}));
   ASSERT_EQ(modes.frequency_rad_s.size(), 2);
@@ -24,7 +24,7 @@ TEST(TrainClosedForms, two_masses) {
   EXPECT_NEAR(modes.potential_share(0, 1), 1, 1e-15);
 }
 
-TEST(TrainClosedForms, uniform_chain_free_and_held) {
+TEST(TrainClosedForms, UniformChainFreeAndHeld) {
   const int n = 40;
   const double J = 0.3, C = 5e3;
   auto train = trains::chain(std::vector<double>(n, J), std::vector<double>(n - 1, C));
@@ -50,7 +50,7 @@ TEST(TrainClosedForms, uniform_chain_free_and_held) {
 }
 
 // p equal branches on a hub: sqrt(C / J) p - 1 times, and once with the hub against them.
-TEST(TrainClosedForms, star_has_repeated_frequencies) {
+TEST(TrainClosedForms, StarHasRepeatedFrequencies) {
   const int p = 7;
   const double hub = 0.5, J = 0.02, C = 300;
   auto train = trains::chain(std::vector<double>(p + 1, J), std::vector<double>(p, C));
@@ -70,7 +70,7 @@ TEST(TrainClosedForms, star_has_repeated_frequencies) {
   EXPECT_LT((modes.potential_share.colwise().sum().tail(p) - 1).abs().maxCoeff(), 1e-13);
 }
 
-TEST(TrainClosedForms, hollow_shaft_stiffness_and_stress) {
+TEST(TrainClosedForms, HollowShaftStiffnessAndStress) {
   auto train = trains::chain({1, 2}, {1});
   auto& shaft = train.elements[0];
   shaft.stiffness_N_m_rad.reset();
@@ -89,7 +89,7 @@ TEST(TrainClosedForms, hollow_shaft_stiffness_and_stress) {
 }
 
 // Harmonic of a two-mass train: twist = -(M / J1) / (C (1/J1 + 1/J2) - w^2) seen from the driven mass.
-TEST(TrainClosedForms, forced_two_masses) {
+TEST(TrainClosedForms, ForcedTwoMasses) {
   const double J1 = 0.02, J2 = 3, C = 1.7e4, w = 600, M = 5;
   auto train = trains::chain({J1, J2}, {C});
   train.excitations = {trains::harmonic("J0", M, w, 0.4)};
@@ -99,7 +99,7 @@ TEST(TrainClosedForms, forced_two_masses) {
 }
 
 // A mean torque on a free train: each section carries the share that accelerates what lies behind it.
-TEST(TrainClosedForms, mean_torque_of_a_free_train) {
+TEST(TrainClosedForms, MeanTorqueOfAFreeTrain) {
   auto train = trains::chain({1, 2, 3, 4}, {1e3, 1e9, 1e2});
   kinetics::TrainExcitation drive;
   drive.name = "drive", drive.inertia = "J0", drive.constant_Nm = 20;
@@ -122,7 +122,7 @@ TEST(TrainClosedForms, mean_torque_of_a_free_train) {
 // Frahm's absorber, tuned exactly or almost: the driven mass stands still, wherever it is listed; driven
 // itself, the absorber moves the other mass by -M / C. Goes red when a torque is a difference of what a
 // resonant subtree makes large.
-TEST(TrainClosedForms, tuned_absorber) {
+TEST(TrainClosedForms, TunedAbsorber) {
   for (const bool swapped : {false, true})
     for (const double detuned : {0.0, 1e-15, 1e-12, 1e-9}) {
       auto train = trains::chain({swapped ? 4.0 : 3.0, swapped ? 3.0 : 4.0}, {400});
@@ -141,7 +141,7 @@ TEST(TrainClosedForms, tuned_absorber) {
 }
 
 // A chain whose ends both are tuned to the excitation.
-TEST(TrainClosedForms, absorbers_at_both_ends) {
+TEST(TrainClosedForms, AbsorbersAtBothEnds) {
   auto train = trains::chain({4, 3, 2, 1}, {400, 70, 100});
   train.excitations = {trains::harmonic("J1", 5, 10)};
   auto h = forced_response(train).harmonics.at(0);

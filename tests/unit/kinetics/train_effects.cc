@@ -39,7 +39,7 @@ std::vector<std::string> all_effects(const kinetics::DriveTrain& train) {
 
 }  // namespace
 
-TEST(TrainEffects, are_the_excitations_and_the_damping_that_there_is) {
+TEST(TrainEffects, AreTheExcitationsAndTheDampingThatThereIs) {
   const std::vector<std::string> wanted{"torque_on_rotor", "torque_on_disc",  "roots",
                                         "inertia_damping", "element_damping", "structural_damping",
                                         "modal_damping"};
@@ -47,7 +47,7 @@ TEST(TrainEffects, are_the_excitations_and_the_damping_that_there_is) {
   EXPECT_EQ(all_effects(trains::mok150("motor")).size(), 2u);
 }
 
-TEST(TrainEffects, contributions_add_up_and_every_inertia_is_in_balance) {
+TEST(TrainEffects, ContributionsAddUpAndEveryInertiaIsInBalance) {
   const auto train = full();
   const auto history = compute_loads(train, all_effects(train), {8, 60});
   EXPECT_LT(largest(history.quantity("closure").values), 1e-12);
@@ -73,7 +73,7 @@ TEST(TrainEffects, contributions_add_up_and_every_inertia_is_in_balance) {
 }
 
 // One excitation alone brings what it contributes among all; damping that is off is not there.
-TEST(TrainEffects, are_independent) {
+TEST(TrainEffects, AreIndependent) {
   const auto train = full();
   const auto names = all_effects(train);
   const auto all = compute_loads(train, names, {8, 60});
@@ -94,7 +94,7 @@ TEST(TrainEffects, are_independent) {
 
 // Both ways of solving, modal coordinates and dynamic stiffnesses: a loss factor in every element is, mode by
 // mode, a damping ratio of loss w_k / (2 w); for one frequency and one elastic mode they agree exactly.
-TEST(TrainEffects, modal_damping_is_what_its_name_says) {
+TEST(TrainEffects, ModalDampingIsWhatItsNameSays) {
   auto train = trains::chain({1, 3}, {400});
   const double w = 31, w_k = natural_modes(train).frequency_rad_s[1];
   train.excitations = {trains::harmonic("J0", 2, w)};
@@ -113,7 +113,7 @@ TEST(TrainEffects, modal_damping_is_what_its_name_says) {
             1e-10 * without.torque_Nm.abs().maxCoeff());
 }
 
-TEST(TrainEffects, tables_pass_through_their_entries) {
+TEST(TrainEffects, TablesPassThroughTheirEntries) {
   for (const int n : {1, 2, 5, 8}) {
     auto train = trains::chain({1, 2}, {1e6});
     kinetics::TrainExcitation x;
@@ -128,7 +128,7 @@ TEST(TrainEffects, tables_pass_through_their_entries) {
 }
 
 // A rigid gear is the limit of a stiff one.
-TEST(TrainEffects, rigid_gear_is_the_limit_of_stiff_gears) {
+TEST(TrainEffects, RigidGearIsTheLimitOfStiffGears) {
   auto train = trains::mok150("working");
   auto& gear = train.elements[1];
   gear.kind = kinetics::ElementKind::gear;
@@ -147,7 +147,7 @@ TEST(TrainEffects, rigid_gear_is_the_limit_of_stiff_gears) {
 }
 
 // Held end inside a rigid pair, and a rigid pair beyond it: the reaction belongs to the held inertia alone.
-TEST(TrainEffects, held_end_takes_the_torque) {
+TEST(TrainEffects, HeldEndTakesTheTorque) {
   auto train = trains::chain({1, 2, 3}, {1, 500});
   train.elements[0].stiffness_N_m_rad.reset();
   train.elements[0].rigid = true;
@@ -162,7 +162,7 @@ TEST(TrainEffects, held_end_takes_the_torque) {
   EXPECT_NEAR(response.harmonics[0].angle_rad[2].real(), 4 / (500 - 3 * 25.0), 1e-16);
 }
 
-TEST(TrainEffects, windows_and_samplings_that_mislead_are_said) {
+TEST(TrainEffects, WindowsAndSamplingsThatMisleadAreSaid) {
   auto train = trains::mok150("working");
   const auto says = [&](const kinetics::TimeGrid& grid, const std::string& part) {
     for (const auto& warning : compute_loads(train, {"torque_on_rotor"}, grid).warnings)

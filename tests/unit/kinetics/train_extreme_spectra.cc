@@ -46,7 +46,7 @@ kinetics::DriveTrain extreme(std::mt19937& generator, int n, bool tree) {
 }  // namespace
 
 // Goes red when the matrix is squared or Jacobi meets an unsorted one: then low frequencies lose all digits.
-TEST(TrainExtremeSpectra, chains_and_trees_keep_relative_accuracy) {
+TEST(TrainExtremeSpectra, ChainsAndTreesKeepRelativeAccuracy) {
   std::mt19937 generator(41);
   double chain = 0, tree = 0;
   for (int draw = 0; draw < 60; ++draw) {
@@ -60,7 +60,7 @@ TEST(TrainExtremeSpectra, chains_and_trees_keep_relative_accuracy) {
   EXPECT_LT(tree, 5e-13);
 }
 
-TEST(TrainExtremeSpectra, large_trains_take_about_a_second) {
+TEST(TrainExtremeSpectra, LargeTrainsTakeAboutASecond) {
   std::mt19937 generator(42);
   trains::RandomTrain kind;
   const auto chain = extreme(generator, 1000, false);

@@ -45,7 +45,7 @@ std::complex<double> excitation(const DriveTrain& train, Index i, double w) {
 
 }  // namespace
 
-TEST(TrainRandom, reducing_to_any_shaft_gives_the_same_physics) {
+TEST(TrainRandom, ReducingToAnyShaftGivesTheSamePhysics) {
   std::mt19937 generator(1);
   double worst_frequency = 0, worst_torque = 0, worst_angle = 0;
   for (int n = 0; n < 1000; ++n) {
@@ -79,7 +79,7 @@ TEST(TrainRandom, reducing_to_any_shaft_gives_the_same_physics) {
 }
 
 // Written out from the definition in the header, element by element, without the reduction.
-TEST(TrainRandom, torques_follow_from_angles_and_balance_every_inertia) {
+TEST(TrainRandom, TorquesFollowFromAnglesAndBalanceEveryInertia) {
   std::mt19937 generator(2);
   double worst_balance = 0, worst_law = 0;
   for (int n = 0; n < 1000; ++n) {
@@ -131,7 +131,7 @@ TEST(TrainRandom, torques_follow_from_angles_and_balance_every_inertia) {
 }
 
 // Mean power: that of the excitations against what dampers take, over the sum of sizes.
-TEST(TrainRandom, excitation_work_is_dissipated) {
+TEST(TrainRandom, ExcitationWorkIsDissipated) {
   std::mt19937 generator(3);
   double worst = 0, least_dissipated = 1;
   for (int n = 0; n < 1000; ++n) {

@@ -18,7 +18,7 @@ std::string refusal(const kinetics::DriveTrain& train) {
 
 }  // namespace
 
-TEST(TrainResonance, undamped_excitation_at_a_natural_frequency_is_refused_by_both_frequencies) {
+TEST(TrainResonance, UndampedExcitationAtANaturalFrequencyIsRefusedByBothFrequencies) {
   auto train = trains::chain({5, 11, 22}, {1e5, 2e5});
   const double w = natural_modes(train).frequency_rad_s[2];
   train.excitations = {trains::harmonic("J0", 1, w)};
@@ -35,7 +35,7 @@ TEST(TrainResonance, undamped_excitation_at_a_natural_frequency_is_refused_by_bo
 
 // Beside it by 1e-9 the response is that of the one mode, 1 / (1 - r^2); the frequency itself is known to
 // 1e-15 or so, hence the answer to 1e-6.
-TEST(TrainResonance, a_billionth_beside_it_the_mode_stands_alone) {
+TEST(TrainResonance, ABillionthBesideItTheModeStandsAlone) {
   auto train = trains::chain({5, 11, 22}, {1e5, 2e5});
   const auto modes = natural_modes(train);
   const double w_k = modes.frequency_rad_s[2];
@@ -54,7 +54,7 @@ TEST(TrainResonance, a_billionth_beside_it_the_mode_stands_alone) {
   }
 }
 
-TEST(TrainResonance, damped_amplification_is_half_the_inverse_damping) {
+TEST(TrainResonance, DampedAmplificationIsHalfTheInverseDamping) {
   auto train = trains::chain({1, 1}, {200});
   train.elements[0].loss_factor = 0.02;
   train.excitations = {trains::harmonic("J0", 1, 20)};
@@ -65,7 +65,7 @@ TEST(TrainResonance, damped_amplification_is_half_the_inverse_damping) {
 }
 
 // A damper that the mode does not move damps nothing.
-TEST(TrainResonance, damper_at_a_node_of_the_mode_does_not_help) {
+TEST(TrainResonance, DamperAtANodeOfTheModeDoesNotHelp) {
   auto train = trains::chain({1, 1, 1}, {100, 100});
   train.inertias[1].damping_N_m_s = 3;
   const double w = natural_modes(train).frequency_rad_s[1];
@@ -75,7 +75,7 @@ TEST(TrainResonance, damper_at_a_node_of_the_mode_does_not_help) {
 
 // Three equal branches, one damped: at their common frequency the other two swing against each other for
 // ever.
-TEST(TrainResonance, repeated_frequency_needs_damping_in_every_combination) {
+TEST(TrainResonance, RepeatedFrequencyNeedsDampingInEveryCombination) {
   auto train = trains::chain({1, 2, 2, 2}, {200, 200, 200});
   for (auto& element : train.elements) element.first = "J0";
   train.inertias[1].damping_N_m_s = 1;
@@ -86,7 +86,7 @@ TEST(TrainResonance, repeated_frequency_needs_damping_in_every_combination) {
   EXPECT_TRUE(forced_response(train).harmonics.at(0).angle_rad.isFinite().all());
 }
 
-TEST(TrainResonance, margins_and_campbell_name_order_and_mode) {
+TEST(TrainResonance, MarginsAndCampbellNameOrderAndMode) {
   auto train = trains::mok150("working");
   train.excitations = {trains::harmonic("rotor", 1, 2 * std::acos(-1.0) * 100)};
   kinetics::TrainExcitation blades;

@@ -25,7 +25,7 @@ double balance(const kinetics::Transient& t) {
 
 }  // namespace
 
-TEST(TrainTransient, undamped_energy_over_a_million_steps) {
+TEST(TrainTransient, UndampedEnergyOverAMillionSteps) {
   const auto train = trains::mok150("working");
   kinetics::TransientRun run;
   run.time_step_s = 2e-5;
@@ -73,7 +73,7 @@ TEST(TrainTransient, P19_resonance_growth) {
   EXPECT_LT(balance(result), 1e-11);
 }
 
-TEST(TrainTransient, ends_in_the_steady_state) {
+TEST(TrainTransient, EndsInTheSteadyState) {
   for (const double modal : {0.0, 0.03}) {
     auto train = trains::mok150("working");
     train.modal_damping_ratio = modal;
@@ -95,7 +95,7 @@ TEST(TrainTransient, ends_in_the_steady_state) {
 }
 
 // Speeding up through the first resonance: finite, in balance, and with a peak after the crossing.
-TEST(TrainTransient, start_up_through_a_resonance) {
+TEST(TrainTransient, StartUpThroughAResonance) {
   auto train = trains::mok150("working");
   train.modal_damping_ratio = 0.01;
   const double sweep = 2 * pi * 200 / 4;  // 0 to 200 Hz in 4 s
@@ -116,7 +116,7 @@ TEST(TrainTransient, start_up_through_a_resonance) {
   EXPECT_LT(balance(result), 1e-11);
 }
 
-TEST(TrainTransient, rigid_gear_starts_with_obedient_speeds_only) {
+TEST(TrainTransient, RigidGearStartsWithObedientSpeedsOnly) {
   auto train = trains::chain({1, 1, 1}, {100, 1});
   train.elements[1].kind = kinetics::ElementKind::gear;
   train.elements[1].stiffness_N_m_rad.reset();

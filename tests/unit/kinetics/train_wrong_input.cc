@@ -33,7 +33,7 @@ struct Mistake {
 
 }  // namespace
 
-TEST(TrainWrongInput, parameters) {
+TEST(TrainWrongInput, Parameters) {
   const std::vector<Mistake> mistakes = {
       {[](auto& t) { t.inertias.clear(); }, {"inertias: none"}},
       {[](auto& t) { t.inertias[4].inertia_kg_m2 = 0; }, {"disc.inertia_kg_m2 = 0", "must be positive"}},
@@ -89,7 +89,7 @@ TEST(TrainWrongInput, parameters) {
   EXPECT_EQ(refusal([] { forced_response(trains::mok150("motor")); }), "accepted");
 }
 
-TEST(TrainWrongInput, effects_grid_and_ranges) {
+TEST(TrainWrongInput, EffectsGridAndRanges) {
   const auto train = trains::mok150("motor");
   const auto loads = [&](const std::vector<std::string>& effects, kinetics::TimeGrid grid) {
     return refusal([&] { compute_loads(train, effects, grid); });
@@ -104,7 +104,7 @@ TEST(TrainWrongInput, effects_grid_and_ranges) {
   expect_message(refusal([&] { campbell_table(train, 0, 10, 5, {-1}); }), {"orders = -1"});
 }
 
-TEST(TrainWrongInput, transient_runs) {
+TEST(TrainWrongInput, TransientRuns) {
   const auto run = [](const std::function<void(DriveTrain&, kinetics::TransientRun&)>& make) {
     auto train = trains::mok150("motor");
     kinetics::TransientRun wrong;
@@ -134,7 +134,7 @@ TEST(TrainWrongInput, transient_runs) {
   expect_message(refusal([] { kinetics::torque_table({0}, {1, 2}); }), {"entries of time_s = 1"});
 }
 
-TEST(TrainWrongInput, published_tables) {
+TEST(TrainWrongInput, PublishedTables) {
   auto train = trains::mok150("motor");
   train.excitations[1].harmonics[0].frequency_rad_s = 300;
   expect_message(refusal([&] { published_table_4(train); }), {"torque_on_disc", "one frequency"});

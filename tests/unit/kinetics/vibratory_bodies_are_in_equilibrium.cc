@@ -125,7 +125,7 @@ void expect_equilibrium(const VibratoryMill& mill, const LoadHistory& loads) {
 
 }  // namespace
 
-TEST(VibratoryEquilibrium, laboratory_mill) {
+TEST(VibratoryEquilibrium, LaboratoryMill) {
   const auto mill = machines::laboratory();
   for (const std::vector<std::string>& without :
        {std::vector<std::string>{"charge_lag"}, {"charge_lag", "charge_follows_pitch"}})
@@ -134,7 +134,7 @@ TEST(VibratoryEquilibrium, laboratory_mill) {
 
 // 1000 machines, because the laboratory mill's symmetries (equal springs at equal heights, phi0 = 0) hide
 // terms.
-TEST(VibratoryEquilibrium, random_mills) {
+TEST(VibratoryEquilibrium, RandomMills) {
   std::mt19937 generator(20240611);
   for (int k = 0; k < 1000 && !HasFailure(); ++k) {
     SCOPED_TRACE("machine " + std::to_string(k));
@@ -144,7 +144,7 @@ TEST(VibratoryEquilibrium, random_mills) {
 }
 
 // With the pitch held, the forces still close; the moment that a guide has to carry is what the ports leave.
-TEST(VibratoryEquilibrium, pitch_off_leaves_the_reported_moment) {
+TEST(VibratoryEquilibrium, PitchOffLeavesTheReportedMoment) {
   auto mill = machines::laboratory();
   const auto loads = compute_loads(
       mill, machines::effects_without(mill, {"pitch", "charge_follows_pitch", "charge_lag"}), {20, 90});
@@ -159,7 +159,7 @@ TEST(VibratoryEquilibrium, pitch_off_leaves_the_reported_moment) {
 }
 
 // What was found for the laboratory mill by an independent program over 20 turns, to its print.
-TEST(VibratoryEquilibrium, figures_of_the_laboratory_mill) {
+TEST(VibratoryEquilibrium, FiguresOfTheLaboratoryMill) {
   const auto mill = machines::laboratory();
   const auto loads =
       compute_loads(mill, machines::effects_without(mill, {"charge_follows_pitch", "charge_lag"}), {20, 720});

@@ -59,7 +59,7 @@ std::vector<std::string> with_base(Convention convention, const std::string& eff
 }  // namespace
 
 // Goes red when the balance evaluates an effect for its own purposes, or more often than needed.
-TEST(VibratoryEffects, only_named_effects_are_evaluated_and_once_per_block) {
+TEST(VibratoryEffects, OnlyNamedEffectsAreEvaluatedAndOncePerBlock) {
   const std::vector<std::string> names{"gravity_charge", "springs", "debalance_inertia"};
   std::map<std::string, int> count;
   const auto loads =
@@ -71,14 +71,14 @@ TEST(VibratoryEffects, only_named_effects_are_evaluated_and_once_per_block) {
   EXPECT_FALSE(loads.has_resultant("spring_foot_3"));
 }
 
-TEST(VibratoryEffects, pitch_costs_one_more_evaluation) {
+TEST(VibratoryEffects, PitchCostsOneMoreEvaluation) {
   const std::vector<std::string> names{"structure_inertia", "springs", "pitch"};
   std::map<std::string, int> count;
   balance(mill(), counted(mill(), names, count), {1, 600});
   EXPECT_EQ(count, (std::map<std::string, int>{{"structure_inertia", 4}, {"springs", 4}, {"pitch", 4}}));
 }
 
-TEST(VibratoryEffects, each_alone_contributes_alone_and_is_finite) {
+TEST(VibratoryEffects, EachAloneContributesAloneAndIsFinite) {
   for (const auto convention : {Convention::consistent, Convention::published})
     for (const auto& info : kinetics::vibratory_mill_effects(convention)) {
       SCOPED_TRACE(info.name);
@@ -93,7 +93,7 @@ TEST(VibratoryEffects, each_alone_contributes_alone_and_is_finite) {
 }
 
 // A load role is there exactly if an effect loads it; the joints are always there.
-TEST(VibratoryEffects, roles_follow_the_effects) {
+TEST(VibratoryEffects, RolesFollowTheEffects) {
   const auto roles = [](const std::vector<std::string>& effects) {
     std::vector<std::string> names;
     for (const auto& r : compute_loads(mill(), effects, one_turn).resultants) names.push_back(r.role);
@@ -108,7 +108,7 @@ TEST(VibratoryEffects, roles_follow_the_effects) {
                    "spring_foot_2"}));
 }
 
-TEST(VibratoryEffects, contributions_add_up_to_totals) {
+TEST(VibratoryEffects, ContributionsAddUpToTotals) {
   const auto loads = compute_loads(mill(), effects_without(mill(), {}), one_turn);
   for (const auto& resultant : loads.resultants) {
     Eigen::Array3Xd sum = Eigen::Array3Xd::Zero(3, loads.n_instants());
@@ -124,7 +124,7 @@ TEST(VibratoryEffects, contributions_add_up_to_totals) {
 }
 
 // With the pitch held the mill is linear: an effect's share does not depend on which others are on.
-TEST(VibratoryEffects, switching_one_off_leaves_the_others_shares) {
+TEST(VibratoryEffects, SwitchingOneOffLeavesTheOthersShares) {
   const auto all =
       compute_loads(mill(), effects_without(mill(), {"pitch", "charge_follows_pitch"}), one_turn);
   const auto fewer = compute_loads(
@@ -138,7 +138,7 @@ TEST(VibratoryEffects, switching_one_off_leaves_the_others_shares) {
 }
 
 // Instants that belong to several grids: blocks and their borders must not show.
-TEST(VibratoryEffects, an_instant_does_not_depend_on_the_grid) {
+TEST(VibratoryEffects, AnInstantDoesNotDependOnTheGrid) {
   const auto names = effects_without(mill(), {});
   const auto coarse = compute_loads(mill(), names, one_turn);
   const auto fine = compute_loads(mill(), names, {1, 36 * 20});
@@ -152,7 +152,7 @@ TEST(VibratoryEffects, an_instant_does_not_depend_on_the_grid) {
 }
 
 // The order in which a scene names effects must not change a bit of the result.
-TEST(VibratoryEffects, order_of_naming_does_not_matter) {
+TEST(VibratoryEffects, OrderOfNamingDoesNotMatter) {
   auto names = effects_without(mill(), {});
   const auto forward = compute_loads(mill(), names, one_turn);
   std::reverse(names.begin(), names.end());
@@ -163,7 +163,7 @@ TEST(VibratoryEffects, order_of_naming_does_not_matter) {
 }
 
 // Without eccentricity, charge and debalance offset nothing accelerates: only weights and preload are left.
-TEST(VibratoryEffects, inertia_is_passive_at_rest) {
+TEST(VibratoryEffects, InertiaIsPassiveAtRest) {
   auto m = mill();
   m.eccentricity_m = m.charge_offset_m = m.debalance_offset_m = 0;
   for (const auto& resultant : compute_loads(m, effects_without(m, {}), one_turn).resultants)

@@ -29,7 +29,7 @@ void expect_balance(const kinetics::VibratoryMill& mill, const std::vector<std::
 
 }  // namespace
 
-TEST(VibratoryEnergy, drive_pays_for_damping_and_charge) {
+TEST(VibratoryEnergy, DrivePaysForDampingAndCharge) {
   auto mill = machines::laboratory();
   ASSERT_EQ(period_in_turns(mill), 20);
   mill.charge_lag.loss_angle_rad = 0.2;
@@ -41,7 +41,7 @@ TEST(VibratoryEnergy, drive_pays_for_damping_and_charge) {
 
 // With the pitch held, the chamber moves on the circle alone, and the lag takes exactly the power it was made
 // from.
-TEST(VibratoryEnergy, charge_lag_raises_the_mean_drive_power_by_the_grinding_power) {
+TEST(VibratoryEnergy, ChargeLagRaisesTheMeanDrivePowerByTheGrindingPower) {
   auto mill = machines::laboratory();
   const std::vector<std::string> held{"pitch", "charge_follows_pitch"};
   const auto power_with = [&](const std::vector<std::string>& without) {

@@ -29,7 +29,7 @@ Eigen::Array3Xd charge_part(const LoadHistory& loads, const std::string& effect)
 
 }  // namespace
 
-TEST(VibratoryHardCases, charge_in_the_chamber_centre) {
+TEST(VibratoryHardCases, ChargeInTheChamberCentre) {
   auto mill = machines::laboratory();
   mill.charge_offset_m = 0;
   const auto loads = all_effects(mill);
@@ -38,7 +38,7 @@ TEST(VibratoryHardCases, charge_in_the_chamber_centre) {
   EXPECT_EQ(period_in_turns(mill), 1);  // where the charge points no longer matters
 }
 
-TEST(VibratoryHardCases, no_eccentricity) {
+TEST(VibratoryHardCases, NoEccentricity) {
   auto mill = machines::laboratory();
   mill.eccentricity_m = 0;
   const auto loads = all_effects(mill);
@@ -47,7 +47,7 @@ TEST(VibratoryHardCases, no_eccentricity) {
   EXPECT_LE(largest(loads.quantity("T").values - lift), 1e-14);
 }
 
-TEST(VibratoryHardCases, charge_turns_with_the_drive) {
+TEST(VibratoryHardCases, ChargeTurnsWithTheDrive) {
   auto mill = machines::laboratory();
   mill.charge_relative_speed_rad_s = 0;
   const auto loads = all_effects(mill);
@@ -58,7 +58,7 @@ TEST(VibratoryHardCases, charge_turns_with_the_drive) {
 
 // A charge whose centre does not turn in space feels only the translation: its centripetal, Coriolis and
 // relative terms are m r omega^2 (1 - 2 + 1). The published formulas lack the first, erratum 1.
-TEST(VibratoryHardCases, charge_at_rest_in_space) {
+TEST(VibratoryHardCases, ChargeAtRestInSpace) {
   auto mill = machines::laboratory();
   mill.charge_relative_speed_rad_s = -mill.speed_rad_s;
   const auto loads = all_effects(mill);
@@ -69,7 +69,7 @@ TEST(VibratoryHardCases, charge_at_rest_in_space) {
   EXPECT_EQ(period_in_turns(mill), 1);
 }
 
-TEST(VibratoryHardCases, no_springs_and_pitch_held) {
+TEST(VibratoryHardCases, NoSpringsAndPitchHeld) {
   auto mill = machines::laboratory();
   mill.springs.clear();
   const auto loads = compute_loads(
@@ -86,7 +86,7 @@ TEST(VibratoryHardCases, no_springs_and_pitch_held) {
 
 // Statics of two supports divide by their distance; one alone must lie below the weights, 131.454 N m /
 // 549.36 N.
-TEST(VibratoryHardCases, one_spring) {
+TEST(VibratoryHardCases, OneSpring) {
   auto mill = machines::laboratory();
   mill.springs.pop_back();
   mill.springs[0].position_m.x() = 131.454 / 549.36;
@@ -98,7 +98,7 @@ TEST(VibratoryHardCases, one_spring) {
 
 // All else is then small beside the springs: the chamber pitches so that their moments cancel, whatever their
 // stiffness, k_theta theta = -sum p x (k s).
-TEST(VibratoryHardCases, springs_1e12_times_stiffer) {
+TEST(VibratoryHardCases, Springs1e12TimesStiffer) {
   auto mill = machines::laboratory();
   for (auto& spring : mill.springs) spring.stiffness_N_m *= 1e12;
   const auto loads = all_effects(mill);
@@ -113,7 +113,7 @@ TEST(VibratoryHardCases, springs_1e12_times_stiffer) {
 // Beside the pitch's resonance by relative 1e-9 in frequency lies the border between what is refused and what
 // is computed (2e-9 of the stiffness). On the outer side the answer is finite, large and still an
 // equilibrium.
-TEST(VibratoryHardCases, beside_the_resonance_of_pitch) {
+TEST(VibratoryHardCases, BesideTheResonanceOfPitch) {
   const auto beside = [](double relative) {
     auto mill = machines::laboratory();
     const double w = mill.speed_rad_s * (1 + relative);
@@ -139,13 +139,13 @@ TEST(VibratoryHardCases, beside_the_resonance_of_pitch) {
   }
 }
 
-TEST(VibratoryHardCases, no_effects_no_loads) {
+TEST(VibratoryHardCases, NoEffectsNoLoads) {
   const auto loads = compute_loads(machines::laboratory(), {}, grid);
   for (const char* name : {"B", "R_E", "T", "closure_force", "closure_moment", "theta"})
     EXPECT_EQ(largest(loads.quantity(name).values), 0) << name;
 }
 
-TEST(VibratoryHardCases, a_window_that_is_no_period_says_so) {
+TEST(VibratoryHardCases, AWindowThatIsNoPeriodSaysSo) {
   const auto warned = [](const VibratoryMill& mill, const kinetics::TimeGrid& window) {
     std::string all;
     for (const auto& warning : compute_loads(mill, {"gravity_charge"}, window).warnings) all += warning;
@@ -159,7 +159,7 @@ TEST(VibratoryHardCases, a_window_that_is_no_period_says_so) {
   EXPECT_NE(warned(mill, {20, 12}).find("never"), std::string::npos);
 }
 
-TEST(VibratoryHardCases, what_the_user_should_know_is_said) {
+TEST(VibratoryHardCases, WhatTheUserShouldKnowIsSaid) {
   const auto warned = [](const VibratoryMill& mill, const std::string& sentence) {
     for (const auto& warning : compute_loads(mill, effects_without(mill, {}), {20, 60}).warnings)
       if (warning.find(sentence) != std::string::npos) return true;

@@ -90,7 +90,7 @@ VibratoryMill mill() {
 
 }  // namespace
 
-TEST(VibratoryInertia, charge) {
+TEST(VibratoryInertia, Charge) {
   const auto m = mill();
   using namespace kinetics::vibratory;
   const auto centre = [&](double t) -> Vector2d {
@@ -100,7 +100,7 @@ TEST(VibratoryInertia, charge) {
                  {charge_translation(m), charge_centripetal(m), charge_coriolis(m), charge_relative(m)});
 }
 
-TEST(VibratoryInertia, charge_that_lags) {
+TEST(VibratoryInertia, ChargeThatLags) {
   const auto m = mill();
   using namespace kinetics::vibratory;
   const auto centre = [&](double t) -> Vector2d {
@@ -111,14 +111,14 @@ TEST(VibratoryInertia, charge_that_lags) {
       {charge_translation(m), charge_centripetal(m), charge_coriolis(m), charge_relative(m), charge_lag(m)});
 }
 
-TEST(VibratoryInertia, structure_and_exciter) {
+TEST(VibratoryInertia, StructureAndExciter) {
   const auto m = mill();
   const auto centre = [&](double t) -> Vector2d { return m.eccentricity_m * e(phi(t)); };
   expect_inertia(m.structure_mass_kg, centre, {kinetics::vibratory::structure_inertia(m)});
   expect_inertia(m.exciter_mass_kg, centre, {kinetics::vibratory::exciter_inertia(m)});
 }
 
-TEST(VibratoryInertia, debalance) {
+TEST(VibratoryInertia, Debalance) {
   const auto m = mill();
   const auto centre = [&](double t) -> Vector2d { return m.debalance_offset_m * e(phi(t)); };
   expect_inertia(m.debalance_mass_kg, centre, {kinetics::vibratory::debalance_inertia(m)});

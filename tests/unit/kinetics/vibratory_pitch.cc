@@ -43,7 +43,7 @@ ArrayXd derivative(const ArrayXd& f, double step_s) {
 // The equilibrium tests tie theta'' to the moments; this ties theta and theta' to theta''. Fastest harmonic:
 // phi + chi and 2 phi at most, so w h <= 2 * 2 pi / 720 = 0.017 and the differences err by (w h)^4 / 30 =
 // 3e-9.
-TEST(VibratoryPitch, rates_are_the_derivatives_of_theta) {
+TEST(VibratoryPitch, RatesAreTheDerivativesOfTheta) {
   const auto mill = machines::laboratory();
   const auto loads = compute_loads(mill, effects_without(mill, {"charge_lag"}), {20, 720});
   const ArrayXd &theta = loads.quantity("theta").values, &rate = loads.quantity("theta_dot").values,
@@ -56,7 +56,7 @@ TEST(VibratoryPitch, rates_are_the_derivatives_of_theta) {
 
 // At a crawl the chamber hangs on its springs: k_theta theta is the moment that the held chamber leaves.
 // Dynamics enter with I w^2 / k_theta = 4e-8 at 0.01 rad/s.
-TEST(VibratoryPitch, slow_machine_pitches_statically) {
+TEST(VibratoryPitch, SlowMachinePitchesStatically) {
   auto mill = machines::laboratory();
   mill.speed_rad_s = 0.01;
   mill.charge_relative_speed_rad_s = -0.0105;
@@ -69,7 +69,7 @@ TEST(VibratoryPitch, slow_machine_pitches_statically) {
   EXPECT_LE(largest(7001.2 * free.quantity("theta").values - residual), 1e-6 * largest(residual));
 }
 
-TEST(VibratoryPitch, a_charge_that_follows_makes_the_chamber_pitch_less) {
+TEST(VibratoryPitch, AChargeThatFollowsMakesTheChamberPitchLess) {
   const auto mill = machines::laboratory();
   const double alone =
       largest(compute_loads(mill, effects_without(mill, {"charge_lag", "charge_follows_pitch"}), {20, 90})
@@ -82,7 +82,7 @@ TEST(VibratoryPitch, a_charge_that_follows_makes_the_chamber_pitch_less) {
   EXPECT_LT(followed / alone, 0.80);
 }
 
-TEST(VibratoryPitch, only_the_harmonics_that_are_there) {
+TEST(VibratoryPitch, OnlyTheHarmonicsThatAreThere) {
   const auto mill = machines::laboratory();
   // Inertia of the structure alone turns with phi: one harmonic.
   const auto one = solve_pitch(mill, kinetics::vibratory::make_effects(mill, {"structure_inertia", "pitch"}));
@@ -93,7 +93,7 @@ TEST(VibratoryPitch, only_the_harmonics_that_are_there) {
   EXPECT_NEAR(std::abs(one.harmonics[0].amplitude_rad), 30 * 0.004 * std::hypot(0.26, 0.02) / 2.85, 1e-15);
 }
 
-TEST(VibratoryPitch, resonance_is_refused_by_its_frequency) {
+TEST(VibratoryPitch, ResonanceIsRefusedByItsFrequency) {
   const double omega = machines::laboratory().speed_rad_s;
   const auto mill = tuned(omega, 2.85);
   const auto effects = effects_without(mill, {"charge_lag", "charge_follows_pitch"});
@@ -106,7 +106,7 @@ TEST(VibratoryPitch, resonance_is_refused_by_its_frequency) {
   EXPECT_NE(slow_message.find("7.5922 rad/s"), std::string::npos) << slow_message;
 }
 
-TEST(VibratoryPitch, resonance_is_harmless_if_damped_or_not_excited) {
+TEST(VibratoryPitch, ResonanceIsHarmlessIfDampedOrNotExcited) {
   auto mill = tuned(machines::laboratory().speed_rad_s, 2.85);
   EXPECT_EQ(refusal(mill, {"springs", "gravity_structure", "pitch"}).find("accepted") == 0, false)
       << "the springs' own stretch turns with the drive and excites";
@@ -119,7 +119,7 @@ TEST(VibratoryPitch, resonance_is_harmless_if_damped_or_not_excited) {
   EXPECT_EQ(refusal(mill, effects_without(mill, {"charge_lag", "charge_follows_pitch"})), "accepted");
 }
 
-TEST(VibratoryPitch, a_mean_moment_needs_stiffness) {
+TEST(VibratoryPitch, AMeanMomentNeedsStiffness) {
   auto mill = machines::laboratory();
   for (auto& spring : mill.springs) {
     spring.stiffness_N_m.setZero();

@@ -22,7 +22,7 @@ std::string refusal(const VibratoryMill& mill) {
 
 }  // namespace
 
-TEST(VibratoryPreload, carries_force_and_moment_of_the_weights) {
+TEST(VibratoryPreload, CarriesForceAndMomentOfTheWeights) {
   std::mt19937 generator(7);
   for (int k = 0; k < 50; ++k) {
     auto mill = machines::random(generator);
@@ -42,21 +42,21 @@ TEST(VibratoryPreload, carries_force_and_moment_of_the_weights) {
   }
 }
 
-TEST(VibratoryPreload, counts_the_weights_in_effect_only) {
+TEST(VibratoryPreload, CountsTheWeightsInEffectOnly) {
   const auto springs = with_preloads(machines::laboratory(), {"gravity_exciter", "springs"});
   EXPECT_NEAR(springs[0].preload_N->y() + springs[1].preload_N->y(), 6 * 9.81, 1e-12);
   for (const auto& spring : with_preloads(machines::laboratory(), {"springs"}))
     EXPECT_EQ(spring.preload_N->y(), 0);
 }
 
-TEST(VibratoryPreload, given_ones_are_kept) {
+TEST(VibratoryPreload, GivenOnesAreKept) {
   auto mill = machines::laboratory();
   mill.springs[0].preload_N = Vector2d(1, 2);
   mill.springs[1].preload_N = Vector2d(3, 4);
   EXPECT_EQ(*with_preloads(mill, weights)[1].preload_N, Vector2d(3, 4));
 }
 
-TEST(VibratoryPreload, impossible_balance_is_refused) {
+TEST(VibratoryPreload, ImpossibleBalanceIsRefused) {
   auto mill = machines::laboratory();
   mill.springs[0].preload_N = Vector2d(1, 2);
   EXPECT_NE(refusal(mill).find("or of none"), std::string::npos) << refusal(mill);

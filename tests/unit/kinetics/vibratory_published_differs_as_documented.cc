@@ -29,7 +29,7 @@ Array2Xd along(const ArrayXd& angle) {
 }  // namespace
 
 // Errata 1 and 2 are the whole difference of R_E without preload, lateral stiffness, damping and pitch.
-TEST(VibratoryPublished, lacks_centripetal_term_and_carried_masses) {
+TEST(VibratoryPublished, LacksCentripetalTermAndCarriedMasses) {
   std::mt19937 generator(3);
   for (int k = 0; k < 20; ++k) {
     VibratoryMill mill = machines::random(generator);
@@ -55,7 +55,7 @@ TEST(VibratoryPublished, lacks_centripetal_term_and_carried_masses) {
   }
 }
 
-TEST(VibratoryPublished, delivers_the_load_stage_only) {
+TEST(VibratoryPublished, DeliversTheLoadStageOnly) {
   auto mill = machines::laboratory();
   mill.convention = Convention::published;
   const auto loads = compute_loads(mill, effects_without(mill, {}), {1, 36});
@@ -68,7 +68,7 @@ TEST(VibratoryPublished, delivers_the_load_stage_only) {
 
 // K* has poles where sin(phi) = 0: the value there is finite, lies between the neighbours' opposite excesses,
 // and the quantity says that its extremes mean nothing.
-TEST(VibratoryPublished, stiffness_from_moments_is_finite_at_its_poles) {
+TEST(VibratoryPublished, StiffnessFromMomentsIsFiniteAtItsPoles) {
   auto mill = machines::laboratory();
   mill.convention = Convention::published;
   const auto loads = compute_loads(mill, effects_without(mill, {}), {3, 72});
@@ -87,7 +87,7 @@ TEST(VibratoryPublished, stiffness_from_moments_is_finite_at_its_poles) {
 
 // The structure's weight alone makes F* = 2 m1 g LE / (QE + HE) constant: K* is then odd about its poles, and
 // its principal value there is zero.
-TEST(VibratoryPublished, principal_value_is_zero_for_a_constant_force) {
+TEST(VibratoryPublished, PrincipalValueIsZeroForAConstantForce) {
   auto mill = machines::laboratory();
   mill.convention = Convention::published;
   const auto loads = compute_loads(mill, {"springs", "gravity_structure"}, {1, 8});
@@ -98,7 +98,7 @@ TEST(VibratoryPublished, principal_value_is_zero_for_a_constant_force) {
   EXPECT_NEAR(loads.quantity("K_star").values[4], 0, 1e-11 * force / (0.004 * 1e-3));
 }
 
-TEST(VibratoryPublished, no_eccentricity_leaves_the_stiffness_out) {
+TEST(VibratoryPublished, NoEccentricityLeavesTheStiffnessOut) {
   auto mill = machines::laboratory();
   mill.convention = Convention::published;
   mill.eccentricity_m = 0;
@@ -108,7 +108,7 @@ TEST(VibratoryPublished, no_eccentricity_leaves_the_stiffness_out) {
   EXPECT_NE(loads.warnings[0].find("K_star"), std::string::npos);
 }
 
-TEST(VibratoryPublished, without_springs_their_number_is_free) {
+TEST(VibratoryPublished, WithoutSpringsTheirNumberIsFree) {
   auto mill = machines::laboratory();
   mill.convention = Convention::published;
   mill.springs.clear();

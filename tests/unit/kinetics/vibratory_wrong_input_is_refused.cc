@@ -45,7 +45,7 @@ void expect_refused(const Mistake& mistake) {
 
 }  // namespace
 
-TEST(VibratoryWrongInput, parameters) {
+TEST(VibratoryWrongInput, Parameters) {
   const std::vector<Mistake> mistakes = {
       {[](auto& m) { m.eccentricity_m = -0.004; }, {}, {"eccentricity_m = -0.004", "must not be negative"}},
       {[](auto& m) { m.eccentricity_m = not_a_number; }, {}, {"eccentricity_m = nan", "finite"}},
@@ -84,7 +84,7 @@ TEST(VibratoryWrongInput, parameters) {
   for (const auto& mistake : mistakes) expect_refused(mistake);
 }
 
-TEST(VibratoryWrongInput, effects) {
+TEST(VibratoryWrongInput, Effects) {
   const std::vector<Mistake> mistakes = {
       {unchanged, {"gravity_chrage"}, {"gravity_chrage: unknown", "did you mean gravity_charge?"}},
       {unchanged, {"springs", "springs"}, {"named twice"}},
@@ -100,7 +100,7 @@ TEST(VibratoryWrongInput, effects) {
   for (const auto& mistake : mistakes) expect_refused(mistake);
 }
 
-TEST(VibratoryWrongInput, charge_lag) {
+TEST(VibratoryWrongInput, ChargeLag) {
   const std::vector<std::string> on{"charge_translation", "charge_lag"};
   const std::vector<Mistake> mistakes = {
       {unchanged, on, {"both missing"}},
@@ -127,7 +127,7 @@ TEST(VibratoryWrongInput, charge_lag) {
   EXPECT_EQ(refusal(mill, on), "accepted");
 }
 
-TEST(VibratoryWrongInput, published_needs_two_springs) {
+TEST(VibratoryWrongInput, PublishedNeedsTwoSprings) {
   expect_refused({[](auto& m) {
                     published(m);
                     m.springs.pop_back();
@@ -142,7 +142,7 @@ TEST(VibratoryWrongInput, published_needs_two_springs) {
                   {"QE + HE"}});
 }
 
-TEST(VibratoryWrongInput, grid) {
+TEST(VibratoryWrongInput, Grid) {
   EXPECT_NE(refusal(machines::laboratory(), {}, {0, 12}).find("turns = 0"), std::string::npos);
   EXPECT_NE(refusal(machines::laboratory(), {}, {1, 3}).find("instants_per_turn = 3"), std::string::npos);
 }

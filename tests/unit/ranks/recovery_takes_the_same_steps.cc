@@ -30,12 +30,12 @@ void expect_same(const fem::Grid& grid, const std::vector<fem::CylinderChart>& c
   }
 }
 
-TEST(Recovery, of_hexahedra_with_charts) {
+TEST(Recovery, OfHexahedraWithCharts) {
   const auto shaft = fem_tests::eccentric_shaft(2);
   expect_same(fem::read_grid(shaft.body), shaft.body.cylinders, {shaft.ports.at("end_1").boundary_id});
 }
 
-TEST(Recovery, of_tetrahedra) {
+TEST(Recovery, OfTetrahedra) {
   const auto grid = fem_tests::tetrahedra_block({1, 1, 30}, [](const fem_tests::Point& x) {
     return fem_tests::Point(x[0], x[1] + 0.2 * x[2] * x[2], 30 * x[2]);
   });

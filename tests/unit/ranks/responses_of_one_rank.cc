@@ -96,21 +96,21 @@ std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
   return loads;
 }
 
-TEST_F(Ranks, hexahedra_directly) {
+TEST_F(Ranks, HexahedraDirectly) {
   const auto shaft = fem_tests::eccentric_shaft(2);
   const auto responses = expect_same(shaft.body, some_loads(shaft), fem::Solver::direct);
   EXPECT_LT(responses.support_reaction, 1e-9) << "balanced loads leave round-off to the support";
   EXPECT_GT(responses.factor_gigabytes, 0);
 }
 
-TEST_F(Ranks, hexahedra_iteratively) {
+TEST_F(Ranks, HexahedraIteratively) {
   const auto shaft = fem_tests::eccentric_shaft(2);
   const auto responses = expect_same(shaft.body, some_loads(shaft), fem::Solver::iterative);
   EXPECT_GT(responses.solver.n_iterations, 4);
 }
 
 // Four ranks have a quarter of it each, and nodes in the middle that all of them share.
-TEST_F(Ranks, disc_iteratively) {
+TEST_F(Ranks, DiscIteratively) {
   meshes::Shaft shaft;
   shaft.segments = {{"disc", 0, 0.02, 0.1, 0, true}};
   meshes::ShaftMeshControl control;
@@ -127,7 +127,7 @@ TEST_F(Ranks, disc_iteratively) {
   expect_same(disc.body, some_loads(disc), fem::Solver::iterative);
 }
 
-TEST_F(Ranks, cubic_hexahedra_iteratively_with_aggregates) {
+TEST_F(Ranks, CubicHexahedraIterativelyWithAggregates) {
   auto rod = fem_tests::rod(8);
   rod.body.degree = 3;
   fem::SolverChoice choice{fem::Solver::iterative, 1e-12, 100, fem::CoarseLevel::aggregated};
@@ -142,7 +142,7 @@ TEST_F(Ranks, cubic_hexahedra_iteratively_with_aggregates) {
       << "the preconditioner is the same but for the aggregates' order";
 }
 
-TEST_F(Ranks, iteration_repeats_bit_by_bit) {
+TEST_F(Ranks, IterationRepeatsBitByBit) {
   const auto shaft = fem_tests::eccentric_shaft(2);
   const auto loads = some_loads(shaft);
   const auto first = solve(shaft.body, loads, fem::Solver::iterative, MPI_COMM_WORLD),
@@ -155,7 +155,7 @@ TEST_F(Ranks, iteration_repeats_bit_by_bit) {
             << '\n';
 }
 
-TEST_F(Ranks, clamped_rod) {
+TEST_F(Ranks, ClampedRod) {
   auto rod = fem_tests::rod();
   rod.body.clamps = {{rod.ports.at("end_1").boundary_id}};
   const auto responses = expect_same(rod.body,
@@ -166,7 +166,7 @@ TEST_F(Ranks, clamped_rod) {
   EXPECT_EQ(responses.support_reaction, 0);
 }
 
-TEST_F(Ranks, springs) {
+TEST_F(Ranks, Springs) {
   for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
     auto rod = fem_tests::rod();
     for (const auto* end : {"end_1", "end_2"})
@@ -175,14 +175,14 @@ TEST_F(Ranks, springs) {
   }
 }
 
-TEST_F(Ranks, two_materials) {
+TEST_F(Ranks, TwoMaterials) {
   auto rod = fem_tests::rod();
   const auto group = rod.body.cylinders.front().volume_id;
   rod.body.material_of_volume[group] = {70e9, 0.33, 2700};
   expect_same(rod.body, some_loads(rod), fem::Solver::direct);
 }
 
-TEST_F(Ranks, tetrahedra_directly) {
+TEST_F(Ranks, TetrahedraDirectly) {
   const auto rod = fem_tests::rod();  // for its directory
   const auto grid = fem_tests::tetrahedra_block({2, 2, 8}, [](const fem_tests::Point& x) {
     return fem_tests::Point(x[0] + 0.05 * x[2] * x[2], x[1], 4 * x[2]);
@@ -203,7 +203,7 @@ TEST_F(Ranks, tetrahedra_directly) {
 }
 
 // All ranks hear of it, and the helpers are there for the next body.
-TEST_F(Ranks, failures_leave_the_ranks_in_step) {
+TEST_F(Ranks, FailuresLeaveTheRanksInStep) {
   auto rod = fem_tests::rod();
   const auto loads = some_loads(rod);
   auto weak = rod.body;

@@ -15,7 +15,7 @@ using verification::Point;
 
 // The same bent and pulled beam, a thousand times smaller and larger: stress times length squared (to the
 // third) is a number without dimension. 1e-9: what coordinates of another rounding leave.
-TEST(Scaling, lengths_of_micrometres_and_kilometres_give_the_same_numbers) {
+TEST(Scaling, LengthsOfMicrometresAndKilometresGiveTheSameNumbers) {
   const auto answer = [](double unit, Component component, int power, fem::Solver solver) {
     const Point size = unit * Point(0.3, 0.4, 1.2);
     const auto body = verification::distorted_beam(size, {2, 2, 4}, 0.04, {206e9, 0.3, 7850}, 2);
@@ -69,7 +69,7 @@ fem::UnitResponses pressed_and_spun(double factor, fem::Solver solver) {
 
 // Unit loads of 1e-150 and 1e150: their squares are no numbers any more. Powers of two change no bit, so the
 // answers are compared bit by bit.
-TEST(Scaling, loads_are_linear_over_three_hundred_decades) {
+TEST(Scaling, LoadsAreLinearOverThreeHundredDecades) {
   for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
     const auto usual = pressed_and_spun(1, solver);
     EXPECT_EQ(usual.solver.used, solver) << usual.solver.reason;
@@ -86,7 +86,7 @@ TEST(Scaling, loads_are_linear_over_three_hundred_decades) {
 }
 
 // A load vector of nothing but zeros, beside one that is none.
-TEST(Scaling, no_load_gives_zero_by_both_solvers) {
+TEST(Scaling, NoLoadGivesZeroByBothSolvers) {
   for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
     auto nothing = verification::uniform_pressure(verification::begin_1, {0, 0, 0.1}, 0.2);
     nothing.coefficient = 0;

@@ -12,7 +12,7 @@ using Component = fem::SurfaceResultant::Component;
 
 constexpr double diameter_m = 0.04, length_m = 0.4, force_N = 1000;
 
-TEST(P10, cantilever) {
+TEST(P10, Cantilever) {
   meshes::Shaft shaft;
   shaft.segments = {{"rod", 0, length_m, diameter_m, 0, false}};
   meshes::ShaftMeshControl control;

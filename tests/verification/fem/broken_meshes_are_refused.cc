@@ -71,24 +71,24 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
   for (const auto& word : words) EXPECT_NE(text.find(word), std::string::npos) << word << " in: " << text;
 }
 
-TEST(BrokenMesh, in_two_pieces) {
+TEST(BrokenMesh, InTwoPieces) {
   expect_words(
       refusal(verification::write(together(cube({0, 0, 0}), cube({3, 0, 0}), true))),
       {"2 pieces", "8 cells near (0.25, 0.25, 0.25) m", "8 cells near (3.25, 0.25, 0.25) m", "join them"});
 }
 
 // What a mesher leaves of two solids that were never fragmented: they touch, and share no node.
-TEST(BrokenMesh, side_by_side_without_common_nodes) {
+TEST(BrokenMesh, SideBySideWithoutCommonNodes) {
   expect_words(refusal(verification::write(together(cube({0, 0, 0}), cube({1, 0, 0}), false))), {"2 pieces"});
 }
 
-TEST(BrokenMesh, hinged_at_an_edge_or_a_corner) {
+TEST(BrokenMesh, HingedAtAnEdgeOrACorner) {
   expect_words(refusal(verification::write(together(cube({0, 0, 0}), cube({1, 1, 0}), true))),
                {"2 pieces that share no face"});
   expect_words(refusal(verification::write(together(cube({0, 0, 0}), cube({1, 1, 1}), true))), {"2 pieces"});
 }
 
-TEST(BrokenMesh, many_pieces_are_counted_and_the_largest_named) {
+TEST(BrokenMesh, ManyPiecesAreCountedAndTheLargestNamed) {
   auto mesh = cube({0, 0, 0});
   for (int k = 1; k < 8; ++k) {
     verification::Block one;
@@ -99,7 +99,7 @@ TEST(BrokenMesh, many_pieces_are_counted_and_the_largest_named) {
                                                     "1 cells near (0.5, 0.5, 4.5) m", "and others"});
 }
 
-TEST(BrokenMesh, of_tetrahedra_in_two_pieces) {
+TEST(BrokenMesh, OfTetrahedraInTwoPieces) {
   auto grid = fem_tests::tetrahedra_cube(1, [](const Point& p) { return p; });
   const auto other = fem_tests::tetrahedra_cube(1, [](const Point& p) { return Point(p + Point(0, 5, 0)); });
   const auto n_nodes = std::int32_t(grid.n_nodes), n_cells = std::int32_t(grid.n_cells());
@@ -116,12 +116,12 @@ TEST(BrokenMesh, of_tetrahedra_in_two_pieces) {
   expect_words(refusal(scratch.path() / "two.msh"), {"2 pieces", "6 cells near", "in volume 7"});
 }
 
-TEST(BrokenMesh, joined_cubes_are_one_piece) {
+TEST(BrokenMesh, JoinedCubesAreOnePiece) {
   EXPECT_EQ(refusal(verification::write(together(cube({0, 0, 0}), cube({1, 0, 0}), true))), "accepted");
 }
 
 // The middle node of the cube, cell after cell: flat, then beyond the opposite corner.
-TEST(BrokenMesh, a_flat_or_inverted_cell_is_named_with_its_place) {
+TEST(BrokenMesh, AFlatOrInvertedCellIsNamedWithItsPlace) {
   for (const double where : {1.0, 1.4}) {
     auto mesh = cube({0, 0, 0});
     for (auto& x : mesh.nodes)

@@ -49,7 +49,7 @@ fem::UnitResponses on_ends(const fem::Body& body, Component component) {
 /// By rounding times the jump.
 constexpr double exact_in_the_space = 1e-6;
 
-TEST(CellsKnowTheirMaterial, stress_at_a_node) {
+TEST(CellsKnowTheirMaterial, StressAtANode) {
   const auto body = tube();
   const auto r = on_ends(body, Component::fz);
   double area = 0;  // of the mesh: twelve parabolas for each circle
@@ -63,7 +63,7 @@ TEST(CellsKnowTheirMaterial, stress_at_a_node) {
   EXPECT_GT(n_at_interface, 4u);
 }
 
-TEST(CellsKnowTheirMaterial, or_are_refused) {
+TEST(CellsKnowTheirMaterial, OrAreRefused) {
   const auto body = tube();
   auto r = on_ends(body, Component::fz);
   r.nodes.cell_volume_id.clear();
@@ -73,7 +73,7 @@ TEST(CellsKnowTheirMaterial, or_are_refused) {
 }
 
 // Torque's shear is one on both sides, T r / J; a ring of surface nodes belongs to one material nevertheless.
-TEST(CellsKnowTheirMaterial, rings_are_of_one_material) {
+TEST(CellsKnowTheirMaterial, RingsAreOfOneMaterial) {
   const auto r = on_ends(tube(), Component::torque);
   const double second = verification::pi / 2 * (std::pow(outer, 4) - std::pow(inner, 4));
   int n_at_interface = 0;

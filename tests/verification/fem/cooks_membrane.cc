@@ -44,18 +44,18 @@ double rise(const verification::Solution& s, double y) {
   return s.displacement_m(1, s.at({48, y, 0}));
 }
 
-TEST(P21, plane_stress) {
+TEST(P21, PlaneStress) {
   const auto s = sheared(membrane(Plane::stress, 1.0 / 3, 2, 8, Cells::small_at_the_sides));
   verification::check({"P21", "plane stress, nu 1/3: v(48, 52)", 23.968, rise(s, 52)}, s, 0.005);
 }
 
-TEST(P21, plane_strain) {
+TEST(P21, PlaneStrain) {
   const auto s = sheared(membrane(Plane::strain, 1.0 / 3, 2, 12, Cells::small_at_the_sides));
   verification::check({"P21", "plane strain, nu 1/3: v(48, 52)", 21.5246, rise(s, 52)}, s, 0.005);
   verification::check({"P21", "plane strain, nu 1/3: v(48, 60)", 22.6105, rise(s, 60)}, s, 0.005);
 }
 
-TEST(P21, nearly_incompressible) {
+TEST(P21, NearlyIncompressible) {
   const auto s = sheared(membrane(Plane::strain, 0.4999, 3, 8, Cells::small_at_the_sides));
   verification::check({"P21", "plane strain, nu 0.4999: v(48, 52)", 18.511, rise(s, 52)}, s, 0.02);
   verification::check({"P21", "plane strain, nu 0.4999: v(48, 60)", 19.427, rise(s, 60)}, s, 0.02);
@@ -76,7 +76,7 @@ std::pair<verification::Solution, double> compliance(const fem::Body& body) {
 // On equal cells the energy converges with the order 2 lambda = 1.25 in the end, whatever the degree; the
 // regular part of the error, of order 2 p, still helps on these meshes.
 class P21Orders : public testing::TestWithParam<int> {};
-TEST_P(P21Orders, of_the_energy_is_the_corners) {
+TEST_P(P21Orders, OfTheEnergyIsTheCorners) {
   const int degree = GetParam(), n = 8 / degree;
   const auto at = [&](int cells) {
     return compliance(membrane(Plane::strain, 1.0 / 3, degree, cells, Cells::equal));

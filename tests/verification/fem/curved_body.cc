@@ -106,7 +106,7 @@ fem::RowMajor solve(const fem::Grid& grid) {
 }
 
 class CurvedBody : public testing::TestWithParam<int> {};
-TEST_P(CurvedBody, displacement_p_plus_1_and_stress_p) {
+TEST_P(CurvedBody, DisplacementPPlus1AndStressP) {
   const int degree = GetParam(), n = degree == 1 ? 6 : degree == 2 ? 3 : 2;
   const auto errors = [&](int cells, verification::Solution& solution) {
     const auto start = std::chrono::steady_clock::now();

@@ -28,7 +28,7 @@ fem::Body quarter(double thickness_m, const std::array<int, 3>& cells) {
   return body;
 }
 
-TEST(P01, elliptic_membrane) {
+TEST(P01, EllipticMembrane) {
   const double thickness_m = 0.1;
   auto body = quarter(thickness_m, {6, 10, 1});
   body.clamps.push_back({verification::begin_3, {false, false, true}});
@@ -40,7 +40,7 @@ TEST(P01, elliptic_membrane) {
   verification::check({"P01", "sigma_yy at D, NAFEMS [Pa]", 92.7e6, ours}, solution, 0.02);
 }
 
-TEST(P02, thick_elliptic_plate) {
+TEST(P02, ThickEllipticPlate) {
   auto body = quarter(0.6, {6, 8, 4});
   body.clamps.push_back({verification::end_1, {true, true, false}});
   body.clamps.push_back({verification::end_1, {false, false, true}, 0.3});

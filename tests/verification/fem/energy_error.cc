@@ -48,7 +48,7 @@ double true_error(const fem::Body& body, const Field& exact, const verification:
 class EnergyError : public testing::TestWithParam<Case> {};
 
 // Effectivity, estimate over truth: between 0.7 and 3.
-TEST_P(EnergyError, estimate_is_of_the_size_of_the_truth) {
+TEST_P(EnergyError, EstimateIsOfTheSizeOfTheTruth) {
   const auto& [name, c, meshes] = GetParam();
   for (const int n : meshes) {
     const auto model = c.body(n);
@@ -68,7 +68,7 @@ TEST_P(EnergyError, estimate_is_of_the_size_of_the_truth) {
 }
 
 // Channels whose fields are the same field: their sum has its error, whatever the factors.
-TEST(EnergyErrorOfSums, is_that_of_the_sum) {
+TEST(EnergyErrorOfSums, IsThatOfTheSum) {
   const Cylinder c{false, hexahedra, 2, 0.1, 0.3};
   const auto model = c.body(3);
   const auto pressure = c.loads().front().first;
@@ -80,7 +80,7 @@ TEST(EnergyErrorOfSums, is_that_of_the_sum) {
 }
 
 // The cells' parts make up the whole, and most of it lies where stress is steepest: at the bore.
-TEST(EnergyErrorOfCells, sums_to_that_of_the_body) {
+TEST(EnergyErrorOfCells, SumsToThatOfTheBody) {
   const Cylinder c{false, hexahedra, 2, 0, 0.3};
   const auto r = fem::Model(c.body(6)).unit_responses({{"pressure", c.loads().front().first}}, {});
   double sum = 0, inner = 0;

@@ -48,7 +48,7 @@ class Incompressible : public testing::TestWithParam<Setting> {};
 
 // Saint-Venant's displacements of tension and bending are quadratic: degree 2 and 3 have them exactly on
 // straight cells of any shape, so all that is left is rounding times lambda / mu = 5000.
-TEST_P(Incompressible, straight_beams_are_exact_on_distorted_cells) {
+TEST_P(Incompressible, StraightBeamsAreExactOnDistortedCells) {
   const auto [nu, degree, solver] = GetParam();
   const Point size(0.03, 0.04, 0.12);
   const auto body = verification::distorted_beam(size, {2, 2, 3}, 0.06, {200e9, nu, 7850}, degree);
@@ -82,7 +82,7 @@ struct CylinderCase {
 class DistortedCylinder : public testing::TestWithParam<CylinderCase> {};
 
 // Lame's cylinder in plane strain, where cells lock.
-TEST_P(DistortedCylinder, locks_no_more_than_stated) {
+TEST_P(DistortedCylinder, LocksNoMoreThanStated) {
   const auto [nu, degree, n, displacement_bound, stress_bound] = GetParam();
   const verification::PlaneStrainCylinder cylinder{false, fem::CellKind::hexahedra, degree, 0.1, nu};
   const auto s = verification::solve(cylinder.body(n), cylinder.loads());
@@ -115,7 +115,7 @@ struct SpinningCase {
 class SpinningCylinder : public testing::TestWithParam<SpinningCase> {};
 
 // Bounds are the errors measured, with a third to spare.
-TEST_P(SpinningCylinder, has_its_stress_at_4999) {
+TEST_P(SpinningCylinder, HasItsStressAt4999) {
   const auto [degree, n, bound] = GetParam();
   const verification::PlaneStrainCylinder cylinder{true, fem::CellKind::hexahedra, degree, 0.1, 0.4999};
   const auto s = verification::solve(cylinder.body(n), cylinder.loads());
@@ -143,7 +143,7 @@ double second_moment(double aspect) {
 
 // A strip in pure bending about its thin direction; Poisson's ratio 0.3, Saint-Venant again exact but for
 // rounding: displacements by the condition (l / t)^2, stress by differences of them.
-TEST_P(ThinCells, strip_bends_as_a_beam) {
+TEST_P(ThinCells, StripBendsAsABeam) {
   const double aspect = GetParam();
   for (const auto solver : {fem::Solver::direct, fem::Solver::iterative, fem::Solver::automatic}) {
     const auto s = verification::solve(strip(aspect, 1, {206e9, 0.3, 7850}, 2),
@@ -160,7 +160,7 @@ TEST_P(ThinCells, strip_bends_as_a_beam) {
 
 // A strip clamped at one end, a force at the other: F l^3 / 3 E I + F l / (5/6 G A), Poisson's ratio 0;
 // degree 3 has the cubic. One cell: at aspect 1000 rounding leaves 0.3 %.
-TEST_P(ThinCells, cantilever_strip_has_the_deflection_of_a_beam) {
+TEST_P(ThinCells, CantileverStripHasTheDeflectionOfABeam) {
   const double aspect = GetParam(), thickness = 0.05 / aspect, length = 0.05, force = 1e-3;
   auto body = strip(aspect, 1, {206e9, 0, 7850}, 3);
   body.clamps = {{verification::begin_3, {true, true, true}}};
@@ -175,7 +175,7 @@ TEST_P(ThinCells, cantilever_strip_has_the_deflection_of_a_beam) {
 
 // 4000 times longer than thick: double precision cannot say how far it bends, and the answer would be wrong
 // by its own size without a word.
-TEST(Rounding, that_spoils_displacements_is_refused) {
+TEST(Rounding, ThatSpoilsDisplacementsIsRefused) {
   auto body = strip(1000, 4, {206e9, 0, 7850}, 3);
   body.clamps = {{verification::begin_3, {true, true, true}}};
   try {
@@ -191,7 +191,7 @@ TEST(Rounding, that_spoils_displacements_is_refused) {
 }
 
 // A tube bent as a whole: I = pi/4 (R^4 - r^4).
-TEST_P(ThinCells, tube_bends_as_a_beam) {
+TEST_P(ThinCells, TubeBendsAsABeam) {
   const double aspect = GetParam(), outer = 0.1, length = 0.12;
   const int around = 12;
   const double thickness = 2 * verification::pi * outer / around / aspect, inner = outer - thickness;

@@ -58,7 +58,7 @@ protected:
   }
 };
 
-TEST_P(Jump, rod_in_tension) {
+TEST_P(Jump, RodInTension) {
   const auto s = solve(bar(jump()), on_ends(Component::fz, -1, 1));
   const double elongation = (middle + (length - middle) / jump()) / (soft(0).youngs_modulus_Pa * area);
   EXPECT_NEAR(s.displacement_m(2, s.at({0, 0, length})) - s.displacement_m(2, s.at({0, 0, 0})), elongation,
@@ -68,7 +68,7 @@ TEST_P(Jump, rod_in_tension) {
     ASSERT_NEAR(s.stress_Pa(2, i), 1 / area, exact_in_the_space / area) << s.place_m.col(i).transpose();
 }
 
-TEST_P(Jump, rod_in_bending) {
+TEST_P(Jump, RodInBending) {
   const auto s = solve(bar(jump()), on_ends(Component::mx, -1, 1));
   const double second = side * side * side * side / 12;
   // Slopes from the ends' corners; they differ by the curvatures M / (E I) along the rod.
@@ -84,7 +84,7 @@ TEST_P(Jump, rod_in_bending) {
 }
 
 // Pulled at one end, balanced by its own inertia: the force is the mass behind the section.
-TEST_P(Jump, rod_accelerated_by_a_pull) {
+TEST_P(Jump, RodAcceleratedByAPull) {
   const auto s = solve(bar(jump()), on_ends(Component::fz, 0, 1));
   const double soft_mass = 1000 * middle, mass = soft_mass + 3000 * (length - middle);
   for (Eigen::Index i = 0; i < s.place_m.cols(); ++i) {
@@ -199,7 +199,7 @@ void expect_lame(const verification::Solution& s, const Lame& exact) {
   EXPECT_EQ(2 * jump, double(n_at_interface)) << "half of the interface's nodes are the outer layer's";
 }
 
-TEST_P(Jump, free_tube_under_pressure) {
+TEST_P(Jump, FreeTubeUnderPressure) {
   const auto inner = soft(0), outer = hard(jump(), 0);
   const auto s = solve(tube(true, inner, outer), inside());
   SCOPED_TRACE(s.solver.n_iterations);
@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Jump,
                          case_name);
 
 // Plane strain with two Poisson's ratios: clamps, hence direct.
-TEST(TwoMaterials, tube_in_plane_strain) {
+TEST(TwoMaterials, TubeInPlaneStrain) {
   for (const double jump : {1.0, 1e3, 1e6}) {
     const auto inner = soft(0.2), outer = hard(jump, 0.35);
     auto body = tube(false, inner, outer);
@@ -230,7 +230,7 @@ TEST(TwoMaterials, tube_in_plane_strain) {
   }
 }
 
-TEST(TwoMaterials, masses_add_up) {
+TEST(TwoMaterials, MassesAddUp) {
   const auto masses = fem::Model(bar(1e3)).mass_properties();
   const double soft_mass = 1000 * area * middle, hard_mass = 3000 * area * (length - middle);
   EXPECT_NEAR(masses.volume_m3, area * length, 1e-12 * area * length);
@@ -244,7 +244,7 @@ TEST(TwoMaterials, masses_add_up) {
 
 // Fixed at the soft end, moving along z only: E k cot(k L) of the soft part equals E k tan(k L) of the hard
 // one, k = w / sqrt(E / rho).
-TEST(TwoMaterials, rod_vibrates_along_itself) {
+TEST(TwoMaterials, RodVibratesAlongItself) {
   const double jump = 4;
   auto body = bar(jump);
   for (const int wall :
@@ -267,7 +267,7 @@ TEST(TwoMaterials, rod_vibrates_along_itself) {
   EXPECT_EQ(modes[0].shape.size(), 3 * (5u * 5 * 13 + 25)) << "the interface's nodes twice";
 }
 
-TEST(TwoMaterials, equal_materials_by_name_change_nothing) {
+TEST(TwoMaterials, EqualMaterialsByNameChangeNothing) {
   auto named = bar(1);
   named.material_of_volume = {{soft_volume, soft(0)}, {hard_volume, soft(0)}};
   auto plain = named;
@@ -278,7 +278,7 @@ TEST(TwoMaterials, equal_materials_by_name_change_nothing) {
   EXPECT_EQ(one.stress_Pa, two.stress_Pa);
 }
 
-TEST(TwoMaterials, a_group_without_cells_is_refused) {
+TEST(TwoMaterials, AGroupWithoutCellsIsRefused) {
   auto body = bar(1);
   body.material_of_volume[55] = soft(0);
   try {

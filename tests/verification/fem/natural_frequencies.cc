@@ -56,7 +56,7 @@ constexpr int left = verification::begin_1, right = verification::end_1, at_y_0 
               at_z_0 = verification::begin_3;
 
 // Bends along z: its ends rest in their planes, its axis does not stretch.
-TEST(P11, flexural) {
+TEST(P11, Flexural) {
   const auto v = vibrate(beam_quarter({{left, {false, true, true}},
                                        {right, {false, true, true}},
                                        {at_y_0, {false, true, false}},
@@ -67,7 +67,7 @@ TEST(P11, flexural) {
   check("P11", "f8,9 flexural", 283.47, v.modes[2].frequency_Hz, v, 0.02);
 }
 
-TEST(P11, torsional) {
+TEST(P11, Torsional) {
   const auto v = vibrate(
       beam_quarter(
           {{left, {false, true, true}}, {at_y_0, {true, false, true}}, {at_z_0, {true, true, false}}}),
@@ -76,7 +76,7 @@ TEST(P11, torsional) {
   check("P11", "f7 torsional", 213.58826, v.modes[1].frequency_Hz, v, 0.01);
 }
 
-TEST(P11, extensional) {
+TEST(P11, Extensional) {
   const auto v = vibrate(
       beam_quarter(
           {{left, {true, false, false}}, {at_y_0, {false, true, false}}, {at_z_0, {false, false, true}}}),
@@ -84,7 +84,7 @@ TEST(P11, extensional) {
   check("P11", "f4 extensional", 125, v.modes[0].frequency_Hz, v, 0.005);
 }
 
-TEST(P12, tapered_membrane) {
+TEST(P12, TaperedMembrane) {
   auto body = box(
       {8, 4, 1}, [](const Point& c) { return Point(10 * c[0], (c[1] - 0.5) * (5 - 4 * c[0]), 0.05 * c[2]); },
       3);
@@ -99,7 +99,7 @@ TEST(P12, tapered_membrane) {
   }
 }
 
-TEST(P13, thick_plate) {
+TEST(P13, ThickPlate) {
   auto body = box(
       {4, 4, 1}, [](const Point& c) { return Point(10 * c[0], 10 * c[1], c[2]); }, 3);
   body.clamps = {{left, {false, true, true}},
@@ -141,7 +141,7 @@ RodModes sort_rod_modes(const std::vector<fem::NaturalMode>& modes, const fem::N
   return rod;
 }
 
-TEST(P16, free_round_bar) {
+TEST(P16, FreeRoundBar) {
   meshes::Shaft shaft;
   shaft.segments = {{"bar", 0, 0.4, 0.02, 0, false}};
   meshes::ShaftMeshControl control;

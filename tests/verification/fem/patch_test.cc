@@ -78,14 +78,14 @@ void expect_uniform(const std::string& cells, const fem::Body& body) {
 
 // As printed, the front cell has a corner with a negative Jacobian (-0.013 of the cube's volume), though not
 // at its Gauss points: fem refuses such cells.
-TEST(P15, the_printed_patch_has_a_folded_corner) {
+TEST(P15, ThePrintedPatchHasAFoldedCorner) {
   fem::Body body;
   body.mesh = verification::write(seven_cells(printed));
   body.material = {1e6, 0.25, 1};
   EXPECT_THROW(fem::Model model(body), std::runtime_error);
 }
 
-TEST(P15, distorted_hexahedra) {
+TEST(P15, DistortedHexahedra) {
   for (const int degree : {1, 2, 3}) {
     fem::Body body;
     body.mesh = verification::write(seven_cells(moved));
@@ -95,7 +95,7 @@ TEST(P15, distorted_hexahedra) {
   }
 }
 
-TEST(P15, curved_tetrahedra) {
+TEST(P15, CurvedTetrahedra) {
   verification::Block block;
   block.cells = {2, 2, 2};
   block.map = [](const Point& c) -> Point {  // the faces of the cube stay where they are

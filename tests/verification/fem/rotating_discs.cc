@@ -13,7 +13,7 @@ constexpr double a = 0.05, b = 0.2, thickness = 0.01, omega_rad_s = 1000;
 constexpr fem::Material steel{210e9, 0.3, 7800};
 const verification::LoadCase spin = {{fem::BodyForce{fem::BodyForce::Field::spin}, omega_rad_s* omega_rad_s}};
 
-TEST(P05, solid_disc) {
+TEST(P05, SolidDisc) {
   meshes::Shaft disc;
   disc.segments = {{"disc", 0, thickness, 2 * b, 0, false}};
   meshes::ShaftMeshControl control;
@@ -35,7 +35,7 @@ fem::Body annulus(int degree, double height_m, int n_radial, int n_around, int n
   return body;
 }
 
-TEST(P05, annular_disc) {
+TEST(P05, AnnularDisc) {
   const auto s =
       verification::solve(annulus(2, thickness / 2, 8, 4, 2), spin);  // half, above its middle plane
   const auto inner = s.at({a, 0, 0}), outer = s.at({b, 0, 0}), middle = s.at({0.1, 0, 0});
@@ -65,7 +65,7 @@ verification::Field long_cylinder() {
 }
 
 class P05Orders : public testing::TestWithParam<int> {};
-TEST_P(P05Orders, displacement_p_plus_1_and_stress_p) {
+TEST_P(P05Orders, DisplacementPPlus1AndStressP) {
   const int degree = GetParam();
   const auto held = [&](int cells) {
     auto body = annulus(degree, 0.02, cells, cells / 2, 1);

@@ -38,7 +38,7 @@ double sag(const verification::Solution& s) {
   return s.displacement_m(1, s.at({radius * std::sin(half_angle), radius * std::cos(half_angle), 0}));
 }
 
-TEST(P14, roof) {
+TEST(P14, Roof) {
   const auto s =
       verification::solve(roof(3, 6, 2, 6), {{fem::BodyForce{fem::BodyForce::Field::translation_y}, -1}});
   verification::check({"P14", "middle of the free edge, solid [ft]", -0.301474, sag(s)}, s, 0.01);

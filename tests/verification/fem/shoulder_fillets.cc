@@ -97,7 +97,7 @@ double print_row(const char* load, const Case& c, double reference, double patch
 
 class ShoulderFillet : public testing::TestWithParam<Case> {};
 
-TEST_P(ShoulderFillet, has_the_stress_concentration_of_the_elastic_solution) {
+TEST_P(ShoulderFillet, HasTheStressConcentrationOfTheElasticSolution) {
   const auto c = GetParam();
   const auto shaft = stepped_shaft(c, 8);
   const auto patch = concentration(shaft, fem::Recovery::patch);
@@ -137,11 +137,11 @@ void expect_near_charts(const Factors& k) {
   EXPECT_LT(k.tension, 1.2 * sharp.tension);
 }
 
-TEST(ShoulderFilletOfAHundredth, is_meshed_and_near_the_charts) {
+TEST(ShoulderFilletOfAHundredth, IsMeshedAndNearTheCharts) {
   expect_near_charts(concentration(stepped_shaft(sharp, 4), fem::Recovery::patch));
 }
 
-TEST(ShoulderFilletOfAHundredthRefined, changes_by_what_coarse_cells_miss) {
+TEST(ShoulderFilletOfAHundredthRefined, ChangesByWhatCoarseCellsMiss) {
   const auto coarse = concentration(stepped_shaft(sharp, 4), fem::Recovery::patch),
              fine = concentration(stepped_shaft(sharp, 8), fem::Recovery::patch);
   std::printf("torsion %.4f %.4f, bending %.4f %.4f, tension %.4f %.4f, %zu unknowns\n", coarse.torsion,
@@ -153,7 +153,7 @@ TEST(ShoulderFilletOfAHundredthRefined, changes_by_what_coarse_cells_miss) {
   EXPECT_NEAR(coarse.tension, fine.tension, 0.05 * fine.tension);
 }
 
-TEST(ShoulderFilletRefined, comes_closer) {
+TEST(ShoulderFilletRefined, ComesCloser) {
   const auto& c = cases[3];
   const auto coarse = concentration(stepped_shaft(c, 8), fem::Recovery::patch);
   const auto shaft = stepped_shaft(c, 16);

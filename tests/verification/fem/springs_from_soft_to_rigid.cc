@@ -53,7 +53,7 @@ double exact_Hz(double stiffness_N_m) {
   return low * 2 / length * c / (2 * verification::pi);
 }
 
-TEST(Springs, from_soft_to_rigid_the_frequency_is_that_of_the_closed_form) {
+TEST(Springs, FromSoftToRigidTheFrequencyIsThatOfTheClosedForm) {
   double before = 0;
   for (int decade = 0; decade <= 12; decade += 2) {
     const double k = std::pow(10, decade), ours = frequency_Hz(k), theirs = exact_Hz(k);

@@ -34,7 +34,7 @@ verification::Field exact() {
       });
 }
 
-TEST(P04, thick_cylinder) {
+TEST(P04, ThickCylinder) {
   const auto s = verification::solve(body(2, 8, 4), inside());
   const auto inner = s.at({a, 0, 0}), outer = s.at({b, 0, 0});
   verification::check({"P04", "sigma_theta(a) [Pa]", 83333333.33, s.stress_Pa(1, inner)}, s, 0.01);
@@ -46,7 +46,7 @@ TEST(P04, thick_cylinder) {
   verification::check({"P04", "u_r(b) [m]", 2.888888889e-05, s.displacement_m(0, outer)}, s, 0.002);
 }
 
-TEST(P04, thick_cylinder_with_a_free_end) {
+TEST(P04, ThickCylinderWithAFreeEnd) {
   auto free = body(2, 8, 4);
   free.clamps.pop_back();
   const auto s = verification::solve(free, inside());
@@ -55,7 +55,7 @@ TEST(P04, thick_cylinder_with_a_free_end) {
 }
 
 class P04Orders : public testing::TestWithParam<int> {};
-TEST_P(P04Orders, displacement_p_plus_1_and_stress_p) {
+TEST_P(P04Orders, DisplacementPPlus1AndStressP) {
   const int degree = GetParam(), n = degree == 1 ? 8 : 4;
   verification::expect_orders("P04", exact(), body(degree, n, n), body(degree, 2 * n, 2 * n), inside());
 }

@@ -57,14 +57,14 @@ Torsion twist(const Section& section, int degree, int n) {
   return result;
 }
 
-TEST(P07, square_bar) {
+TEST(P07, SquareBar) {
   const auto t = twist({0.02, 0.02}, 2, 4);
   verification::check({"P07", "square: J [m4]", 2.249232239e-8, t.inertia_m4}, t.solution, 0.005);
   const double tau = t.solution.stress_Pa(4, t.solution.at({0.01, 0, 0.01}));
   verification::check({"P07", "square: largest tau [Pa]", 60048444.22, tau}, t.solution, 0.01);
 }
 
-TEST(P07, rectangular_bar) {
+TEST(P07, RectangularBar) {
   const auto t = twist({0.04, 0.02}, 2, 4);
   verification::check({"P07", "40 x 20: J [m4]", 7.317813668e-8, t.inertia_m4}, t.solution, 0.005);
   const double tau = -t.solution.stress_Pa(5, t.solution.at({0, 0.01, 0.02}));
@@ -74,7 +74,7 @@ TEST(P07, rectangular_bar) {
 // The twist is an energy: order 2 p. Warping has a singularity r^2 log r in the corners of the section, which
 // ends this at 4: cubic cells gain nothing in the order.
 class P07Orders : public testing::TestWithParam<int> {};
-TEST_P(P07Orders, of_the_twist_are_2_p_but_4_at_most) {
+TEST_P(P07Orders, OfTheTwistAre2PBut4AtMost) {
   const int degree = GetParam(), n = 2;
   const double exact = 2.249232239e-8;
   const auto coarse = twist({0.02, 0.02}, degree, n), fine = twist({0.02, 0.02}, degree, 2 * n);

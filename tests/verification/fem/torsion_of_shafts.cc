@@ -33,7 +33,7 @@ double surface_shear_Pa(const verification::Solution& s, double z_m, double radi
   return sum / n;
 }
 
-TEST(P06, shaft_of_three_diameters) {
+TEST(P06, ShaftOfThreeDiameters) {
   meshes::Shaft shaft;
   shaft.segments = {{"thin", 0, 0.1, 0.03, 0, false},
                     {"middle", 0.1, 0.25, 0.04, 0, false},

@@ -18,7 +18,7 @@ void expect_relative(double value, double reference, double tolerance) {
 }  // namespace
 
 // A deep-groove ball bearing for 30 000 h at 300 rev/min, 1.898 kN with application factor 1.2.
-TEST(BearingLifeShigley, problem_11_1) {
+TEST(BearingLifeShigley, Problem111) {
   const double x_D = kinetics::required_million_revolutions(30000, rad_s(300));
   expect_relative(x_D, 540, 1e-9);
   const double load_N = 1898 * 1.2;
@@ -29,7 +29,7 @@ TEST(BearingLifeShigley, problem_11_1) {
 }
 
 // 400 lbf for 5000 h at 1725 rev/min by the catalogue's rating alone. The formula is free of the load's unit.
-TEST(BearingLifeShigley, example_11_1) {
+TEST(BearingLifeShigley, Example111) {
   const double x_D = kinetics::required_million_revolutions(5000, rad_s(1725));
   const double rating_lbf = 400 * std::pow(x_D, 1 / kinetics::life_exponent(kinetics::RollingElement::ball));
   expect_relative(rating_lbf, 3211.417547, 1e-9);

@@ -36,7 +36,7 @@ double degrees(double angle_rad) {
 
 // The other tests go past the question whether the machine can be built. A user cannot: same loads, with
 // warnings.
-TEST(PlanetaryFigures, the_public_way_gives_the_same_and_warns) {
+TEST(PlanetaryFigures, ThePublicWayGivesTheSameAndWarns) {
   auto mill = at_abscissa(set_A(), "fig8", 0.2);
   mill.belt_beyond_geometry = true;
   std::vector<std::string> names;
@@ -50,7 +50,7 @@ TEST(PlanetaryFigures, the_public_way_gives_the_same_and_warns) {
   EXPECT_NE(loads.warnings[1].find("pulleys overlap"), std::string::npos) << loads.warnings[1];
 }
 
-TEST(PlanetaryFigures, figure_3_range_and_maximum) {
+TEST(PlanetaryFigures, Figure3RangeAndMaximum) {
   const auto h = ellipse(set_A());
   EXPECT_NEAR(h.R_min_N, 73e3, 0.5e3);  // printed 73 and 82 kN, read off a plot
   EXPECT_NEAR(h.R_max_N, 82e3, 0.5e3);
@@ -60,7 +60,7 @@ TEST(PlanetaryFigures, figure_3_range_and_maximum) {
   EXPECT_NEAR(degrees(h.phi_of_R_max_rad), 334, 0.5);
 }
 
-TEST(PlanetaryFigures, figures_4_and_5_grow_six_to_eight_times) {
+TEST(PlanetaryFigures, Figures4And5GrowSixToEightTimes) {
   const double by_speed = at("fig4", 80) / at("fig4", 30), by_filling = at("fig5", 120) / at("fig5", 30);
   EXPECT_NEAR(by_speed, 6.80, 0.005);
   EXPECT_NEAR(by_filling, 7.01, 0.005);
@@ -70,7 +70,7 @@ TEST(PlanetaryFigures, figures_4_and_5_grow_six_to_eight_times) {
   }
 }
 
-TEST(PlanetaryFigures, figures_6_and_7_fall) {
+TEST(PlanetaryFigures, Figures6And7Fall) {
   EXPECT_NEAR(at("fig6", 0.1), 688e3, 500);
   EXPECT_NEAR(at("fig6", 0.4), 314e3, 500);
   EXPECT_NEAR(at("fig7", 0.6), 601e3, 1000);
@@ -81,7 +81,7 @@ TEST(PlanetaryFigures, figures_6_and_7_fall) {
   for (double b = 0.6; b < 1.39; b += 0.01) EXPECT_GT(at("fig7", b), at("fig7", b + 0.01)) << b;
 }
 
-TEST(PlanetaryFigures, figure_8_falls_from_2300_to_100_kN) {
+TEST(PlanetaryFigures, Figure8FallsFrom2300To100KN) {
   EXPECT_NEAR(at("fig8", 0.2), 2307e3, 5e3);
   EXPECT_NEAR(at("fig8", 1), 100e3, 500);
   EXPECT_GE(at("fig8", 1), 100e3 * 0.995);  // printed 100 to 200 kN
@@ -89,7 +89,7 @@ TEST(PlanetaryFigures, figure_8_falls_from_2300_to_100_kN) {
 }
 
 // The errata's figures: the 20-fold drop of Fig. 8 is the paper's speed in (11).
-TEST(PlanetaryFigures, erratum_3_the_offset_turns_with_the_carrier) {
+TEST(PlanetaryFigures, Erratum3TheOffsetTurnsWithTheCarrier) {
   const auto consistent = PlanetaryConvention::consistent;
   EXPECT_NEAR(at("fig8", 0.4), 705e3, 500);
   EXPECT_NEAR(at("fig8", 0.4, consistent), 581e3, 500);
@@ -102,7 +102,7 @@ TEST(PlanetaryFigures, erratum_3_the_offset_turns_with_the_carrier) {
 
 // E1: with the printed sign the mean of Y_A vanishes at c = 1/2, so extremes of R_A sit at 90 and 270
 // degrees.
-TEST(PlanetaryFigures, erratum_1_printed_sign_cannot_give_330_degrees) {
+TEST(PlanetaryFigures, Erratum1PrintedSignCannotGive330Degrees) {
   for (const char* set : {"A", "B"}) {
     const auto h = ellipse(planetary_sets::mill_of(set, PlanetaryConvention::as_published));
     EXPECT_NEAR(h.Y_A.mean_N / h.X_A.mean_N, 0, 1e-15);
@@ -111,7 +111,7 @@ TEST(PlanetaryFigures, erratum_1_printed_sign_cannot_give_330_degrees) {
 }
 
 // E2: what the lost alpha in the weight's moment does to amplitude and phase.
-TEST(PlanetaryFigures, erratum_2_amplitude_and_phase) {
+TEST(PlanetaryFigures, Erratum2AmplitudeAndPhase) {
   const auto plotted = ellipse(set_A());
   EXPECT_NEAR(plotted.R_amplitude_N, 4.20e3, 5);
   EXPECT_NEAR(degrees(plotted.R_phase_rad) + 360, 333.5, 0.05);
@@ -125,7 +125,7 @@ TEST(PlanetaryFigures, erratum_2_amplitude_and_phase) {
 }
 
 // E14 and E16: strands that no belt can carry; and the maximum is not at 330 degrees for the printed data.
-TEST(PlanetaryFigures, errata_14_and_16) {
+TEST(PlanetaryFigures, Errata14And16) {
   auto mill = set_A();
   mill.initial_angle_rad = 330 * std::acos(-1.0) / 180;  // where the paper takes its values
   const auto at_30 = planetary_sets::loads_of(mill, 36);

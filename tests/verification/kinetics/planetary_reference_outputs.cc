@@ -110,7 +110,7 @@ void expect_harmonics(const Json& reference, const PlanetaryMill& mill) {
 
 }  // namespace
 
-TEST(PlanetaryReferenceOutputs, figure_3) {
+TEST(PlanetaryReferenceOutputs, Figure3) {
   const Json reference = planetary_sets::read("planetary_mill_figure3")["figure_3"];
   ASSERT_EQ(reference.size(), 6u);
   for (const auto& [key, expected] : reference.items()) {
@@ -135,7 +135,7 @@ TEST(PlanetaryReferenceOutputs, figure_3) {
   }
 }
 
-TEST(PlanetaryReferenceOutputs, sweeps) {
+TEST(PlanetaryReferenceOutputs, Sweeps) {
   const Json reference = planetary_sets::read("planetary_mill_sweeps");
   ASSERT_EQ(reference.size(), 6u);
   for (const auto& [key, figures] : reference.items()) {
@@ -159,7 +159,7 @@ TEST(PlanetaryReferenceOutputs, sweeps) {
 
 // The specification's table, printed to 1e-9 N. Its first R_A has a wrong digit (...708651): the root of its
 // own X_A and Y_A, and the reference file, say ...708751.
-TEST(PlanetaryReferenceOutputs, printed_table) {
+TEST(PlanetaryReferenceOutputs, PrintedTable) {
   struct Row {
     const char *set, *convention;
     double phi_deg, X_A, Y_A, R_A, T2;

@@ -22,14 +22,14 @@ Eigen::ArrayXd example() {
 
 }  // namespace
 
-TEST(RainflowE1049, counts_of_the_example) {
+TEST(RainflowE1049, CountsOfTheExample) {
   EXPECT_EQ(by_range(kinetics::rainflow(example())),
             (std::map<double, double>{{3, 0.5}, {4, 1.5}, {6, 0.5}, {8, 1}, {9, 0.5}}));
 }
 
 // The order in which the standard's text counts, with the ends of each range: A-B, B-C, E-F (one cycle), C-D,
 // D-G, G-H, H-I.
-TEST(RainflowE1049, cycles_in_the_order_of_the_standard) {
+TEST(RainflowE1049, CyclesInTheOrderOfTheStandard) {
   const auto cycles = kinetics::rainflow(example());
   const double expected[][3] = {{3, -0.5, 0.5}, {4, -1, 0.5}, {4, 1, 1},  {8, 1, 0.5},
                                 {9, 0.5, 0.5},  {8, 0, 0.5},  {6, 1, 0.5}};
@@ -42,7 +42,7 @@ TEST(RainflowE1049, cycles_in_the_order_of_the_standard) {
 }
 
 // The same history repeated: from D to D, with the full cycles 3, 4, 7 and 9 of the standard's fig. 7.
-TEST(RainflowE1049, repeating_history) {
+TEST(RainflowE1049, RepeatingHistory) {
   EXPECT_EQ(by_range(kinetics::rainflow_repeating(example())),
             (std::map<double, double>{{3, 1}, {4, 1}, {7, 1}, {9, 1}}));
 }

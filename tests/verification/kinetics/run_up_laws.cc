@@ -89,7 +89,7 @@ std::vector<double> reference(const VibratoryMill& m, double acceleration, doubl
 
 // Through the pitch's resonance, undamped. The force of the springs' own stretch is cancelled by a spring
 // pair that only resists rotation: at +x and -x the stretch s has no moment.
-TEST(RunUpLaws, passage_through_resonance_agrees_with_another_integrator) {
+TEST(RunUpLaws, PassageThroughResonanceAgreesWithAnotherIntegrator) {
   auto m = mill();
   const Vector2d ky(0, 20000), none(0, 0);
   m.springs = {{{0.3, 0}, ky, none, none}, {{-0.3, 0}, ky, none, none}};
@@ -118,7 +118,7 @@ TEST(RunUpLaws, passage_through_resonance_agrees_with_another_integrator) {
 // The charge's four terms over a run: minus its mass times the second difference of its delivered place.
 // Steps h = 1e-4 s, fastest 150 rad/s: (w h)^4 / 90 = 6e-10; round-off 4 eps / (w h)^2 of the place 3e-12 /
 // 0.03.
-TEST(RunUpLaws, inertia_is_minus_mass_times_acceleration) {
+TEST(RunUpLaws, InertiaIsMinusMassTimesAcceleration) {
   const auto m = mill();
   auto run = kinetics::ramp(20, 150, 0.5);
   run.step_s = 1e-4;
@@ -150,7 +150,7 @@ TEST(RunUpLaws, inertia_is_minus_mass_times_acceleration) {
 
 // What the drive gives is found again: in the machine's kinetic and potential energy, the dampers and the
 // charge. T comes from statics; energies and powers are written out here.
-TEST(RunUpLaws, the_drive_pays_for_the_machine) {
+TEST(RunUpLaws, TheDrivePaysForTheMachine) {
   const auto m = mill();
   auto run = kinetics::ramp(0, 150, 1.5);
   run.step_s = 2.5e-5;

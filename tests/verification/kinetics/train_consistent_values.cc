@@ -29,26 +29,26 @@ void expect_torques(const std::string& belt_on, const std::vector<double>& wante
 
 }  // namespace
 
-TEST(TrainConsistent, erratum_7_lowest_modes) {
+TEST(TrainConsistent, Erratum7LowestModes) {
   expect_modes_Hz(trains::mok150("working"), {94.142}, 5.1e-4);
   expect_modes_Hz(trains::mok150("working"), {94.142, 741.50, 1286.74}, 5.1e-3);
   expect_modes_Hz(trains::mok150("motor"), {233.35, 755.56, 1358.57}, 5.1e-3);
 }
 
-TEST(TrainConsistent, erratum_9_half_shafts) {
+TEST(TrainConsistent, Erratum9HalfShafts) {
   expect_modes_Hz(trains::mok150("working", 3.8e6), {94.386}, 5.1e-4);
   expect_modes_Hz(trains::mok150("working", 3.8e6), {94.386, 1286.62, 1479.31}, 5.1e-3);
   // 1.82e4 is rounded to 0.3 %, 0.22 Hz in the second mode: from it sharp comes 162.82.
   expect_modes_Hz(trains::mok150("working", 2 * 1.82e4), {83.9, 162.9, 1286.7}, 0.1);
 }
 
-TEST(TrainConsistent, section_torques_on_the_motor_scale) {
+TEST(TrainConsistent, SectionTorquesOnTheMotorScale) {
   expect_torques("motor", {3.887, 3.922, 3.906, 3.906});
   expect_torques("working", {4.885, 5.214, 5.068, 5.067});
 }
 
 // Erratum 3: Table 4's column with the right sign; erratum 6: its rigid part under 5.856 N m.
-TEST(TrainConsistent, errata_3_and_6) {
+TEST(TrainConsistent, Errata3And6) {
   using kinetics::ElementKind;
   auto train = trains::chain(
       {0.001302315, 0.000386275, 2.460168e-2 * 0.140625, 7.05e-5 * 0.140625, 0.2099853 * 0.140625},
@@ -62,7 +62,7 @@ TEST(TrainConsistent, errata_3_and_6) {
   EXPECT_NEAR(5.856 / (2500 * J), 0.0675, 5.1e-5);
 }
 
-TEST(TrainConsistent, static_stresses) {
+TEST(TrainConsistent, StaticStresses) {
   const auto stress = [](double torque_Nm, double diameter_m) {
     auto train = trains::chain({1, 1}, {1e4});
     train.elements[0].diameter_m = diameter_m;

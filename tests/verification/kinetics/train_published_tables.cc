@@ -50,22 +50,22 @@ void expect_printed(const PublishedTable& table, const Printed& wanted) {
 
 }  // namespace
 
-TEST(TrainPublished, table_4) {
+TEST(TrainPublished, Table4) {
   expect_printed(published_table_4(trains::mok150("motor")), table_4);
 }
-TEST(TrainPublished, table_7) {
+TEST(TrainPublished, Table7) {
   expect_printed(published_table_7(trains::mok150("motor")), table_7);
 }
 
 // Goes red when the belt's number is reduced, as it should be physically: erratum 5.
-TEST(TrainPublished, the_belt_keeps_its_number_whatever_it_refers_to) {
+TEST(TrainPublished, TheBeltKeepsItsNumberWhateverItRefersTo) {
   const auto motor = published_table_4(trains::mok150("motor"));
   const auto working = published_table_4(trains::mok150("working"));
   EXPECT_TRUE((motor.frequency_rad_s == working.frequency_rad_s).all());
 }
 
 // Erratum 4: with the stiffness and the inertia that Table 3 prints, 2.7e5 and 9.91e-6 after the reduction.
-TEST(TrainPublished, printed_table_3_gives_other_frequencies) {
+TEST(TrainPublished, PrintedTable3GivesOtherFrequencies) {
   auto train = trains::mok150("motor", 2.7e5 / 0.140625);
   train.inertias[3].inertia_kg_m2 = 9.91e-6 / 0.140625;
   const auto table = published_table_4(train);

@@ -147,7 +147,7 @@ void expect_consistent(const Case& c) {
 
 }  // namespace
 
-TEST(VibratoryReferenceOutputs, pitch_stiffness_and_damping) {
+TEST(VibratoryReferenceOutputs, PitchStiffnessAndDamping) {
   const Json reference = read("vibratory_mill_laboratory");
   const auto mill = mill_of(reference["input"], Convention::consistent);
   const Json& output = reference["output"]["consistent"];
@@ -155,16 +155,16 @@ TEST(VibratoryReferenceOutputs, pitch_stiffness_and_damping) {
   EXPECT_NEAR(kinetics::vibratory::pitch_damping_Nm_s(mill.springs), output["c_theta"], tolerance * 15.24);
 }
 
-TEST(VibratoryReferenceOutputs, consistent) {
+TEST(VibratoryReferenceOutputs, Consistent) {
   expect_consistent(
       run("vibratory_mill_laboratory", Convention::consistent, {"charge_follows_pitch", "charge_lag"}));
 }
 
-TEST(VibratoryReferenceOutputs, consistent_with_charge_that_follows_pitch) {
+TEST(VibratoryReferenceOutputs, ConsistentWithChargeThatFollowsPitch) {
   expect_consistent(run("vibratory_mill_laboratory_follow", Convention::consistent, {"charge_lag"}));
 }
 
-TEST(VibratoryReferenceOutputs, published) {
+TEST(VibratoryReferenceOutputs, Published) {
   const Case c = run("vibratory_mill_laboratory", Convention::published, {});
   const Json& reference = c.output["published"];
   for (const char* name :
@@ -180,7 +180,7 @@ TEST(VibratoryReferenceOutputs, published) {
 }
 
 // The published form has lengths of its own; the machine's description must give the same ones.
-TEST(VibratoryReferenceOutputs, published_lengths_are_those_of_the_machine) {
+TEST(VibratoryReferenceOutputs, PublishedLengthsAreThoseOfTheMachine) {
   const Json in = read("vibratory_mill_laboratory")["input"];
   const auto mill = mill_of(in, Convention::published);
   EXPECT_EQ(in["JE"].get<double>(), mill.chamber_centre_m.x());
@@ -191,7 +191,7 @@ TEST(VibratoryReferenceOutputs, published_lengths_are_those_of_the_machine) {
 }
 
 // The reference gives its preload as numbers; ours defaults to the static balance of the weights.
-TEST(VibratoryReferenceOutputs, default_preload_is_that_of_the_reference) {
+TEST(VibratoryReferenceOutputs, DefaultPreloadIsThatOfTheReference) {
   const Json in = read("vibratory_mill_laboratory")["input"];
   auto mill = mill_of(in, Convention::consistent);
   mill.eccentricity_m = 0;  // the springs then carry nothing but their preload

@@ -29,7 +29,7 @@ fem_tests::LoadCase opposite(Component c) {
 }
 
 // Uniform pressure on the outside of a free tube: Lame. The field has 1 / r in it: cubic cells, fourth order.
-TEST(Harmonics, thick_cylinder_under_pressure) {
+TEST(Harmonics, ThickCylinderUnderPressure) {
   const double a = 0.02, b = 0.05, L = 0.06;
   const fem::LoadSurface seat{fem::LoadSurface::Kind::seat, outside, {0, 0, L / 2}, b, L};
   const auto r = fem::axisymmetric_responses(tube(a, b, L, 4, 8), {{"p", fem::SeatPressure{seat}}});
@@ -68,15 +68,15 @@ struct BarUnder : testing::TestWithParam<double> {  // bore's radius
     }
   }
 };
-TEST_P(BarUnder, tension) {
+TEST_P(BarUnder, Tension) {
   expect(Component::fz, 1 / area, [&](double, double) -> std::array<double, 6> { return {0, 0, 1 / area}; });
 }
-TEST_P(BarUnder, torsion) {
+TEST_P(BarUnder, Torsion) {
   expect(Component::torque, b / inertia, [&](double x, double y) -> std::array<double, 6> {
     return {0, 0, 0, 0, x / (2 * inertia), -y / (2 * inertia)};
   });
 }
-TEST_P(BarUnder, bending) {
+TEST_P(BarUnder, Bending) {
   expect(Component::mx, b / inertia, [&](double, double y) -> std::array<double, 6> {
     return {0, 0, y / inertia};
   });
@@ -84,7 +84,7 @@ TEST_P(BarUnder, bending) {
     return {0, 0, -x / inertia};
   });
 }
-TEST_P(BarUnder, bending_bends_as_it_should) {
+TEST_P(BarUnder, BendingBendsAsItShould) {
   const auto r = solve(Component::my);
   const double E = fem_tests::steel.youngs_modulus_Pa;
   // u_x = -M / 2 E I (z^2 + nu (x^2 - y^2)) up to rigid motion: compare two rings with the middle one.
@@ -104,7 +104,7 @@ TEST_P(BarUnder, bending_bends_as_it_should) {
 INSTANTIATE_TEST_SUITE_P(Harmonics, BarUnder, testing::Values(0.0, 0.012));
 
 // A disc of nu = 0 under p cos n theta: radial and hoop stress on its rim are both -p cos n theta (Michell).
-TEST(Harmonics, disc_under_pressure_that_changes_around) {
+TEST(Harmonics, DiscUnderPressureThatChangesAround) {
   const double b = 0.03, L = 0.02;
   auto body = tube(0, b, L, 2, 8);
   body.material.poisson_ratio = 0;
@@ -139,7 +139,7 @@ std::size_t turned_node(const fem::Nodes& nodes, std::size_t node, double angle)
 
 // A load along y is the load along x turned by a right angle, and so is its response: all of it, with the
 // shear that the two harmonics of a turned pair have with opposite signs.
-TEST(Harmonics, turn_with_their_load) {
+TEST(Harmonics, TurnWithTheirLoad) {
   const double b = 0.03, L = 0.1;
   const fem::LoadSurface seat{fem::LoadSurface::Kind::seat, outside, {0, 0, L / 2}, b, L, {1, 2}};
   auto body = tube(0, b, L, 4, 2);
@@ -175,7 +175,7 @@ TEST(Harmonics, turn_with_their_load) {
 }
 
 // Free fall strains nothing; spin of a thin ring is rho omega^2 r^2.
-TEST(Harmonics, body_forces) {
+TEST(Harmonics, BodyForces) {
   using Field = fem::BodyForce::Field;
   const double a = 0.049, b = 0.051;
   const auto r =
@@ -207,7 +207,7 @@ constexpr FilletCase cases[] = {
 
 class FilletOfHarmonics : public testing::TestWithParam<FilletCase> {};
 
-TEST_P(FilletOfHarmonics, has_the_stress_concentration_of_the_elastic_solution) {
+TEST_P(FilletOfHarmonics, HasTheStressConcentrationOfTheElasticSolution) {
   const auto c = GetParam();
   const double d = 0.03, D = c.D * d;
   meshes::Shaft shaft;
@@ -248,7 +248,7 @@ TEST_P(FilletOfHarmonics, has_the_stress_concentration_of_the_elastic_solution) 
 }
 INSTANTIATE_TEST_SUITE_P(P08_P09, FilletOfHarmonics, testing::ValuesIn(cases));
 
-TEST(Harmonics, refuse_what_is_not_axisymmetric) {
+TEST(Harmonics, RefuseWhatIsNotAxisymmetric) {
   const auto body = tube(0, 0.03, 0.1, 2, 2);
   const auto message = [&](const fem::UnitLoad& load) -> std::string {
     try {

@@ -105,7 +105,7 @@ struct Models {
 // What the harmonics add of their own: 0.5 % from 32 angles, and their own mesh on coarse fillets.
 constexpr double own = 0.01;
 
-TEST(HarmonicsAndSolid, agree_on_an_eccentric_shaft_within_the_stated_error) {
+TEST(HarmonicsAndSolid, AgreeOnAnEccentricShaftWithinTheStatedError) {
   const Models models(0.002, 0.7);
   EXPECT_GT(models.model_error, 0.01);
   const int seat = models.solid_body.features.at("seat");
@@ -122,7 +122,7 @@ TEST(HarmonicsAndSolid, agree_on_an_eccentric_shaft_within_the_stated_error) {
 }
 
 // Resultants about the origin, with the levers of an eccentric seat and of its mass.
-TEST(HarmonicsAndSolid, have_the_same_resultants) {
+TEST(HarmonicsAndSolid, HaveTheSameResultants) {
   auto shaft = fem_tests::small_eccentric_shaft();
   shaft.segments[1].eccentricity_angle_rad = 0.7;
   meshes::ShaftMeshControl control;

@@ -51,7 +51,7 @@ struct Stepped {
 
 // Every cell's volume by its corners is positive or, at the axis, collapsed; the nodes' volumes add up to the
 // ring, and each inner face of the cells is shared by two of them.
-TEST(HarmonicsInside, cells_fill_the_body) {
+TEST(HarmonicsInside, CellsFillTheBody) {
   Stepped shaft;
   shaft.section.n_cuts = 1;
   shaft.section.fine_circles = {{-0.023, 0.0158, 0.0003}};
@@ -106,7 +106,7 @@ TEST(HarmonicsInside, cells_fill_the_body) {
 
 // A long solid cylinder that turns, plane strain across its middle: on the axis both stresses across are
 // rho (3 - 2 nu) / (8 (1 - nu)) b^2; along it they make no force (Timoshenko and Goodier, article 119).
-TEST(HarmonicsInside, spin_peaks_on_the_axis) {
+TEST(HarmonicsInside, SpinPeaksOnTheAxis) {
   const double b = 0.02, L = 0.2, nu = fem_tests::steel.poisson_ratio;
   const auto r = fem::axisymmetric_responses(tube(0, b, L, 20, 4), {{"spin", fem::BodyForce{Field::spin}}});
   const double scale = 7850 * b * b / (8 * (1 - nu));
@@ -126,7 +126,7 @@ TEST(HarmonicsInside, spin_peaks_on_the_axis) {
 
 // Lame's tube of a rubbery material: the difference of both stresses is as good as ever, 1 / r on 8 cubic
 // cells; what the dilatation is off by, 1e-3, the bulk modulus multiplies by 1 / (1 - 2 nu) = 50.
-TEST(HarmonicsInside, almost_incompressible_tube) {
+TEST(HarmonicsInside, AlmostIncompressibleTube) {
   const double a = 0.02, b = 0.05, L = 0.06;
   auto body = tube(a, b, L, 4, 8);
   body.material.poisson_ratio = 0.49;
@@ -146,7 +146,7 @@ TEST(HarmonicsInside, almost_incompressible_tube) {
 }
 
 // A bar bent by couples at its ends: sections carry M, turn by their share of M / E I, and rings feel torque.
-TEST(HarmonicsInside, sections_of_a_bar) {
+TEST(HarmonicsInside, SectionsOfABar) {
   const double b = 0.03, L = 0.1;
   const std::vector<fem::SectionPlane> planes{{0.025, b, 0, 0, 0}, {0.05, b, 0, 0, 0}, {0.075, b, 0, 0, 0}};
   std::vector<fem::UnitLoad> loads;
@@ -192,7 +192,7 @@ TEST(HarmonicsInside, sections_of_a_bar) {
 }
 
 // Section for section the solid's figures under loads that close, its own coarse mesh apart.
-TEST(HarmonicsInside, sections_are_those_of_the_solid) {
+TEST(HarmonicsInside, SectionsAreThoseOfTheSolid) {
   const std::vector<fem_tests::LoadCase> cases{
       {{"seat.fx", 1}, {"bearing_1.fx", -0.5}, {"bearing_2.fx", -0.5}},
       {{"seat.fy", 1}, {"bearing_1.fy", -0.5}, {"bearing_2.fy", -0.5}},
@@ -234,7 +234,7 @@ TEST(HarmonicsInside, sections_are_those_of_the_solid) {
 }
 
 // Fine circles change nothing of what a polynomial field is, hanging nodes and all: bending stays exact.
-TEST(HarmonicsInside, cut_cells_keep_polynomials) {
+TEST(HarmonicsInside, CutCellsKeepPolynomials) {
   const double b = 0.03, L = 0.1, inertia = pi / 4 * std::pow(b, 4);
   auto body = tube(0, b, L, 4, 2);
   body.fine_circles = {{0.03, b, 0.001}, {0.07, 0, 0.002}};
@@ -252,7 +252,7 @@ TEST(HarmonicsInside, cut_cells_keep_polynomials) {
 }
 
 // Body forces take the resultants of the masses that the loads were made with.
-TEST(HarmonicsInside, body_forces_have_the_masses_of_the_loads) {
+TEST(HarmonicsInside, BodyForcesHaveTheMassesOfTheLoads) {
   Stepped shaft(0.002);
   const auto masses = fem::Model(shaft.solid.body).mass_properties();
   shaft.section.masses_of_loads = masses;

@@ -47,7 +47,7 @@ Eigen::Vector3d displacement(const fem::UnitResponses& r, const std::vector<doub
   return u;
 }
 
-TEST(Beam, three_point_loading) {
+TEST(Beam, ThreePointLoading) {
   const double d = 0.04, L = 0.6, b = 0.01, R = d / 2;
   const auto r = fem::beam_responses(
       plain_bar(d, L), {{"left", fem::SurfaceResultant{seat(b / 2, b, R), Component::fx}},
@@ -80,7 +80,7 @@ TEST(Beam, three_point_loading) {
 }
 
 // Free, accelerated by one force in the middle: inertia loads it evenly, M = P L / 8.
-TEST(Beam, inertia_balances_a_single_force) {
+TEST(Beam, InertiaBalancesASingleForce) {
   const double d = 0.04, L = 0.6, b = 0.01, R = d / 2;
   const auto r = fem::beam_responses(plain_bar(d, L),
                                      {{"middle", fem::SurfaceResultant{seat(L / 2, b, R), Component::fy}},
@@ -98,7 +98,7 @@ TEST(Beam, inertia_balances_a_single_force) {
   EXPECT_NEAR(r.resultants[1][1], 7850 * area * L, 1e-9);
 }
 
-TEST(Beam, torsion_of_a_hollow_bar) {
+TEST(Beam, TorsionOfAHollowBar) {
   auto shaft = plain_bar(0.04, 0.5);
   shaft.segments[0].bore_radius_m = 0.012;
   const auto r = fem::beam_responses(shaft, {{"a", fem::SurfaceResultant{face(0), Component::torque}},
@@ -125,7 +125,7 @@ fem::BeamShaft crooked_shaft() {
 }
 
 // Betti: the work of load j on response i is that of load i on response j.
-TEST(Beam, reciprocity) {
+TEST(Beam, Reciprocity) {
   std::vector<fem::UnitLoad> loads;
   for (const double z : {-0.1, 0.2})
     for (int c = 0; c < 6; ++c)
@@ -151,7 +151,7 @@ TEST(Beam, reciprocity) {
       EXPECT_NEAR(work(i, j), work(j, i), 1e-6 * std::sqrt(work(i, i) * work(j, j))) << i << " " << j;
 }
 
-TEST(Beam, fillets_multiply_the_nominal_stress) {
+TEST(Beam, FilletsMultiplyTheNominalStress) {
   auto shaft = crooked_shaft();
   const auto r = fem::beam_responses(shaft, {{"a", fem::SurfaceResultant{face(-0.1), Component::mx}},
                                              {"b", fem::SurfaceResultant{face(0.2), Component::mx}}});
@@ -171,7 +171,7 @@ TEST(Beam, fillets_multiply_the_nominal_stress) {
   EXPECT_DOUBLE_EQ(fem::beam_model_error(shaft), fem::fillet_factor_error.bending);
 }
 
-TEST(Beam, faces_look_outwards) {
+TEST(Beam, FacesLookOutwards) {
   const auto r = fem::beam_responses(crooked_shaft(), {{"a", fem::BodyForce{}}});
   ASSERT_EQ(r.nodes.n_faces(), r.nodes.face_boundary_id.size());
   const auto x = [&](std::int32_t i) { return Eigen::Map<const Eigen::Vector3d>(&r.nodes.xyz_m[3 * i]); };
@@ -183,7 +183,7 @@ TEST(Beam, faces_look_outwards) {
   }
 }
 
-TEST(Beam, refuses_what_it_cannot_be) {
+TEST(Beam, RefusesWhatItCannotBe) {
   auto gap = crooked_shaft();
   gap.segments[1].begin_m = 0.01;
   EXPECT_THROW(fem::beam_responses(gap, {{"a", fem::BodyForce{}}}), std::invalid_argument);

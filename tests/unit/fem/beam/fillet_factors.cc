@@ -24,7 +24,7 @@ constexpr Case quoted[] = {{1.1, 0.05, 1.461, 1.814, 1.812}, {1.2, 0.05, 1.560, 
                            {1.5, 0.10, 1.413, 1.743, 1.860}, {1.5, 0.20, 1.235, 1.467, 1.554},
                            {2.0, 0.05, 1.615, 2.270, 2.420}, {2.0, 0.10, 1.403, 1.802, 1.965}};
 
-TEST(FilletFactors, are_the_published_fits) {
+TEST(FilletFactors, AreThePublishedFits) {
   for (const auto& c : quoted) {
     const auto k = fem::fillet_factors(0.04, 0.04 * c.D, 0.04 * c.r);
     // Half of the last printed digit.
@@ -34,7 +34,7 @@ TEST(FilletFactors, are_the_published_fits) {
   }
 }
 
-TEST(FilletFactors, lie_within_their_stated_error_of_the_elastic_solution) {
+TEST(FilletFactors, LieWithinTheirStatedErrorOfTheElasticSolution) {
   double tension = 0, bending = 0, torsion = 0;
   for (const auto& c : elastic) {
     const auto k = fem::fillet_factors(1, c.D, c.r);
@@ -52,7 +52,7 @@ TEST(FilletFactors, lie_within_their_stated_error_of_the_elastic_solution) {
 }
 
 // Beyond the polynomials, at h/r above 20 and below 0.1, DIN 743 goes on.
-TEST(FilletFactors, outside_the_polynomials_are_finite_and_monotone) {
+TEST(FilletFactors, OutsideThePolynomialsAreFiniteAndMonotone) {
   double before = std::numeric_limits<double>::max();
   for (const double r : {0.004, 0.008, 0.01, 0.02, 0.05, 0.1, 0.2}) {
     const auto k = fem::fillet_factors(1, 1.4, r);
@@ -64,7 +64,7 @@ TEST(FilletFactors, outside_the_polynomials_are_finite_and_monotone) {
   EXPECT_NEAR(shallow.bending, 1 + 1 / std::sqrt(.62 * 20 + 11.6 * .1 * 1.44 + .2 * 8000 / 1.01), 1e-12);
 }
 
-TEST(FilletFactors, of_no_step_are_refused) {
+TEST(FilletFactors, OfNoStepAreRefused) {
   EXPECT_THROW(fem::fillet_factors(0.04, 0.04, 0.001), std::invalid_argument);
   EXPECT_THROW(fem::fillet_factors(0.04, 0.05, 0), std::invalid_argument);
 }

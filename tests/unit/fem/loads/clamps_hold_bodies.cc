@@ -40,7 +40,7 @@ void expect_all_words(const std::string& text, const std::vector<std::string>& w
 
 // Without Poisson's ratio the held end does not matter: u_z = F z / (E A), sigma_z = F / A. The body force of
 // a uniform acceleration has u_z = rho a z (L - z / 2) / E; a free body would not feel it at all.
-TEST_F(Clamps, stretched_rods) {
+TEST_F(Clamps, StretchedRods) {
   auto body = rod->body;
   body.material = {200e9, 0, 7850};
   for (const int degree : {1, 2, 3}) {
@@ -69,7 +69,7 @@ TEST_F(Clamps, stretched_rods) {
 }
 
 // Held at the points that carry nothing, a body under balanced loads is as stressed as a free one.
-TEST_F(Clamps, balanced_loads_do_not_feel_a_determinate_hold) {
+TEST_F(Clamps, BalancedLoadsDoNotFeelADeterminateHold) {
   const std::vector<fem::UnitLoad> loads = {fem_tests::resultant(*rod, "end_1", Component::torque),
                                             fem_tests::resultant(*rod, "end_2", Component::torque)};
   const fem_tests::LoadCase twist = {{"end_1.torque", -1}, {"end_2.torque", 1}};
@@ -87,7 +87,7 @@ TEST_F(Clamps, balanced_loads_do_not_feel_a_determinate_hold) {
   }
 }
 
-TEST_F(Clamps, a_line_of_nodes_holds_with_others) {
+TEST_F(Clamps, ALineOfNodesHoldsWithOthers) {
   auto body = rod->body;
   const int side = rod->ports.at("rod").boundary_id;
   body.clamps = {{side, {true, true, true}, 0.0}};  // the rim of the lower end
@@ -106,7 +106,7 @@ TEST_F(Clamps, a_line_of_nodes_holds_with_others) {
   EXPECT_GT(largest, length_m / (206e9 * area_m2));
 }
 
-TEST_F(Clamps, refusals) {
+TEST_F(Clamps, Refusals) {
   expect_all_words(refusal({{987, {true, true, true}, {}}}), {"group 987", "no faces"});
   expect_all_words(refusal({end_1({false, false, false})}), {"fixes no direction"});
   auto nowhere = end_1({true, true, true});
@@ -123,7 +123,7 @@ TEST_F(Clamps, refusals) {
 }
 
 // Half the ring pushes the rod sideways; without its resultants it would not.
-TEST_F(Clamps, pressure_may_keep_its_resultants) {
+TEST_F(Clamps, PressureMayKeepItsResultants) {
   auto body = rod->body;
   body.clamps = {end_1({true, true, true})};
   auto seat = rod->ports.at("rod");

@@ -35,7 +35,7 @@ struct Loads : testing::Test {
 fem_tests::ShaftBody* Loads::shaft;
 fem::Grid* Loads::grid;
 
-TEST_F(Loads, each_resultant_has_its_component_1_and_the_others_0) {
+TEST_F(Loads, EachResultantHasItsComponent1AndTheOthers0) {
   for (const auto& [name, port] : shaft->ports) {
     const fem::LoadedSurface surface(*grid, port);
     for (int c = 0; c < 6; ++c) {
@@ -47,7 +47,7 @@ TEST_F(Loads, each_resultant_has_its_component_1_and_the_others_0) {
   }
 }
 
-TEST_F(Loads, pressure_harmonics_have_no_resultant) {
+TEST_F(Loads, PressureHarmonicsHaveNoResultant) {
   for (const auto* name : {"bearing_1", "seat", "bearing_2"})
     for (const auto& profile : {std::vector<double>{1}, {0, 1, 0}, {1, 0.25, 0}}) {
       auto port = shaft->ports.at(name);
@@ -69,7 +69,7 @@ TEST_F(Loads, pressure_harmonics_have_no_resultant) {
 }
 
 // A profile that is not applied, or not scaled to the mean 1, shows in the squeeze of the ends.
-TEST_F(Loads, the_axial_profile_shapes_the_pressure) {
+TEST_F(Loads, TheAxialProfileShapesThePressure) {
   auto port = shaft->ports.at("seat");
   const auto squeeze = [&](const std::vector<double>& profile, double from, double to) {
     port.axial_profile = profile;
@@ -103,7 +103,7 @@ double half_cosine(int n) {
 
 // A mistake in a coefficient or a sign shows: harmonics and resultant together are a half-cosine of resultant
 // F, which pushes along F on the loaded side and leaves the other side free.
-TEST_F(Loads, harmonics_add_up_to_a_half_cosine) {
+TEST_F(Loads, HarmonicsAddUpToAHalfCosine) {
   const auto& port = shaft->ports.at("bearing_2");
   const fem::LoadedSurface surface(*grid, port);
   const double beta = 0.7 + 3.14159265358979323846;  // zone centre of a force along 0.7 rad on an outer seat
@@ -128,7 +128,7 @@ TEST_F(Loads, harmonics_add_up_to_a_half_cosine) {
   EXPECT_NEAR(on_loaded_side / squeeze, 1.0, 0.02);        // five harmonics of infinitely many
 }
 
-TEST_F(Loads, body_forces_have_the_resultants_of_the_mass) {
+TEST_F(Loads, BodyForcesHaveTheResultantsOfTheMass) {
   const auto integrals = fem::integrate_nodes(*grid, fem::colour_cells(*grid, fem::cells_of_nodes(*grid)));
   const auto mass = fem::mass_properties(*grid, integrals, 7850);
   const auto sums = [&](fem::BodyForce::Field field) -> Eigen::VectorXd {
@@ -149,7 +149,7 @@ TEST_F(Loads, body_forces_have_the_resultants_of_the_mass) {
   expect(fem::BodyForce::Field::spin, {s[0], s[1], 0, -j[4], j[5], 0});
 }
 
-TEST_F(Loads, balanced_loads_have_no_resultants) {
+TEST_F(Loads, BalancedLoadsHaveNoResultants) {
   const auto integrals = fem::integrate_nodes(*grid, fem::colour_cells(*grid, fem::cells_of_nodes(*grid)));
   std::vector<fem::UnitLoad> loads;
   for (const auto& [name, port] : shaft->ports)

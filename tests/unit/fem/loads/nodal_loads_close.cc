@@ -12,7 +12,7 @@ namespace {
 
 using Component = fem::SurfaceResultant::Component;
 
-TEST(NodalLoads, close_and_stand_on_the_nodes_of_the_responses) {
+TEST(NodalLoads, CloseAndStandOnTheNodesOfTheResponses) {
   const auto rod = fem_tests::rod(8);
   const std::vector<fem::UnitLoad> loads = {fem_tests::resultant(rod, "end_1", Component::mx),
                                             fem_tests::resultant(rod, "rod", Component::fz)};
@@ -42,14 +42,14 @@ TEST(NodalLoads, close_and_stand_on_the_nodes_of_the_responses) {
   }
 }
 
-TEST(NodalLoads, hold_six_different_unknowns) {
+TEST(NodalLoads, HoldSixDifferentUnknowns) {
   const auto rod = fem_tests::rod(8);
   const auto nodal = fem::nodal_loads(rod.body, {fem_tests::resultant(rod, "end_1", Component::fz)});
   for (std::size_t i = 1; i < 6; ++i) EXPECT_LT(nodal.held[i - 1], nodal.held[i]);
   EXPECT_LT(nodal.held[5], std::int64_t(3 * nodal.nodes.n));
 }
 
-TEST(NodalLoads, are_refused_for_a_body_that_is_held) {
+TEST(NodalLoads, AreRefusedForABodyThatIsHeld) {
   auto rod = fem_tests::rod(8);
   const std::vector<fem::UnitLoad> loads = {fem_tests::resultant(rod, "end_1", Component::fz)};
   rod.body.clamps.push_back({rod.ports.at("end_2").boundary_id});

@@ -32,7 +32,7 @@ double elongation_m(const std::array<double, 3>& stiffness_N_m) {
 
 // The exact rod: EA/L of the meshed cross-section, each end's displacement half of the elongation, so that
 // F = (EA/L + k/2) elongation. A spring that is left out, taken twice, or held against a rigid motion shows.
-TEST(ElasticSupports, share_the_load_with_the_rod) {
+TEST(ElasticSupports, ShareTheLoadWithTheRod) {
   const double free_m = elongation_m({0, 0, 0}), rod_N_m = 1 / free_m;
   EXPECT_NEAR(rod_N_m, fem_tests::steel.youngs_modulus_Pa * M_PI * 0.025 * 0.025 / 0.2, 1e-3 * rod_N_m);
   for (const double k : {1.0, 1e6, 1e9, 1e12})
@@ -41,7 +41,7 @@ TEST(ElasticSupports, share_the_load_with_the_rod) {
   EXPECT_NEAR(elongation_m({1e9, 1e9, 0}), free_m, 1e-8 * free_m);
 }
 
-TEST(ElasticSupports, negative_stiffness_is_refused) {
+TEST(ElasticSupports, NegativeStiffnessIsRefused) {
   EXPECT_THROW(elongation_m({0, -1, 0}), std::invalid_argument);
 }
 

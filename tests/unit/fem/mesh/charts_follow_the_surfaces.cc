@@ -15,7 +15,7 @@ double distance(const fem::Coordinates& a, const fem::Coordinates& b) {
   return std::sqrt(std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));
 }
 
-TEST(Charts, eccentric_cylinder_forward_and_back) {
+TEST(Charts, EccentricCylinderForwardAndBack) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);
   for (int trial = 0; trial < 2000; ++trial) {
@@ -30,7 +30,7 @@ TEST(Charts, eccentric_cylinder_forward_and_back) {
   }
 }
 
-TEST(Charts, the_seat_of_an_eccentric_cylinder_is_round_about_its_own_axis) {
+TEST(Charts, TheSeatOfAnEccentricCylinderIsRoundAboutItsOwnAxis) {
   const fem::CylinderChart chart{1, 0.004, -0.001, 0.02, 0.03};
   for (const double theta : {0.0, 1.0, 2.0, 4.0}) {
     const auto x = push_forward(chart, {0.03, theta, 0});
@@ -40,7 +40,7 @@ TEST(Charts, the_seat_of_an_eccentric_cylinder_is_round_about_its_own_axis) {
   }
 }
 
-TEST(Charts, torus_forward_and_back) {
+TEST(Charts, TorusForwardAndBack) {
   const fem::TorusChart chart{1, 0.1, 0.05, 0.01};
   std::mt19937 random(2);
   std::uniform_real_distribution<double> share(0, 1);
@@ -76,7 +76,7 @@ Distances distances(const fem::Grid& grid, int boundary_id, const Distance& dist
 
 // Also across the branch cut at theta = 0: a mean that went the long way round would put a node on the other
 // side.
-TEST(Charts, nodes_lie_on_seats_and_fillets) {
+TEST(Charts, NodesLieOnSeatsAndFillets) {
   const auto shaft = fem_tests::eccentric_shaft();
   const auto grid = fem::read_grid(shaft.body);
   for (const auto& [name, port] : shaft.ports) {
@@ -100,7 +100,7 @@ TEST(Charts, nodes_lie_on_seats_and_fillets) {
 
 // Cells on both sides of a face place its nodes at the same points: the sum of all faces' area vectors of the
 // boundary vanishes only for a closed surface, and every cell's positions agree with the shared ones.
-TEST(Charts, boundary_is_closed) {
+TEST(Charts, BoundaryIsClosed) {
   const auto grid = fem::read_grid(fem_tests::eccentric_shaft().body);
   const auto at = fem::gauss_on_face(grid.shape(), 4);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

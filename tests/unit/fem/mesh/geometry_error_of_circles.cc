@@ -18,21 +18,21 @@ double error(int degree, int n_sectors) {
 // A chord of the angle 2 a misses its circle by 1 - cos a in the middle; Gauss points do not lie in the
 // middle, so a little less is seen (four points: 0.34 of the half width from it; three of Q1: the middle
 // itself).
-TEST(GeometryError, of_chords_is_their_sagitta) {
+TEST(GeometryError, OfChordsIsTheirSagitta) {
   for (const int n : {8, 16})
     EXPECT_NEAR(error(1, n), 1 - std::cos(M_PI / n), 0.02 * (1 - std::cos(M_PI / n)));
 }
 
 // A parabola through three points of a circle misses it by O(a^4): 16 times less with twice the sectors; a
 // mapping that is straight, or nodes beside the circle, would show.
-TEST(GeometryError, of_parabolas_falls_with_the_fourth_power) {
+TEST(GeometryError, OfParabolasFallsWithTheFourthPower) {
   const double coarse = error(2, 8), fine = error(2, 16);
   EXPECT_LT(coarse, 2e-3);
   EXPECT_NEAR(coarse / fine, 16, 2);
 }
 
 // The rod's outside and its two ends' rims have one surface each at most; the flat ends none.
-TEST(GeometryError, is_told_surface_by_surface) {
+TEST(GeometryError, IsToldSurfaceBySurface) {
   auto rod = fem_tests::rod(8);
   const auto result = fem::Model(rod.body).geometry_error();
   ASSERT_EQ(result.surfaces.size(), 1u);
@@ -41,7 +41,7 @@ TEST(GeometryError, is_told_surface_by_surface) {
   EXPECT_EQ(result.surfaces.begin()->second.of_fillet, 0);
 }
 
-TEST(GeometryError, sees_the_seats_that_it_is_given) {
+TEST(GeometryError, SeesTheSeatsThatItIsGiven) {
   auto rod = fem_tests::rod(16);
   auto seat = rod.ports.at("rod");
   seat.radius_m *= 1.01;

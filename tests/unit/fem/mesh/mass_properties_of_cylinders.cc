@@ -19,14 +19,14 @@ double volume_error(int n_sectors, int degree) {
 
 // A parabola through three points of an arc misses its area by the fourth power of the sector's angle; a
 // chord by the second.
-TEST(MassProperties, volume_error_of_a_cylinder_has_the_order_of_the_geometry) {
+TEST(MassProperties, VolumeErrorOfACylinderHasTheOrderOfTheGeometry) {
   const double coarse = volume_error(8, 2), fine = volume_error(16, 2);
   EXPECT_LT(std::abs(fine), 1e-4);
   EXPECT_NEAR(std::log2(coarse / fine), 4, 0.2);
   EXPECT_NEAR(std::log2(volume_error(8, 1) / volume_error(16, 1)), 2, 0.1);
 }
 
-TEST(MassProperties, moments_of_a_cylinder) {
+TEST(MassProperties, MomentsOfACylinder) {
   const fem::Model model(fem_tests::rod().body);
   const auto mass = model.mass_properties();
   const double m = 7850 * pi * 0.025 * 0.025 * 0.2;
@@ -39,14 +39,14 @@ TEST(MassProperties, moments_of_a_cylinder) {
 }
 
 // The seat is a cylinder of 25 mm by 40 mm about x = 2 mm; nothing else lies off the axis.
-TEST(MassProperties, first_moment_of_an_eccentric_seat) {
+TEST(MassProperties, FirstMomentOfAnEccentricSeat) {
   const auto mass = fem::Model(fem_tests::eccentric_shaft().body).mass_properties();
   const double exact = 7850 * pi * 0.025 * 0.025 * 0.04 * 0.002;
   EXPECT_NEAR(mass.first_moment_kg_m[0], exact, 2e-3 * exact);  // eight sectors
   EXPECT_NEAR(mass.first_moment_kg_m[1], 0, 1e-12 * exact);
 }
 
-TEST(MassProperties, nodal_volumes_sum_to_the_volume) {
+TEST(MassProperties, NodalVolumesSumToTheVolume) {
   const auto shaft = fem_tests::eccentric_shaft(2);
   const fem::Model model(shaft.body);
   const auto responses =

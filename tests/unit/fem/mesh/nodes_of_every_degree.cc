@@ -57,7 +57,7 @@ std::array<double, 6> stress_of(const Eigen::Matrix3d& gradient) {
 
 }  // namespace
 
-TEST_P(EveryDegree, counts_are_those_of_the_degree) {
+TEST_P(EveryDegree, CountsAreThoseOfTheDegree) {
   const auto n = std::size_t(GetParam() + 1);
   EXPECT_EQ(nodes.degree, GetParam());
   EXPECT_EQ(nodes.nodes_per_cell(), n * n * n);
@@ -71,7 +71,7 @@ TEST_P(EveryDegree, counts_are_those_of_the_degree) {
 
 // Corners of a cell are right-handed; nodes between two corners lie on the line between them where the cell
 // is straight, at Gauss-Lobatto points.
-TEST_P(EveryDegree, cells_are_in_vtk_order) {
+TEST_P(EveryDegree, CellsAreInVtkOrder) {
   const int degree = GetParam();
   for (std::size_t k = 0; k < nodes.n_cells(); ++k) {
     const auto cell = nodes.cell(k);
@@ -91,7 +91,7 @@ TEST_P(EveryDegree, cells_are_in_vtk_order) {
 
 // Faces are wound counter-clockwise seen from outside: their area vectors close, and with the places of their
 // middles make three times the volume (Gauss).
-TEST_P(EveryDegree, faces_close_around_the_body) {
+TEST_P(EveryDegree, FacesCloseAroundTheBody) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double volume = 0, area = 0;
   for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
@@ -115,7 +115,7 @@ TEST_P(EveryDegree, faces_close_around_the_body) {
 }
 
 // Isoparametric cells have linear fields exactly, curved or not.
-TEST_P(EveryDegree, cells_know_the_stress_of_a_linear_field) {
+TEST_P(EveryDegree, CellsKnowTheStressOfALinearField) {
   Eigen::Matrix3d gradient;
   gradient << 1e-3, 2e-4, -3e-4, 5e-4, -2e-3, 7e-4, 1e-4, -6e-4, 4e-4;
   const auto r = displaced([&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return gradient * x; });
@@ -128,7 +128,7 @@ TEST_P(EveryDegree, cells_know_the_stress_of_a_linear_field) {
 
 // From degree 2 on, straight cells (the core of the shaft) have quadratic fields exactly: that needs the true
 // places of the nodes along an edge.
-TEST_P(EveryDegree, straight_cells_know_the_stress_of_a_quadratic_field) {
+TEST_P(EveryDegree, StraightCellsKnowTheStressOfAQuadraticField) {
   if (GetParam() == 1) return;
   const auto u = [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     return {x[0] * x[1], x[2] * x[2] - x[0] * x[0], x[1] * x[2]};
@@ -151,7 +151,7 @@ TEST_P(EveryDegree, straight_cells_know_the_stress_of_a_quadratic_field) {
 
 // Stress that is the place itself: what is found between the nodes are the points of the faces. Around the
 // axis, on the end face, faces are straight: their points are bilinear in the corners.
-TEST_P(EveryDegree, stress_between_nodes_is_that_of_the_faces) {
+TEST_P(EveryDegree, StressBetweenNodesIsThatOfTheFaces) {
   constexpr int n = 4;
   fem::UnitResponses r;
   r.channels = {"place", "twice"};

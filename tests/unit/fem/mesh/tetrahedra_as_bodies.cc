@@ -59,7 +59,7 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
 const auto bent = [](const Point& x) { return Point(x[0] + 0.1 * x[1] * x[2], x[1], 3 * x[2]); };
 
 // The cube below shows two of the four faces only.
-TEST(TetrahedraFaces, point_outwards_with_middles_between_corners) {
+TEST(TetrahedraFaces, PointOutwardsWithMiddlesBetweenCorners) {
   const auto at = fem::nodes_in_cell({fem::CellKind::tetrahedra, 2}).point;
   const auto x = [&](int node) { return Point(at[node][0], at[node][1], at[node][2]); };
   for (int f = 0; f < 4; ++f) {
@@ -71,7 +71,7 @@ TEST(TetrahedraFaces, point_outwards_with_middles_between_corners) {
   }
 }
 
-TEST(TetrahedraFile, comes_back_as_it_was) {
+TEST(TetrahedraFile, ComesBackAsItWas) {
   const auto written = fem_tests::tetrahedra_cube(2, bent);
   const MeshFile file(fem_tests::as_msh(written));
   const auto read = fem::read_grid(file.body());
@@ -87,7 +87,7 @@ TEST(TetrahedraFile, comes_back_as_it_was) {
   }
 }
 
-TEST(TetrahedraFile, is_refused_in_words) {
+TEST(TetrahedraFile, IsRefusedInWords) {
   const auto text = fem_tests::as_msh(fem_tests::tetrahedra_cube(1, bent));
   EXPECT_EQ(refusal(text), "accepted");
   for (const double share : {0.1, 0.3, 0.6, 0.9})
@@ -114,7 +114,7 @@ TEST(TetrahedraFile, is_refused_in_words) {
 }
 
 // The surface's nodes lie on the sphere; parabolas between them leave its volume to the order 4.
-TEST(TetrahedraMass, of_a_ball_converges_with_the_order_of_the_map) {
+TEST(TetrahedraMass, OfABallConvergesWithTheOrderOfTheMap) {
   const auto ball = [](const Point& x) {
     const Point c = 2 * x - Point(1, 1, 1), s = c.cwiseAbs2();
     const auto one = [&](int a, int b, int d) {
@@ -166,7 +166,7 @@ struct Bar : testing::Test {
 };
 
 // Tension and bending are linear and quadratic displacements: exact.
-TEST_F(Bar, has_the_stress_of_beams) {
+TEST_F(Bar, HasTheStressOfBeams) {
   EXPECT_EQ(responses.nodes.kind, fem::CellKind::tetrahedra);
   EXPECT_LT(responses.residual, 1e-9);
   EXPECT_LT(responses.support_reaction, 1e-8);
@@ -180,7 +180,7 @@ TEST_F(Bar, has_the_stress_of_beams) {
   }
 }
 
-TEST_F(Bar, cells_agree_where_stress_is_linear) {
+TEST_F(Bar, CellsAgreeWhereStressIsLinear) {
   const fem::Material material{206e9, 0.3, 7850};
   for (const std::size_t node : {std::size_t(0), responses.nodes.n / 2, responses.nodes.n - 1}) {
     const auto cells = fem::cell_stress_at_node_Pa(responses, material, node);
@@ -193,7 +193,7 @@ TEST_F(Bar, cells_agree_where_stress_is_linear) {
 
 // Quadratic displacement: cells and recovery both have its stress. With one node moved they no longer agree
 // in the cells around it, and at once everywhere else.
-TEST_F(Bar, cells_and_recovered_stress_agree_where_it_is_linear) {
+TEST_F(Bar, CellsAndRecoveredStressAgreeWhereItIsLinear) {
   const fem::Material material{206e9, 0.3, 7850};
   std::vector<double> factors(responses.channels.size(), 0.0);
   factors[5] = 1;
@@ -216,7 +216,7 @@ TEST_F(Bar, cells_and_recovered_stress_agree_where_it_is_linear) {
 }
 
 // The cell fields and volumes that pipelines takes.
-TEST_F(Bar, nodes_are_in_vtk_order) {
+TEST_F(Bar, NodesAreInVtkOrder) {
   const auto& nodes = responses.nodes;
   const auto x = [&](std::int32_t i) { return Eigen::Map<const Point>(&nodes.xyz_m[3 * i]); };
   ASSERT_EQ(nodes.n_cells(), 6u * 27);

@@ -34,7 +34,7 @@ struct Refusals : testing::Test {
 };
 fem_tests::ShaftBody* Refusals::rod;
 
-TEST_F(Refusals, loads) {
+TEST_F(Refusals, Loads) {
   const fem::Model model(rod->body);
   const auto load = fem_tests::resultant(*rod, "end_1", Component::fz);
   const auto refused = [&](const std::vector<fem::UnitLoad>& loads) {
@@ -59,7 +59,7 @@ TEST_F(Refusals, loads) {
                {"core.ax", "volume group 987"});
 }
 
-TEST_F(Refusals, materials_and_degrees) {
+TEST_F(Refusals, MaterialsAndDegrees) {
   const auto refused = [&](const std::function<void(fem::Body&)>& change) {
     auto body = rod->body;
     change(body);
@@ -73,7 +73,7 @@ TEST_F(Refusals, materials_and_degrees) {
   expect_words(refused([](auto& b) { b.tori.push_back({56, 0, 1, 0.1}); }), {"group 56", "no faces"});
 }
 
-TEST_F(Refusals, meshes_that_cannot_be_read) {
+TEST_F(Refusals, MeshesThatCannotBeRead) {
   auto body = rod->body;
   body.mesh = "/nonexistent/shaft.msh";
   expect_words(message<std::runtime_error>([&] { fem::Model model(body); }), {"/nonexistent/shaft.msh"});
@@ -84,7 +84,7 @@ TEST_F(Refusals, meshes_that_cannot_be_read) {
   expect_words(message<std::runtime_error>([&] { fem::Model model(body); }), {"cut.msh"});
 }
 
-TEST_F(Refusals, inverted_cells) {
+TEST_F(Refusals, InvertedCells) {
   auto grid = fem::read_grid(rod->body);
   EXPECT_NO_THROW(fem::refuse_inverted_cells(grid));
   const auto corner = grid.nodes_of(5)[0], opposite = grid.nodes_of(5)[26];
@@ -93,7 +93,7 @@ TEST_F(Refusals, inverted_cells) {
                {"inverted", "volume"});
 }
 
-TEST_F(Refusals, a_seat_that_does_not_go_round_its_axis) {
+TEST_F(Refusals, ASeatThatDoesNotGoRoundItsAxis) {
   auto half = rod->body;
   auto grid = fem::read_grid(half);
   const auto& port = rod->ports.at("end_1");

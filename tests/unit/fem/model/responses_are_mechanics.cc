@@ -41,7 +41,7 @@ fem_tests::ShaftBody* Responses::shaft;
 std::vector<fem::UnitLoad> Responses::loads;
 fem::UnitResponses Responses::responses;
 
-TEST_F(Responses, supports_carry_round_off) {
+TEST_F(Responses, SupportsCarryRoundOff) {
   EXPECT_LT(responses.support_reaction, 1e-9);
   EXPECT_LT(responses.residual, 1e-10);
   EXPECT_GT(responses.factor_gigabytes, 0);
@@ -49,7 +49,7 @@ TEST_F(Responses, supports_carry_round_off) {
 
 // Betti: the work of load j on response i is that of load i on response j. Responses have no rigid part in
 // the mass norm, so the balancing forces do no work on them and the loads as applied may be taken.
-TEST_F(Responses, reciprocity) {
+TEST_F(Responses, Reciprocity) {
   const auto grid = fem::read_grid(shaft->body);
   const auto integrals = fem::integrate_nodes(grid, fem::colour_cells(grid, fem::cells_of_nodes(grid)));
   const auto force = fem::load_vectors(grid, integrals, 7850, loads);
@@ -71,7 +71,7 @@ TEST_F(Responses, reciprocity) {
   EXPECT_LT(motion.cwiseAbs().maxCoeff(), 1e-12 * u.cwiseAbs().maxCoeff() * integrals.col(0).sum());
 }
 
-TEST_F(Responses, rigid_motion_has_no_stress) {
+TEST_F(Responses, RigidMotionHasNoStress) {
   const auto grid = fem::read_grid(shaft->body);
   const Eigen::MatrixXd modes = fem::rigid_modes(grid, Eigen::Vector3d::Zero());
   fem::RowMajor u(grid.n_nodes, 18);
@@ -85,7 +85,7 @@ TEST_F(Responses, rigid_motion_has_no_stress) {
 }
 
 // A uniform acceleration is what balances a load: it strains nothing.
-TEST_F(Responses, free_fall_is_stress_free) {
+TEST_F(Responses, FreeFallIsStressFree) {
   double largest = 0, spin = 0;
   const std::size_t n = loads.size();
   for (std::size_t i = 0; i < responses.nodes.n; ++i)
@@ -98,7 +98,7 @@ TEST_F(Responses, free_fall_is_stress_free) {
 }
 
 // The shaft mirrors in y = 0 but for the load: fy turned into the mirror is -fy.
-TEST_F(Responses, mirror_image) {
+TEST_F(Responses, MirrorImage) {
   const std::size_t n = loads.size(), fx = 5, fy = 6;  // seat
   ASSERT_EQ(responses.channels[fx], "seat.fx");
   double scale = 0;
@@ -117,7 +117,7 @@ TEST_F(Responses, mirror_image) {
   EXPECT_GT(found, 100);
 }
 
-TEST_F(Responses, nodes_are_in_vtk_order) {
+TEST_F(Responses, NodesAreInVtkOrder) {
   const auto& nodes = responses.nodes;
   const auto x = [&](std::int32_t i) { return Eigen::Map<const Eigen::Vector3d>(&nodes.xyz_m[3 * i]); };
   for (std::size_t k = 0; k < nodes.n_cells(); ++k) {
@@ -141,7 +141,7 @@ TEST_F(Responses, nodes_are_in_vtk_order) {
   EXPECT_GT(n_end, 4);
 }
 
-TEST_F(Responses, repeat_bit_for_bit) {
+TEST_F(Responses, RepeatBitForBit) {
   const auto again = fem::Model(shaft->body).unit_responses(loads, shaft->planes);
   EXPECT_EQ(again.stress_Pa, responses.stress_Pa);
   EXPECT_EQ(again.displacement_m, responses.displacement_m);

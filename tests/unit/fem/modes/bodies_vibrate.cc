@@ -67,7 +67,7 @@ std::vector<fem::NaturalMode>* Vibrations::free_modes;
 
 // Against a sum over more points than the degree 5 k - 1 (tetrahedra: 7) needs, on a cell whose nodes are out
 // of place: one point less than exact is off by some 1e-4.
-TEST(Mass, is_exact_on_bent_cells) {
+TEST(Mass, IsExactOnBentCells) {
   std::mt19937 engine(3);
   const auto bend = [&](const Eigen::Vector3d& x) {
     const auto shift = [&] { return 0.05 * (double(engine()) / double(std::mt19937::max()) - 0.5); };
@@ -104,7 +104,7 @@ TEST(Mass, is_exact_on_bent_cells) {
   }
 }
 
-TEST_F(Vibrations, shapes_are_orthonormal_in_the_mass) {
+TEST_F(Vibrations, ShapesAreOrthonormalInTheMass) {
   auto clamped = rod->body;
   clamped.clamps = {{rod->ports.at("end_1").boundary_id, {true, true, true}}};
   const auto grid = fem::read_grid(rod->body);
@@ -118,7 +118,7 @@ TEST_F(Vibrations, shapes_are_orthonormal_in_the_mass) {
 }
 
 // The shortest mode of all is a bending one; the rod's torsion is among the eight: n/(2 L) sqrt(G / rho).
-TEST_F(Vibrations, rigid_motions_are_left_out) {
+TEST_F(Vibrations, RigidMotionsAreLeftOut) {
   const auto grid = fem::read_grid(rod->body);
   const auto mass = mass_matrix(grid, rod->body.material.density_kg_m3);
   const Eigen::MatrixXd rigid = fem::rigid_modes(grid, {0, 0, length_m / 2});
@@ -138,7 +138,7 @@ TEST_F(Vibrations, rigid_motions_are_left_out) {
 }
 
 // Fewer modes are the first ones of more, also where the number parts a pair.
-TEST_F(Vibrations, as_many_as_asked_for) {
+TEST_F(Vibrations, AsManyAsAskedFor) {
   const fem::Model model(rod->body);
   for (const int n : {1, 3}) {
     const auto some = model.natural_frequencies(n);
@@ -150,7 +150,7 @@ TEST_F(Vibrations, as_many_as_asked_for) {
   }
 }
 
-TEST_F(Vibrations, repeat_bit_for_bit) {
+TEST_F(Vibrations, RepeatBitForBit) {
   const auto again = fem::Model(rod->body).natural_frequencies(8);
   for (std::size_t i = 0; i < again.size(); ++i) {
     EXPECT_EQ(again[i].frequency_Hz, (*free_modes)[i].frequency_Hz);
@@ -160,7 +160,7 @@ TEST_F(Vibrations, repeat_bit_for_bit) {
   }
 }
 
-TEST_F(Vibrations, clamped_nodes_stay) {
+TEST_F(Vibrations, ClampedNodesStay) {
   auto body = rod->body;
   body.clamps = {{rod->ports.at("end_1").boundary_id, {true, true, true}}};
   const auto nodes = fem::body_nodes(body);
@@ -173,7 +173,7 @@ TEST_F(Vibrations, clamped_nodes_stay) {
 // A rod on soft springs at both ends is a rigid one: bounce sqrt(2 k / m) along each axis, and pitch
 // sqrt(2 k (L/2)^2 / J) across the rod. Nothing holds it against turning about its axis; the next frequency
 // is elastic. 1e-3: its own flexibility, k over its stiffness of some 1e8 N/m, and the eight sectors' J.
-TEST_F(Vibrations, rigid_body_on_soft_springs) {
+TEST_F(Vibrations, RigidBodyOnSoftSprings) {
   const double k = 1e4;
   const auto body = on_springs({"end_1", "end_2"}, {k, 2 * k, 4 * k});
   const fem::Model model(body);
@@ -191,7 +191,7 @@ TEST_F(Vibrations, rigid_body_on_soft_springs) {
 }
 
 // Without Poisson's ratio the rod is a bar: held by k at one end, with (w L / c) tan(w L / c) = k L / (E A).
-TEST_F(Vibrations, bar_with_a_spring_at_its_end) {
+TEST_F(Vibrations, BarWithASpringAtItsEnd) {
   for (const double k_over_bar : {1e-3, 1.0, 1e5}) {
     auto body = rod->body;
     body.material.poisson_ratio = 0;
@@ -211,7 +211,7 @@ TEST_F(Vibrations, bar_with_a_spring_at_its_end) {
 }
 
 // The residual told is that of K and M as the test assembles them.
-TEST_F(Vibrations, residual_is_that_of_the_matrices) {
+TEST_F(Vibrations, ResidualIsThatOfTheMatrices) {
   const auto grid = fem::read_grid(rod->body);
   const auto cells = fem::cells_of_nodes(grid);
   const auto graph = fem::make_node_graph(grid, cells);
@@ -232,7 +232,7 @@ TEST_F(Vibrations, residual_is_that_of_the_matrices) {
 
 // The first frequency of a wire 500 times as long as thick lies so far below the mesh's highest one that
 // rounding, eps L^4 / d^4 and more, leaves it without meaning.
-TEST_F(Vibrations, modes_lost_in_rounding_are_refused) {
+TEST_F(Vibrations, ModesLostInRoundingAreRefused) {
   const fem_tests::ScratchDirectory scratch;
   fem::Body wire;
   wire.mesh = scratch.path() / "wire.msh";
@@ -249,7 +249,7 @@ TEST_F(Vibrations, modes_lost_in_rounding_are_refused) {
   }
 }
 
-TEST_F(Vibrations, refusals) {
+TEST_F(Vibrations, Refusals) {
   for (const int n : {0, -3, 1000000}) {
     const auto text = refusal(rod->body, n);
     EXPECT_NE(text.find(std::to_string(n) + " asked for"), std::string::npos) << text;

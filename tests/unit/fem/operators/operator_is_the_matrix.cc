@@ -61,7 +61,7 @@ double difference(const Problem& problem, const Kernels& kernels, Eigen::Index n
 }
 
 // Sums of some hundred products in another order: some units of rounding.
-TEST(ElasticOperator, is_the_assembled_matrix) {
+TEST(ElasticOperator, IsTheAssembledMatrix) {
   for (const int degree : {1, 2, 3}) {
     const Problem problem(degree);
     for (const auto* kernels : variants())
@@ -74,7 +74,7 @@ TEST(ElasticOperator, is_the_assembled_matrix) {
   }
 }
 
-TEST(ElasticOperator, diagonal_blocks_are_those_of_the_matrix) {
+TEST(ElasticOperator, DiagonalBlocksAreThoseOfTheMatrix) {
   const Problem problem(2);
   const auto blocks = fem::diagonal_blocks(problem.grid, problem.order, problem.metric, problem.elastic);
   double largest = 0;

@@ -50,14 +50,14 @@ Eigen::MatrixXd dense(const fem::BlockMatrix<T>& m) {
   return result;
 }
 
-TEST(Aggregates, full_rows_are_the_matrix) {
+TEST(Aggregates, FullRowsAreTheMatrix) {
   const Level level;
   const Eigen::MatrixXd x = Eigen::MatrixXd::Random(level.matrix.n, 3);
   const Eigen::MatrixXd expected = fem::multiply(level.matrix, x), y = dense(level.rows) * x;
   EXPECT_LT((y - expected).norm(), 1e-14 * expected.norm());
 }
 
-TEST(Aggregates, hold_every_node_and_are_small) {
+TEST(Aggregates, HoldEveryNodeAndAreSmall) {
   const Level level;
   std::set<std::int32_t> found(level.aggregates.of_node.begin(), level.aggregates.of_node.end());
   EXPECT_EQ(found.size(), level.aggregates.n);
@@ -68,7 +68,7 @@ TEST(Aggregates, hold_every_node_and_are_small) {
 }
 
 // Rigid motion costs no energy on any level: P reproduces it, to the rounding of its floats.
-TEST(Aggregates, interpolate_rigid_motion) {
+TEST(Aggregates, InterpolateRigidMotion) {
   const Level level;
   const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
   const auto motions = fem::rigid_motions(level.grid.xyz_m);
@@ -80,7 +80,7 @@ TEST(Aggregates, interpolate_rigid_motion) {
             1e-12 * dense(level.rows).cwiseAbs().maxCoeff());
 }
 
-TEST(Aggregates, level_below_is_the_galerkin_product) {
+TEST(Aggregates, LevelBelowIsTheGalerkinProduct) {
   const Level level;
   const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
   const Eigen::MatrixXd full = dense(p), expected = full.transpose() * dense(level.rows) * full,
@@ -88,7 +88,7 @@ TEST(Aggregates, level_below_is_the_galerkin_product) {
   EXPECT_LT((below - expected).norm(), 1e-12 * expected.norm());
 }
 
-TEST(Aggregates, factor_holds_one_aggregate) {
+TEST(Aggregates, FactorHoldsOneAggregate) {
   const Level level;
   const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
   const auto below = fem::galerkin_product(level.rows, p);
@@ -103,7 +103,7 @@ TEST(Aggregates, factor_holds_one_aggregate) {
   EXPECT_EQ(u.middleRows<6>(6 * held).norm(), 0);
 }
 
-TEST(Aggregates, siblings_stay_together) {
+TEST(Aggregates, SiblingsStayTogether) {
   const Level level;
   const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
   const auto next = fem::aggregate_nodes(fem::galerkin_product(level.rows, p), 2, 0.08);
@@ -111,14 +111,14 @@ TEST(Aggregates, siblings_stay_together) {
   EXPECT_LT(2 * next.n, level.aggregates.n);
 }
 
-TEST(Aggregates, transpose_of_blocks) {
+TEST(Aggregates, TransposeOfBlocks) {
   const Level level;
   const auto p = fem::smoothed_interpolation(level.rows, level.aggregates, level.spanned.basis, 0.5);
   EXPECT_EQ(dense(fem::transpose(p)), dense(p).transpose());
 }
 
 // Single nodes and nodes on a line do not tell all motions apart.
-TEST(Aggregates, motions_that_cannot_be_told_apart_are_left_out) {
+TEST(Aggregates, MotionsThatCannotBeToldApartAreLeftOut) {
   const fem::Aggregates aggregates{3, {0, 1, 1, 2, 2, 2}};
   const auto spanned = fem::span_motions(
       aggregates, fem::rigid_motions({5, 5, 5, 0, 0, 0, 0, 0, 1, 1, 0, 0, 2, 0, 0, 2, 1, 0}));
@@ -170,7 +170,7 @@ constexpr double same_answer = 1e-9;
 // Two refinements, a hundredfold of unknowns in all would need the same iterations; the exact level below is
 // the measure. A level that loses the rotations, or an interpolation without smoothing, takes more than twice
 // as many.
-TEST(Aggregates, iterations_do_not_grow_with_the_mesh) {
+TEST(Aggregates, IterationsDoNotGrowWithTheMesh) {
   int first = 0;
   for (const int n_sectors : {8, 12, 20}) {
     const auto rod = slender_rod(n_sectors, 1);
@@ -187,7 +187,7 @@ TEST(Aggregates, iterations_do_not_grow_with_the_mesh) {
   }
 }
 
-TEST(Aggregates, stretched_cells_take_at_most_half_as_many_steps_again) {
+TEST(Aggregates, StretchedCellsTakeAtMostHalfAsManyStepsAgain) {
   const auto rod = slender_rod(12, 2.5);
   const auto grid = fem::read_grid(rod.body);
   const auto exact = solve(rod, fem::CoarseLevel::factorised, grid),
@@ -198,7 +198,7 @@ TEST(Aggregates, stretched_cells_take_at_most_half_as_many_steps_again) {
 
 // What rounding leaves of resultants in the residual must not be answered by large displacements: a coarse
 // level that does so lets the residual grow again once it has fallen to some thousand times of it.
-TEST(Aggregates, forces_that_do_not_quite_balance_are_met_down_to_what_cannot_be) {
+TEST(Aggregates, ForcesThatDoNotQuiteBalanceAreMetDownToWhatCannotBe) {
   const auto rod = slender_rod(8, 1);
   const auto grid = fem::read_grid(rod.body);
   for (const auto level : {fem::CoarseLevel::aggregated, fem::CoarseLevel::factorised}) {
@@ -208,7 +208,7 @@ TEST(Aggregates, forces_that_do_not_quite_balance_are_met_down_to_what_cannot_be
   }
 }
 
-TEST(Aggregates, repeat_bit_for_bit) {
+TEST(Aggregates, RepeatBitForBit) {
   const auto rod = slender_rod(8, 1);
   const auto grid = fem::read_grid(rod.body);
   EXPECT_EQ(solve(rod, fem::CoarseLevel::aggregated, grid).solution.displacement,

@@ -53,7 +53,7 @@ std::string refusal(std::size_t n_nodes, const fem::SolverChoice& choice, double
 
 constexpr std::size_t n_nodes = 2'000'000;
 
-TEST(SolverMemory, body_that_fits_neither_way_is_refused_with_figures_and_remedy) {
+TEST(SolverMemory, BodyThatFitsNeitherWayIsRefusedWithFiguresAndRemedy) {
   const auto report = choose(n_nodes, {}, 1e13);
   const double needed = report.predicted_iterative.bytes + fem::bytes_beside_solver(3 * n_nodes, 12);
   EXPECT_EQ(choose(n_nodes, {}, 1.01 * needed).used, fem::Solver::iterative);
@@ -63,7 +63,7 @@ TEST(SolverMemory, body_that_fits_neither_way_is_refused_with_figures_and_remedy
     EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
 }
 
-TEST(SolverMemory, solver_asked_for_is_refused_only_if_no_machine_of_that_size_could_hold_it) {
+TEST(SolverMemory, SolverAskedForIsRefusedOnlyIfNoMachineOfThatSizeCouldHoldIt) {
   fem::SolverChoice direct;
   direct.solver = fem::Solver::direct;
   const double bytes = choose(n_nodes, direct, 1e13).predicted_direct.bytes;
@@ -72,13 +72,13 @@ TEST(SolverMemory, solver_asked_for_is_refused_only_if_no_machine_of_that_size_c
 }
 
 // The factors of thin bodies are smaller than predicted: their own analysis decides.
-TEST(SolverMemory, stretched_bodies_are_left_to_the_analysis_of_their_matrix) {
+TEST(SolverMemory, StretchedBodiesAreLeftToTheAnalysisOfTheirMatrix) {
   EXPECT_EQ(choose(n_nodes, {}, 1e9, 40).used, fem::Solver::direct);
   EXPECT_NO_THROW(fem::refuse_large_factor(1e9, 1000, 1.1e9));
   EXPECT_THROW(fem::refuse_large_factor(1.1e9, 1000, 1e9), std::runtime_error);
 }
 
-TEST(SolverMemory, what_gave_up_before_is_not_tried_again) {
+TEST(SolverMemory, WhatGaveUpBeforeIsNotTriedAgain) {
   fem::SolverChoice choice;
   choice.gave_up_before = true;
   for (const auto solver : {fem::Solver::automatic, fem::Solver::iterative}) {
@@ -90,7 +90,7 @@ TEST(SolverMemory, what_gave_up_before_is_not_tried_again) {
   }
 }
 
-TEST(SolverMemory, trilinear_level_is_factorised_only_while_small) {
+TEST(SolverMemory, TrilinearLevelIsFactorisedOnlyWhileSmall) {
   EXPECT_EQ(choose(3'000, {}, 1e13).coarse_level, fem::CoarseLevel::factorised);
   EXPECT_EQ(choose(n_nodes, {}, 1e13).coarse_level, fem::CoarseLevel::aggregated);
   fem::SolverChoice choice;
@@ -99,14 +99,14 @@ TEST(SolverMemory, trilinear_level_is_factorised_only_while_small) {
 }
 
 // Four vectors of doubles and four of floats for 4 million unknowns: below 2 GB.
-TEST(SolverMemory, blocks_of_load_cases_are_bounded) {
+TEST(SolverMemory, BlocksOfLoadCasesAreBounded) {
   EXPECT_EQ(fem::loads_per_block(100'000), 16u);
   EXPECT_EQ(fem::loads_per_block(4'000'000), 8u);
   EXPECT_EQ(fem::loads_per_block(100'000'000), 4u);
 }
 
 // The matrix of one cell is full: column j of its factor has n - j entries, and takes as many squared flops.
-TEST(FactorSize, of_a_full_matrix) {
+TEST(FactorSize, OfAFullMatrix) {
   const auto cell = one_cell(27);
   const auto size = fem::analyse_factor(cell, fem::cells_of_nodes(cell));
   constexpr double n = 81;
@@ -118,7 +118,7 @@ TEST(FactorSize, of_a_full_matrix) {
 }
 
 // Seconds follow from what was analysed: two bodies with as many unknowns need not cost the same.
-TEST(FactorSize, tells_seconds_and_bytes) {
+TEST(FactorSize, TellsSecondsAndBytes) {
   const fem::FactorSize thin{100'000, 5e7, 4e10, 5e8}, compact{100'000, 2e8, 5e11, 2e9};
   EXPECT_LT(3 * fem::predict_direct(thin, 12).seconds, fem::predict_direct(compact, 12).seconds);
   EXPECT_EQ(fem::predict_direct(compact, 12).bytes, compact.bytes);
@@ -128,7 +128,7 @@ TEST(FactorSize, tells_seconds_and_bytes) {
 }
 
 // Cells of middling stretch take more iterations than is known: the factor has to be twice as expensive.
-TEST(FactorSize, decides_where_cells_are_of_middling_stretch) {
+TEST(FactorSize, DecidesWhereCellsAreOfMiddlingStretch) {
   auto report = fem::choose_solver(few_stretched(18), fem_tests::steel, 12, {}, 1e13);
   EXPECT_EQ(report.used, fem::Solver::direct);
   ASSERT_TRUE(report.by_analysis);
@@ -147,7 +147,7 @@ TEST(FactorSize, decides_where_cells_are_of_middling_stretch) {
   EXPECT_FALSE(with_seconds(100 * iterative_s));
 }
 
-TEST(FactorSize, does_not_decide_elsewhere) {
+TEST(FactorSize, DoesNotDecideElsewhere) {
   const auto by_analysis = [](const fem::Grid& grid, const fem::SolverChoice& choice = {},
                               const fem::Material& material = fem_tests::steel) {
     return fem::choose_solver(grid, material, 12, choice, 1e13).by_analysis;
@@ -166,7 +166,7 @@ TEST(FactorSize, does_not_decide_elsewhere) {
 }
 
 // What does not fit as a factor is iterated rather than refused, unless that cannot be hoped to end.
-TEST(SolverMemory, stretched_bodies_may_be_iterated_where_the_factor_does_not_fit) {
+TEST(SolverMemory, StretchedBodiesMayBeIteratedWhereTheFactorDoesNotFit) {
   const auto may = [](const fem::Grid& grid, double memory_bytes = 1e13, const fem::SolverChoice& choice = {},
                       const fem::Material& material = fem_tests::steel) {
     const auto report = fem::choose_solver(grid, material, 12, choice, 1e13);
@@ -186,7 +186,7 @@ TEST(SolverMemory, stretched_bodies_may_be_iterated_where_the_factor_does_not_fi
 }
 
 // Cells too long for the smoother stay so on a finer mesh, however many they are.
-TEST(FactorSize, finer_meshes_of_stretched_cells_stay_direct) {
+TEST(FactorSize, FinerMeshesOfStretchedCellsStayDirect) {
   for (const double length : {3.0, 40.0}) {
     auto at_hand = choose(50'000, {}, 1e13, length);
     const auto finer = fem::predict_solver(at_hand, 6'000'000, 2, 12, {});

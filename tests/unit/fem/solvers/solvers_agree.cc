@@ -60,24 +60,24 @@ void expect_agreement(const fem_tests::ShaftBody& shaft) {
   EXPECT_LT(difference(iterative.stress_Pa, direct.stress_Pa, n, 6), same_solution);
 }
 
-TEST(Solvers, agree_on_quadratic_cells) {
+TEST(Solvers, AgreeOnQuadraticCells) {
   expect_agreement(fem_tests::eccentric_shaft(2));
 }
 
-TEST(Solvers, agree_on_cubic_cells) {
+TEST(Solvers, AgreeOnCubicCells) {
   auto rod = fem_tests::rod(8);
   rod.body.degree = 3;
   expect_agreement(rod);
 }
 
-TEST(Solvers, agree_without_contraction) {
+TEST(Solvers, AgreeWithoutContraction) {
   auto rod = fem_tests::rod();
   rod.body.material.poisson_ratio = 0;
   expect_agreement(rod);
 }
 
 // Nearly incompressible: the smoother loses its grip on volume-preserving modes. Right or handed over.
-TEST(Solvers, near_incompressibility_is_right_either_way) {
+TEST(Solvers, NearIncompressibilityIsRightEitherWay) {
   auto rod = fem_tests::rod(8);
   rod.body.material.poisson_ratio = 0.4999;
   const auto direct = solve(rod, directly), other = solve(rod, iteratively);
@@ -87,7 +87,7 @@ TEST(Solvers, near_incompressibility_is_right_either_way) {
 }
 
 // A rod of 50 mm in eight sectors with cells 0.5 mm thin: aspect about 40.
-TEST(Solvers, stretched_cells_are_right_either_way) {
+TEST(Solvers, StretchedCellsAreRightEitherWay) {
   meshes::Shaft shaft;
   shaft.segments = {{"rod", 0, 0.005, 0.05, 0, true}};
   meshes::ShaftMeshControl control;
@@ -105,7 +105,7 @@ TEST(Solvers, stretched_cells_are_right_either_way) {
 
 // A shoulder between long plain cylinders, 94 k unknowns: one cell in fourteen is stretched more than 1 : 12,
 // up to 1 : 17, and the analysed factor is expensive.
-TEST(Solvers, few_cells_of_middling_stretch_are_iterated_where_the_factor_is_dear) {
+TEST(Solvers, FewCellsOfMiddlingStretchAreIteratedWhereTheFactorIsDear) {
   meshes::Shaft shaft;
   shaft.segments = {{"left", 0, 0.06, 0.04, 0, true},
                     {"thin", 0.06, 0.14, 0.04},
@@ -125,7 +125,7 @@ TEST(Solvers, few_cells_of_middling_stretch_are_iterated_where_the_factor_is_dea
   EXPECT_LT(automatic.residual, 1e-9) << "the updated residual drifts from the true one by rounding";
 }
 
-TEST(Solvers, stall_falls_back_to_the_direct_solver_and_says_so) {
+TEST(Solvers, StallFallsBackToTheDirectSolverAndSaysSo) {
   const auto rod = fem_tests::rod(8);
   const auto direct = solve(rod, directly), stalled = solve(rod, {fem::Solver::iterative, 1e-10, 3});
   EXPECT_EQ(stalled.solver.used, fem::Solver::direct);
@@ -136,7 +136,7 @@ TEST(Solvers, stall_falls_back_to_the_direct_solver_and_says_so) {
   EXPECT_GT(stalled.factor_gigabytes, 0);
 }
 
-TEST(Solvers, iteration_repeats_bit_for_bit_and_scales_with_load_and_modulus) {
+TEST(Solvers, IterationRepeatsBitForBitAndScalesWithLoadAndModulus) {
   auto rod = fem_tests::rod(8);
   const auto once = solve(rod, iteratively), again = solve(rod, iteratively);
   EXPECT_EQ(once.displacement_m, again.displacement_m);
@@ -146,7 +146,7 @@ TEST(Solvers, iteration_repeats_bit_for_bit_and_scales_with_load_and_modulus) {
     ASSERT_EQ(stiff.displacement_m[i] * 1024, once.displacement_m[i]);
 }
 
-TEST(SolverChoice, follows_prediction_memory_and_kind_of_cell) {
+TEST(SolverChoice, FollowsPredictionMemoryAndKindOfCell) {
   auto body = fem_tests::rod(8);
   const auto grid = fem::read_grid(body.body);
   const auto steel = fem_tests::steel;
@@ -181,7 +181,7 @@ fem::Grid stretched_cell(std::size_t n_nodes, double length) {
   return grid;
 }
 
-TEST(SolverChoice, large_bodies_of_compact_cells_are_iterated) {
+TEST(SolverChoice, LargeBodiesOfCompactCellsAreIterated) {
   const auto steel = fem_tests::steel;
   const auto used = [&](double length) {
     return fem::choose_solver(stretched_cell(200000, length), steel, 12, {}, 1e12).used;
@@ -192,7 +192,7 @@ TEST(SolverChoice, large_bodies_of_compact_cells_are_iterated) {
   EXPECT_EQ(used(1 / 40.0), fem::Solver::direct);
 }
 
-TEST(SolverChoice, aspect_is_that_of_the_longest_cell) {
+TEST(SolverChoice, AspectIsThatOfTheLongestCell) {
   EXPECT_DOUBLE_EQ(fem::largest_aspect(stretched_cell(27, 7)), 7);
 }
 

@@ -68,14 +68,14 @@ const auto curved = [](const Point& x) {
                x[2] + 0.04 * x[0] * x[1]);
 };
 
-TEST(PatchRecovery, tri_quadratic_fields_are_exact_on_boxes) {
+TEST(PatchRecovery, TriQuadraticFieldsAreExactOnBoxes) {
   const auto field = [](const Point& x) {
     return 1 + x[0] - 2 * x[1] * x[1] + 3 * x[0] * x[0] * x[1] * x[1] * x[2] * x[2] - x[0] * x[2] * x[2];
   };
   EXPECT_LT(recovery_error(cube(3, 2, straight), field), 1e-12);
 }
 
-TEST(PatchRecovery, quadratic_fields_are_exact_on_skewed_and_curved_cells) {
+TEST(PatchRecovery, QuadraticFieldsAreExactOnSkewedAndCurvedCells) {
   const auto field = [](const Point& x) {
     return 1 + x[0] - 2 * x[1] * x[1] + 3 * x[0] * x[1] - x[2] * x[2] + x[1] * x[2];
   };
@@ -85,7 +85,7 @@ TEST(PatchRecovery, quadratic_fields_are_exact_on_skewed_and_curved_cells) {
 
 // Corners of the core where three or five cells meet around an edge, fans, shifted rings, boundary nodes: all
 // of it.
-TEST(PatchRecovery, quadratic_fields_are_exact_on_a_shaft) {
+TEST(PatchRecovery, QuadraticFieldsAreExactOnAShaft) {
   const auto grid = fem::read_grid(fem_tests::eccentric_shaft().body);
   const auto field = [](const Point& x) {
     const Point s = x / 0.06;
@@ -94,7 +94,7 @@ TEST(PatchRecovery, quadratic_fields_are_exact_on_a_shaft) {
   EXPECT_LT(recovery_error(grid, field), 1e-10);
 }
 
-TEST(PatchRecovery, degrees_1_and_3_are_exact_for_fields_of_their_degree) {
+TEST(PatchRecovery, Degrees1And3AreExactForFieldsOfTheirDegree) {
   EXPECT_LT(recovery_error(cube(3, 1, skewed), [](const Point& x) { return 1 + x[0] - 2 * x[1] + x[2]; }),
             1e-12);
   EXPECT_LT(
@@ -104,14 +104,14 @@ TEST(PatchRecovery, degrees_1_and_3_are_exact_for_fields_of_their_degree) {
 }
 
 // One layer of cells has no interior corner: the patches of boundary corners take over.
-TEST(PatchRecovery, single_layers_fall_back_to_what_their_samples_determine) {
+TEST(PatchRecovery, SingleLayersFallBackToWhatTheirSamplesDetermine) {
   EXPECT_LT(recovery_error(cube(1, 2, skewed), [](const Point& x) { return 1 + x[0] - 2 * x[1] + x[2]; }),
             1e-12);
 }
 
 // A node takes its value from patches that hold it, on the body's edges and corners too: what one layer of
 // cells has does not reach nodes beyond the next two layers, to which its patches extend.
-TEST(PatchRecovery, what_a_layer_of_cells_has_stays_beside_it) {
+TEST(PatchRecovery, WhatALayerOfCellsHasStaysBesideIt) {
   constexpr int n = 5;
   const auto grid = cube(n, 2, straight);
   for (const auto& free : {std::vector<fem::BoundaryFace>{}, grid.boundary}) {
@@ -163,7 +163,7 @@ double stress_error(int n, bool patches) {
 
 // Cells' own stress at nodes converges with order 2; the sampling points have one order more, and the fits
 // keep it.
-TEST(PatchRecovery, smooth_fields_converge_one_order_faster_than_averages) {
+TEST(PatchRecovery, SmoothFieldsConvergeOneOrderFasterThanAverages) {
   const double coarse = stress_error(4, true), fine = stress_error(8, true);
   const double coarse_average = stress_error(4, false), fine_average = stress_error(8, false);
   RecordProperty("patch", std::to_string(coarse) + " " + std::to_string(fine));
@@ -175,7 +175,7 @@ TEST(PatchRecovery, smooth_fields_converge_one_order_faster_than_averages) {
 
 // In r, theta, z with the angle's sine and cosine: pull, torsion and bending of a shaft are of the harmonics
 // 0 and 1, and linear in r. Around a curved surface 45 degrees wide, polynomials of x and y would not do.
-TEST(PatchRecovery, beam_stresses_are_exact_in_round_patches) {
+TEST(PatchRecovery, BeamStressesAreExactInRoundPatches) {
   const auto rod = fem_tests::rod(8);
   const auto grid = fem::read_grid(rod.body);
   const auto cells = fem::cells_of_nodes(grid);
@@ -193,7 +193,7 @@ TEST(PatchRecovery, beam_stresses_are_exact_in_round_patches) {
 }
 
 // Uniaxial tension along a skew direction, on faces parallel to it: the strains along the face give it back.
-TEST(FreeFaces, carry_the_stress_along_them_and_none_across) {
+TEST(FreeFaces, CarryTheStressAlongThemAndNoneAcross) {
   const auto grid = cube(2, 2, straight);
   const fem::Lame elastic = fem::lame({200e9, 0.3, 1});
   fem::RowMajor u(grid.n_nodes, 3);

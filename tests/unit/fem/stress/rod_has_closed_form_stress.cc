@@ -47,7 +47,7 @@ fem::UnitResponses Rod::patch, Rod::average;
 
 // The displacement is linear, so the mesh adds nothing but its own area: 16 parabolas for the circle, 2e-5
 // too small.
-TEST_F(Rod, in_tension) {
+TEST_F(Rod, InTension) {
   const auto exact = [](double, double) { return Tensor{0, 0, 1 / (pi * radius * radius), 0, 0, 0}; };
   const fem_tests::LoadCase pull = {{"end_2.fz", 1}, {"end_1.fz", -1}};
   EXPECT_LT(error(patch, pull, exact), 1e-4);
@@ -55,14 +55,14 @@ TEST_F(Rod, in_tension) {
 }
 
 // u = twist z (-y, x, 0) is in the space; what is left is that the rim is not quite a circle.
-TEST_F(Rod, in_torsion) {
+TEST_F(Rod, InTorsion) {
   const double j = pi * std::pow(radius, 4) / 2;
   const auto exact = [j](double x, double y) { return Tensor{0, 0, 0, 0, x / j, -y / j}; };
   EXPECT_LT(error(patch, {{"end_2.torque", 1}, {"end_1.torque", -1}}, exact), 1e-3);
 }
 
 // Quadratic displacement on curved cells: the discretisation shows.
-TEST_F(Rod, in_bending_about_both_axes) {
+TEST_F(Rod, InBendingAboutBothAxes) {
   const double i = pi * std::pow(radius, 4) / 4;
   EXPECT_LT(error(patch, {{"end_2.mx", 1}, {"end_1.mx", -1}},
                   [i](double, double y) { return Tensor{0, 0, y / i, 0, 0, 0}; }),
@@ -72,7 +72,7 @@ TEST_F(Rod, in_bending_about_both_axes) {
             3e-3);
 }
 
-TEST_F(Rod, twist_stretch_and_curvature_between_sections) {
+TEST_F(Rod, TwistStretchAndCurvatureBetweenSections) {
   const double e = fem_tests::steel.youngs_modulus_Pa, g = e / 2.6, area = pi * radius * radius,
                i = area * radius * radius / 4;
   const std::size_t last = patch.planes.size() - 1;

@@ -67,7 +67,7 @@ struct RodOfTetrahedra : testing::Test {
 
 // 12 parabolas for the circle are (pi/12)^4 / 30 = 1.6e-4 too small, which tension shows once, bending and
 // torsion twice; what comes on top is the discretisation of quadratic fields on curved cells.
-TEST_F(RodOfTetrahedra, has_the_closed_form_stress) {
+TEST_F(RodOfTetrahedra, HasTheClosedFormStress) {
   EXPECT_NEAR(volume_m3 / (pi * rod_radius * rod_radius * 0.1), 1, 2e-4);
   const double area = pi * rod_radius * rod_radius, i = area * rod_radius * rod_radius / 4;
   const double tension = error(0, [&](double, double) { return Tensor{0, 0, 1 / area, 0, 0, 0}; });
@@ -124,7 +124,7 @@ std::array<double, 2> peaks(const meshes::BodyMesh& mesh) {
 
 // Three cells for a quarter of the fillet. Against hexahedra, eight for a quarter, tension is 1 % and bending
 // 5 % low; without patches of their own at the surface it would be 14 %.
-TEST(FilletOfTetrahedra, has_the_peak_of_the_hexahedra) {
+TEST(FilletOfTetrahedra, HasThePeakOfTheHexahedra) {
   meshes::Shaft shaft;
   shaft.segments = {{"a", 0, 0.08, 0.04, 0, false, 0, 0, ""}, {"b", 0.08, 0.16, 0.06, 0, false, 0, 0, ""}};
   shaft.fillets_m = {0.005};

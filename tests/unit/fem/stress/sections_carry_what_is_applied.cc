@@ -30,7 +30,7 @@ struct Sections : testing::Test {
 fem_tests::ShaftBody* Sections::shaft;
 fem::UnitResponses Sections::responses;
 
-TEST_F(Sections, fill_their_discs) {
+TEST_F(Sections, FillTheirDiscs) {
   ASSERT_FALSE(responses.planes.empty());
   for (std::size_t p = 0; p < responses.planes.size(); ++p) {
     const double disc = pi * std::pow(responses.planes[p].radius_m, 2);
@@ -40,7 +40,7 @@ TEST_F(Sections, fill_their_discs) {
 
 // Recovered stress is not in exact equilibrium. On this coarse mesh, 8 sectors and two cells per 45 degrees
 // of fillet, it is to 1.5 %; a shear force beside a bending moment of 4 diameters to 5 %.
-TEST_F(Sections, carry_force_moment_and_torque) {
+TEST_F(Sections, CarryForceMomentAndTorque) {
   const double top = 0.06, bottom = -0.06, tolerance = 0.015;
   for (std::size_t p = 0; p < responses.planes.size(); ++p) {
     const double z = responses.planes[p].z_m;
@@ -60,7 +60,7 @@ TEST_F(Sections, carry_force_moment_and_torque) {
 }
 
 // Moments are about (0, 0, z) even where the section's own axis lies elsewhere: a central pull has none.
-TEST_F(Sections, of_the_eccentric_seat_take_moments_about_the_z_axis) {
+TEST_F(Sections, OfTheEccentricSeatTakeMomentsAboutTheZAxis) {
   int eccentric = 0;
   for (std::size_t p = 0; p < responses.planes.size(); ++p) {
     if (responses.planes[p].axis_x_m == 0) continue;
@@ -72,7 +72,7 @@ TEST_F(Sections, of_the_eccentric_seat_take_moments_about_the_z_axis) {
   EXPECT_GT(eccentric, 0);
 }
 
-TEST(RodSections, rim_and_rings_have_the_torsional_shear) {
+TEST(RodSections, RimAndRingsHaveTheTorsionalShear) {
   const auto rod = fem_tests::rod();
   const auto r = fem::Model(rod.body).unit_responses({fem_tests::resultant(rod, "end_1", Component::torque),
                                                       fem_tests::resultant(rod, "end_2", Component::torque)},
@@ -93,7 +93,7 @@ TEST(RodSections, rim_and_rings_have_the_torsional_shear) {
   }
 }
 
-TEST_F(Sections, rings_leave_out_the_eccentric_seat_and_know_fillets) {
+TEST_F(Sections, RingsLeaveOutTheEccentricSeatAndKnowFillets) {
   int on_fillets = 0;
   for (const auto& ring : responses.rings) {
     EXPECT_NE(ring.boundary_id, shaft->features.at("seat"));
@@ -107,7 +107,7 @@ TEST_F(Sections, rings_leave_out_the_eccentric_seat_and_know_fillets) {
   EXPECT_GE(on_fillets, 2 * 9);  // four cells per quarter: nine nodes
 }
 
-TEST_F(Sections, planes_without_faces_are_refused) {
+TEST_F(Sections, PlanesWithoutFacesAreRefused) {
   const fem::Model model(shaft->body);
   const std::vector<fem::UnitLoad> loads = {fem_tests::resultant(*shaft, "end_1", Component::fz)};
   const auto message = [&](const fem::SectionPlane& plane) -> std::string {

@@ -115,7 +115,7 @@ const auto bend = [](const Point& x) {
                x[2] + 0.04 * x[0] * x[1]);
 };
 
-TEST(Tetrahedra, linear_fields_are_exact_on_irregular_and_curved_cells) {
+TEST(Tetrahedra, LinearFieldsAreExactOnIrregularAndCurvedCells) {
   for (const auto& grid : {fem_tests::irregular_cube(3), fem_tests::tetrahedra_cube(3, bend)}) {
     const auto e = errors(grid, linear);
     EXPECT_LT(e.displacement, 1e-13);  // of 3; rounding
@@ -141,12 +141,12 @@ void expect_orders(const Errors& coarse, const Errors& fine) {
   EXPECT_LT(fine.patches_mean, fine.average_mean);
 }
 
-TEST(Tetrahedra, smooth_fields_converge_on_curved_cells) {
+TEST(Tetrahedra, SmoothFieldsConvergeOnCurvedCells) {
   expect_orders(errors(fem_tests::tetrahedra_cube(4, bend), smooth),
                 errors(fem_tests::tetrahedra_cube(8, bend), smooth));
 }
 
-TEST(Tetrahedra, smooth_fields_converge_on_irregular_cells) {
+TEST(Tetrahedra, SmoothFieldsConvergeOnIrregularCells) {
   expect_orders(errors(fem_tests::irregular_cube(4), smooth), errors(fem_tests::irregular_cube(8), smooth));
 }
 

@@ -30,7 +30,7 @@ double recovery_error(const fem::Grid& grid, const std::vector<fem::BoundaryFace
 }
 
 // n = 1 has no interior corner and corners with one cell of four samples: larger patches take over.
-TEST(TetrahedraRecovery, quadratic_fields_are_exact) {
+TEST(TetrahedraRecovery, QuadraticFieldsAreExact) {
   const auto field = [](const Point& x) {
     return 1 + x[0] - 2 * x[1] * x[1] + 3 * x[0] * x[1] - x[2] * x[2] + x[1] * x[2];
   };

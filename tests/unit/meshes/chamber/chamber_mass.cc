@@ -58,7 +58,7 @@ void expect_polygonal_solids(const meshes::Chamber& chamber, const meshes::Chamb
 
 /// Volume, centre and inertia of every part, and the area of every feature, with the circles as the mesh's
 /// polygons.
-TEST(ChamberSolids, are_those_of_the_polygonal_parts) {
+TEST(ChamberSolids, AreThoseOfThePolygonalParts) {
   expect_polygonal_solids(laboratory_chamber(), {});
   expect_polygonal_solids(lopsided_chamber(), {});
   meshes::ChamberMeshControl coarse;
@@ -69,7 +69,7 @@ TEST(ChamberSolids, are_those_of_the_polygonal_parts) {
 }
 
 /// Chords cut off angle^2 / 6 of the circle's section: second order in the size.
-TEST(ChamberSolids, converge_to_the_round_parts_with_second_order) {
+TEST(ChamberSolids, ConvergeToTheRoundPartsWithSecondOrder) {
   const auto chamber = laboratory_chamber();
   const auto round = solid_sums(chamber, equal_angles(100000));  // polygons right to 1e-9
   std::map<std::string, std::vector<double>> errors;
@@ -150,7 +150,7 @@ std::map<std::string, PlaneSums> as_specified(const meshes::Chamber& chamber) {
 /// machine was specified with, which the mesh has to meet within 2 %, and the figures of the drawing, met
 /// to the last printed digit when webs and lugs are weighed as there. Without what cannot be welded (webs
 /// beside the housing, 0.66 kg; lugs inside the pads, 0.17 kg) the chamber is 2.7 % lighter than the latter.
-TEST(ChamberSolids, weigh_what_the_specification_says) {
+TEST(ChamberSolids, WeighWhatTheSpecificationSays) {
   const auto drawn = laboratory_masses(as_specified(laboratory_chamber()));
   EXPECT_NEAR(drawn.m1_kg, 30.40, 0.005);
   EXPECT_NEAR(drawn.l_x_m, 0.2605, 0.00005);

@@ -24,7 +24,7 @@ std::map<std::string, std::set<int>> nodes_by_group(const MeshFile& mesh) {
   return nodes;
 }
 
-TEST(ChamberMesh, is_watertight_with_every_free_face_in_exactly_one_group) {
+TEST(ChamberMesh, IsWatertightWithEveryFreeFaceInExactlyOneGroup) {
   meshes::ChamberMeshControl fine;
   fine.size_m = 0.01;
   fine.cells_through_wall = 3;
@@ -40,7 +40,7 @@ TEST(ChamberMesh, is_watertight_with_every_free_face_in_exactly_one_group) {
       expect_watertight(meshes::build_chamber(chamber, control, temporary_msh("chamber")));
 }
 
-TEST(ChamberMesh, of_the_laboratory_is_of_a_size_that_is_solved_in_seconds) {
+TEST(ChamberMesh, OfTheLaboratoryIsOfASizeThatIsSolvedInSeconds) {
   const auto body = meshes::build_chamber(laboratory_chamber(), {}, temporary_msh("laboratory_chamber"));
   EXPECT_GT(body.quality.n_cells, 5000u);
   EXPECT_LT(body.quality.n_cells, 9000u);
@@ -93,12 +93,12 @@ void expect_on_surfaces(const meshes::Chamber& chamber) {
   }
 }
 
-TEST(ChamberMesh, has_its_boundary_nodes_on_their_surfaces) {
+TEST(ChamberMesh, HasItsBoundaryNodesOnTheirSurfaces) {
   expect_on_surfaces(laboratory_chamber());
   expect_on_surfaces(lopsided_chamber());
 }
 
-TEST(ChamberMesh, has_ports_charts_and_regions_of_the_drawing) {
+TEST(ChamberMesh, HasPortsChartsAndRegionsOfTheDrawing) {
   const auto body = meshes::build_chamber(laboratory_chamber(), {}, temporary_msh("tables"));
   const MeshFile mesh = read_mesh_file(body.file);
   std::map<std::string, meshes::Port> ports;
@@ -168,7 +168,7 @@ void expect_product_cells(const meshes::Chamber& chamber) {
   }
 }
 
-TEST(ChamberMesh, has_cells_that_are_products_in_their_charts) {
+TEST(ChamberMesh, HasCellsThatAreProductsInTheirCharts) {
   expect_product_cells(laboratory_chamber());
   expect_product_cells(lopsided_chamber());
   auto small_housing = laboratory_chamber();  // the webs' cells fan out by a factor of 3
@@ -180,7 +180,7 @@ TEST(ChamberMesh, has_cells_that_are_products_in_their_charts) {
 
 /// A lug about as long as it is wide, round a corner of its pad, with few columns: one of them has to run
 /// along the strip to the corner.
-TEST(ChamberMesh, has_good_cells_in_a_short_lug_round_its_pads_corner) {
+TEST(ChamberMesh, HasGoodCellsInAShortLugRoundItsPadsCorner) {
   meshes::Chamber chamber;
   chamber.tube = {0.2965, 0.03, 1.03, 0.5956, -0.0214};
   chamber.flanges = {0.37, 0.069};
@@ -194,14 +194,14 @@ TEST(ChamberMesh, has_good_cells_in_a_short_lug_round_its_pads_corner) {
 }
 
 /// So that loads symmetrical in z have no moment about x and y, to the last bit of the coordinates.
-TEST(ChamberMesh, is_symmetrical_in_z_if_the_chamber_is) {
+TEST(ChamberMesh, IsSymmetricalInZIfTheChamberIs) {
   const auto body = meshes::build_chamber(laboratory_chamber(), {}, temporary_msh("symmetrical"));
   const MeshFile mesh = read_mesh_file(body.file);
   std::set<std::array<double, 3>> points(mesh.points.begin(), mesh.points.end());
   for (const auto& p : mesh.points) ASSERT_EQ(points.count({p[0], p[1], -p[2]}), 1u) << p[2];
 }
 
-TEST(ChamberMesh, is_bit_identical_when_repeated) {
+TEST(ChamberMesh, IsBitIdenticalWhenRepeated) {
   const auto bytes = [](const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return std::string{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

@@ -74,7 +74,7 @@ double shortest_edge_m(const MeshFile& mesh, const Point& from) {
 
 // Cells shrink at the toes beside a fine place and through the wall there, not at those of other plates; the
 // hot spots stay where they are.
-TEST(FineToes, get_small_cells_where_they_are) {
+TEST(FineToes, GetSmallCellsWhereTheyAre) {
   const auto chamber = laboratory_chamber();
   const double wall_m = chamber.tube.wall_m;
   const auto usual = meshes::build_chamber(chamber, {}, temporary_msh("usual_toes"));
@@ -98,13 +98,13 @@ TEST(FineToes, get_small_cells_where_they_are) {
   EXPECT_LT(fine.quality.n_cells, 4 * usual.quality.n_cells);  // two of the four are the wall's
 }
 
-TEST(HotSpots, are_vertices_at_the_weld_toes) {
+TEST(HotSpots, AreVerticesAtTheWeldToes) {
   expect_hot_spots_in_place(laboratory_chamber());
   expect_hot_spots_in_place(lopsided_chamber());
 }
 
 /// Eight for each of 2 webs and 4 lugs; names say where they are.
-TEST(HotSpots, of_the_laboratory_are_complete) {
+TEST(HotSpots, OfTheLaboratoryAreComplete) {
   const auto body = meshes::build_chamber(laboratory_chamber(), {}, temporary_msh("spots"));
   EXPECT_EQ(body.hot_spots.size(), 48u);
   std::map<std::string, meshes::HotSpot> spots;
@@ -126,7 +126,7 @@ TEST(HotSpots, of_the_laboratory_are_complete) {
 }
 
 /// Where a lug lies in front of a web within one wall, no path is read between them.
-TEST(HotSpots, are_left_out_where_another_plate_is_in_the_way) {
+TEST(HotSpots, AreLeftOutWhereAnotherPlateIsInTheWay) {
   auto chamber = lopsided_chamber();
   chamber.webs.z_m = {-50e-3, 5e-3, 55e-3};
   chamber.lugs.z_m = 71e-3;  // faces at 60 and 67 mm
@@ -153,7 +153,7 @@ double length_m(const meshes::SharpEdge& edge) {
 
 /// All weld toes, each with the whole length of its seam, and nothing else: the concave inner wall and bore
 /// turn by 8 to 14 degrees from cell to cell.
-TEST(SharpEdges, of_the_chamber_are_its_weld_toes) {
+TEST(SharpEdges, OfTheChamberAreItsWeldToes) {
   const auto chamber = laboratory_chamber();
   const auto body = meshes::build_chamber(chamber, {}, temporary_msh("sharp"));
   const auto edges = sharp_edges_of(body);
@@ -202,7 +202,7 @@ TEST(SharpEdges, of_the_chamber_are_its_weld_toes) {
 
 /// An L-shaped bar: one re-entrant edge, and five convex ones that must not count. With the leg tilted away
 /// the edge turns by 45 degrees only and counts or not as the limit says.
-TEST(SharpEdges, are_found_on_any_mesh) {
+TEST(SharpEdges, AreFoundOnAnyMesh) {
   const double half = std::sqrt(0.5);
   for (const bool right_angle : {true, false}) {
     meshes::Plan plan;

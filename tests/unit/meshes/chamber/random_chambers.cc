@@ -19,7 +19,7 @@ int n_chambers() {
   return text ? std::atoi(text) : 50;
 }
 
-TEST(RandomChambers, all_mesh_with_good_cells_and_the_right_volume) {
+TEST(RandomChambers, AllMeshWithGoodCellsAndTheRightVolume) {
   std::mt19937 random(20250611);
   meshes::ChamberMeshControl control;
   control.min_scaled_jacobian = 0.01;  // refuse nothing: the test judges

@@ -144,15 +144,15 @@ void expect_chambers_refused(const std::vector<RefusedChamber>& refusals) {
   }
 }
 
-TEST(RefusedChambers, have_sizes_out_of_range) {
+TEST(RefusedChambers, HaveSizesOutOfRange) {
   expect_chambers_refused(size_refusals());
 }
 
-TEST(RefusedChambers, have_parts_in_each_others_way) {
+TEST(RefusedChambers, HavePartsInEachOthersWay) {
   expect_chambers_refused(clearance_refusals());
 }
 
-TEST(RefusedChambers, name_the_worst_cell) {
+TEST(RefusedChambers, NameTheWorstCell) {
   ChamberMeshControl control;
   control.min_scaled_jacobian = 0.95;
   const auto file = temporary_msh("bad_chamber");
@@ -168,7 +168,7 @@ TEST(RefusedChambers, name_the_worst_cell) {
 }
 
 /// Faces that coincide are one station.
-TEST(RefusedChambers, do_not_include_webs_flush_with_the_housing) {
+TEST(RefusedChambers, DoNotIncludeWebsFlushWithTheHousing) {
   auto chamber = laboratory_chamber();
   chamber.webs.z_m = {-45.5 * mm, 45.5 * mm};
   EXPECT_LT(meshes::build_chamber(chamber, {}, temporary_msh("flush")).quality.max_aspect, 42);

@@ -69,7 +69,7 @@ void expect_product_cells(const meshes::Shaft& shaft, int n_sectors, const std::
   }
 }
 
-TEST(Charts, make_each_ring_cell_a_product_of_meridian_and_angle) {
+TEST(Charts, MakeEachRingCellAProductOfMeridianAndAngle) {
   expect_product_cells(laboratory_shaft(), 16, "product_laboratory");
   expect_product_cells(laboratory_shaft(), 12, "product_laboratory_12");
   expect_product_cells(sharp_eccentric_shaft(), 16, "product_sharp_eccentric");
@@ -78,7 +78,7 @@ TEST(Charts, make_each_ring_cell_a_product_of_meridian_and_angle) {
   expect_product_cells(planetary_drum(), 24, "product_drum");
 }
 
-TEST(Charts, begin_the_shift_at_the_top_of_the_fillet) {
+TEST(Charts, BeginTheShiftAtTheTopOfTheFillet) {
   const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("charts"));
   for (std::size_t i = 0; i < body.cylinders.size(); ++i) {
     const bool seat = i == 4;
@@ -89,7 +89,7 @@ TEST(Charts, begin_the_shift_at_the_top_of_the_fillet) {
   EXPECT_EQ(body.cylinders[4].outer_radius_m, 0.03);
 }
 
-TEST(Charts, leave_the_core_straight_and_inside_the_smallest_radius) {
+TEST(Charts, LeaveTheCoreStraightAndInsideTheSmallestRadius) {
   const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("core"));
   const MeshFile mesh = read_mesh_file(body.file);
   for (const auto& hex : mesh.hexes) {
@@ -99,7 +99,7 @@ TEST(Charts, leave_the_core_straight_and_inside_the_smallest_radius) {
 }
 
 /// Fem uses the ids of volumes and of boundaries as ids of charts: none may be used twice.
-TEST(Charts, have_ids_that_no_other_group_uses) {
+TEST(Charts, HaveIdsThatNoOtherGroupUses) {
   const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("ids"));
   const MeshFile mesh = read_mesh_file(body.file);
   std::set<int> ids;

@@ -66,7 +66,7 @@ void expect_on_surfaces(const meshes::Shaft& shaft, const std::string& name) {
   }
 }
 
-TEST(BoundaryNodes, lie_exactly_on_cylinders_tori_and_planes) {
+TEST(BoundaryNodes, LieExactlyOnCylindersToriAndPlanes) {
   expect_on_surfaces(laboratory_shaft(), "on_laboratory");
   expect_on_surfaces(shoulder_shaft(2, 0.1), "on_shoulder");
   expect_on_surfaces(shoulder_shaft(1.1, 0.05), "on_full_step");
@@ -80,7 +80,7 @@ TEST(BoundaryNodes, lie_exactly_on_cylinders_tori_and_planes) {
 
 /// The tori of the tables against the drawing: centre one fillet away from the shoulder and from the small
 /// cylinder.
-TEST(BoundaryNodes, tori_are_those_of_the_drawing) {
+TEST(BoundaryNodes, ToriAreThoseOfTheDrawing) {
   const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("tori"));
   ASSERT_EQ(body.tori.size(), 7u);
   const double tiny = 1e-15;                            // sums of a few numbers below 1 m

@@ -15,7 +15,7 @@ std::string bytes(const std::filesystem::path& file) {
 
 /// Results are kept under a hash of what they depend on; a mesh that changed from run to run would spoil
 /// that.
-TEST(MshFile, is_bit_identical_when_repeated) {
+TEST(MshFile, IsBitIdenticalWhenRepeated) {
   const auto first = temporary_msh("first"), second = temporary_msh("second");
   meshes::build_shaft(laboratory_shaft(), {}, first);
   meshes::build_shaft(three_steps(), {}, temporary_msh("between"));  // must leave nothing behind
@@ -24,7 +24,7 @@ TEST(MshFile, is_bit_identical_when_repeated) {
   EXPECT_EQ(bytes(first), bytes(second));
 }
 
-TEST(MshFile, of_a_drum_is_bit_identical_when_repeated) {
+TEST(MshFile, OfADrumIsBitIdenticalWhenRepeated) {
   const auto first = temporary_msh("first_drum"), second = temporary_msh("second_drum");
   meshes::build_shaft(planetary_drum(), {}, first);
   meshes::build_shaft(two_eccentrics(), {}, temporary_msh("between"));  // must leave nothing behind
@@ -33,7 +33,7 @@ TEST(MshFile, of_a_drum_is_bit_identical_when_repeated) {
   EXPECT_EQ(bytes(first), bytes(second));
 }
 
-TEST(MshFile, leaves_no_temporary_beside_it_and_replaces_an_old_one) {
+TEST(MshFile, LeavesNoTemporaryBesideItAndReplacesAnOldOne) {
   const auto file = temporary_msh("alone/shaft");
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file) << "old";

@@ -49,7 +49,7 @@ void expect_full_discs(const meshes::Shaft& shaft, const std::string& name) {
   }
 }
 
-TEST(SectionPlanes, ascend_and_are_full_discs_of_their_segment) {
+TEST(SectionPlanes, AscendAndAreFullDiscsOfTheirSegment) {
   expect_full_discs(laboratory_shaft(), "sections_laboratory");
   expect_full_discs(three_steps(), "sections_three_steps");
   expect_full_discs(sharp_eccentric_shaft(), "sections_sharp_eccentric");
@@ -61,7 +61,7 @@ TEST(SectionPlanes, ascend_and_are_full_discs_of_their_segment) {
 
 /// Every segment as long as its diameter has a plain section; so the seat, exactly as long, has one in its
 /// middle.
-TEST(SectionPlanes, include_a_plain_one_in_each_long_segment) {
+TEST(SectionPlanes, IncludeAPlainOneInEachLongSegment) {
   const auto shaft = laboratory_shaft();
   for (const double largest_cell_m : {0.0, 0.2}) {
     meshes::ShaftMeshControl control;
@@ -81,7 +81,7 @@ TEST(SectionPlanes, include_a_plain_one_in_each_long_segment) {
 
 /// Two segments of one diameter meet without a shoulder: the plane between them is an ordinary section,
 /// counted once.
-TEST(SectionPlanes, cross_a_joint_without_a_shoulder) {
+TEST(SectionPlanes, CrossAJointWithoutAShoulder) {
   meshes::Shaft shaft;
   shaft.segments = {{"free", 0, 0.1, 0.05, 0, false}, {"seat", 0.1, 0.2, 0.05, 0, true}};
   shaft.fillets_m = {0};

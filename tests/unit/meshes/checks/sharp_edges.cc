@@ -22,7 +22,7 @@ void expect_circle(const meshes::SharpEdge& edge, double z_m, double radius_m, s
   EXPECT_NEAR(turned, 2 * std::acos(-1.0), 1e-12);
 }
 
-TEST(SharpEdges, are_the_sharp_shoulders) {
+TEST(SharpEdges, AreTheSharpShoulders) {
   EXPECT_TRUE(meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("no_edges")).sharp_edges.empty());
   const auto body = meshes::build_shaft(sharp_eccentric_shaft(), {}, temporary_msh("edges"));
   ASSERT_EQ(body.sharp_edges.size(), 2u);
@@ -34,7 +34,7 @@ TEST(SharpEdges, are_the_sharp_shoulders) {
   expect_circle(body.sharp_edges[1], 0.15, 0.015, 16);
 }
 
-TEST(SharpEdges, are_the_bore_steps_within_the_thickness_of_the_wall) {
+TEST(SharpEdges, AreTheBoreStepsWithinTheThicknessOfTheWall) {
   meshes::ShaftMeshControl control;
   control.n_sectors = 24;
   const auto drum = meshes::build_shaft(planetary_drum(), control, temporary_msh("drum_edges"));

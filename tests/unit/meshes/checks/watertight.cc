@@ -12,7 +12,7 @@ void expect_watertight(const meshes::Shaft& shaft, const meshes::ShaftMeshContro
   ::expect_watertight(meshes::build_shaft(shaft, control, temporary_msh(name)));
 }
 
-TEST(ShaftMesh, is_watertight_with_every_free_face_in_exactly_one_group) {
+TEST(ShaftMesh, IsWatertightWithEveryFreeFaceInExactlyOneGroup) {
   meshes::ShaftMeshControl control;
   expect_watertight(laboratory_shaft(), control, "laboratory");
   expect_watertight(plain_cylinder(), control, "cylinder");
@@ -22,7 +22,7 @@ TEST(ShaftMesh, is_watertight_with_every_free_face_in_exactly_one_group) {
   expect_watertight(shoulder_shaft(2, 0.2), control, "deep_fillet");
 }
 
-TEST(ShaftMesh, is_watertight_with_bores_grooves_and_several_eccentrics) {
+TEST(ShaftMesh, IsWatertightWithBoresGroovesAndSeveralEccentrics) {
   for (const int cells : {2, 6})
     for (const int sectors : {8, 24}) {
       meshes::ShaftMeshControl control;
@@ -35,7 +35,7 @@ TEST(ShaftMesh, is_watertight_with_bores_grooves_and_several_eccentrics) {
     }
 }
 
-TEST(ShaftMesh, is_watertight_at_other_resolutions) {
+TEST(ShaftMesh, IsWatertightAtOtherResolutions) {
   for (const int cells : {2, 4, 16})
     for (const int sectors : {8, 12, 20, 32}) {
       meshes::ShaftMeshControl control;

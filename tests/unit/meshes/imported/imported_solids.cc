@@ -93,7 +93,7 @@ struct SteppedStep : testing::Test {
                                    box("foot", -1e-6, 1e-6)};
 };
 
-TEST_F(SteppedStep, is_found_meshed_and_curved) {
+TEST_F(SteppedStep, IsFoundMeshedAndCurved) {
   const auto file = temporary_msh("imported");
   const auto body = meshes::build_imported(import_of(step, ports), file);
   EXPECT_EQ(int(body.cells), int(meshes::CellKind::tetrahedra));
@@ -129,7 +129,7 @@ TEST_F(SteppedStep, is_found_meshed_and_curved) {
   EXPECT_GT(n_on_fillet, 100);
 }
 
-TEST_F(SteppedStep, gives_the_same_bytes_twice) {
+TEST_F(SteppedStep, GivesTheSameBytesTwice) {
   const auto first = temporary_msh("first"), second = temporary_msh("second");
   meshes::build_imported(import_of(step, ports), first);
   meshes::build_imported(import_of(step, {}), temporary_msh("between"));
@@ -137,7 +137,7 @@ TEST_F(SteppedStep, gives_the_same_bytes_twice) {
   EXPECT_TRUE(bytes_of(first) == bytes_of(second));
 }
 
-TEST_F(SteppedStep, wrong_ports_are_refused_with_what_there_is) {
+TEST_F(SteppedStep, WrongPortsAreRefusedWithWhatThereIs) {
   const auto with = [&](const ImportPort& port) { return refused(import_of(step, {port})); };
   expect_words(with(cylinder("seat", Port::Kind::seat, 0.022, 0, 0.055)),
                {"port seat", "cylinders parallel to z are", "outside of radius 20 mm about (0, 0) mm",
@@ -156,7 +156,7 @@ TEST_F(SteppedStep, wrong_ports_are_refused_with_what_there_is) {
   expect_words(refused(import_of(step, {ports[0], ports[0]})), {"two ports are called 'seat'"});
 }
 
-TEST(Imported, wrong_files_are_refused) {
+TEST(Imported, WrongFilesAreRefused) {
   expect_words(refused(import_of("/nonexistent/part.step", {})), {"/nonexistent/part.step", "no file"});
   expect_words(refused(import_of("/nonexistent/part.iges", {})), {".step, .stp or .msh"});
   const auto broken = temporary_msh("x").parent_path() / "broken.step";
@@ -189,7 +189,7 @@ TEST(Imported, wrong_files_are_refused) {
   expect_words(refused(import), {"scale_to_m = -1"});
 }
 
-TEST(Imported, solids_that_touch_are_one_body_and_its_corners_are_sharp) {
+TEST(Imported, SolidsThatTouchAreOneBodyAndItsCornersAreSharp) {
   const auto step = written("l.step", [] {
     occ::addBox(0, 0, 0, 30, 10, 10);
     occ::addBox(0, 10, 0, 10, 20, 10);
@@ -238,7 +238,7 @@ void grouped_boxes(int order, double version, bool hexahedra) {
   if (order == 2) gmsh::model::mesh::setOrder(2);
 }
 
-TEST(Imported, a_msh_with_groups_goes_in_and_out) {
+TEST(Imported, AMshWithGroupsGoesInAndOut) {
   for (const int order : {1, 2})
     for (const double version : {2.2, 4.1}) {
       const auto msh = written("grouped.msh", [&] { grouped_boxes(order, version, false); });
@@ -263,7 +263,7 @@ TEST(Imported, a_msh_with_groups_goes_in_and_out) {
     }
 }
 
-TEST(Imported, hexahedra_pass_through) {
+TEST(Imported, HexahedraPassThrough) {
   const auto msh = written("hexahedra.msh", [] { grouped_boxes(1, 4.1, true); });
   const auto probe = refusal_of([&] { read_tetrahedra(msh); });
   ASSERT_NE(probe.find("another type"), std::string::npos) << "gmsh made no hexahedra: " << probe;

@@ -68,7 +68,7 @@ double slot_volume(double radius_m, const Keyway& key) {
   return sum;
 }
 
-TEST(SolidShaft, without_keyways_is_the_shaft_of_the_blocks) {
+TEST(SolidShaft, WithoutKeywaysIsTheShaftOfTheBlocks) {
   for (const auto& shaft : {eccentric_shaft(), sharp_eccentric_shaft(), three_steps()}) {
     const auto file = temporary_msh("solid");
     const auto solid = meshes::build_solid_shaft(shaft, {}, coarse(), file);
@@ -102,7 +102,7 @@ TEST(SolidShaft, without_keyways_is_the_shaft_of_the_blocks) {
   }
 }
 
-TEST(SolidShaft, nodes_lie_on_cylinders_and_fillets) {
+TEST(SolidShaft, NodesLieOnCylindersAndFillets) {
   const auto shaft = keyed_shaft();
   const auto file = temporary_msh("surfaces");
   meshes::build_solid_shaft(shaft, {{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true}}, coarse(), file);
@@ -118,7 +118,7 @@ TEST(SolidShaft, nodes_lie_on_cylinders_and_fillets) {
   EXPECT_NEAR(highest, 0.02, 0.001);  // at the angle asked for
 }
 
-TEST(SolidShaft, keyways_take_their_volume) {
+TEST(SolidShaft, KeywaysTakeTheirVolume) {
   for (const bool round_ends : {false, true}) {
     const double bore_m = round_ends ? 0 : 0.01;
     const auto shaft = keyed_shaft(bore_m);
@@ -139,7 +139,7 @@ TEST(SolidShaft, keyways_take_their_volume) {
   }
 }
 
-TEST(SolidShaft, an_open_keyway_runs_out_at_the_end) {
+TEST(SolidShaft, AnOpenKeywayRunsOutAtTheEnd) {
   const auto shaft = plain_cylinder();  // 50 mm, 200 mm long
   const Keyway key{shaft.segments[0].name, 0.014, 0.0055, 0.05, shaft.segments[0].begin_m, 1, false};
   const auto file = temporary_msh("open");
@@ -148,7 +148,7 @@ TEST(SolidShaft, an_open_keyway_runs_out_at_the_end) {
               1.2 * lost_by_parabolas(n_around));
 }
 
-TEST(SolidShaft, is_bit_identical_when_repeated) {
+TEST(SolidShaft, IsBitIdenticalWhenRepeated) {
   const std::vector<Keyway> keys = {{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true}};
   const auto first = temporary_msh("first"), second = temporary_msh("second");
   meshes::build_solid_shaft(keyed_shaft(), keys, coarse(), first);
@@ -158,7 +158,7 @@ TEST(SolidShaft, is_bit_identical_when_repeated) {
   EXPECT_TRUE(bytes_of(first) == bytes_of(second));
 }
 
-TEST(SolidShaft, keyways_that_do_not_fit_are_refused) {
+TEST(SolidShaft, KeywaysThatDoNotFitAreRefused) {
   const auto refused = [](const std::function<void(Keyway&)>& change) {
     Keyway key{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true};
     change(key);

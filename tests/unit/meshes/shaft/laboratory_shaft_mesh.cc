@@ -17,7 +17,7 @@ const meshes::Port& port(const meshes::BodyMesh& body, const std::string& name) 
 /// Facts of the design: structured blocks keep the worst corner above 0.49; the shaft with 8 cells per
 /// quarter and 16 sectors stays within a direct solver's reach (335 thousand quadratic unknowns, some 25 per
 /// cell).
-TEST(LaboratoryShaft, meshes_well_at_every_fineness) {
+TEST(LaboratoryShaft, MeshesWellAtEveryFineness) {
   for (const int cells : {2, 4, 8, 16}) {
     meshes::ShaftMeshControl control;
     control.cells_per_fillet_quarter = cells;
@@ -36,7 +36,7 @@ TEST(LaboratoryShaft, meshes_well_at_every_fineness) {
 
 /// The loaded zone is the segment less the larger of its own fillets at both ends, so that the resultant of a
 /// uniform pressure acts in the middle of the seat: a shift by half a fillet would add a moment.
-TEST(LaboratoryShaft, loads_its_seats_symmetrically) {
+TEST(LaboratoryShaft, LoadsItsSeatsSymmetrically) {
   const auto shaft = laboratory_shaft();
   const auto body = meshes::build_shaft(shaft, {}, temporary_msh("zones"));
   const double tiny = 1e-15;
@@ -52,7 +52,7 @@ TEST(LaboratoryShaft, loads_its_seats_symmetrically) {
 }
 
 /// Pressure needs a few cells along the axis to act on.
-TEST(LaboratoryShaft, has_at_least_four_cells_along_each_seat) {
+TEST(LaboratoryShaft, HasAtLeastFourCellsAlongEachSeat) {
   const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("seats"));
   const MeshFile mesh = read_mesh_file(body.file);
   for (const auto& seat : body.ports) {
@@ -63,7 +63,7 @@ TEST(LaboratoryShaft, has_at_least_four_cells_along_each_seat) {
   }
 }
 
-TEST(LaboratoryShaft, offers_its_ports_with_their_own_axes) {
+TEST(LaboratoryShaft, OffersItsPortsWithTheirOwnAxes) {
   const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("ports"));
   ASSERT_EQ(body.ports.size(), 8u);  // six seats and two ends
   for (const auto& p : body.ports) EXPECT_EQ(p.axis_x_m, p.name == "eccentric_seat" ? 0.004 : 0) << p.name;
@@ -73,7 +73,7 @@ TEST(LaboratoryShaft, offers_its_ports_with_their_own_axes) {
   EXPECT_EQ(port(body, "end_2").radius_m, 0.015);
 }
 
-TEST(LaboratoryShaft, names_its_groups_in_the_file) {
+TEST(LaboratoryShaft, NamesItsGroupsInTheFile) {
   const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("names"));
   const MeshFile mesh = read_mesh_file(body.file);
   EXPECT_EQ(mesh.volume_names.size(), 9u);

@@ -23,7 +23,7 @@ meshes::ShaftMeshControl drum_control() {
 
 /// Coupling spec, section 7.3: 58.35 kg, by hand, annuli of the drawing in dm. Its fillets, which the
 /// specification leaves out, by Pappus: f^2 (1 - pi/4) about its centroid, together 0.12 kg.
-TEST(PlanetaryDrum, weighs_what_the_specification_says) {
+TEST(PlanetaryDrum, WeighsWhatTheSpecificationSays) {
   const auto ring = [](double outer, double inner, double length) {
     return pi / 4 * (outer * outer - inner * inner) * length;
   };
@@ -53,7 +53,7 @@ TEST(PlanetaryDrum, weighs_what_the_specification_says) {
   }
 }
 
-TEST(PlanetaryDrum, meshes_well_with_few_cells) {
+TEST(PlanetaryDrum, MeshesWellWithFewCells) {
   for (const int cells : {2, 4, 6, 8}) {
     auto control = drum_control();
     control.cells_per_fillet_quarter = cells;
@@ -68,7 +68,7 @@ TEST(PlanetaryDrum, meshes_well_with_few_cells) {
 
 /// Two cells through the wall, and a shell's bending at its ends resolved: beside the covers cells are
 /// shorter than the wall, in the middle not longer than four walls.
-TEST(PlanetaryDrum, divides_its_shell_by_its_wall) {
+TEST(PlanetaryDrum, DividesItsShellByItsWall) {
   const auto body = meshes::build_shaft(planetary_drum(), drum_control(), temporary_msh("drum"));
   const MeshFile mesh = read_mesh_file(body.file);
   int volume_id = 0;
@@ -94,7 +94,7 @@ TEST(PlanetaryDrum, divides_its_shell_by_its_wall) {
   EXPECT_LT(longest, 32000000);
 }
 
-TEST(PlanetaryDrum, offers_its_wall_seats_and_ring_ends_as_ports) {
+TEST(PlanetaryDrum, OffersItsWallSeatsAndRingEndsAsPorts) {
   const auto body = meshes::build_shaft(planetary_drum(), drum_control(), temporary_msh("drum"));
   std::map<std::string, meshes::Port> ports;
   for (const auto& port : body.ports) ports[port.name] = port;
@@ -124,7 +124,7 @@ TEST(PlanetaryDrum, offers_its_wall_seats_and_ring_ends_as_ports) {
 
 /// The bore of a segment beside a fillet ends in the shoulder's plane; with 2 cells per quarter at the fan's
 /// nearer end.
-TEST(Bores, meet_in_the_plane_of_a_filleted_shoulder) {
+TEST(Bores, MeetInThePlaneOfAFilletedShoulder) {
   for (const int cells : {2, 4, 8}) {
     meshes::ShaftMeshControl control;
     control.cells_per_fillet_quarter = cells;
@@ -138,7 +138,7 @@ TEST(Bores, meet_in_the_plane_of_a_filleted_shoulder) {
 }
 
 /// The other shafts of the specification, and those of the other tests.
-TEST(OtherShafts, mesh_well) {
+TEST(OtherShafts, MeshWell) {
   double worst = 1;
   auto shafts = stepped_bores();
   for (const auto& shaft : {working_shaft(), stub_axle(), grooved_shaft(), two_eccentrics()})

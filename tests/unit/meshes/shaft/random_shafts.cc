@@ -44,7 +44,7 @@ double worst_of(const std::function<meshes::Shaft()>& draw, const std::string& n
   return worst;
 }
 
-TEST(RandomShafts, all_mesh_with_good_cells_and_the_right_volume) {
+TEST(RandomShafts, AllMeshWithGoodCellsAndTheRightVolume) {
   std::mt19937 random(20240611);
   int n_eccentric = 0, n_bored = 0, n_steps = 0, n_grooves = 0;
   const double worst = worst_of(
@@ -71,7 +71,7 @@ TEST(RandomShafts, all_mesh_with_good_cells_and_the_right_volume) {
 }
 
 /// Rows through a wall multiply, and nothing else does: a tube has sectors x rows x stations cells.
-TEST(RowsThroughAWall, are_as_many_times_more_as_is_asked) {
+TEST(RowsThroughAWall, AreAsManyTimesMoreAsIsAsked) {
   meshes::Shaft tube;
   tube.segments = {{"tube", 0, 0.2, 0.05, 0, true}};
   tube.segments[0].bore_m = 0.02;
@@ -84,7 +84,7 @@ TEST(RowsThroughAWall, are_as_many_times_more_as_is_asked) {
   EXPECT_EQ(cells(2), 2 * cells(1));
 }
 
-TEST(RandomDrums, all_mesh_with_good_cells_and_the_right_volume) {
+TEST(RandomDrums, AllMeshWithGoodCellsAndTheRightVolume) {
   std::mt19937 random(20250301);
   const double worst = worst_of([&] { return random_drum(random); }, "random_drum");
   RecordProperty("worst_scaled_jacobian", std::to_string(worst));

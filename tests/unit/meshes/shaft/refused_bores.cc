@@ -33,7 +33,7 @@ Shaft chain(const std::vector<std::array<double, 3>>& pieces) {
   return shaft;
 }
 
-TEST(RefusedBores, have_sizes_that_cannot_be) {
+TEST(RefusedBores, HaveSizesThatCannotBe) {
   expect_refused(
       {{"NaN bore", [](Shaft& s, auto&) { s.segments[3].bore_m = nan; }, {"body_1", "bore nan mm"}},
        {"negative bore",
@@ -57,7 +57,7 @@ TEST(RefusedBores, have_sizes_that_cannot_be) {
         {"body_1", "differ by", "same number"}}});
 }
 
-TEST(RefusedBores, step_where_no_row_of_cells_can_follow) {
+TEST(RefusedBores, StepWhereNoRowOfCellsCanFollow) {
   expect_refused(
       {{"wall thin over the wide bore next door",
         [](Shaft& s, auto&) {
@@ -88,7 +88,7 @@ TEST(RefusedBores, step_where_no_row_of_cells_can_follow) {
          "move the bore step"}}});
 }
 
-TEST(RefusedBores, have_names_that_clash) {
+TEST(RefusedBores, HaveNamesThatClash) {
   expect_refused({{"bore port without a bore",
                    [](Shaft& s, auto&) { s.segments[3].bore_port = "wall"; },
                    {"body_1", "bore_port 'wall'", "bore is 0 mm"}},

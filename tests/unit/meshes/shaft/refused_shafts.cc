@@ -159,12 +159,12 @@ void expect_refused(const std::vector<Refusal>& refusals) {
 
 namespace {
 
-TEST(RefusedShafts, are_refused_with_the_numbers_and_the_remedy) {
+TEST(RefusedShafts, AreRefusedWithTheNumbersAndTheRemedy) {
   expect_refused(refusals());
 }
 
 /// A limit of quality above what the shaft reaches: the message names the value and the place.
-TEST(RefusedShafts, name_the_worst_cell) {
+TEST(RefusedShafts, NameTheWorstCell) {
   ShaftMeshControl control;
   control.min_scaled_jacobian = 0.95;
   const auto file = temporary_msh("too_bad");
@@ -179,7 +179,7 @@ TEST(RefusedShafts, name_the_worst_cell) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
-TEST(RefusedShafts, say_when_the_file_cannot_be_written) {
+TEST(RefusedShafts, SayWhenTheFileCannotBeWritten) {
   const auto file = temporary_msh("x").parent_path() / "no_such_directory" / "shaft.msh";
   try {
     meshes::build_shaft(plain_cylinder(), {}, file);

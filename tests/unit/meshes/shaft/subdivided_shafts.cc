@@ -33,7 +33,7 @@ std::vector<meshes::Shaft> shafts() {
   return result;
 }
 
-TEST(Subdivision, keeps_values_and_their_order) {
+TEST(Subdivision, KeepsValuesAndTheirOrder) {
   const std::vector<double> values{1, 1.1, 2, 2.05, 7};
   for (const int n : {1, 2, 3, 6}) {
     const auto fine = meshes::subdivided(values, n);
@@ -46,20 +46,20 @@ TEST(Subdivision, keeps_values_and_their_order) {
   for (std::size_t i = 1; i < fine.size(); ++i) EXPECT_LT(fine[i], fine[i - 1]);
 }
 
-TEST(Subdivision, of_equal_cells_gives_equal_cells) {
+TEST(Subdivision, OfEqualCellsGivesEqualCells) {
   const auto fine = meshes::subdivided({0, 1, 2, 3}, 5);
   for (std::size_t i = 0; i < fine.size(); ++i) EXPECT_NEAR(fine[i], 0.2 * double(i), 1e-15);
 }
 
 // A progression of ratio 2 cut into 4 has the ratio 2^(1/4) = 1.19; the splines are within 3 % of that.
-TEST(Subdivision, of_a_progression_is_nearly_one) {
+TEST(Subdivision, OfAProgressionIsNearlyOne) {
   const auto fine = meshes::subdivided({0, 1, 3, 7, 15}, 4);
   for (std::size_t i = 2; i < fine.size(); ++i)
     EXPECT_NEAR((fine[i] - fine[i - 1]) / (fine[i - 1] - fine[i - 2]), std::pow(2, 0.25), 0.035) << i;
 }
 
 // Cuts into 2 are among those into 4, and of sizes that halve everywhere.
-TEST(Subdivision, of_stations_is_nested) {
+TEST(Subdivision, OfStationsIsNested) {
   meshes::AxialSize size;
   size.sources = {{0, 0.05}};
   size.growth = 0.5;
@@ -69,7 +69,7 @@ TEST(Subdivision, of_stations_is_nested) {
   for (std::size_t i = 0; i < two.size(); ++i) EXPECT_NEAR(two[i], four[2 * i], 1e-12);
 }
 
-TEST(SubdividedShafts, have_as_many_cells_as_their_level_says) {
+TEST(SubdividedShafts, HaveAsManyCellsAsTheirLevelSays) {
   for (const auto& shaft : shafts()) {
     SCOPED_TRACE(text(shaft));
     const auto n_cells = [&](int n) {
@@ -86,7 +86,7 @@ TEST(SubdividedShafts, have_as_many_cells_as_their_level_says) {
 }
 
 // Each face of the drawing and each part of the body for itself, so that none shrinks faster than another.
-TEST(SubdividedShafts, shrink_alike_on_every_face_and_in_every_part) {
+TEST(SubdividedShafts, ShrinkAlikeOnEveryFaceAndInEveryPart) {
   for (const auto& shaft : shafts()) {
     SCOPED_TRACE(text(shaft));
     const auto counts = [&](int n) {
@@ -104,7 +104,7 @@ TEST(SubdividedShafts, shrink_alike_on_every_face_and_in_every_part) {
   }
 }
 
-TEST(SubdividedShafts, are_watertight_and_have_the_right_volume) {
+TEST(SubdividedShafts, AreWatertightAndHaveTheRightVolume) {
   for (const auto& shaft : shafts())
     for (const auto& [n, cells, sectors] : {std::array{2, 2, 4}, {3, 2, 4}, {4, 2, 8}, {2, 4, 12}}) {
       SCOPED_TRACE(text(shaft));
@@ -116,7 +116,7 @@ TEST(SubdividedShafts, are_watertight_and_have_the_right_volume) {
     }
 }
 
-TEST(SubdividedShafts, mesh_well_whatever_the_shaft) {
+TEST(SubdividedShafts, MeshWellWhateverTheShaft) {
   std::mt19937 random(20261122);
   for (int trial = 0; trial < n_random_bodies(); ++trial) {
     const auto shaft = trial % 3 == 2 ? random_drum(random) : random_shaft(random);

@@ -21,7 +21,7 @@ std::array<double, 4> meshed(const meshes::Shaft& shaft, int cells, int sectors)
 const double rounding = 1e-12;
 
 /// Every cross-section is a regular polygon, so the volume of the linear mesh is known exactly.
-TEST(ShaftVolume, is_that_of_the_polygonal_body) {
+TEST(ShaftVolume, IsThatOfThePolygonalBody) {
   for (const int sectors : {8, 12, 16, 32}) {
     for (const auto& shaft : {plain_cylinder(), three_steps(), sharp_eccentric_shaft(),
                               shoulder_shaft(2, 0.1), shoulder_shaft(1.1, 0.05), laboratory_shaft()})
@@ -33,7 +33,7 @@ TEST(ShaftVolume, is_that_of_the_polygonal_body) {
   }
 }
 
-TEST(ShaftVolume, is_that_of_the_polygonal_body_less_its_bores) {
+TEST(ShaftVolume, IsThatOfThePolygonalBodyLessItsBores) {
   auto shafts = stepped_bores();
   for (const auto& shaft :
        {planetary_drum(), working_shaft(), stub_axle(), two_eccentrics(), grooved_shaft()})
@@ -48,7 +48,7 @@ TEST(ShaftVolume, is_that_of_the_polygonal_body_less_its_bores) {
 
 /// Both offsets at once, in different directions: each seat's offset times its own volume. The bore is
 /// concentric and adds nothing.
-TEST(ShaftVolume, has_the_first_moments_of_seats_in_any_direction) {
+TEST(ShaftVolume, HasTheFirstMomentsOfSeatsInAnyDirection) {
   const auto sums = meshed(two_eccentrics(), 6, 16);
   const double tiny = rounding * sums[0] * 0.03;
   EXPECT_NEAR(sums[1], -0.005 * polygon_area(0.033, 16) * 0.025, tiny);
@@ -57,7 +57,7 @@ TEST(ShaftVolume, has_the_first_moments_of_seats_in_any_direction) {
 
 /// The eccentric seat alone has a first moment in x: offset times its polygonal volume. A shift of the wrong
 /// segment, or one that is not complete at the surface, would change it.
-TEST(ShaftVolume, has_the_first_moment_of_the_eccentric_seat) {
+TEST(ShaftVolume, HasTheFirstMomentOfTheEccentricSeat) {
   const auto shaft = laboratory_shaft();
   const auto sums = meshed(shaft, 8, 16);
   const double expected = 0.004 * polygon_area(0.03, 16) * 0.06;
@@ -67,7 +67,7 @@ TEST(ShaftVolume, has_the_first_moment_of_the_eccentric_seat) {
 
 /// Chords cut off 2 pi^2 / (3 N^2) of the section, chords of the arc (pi/2n)^2 of the fillet's small corner:
 /// second order.
-TEST(ShaftVolume, converges_to_the_closed_form_with_second_order) {
+TEST(ShaftVolume, ConvergesToTheClosedFormWithSecondOrder) {
   for (const auto& shaft : {laboratory_shaft(), shoulder_shaft(2, 0.2)}) {
     const double exact = true_volume(shaft);
     double previous = 0;

@@ -8,7 +8,7 @@
 
 namespace {
 
-TEST(Grading, geometric_cells_start_as_wanted_and_fill_the_length) {
+TEST(Grading, GeometricCellsStartAsWantedAndFillTheLength) {
   const auto x = meshes::geometric_fractions(4, 0.05);
   ASSERT_EQ(x.size(), 5u);
   EXPECT_EQ(x.front(), 0);
@@ -18,19 +18,19 @@ TEST(Grading, geometric_cells_start_as_wanted_and_fill_the_length) {
   for (int i = 2; i < 4; ++i) EXPECT_NEAR((x[i + 1] - x[i]) / (x[i] - x[i - 1]), ratio, 1e-9);
 }
 
-TEST(Grading, cells_never_shrink) {
+TEST(Grading, CellsNeverShrink) {
   const auto x = meshes::geometric_fractions(3, 0.9);
   EXPECT_NEAR(x[1], 1.0 / 3, 1e-15);
   EXPECT_NEAR(x[2], 2.0 / 3, 1e-15);
 }
 
-TEST(Grading, count_is_the_smallest_that_covers) {
+TEST(Grading, CountIsTheSmallestThatCovers) {
   EXPECT_EQ(meshes::geometric_count(1, 1, 2), 1);
   EXPECT_EQ(meshes::geometric_count(3, 1, 2), 2);
   EXPECT_EQ(meshes::geometric_count(3.01, 1, 2), 3);
 }
 
-TEST(Grading, stations_follow_the_wanted_size) {
+TEST(Grading, StationsFollowTheWantedSize) {
   meshes::AxialSize size;
   size.sources = {{0, 0.01}};
   size.growth = 0.2;
@@ -46,7 +46,7 @@ TEST(Grading, stations_follow_the_wanted_size) {
   EXPECT_EQ(meshes::axial_stations(0, 1, size, 40).size(), 41u);
 }
 
-TEST(Disc, fills_the_polygon_with_convex_cells) {
+TEST(Disc, FillsThePolygonWithConvexCells) {
   for (const int n : {8, 12, 16, 20, 24, 32, 64}) {
     const auto disc = meshes::build_disc(n);
     double area = 0, smallest_sine = 1;
@@ -73,7 +73,7 @@ meshes::HexMesh brick() {
   return mesh;
 }
 
-TEST(ScaledJacobian, is_one_for_a_brick_and_the_cosine_for_a_sheared_one) {
+TEST(ScaledJacobian, IsOneForABrickAndTheCosineForAShearedOne) {
   auto mesh = brick();
   EXPECT_NEAR(meshes::scaled_jacobian(mesh, mesh.hexes[0]), 1, 1e-15);
   for (int i = 4; i < 8; ++i) mesh.points[i][0] += 5;  // the long edges lean by 45 degrees
@@ -81,7 +81,7 @@ TEST(ScaledJacobian, is_one_for_a_brick_and_the_cosine_for_a_sheared_one) {
 }
 
 /// One corner pushed through: each corner has to be looked at.
-TEST(ScaledJacobian, finds_any_one_bad_corner) {
+TEST(ScaledJacobian, FindsAnyOneBadCorner) {
   for (int bad = 0; bad < 8; ++bad) {
     auto mesh = brick();
     auto& p = mesh.points[bad];
@@ -91,7 +91,7 @@ TEST(ScaledJacobian, finds_any_one_bad_corner) {
   }
 }
 
-TEST(ScaledJacobian, reports_the_place_of_the_worst_cell) {
+TEST(ScaledJacobian, ReportsThePlaceOfTheWorstCell) {
   auto mesh = brick();
   for (int i = 0; i < 8; ++i)
     mesh.points.push_back({mesh.points[i][0] + 10, mesh.points[i][1], mesh.points[i][2]});

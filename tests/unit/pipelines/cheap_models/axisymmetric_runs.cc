@@ -87,7 +87,7 @@ struct LoadedShaft {
   }
 };
 
-TEST(AxisymmetricRun, describes_the_shaft_as_its_mesh_does) {
+TEST(AxisymmetricRun, DescribesTheShaftAsItsMeshDoes) {
   const results_test::Directory at;
   const auto scene = laboratory::scene();
   const auto& body = *scene.body("shaft");
@@ -111,7 +111,7 @@ TEST(AxisymmetricRun, describes_the_shaft_as_its_mesh_does) {
 
 // Cylinders, the offsets of eccentric ones, and the rings that fillets add: between the corner and an arc of
 // radius r about (R + r) the area (1 - pi / 4) r^2, by Pappus with the centroid of square less quarter disc.
-TEST(AxisymmetricRun, weighs_the_shaft_exactly) {
+TEST(AxisymmetricRun, WeighsTheShaftExactly) {
   const auto scene = laboratory::scene();
   const auto& body = *scene.body("shaft");
   const auto& [segments, fillets_m] = body.shaft()->geometry;
@@ -136,7 +136,7 @@ TEST(AxisymmetricRun, weighs_the_shaft_exactly) {
 
 // The force at the overhang: 12 kN, 35 mm from the seat's middle to the fillet's foot; Peterson's factor of
 // D/d 1.23, r/d 0.045 is 2.1 to 2.3.
-TEST(AxisymmetricRun, finds_the_fillet_that_governs) {
+TEST(AxisymmetricRun, FindsTheFilletThatGoverns) {
   LoadedShaft shaft(scene_of(overhung));
   const auto analysis = shaft.axisymmetric();
   EXPECT_EQ(analysis.method, Method::axisymmetric);
@@ -150,7 +150,7 @@ TEST(AxisymmetricRun, finds_the_fillet_that_governs) {
 }
 
 // What a run states holds against a run ten times stricter, place by place.
-TEST(AxisymmetricRun, errors_of_places_hold) {
+TEST(AxisymmetricRun, ErrorsOfPlacesHold) {
   for (const auto& scene : {scene_of(overhung), edited::scene("stub_axle", {})}) {
     LoadedShaft shaft(scene);
     const auto usual = shaft.places(0.01), strict = shaft.places(0.001);
@@ -167,7 +167,7 @@ TEST(AxisymmetricRun, errors_of_places_hold) {
 }
 
 // Sections carry what statics says of the loads, and rings what a beam twists by.
-TEST(AxisymmetricRun, sections_carry_statics) {
+TEST(AxisymmetricRun, SectionsCarryStatics) {
   LoadedShaft shaft(edited::scene("load_table", {}));
   const auto analysis = shaft.axisymmetric();
   ASSERT_TRUE(analysis.diagrams);
@@ -186,7 +186,7 @@ TEST(AxisymmetricRun, sections_carry_statics) {
 }
 
 // Place by place the solid's values on the same shaft, its own coarse cells apart.
-TEST(AxisymmetricRun, places_are_those_of_the_solid) {
+TEST(AxisymmetricRun, PlacesAreThoseOfTheSolid) {
   LoadedShaft shaft(scene_of(overhung));
   auto body = shaft.body();
   auto& control = std::get<ShaftShape>(body.shape).mesh;
@@ -212,7 +212,7 @@ TEST(AxisymmetricRun, places_are_those_of_the_solid) {
   }
 }
 
-TEST(AxisymmetricRun, a_beam_is_within_its_own_error) {
+TEST(AxisymmetricRun, ABeamIsWithinItsOwnError) {
   LoadedShaft shaft(edited::scene("load_table", {}));
   const auto beam = shaft.beam(), own = shaft.axisymmetric();
   EXPECT_EQ(beam.method, Method::beam);
@@ -224,7 +224,7 @@ TEST(AxisymmetricRun, a_beam_is_within_its_own_error) {
   EXPECT_LT(beam.zones.zones.size(), 10u);
 }
 
-TEST(AxisymmetricRun, is_refused_where_there_is_no_such_model) {
+TEST(AxisymmetricRun, IsRefusedWhereThereIsNoSuchModel) {
   const auto scene = laboratory::scene();
   EXPECT_EQ(why_not_axisymmetric(*scene.body("shaft")), "");
   EXPECT_NE(why_not_axisymmetric(*scene.body("chamber")), "");

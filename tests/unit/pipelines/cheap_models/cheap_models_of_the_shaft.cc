@@ -56,7 +56,7 @@ struct ShippedShaft : testing::Test {
   }
 };
 
-TEST_F(ShippedShaft, as_a_beam_carries_what_statics_says) {
+TEST_F(ShippedShaft, AsABeamCarriesWhatStaticsSays) {
   const auto r = pipelines::beam_responses(body, mesh, loads);
   ASSERT_TRUE(r);
   const auto places = pipelines::locate_nodes(r->nodes, mesh.features, mesh.ports, mesh.sharp_edges);
@@ -84,7 +84,7 @@ TEST_F(ShippedShaft, as_a_beam_carries_what_statics_says) {
   EXPECT_EQ(compared, 8 * 3 * 32);
 }
 
-TEST_F(ShippedShaft, as_a_beam_peaks_at_the_fillet_of_the_eccentric_seat) {
+TEST_F(ShippedShaft, AsABeamPeaksAtTheFilletOfTheEccentricSeat) {
   const auto r = pipelines::beam_responses(body, mesh, loads);
   ASSERT_TRUE(r);
   const auto places = pipelines::locate_nodes(r->nodes, mesh.features, mesh.ports, mesh.sharp_edges);
@@ -95,7 +95,7 @@ TEST_F(ShippedShaft, as_a_beam_peaks_at_the_fillet_of_the_eccentric_seat) {
   EXPECT_EQ(places.place[peak], pipelines::Place::free_surface);
 }
 
-TEST_F(ShippedShaft, as_harmonics_stands_on_the_surface_of_the_mesh) {
+TEST_F(ShippedShaft, AsHarmonicsStandsOnTheSurfaceOfTheMesh) {
   const auto model = pipelines::axisymmetric_responses(body, mesh, loads);
   ASSERT_TRUE(model);
   const auto& nodes = model->responses.nodes;
@@ -112,7 +112,7 @@ TEST_F(ShippedShaft, as_harmonics_stands_on_the_surface_of_the_mesh) {
 }
 
 // The beam's peak may miss that of the harmonics by what it states, and by what the harmonics state.
-TEST_F(ShippedShaft, peaks_alike_on_both_models) {
+TEST_F(ShippedShaft, PeaksAlikeOnBothModels) {
   const auto beam = pipelines::beam_responses(body, mesh, loads);
   const auto model = pipelines::axisymmetric_responses(body, mesh, loads);
   ASSERT_TRUE(beam && model);
@@ -131,7 +131,7 @@ TEST_F(ShippedShaft, peaks_alike_on_both_models) {
   EXPECT_GT(model->model_error, 0);
 }
 
-TEST_F(ShippedShaft, has_no_cheap_rung_with_a_keyway) {
+TEST_F(ShippedShaft, HasNoCheapRungWithAKeyway) {
   std::get<pipelines::ShaftShape>(body.shape).keyways.emplace_back();
   EXPECT_FALSE(pipelines::beam_responses(body, mesh, loads));
   EXPECT_FALSE(pipelines::axisymmetric_responses(body, mesh, loads));

@@ -27,7 +27,7 @@ std::string refusal(const std::string& quantity, const std::string& si_unit) {
   }
 }
 
-TEST(units, engineers_units_become_si) {
+TEST(units, EngineersUnitsBecomeSi) {
   expect_same(to_si("210 GPa", "Pa"), 210e9);
   expect_same(to_si("305 N/mm2", "Pa"), 305e6);
   expect_same(to_si("305 N/mm²", "Pa"), 305e6);
@@ -46,21 +46,21 @@ TEST(units, engineers_units_become_si) {
   expect_same(to_si("1 min", "s"), 60);
 }
 
-TEST(units, angles_are_radians) {
+TEST(units, AnglesAreRadians) {
   expect_same(to_si("40 deg", "rad"), 40 * pi / 180);
   expect_same(to_si("40°", "rad"), 40 * pi / 180);
   expect_same(to_si("1 turn", "rad"), 2 * pi);
   expect_same(to_si("0.7 rad", "rad"), 0.7);
 }
 
-TEST(units, hertz_count_turns_where_an_angular_speed_is_wanted) {
+TEST(units, HertzCountTurnsWhereAnAngularSpeedIsWanted) {
   expect_same(to_si("24.2 Hz", "rad/s"), 24.2 * 2 * pi);
   expect_same(to_si("0.0242 kHz", "rad/s"), 24.2 * 2 * pi);
   expect_same(to_si("24.2 hertz", "rad/s"), 24.2 * 2 * pi);
   expect_same(to_si("24.2 Hz", "1/s"), 24.2);  // a frequency stays one
 }
 
-TEST(units, speeds_that_name_their_angle_are_not_multiplied_again) {
+TEST(units, SpeedsThatNameTheirAngleAreNotMultipliedAgain) {
   expect_same(to_si("1450 rpm", "rad/s"), 1450 * 2 * pi / 60);
   expect_same(to_si("1450 rev/min", "rad/s"), 1450 * 2 * pi / 60);
   expect_same(to_si("24 turn/s", "rad/s"), 24 * 2 * pi);
@@ -68,13 +68,13 @@ TEST(units, speeds_that_name_their_angle_are_not_multiplied_again) {
   expect_same(to_si("90 deg/s", "rad/s"), pi / 2);
 }
 
-TEST(units, speeds_that_may_count_turns_or_radians_are_refused) {
+TEST(units, SpeedsThatMayCountTurnsOrRadiansAreRefused) {
   for (const char* speed : {"24.2 1/s", "1450 1/min", "1450 min-1", "24.2 s^-1", "24.2 Bq"})
     EXPECT_NE(refusal(speed, "rad/s").find("turns or radians; write \"1450 rpm\""), std::string::npos)
         << speed;
 }
 
-TEST(units, another_dimension_is_refused) {
+TEST(units, AnotherDimensionIsRefused) {
   EXPECT_NE(
       refusal("210 mm", "Pa").find("\"mm\" is no unit of this quantity (SI unit Pa); write \"206 GPa\""),
       std::string::npos);
@@ -90,7 +90,7 @@ TEST(units, another_dimension_is_refused) {
   EXPECT_NE(refusal("3 seconds since 2000-01-01", "s").find("nit"), std::string::npos);
 }
 
-TEST(units, garbage_is_refused) {
+TEST(units, GarbageIsRefused) {
   for (const char* unit :
        {"mm)", "(mm", "3 mm", "mm 10", "mm/", "/mm", "kgm2", "w", "furlongs per", "mm;", "10^3 m"})
     EXPECT_NE(refusal("30 " + std::string(unit), "m").find("unit"), std::string::npos) << unit;
@@ -103,13 +103,13 @@ TEST(units, garbage_is_refused) {
             std::string::npos);
 }
 
-TEST(units, what_is_not_finite_is_refused) {
+TEST(units, WhatIsNotFiniteIsRefused) {
   for (const char* text : {"nan mm", "inf mm", "-inf mm", "1e400 mm"})
     EXPECT_NE(refusal(text, "m").find("is not a finite number"), std::string::npos) << text;
   EXPECT_NE(refusal("1e308 km", "m").find("is not finite in m"), std::string::npos);
 }
 
-TEST(units, the_library_keeps_silent) {
+TEST(units, TheLibraryKeepsSilent) {
   testing::internal::CaptureStderr();
   refusal("3 furlongs per fortnight", "m");
   refusal("3 mm", "Pa");
@@ -117,7 +117,7 @@ TEST(units, the_library_keeps_silent) {
 }
 
 /// In a process of its own, because the database is read once.
-TEST(units_deathtest, a_stale_path_to_the_database_is_passed_over) {
+TEST(units_deathtest, AStalePathToTheDatabaseIsPassedOver) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto convert_with_stale_path = [] {
     setenv("UDUNITS2_XML_PATH", "/nowhere/udunits2.xml", 1);
@@ -126,7 +126,7 @@ TEST(units_deathtest, a_stale_path_to_the_database_is_passed_over) {
   EXPECT_EXIT(convert_with_stale_path(), testing::ExitedWithCode(0), "");
 }
 
-TEST(units, ratios) {
+TEST(units, Ratios) {
   EXPECT_EQ(parse_ratio("-1/20"), -1.0 / 20);
   EXPECT_EQ(parse_ratio(" 3 / 4 "), 0.75);
   EXPECT_EQ(parse_ratio("2"), 2);

@@ -24,7 +24,7 @@ std::size_t n_entries(const std::filesystem::path& directory) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(directory), {}));
 }
 
-TEST(AtomicFile, keeps_the_old_content_until_commit) {
+TEST(AtomicFile, KeepsTheOldContentUntilCommit) {
   const Directory at;
   write_text_file(at / "sub/summary.json", "old");
   {
@@ -48,7 +48,7 @@ TEST(AtomicFile, keeps_the_old_content_until_commit) {
   EXPECT_EQ(bytes(at / "sub/summary.json"), "new");
 }
 
-TEST(AtomicFile, a_killed_process_harms_nothing_and_the_next_write_cleans_up) {
+TEST(AtomicFile, AKilledProcessHarmsNothingAndTheNextWriteCleansUp) {
   const Directory at;
   write_text_file(at / "envelope.vtu", "old");
   const pid_t child = fork();
@@ -70,14 +70,14 @@ TEST(AtomicFile, a_killed_process_harms_nothing_and_the_next_write_cleans_up) {
   EXPECT_EQ(n_entries(at.path), 2U);  // the file, and the one still being written
 }
 
-TEST(AtomicFile, names_the_file_that_cannot_be_written) {
+TEST(AtomicFile, NamesTheFileThatCannotBeWritten) {
   const Directory at;
   std::filesystem::create_directories(at / "taken/inside");
   EXPECT_THROW(write_text_file(at / "taken", "text"), std::exception);
   EXPECT_EQ(n_entries(at.path), 1U);
 }
 
-TEST(Csv, numbers_read_back_to_the_same_double) {
+TEST(Csv, NumbersReadBackToTheSameDouble) {
   const std::vector<double> values = {0.1, 1. / 3, -0., 1e300, 5e-324, 123456789.123456789, 3};
   std::istringstream text(to_csv({{"torque", "N m", values}}));
   std::string line;
@@ -93,7 +93,7 @@ TEST(Csv, numbers_read_back_to_the_same_double) {
   EXPECT_EQ(shortest(std::nan("")), "nan");
 }
 
-TEST(Csv, quotes_what_needs_it_and_refuses_ragged_columns) {
+TEST(Csv, QuotesWhatNeedsItAndRefusesRaggedColumns) {
   const std::vector<CsvColumn> columns = {
       {"zone", "", std::vector<std::int64_t>{1, 2}},
       {"place, nearest", "", std::vector<std::string>{"fillet a/b", "the \"big\" end, left"}},
@@ -121,7 +121,7 @@ void write_example(const std::filesystem::path& path, Hdf5Compression compressio
   out.close();
 }
 
-TEST(Hdf5File, holds_what_was_written_as_the_c_library_reads_it) {
+TEST(Hdf5File, HoldsWhatWasWrittenAsTheCLibraryReadsIt) {
   const Directory at;
   write_example(at / "x.h5");
   const hid_t file = H5Fopen((at / "x.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -150,7 +150,7 @@ TEST(Hdf5File, holds_what_was_written_as_the_c_library_reads_it) {
   EXPECT_EQ(H5Fclose(file), 0);
 }
 
-TEST(Hdf5File, reads_back_itself_with_and_without_compression) {
+TEST(Hdf5File, ReadsBackItselfWithAndWithoutCompression) {
   const Directory at;
   for (const auto compression : {Hdf5Compression::none, Hdf5Compression::deflate}) {
     write_example(at / "x.h5", compression);
@@ -174,7 +174,7 @@ TEST(Hdf5File, reads_back_itself_with_and_without_compression) {
   }
 }
 
-TEST(Hdf5File, two_writes_give_the_same_bytes) {
+TEST(Hdf5File, TwoWritesGiveTheSameBytes) {
   const Directory at;
   write_example(at / "a.h5");
   sleep(1);  // object times count seconds
@@ -182,7 +182,7 @@ TEST(Hdf5File, two_writes_give_the_same_bytes) {
   EXPECT_EQ(bytes(at / "a.h5"), bytes(at / "b.h5"));
 }
 
-TEST(Hdf5File, errors_name_file_and_object) {
+TEST(Hdf5File, ErrorsNameFileAndObject) {
   const Directory at;
   write_example(at / "x.h5");
   const auto message = [](const auto& call) -> std::string {

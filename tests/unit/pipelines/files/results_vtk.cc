@@ -35,7 +35,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_vtk(const std::filesystem::path& path)
   return reader->GetOutput();
 }
 
-TEST(VtkOrder, is_that_of_the_parametric_coordinates_of_vtk) {
+TEST(VtkOrder, IsThatOfTheParametricCoordinatesOfVtk) {
   vtkNew<vtkTriQuadraticHexahedron> hexahedron;
   for (std::size_t v = 0; v < 27; ++v) {
     const int l = fem::vtk_hexahedron_from_lexicographic[v];
@@ -60,7 +60,7 @@ void at_points(Visit visit) {
       for (const double z : {0., 0.13, 0.59, 1.}) visit(Point{x, y, z});
 }
 
-TEST(EnvelopeVtu, vtk_interpolates_the_map_the_nodes_came_from) {
+TEST(EnvelopeVtu, VtkInterpolatesTheMapTheNodesCameFrom) {
   const Directory at;
   const int nx = 2, ny = 1, nz = 2;
   const auto nodes = mapped_cube(nx, ny, nz, quadratic_map);
@@ -109,7 +109,7 @@ double volume(vtkUnstructuredGrid& grid) {
   return sum;
 }
 
-TEST(EnvelopeVtu, cells_have_the_volume_of_the_body) {
+TEST(EnvelopeVtu, CellsHaveTheVolumeOfTheBody) {
   const Directory at;
   // A quarter of a ring: radii 1 and 2, thickness 0.5, volume pi/4 (4 - 1) 0.5, right-handed.
   const auto ring = [](Point p) -> Point {
@@ -121,7 +121,7 @@ TEST(EnvelopeVtu, cells_have_the_volume_of_the_body) {
   EXPECT_NEAR(volume(*read_vtk(at / "e.vtu")), 3.0 / 8 * std::acos(-1.), 1e-5);
 }
 
-TEST(EnvelopeVtu, fields_come_back_in_the_precision_asked_for) {
+TEST(EnvelopeVtu, FieldsComeBackInThePrecisionAskedFor) {
   const Directory at;
   const auto nodes = mapped_cube(2, 2, 1, quadratic_map);
   std::vector<double> stress(nodes.n * 6), peak(nodes.n);
@@ -156,7 +156,7 @@ TEST(EnvelopeVtu, fields_come_back_in_the_precision_asked_for) {
   }
 }
 
-TEST(EnvelopeVtu, fields_beyond_single_precision_are_doubles) {
+TEST(EnvelopeVtu, FieldsBeyondSinglePrecisionAreDoubles) {
   const Directory at;
   const auto nodes = mapped_cube(1, 1, 1, quadratic_map);
   for (const double size : {1e-150, 0.0, 1.0, 1e150}) {
@@ -170,7 +170,7 @@ TEST(EnvelopeVtu, fields_beyond_single_precision_are_doubles) {
   }
 }
 
-TEST(SurfaceSnapshotVtu, faces_follow_the_map_over_their_own_nodes) {
+TEST(SurfaceSnapshotVtu, FacesFollowTheMapOverTheirOwnNodes) {
   const Directory at;
   const int nx = 3, ny = 2, nz = 2;
   const auto nodes = mapped_cube(nx, ny, nz, quadratic_map);
@@ -196,7 +196,7 @@ TEST(SurfaceSnapshotVtu, faces_follow_the_map_over_their_own_nodes) {
   }
 }
 
-TEST(VtkFiles, two_writes_give_the_same_bytes_without_a_date) {
+TEST(VtkFiles, TwoWritesGiveTheSameBytesWithoutADate) {
   const Directory at;
   const auto nodes = mapped_cube(2, 2, 2, quadratic_map);
   const std::vector<double> field(nodes.n, 1.5);
@@ -209,7 +209,7 @@ TEST(VtkFiles, two_writes_give_the_same_bytes_without_a_date) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(at.path), {}), 4);
 }
 
-TEST(VtkFiles, wrong_sizes_are_refused_and_the_old_file_stays) {
+TEST(VtkFiles, WrongSizesAreRefusedAndTheOldFileStays) {
   const Directory at;
   const auto nodes = mapped_cube(1, 1, 1, quadratic_map);
   write_envelope_vtu(at / "e.vtu", nodes, {});
@@ -222,13 +222,13 @@ TEST(VtkFiles, wrong_sizes_are_refused_and_the_old_file_stays) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(at.path), {}), 1);
 }
 
-TEST(VtkFiles, a_directory_in_the_way_is_an_error_that_names_the_file) {
+TEST(VtkFiles, ADirectoryInTheWayIsAnErrorThatNamesTheFile) {
   const Directory at;
   std::filesystem::create_directories(at / "e.vtu/inside");
   EXPECT_THROW(write_envelope_vtu(at / "e.vtu", mapped_cube(1, 1, 1, quadratic_map), {}), std::exception);
 }
 
-TEST(Pvd, lists_times_and_files) {
+TEST(Pvd, ListsTimesAndFiles) {
   const Directory at;
   write_pvd(at / "cycle.pvd", {{0, "cycle_00.vtu", "shaft"}, {0.1, "cycle_01.vtu", "a & \"b\""}});
   EXPECT_EQ(bytes(at / "cycle.pvd"),

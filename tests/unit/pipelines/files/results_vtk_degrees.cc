@@ -27,7 +27,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read(const std::filesystem::path& path) {
   return reader->GetOutput();
 }
 
-TEST(VtkOrder, of_linear_and_cubic_cells_is_that_of_vtk) {
+TEST(VtkOrder, OfLinearAndCubicCellsIsThatOfVtk) {
   for (const int degree : {1, 3}) {
     const int n = degree + 1, order[] = {degree, degree, degree, n * n * n};
     for (int k = 0; k < n; ++k)
@@ -68,7 +68,7 @@ void at_points_of_cells(Visit visit) {
       for (const double z : {0., 0.13, 0.59, 1.}) visit(Point{x, y, z});
 }
 
-TEST(EnvelopeVtu, linear_and_cubic_cells_are_interpolated_too) {
+TEST(EnvelopeVtu, LinearAndCubicCellsAreInterpolatedToo) {
   const Directory at;
   const auto trilinear = [](Point p) -> Point {
     return {2 * p[0] + 0.3 * p[1] * p[2], 1.5 * p[1] - 0.2 * p[0] * p[2], p[2] + 0.1 * p[0] * p[1] * p[2]};

@@ -48,7 +48,7 @@ void expect_equal(const std::vector<double>& read, const Eigen::ArrayXd& written
   for (std::size_t i = 0; i < read.size(); ++i) EXPECT_EQ(read[i], written(static_cast<Eigen::Index>(i)));
 }
 
-TEST(LoadFiles, hdf5_holds_every_series_with_its_unit) {
+TEST(LoadFiles, Hdf5HoldsEverySeriesWithItsUnit) {
   const Directory at;
   const auto loads = example();
   const auto channels = example_channels();
@@ -82,7 +82,7 @@ TEST(LoadFiles, hdf5_holds_every_series_with_its_unit) {
 }
 
 // Two bodies may have ports, and effects, of the same name: each keeps its own.
-TEST(LoadFiles, bodies_keep_their_channels_apart) {
+TEST(LoadFiles, BodiesKeepTheirChannelsApart) {
   const Directory at;
   const auto loads = example();
   const auto shaft = example_channels();
@@ -98,7 +98,7 @@ TEST(LoadFiles, bodies_keep_their_channels_apart) {
   expect_equal(in.numbers("/effects/gravity/chamber/pulley.mz"), 2 * shaft.by_effect[0].row(1));
 }
 
-TEST(LoadFiles, the_load_stage_alone_has_no_channels) {
+TEST(LoadFiles, TheLoadStageAloneHasNoChannels) {
   const Directory at;
   write_loads_h5(at / "loads.h5", example());
   const Hdf5Reader in(at / "loads.h5");
@@ -106,7 +106,7 @@ TEST(LoadFiles, the_load_stage_alone_has_no_channels) {
   EXPECT_TRUE(in.has("/effects/inertia/debalance/fx"));
 }
 
-TEST(LoadFiles, csv_has_a_row_per_instant_and_exact_numbers) {
+TEST(LoadFiles, CsvHasARowPerInstantAndExactNumbers) {
   const Directory at;
   const auto loads = example();
   const auto channels = example_channels();
@@ -142,7 +142,7 @@ TEST(LoadFiles, csv_has_a_row_per_instant_and_exact_numbers) {
   }
 }
 
-TEST(LoadFiles, two_writes_give_the_same_bytes) {
+TEST(LoadFiles, TwoWritesGiveTheSameBytes) {
   const Directory at;
   const auto loads = example();
   const auto channels = example_channels();
@@ -154,7 +154,7 @@ TEST(LoadFiles, two_writes_give_the_same_bytes) {
   EXPECT_EQ(bytes(at / "a.csv"), bytes(at / "b.csv"));
 }
 
-TEST(LoadFiles, refuses_what_would_mislead) {
+TEST(LoadFiles, RefusesWhatWouldMislead) {
   const Directory at;
   auto loads = example();
   auto channels = example_channels();

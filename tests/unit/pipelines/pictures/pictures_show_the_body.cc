@@ -64,7 +64,7 @@ bool yellow(int r, int g, int b) {
   return r > 150 && g > 130 && b < 100;
 }
 
-TEST(Picture, shows_the_body_the_peak_and_the_scale) {
+TEST(Picture, ShowsTheBodyThePeakAndTheScale) {
   const Directory at;
   write_bar(at / "bar.vtu");
   PictureOptions options;
@@ -85,7 +85,7 @@ TEST(Picture, shows_the_body_the_peak_and_the_scale) {
 }
 
 // A place that governs without being the field's peak (a weld toe) is what the picture looks at and rings.
-TEST(Picture, looks_at_the_place_that_is_marked) {
+TEST(Picture, LooksAtThePlaceThatIsMarked) {
   const Directory at;
   write_bar(at / "bar.vtu");
   PictureOptions options;
@@ -99,7 +99,7 @@ TEST(Picture, looks_at_the_place_that_is_marked) {
   EXPECT_EQ(picture.share(0, 0.48, 0.5, 0.93, red), 0);
 }
 
-TEST(Picture, tells_what_is_missing) {
+TEST(Picture, TellsWhatIsMissing) {
   const Directory at;
   write_bar(at / "bar.vtu");
   const auto message = [&](const char* vtu, const char* field) -> std::string {
@@ -114,7 +114,7 @@ TEST(Picture, tells_what_is_missing) {
   EXPECT_NE(message("none.vtu", "strain").find("none.vtu"), std::string::npos);
 }
 
-TEST(PictureDeathTest, without_egl_nothing_is_drawn_and_nothing_ends) {
+TEST(PictureDeathTest, WithoutEglNothingIsDrawnAndNothingEnds) {
   const Directory at;
   write_bar(at / "bar.vtu");
   testing::FLAGS_gtest_death_test_style = "threadsafe";  // a fresh process: EGL is found once per process
@@ -129,7 +129,7 @@ TEST(PictureDeathTest, without_egl_nothing_is_drawn_and_nothing_ends) {
 }
 
 // VTK's own filters find the faces of quadratic tetrahedra, and keep them curved.
-TEST(Picture, shows_quadratic_tetrahedra) {
+TEST(Picture, ShowsQuadraticTetrahedra) {
   const Directory at;
   const auto nodes = results_test::mapped_tetrahedra([](results_test::Point p) -> results_test::Point {
     return {p[0] + 0.2 * p[1] * p[1], p[1], p[2] + 0.1 * p[0] * p[1]};
@@ -145,7 +145,7 @@ TEST(Picture, shows_quadratic_tetrahedra) {
 
 // The bar's peak is on the side of +x at z = 0.3: with z < 0.45 left out the largest is at the next nodes, z
 // = 0.45.
-TEST(Picture, takes_no_peak_where_the_field_is_excluded) {
+TEST(Picture, TakesNoPeakWhereTheFieldIsExcluded) {
   const Directory at;
   const auto nodes = results_test::mapped_cube(2, 2, 10, [](results_test::Point p) -> results_test::Point {
     return {0.1 * p[0], 0.1 * p[1], p[2]};
@@ -166,7 +166,7 @@ TEST(Picture, takes_no_peak_where_the_field_is_excluded) {
 
 // A pipe, 1 m long, with a slit: outside it is looked at as it is, inside only cut open, beyond the axis from
 // the place.
-TEST(Picture, cuts_open_what_hides_a_place) {
+TEST(Picture, CutsOpenWhatHidesAPlace) {
   const Directory at;
   const auto pipe = [](results_test::Point p) -> results_test::Point {
     const double angle = 6.2 * (1 - p[0]), r = 0.1 + 0.05 * p[1];

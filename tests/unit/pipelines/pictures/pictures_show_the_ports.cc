@@ -94,7 +94,7 @@ double ring(double outer_diameter, double inner_diameter) {
 
 // Diameters, lengths and fillets are those of the scene files. A fillet lies on the thinner of its
 // neighbours; the loaded zone is the length less that fillet at both ends.
-TEST(PortSurface, of_the_shaft_has_the_areas_of_its_cylinders) {
+TEST(PortSurface, OfTheShaftHasTheAreasOfItsCylinders) {
   expect_areas("vibratory_mill.toml", "shaft",
                {{"end_1", ring(0.025, 0)},
                 {"coupling", tube(0.025, 0.043)},
@@ -106,7 +106,7 @@ TEST(PortSurface, of_the_shaft_has_the_areas_of_its_cylinders) {
                 {"end_2", ring(0.03, 0)}});
 }
 
-TEST(PortSurface, of_the_chamber_has_the_areas_of_its_bores_flanges_and_pads) {
+TEST(PortSurface, OfTheChamberHasTheAreasOfItsBoresFlangesAndPads) {
   expect_areas("vibratory_mill.toml", "chamber",
                {{"housing_bore", tube(0.095, 0.105)},
                 {"inner_wall", tube(0.26, 0.28)},
@@ -115,7 +115,7 @@ TEST(PortSurface, of_the_chamber_has_the_areas_of_its_bores_flanges_and_pads) {
                 {"spring_foot_2", 2 * 0.05 * 0.03}});
 }
 
-TEST(PortSurface, of_the_drum_has_the_areas_of_its_trunnions_and_its_wall) {
+TEST(PortSurface, OfTheDrumHasTheAreasOfItsTrunnionsAndItsWall) {
   expect_areas("planetary_mill.toml", "drum",
                {{"end_1", ring(0.08, 0.04)},
                 {"trunnion_1", tube(0.08, 0.034)},
@@ -127,7 +127,7 @@ TEST(PortSurface, of_the_drum_has_the_areas_of_its_trunnions_and_its_wall) {
 
 // Over random requests: in their rows, side by side, in the order of their anchors; leaders of one row do not
 // cross.
-TEST(LabelRows, of_random_labels_do_not_overlap) {
+TEST(LabelRows, OfRandomLabelsDoNotOverlap) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> anywhere(0, 1000), wide(40, 130);
   for (int n = 0; n < 50; ++n) {
@@ -152,7 +152,7 @@ TEST(LabelRows, of_random_labels_do_not_overlap) {
 }
 
 // A square ring, and a port in two pieces: the place to point at is on the port and not at its edge.
-TEST(SeenPorts, are_pointed_at_inside) {
+TEST(SeenPorts, ArePointedAtInside) {
   PortPixels pixels{30, 20, std::vector<std::size_t>(600, 0)};
   const auto fill = [&](int x0, int x1, int y0, int y1, std::size_t port) {
     for (int y = y0; y < y1; ++y)
@@ -208,7 +208,7 @@ double share_of(const std::filesystem::path& png, const Colour& colour) {
   return double(n) / (double(size[0]) * size[1]);
 }
 
-TEST(PortPicture, shows_each_port_in_its_colour) {
+TEST(PortPicture, ShowsEachPortInItsColour) {
   const Directory at;
   write_bar_with_ports(at / "ports.vtu");
   ASSERT_TRUE(write_port_picture(at / "ports.vtu", "A bar", at / "ports.png"))
@@ -220,7 +220,7 @@ TEST(PortPicture, shows_each_port_in_its_colour) {
   EXPECT_LT(std::filesystem::file_size(at / "ports.png"), 250000u);
 }
 
-TEST(PortPicture, tells_what_is_missing) {
+TEST(PortPicture, TellsWhatIsMissing) {
   const Directory at;
   const auto message = [&](const char* vtu) -> std::string {
     try {
@@ -233,7 +233,7 @@ TEST(PortPicture, tells_what_is_missing) {
   EXPECT_FALSE(std::filesystem::exists(at / "ports.png"));
 }
 
-TEST(PortPictureDeathTest, without_egl_nothing_is_drawn_and_nothing_ends) {
+TEST(PortPictureDeathTest, WithoutEglNothingIsDrawnAndNothingEnds) {
   const Directory at;
   write_bar_with_ports(at / "ports.vtu");
   testing::FLAGS_gtest_death_test_style = "threadsafe";  // a fresh process: EGL is found once per process
@@ -247,7 +247,7 @@ TEST(PortPictureDeathTest, without_egl_nothing_is_drawn_and_nothing_ends) {
   EXPECT_FALSE(std::filesystem::exists(at / "ports.png"));
 }
 
-TEST(PortPicture, cuts_through_the_axes_of_bores) {
+TEST(PortPicture, CutsThroughTheAxesOfBores) {
   using Kind = meshes::Port::Kind;
   EXPECT_FALSE(cut_through_bores({{"seat", Kind::seat, 1, 0, 1, 0.1, 0, 0}}));
   const auto one = cut_through_bores({{"bore", Kind::bore, 1, 0, 1, 0.1, 0.2, 0}});
@@ -261,7 +261,7 @@ TEST(PortPicture, cuts_through_the_axes_of_bores) {
 }
 
 // Twenty ports: colours differ from each other and from the grey of the rest.
-TEST(PortPicture, has_a_colour_for_every_port) {
+TEST(PortPicture, HasAColourForEveryPort) {
   std::vector<Colour> colours{{222, 222, 222}};
   for (std::size_t i = 0; i < 20; ++i) {
     const Colour colour = port_colour(i);

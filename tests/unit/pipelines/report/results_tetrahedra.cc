@@ -49,7 +49,7 @@ void expect_map(vtkUnstructuredGrid& grid, vtkUnstructuredGrid& straight, int ty
   }
 }
 
-TEST(TetrahedraVtu, vtk_interpolates_the_map_the_nodes_came_from) {
+TEST(TetrahedraVtu, VtkInterpolatesTheMapTheNodesCameFrom) {
   const Directory at;
   const auto identity = [](Point p) { return p; };
   write_envelope_vtu(at / "e.vtu", mapped_tetrahedra(curved), {});
@@ -61,7 +61,7 @@ TEST(TetrahedraVtu, vtk_interpolates_the_map_the_nodes_came_from) {
   EXPECT_EQ(read(at / "s.vtu")->GetNumberOfPoints(), 26);  // all but the middle of the cube
 }
 
-TEST(TetrahedraResponses, come_back) {
+TEST(TetrahedraResponses, ComeBack) {
   const Directory at;
   fem::UnitResponses written;
   written.channels = {"seat.fx"};
@@ -78,7 +78,7 @@ TEST(TetrahedraResponses, come_back) {
 }
 
 // All six share the diagonal from corner 0 to (1, 1, 1), and nothing else lies on all of them.
-TEST(TetrahedraZones, are_connected_through_cells) {
+TEST(TetrahedraZones, AreConnectedThroughCells) {
   const auto nodes = mapped_tetrahedra(curved);
   NodalMaximum envelope;
   envelope.value_Pa.assign(27, 0);

@@ -9,7 +9,7 @@
 
 namespace {
 
-TEST(IterationMemory, lasts_for_one_body_until_it_is_taken_back) {
+TEST(IterationMemory, LastsForOneBodyUntilItIsTakenBack) {
   const results_test::Directory scratch;
   EXPECT_FALSE(pipelines::iteration_gave_up_before(scratch.path, "mesh 1\n"));
   pipelines::remember_iteration(scratch.path, "mesh 1\n", true);
@@ -20,7 +20,7 @@ TEST(IterationMemory, lasts_for_one_body_until_it_is_taken_back) {
   EXPECT_TRUE(std::filesystem::is_empty(scratch.path));
 }
 
-TEST(IterationMemory, key_is_that_of_mesh_and_material_and_begins_the_responses_key) {
+TEST(IterationMemory, KeyIsThatOfMeshAndMaterialAndBeginsTheResponsesKey) {
   const results_test::Directory scratch;
   fem::Body body;
   body.mesh = scratch.path / "a.msh";

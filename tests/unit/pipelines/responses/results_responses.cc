@@ -71,7 +71,7 @@ bool same_bits(const std::vector<Element>& a, const std::vector<Element>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0;
 }
 
-TEST(ResponseFiles, come_back_bit_for_bit) {
+TEST(ResponseFiles, ComeBackBitForBit) {
   const Directory at;
   const auto written = example_responses();
   write_unit_responses(at / "unit_responses.h5", "key 1", written);
@@ -112,14 +112,14 @@ TEST(ResponseFiles, come_back_bit_for_bit) {
   EXPECT_EQ(read->solver.predicted().bytes, written.solver.predicted().bytes);
 }
 
-TEST(ResponseFiles, two_writes_give_the_same_bytes) {
+TEST(ResponseFiles, TwoWritesGiveTheSameBytes) {
   const Directory at;
   write_unit_responses(at / "a.h5", "key", example_responses());
   write_unit_responses(at / "b.h5", "key", example_responses());
   EXPECT_EQ(bytes(at / "a.h5"), bytes(at / "b.h5"));
 }
 
-TEST(ResponseFiles, every_degree_comes_back) {
+TEST(ResponseFiles, EveryDegreeComesBack) {
   const Directory at;
   for (const int degree : {1, 2, 3}) {
     fem::UnitResponses written;
@@ -142,7 +142,7 @@ TEST(ResponseFiles, every_degree_comes_back) {
   }
 }
 
-TEST(ResponseFiles, an_axisymmetric_or_empty_body_comes_back) {
+TEST(ResponseFiles, AnAxisymmetricOrEmptyBodyComesBack) {
   const Directory at;
   fem::UnitResponses written;
   written.channels = {"seat.fx"};
@@ -154,7 +154,7 @@ TEST(ResponseFiles, an_axisymmetric_or_empty_body_comes_back) {
   EXPECT_TRUE(read->nodes.cells.empty());
 }
 
-TEST(ResponseFiles, what_does_not_fit_counts_as_missing) {
+TEST(ResponseFiles, WhatDoesNotFitCountsAsMissing) {
   const Directory at;
   EXPECT_FALSE(read_unit_responses(at / "none.h5", "key"));
   EXPECT_FALSE(read_unit_responses(at.path, "key"));
@@ -170,7 +170,7 @@ TEST(ResponseFiles, what_does_not_fit_counts_as_missing) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(ResponseFiles, sizes_that_do_not_fit_are_refused_and_the_old_file_stays) {
+TEST(ResponseFiles, SizesThatDoNotFitAreRefusedAndTheOldFileStays) {
   const Directory at;
   write_unit_responses(at / "r.h5", "key", example_responses());
   const std::string old = bytes(at / "r.h5");

@@ -48,7 +48,7 @@ Scene read_without(const std::vector<std::string>& words) {
   return scene;
 }
 
-TEST(default_scene, has_the_laboratory_mill) {
+TEST(default_scene, HasTheLaboratoryMill) {
   const auto mill = pipelines::read_scene(default_scene).vibratory_mill();
   EXPECT_EQ(mill.convention, kinetics::Convention::consistent);
   expect_same(mill.gravity_m_s2, 9.81);
@@ -83,7 +83,7 @@ TEST(default_scene, has_the_laboratory_mill) {
   }
 }
 
-TEST(default_scene, has_every_effect_of_the_convention_and_the_shafts_own) {
+TEST(default_scene, HasEveryEffectOfTheConventionAndTheShaftsOwn) {
   const Scene scene = pipelines::read_scene(default_scene);
   for (const auto& effect : kinetics::vibratory_mill_effects(kinetics::Convention::consistent))
     EXPECT_TRUE(scene.has_effect(effect.name)) << effect.name;
@@ -94,7 +94,7 @@ TEST(default_scene, has_every_effect_of_the_convention_and_the_shafts_own) {
   EXPECT_NO_THROW(pipelines::compute_loads(scene.machine, scene.kinetics_effects(), {1, 24}));
 }
 
-TEST(default_scene, has_the_laboratory_shaft) {
+TEST(default_scene, HasTheLaboratoryShaft) {
   const Scene scene = pipelines::read_scene(default_scene);
   const auto* body = scene.body("shaft");
   ASSERT_TRUE(body && body->shaft());
@@ -138,7 +138,7 @@ TEST(default_scene, has_the_laboratory_shaft) {
   EXPECT_EQ(body->shaft()->mesh.largest_cell_m, 0);
 }
 
-TEST(default_scene, covers_the_period_and_warns_of_nothing) {
+TEST(default_scene, CoversThePeriodAndWarnsOfNothing) {
   const Scene scene = pipelines::read_scene(default_scene);
   EXPECT_EQ(scene.title, "Laboratory vibratory mill");
   EXPECT_EQ(scene.file, default_scene);
@@ -154,7 +154,7 @@ TEST(default_scene, covers_the_period_and_warns_of_nothing) {
   EXPECT_TRUE(has_default(scene, "machine.springs.preload", "static balance"));
 }
 
-TEST(scene, records_the_defaults_that_it_takes) {
+TEST(scene, RecordsTheDefaultsThatItTakes) {
   const Scene scene =
       read_without({"title", "convention", "gravity ", "initial_angle", "turns", "instants_per_turn", "level",
                     "snapshots", "[zones]", "sectors", "debalance_shares"});
@@ -171,7 +171,7 @@ TEST(scene, records_the_defaults_that_it_takes) {
   EXPECT_EQ(scene.vibratory_mill().charge_initial_angle_rad, 0);
 }
 
-TEST(scene, of_the_paper_to_the_letter_is_for_the_load_stage) {
+TEST(scene, OfThePaperToTheLetterIsForTheLoadStage) {
   std::ifstream in(default_scene);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   text = text.substr(text.find("[machine]"));
@@ -186,7 +186,7 @@ TEST(scene, of_the_paper_to_the_letter_is_for_the_load_stage) {
   EXPECT_FALSE(has_default(scene, "machine.springs.preload", "static balance")) << "the paper has no preload";
 }
 
-TEST(scene, warns_of_a_corner_without_fillet) {
+TEST(scene, WarnsOfACornerWithoutFillet) {
   const Scene scene = read_without({"  { fillet = \"2.5"});
   ASSERT_EQ(scene.warnings.size(), 2u);
   EXPECT_NE(scene.warnings[0].find("between \"body_1\" and \"eccentric_seat\" has no fillet"),
@@ -195,7 +195,7 @@ TEST(scene, warns_of_a_corner_without_fillet) {
   EXPECT_GT(scene.body("shaft")->shaft()->geometry.fillets_m[2], 0) << "the others stay where they were";
 }
 
-TEST(largest_filling, fits_full_half_and_empty_chambers) {
+TEST(largest_filling, FitsFullHalfAndEmptyChambers) {
   EXPECT_NEAR(pipelines::largest_filling(0, 0.13), 1, 1e-12);
   EXPECT_NEAR(pipelines::largest_filling(0.13, 0.13), 0, 1e-9);
   const double half_disc_centroid = 4 / (3 * 3.14159265358979323846);

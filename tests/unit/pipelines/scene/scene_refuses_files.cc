@@ -42,26 +42,26 @@ ScratchFile written(const std::string& name, const std::string& text) {
   return {file};
 }
 
-TEST(scene_file, missing) {
+TEST(scene_file, Missing) {
   EXPECT_EQ(refusal("/nowhere/scene.toml"),
             "/nowhere/scene.toml: there is no such file; give the path of a scene, such as "
             "pipelines/scenes/vibratory_mill.toml");
 }
 
-TEST(scene_file, directory) {
+TEST(scene_file, Directory) {
   EXPECT_NE(refusal(testing::TempDir()).find("is a directory; give the path of a scene"), std::string::npos);
 }
 
-TEST(scene_file, empty_or_only_comments) {
+TEST(scene_file, EmptyOrOnlyComments) {
   EXPECT_NE(refusal(written("empty.toml", "")).find("the scene is empty"), std::string::npos);
   EXPECT_NE(refusal(written("comments.toml", "# nothing\n\n")).find("the scene is empty"), std::string::npos);
 }
 
-TEST(scene_file, device) {
+TEST(scene_file, Device) {
   EXPECT_NE(refusal("/dev/zero").find("no ordinary file"), std::string::npos);
 }
 
-TEST(scene_file, unreadable) {
+TEST(scene_file, Unreadable) {
   const ScratchFile file = written("unreadable.toml", "title = \"secret\"\n");
   fs::permissions(file.path, fs::perms::none);
   const bool is_root = geteuid() == 0;  // who may read every file, and so becomes somebody else for once
@@ -71,12 +71,12 @@ TEST(scene_file, unreadable) {
   EXPECT_NE(message.find("cannot be read; check its permissions"), std::string::npos) << message;
 }
 
-TEST(scene_file, bytes_that_are_no_text) {
+TEST(scene_file, BytesThatAreNoText) {
   const ScratchFile file = written("bytes.toml", std::string("a = 1\n\xff\xfe\x00\x01", 10));
   EXPECT_THROW(pipelines::read_scene(file), pipelines::SceneError);
 }
 
-TEST(toml_tree, knows_where_values_stand_and_how_they_were_written) {
+TEST(toml_tree, KnowsWhereValuesStandAndHowTheyWereWritten) {
   const auto tree =
       pipelines::parse_toml("title = 'Mühle' # ü\r\n[a]\nx = [ 1_000, \"µ\",  0x10 ]\r\nb.c = 1.50e3\n");
   const auto& title = tree.find("title")->value;
@@ -93,7 +93,7 @@ TEST(toml_tree, knows_where_values_stand_and_how_they_were_written) {
   EXPECT_EQ(a.find("nothing"), nullptr);
 }
 
-TEST(nearest_name, suggests_only_what_is_near) {
+TEST(nearest_name, SuggestsOnlyWhatIsNear) {
   const std::vector<std::string> known = {"mass", "offset", "turn_ratio", "charge_translation"};
   EXPECT_EQ(pipelines::nearest_name("mas", known), "mass");
   EXPECT_EQ(pipelines::nearest_name("Offset", known), "offset");

@@ -54,7 +54,7 @@ void mutate(std::vector<std::string>& lines, std::mt19937& random) {
 
 class EveryScene : public testing::TestWithParam<const char*> {};
 
-TEST_P(EveryScene, mutated_is_read_or_refused_and_nothing_else) {
+TEST_P(EveryScene, MutatedIsReadOrRefusedAndNothingElse) {
   const auto original =
       lines_of(fs::path(SOURCE_DIR) / "pipelines/scenes" / (GetParam() + std::string(".toml")));
   const fs::path file =
