@@ -1,7 +1,5 @@
 #include "pipelines/analysis/governing_stress.h"
 
-#include <algorithm>
-
 namespace pipelines {
 namespace {
 
@@ -49,9 +47,10 @@ std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone) {
 }
 
 double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot) {
-  const double first_Pa = analysis.hot_spots.front().error_Pa,
-               known_Pa = analysis.hot_spot_errors.numerical_Pa();
-  return first_Pa > 0 ? spot.error_Pa * (known_Pa / first_Pa) : std::max(spot.error_Pa, known_Pa);
+  if (spot.name == analysis.hot_spots.front().name) return analysis.hot_spot_errors.numerical_Pa();
+  for (const auto& place : analysis.place_stresses)
+    if (place.feature == spot.name) return place.error_Pa;
+  return spot.error_Pa;
 }
 
 }  // namespace pipelines

@@ -38,8 +38,8 @@ ErrorBudget& errors_of_governing(BodyAnalysis& analysis);
 /// own estimate.
 std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone);
 
-/// Numerical error of a hot spot: its own estimate, times what a search has learnt at the first one of how
-/// far such estimates are from what is missing.
+/// Numerical error of a hot spot: of the first one all that its error budget has; of others what is known of
+/// the place, or else the estimate of this mesh alone.
 double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot);
 
 }  // namespace pipelines

@@ -19,8 +19,9 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
                                   double tolerance = 0);
 
 /// By the axisymmetric model, refined until no place's error exceeds `target` of the largest value, or the
-/// step after would be too large. A second opinion on other models of the same loads: on concentric shafts
-/// values are within their errors of the elastic solution.
+/// step after would have more than about a million unknowns: the errors then say so. A second opinion on
+/// other models of the same loads: on concentric shafts values are within their errors of the elastic
+/// solution.
 /// @param meshed  features, ports, sharp edges and masses of whatever mesh the loads were made for
 /// @throws as analyse_axisymmetric
 std::vector<PlaceStress> axisymmetric_place_stresses(const BodyScene& body, const MeshedBody& meshed,
