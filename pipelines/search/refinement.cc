@@ -28,6 +28,7 @@ constexpr double mended_along = 1.0 / 3;
 constexpr int most_pressure_harmonics = 64;
 constexpr double smallest_exponent = 0.1, kept_exponent = 0.75;
 
+constexpr int most_steps = 16;
 /// Steps that may pass without a lower error: each part of a mesh once, and one.
 constexpr std::size_t patience = 5;
 
@@ -269,6 +270,14 @@ bool stands_still(const Search& search) {
   const double before = error(steps[steps.size() - 1 - patience]);
   return std::all_of(steps.end() - patience, steps.end(),
                      [&](const auto& step) { return error(step) > 0.9 * before; });
+}
+
+std::string reason_to_end(const Search& search, const GoverningStress& stress, bool of_blocks) {
+  if (search.tolerance > 0 && search.met) return "the tolerance is met";
+  if (stress.value_Pa == 0) return "nothing is stressed";
+  if (int(search.steps.size()) >= most_steps) return "too many steps";
+  if (of_blocks && stands_still(search)) return "finer meshes no longer lower the error";
+  return {};
 }
 
 void learn_from_change(ErrorBudget& budget, double change_Pa, double ratio, int n_meshes, double order) {

@@ -62,6 +62,11 @@ std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysi
 /// @param values, ratios  of the steps so far at one place; ratios[i] leads from values[i] to values[i + 1]
 bool grows_without_bound(const std::vector<double>& values, const std::vector<double>& ratios);
 
+/// Why a search takes no further step; empty: it takes one.
+/// @param of_blocks  shafts of hexahedra: elsewhere a stress may grow for some steps before its edge is left
+/// out
+std::string reason_to_end(const Search& search, const GoverningStress& stress, bool of_blocks);
+
 /// Whether the last five steps of a search have lowered the error by less than a tenth, all of them together.
 bool stands_still(const Search& search);
 

@@ -37,9 +37,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int most_steps = 16;
 constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
-/// A step is taken if it is predicted to end in time; predictions are rough.
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -304,17 +302,6 @@ private:
     state.search.steps.push_back(record(i, stress, analysis, seconds_since(state.step_start)));
     state.search.steps.back().refined = state.step ? to_string(state.step->part) : "";
     state.search.met = state.search.tolerance == 0 || stress.relative_error() <= state.search.tolerance;
-  }
-
-  /// Why no further step is taken; empty: one is.
-  /// @param of_blocks  shafts of hexahedra: elsewhere a stress may grow for some steps before its edge is
-  /// left out
-  static std::string reason_to_end(const Search& search, const GoverningStress& stress, bool of_blocks) {
-    if (search.tolerance > 0 && search.met) return "the tolerance is met";
-    if (stress.value_Pa == 0) return "nothing is stressed";
-    if (int(search.steps.size()) >= most_steps) return "too many steps";
-    if (of_blocks && stands_still(search)) return "finer meshes no longer lower the error";
-    return {};
   }
 
   /// Runs body i until its governing stress is good enough, or nothing more can be done.
