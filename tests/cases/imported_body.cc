@@ -261,40 +261,34 @@ TEST(ImportedBody, AnEdgeAtWhichStressGrowsIsLeftOutWhole) {
 
 namespace {
 
-/// A shaft with a known stress on one mesh: what is stated bounds what is true.
-/// @return whether it is within five times the truth
-bool knows_its_error(const step_shafts::StepShaft& shaft, int cells_per_circle) {
+/// A shaft with a known stress on one mesh: what is stated bounds what is true, and is not far above it. The
+/// peak is the largest of some hundred values around a ring, each of them off by 2 % or so: less than 0.75 %
+/// is chance.
+void expect_known_error(const step_shafts::StepShaft& shaft, int cells_per_circle) {
   const results_test::Directory directory;
   step_shafts::write_step(shaft, directory / (shaft.name + ".step"));
   const auto json =
       run(directory.path,
           step_shafts::scene_of_step(shaft, "cells_per_circle = " + std::to_string(cells_per_circle) + "\n"),
           "out");
-  if (json.is_null()) return false;
+  ASSERT_FALSE(json.is_null());
   const auto& at = json["bodies"]["part"]["peak_von_mises"];
   const double off_Pa = std::abs(at["value"].get<double>() - 1e6 * shaft.von_mises_MPa),
                stated_Pa = at["error"]["numerical"].get<double>();
-  EXPECT_GE(stated_Pa, off_Pa) << shaft.name << ", " << cells_per_circle << " cells around a circle";
-  return stated_Pa <= 5 * off_Pa;
+  EXPECT_GE(stated_Pa, off_Pa) << shaft.name;
+  EXPECT_LE(stated_Pa, 5 * std::max(off_Pa, 0.0075e6 * shaft.von_mises_MPa)) << shaft.name;
 }
 
 }  // namespace
 
 TEST(ImportedBody, ItsFirstMeshKnowsItsError) {
-  for (const auto& shaft : step_shafts::all()) {
-    if (shaft.name != "bending" && shaft.name != "hollow") continue;
-    EXPECT_TRUE(knows_its_error(shaft, 12)) << shaft.name;
-  }
+  for (const auto& shaft : step_shafts::all())
+    if (shaft.name == "bending" || shaft.name == "hollow") expect_known_error(shaft, 12);
 }
 
-// All errors bound the truth. They are within five times the truth on four shafts of five: in torsion the
-// peak is the largest of some hundred values around a ring, and happens to be right to 0.7 and 0.02 %.
 TEST(ImportedBody, AllFiveKnowTheirErrors) {
-  for (const int cells : {12, 16}) {
-    int n_sharp = 0;
-    for (const auto& shaft : step_shafts::all()) n_sharp += knows_its_error(shaft, cells);
-    EXPECT_GE(n_sharp, 4) << cells << " cells around a circle";
-  }
+  for (const auto& shaft : step_shafts::all())
+    for (const int cells : {12, 16}) expect_known_error(shaft, cells);
 }
 
 // Stress is the same all around the fillet: it becomes fine all around, in one step. A spot at the peak would
