@@ -6,6 +6,7 @@
 
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/analysis/tetrahedra_estimate.h"
 
 namespace pipelines {
 namespace {
@@ -22,6 +23,18 @@ double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
   return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material, 0,
                        analysis.places.excluded)
       .of("discretisation");
+}
+
+/// Of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is looked at by
+/// a submodel.
+void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, std::vector<PlaceStress>& places) {
+  const auto& responses = analysis.responses;
+  if (responses.nodes.n_cells() == 0 || !responses.nodes.shape().is_tetrahedron()) return;
+  for (auto& place : places)
+    if (place.value_Pa + place.error_Pa >= largest_Pa)
+      place.error_Pa =
+          submodel_error_Pa({{{place.node, 1.0}}, analysis.envelope.von_mises.instant[place.node]}, responses,
+                            analysis.scene.material, analysis.loads, analysis.places.excluded);
 }
 
 /// Cells on the quarter of a fillet; 0 for other places.
@@ -55,6 +68,7 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
     if (const int cells = cells_on(analysis.scene, place.feature); cells > 0)
       place.error_Pa = std::max(place.error_Pa, for_want_of_cells(cells) * place.value_Pa);
   }
+  ask_submodels(analysis, largest_Pa, places);
   const auto toes = weld_toes(analysis);
   places.insert(places.end(), toes.begin(), toes.end());
   return places;

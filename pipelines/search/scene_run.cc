@@ -235,7 +235,7 @@ private:
     history.add(places_of_one_mesh(analysis), std::nullopt);
     take_place_errors(analysis, history.judged(),
                       analysis.responses.nodes.shape().is_tetrahedron()
-                          ? tetrahedra_method
+                          ? submodel_method
                           : "single cells around, times a safety factor of 3");
     return analysis;
   }

@@ -13,10 +13,10 @@ namespace {
 
 using fem::pi;
 using fem::PlateLoad;
-constexpr fem::Material steel{206e9, 0.3, 7850};
+constexpr fem::Material tube_steel{206e9, 0.3, 7850};
 
 fem::PlatedTube tube(double length_m, double wall_m, const std::vector<fem::TubePlate>& plates) {
-  return {0.1 + wall_m / 2, wall_m, -length_m / 2, length_m / 2, steel, plates};  // middle radius 0.1
+  return {0.1 + wall_m / 2, wall_m, -length_m / 2, length_m / 2, tube_steel, plates};  // middle radius 0.1
 }
 
 /// Of plate p and load in the stress at the i-th point.

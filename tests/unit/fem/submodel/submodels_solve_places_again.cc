@@ -1,0 +1,190 @@
+// Submodels against displacements that are exact in all of the body: what the cells of the body get wrong is
+// then known, and so is what finer cells have to find.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/operators/nodes_export.h"
+#include "fem/submodel/cut_tetrahedra.h"
+#include "fem/submodel/submodel.h"
+#include "tests/unit/fem/examples/tetrahedra.h"
+
+namespace {
+
+using fem_tests::Point;
+using Displacement = std::function<Point(const Point&)>;
+
+constexpr fem::Material submodel_steel{200e9, 0.3, 7850};
+constexpr double g_m_s2 = 9.81;
+
+const auto not_bent = [](const Point& x) { return x; };
+const auto bent = [](const Point& x) {
+  return Point(x[0] + 0.05 * std::sin(3 * x[1]), x[1] + 0.05 * std::sin(2 * x[2] + x[0]),
+               x[2] + 0.04 * x[0] * x[1]);
+};
+
+/// A body that moves by u, under one load.
+fem::UnitResponses responses_of(const fem::Grid& grid, const Displacement& u) {
+  fem::UnitResponses responses;
+  responses.channels = {"load"};
+  responses.nodes = fem::export_nodes(grid);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) {
+    const Point at = u(Point(grid.position(std::int32_t(i))));
+    responses.displacement_m.insert(responses.displacement_m.end(), at.data(), at.data() + 3);
+  }
+  return responses;
+}
+
+/// The node nearest to a point.
+std::size_t node_at(const fem::Grid& grid, const Point& wanted) {
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < grid.n_nodes; ++i)
+    if ((Point(grid.position(std::int32_t(i))) - wanted).norm() <
+        (Point(grid.position(std::int32_t(nearest))) - wanted).norm())
+      nearest = i;
+  return nearest;
+}
+
+/// Holds all of one boundary group, as a load on it does.
+fem::UnitLoad load_on(int boundary_id) {
+  fem::LoadSurface surface;
+  surface.kind = fem::LoadSurface::Kind::face;
+  surface.boundary_id = boundary_id;
+  return {"load", fem::SurfaceResultant{surface, fem::SurfaceResultant::Component::fz}};
+}
+
+constexpr int nowhere = 99;  // no face has this group
+
+const fem::UnitLoad weight = {"load", fem::BodyForce{fem::BodyForce::Field::translation_z, {}}};
+
+double area_of_groups(const fem::Grid& grid, int id) {
+  const auto points = fem::gauss_on_face(grid.shape(), 5);
+  double area = 0;
+  for (const auto& face : grid.boundary)
+    if (face.boundary_id == id)
+      for (int q = 0; q < points.n_points; ++q)
+        area += fem::face_point(grid, fem::nodes_of_face(grid, std::size_t(face.cell), face.face), points, q)
+                    .area.norm();
+  return area;
+}
+
+TEST(CutTetrahedra, KeepShapeSurfaceAndField) {
+  fem::GridField coarse{fem_tests::tetrahedra_cube(2, bent), {}};
+  coarse.field.setZero(Eigen::Index(coarse.grid.n_nodes), 1);
+  const auto fine = fem::cut_into_eight(coarse);
+  ASSERT_EQ(fine.grid.n_cells(), 8 * coarse.grid.n_cells());
+  fem::refuse_inverted_cells(fine.grid);
+  const auto volume = [](const fem::Grid& grid) {
+    return fem::integrate_nodes(grid, std::vector<int>{7}).col(0).sum();
+  };
+  EXPECT_NEAR(volume(fine.grid), volume(coarse.grid), 1e-13);
+  for (int id = 1; id <= 6; ++id)  // Gauss points of order 9 on roots of polynomials: not exact
+    EXPECT_NEAR(area_of_groups(fine.grid, id), area_of_groups(coarse.grid, id), 1e-6) << id;
+  EXPECT_EQ(fine.grid.boundary.size(), 4 * coarse.grid.boundary.size());
+}
+
+TEST(CutTetrahedra, QuadraticFieldsStayOnStraightCells) {
+  const auto field = [](const double* x) { return 1 + x[0] * x[1] - 2 * x[2] * x[2] + x[1]; };
+  fem::GridField coarse{fem_tests::irregular_cube(2), {}};
+  coarse.field.resize(Eigen::Index(coarse.grid.n_nodes), 1);
+  for (std::size_t i = 0; i < coarse.grid.n_nodes; ++i)
+    coarse.field(Eigen::Index(i), 0) = field(coarse.grid.position(std::int32_t(i)));
+  const auto fine = fem::cut_into_eight(fem::cut_into_eight(coarse));
+  ASSERT_EQ(fine.grid.n_cells(), 64 * coarse.grid.n_cells());
+  for (std::size_t i = 0; i < fine.grid.n_nodes; ++i)
+    EXPECT_NEAR(fine.field(Eigen::Index(i), 0), field(fine.grid.position(std::int32_t(i))), 1e-13);
+}
+
+// A column hung up at z = 1: stress rho g z along z, all quadratic. Its sides are free.
+TEST(Submodel, BodyForcesAct) {
+  const auto grid = fem_tests::tetrahedra_cube(5, not_bent);
+  // For an acceleration of 1 m/s2 upwards; gravity is -g of that.
+  const double a = -submodel_steel.density_kg_m3 / submodel_steel.youngs_modulus_Pa,
+               nu = submodel_steel.poisson_ratio;
+  const auto responses = responses_of(grid, [&](const Point& x) {
+    return Point(-nu * a * x[0] * x[2], -nu * a * x[1] * x[2],
+                 a / 2 * (x[2] * x[2] + nu * (x[0] * x[0] + x[1] * x[1])));
+  });
+  const auto node = node_at(grid, {0, 0.4, 0.4});
+  const double known_Pa = submodel_steel.density_kg_m3 * g_m_s2 * 0.4;
+  const auto found = fem::submodel_stress(responses, submodel_steel, {weight}, node, {-g_m_s2}, {}, {2, 1});
+  EXPECT_NEAR(found.at_node_Pa, known_Pa, 1e-9 * known_Pa);
+  EXPECT_NEAR(found.largest_Pa, known_Pa / 0.4 * 0.6, 1e-9 * known_Pa);  // one cell of 0.2 higher
+  const auto weightless =
+      fem::submodel_stress(responses, submodel_steel, {load_on(nowhere)}, node, {-g_m_s2}, {}, {2, 1});
+  EXPECT_GT(std::abs(weightless.at_node_Pa - known_Pa), 0.01 * known_Pa);
+}
+
+// Stress is the same everywhere, and does not vanish on the face x = 0: that is held, as loaded ones are.
+TEST(Submodel, LoadedFacesAreHeld) {
+  const auto grid = fem_tests::tetrahedra_cube(
+      5, [](const Point& x) { return Point(x[0] + 0.05 * std::sin(3 * x[1]), x[1], x[2]); });
+  const auto responses =
+      responses_of(grid, [](const Point& x) { return Point(2e-4 * x[0], -0.6e-4 * x[1], -0.6e-4 * x[2]); });
+  const auto node = node_at(grid, {0.05 * std::sin(1.2), 0.4, 0.4});
+  const double known_Pa = 200e9 * 2e-4;  // uniaxial: the lateral strain is nu times the axial one
+  const auto stress_Pa = [&](int loaded) {
+    return fem::submodel_stress(responses, submodel_steel, {load_on(loaded)}, node, {1}, {}, {2, 1})
+        .at_node_Pa;
+  };
+  EXPECT_NEAR(stress_Pa(1), known_Pa, 1e-8 * known_Pa);
+  EXPECT_GT(std::abs(stress_Pa(nowhere) - known_Pa), 0.05 * known_Pa);
+}
+
+// The gradient of a harmonic function loads no cell. Its interpolant on the coarse cells is the rim of the
+// submodel: only the inside gets better.
+TEST(Submodel, FinerCellsComeNearerToTheTruth) {
+  const auto grid = fem_tests::irregular_cube(6);
+  const auto responses = responses_of(grid, [](const Point& x) {
+    const double s = std::exp(6 * x[0]);
+    return Point(1e-6 * s * std::sin(6 * x[1]), 1e-6 * s * std::cos(6 * x[1]), 0);
+  });
+  const auto node = node_at(grid, {0.5, 0.5, 0.5});
+  const Point x(grid.position(std::int32_t(node)));
+  // Gradient 6e-6 exp(6x) (sin, cos; cos, -sin): a pure shear of that size.
+  const double known_Pa = std::sqrt(3.0) * 2 * 200e9 / 2.6 * 6e-6 * std::exp(6 * x[0]);
+  const auto off_Pa = [&](int n_layers, int n_cuts) {
+    return std::abs(
+        fem::submodel_stress(responses, submodel_steel, {load_on(nowhere)}, node, {1}, {}, {n_layers, n_cuts})
+            .at_node_Pa -
+        known_Pa);
+  };
+  const double coarse_Pa = off_Pa(2, 0), once_Pa = off_Pa(2, 1), twice_Pa = off_Pa(2, 2);
+  EXPECT_LT(once_Pa, coarse_Pa / 3);
+  EXPECT_LT(twice_Pa, 0.01 * known_Pa);
+}
+
+TEST(Submodel, CellsWithNodesLeftOutAreNotSearched) {
+  const auto grid = fem_tests::tetrahedra_cube(6, not_bent);
+  // Bending about y: stress grows with x, so that the largest value lies at the far end of the cells.
+  const auto responses = responses_of(grid, [](const Point& x) {
+    return Point(0.3e-3 * (x[1] * x[1] - x[0] * x[0]) / 2 - 1e-3 * x[2] * x[2] / 2, -0.3e-3 * x[0] * x[1],
+                 1e-3 * x[0] * x[2]);
+  });
+  const auto node = node_at(grid, {0.5, 0, 0.5});
+  const auto free =
+      fem::submodel_stress(responses, submodel_steel, {load_on(nowhere)}, node, {1}, {}, {2, 1});
+  EXPECT_NEAR(free.at_node_Pa, 200e9 * 1e-3 * 0.5, 1e3);
+  EXPECT_NEAR(free.largest_Pa, 200e9 * 1e-3 * 2 / 3, 1e3);
+  std::vector<char> left_out(grid.n_nodes, 0);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) left_out[i] = char(grid.position(std::int32_t(i))[0] > 0.6);
+  EXPECT_NEAR(fem::submodel_stress(responses, submodel_steel, {load_on(nowhere)}, node, {1}, left_out, {2, 1})
+                  .largest_Pa,
+              200e9 * 1e-3 * 0.5, 1e3);
+}
+
+TEST(Submodel, RefusesWhatIsNoneOfItsBusiness) {
+  const auto grid = fem_tests::tetrahedra_cube(2, not_bent);
+  auto responses = responses_of(grid, [](const Point& x) { return x; });
+  EXPECT_THROW(fem::submodel_stress(responses, submodel_steel, {weight}, 0, {1, 2}), std::invalid_argument);
+  EXPECT_THROW(fem::submodel_stress(responses, submodel_steel, {}, 0, {1}), std::invalid_argument);
+  EXPECT_THROW(fem::submodel_stress(responses, submodel_steel, {weight}, grid.n_nodes + 5, {1}),
+               std::invalid_argument);
+  responses.nodes.kind = fem::CellKind::hexahedra;
+  EXPECT_THROW(fem::submodel_stress(responses, submodel_steel, {weight}, 0, {1}), std::invalid_argument);
+}
+
+}  // namespace
