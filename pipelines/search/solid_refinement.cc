@@ -4,12 +4,14 @@
 #include <cmath>
 #include <map>
 
+#include "pipelines/analysis/tetrahedra_estimate.h"
+
 namespace pipelines {
 namespace {
 
 constexpr double shrinkage = 0.6, radius_cells = 1.5;
 /// Balls overlap: the next one begins at this share of a ball's radius from its centre.
-constexpr double spacing = 0.7;
+constexpr double spacing = 0.5;
 /// A place that knows less than this of its stress does not make the whole body fine at once.
 constexpr double largest_relative_error = 0.2;
 
@@ -34,21 +36,33 @@ std::vector<double> cell_sizes_m(const fem::Nodes& nodes) {
   return sum_m;
 }
 
+/// What the nodes along a place may be wrong by, against its largest: its own error is that of one node,
+/// which is among the least wrong, and cells around one node agree by chance.
+constexpr double scatter_safety = 1.5;
+double error_of_nodes_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
+  const auto instant = analysis.envelope.von_mises.instant[place.node];
+  const Eigen::ArrayXd factors = analysis.loads.history.values.col(instant);
+  const auto scatter = tetrahedra_estimate({{{place.node, 1.0}}, instant}, analysis.responses,
+                                           analysis.scene.material, {factors.begin(), factors.end()});
+  return std::max(place.error_Pa, scatter_safety * scatter.value_Pa);
+}
+
 /// The least stress of each place, by its name, that may be the largest of the body.
-std::map<std::string, double> least_leading_Pa(const std::vector<PlaceStress>& judged) {
+std::map<std::string, double> least_leading_Pa(const BodyAnalysis& analysis,
+                                               const std::vector<PlaceStress>& judged) {
   const double largest_Pa = judged[judge(judged).governing].value_Pa;
   std::map<std::string, double> least;
   for (const auto& place : judged)
     if (place.value_Pa > 0 && place.value_Pa + place.error_Pa >= largest_Pa)
-      least[place.feature] =
-          largest_Pa / (1 + std::min(place.error_Pa / place.value_Pa, largest_relative_error));
+      least[place.feature] = largest_Pa / (1 + std::min(error_of_nodes_Pa(analysis, place) / place.value_Pa,
+                                                        largest_relative_error));
   return least;
 }
 
 /// The nodes of all places that may lead, by falling stress; the largest of each place among them.
 std::vector<std::size_t> leading_nodes(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
                                        std::vector<std::string>& features) {
-  const auto least = least_leading_Pa(judged);
+  const auto least = least_leading_Pa(analysis, judged);
   const auto& nodes = analysis.responses.nodes;
   const auto& stress_Pa = analysis.envelope.von_mises.value_Pa;
   std::vector<char> leads(nodes.n, 0);

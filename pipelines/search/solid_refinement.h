@@ -18,8 +18,9 @@ struct LeadingSurface {
 };
 
 /// Balls of one and a half cells around every node of the surface whose own stress, with the relative error
-/// of its place, could be the largest of the body: around a fillet that is the whole ring. A spot at the peak
-/// alone would only let the peak move along the ring, from one mesh to the next.
+/// of its place or the scatter of its cells, could be the largest of the body: around a fillet that is the
+/// whole ring. A spot at the peak alone would only let the peak move along the ring, from one mesh to the
+/// next.
 /// @param judged  the places with their errors, not empty
 /// @return nothing where no cell holds these nodes
 LeadingSurface leading_surface(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged);
