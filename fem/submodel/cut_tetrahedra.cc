@@ -1,4 +1,4 @@
-#include "fem/submodel/cut_tetrahedra.h"
+#include "fem/submodel/cut_cells.h"
 
 #include <algorithm>
 #include <array>
@@ -55,9 +55,9 @@ std::array<Corners, 8> parts_of(const Grid& grid, const std::int32_t* nodes,
   return parts;
 }
 
-class Cutter {
+class TetrahedraCutter {
 public:
-  explicit Cutter(const GridField& coarse) : coarse_(coarse), points_(tetrahedron_nodes()) {
+  explicit TetrahedraCutter(const GridField& coarse) : coarse_(coarse), points_(tetrahedron_nodes()) {
     fine_.grid.kind = CellKind::tetrahedra;
     fine_.grid.degree = 2;
     fine_.grid.n_nodes = coarse.grid.n_nodes;
@@ -135,8 +135,8 @@ private:
 
 }  // namespace
 
-GridField cut_into_eight(const GridField& coarse) {
-  return Cutter(coarse).cut();
+GridField cut_tetrahedra(const GridField& coarse) {
+  return TetrahedraCutter(coarse).cut();
 }
 
 }  // namespace fem

@@ -14,9 +14,9 @@
 #include "fem/operators/cell_materials.h"
 #include "fem/operators/symmetric_matrix.h"
 #include "fem/solvers/direct_solve.h"
-#include "fem/stress/stress_recovery.h"
-#include "fem/stress/volumetric_stress.h"
-#include "fem/submodel/cut_tetrahedra.h"
+#include "fem/stress/recovery_on_ranks.h"
+#include "fem/submodel/cut_cells.h"
+#include "fem/values/vtk_order.h"
 
 namespace fem {
 namespace {
@@ -28,10 +28,12 @@ double von_mises(const Eigen::Ref<const Eigen::RowVectorXd>& s) {
   return std::sqrt((a * a + b * b + c * c) / 2 + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-/// Cells around a node: those that hold it, those that share a node with these, and so on; ascending.
-std::vector<std::size_t> cells_around(const Nodes& nodes, std::size_t node, int n_layers) {
+/// Cells around the nodes of a point: those that hold one, those that share a node with these, and so on;
+/// ascending.
+std::vector<std::size_t> cells_around(const Nodes& nodes, const std::vector<WeightedNode>& point,
+                                      int n_layers) {
   std::vector<char> is_reached(nodes.n, 0), is_taken(nodes.n_cells(), 0);
-  is_reached[node] = 1;
+  for (const auto& part : point) is_reached[part.node] = 1;
   for (int layer = 0; layer < n_layers; ++layer) {
     std::vector<std::size_t> added;
     for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
@@ -51,57 +53,72 @@ std::vector<std::size_t> cells_around(const Nodes& nodes, std::size_t node, int 
   return cells;
 }
 
-using FaceCorners = std::array<std::int32_t, 3>;
-FaceCorners sorted_corners(const std::int32_t* nodes, const std::vector<int>& local) {
-  FaceCorners corners = {nodes[local[0]], nodes[local[1]], nodes[local[2]]};
+using FaceCorners = std::vector<std::int32_t>;
+
+/// The corners of a cell's face, ascending.
+FaceCorners corners_of(const Grid& grid, std::size_t cell, int face) {
+  const auto local = face_nodes(grid.shape(), face);
+  FaceCorners corners;
+  for (const int i : face_corners(grid.shape()))
+    corners.push_back(grid.nodes_of(cell)[local[std::size_t(i)]]);
   std::sort(corners.begin(), corners.end());
   return corners;
 }
 
 /// The part of a body that a submodel takes in.
 struct Part {
-  GridField coarse;                // displacement of the load case, n x 3
+  GridField coarse;                // displacement, three columns per load case
   std::vector<std::int32_t> node;  // of the part's nodes: index in the whole body
 };
 
+/// @param cases  load cases as columns of factors, one row per channel
 Part cut_out(const UnitResponses& responses, const std::vector<std::size_t>& cells,
-             const std::vector<double>& factors) {
+             const Eigen::MatrixXd& cases) {
   const auto& nodes = responses.nodes;
   Part part;
   auto& grid = part.coarse.grid;
-  grid.kind = CellKind::tetrahedra;
+  grid.kind = nodes.kind;
+  grid.degree = nodes.degree;
+  const bool is_in_order = nodes.shape().is_tetrahedron();
   std::map<std::int32_t, std::int32_t> place;
   for (const auto c : cells) {
-    grid.volume_id.push_back(nodes.cell_volume_id.empty() ? 0 : nodes.cell_volume_id[c]);
-    for (const auto i : nodes.cell(c)) {
+    grid.volume_id.push_back(nodes.cell_volume_id[c]);
+    std::vector<std::int32_t> own(nodes.nodes_per_cell());
+    for (std::size_t v = 0; v < own.size(); ++v) {
+      const auto i = nodes.cell(c)[v];
       const auto [known, is_new] = place.try_emplace(i, std::int32_t(part.node.size()));
       if (is_new) part.node.push_back(i);
-      grid.cell_nodes.push_back(known->second);
+      own[is_in_order ? v : std::size_t(vtk_hexahedron_order(nodes.degree)[v])] = known->second;
     }
+    grid.cell_nodes.insert(grid.cell_nodes.end(), own.begin(), own.end());
   }
   grid.n_nodes = part.node.size();
-  part.coarse.field.setZero(Eigen::Index(grid.n_nodes), 3);
+  part.coarse.field.resize(Eigen::Index(grid.n_nodes), 3 * cases.cols());
+  const auto n_channels = cases.rows();
   for (std::size_t i = 0; i < grid.n_nodes; ++i) {
     const auto whole = std::size_t(part.node[i]);
     grid.xyz_m.insert(grid.xyz_m.end(), &nodes.xyz_m[3 * whole], &nodes.xyz_m[3 * whole] + 3);
-    for (std::size_t k = 0; k < factors.size(); ++k)
-      part.coarse.field.row(Eigen::Index(i)) +=
-          factors[k] *
-          Eigen::Map<const Eigen::RowVector3d>(&responses.displacement_m[3 * (whole * factors.size() + k)]);
+    const Eigen::Map<const Eigen::MatrixXd> unit(
+        &responses.displacement_m[3 * whole * std::size_t(n_channels)], 3, n_channels);
+    Eigen::Map<Eigen::MatrixXd>(&part.coarse.field(Eigen::Index(i), 0), 3, cases.cols()).noalias() =
+        unit * cases;
   }
 
   std::map<FaceCorners, int> group;  // of the body's own surface
+  const std::size_t n_corners = face_corners(grid.shape()).size();
   for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
-    std::vector<std::int32_t> own;
-    for (std::size_t v = 0; v < 3; ++v)
-      if (const auto known = place.find(nodes.face(f)[v]); known != place.end()) own.push_back(known->second);
-    if (own.size() == 3) group[sorted_corners(own.data(), {0, 1, 2})] = nodes.face_boundary_id[f];
+    FaceCorners corners;  // VTK begins with them
+    for (std::size_t v = 0; v < n_corners; ++v)
+      if (const auto known = place.find(nodes.face(f)[v]); known != place.end())
+        corners.push_back(known->second);
+    if (corners.size() < n_corners) continue;
+    std::sort(corners.begin(), corners.end());
+    group[corners] = nodes.face_boundary_id[f];
   }
   std::map<FaceCorners, std::vector<BoundaryFace>> faces;
+  const int n_faces = is_in_order ? 4 : 6;
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (int f = 0; f < 4; ++f)
-      faces[sorted_corners(grid.nodes_of(c), face_nodes(grid.shape(), f))].push_back(
-          {std::int32_t(c), f, rim});
+    for (int f = 0; f < n_faces; ++f) faces[corners_of(grid, c, f)].push_back({std::int32_t(c), f, rim});
   for (auto& [corners, both] : faces) {
     if (both.size() > 1) continue;
     if (const auto own = group.find(corners); own != group.end()) both[0].boundary_id = own->second;
@@ -111,8 +128,10 @@ Part cut_out(const UnitResponses& responses, const std::vector<std::size_t>& cel
 }
 
 /// Groups that are held: the rim, and those where the body is loaded.
-std::vector<int> held_groups(const std::vector<UnitLoad>& loads) {
+std::vector<int> held_groups(const Body& body, const std::vector<UnitLoad>& loads) {
   std::vector<int> groups = {rim};
+  for (const auto& spring : body.elastic_supports) groups.push_back(spring.surface.boundary_id);
+  for (const auto& clamp : body.clamps) groups.push_back(clamp.boundary_id);
   for (const auto& load : loads) {
     if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
       groups.push_back(resultant->surface.boundary_id);
@@ -122,27 +141,28 @@ std::vector<int> held_groups(const std::vector<UnitLoad>& loads) {
   return groups;
 }
 
-Eigen::VectorXd body_forces(const Grid& grid, const Material& material, const std::vector<UnitLoad>& loads,
-                            const std::vector<double>& factors) {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * Eigen::Index(grid.n_nodes));
+Eigen::MatrixXd body_forces(const Grid& grid, const Material& material, const std::vector<UnitLoad>& loads,
+                            const Eigen::MatrixXd& cases) {
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * Eigen::Index(grid.n_nodes), cases.cols());
   const std::set<int> present(grid.volume_id.begin(), grid.volume_id.end());
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const auto* own = std::get_if<BodyForce>(&loads[k].shape);
-    if (own == nullptr || factors[k] == 0) continue;
+    if (own == nullptr || cases.row(Eigen::Index(k)).isZero(0)) continue;
     std::vector<int> here;
     for (const int id : present)
       if (own->volume_ids.empty() ||
           std::find(own->volume_ids.begin(), own->volume_ids.end(), id) != own->volume_ids.end())
         here.push_back(id);
     if (!here.empty())
-      force += factors[k] * body_force(integrate_nodes(grid, here), material.density_kg_m3, own->field);
+      force += body_force(integrate_nodes(grid, here), material.density_kg_m3, own->field) *
+               cases.row(Eigen::Index(k));
   }
   return force;
 }
 
 /// The displacement where neither rim nor loaded surfaces hold it.
 void solve_inside(GridField& fine, const Material& material, const std::vector<int>& held,
-                  const Eigen::VectorXd& force) {
+                  const Eigen::MatrixXd& force) {
   const auto& grid = fine.grid;
   const auto cells = cells_of_nodes(grid);
   const auto colours = colour_cells(grid, cells);
@@ -157,66 +177,120 @@ void solve_inside(GridField& fine, const Material& material, const std::vector<i
         for (int d = 0; d < 3; ++d)
           clamped.insert(3 * std::int64_t(grid.nodes_of(std::size_t(face.cell))[local]) + d);
   // What the known displacement leaves unbalanced is the load of the correction, which is nothing at the rim.
-  const Eigen::Map<Eigen::VectorXd> known(fine.field.data(), fine.field.size());
+  const auto n = 3 * Eigen::Index(grid.n_nodes), n_cases = fine.field.cols() / 3;
+  Eigen::MatrixXd known(n, n_cases);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k < n_cases; ++k) known(i, k) = fine.field(i / 3, 3 * k + i % 3);
   BalancedLoads loads;
   loads.force = force - multiply(stiffness, known);
   loads.clamped.assign(clamped.begin(), clamped.end());
-  for (const auto i : clamped) loads.force(i, 0) = 0;
+  for (const auto i : clamped) loads.force.row(i).setZero();
   loads.norm = loads.force.colwise().norm().cwiseMax(1e-300);
   loads.largest_entry = loads.force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300);
   const auto solution =
       solve_directly(grid, cells, colours, materials, loads, [](double, const std::string&) {});
-  Eigen::Map<Eigen::VectorXd>(fine.field.data(), fine.field.size()) += solution->displacement.col(0);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k < n_cases; ++k)
+      fine.field(i / 3, 3 * k + i % 3) += solution->displacement(i, k);
+}
+
+/// A submodel of some load cases, solved.
+struct Solved {
+  std::vector<std::size_t> cells;  ///< of the whole body
+  Part part;
+  Grid fine;
+  RowMajor stress;  ///< n_nodes x 6 per load case
+};
+
+Solved solve_submodel(const UnitResponses& responses, const Body& body, const std::vector<UnitLoad>& loads,
+                      const std::vector<WeightedNode>& point, const Eigen::MatrixXd& cases,
+                      const SubmodelControl& control) {
+  if (responses.nodes.degree != 2) throw std::invalid_argument("submodel: the cells are not of degree 2");
+  if (!body.material_of_volume.empty())
+    throw std::invalid_argument("submodel: the body is of several materials");
+  if (std::size_t(cases.rows()) != responses.channels.size() || loads.size() != responses.channels.size())
+    throw std::invalid_argument("submodel: one load and one factor for every channel");
+  for (const auto& p : point)
+    if (p.node >= responses.nodes.n)
+      throw std::invalid_argument("submodel: there is no node " + std::to_string(p.node));
+  Solved solved;
+  solved.cells = cells_around(responses.nodes, point, control.n_layers);
+  solved.part = cut_out(responses, solved.cells, cases);
+  GridField fine = solved.part.coarse;
+  for (int cut = 0; cut < control.n_cuts; ++cut) fine = cut_into_eight(fine);
+  const auto held = held_groups(body, loads);
+  solve_inside(fine, body.material, held, body_forces(fine.grid, body.material, loads, cases));
+  solved.stress.resize(Eigen::Index(fine.grid.n_nodes), 6 * cases.cols());
+  recover_stress(fine.grid, cells_of_nodes(fine.grid), lame(body.material), body.cylinders, held, true,
+                 fine.field, solved.stress);
+  solved.fine = std::move(fine.grid);
+  return solved;
+}
+
+Eigen::RowVectorXd at_point(const Solved& solved, const std::vector<WeightedNode>& point) {
+  const auto& nodes = solved.part.node;
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(solved.stress.cols());
+  for (const auto& p : point)
+    sum += p.weight *
+           solved.stress.row(std::find(nodes.begin(), nodes.end(), std::int32_t(p.node)) - nodes.begin());
+  return sum;
+}
+
+/// The largest von Mises stress on the surface in the cells that hold a node of the point; of one load case.
+double largest_beside(const UnitResponses& responses, const Solved& solved,
+                      const std::vector<WeightedNode>& point, const std::vector<char>& left_out) {
+  const auto holds_point = [&](const NodeList& cell) {
+    return std::any_of(point.begin(), point.end(), [&](const WeightedNode& p) {
+      return std::find(cell.begin(), cell.end(), std::int32_t(p.node)) != cell.end();
+    });
+  };
+  const auto is_whole = [&](const NodeList& cell) {
+    return left_out.empty() || std::none_of(cell.begin(), cell.end(),
+                                            [&](std::int32_t i) { return left_out[std::size_t(i)] != 0; });
+  };
+  std::vector<char> is_searched;
+  for (const auto c : solved.cells) {
+    const auto cell = responses.nodes.cell(c);
+    is_searched.push_back(char(holds_point(cell) && is_whole(cell)));
+  }
+  const auto& fine = solved.fine;
+  const std::size_t n_parts = fine.n_cells() / solved.cells.size();  // they follow each other
+  double largest_Pa = 0;
+  for (const auto& face : fine.boundary) {
+    if (face.boundary_id == rim || is_searched[std::size_t(face.cell) / n_parts] == 0) continue;
+    for (const int local : face_nodes(fine.shape(), face.face))
+      largest_Pa =
+          std::max(largest_Pa, von_mises(solved.stress.row(fine.nodes_of(std::size_t(face.cell))[local])));
+  }
+  return largest_Pa;
 }
 
 }  // namespace
 
-SubmodelStress submodel_stress(const UnitResponses& responses, const Material& material,
-                               const std::vector<UnitLoad>& loads, std::size_t node,
+SubmodelStress submodel_stress(const UnitResponses& responses, const Body& body,
+                               const std::vector<UnitLoad>& loads, const std::vector<WeightedNode>& point,
                                const std::vector<double>& factors, const std::vector<char>& left_out,
                                const SubmodelControl& control) {
-  if (!responses.nodes.shape().is_tetrahedron())
-    throw std::invalid_argument("submodel_stress: the cells are no tetrahedra");
-  if (factors.size() != responses.channels.size() || loads.size() != factors.size())
-    throw std::invalid_argument("submodel_stress: one load and one factor for every channel");
-  if (node >= responses.nodes.n)
-    throw std::invalid_argument("submodel_stress: there is no node " + std::to_string(node));
-  const auto cells = cells_around(responses.nodes, node, control.n_layers);
-  const auto part = cut_out(responses, cells, factors);
-  GridField fine = part.coarse;
-  for (int cut = 0; cut < control.n_cuts; ++cut) fine = cut_into_eight(fine);
-  const auto held = held_groups(loads);
-  solve_inside(fine, material, held, body_forces(fine.grid, material, loads, factors));
-
-  const auto& grid = fine.grid;
-  RowMajor stress(Eigen::Index(grid.n_nodes), 6);
-  const PerCell<Lame> elastic = CellMaterials(material).elastic();
-  recover_stress(grid, cells_of_nodes(grid), {}, free_faces(grid, held), elastic,
-                 any_hardly_compresses(grid, elastic), fine.field, stress);
-
+  const Eigen::Map<const Eigen::VectorXd> one_case(factors.data(), Eigen::Index(factors.size()));
+  const auto solved = solve_submodel(responses, body, loads, point, one_case, control);
   SubmodelStress result;
-  result.n_dofs = 3 * grid.n_nodes;
-  const auto own =
-      std::int32_t(std::find(part.node.begin(), part.node.end(), std::int32_t(node)) - part.node.begin());
-  result.at_node_Pa = result.largest_Pa = von_mises(stress.row(own));
-  // Cells keep their order, and eight (or 64) new ones stand for each old one.
-  const std::size_t n_parts = grid.n_cells() / cells.size();
-  std::vector<char> is_near(cells.size(), 0);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const auto whole = responses.nodes.cell(cells[c]);
-    is_near[c] = char(std::find(whole.begin(), whole.end(), std::int32_t(node)) != whole.end() &&
-                      std::none_of(whole.begin(), whole.end(), [&](std::int32_t i) {
-                        return !left_out.empty() && left_out[std::size_t(i)] != 0;
-                      }));
-  }
-  for (const auto& face : grid.boundary) {
-    if (face.boundary_id == rim || is_near[std::size_t(face.cell) / n_parts] == 0) continue;
-    for (const int local : face_nodes(grid.shape(), face.face)) {
-      const auto i = grid.nodes_of(std::size_t(face.cell))[local];
-      result.largest_Pa = std::max(result.largest_Pa, von_mises(stress.row(i)));
-    }
-  }
+  result.n_dofs = 3 * solved.fine.n_nodes;
+  result.at_point_Pa = von_mises(at_point(solved, point));
+  result.largest_Pa = std::max(result.at_point_Pa, largest_beside(responses, solved, point, left_out));
   return result;
+}
+
+std::vector<std::array<double, 6>> submodel_unit_stress_Pa(const UnitResponses& responses, const Body& body,
+                                                           const std::vector<UnitLoad>& loads,
+                                                           const std::vector<WeightedNode>& point,
+                                                           const SubmodelControl& control) {
+  const auto n = Eigen::Index(responses.channels.size());
+  const auto sum = at_point(
+      solve_submodel(responses, body, loads, point, Eigen::MatrixXd::Identity(n, n), control), point);
+  std::vector<std::array<double, 6>> unit(responses.channels.size());
+  for (std::size_t k = 0; k < unit.size(); ++k)
+    for (std::size_t c = 0; c < 6; ++c) unit[k][c] = sum[Eigen::Index(6 * k + c)];
+  return unit;
 }
 
 }  // namespace fem

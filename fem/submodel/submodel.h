@@ -2,6 +2,7 @@
 /// of the whole body. What stress changes by shows what the mesh of the whole body costs at that place.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -13,31 +14,44 @@ namespace fem {
 
 /// How much of the body a submodel takes in.
 struct SubmodelControl {
-  int n_layers = 3;  ///< of cells around the node
+  int n_layers = 3;  ///< of cells around the nodes
   int n_cuts = 1;    ///< how often edges are halved: once makes eight cells of one
+};
+
+/// A node whose stress counts, and how much.
+struct WeightedNode {
+  std::size_t node = 0;  ///< index into the responses' nodes
+  double weight = 1;
 };
 
 /// Von Mises stress of a submodel at one instant.
 struct SubmodelStress {
-  double at_node_Pa = 0;  ///< at the node itself
-  double largest_Pa = 0;  ///< on the body's surface within the first layer; at_node_Pa if that is not surface
+  double at_point_Pa = 0;  ///< of the weighted sum of the nodes' stress
+  double largest_Pa = 0;  ///< on the body's surface in the cells that hold one of the nodes, and at the point
   std::size_t n_dofs = 0;
 };
 
-/// Of the sum of all channels times their factors. Surfaces that carry loads are held like the rim, body
-/// forces act; displacement at the rim is that of the whole body, so that what it is wrong by there stays.
-/// @param responses  of quadratic tetrahedra
-/// @param material   of the body
+/// Of the sum of all channels times their factors. Surfaces that carry loads, springs or clamps are held like
+/// the rim, body forces act. What the displacement of the whole body is wrong by at the rim stays.
+/// @param responses  of cells of degree 2
+/// @param body       of one material; its charts serve the recovery, its mesh is not read
 /// @param loads      one per channel
-/// @param node       index into responses.nodes
+/// @param point      one node, or several whose weighted sum counts
 /// @param factors    one per channel
 /// @param left_out   one per node, or empty: cells with such a node are not searched for the largest stress
-/// @throws std::invalid_argument if the cells are no tetrahedra, there is no such node, or numbers of loads
-///         and factors are not those of the channels
+/// @throws std::invalid_argument if the cells are of another degree, the body is of several materials, there
+///         is no such node, or numbers of loads and factors are not those of the channels
 /// @throws SolveFailed as the direct solver
-SubmodelStress submodel_stress(const UnitResponses& responses, const Material& material,
-                               const std::vector<UnitLoad>& loads, std::size_t node,
+SubmodelStress submodel_stress(const UnitResponses& responses, const Body& body,
+                               const std::vector<UnitLoad>& loads, const std::vector<WeightedNode>& point,
                                const std::vector<double>& factors, const std::vector<char>& left_out = {},
                                const SubmodelControl& control = {});
+
+/// Stress of every unit load, (xx, yy, zz, xy, yz, xz) [Pa], summed over the nodes of the point.
+/// @throws as submodel_stress
+std::vector<std::array<double, 6>> submodel_unit_stress_Pa(const UnitResponses& responses, const Body& body,
+                                                           const std::vector<UnitLoad>& loads,
+                                                           const std::vector<WeightedNode>& point,
+                                                           const SubmodelControl& control = {});
 
 }  // namespace fem

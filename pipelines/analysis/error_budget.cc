@@ -5,6 +5,7 @@
 #include <set>
 
 #include "fem/stress/cell_stress_at_node.h"
+#include "pipelines/analysis/submodels.h"
 #include "pipelines/analysis/tetrahedra_estimate.h"
 #include "pipelines/superposition/superposition.h"
 
@@ -141,6 +142,7 @@ void ErrorBudget::set_model(const ErrorEntry& entry) {
 
 std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& responses,
                                                   const StressPoint& point) {
+  if (point.resolved) return point.resolved->finest_Pa;
   const std::size_t n_channels = responses.channels.size();
   std::vector<std::array<double, 6>> unit(n_channels, std::array<double, 6>{});
   for (const auto& part : point.parts)
@@ -190,7 +192,9 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
     if (belongs[k]) without[Eigen::Index(k)] = 0;
   budget.numerical.push_back({"pressure_harmonics", "what the highest harmonic contributes",
                               std::abs(von_mises_of(unit, without) - value)});
-  if (responses.nodes.n_cells() > 0 && responses.nodes.shape().is_tetrahedron())
+  if (point.resolved)
+    budget.numerical.push_back(resolved_estimate(point, factors));
+  else if (responses.nodes.n_cells() > 0 && responses.nodes.shape().is_tetrahedron())
     budget.numerical.push_back(
         tetrahedra_estimate(point, responses, material, {factors.begin(), factors.end()}));
   else if (responses.nodes.n_cells() > 0 && !responses.energy_error.norm_sqrtJ.empty())

@@ -1,7 +1,9 @@
 /// The error budget of a headline stress: what each source may be wrong by, and how that was found out.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,11 @@ struct ErrorBudget {
   void set_model(const ErrorEntry& entry);
 };
 
+/// Unit stress of a point by submodels, per channel (submodels.h).
+struct ResolvedStress {
+  std::vector<std::array<double, 6>> finest_Pa, coarser_Pa, wider_Pa;
+};
+
 /// Where a headline stress comes from: the weighted sum of the stress at some nodes (one node for a peak, two
 /// for a stress extrapolated to a weld toe), at one instant.
 struct StressPoint {
@@ -61,7 +68,8 @@ struct StressPoint {
     double weight = 1;
   };
   std::vector<Part> parts;
-  std::int32_t instant = 0;  ///< column of ChannelHistory::values
+  std::int32_t instant = 0;                          ///< column of ChannelHistory::values
+  std::shared_ptr<const ResolvedStress> resolved{};  ///< in place of the nodes' stress, where there is one
 };
 
 /// Unit stress at the point, per channel (xx, yy, zz, xy, yz, xz) [Pa].
@@ -76,7 +84,7 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 ///   pressure_harmonics  what the highest harmonic of the seat pressures contributes
 ///   discretisation      the largest difference between the recovered stress and that of one cell, over the
 ///                       faces around the point, times discretisation_safety: a single cell may agree by
-///                       chance; of tetrahedra as tetrahedra_estimate.h
+///                       chance; of tetrahedra as tetrahedra_estimate.h, of resolved points as submodels.h
 ///   geometry            geometry_share
 ///   linear_solver       relative residual, or rounding if that is more
 /// Responses without cells (cheap models) get no discretisation entry here.

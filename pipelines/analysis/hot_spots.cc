@@ -24,18 +24,38 @@ std::size_t node_at(const fem::Nodes& nodes, const std::array<double, 3>& p, con
   return best;
 }
 
-/// Stress over the cycle at a node, 6 x n_instants.
-ArrayXXd course(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node) {
-  const auto n_channels = Eigen::Index(responses.channels.size());
-  const Eigen::Map<const Eigen::MatrixXd> unit(&responses.stress_Pa[node * std::size_t(n_channels) * 6], 6,
-                                               n_channels);
-  return (unit * loads.values.matrix()).array();
-}
-
 }  // namespace
 
 StressPoint stress_point(const HotSpotStress& spot) {
-  return {{{spot.near_node, near_weight}, {spot.far_node, far_weight}}, spot.instant};
+  return {{{spot.near_node, near_weight}, {spot.far_node, far_weight}}, spot.instant, spot.resolved};
+}
+
+void take_course(const meshes::HotSpot& drawing, const std::vector<std::array<double, 6>>& unit_Pa,
+                 const ChannelHistory& loads, HotSpotStress& spot) {
+  const Eigen::Map<const Eigen::MatrixXd> unit(unit_Pa.front().data(), 6, Eigen::Index(unit_Pa.size()));
+  const ArrayXXd stress = (unit * loads.values.matrix()).array();
+  Eigen::Vector3d across;
+  for (int d = 0; d < 3; ++d) across[d] = drawing.near_m[std::size_t(d)] - drawing.toe_m[std::size_t(d)];
+  across.normalize();
+  spot.von_mises_Pa = 0;
+  for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+    Stress s;
+    for (std::size_t c = 0; c < 6; ++c) s[c] = stress(Eigen::Index(c), i);
+    const auto& n = across;
+    const double normal = s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2] +
+                          2 * (s[3] * n[0] * n[1] + s[4] * n[1] * n[2] + s[5] * n[0] * n[2]);
+    spot.max_normal_Pa = i == 0 ? normal : std::max(spot.max_normal_Pa, normal);
+    spot.min_normal_Pa = i == 0 ? normal : std::min(spot.min_normal_Pa, normal);
+    if (const double v = von_mises_Pa(s); v > spot.von_mises_Pa) {
+      spot.von_mises_Pa = v;
+      spot.instant = std::int32_t(i);
+    }
+  }
+}
+
+void sort_by_stress(std::vector<HotSpotStress>& spots) {
+  std::stable_sort(spots.begin(), spots.end(),
+                   [](const auto& a, const auto& b) { return a.von_mises_Pa > b.von_mises_Pa; });
 }
 
 std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>& spots,
@@ -46,30 +66,12 @@ std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>&
     HotSpotStress result;
     result.near_node = node_at(responses.nodes, spot.near_m, spot);
     result.far_node = node_at(responses.nodes, spot.far_m, spot);
-    const ArrayXXd stress = near_weight * course(responses, loads, result.near_node) +
-                            far_weight * course(responses, loads, result.far_node);
-    Eigen::Vector3d across;
-    for (int d = 0; d < 3; ++d) across[d] = spot.near_m[std::size_t(d)] - spot.toe_m[std::size_t(d)];
-    across.normalize();
     result.name = spot.name;
     result.toe_m = spot.toe_m;
-    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
-      Stress s;
-      for (std::size_t c = 0; c < 6; ++c) s[c] = stress(Eigen::Index(c), i);
-      const auto& n = across;
-      const double normal = s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2] +
-                            2 * (s[3] * n[0] * n[1] + s[4] * n[1] * n[2] + s[5] * n[0] * n[2]);
-      result.max_normal_Pa = i == 0 ? normal : std::max(result.max_normal_Pa, normal);
-      result.min_normal_Pa = i == 0 ? normal : std::min(result.min_normal_Pa, normal);
-      if (const double v = von_mises_Pa(s); v > result.von_mises_Pa) {
-        result.von_mises_Pa = v;
-        result.instant = std::int32_t(i);
-      }
-    }
+    take_course(spot, unit_stress_at(responses, stress_point(result)), loads, result);
     results.push_back(result);
   }
-  std::stable_sort(results.begin(), results.end(),
-                   [](const auto& a, const auto& b) { return a.von_mises_Pa > b.von_mises_Pa; });
+  sort_by_stress(results);
   return results;
 }
 

@@ -3,6 +3,7 @@
 /// component (IIW, Recommendations for fatigue design of welded joints, type "a" toes, fine mesh).
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "fem/values/unit_responses.h"
@@ -16,10 +17,11 @@ namespace pipelines {
 struct HotSpotStress {
   std::string name;
   std::array<double, 3> toe_m{};
-  std::size_t near_node = 0, far_node = 0;  ///< at 0.4 and 1.0 plate thicknesses
-  double von_mises_Pa = 0;                  ///< largest over the cycle
-  std::int32_t instant = 0;                 ///< of that
-  double error_Pa = 0;                      ///< numerical part, estimated on this mesh alone
+  std::size_t near_node = 0, far_node = 0;         ///< at 0.4 and 1.0 plate thicknesses
+  double von_mises_Pa = 0;                         ///< largest over the cycle
+  std::int32_t instant = 0;                        ///< of that
+  double error_Pa = 0;                             ///< numerical part, estimated on this mesh alone
+  std::shared_ptr<const ResolvedStress> resolved;  ///< of the extrapolation, where a submodel was solved
   double max_normal_Pa = 0,
          min_normal_Pa = 0;  ///< across the toe, over the cycle: their range is what fatigue counts
 };
@@ -32,5 +34,12 @@ StressPoint stress_point(const HotSpotStress& spot);
 std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>& spots,
                                              const fem::UnitResponses& responses,
                                              const ChannelHistory& loads);
+
+/// Takes the largest stress, its instant and the range across the toe from the extrapolated unit stress.
+void take_course(const meshes::HotSpot& drawing, const std::vector<std::array<double, 6>>& unit_Pa,
+                 const ChannelHistory& loads, HotSpotStress& spot);
+
+/// Descending; equal ones keep their order.
+void sort_by_stress(std::vector<HotSpotStress>& spots);
 
 }  // namespace pipelines

@@ -6,7 +6,7 @@
 
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/analysis/tetrahedra_estimate.h"
+#include "pipelines/analysis/submodels.h"
 
 namespace pipelines {
 namespace {
@@ -31,10 +31,12 @@ void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, std::vector<
   const auto& responses = analysis.responses;
   if (responses.nodes.n_cells() == 0 || !responses.nodes.shape().is_tetrahedron()) return;
   for (auto& place : places)
-    if (place.value_Pa + place.error_Pa >= largest_Pa)
-      place.error_Pa =
-          submodel_error_Pa({{{place.node, 1.0}}, analysis.envelope.von_mises.instant[place.node]}, responses,
-                            analysis.scene.material, analysis.loads, analysis.places.excluded);
+    if (place.value_Pa + place.error_Pa >= largest_Pa) {
+      place.is_resolved = true;
+      place.error_Pa = submodel_error_Pa(
+          {{{place.node, 1.0}}, analysis.envelope.von_mises.instant[place.node]}, responses,
+          to_fem_body(analysis.mesh, analysis.scene.material), analysis.loads, analysis.places.excluded);
+    }
 }
 
 /// Cells on the quarter of a fillet; 0 for other places.
@@ -46,9 +48,12 @@ int cells_on(const BodyScene& body, const std::string& feature) {
 
 std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
   std::vector<PlaceStress> places;
-  for (const auto& spot : analysis.hot_spots)
+  for (const auto& spot : analysis.hot_spots) {
+    const double own_Pa = own_error_Pa(analysis, stress_point(spot));
     places.push_back({spot.name, spot.near_node, spot.von_mises_Pa,
-                      own_error_Pa(analysis, stress_point(spot)), spot.toe_m});
+                      spot.resolved ? own_Pa : std::min(own_Pa, largest_error_of_toes * spot.von_mises_Pa),
+                      spot.toe_m, spot.resolved != nullptr});
+  }
   return places;
 }
 

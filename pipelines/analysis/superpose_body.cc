@@ -5,6 +5,7 @@
 
 #include "pipelines/analysis/load_patch.h"
 #include "pipelines/analysis/respond.h"
+#include "pipelines/analysis/submodels.h"
 #include "pipelines/superposition/finite_stress.h"
 
 namespace pipelines {
@@ -47,6 +48,12 @@ void estimate_errors(BodyAnalysis& analysis) {
   }
 }
 
+/// Whether cells of the body were solved that submodels can cut: cheap models have none.
+bool has_cells(const fem::UnitResponses& responses) {
+  return responses.nodes.n_cells() > 0 && responses.nodes.degree == 2 &&
+         !responses.energy_error.norm_sqrtJ.empty();
+}
+
 double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
   return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
 }
@@ -84,8 +91,13 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                                 zone_level(scene.zones, analysis.peak.value_Pa, body.yield_strength_Pa),
                                 body.yield_strength_Pa);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
-    estimate_errors(analysis);
   });
+  if (!analysis.hot_spots.empty() && has_cells(analysis.responses))
+    clock.run("submodels", [&] {
+      resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
+                        analysis.hot_spots);
+    });
+  clock.run("zones", [&] { estimate_errors(analysis); });
   clock.run("superpose", [&] { add_load_patch_error(analysis); });
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "fem/stress/tetrahedra_error.h"
-#include "fem/submodel/submodel.h"
 
 namespace pipelines {
 
@@ -19,22 +18,6 @@ ErrorEntry tetrahedra_estimate(const StressPoint& point, const fem::UnitResponse
               std::max(tetrahedra_factor * std::pow(d, tetrahedra_exponent - 1), tetrahedra_least_share);
   }
   return {"discretisation", tetrahedra_method, sum_Pa, 1};
-}
-
-double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& responses,
-                         const fem::Material& material, const BodyLoads& loads,
-                         const std::vector<char>& left_out) {
-  const Eigen::ArrayXd column = loads.history.values.col(point.instant);
-  const std::vector<double> factors(column.begin(), column.end());
-  const std::size_t node = point.parts.at(0).node;
-  const double value_Pa = von_mises_of(unit_stress_at(responses, point), column);
-  const auto largest_Pa = [&](int n_layers, int n_cuts) {
-    return fem::submodel_stress(responses, material, loads.unit_loads, node, factors, left_out,
-                                {n_layers, n_cuts})
-        .largest_Pa;
-  };
-  const double coarse_Pa = largest_Pa(2, 1), fine_Pa = largest_Pa(2, 2), wide_Pa = largest_Pa(3, 1);
-  return 1.5 * std::abs(fine_Pa - value_Pa) + std::abs(fine_Pa - coarse_Pa) + std::abs(wide_Pa - coarse_Pa);
 }
 
 }  // namespace pipelines

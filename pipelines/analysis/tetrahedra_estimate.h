@@ -25,19 +25,4 @@ inline constexpr const char* tetrahedra_method =
 ErrorEntry tetrahedra_estimate(const StressPoint& point, const fem::UnitResponses& responses,
                                const fem::Material& material, const std::vector<double>& factors);
 
-/// Submodels at one node (fem/submodel/submodel.h): two layers of cells cut once and twice, and three layers
-/// cut once. What the largest stress within the first layer changes by is what the mesh of the whole body is
-/// wrong by there, up to what the finest cells still change (second term) and what the rim holds wrong (third
-/// one; S: layers, cuts):
-///   error = 3/2 |S22 - s| + |S22 - S21| + |S31 - S21|
-/// 3/2: cells a quarter as large find two thirds of what is missing at order 0.8 and more. On five shafts, 8
-/// to 20 cells around a circle, S22 was 0 to 5 % off, from 10 cells on 0 to 1 % (tests/README.md).
-/// @param left_out  one per node, or empty: nodes kept out of the peak
-double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& responses,
-                         const fem::Material& material, const BodyLoads& loads,
-                         const std::vector<char>& left_out);
-
-inline constexpr const char* submodel_method =
-    "change of the stress in submodels around, cells cut into 8 and 64";
-
 }  // namespace pipelines

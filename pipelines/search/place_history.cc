@@ -90,7 +90,7 @@ double PlaceHistory::missing_Pa(const Record& record) {
 double PlaceHistory::from_changes(const Record& record) const {
   const bool all_varied = std::all_of(parts_.begin(), parts_.end(),
                                       [&](MeshPart part) { return record.missing_Pa.count(part) > 0; });
-  const double kept = !all_varied                             ? 1
+  const double kept = !all_varied || record.now.is_resolved   ? 1
                       : record.n_changes > int(parts_.size()) ? kept_share_.after_more
                                                               : kept_share_.after_one;
   return std::max(missing_Pa(record), kept * record.now.error_Pa);

@@ -15,7 +15,7 @@
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/superpose_body.h"
-#include "pipelines/analysis/tetrahedra_estimate.h"
+#include "pipelines/analysis/submodels.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"

@@ -8,7 +8,7 @@
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/operators/nodes_export.h"
-#include "fem/submodel/cut_tetrahedra.h"
+#include "fem/submodel/cut_cells.h"
 #include "fem/submodel/submodel.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 
@@ -25,6 +25,12 @@ const auto bent = [](const Point& x) {
   return Point(x[0] + 0.05 * std::sin(3 * x[1]), x[1] + 0.05 * std::sin(2 * x[2] + x[0]),
                x[2] + 0.04 * x[0] * x[1]);
 };
+
+fem::Body of_steel() {
+  fem::Body body;
+  body.material = submodel_steel;
+  return body;
+}
 
 /// A body that moves by u, under one load.
 fem::UnitResponses responses_of(const fem::Grid& grid, const Displacement& u) {
@@ -110,12 +116,12 @@ TEST(Submodel, BodyForcesAct) {
   });
   const auto node = node_at(grid, {0, 0.4, 0.4});
   const double known_Pa = submodel_steel.density_kg_m3 * g_m_s2 * 0.4;
-  const auto found = fem::submodel_stress(responses, submodel_steel, {weight}, node, {-g_m_s2}, {}, {2, 1});
-  EXPECT_NEAR(found.at_node_Pa, known_Pa, 1e-9 * known_Pa);
+  const auto found = fem::submodel_stress(responses, of_steel(), {weight}, {{node}}, {-g_m_s2}, {}, {2, 1});
+  EXPECT_NEAR(found.at_point_Pa, known_Pa, 1e-9 * known_Pa);
   EXPECT_NEAR(found.largest_Pa, known_Pa / 0.4 * 0.6, 1e-9 * known_Pa);  // one cell of 0.2 higher
   const auto weightless =
-      fem::submodel_stress(responses, submodel_steel, {load_on(nowhere)}, node, {-g_m_s2}, {}, {2, 1});
-  EXPECT_GT(std::abs(weightless.at_node_Pa - known_Pa), 0.01 * known_Pa);
+      fem::submodel_stress(responses, of_steel(), {load_on(nowhere)}, {{node}}, {-g_m_s2}, {}, {2, 1});
+  EXPECT_GT(std::abs(weightless.at_point_Pa - known_Pa), 0.01 * known_Pa);
 }
 
 // Stress is the same everywhere, and does not vanish on the face x = 0: that is held, as loaded ones are.
@@ -127,8 +133,8 @@ TEST(Submodel, LoadedFacesAreHeld) {
   const auto node = node_at(grid, {0.05 * std::sin(1.2), 0.4, 0.4});
   const double known_Pa = 200e9 * 2e-4;  // uniaxial: the lateral strain is nu times the axial one
   const auto stress_Pa = [&](int loaded) {
-    return fem::submodel_stress(responses, submodel_steel, {load_on(loaded)}, node, {1}, {}, {2, 1})
-        .at_node_Pa;
+    return fem::submodel_stress(responses, of_steel(), {load_on(loaded)}, {{node}}, {1}, {}, {2, 1})
+        .at_point_Pa;
   };
   EXPECT_NEAR(stress_Pa(1), known_Pa, 1e-8 * known_Pa);
   EXPECT_GT(std::abs(stress_Pa(nowhere) - known_Pa), 0.05 * known_Pa);
@@ -148,8 +154,8 @@ TEST(Submodel, FinerCellsComeNearerToTheTruth) {
   const double known_Pa = std::sqrt(3.0) * 2 * 200e9 / 2.6 * 6e-6 * std::exp(6 * x[0]);
   const auto off_Pa = [&](int n_layers, int n_cuts) {
     return std::abs(
-        fem::submodel_stress(responses, submodel_steel, {load_on(nowhere)}, node, {1}, {}, {n_layers, n_cuts})
-            .at_node_Pa -
+        fem::submodel_stress(responses, of_steel(), {load_on(nowhere)}, {{node}}, {1}, {}, {n_layers, n_cuts})
+            .at_point_Pa -
         known_Pa);
   };
   const double coarse_Pa = off_Pa(2, 0), once_Pa = off_Pa(2, 1), twice_Pa = off_Pa(2, 2);
@@ -166,12 +172,12 @@ TEST(Submodel, CellsWithNodesLeftOutAreNotSearched) {
   });
   const auto node = node_at(grid, {0.5, 0, 0.5});
   const auto free =
-      fem::submodel_stress(responses, submodel_steel, {load_on(nowhere)}, node, {1}, {}, {2, 1});
-  EXPECT_NEAR(free.at_node_Pa, 200e9 * 1e-3 * 0.5, 1e3);
+      fem::submodel_stress(responses, of_steel(), {load_on(nowhere)}, {{node}}, {1}, {}, {2, 1});
+  EXPECT_NEAR(free.at_point_Pa, 200e9 * 1e-3 * 0.5, 1e3);
   EXPECT_NEAR(free.largest_Pa, 200e9 * 1e-3 * 2 / 3, 1e3);
   std::vector<char> left_out(grid.n_nodes, 0);
   for (std::size_t i = 0; i < grid.n_nodes; ++i) left_out[i] = char(grid.position(std::int32_t(i))[0] > 0.6);
-  EXPECT_NEAR(fem::submodel_stress(responses, submodel_steel, {load_on(nowhere)}, node, {1}, left_out, {2, 1})
+  EXPECT_NEAR(fem::submodel_stress(responses, of_steel(), {load_on(nowhere)}, {{node}}, {1}, left_out, {2, 1})
                   .largest_Pa,
               200e9 * 1e-3 * 0.5, 1e3);
 }
@@ -179,12 +185,12 @@ TEST(Submodel, CellsWithNodesLeftOutAreNotSearched) {
 TEST(Submodel, RefusesWhatIsNoneOfItsBusiness) {
   const auto grid = fem_tests::tetrahedra_cube(2, not_bent);
   auto responses = responses_of(grid, [](const Point& x) { return x; });
-  EXPECT_THROW(fem::submodel_stress(responses, submodel_steel, {weight}, 0, {1, 2}), std::invalid_argument);
-  EXPECT_THROW(fem::submodel_stress(responses, submodel_steel, {}, 0, {1}), std::invalid_argument);
-  EXPECT_THROW(fem::submodel_stress(responses, submodel_steel, {weight}, grid.n_nodes + 5, {1}),
+  EXPECT_THROW(fem::submodel_stress(responses, of_steel(), {weight}, {{0}}, {1, 2}), std::invalid_argument);
+  EXPECT_THROW(fem::submodel_stress(responses, of_steel(), {}, {{0}}, {1}), std::invalid_argument);
+  EXPECT_THROW(fem::submodel_stress(responses, of_steel(), {weight}, {{grid.n_nodes + 5}}, {1}),
                std::invalid_argument);
-  responses.nodes.kind = fem::CellKind::hexahedra;
-  EXPECT_THROW(fem::submodel_stress(responses, submodel_steel, {weight}, 0, {1}), std::invalid_argument);
+  responses.nodes.degree = 3;
+  EXPECT_THROW(fem::submodel_stress(responses, of_steel(), {weight}, {{0}}, {1}), std::invalid_argument);
 }
 
 }  // namespace
