@@ -14,6 +14,7 @@
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
 namespace {
@@ -28,7 +29,7 @@ void refuse_what_has_no_equal(const Scene& scene) {
                        ": has no body, and only bodies have a mesh to write; add one, as [shaft], to "
                        "the scene, or take `loads --calculix`");
   for (const auto& body : scene.bodies)
-    if (body.elastic_feet)
+    if (kind_of(body).has_elastic_feet(body))
       throw StageRefused(body.origin +
                          ": elastic_feet = true: the model for CalculiX is that of a free body; set it "
                          "to false for this command");

@@ -2,11 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/finite_loads.h"
-#include "pipelines/loads/open_loads.h"
+#include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
 namespace {
@@ -99,17 +97,16 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
                              loaded_body(scene.bodies[i], result.meshed[i]), result.masses);
     }));
   for (std::size_t i = 0; i < result.meshed.size(); ++i)
-    require_supports(scene.bodies[i], result.body_loads[i], result.meshed[i].regions);
+    kind_of(scene.bodies[i])
+        .require_supports(scene.bodies[i], result.body_loads[i], result.meshed[i].regions);
   require_equilibrium(scene, result.meshed, result.masses, result.body_loads);
   for (std::size_t i = 0; i < result.meshed.size(); ++i) {
     const auto& body = scene.bodies[i];
     const auto& loads = result.body_loads[i];
     require_finite(loads);
     warn_of_guide(result.loads, loads);
-    if (body.role == BodyRole::train_shaft &&
-        std::none_of(body.train.forces.begin(), body.train.forces.end(),
-                     [&](const auto& force) { return scene.has_effect(force.effect); }))
-      result.loads.warnings.push_back("a drive train gives torsion only: bending is not modelled");
+    for (auto& warning : kind_of(body).warnings(scene, body))
+      result.loads.warnings.push_back(std::move(warning));
     add_shaft_quantities(result.loads, loads);
   }
   result.bearings = bearing_lives(scene.bearings, result.loads, result.channels());

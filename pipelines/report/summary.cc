@@ -5,6 +5,7 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/bodies/chamber.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/common/version.h"
 #include "pipelines/report/summary_values.h"
@@ -19,7 +20,7 @@ using namespace summary;
 Json carried_json(const BodyLoads& loads) {
   if (loads.carried_moment_Nm.size() == 0) return 0.0;
   const double most = loads.carried_moment_Nm.abs().maxCoeff();
-  return object({{"effect", "pitch_guide"},
+  return object({{"effect", pitch_guide},
                  {"max_Nm", number(most)},
                  {"rms_Nm", number(std::sqrt(loads.carried_moment_Nm.square().mean()))},
                  {"share", number_or_none(most / loads.carried_moment_scale_Nm)}});

@@ -13,13 +13,7 @@ namespace pipelines {
 
 struct Scene;
 
-/// What every body of that role adds, under fixed names: its own mass, whose size comes from its mesh.
-const std::vector<kinetics::EffectInfo>& own_effect_table(BodyRole role);
-
-/// The forces that the scene puts on a shaft of a drive train, each effect once.
-std::vector<kinetics::EffectInfo> force_effect_table(const TrainShaftOptions& shaft);
-
-/// All that a body adds.
+/// All that a body adds: what its kind does, then the forces that the scene puts on it, each effect once.
 std::vector<kinetics::EffectInfo> body_effect_table(const BodyScene& body);
 
 /// Every effect that a machine and its bodies know, each with what it needs there. A machine's effect may

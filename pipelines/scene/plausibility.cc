@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+
+#include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
 namespace {
@@ -68,30 +69,9 @@ struct MachineDoubts {
   void operator()(const kinetics::LoadTable& table) const { doubts.speed("machine", table.speed_rad_s); }
 };
 
-/// Of the shaft against what it runs in; empty where that stands still beside it.
-std::optional<double> speed_of(const Scene& scene, const BodyScene& body) {
-  switch (body.role) {
-    case BodyRole::vibratory_shaft:
-      return scene.vibratory_mill().speed_rad_s;
-    case BodyRole::drum: {
-      const auto& mill = std::get<kinetics::PlanetaryMill>(scene.machine);
-      return mill.speed_rad_s * kinetics::planetary_geometry(mill).relative_speed_ratio;
-    }
-    case BodyRole::train_shaft:
-      return kinetics::mean_speed_rad_s(std::get<kinetics::DriveTrain>(scene.machine), body.train.inertia);
-    case BodyRole::table_body:
-      if (body.name != "shaft") return std::nullopt;
-      return std::get<kinetics::LoadTable>(scene.machine).speed_rad_s;
-    case BodyRole::chamber:
-    case BodyRole::stub_axle:
-      return std::nullopt;
-  }
-  return std::nullopt;
-}
-
 /// The fastest seat of a shaft.
 void doubt_seats(const Scene& scene, const BodyScene& body, Doubts& doubts) {
-  const auto speed_rad_s = speed_of(scene, body);
+  const auto speed_rad_s = kind_of(body).seat_speed_rad_s(scene, body);
   if (!speed_rad_s || body.shaft() == nullptr) return;
   const meshes::ShaftSegment* fastest = nullptr;
   for (const auto& segment : body.shaft()->geometry.segments)

@@ -11,6 +11,7 @@
 #include "pipelines/common/units.h"
 #include "pipelines/files/toml_tree.h"
 #include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene.h"
 #include "pipelines/scene/scene_body.h"
@@ -77,21 +78,25 @@ void refuse_open_balance(SceneTable& machine, const kinetics::VibratoryMill& mil
                      "the load stage alone");
 }
 
-/// Tables of bodies that a machine has, and what they are there.
-using BodyTables = std::vector<std::pair<std::string, BodyRole>>;
+/// Tables of bodies, and what they are there.
+using BodyTables = std::vector<std::pair<std::string, const BodyKind*>>;
 
-const BodyTables all_bodies{{"shaft", BodyRole::vibratory_shaft},
-                            {"chamber", BodyRole::chamber},
-                            {"drum", BodyRole::drum},
-                            {"axle", BodyRole::stub_axle},
-                            {"part", BodyRole::table_body}};
+/// Of all machines; a name that several kinds have once.
+BodyTables all_bodies() {
+  BodyTables all;
+  for (const auto* kind : body_kinds())
+    for (const auto& name : kind->tables())
+      if (std::none_of(all.begin(), all.end(), [&](const auto& known) { return known.first == name; }))
+        all.emplace_back(name, kind);
+  return all;
+}
 
 BodyTables bodies_of(const std::string& machine_type) {
-  if (machine_type == "vibratory_mill")
-    return {{"shaft", BodyRole::vibratory_shaft}, {"chamber", BodyRole::chamber}};
-  if (machine_type == "planetary_mill") return {{"drum", BodyRole::drum}, {"axle", BodyRole::stub_axle}};
-  if (machine_type == "drive_train") return {{"shaft", BodyRole::train_shaft}};
-  return {{"shaft", BodyRole::table_body}, {"part", BodyRole::table_body}};
+  BodyTables own;
+  for (const auto* kind : body_kinds())
+    if (kind->machine_type() == machine_type)
+      for (const auto& name : kind->tables()) own.emplace_back(name, kind);
+  return own;
 }
 
 /// Tables of the scene's bodies, in the order of bodies_of; those of other machines are refused.
@@ -99,13 +104,13 @@ std::vector<SceneTable> read_bodies(SceneTable& root, const std::string& machine
                                     SceneFindings& findings) {
   std::vector<SceneTable> tables;
   const BodyTables own = bodies_of(machine_type);
-  for (const auto& [name, role] : own) {
+  for (const auto& [name, kind] : own) {
     root.know(name);
     if (!root.has(name)) continue;
     tables.push_back(root.table(name));
-    scene.bodies.push_back(read_body(tables.back(), role, scene, findings));
+    scene.bodies.push_back(read_body(tables.back(), *kind, scene, findings));
   }
-  for (const auto& [name, role] : all_bodies) {
+  for (const auto& [name, kind] : all_bodies()) {
     if (std::any_of(own.begin(), own.end(), [n = name](const auto& b) { return b.first == n; })) continue;
     if (!root.has(name)) continue;
     std::vector<std::string> names;
@@ -120,7 +125,8 @@ std::vector<SceneTable> read_bodies(SceneTable& root, const std::string& machine
 
 void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   const auto convention = read_convention(machine);
-  EffectRules rules = vibratory_mill_rules(convention, root.has("shaft"));
+  EffectRules rules = vibratory_mill_rules(convention);
+  add_own_effects(rules, "vibratory_mill", root);
   if (!machine.has("charge") || !machine.table("charge").has("lag")) rules.lacking = {"charge_lag"};
   if (!machine.has("springs"))
     for (const char* effect : {"springs", "spring_damping"}) rules.lacking.push_back(effect);
@@ -138,8 +144,7 @@ void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& sce
 void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
   const auto convention = read_planetary_convention(machine);
   EffectRules rules = planetary_mill_rules(convention);
-  add_own_effects(rules, BodyRole::drum, root.has("drum"), "[drum]");
-  add_own_effects(rules, BodyRole::stub_axle, root.has("axle"), "[axle]");
+  add_own_effects(rules, "planetary_mill", root);
   for (const auto& effect : rules.table)
     if ((effect.name == "belt" && !machine.has("belt")) ||
         (effect.name.rfind("charge_", 0) == 0 && !machine.has("charge")))
@@ -160,8 +165,8 @@ void check_from_mesh(SceneTable& machine, const Scene& scene) {
     const std::string name = entry.text("name");
     if (shaft == nullptr)
       entry.refuse("from_mesh", "needs a [shaft] whose mesh gives the inertia; add it, or the inertia");
-    else if (name != shaft->train.inertia)
-      entry.refuse("from_mesh", "the mesh is that of [shaft], which is \"" + shaft->train.inertia +
+    else if (const auto& own = std::get<TrainShaftOptions>(shaft->options).inertia; name != own)
+      entry.refuse("from_mesh", "the mesh is that of [shaft], which is \"" + own +
                                     "\" in the train; give the inertia of \"" + name + "\"");
   }
 }
@@ -175,7 +180,7 @@ void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene,
   if (!findings.errors.empty()) return;
   try {
     EffectRules rules{effect_table(train, scene.bodies)};
-    add_own_effects(rules, BodyRole::train_shaft, root.has("shaft"), "[shaft]");
+    add_own_effects(rules, "drive_train", root);
     read_effects(root, rules, scene, findings);
   } catch (const kinetics::MachineRefused& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
@@ -225,7 +230,7 @@ Scene read_scene(const std::filesystem::path& file) {
     for (const char* key :
          {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit", "method"})
       root.know(key);
-    for (const auto& body : all_bodies) root.know(body.first);
+    for (const auto& body : all_bodies()) root.know(body.first);
     root.finish();  // there may be no [machine] at all
     throw_sorted(findings.errors);
   }

@@ -8,8 +8,8 @@
 #include "meshes/values/refused.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
+#include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/known_forces.h"
-#include "pipelines/scene/scene_body.h"
 #include "pipelines/scene/scene_stages.h"
 
 namespace pipelines {
@@ -41,9 +41,8 @@ int rehearsal_turns(const Scene& scene) {
 void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, SceneTable& root) {
   std::vector<std::string> of_bodies;
   for (const auto& body : scene.bodies) {
-    const auto ports = force_ports(body);
-    of_bodies.insert(of_bodies.end(), ports.begin(), ports.end());
-    if (body.role == BodyRole::vibratory_shaft) of_bodies.push_back("R_E_shaft");
+    const auto own = kind_of(body).bearing_loads(body);
+    of_bodies.insert(of_bodies.end(), own.begin(), own.end());
   }
   if (scene.drum_axes) of_bodies.push_back("trunnions_turning");
   for (const auto& bearing : scene.bearings)
