@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 
 #include <ostream>
-#include <variant>
 #include <vector>
 
 #include "fem/loads/nodal_loads.h"
@@ -15,6 +14,7 @@
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/scene/body_kind.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -47,7 +47,7 @@ void calculix(const CalculixCommandOptions& options, std::ostream& out) {
   const auto masses = agree_masses(scene, meshed);
   // Unit loads do not depend on the instants; one turn tells which there are.
   auto coarse = scene;
-  if (!std::holds_alternative<kinetics::LoadTable>(scene.machine)) coarse.sampling.turns = 1;
+  if (!kind_of(scene.machine).has_samples()) coarse.sampling.turns = 1;
   const auto history = clock.run("loads", [&] { return load_stage(coarse, masses.machine); });
   std::vector<BodyLoads> loads;
   for (std::size_t i = 0; i < meshed.size(); ++i)

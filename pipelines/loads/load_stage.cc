@@ -5,19 +5,9 @@
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/finite_loads.h"
 #include "pipelines/scene/body_kind.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
-namespace {
-
-/// What a trunnion that turns with the drum feels: constant loads of the carrier's frame reverse fully.
-void add_turning_trunnions(kinetics::LoadHistory& loads) {
-  auto turning = kinetics::turned_with_drum(loads, loads.resultant("trunnions"));
-  turning.role = "trunnions_turning";
-  turning.description = "the same load in axes that turn with the drum";
-  loads.resultants.push_back(std::move(turning));
-}
-
-}  // namespace
 
 LoadedScene::LoadedScene() = default;
 LoadedScene::LoadedScene(const LoadedScene&) = default;
@@ -27,10 +17,7 @@ LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
 LoadedScene::~LoadedScene() = default;
 
 kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
-  auto loads = scene.run_up
-                   ? kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up)
-                   : compute_loads(machine, scene.kinetics_effects(), scene.sampling);
-  if (scene.drum_axes && !scene.run_up) add_turning_trunnions(loads);
+  auto loads = kind_of(machine).loads(scene, machine);
   require_finite(loads);
   return loads;
 }
@@ -60,8 +47,7 @@ void warn_of_guide(kinetics::LoadHistory& loads, const BodyLoads& body) {
 }  // namespace
 
 std::vector<kinetics::Spring> springs_of(const Scene& scene) {
-  const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
-  return mill ? mill->springs : std::vector<kinetics::Spring>{};
+  return kind_of(scene.machine).springs(scene.machine);
 }
 
 std::vector<MeshedBody> mesh_bodies(const Scene& scene,

@@ -10,6 +10,7 @@
 #include "pipelines/common/version.h"
 #include "pipelines/report/summary_values.h"
 #include "pipelines/responses/response_key.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -79,9 +80,9 @@ std::string summary_json(const RunReport& report) {
                                            {"rms", number(s.rms)},
                                            {"unit", quantity.unit}});
   }
-  if (const auto* train = std::get_if<kinetics::DriveTrain>(&report.scene.machine))
-    for (const double w : kinetics::natural_modes(*train, kinetics::Shapes::none).frequency_rad_s)
-      json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
+  const Machine& machine = report.scene.machine;
+  for (const double w : kind_of(machine).natural_frequencies_rad_s(machine))
+    json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
   for (const auto& analysis : report.bodies) {
     json["bodies"][analysis.scene.name] = body_json(report, analysis);
     const Closure& closure = analysis.closure;

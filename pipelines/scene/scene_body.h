@@ -50,4 +50,9 @@ meshes::SolidControl read_solid_control(SceneTable mesh);
 /// @param scene  with its machine read
 BodyScene read_body(SceneTable& body, const BodyKind& kind, const Scene& scene, SceneFindings& findings);
 
+/// Reads the tables of all bodies that the scene's machine may have into scene.bodies; refuses those of other
+/// machines.
+/// @return the tables of scene.bodies
+std::vector<SceneTable> read_bodies(SceneTable& root, Scene& scene, SceneFindings& findings);
+
 }  // namespace pipelines

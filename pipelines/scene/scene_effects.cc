@@ -7,7 +7,6 @@
 #include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
-namespace {
 
 std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table) {
   std::vector<std::string> names;
@@ -15,6 +14,8 @@ std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table
     if (!contains(names, effect.name)) names.push_back(effect.name);
   return names;
 }
+
+namespace {
 
 const EffectRefusal* find_refusal(const EffectRules& rules, const std::string& effect) {
   const auto refusal = std::find_if(rules.refused.begin(), rules.refused.end(),
@@ -54,31 +55,6 @@ void read_word(SceneTable& root, const EffectRules& rules, Scene& scene) {
 }
 
 }  // namespace
-
-EffectRules vibratory_mill_rules(kinetics::Convention convention) {
-  using kinetics::Convention;
-  const bool is_published = convention == Convention::published;
-  EffectRules rules{kinetics::vibratory_mill_effects(convention)};
-  const Convention other = is_published ? Convention::consistent : Convention::published;
-  for (const auto& name : names_of(kinetics::vibratory_mill_effects(other)))
-    if (!contains(names_of(rules.table), name))
-      rules.refused.push_back({name, "unknown under convention \"" +
-                                         std::string(is_published ? "published" : "consistent") +
-                                         "\", only under the other one; remove it, or change "
-                                         "machine.convention"});
-  return rules;
-}
-
-EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention) {
-  const bool is_consistent = convention == kinetics::PlanetaryConvention::consistent;
-  EffectRules rules{kinetics::planetary_mill_effects(convention)};
-  rules.refused.push_back(
-      {is_consistent ? "charge_relative" : "charge_offset",
-       is_consistent ? "is called \"charge_offset\" under the convention \"consistent\", where it is the "
-                       "transport inertia of the centroid; write that"
-                     : "is called \"charge_relative\" under the paper's conventions; write that"});
-  return rules;
-}
 
 void add_own_effects(EffectRules& rules, const std::string& machine_type, const SceneTable& root) {
   for (const auto* kind : body_kinds()) {

@@ -23,12 +23,8 @@ struct EffectRules {
   std::vector<std::string> lacking{};
 };
 
-/// Effects of kinetics under the convention; what is known under the other one only is refused with that
-/// reason.
-EffectRules vibratory_mill_rules(kinetics::Convention convention);
-
-/// The one effect that has two names under the planetary mill's conventions is refused under the wrong one.
-EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention);
+/// Each name once.
+std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table);
 
 /// Adds the effects that the bodies of a machine bring; those of a body that the scene lacks are refused,
 /// naming its table.

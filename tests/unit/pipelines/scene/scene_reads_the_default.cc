@@ -10,8 +10,8 @@
 #include <iterator>
 #include <string>
 
+#include "pipelines/machines/vibratory_mill_reader.h"
 #include "pipelines/scene/scene.h"
-#include "pipelines/scene/scene_machine.h"
 #include "tests/unit/pipelines/examples/edited_scene.h"
 
 namespace {
