@@ -20,6 +20,10 @@ std::vector<kinetics::EffectInfo> BodyKind::own_effects() const {
   return {};
 }
 
+std::vector<kinetics::EffectInfo> BodyKind::effects(const BodyScene&) const {
+  return own_effects();
+}
+
 std::vector<GivenForce> BodyKind::given_forces(const BodyScene&) const {
   return {};
 }
@@ -48,9 +52,7 @@ std::string BodyKind::missing_support(const BodyScene&, const Closure&) const {
   return {};
 }
 
-std::vector<std::string> BodyKind::warnings(const Scene&, const BodyScene&) const {
-  return {};
-}
+void BodyKind::report(const Scene&, const BodyScene&, const BodyLoads&, kinetics::LoadHistory&) const {}
 
 bool BodyKind::has_elastic_feet(const BodyScene&) const {
   return false;

@@ -1,5 +1,7 @@
 #include "pipelines/bodies/chamber.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "pipelines/common/errors.h"
@@ -199,6 +201,16 @@ public:
     return distribute_chamber(history, std::get<kinetics::VibratoryMill>(masses.machine), loaded,
                               {scene.effects, attached.structure, attached.exciter,
                                std::get<ChamberOptions>(body.options).pitch_guide});
+  }
+  /// A couple that no machine part carries is worth a word once it matters.
+  void report(const Scene&, const BodyScene& body, const BodyLoads& loads,
+              kinetics::LoadHistory& history) const override {
+    if (loads.carried_moment_Nm.size() == 0) return;
+    const double most = loads.carried_moment_Nm.abs().maxCoeff();
+    if (most > 0.01 * loads.carried_moment_scale_Nm)
+      history.warnings.push_back(fmt::format(
+          "pitch is off: {} stresses contain a guide couple of {:.4g} N m, {:.2g} % of the moments on it",
+          body.name, most, 100 * most / loads.carried_moment_scale_Nm));
   }
   bool has_elastic_feet(const BodyScene& body) const override {
     return std::get<ChamberOptions>(body.options).elastic_feet;

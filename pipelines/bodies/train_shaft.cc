@@ -143,6 +143,15 @@ public:
   std::vector<kinetics::EffectInfo> own_effects() const override {
     return {{inertia_effect, "Angular inertia of the shaft itself, -J phi'', from its mesh.", "coupling 6"}};
   }
+  /// Its own, then the forces that the scene puts on it, each effect once.
+  std::vector<kinetics::EffectInfo> effects(const BodyScene& body) const override {
+    auto table = own_effects();
+    for (const auto& force : train_options(body).forces)
+      if (std::none_of(table.begin() + 1, table.end(),
+                       [&](const auto& info) { return info.name == force.effect; }))
+        table.push_back({force.effect, "Force on the shaft beside the train's torques.", "the user's"});
+    return table;
+  }
   std::vector<GivenForce> given_forces(const BodyScene& body) const override {
     return train_options(body).forces;
   }
@@ -194,12 +203,12 @@ public:
     return distribute_train_shaft(history, kinetics::mean_speed_rad_s(train, options.inertia), loaded,
                                   options, scene.effects, masses.attached.at(body.name).structure);
   }
-  std::vector<std::string> warnings(const Scene& scene, const BodyScene& body) const override {
+  void report(const Scene& scene, const BodyScene& body, const BodyLoads&,
+              kinetics::LoadHistory& history) const override {
     const auto& forces = train_options(body).forces;
-    if (std::any_of(forces.begin(), forces.end(),
-                    [&](const auto& force) { return scene.has_effect(force.effect); }))
-      return {};
-    return {"a drive train gives torsion only: bending is not modelled"};
+    if (std::none_of(forces.begin(), forces.end(),
+                     [&](const auto& force) { return scene.has_effect(force.effect); }))
+      history.warnings.push_back("a drive train gives torsion only: bending is not modelled");
   }
   std::vector<std::string> supporting_ports(const BodyScene& body) const override {
     const auto& bearings = train_options(body).bearings;

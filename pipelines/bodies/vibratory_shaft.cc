@@ -24,6 +24,8 @@ public:
                               *bearing_2 = "main_bearing_2", *debalance_1 = "debalance_1",
                               *debalance_2 = "debalance_2", *coupling = "coupling";
 
+  static constexpr const char* bearing_reaction = "R_E_shaft";  // a quantity
+
   std::string machine_type() const override { return "vibratory_mill"; }
   std::vector<std::string> tables() const override { return {"shaft"}; }
 
@@ -48,7 +50,7 @@ public:
     return rules;
   }
   std::vector<std::string> bearing_loads(const BodyScene&) const override {
-    return {bearing_1, bearing_2, seat, "R_E_shaft"};
+    return {bearing_1, bearing_2, seat, bearing_reaction};
   }
   std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene&) const override {
     return scene.vibratory_mill().speed_rad_s;
@@ -67,6 +69,17 @@ public:
     loading.own_inertia = scene.has_effect(inertia);
     loading.debalance_shares = {shares.at(0), shares.at(1)};
     return distribute_vibratory_shaft(history, loaded, loading);
+  }
+  /// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
+  /// figures.
+  void report(const Scene&, const BodyScene&, const BodyLoads& loads,
+              kinetics::LoadHistory& history) const override {
+    history.quantities.push_back({bearing_reaction, "N",
+                                  "bearing reaction with the shaft's own mass, magnitude",
+                                  loads.frame_bearing_force_N.matrix().colwise().norm().transpose()});
+    history.quantities.push_back({"T_shaft", "N m",
+                                  "drive torque with the shaft's own mass, clockwise positive",
+                                  loads.drive_torque_Nm});
   }
   std::vector<std::string> supporting_ports(const BodyScene&) const override {
     return {bearing_1, bearing_2};

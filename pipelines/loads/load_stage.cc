@@ -1,7 +1,5 @@
 #include "pipelines/loads/load_stage.h"
 
-#include <fmt/core.h>
-
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/finite_loads.h"
 #include "pipelines/scene/body_kind.h"
@@ -21,30 +19,6 @@ kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
   require_finite(loads);
   return loads;
 }
-
-namespace {
-
-/// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
-/// figures.
-void add_shaft_quantities(kinetics::LoadHistory& loads, const BodyLoads& body) {
-  if (body.drive_torque_Nm.size() == 0) return;
-  loads.quantities.push_back({"R_E_shaft", "N", "bearing reaction with the shaft's own mass, magnitude",
-                              body.frame_bearing_force_N.matrix().colwise().norm().transpose()});
-  loads.quantities.push_back(
-      {"T_shaft", "N m", "drive torque with the shaft's own mass, clockwise positive", body.drive_torque_Nm});
-}
-
-/// A couple that no machine part carries is worth a word once it matters.
-void warn_of_guide(kinetics::LoadHistory& loads, const BodyLoads& body) {
-  if (body.carried_moment_Nm.size() == 0) return;
-  const double most = body.carried_moment_Nm.abs().maxCoeff();
-  if (most > 0.01 * body.carried_moment_scale_Nm)
-    loads.warnings.push_back(fmt::format(
-        "pitch is off: {} stresses contain a guide couple of {:.4g} N m, {:.2g} % of the moments on it",
-        body.history.body, most, 100 * most / body.carried_moment_scale_Nm));
-}
-
-}  // namespace
 
 std::vector<kinetics::Spring> springs_of(const Scene& scene) {
   return kind_of(scene.machine).springs(scene.machine);
@@ -90,10 +64,7 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
     const auto& body = scene.bodies[i];
     const auto& loads = result.body_loads[i];
     require_finite(loads);
-    warn_of_guide(result.loads, loads);
-    for (auto& warning : kind_of(body).warnings(scene, body))
-      result.loads.warnings.push_back(std::move(warning));
-    add_shaft_quantities(result.loads, loads);
+    kind_of(body).report(scene, body, loads, result.loads);
   }
   result.bearings = bearing_lives(scene.bearings, result.loads, result.channels());
   return result;

@@ -1,6 +1,6 @@
 #include "pipelines/scene/body_effects.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/scene.h"
@@ -10,14 +10,7 @@ namespace pipelines {
 using kinetics::EffectInfo;
 
 std::vector<EffectInfo> body_effect_table(const BodyScene& body) {
-  const BodyKind& kind = kind_of(body);
-  std::vector<EffectInfo> table = kind.own_effects(), forces;
-  for (const auto& force : kind.given_forces(body))
-    if (std::none_of(forces.begin(), forces.end(),
-                     [&](const auto& info) { return info.name == force.effect; }))
-      forces.push_back({force.effect, "Force on the shaft beside the train's torques.", "the user's"});
-  table.insert(table.end(), forces.begin(), forces.end());
-  return table;
+  return kind_of(body).effects(body);
 }
 
 std::vector<EffectInfo> effect_table(const Machine& machine, const std::vector<BodyScene>& bodies) {

@@ -13,7 +13,7 @@ namespace pipelines {
 
 struct Scene;
 
-/// All that a body adds: what its kind does, then the forces that the scene puts on it, each effect once.
+/// All that a body adds.
 std::vector<kinetics::EffectInfo> body_effect_table(const BodyScene& body);
 
 /// Every effect that a machine and its bodies know, each with what it needs there. A machine's effect may

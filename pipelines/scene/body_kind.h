@@ -52,7 +52,9 @@ public:
 
   /// What every body of the kind adds, under fixed names: its own mass, whose size comes from its mesh.
   virtual std::vector<kinetics::EffectInfo> own_effects() const;
-  /// Forces beside the machine's loads, each an effect by its name.
+  /// All that the body adds.
+  virtual std::vector<kinetics::EffectInfo> effects(const BodyScene& body) const;
+  /// Forces beside the machine's loads, among the effects by their names.
   virtual std::vector<GivenForce> given_forces(const BodyScene& body) const;
   /// Tells effects of the machine which of the body's they need.
   /// @param table  of the machine's effects, and of the bodies' before this one
@@ -89,8 +91,10 @@ public:
                                 const std::vector<RegionMass>& regions) const;
   /// What to name in the body's table so that loads that do not close are carried; empty: nothing would do.
   virtual std::string missing_support(const BodyScene& body, const Closure& closure) const;
-  /// What a user of the body's loads should know; mostly nothing.
-  virtual std::vector<std::string> warnings(const Scene& scene, const BodyScene& body) const;
+  /// Adds to the load stage's history what only the loaded body can tell: quantities with the body's own
+  /// mass, and what a user of its loads should know.
+  virtual void report(const Scene& scene, const BodyScene& body, const BodyLoads& loads,
+                      kinetics::LoadHistory& history) const;
 
   // ---- What holds it ----
 

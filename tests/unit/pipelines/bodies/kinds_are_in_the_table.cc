@@ -52,7 +52,7 @@ TEST(BodyKinds, EffectOfAMachinesBodyIsOneRow) {
     }
 }
 
-// What a body has before its options are read must not break what asks it.
+// The options that a body carries say what it is: nothing of another kind stays behind.
 TEST(BodyKinds, OptionsOfOneBodyAreNotAskedOfAnother) {
   BodyScene body;
   body.options = pipelines::ChamberOptions{pipelines::PitchGuide::body, true};
