@@ -34,8 +34,8 @@ bool BodyKind::shares_masses() const {
   return false;
 }
 
-std::string BodyKind::usual_difference_port(const BodyScene&) const {
-  return {};
+std::optional<std::string> BodyKind::usual_difference_port(const BodyScene&) const {
+  return std::nullopt;
 }
 
 void BodyKind::read_region(SceneTable&, AddedMass&) const {}

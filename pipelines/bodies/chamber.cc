@@ -142,7 +142,7 @@ public:
   std::vector<std::string> bearing_loads(const BodyScene&) const override { return {bore}; }
 
   bool shares_masses() const override { return true; }
-  std::string usual_difference_port(const BodyScene&) const override { return "covers"; }
+  std::optional<std::string> usual_difference_port(const BodyScene&) const override { return "covers"; }
   void read_region(SceneTable& entry, AddedMass& added) const override {
     added.region = entry.text_or("moves_with", added.port == bore ? "exciter" : "structure",
                                  "by its port; whose mass it counts to");

@@ -42,7 +42,7 @@ public:
              "coupling 4"}};
   }
   bool shares_masses() const override { return true; }
-  std::string usual_difference_port(const BodyScene&) const override { return pulley; }
+  std::optional<std::string> usual_difference_port(const BodyScene&) const override { return pulley; }
   void agree_masses(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                     MassAgreement& result) const override {
     auto& mill = std::get<kinetics::PlanetaryMill>(result.machine);

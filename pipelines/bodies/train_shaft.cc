@@ -165,9 +165,9 @@ public:
         if (info.name == excitation.name && varies(excitation)) info.needs.push_back(inertia);
   }
   bool shares_masses() const override { return true; }
-  std::string usual_difference_port(const BodyScene& body) const override {
+  std::optional<std::string> usual_difference_port(const BodyScene& body) const override {
     const auto& torques = train_options(body).torques;
-    return torques.empty() ? "" : torques.front().port;
+    return torques.empty() ? std::nullopt : std::optional(torques.front().port);
   }
   void agree_masses(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                     MassAgreement& result) const override {

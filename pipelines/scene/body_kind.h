@@ -65,8 +65,8 @@ public:
   /// Whether the machine has a mass that is the body's: then masses can be added to the mesh, and
   /// agree_masses compares.
   virtual bool shares_masses() const;
-  /// `difference_port` where the scene names none; empty: none can be guessed, and the key is not read.
-  virtual std::string usual_difference_port(const BodyScene& body) const;
+  /// `difference_port` where the scene names none; without one the key is not read.
+  virtual std::optional<std::string> usual_difference_port(const BodyScene& body) const;
   /// Which part of the machine an added mass counts to, if there are several.
   virtual void read_region(SceneTable& entry, AddedMass& added) const;
   /// Takes open masses from the mesh; differences to given ones become attached masses.

@@ -35,10 +35,10 @@ void read_added_masses(SceneTable& table, const BodyKind& kind, BodyScene& body)
       entry.finish();
       body.added_masses.push_back(added);
     }
-  const std::string usual = kind.usual_difference_port(body);
-  if (usual.empty()) return;
+  const auto usual = kind.usual_difference_port(body);
+  if (!usual) return;
   body.difference_port =
-      table.text_or("difference_port", usual, "carries what the machine's masses and the mesh's differ by");
+      table.text_or("difference_port", *usual, "carries what the machine's masses and the mesh's differ by");
   check_port(table, "difference_port", body.difference_port, ports_of(body).all, "the ports of this body");
 }
 
