@@ -11,7 +11,7 @@
 #include "fem/values/unit_responses.h"
 #include "meshes/shaft/shaft_geometry.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/loads/distribute.h"
+#include "pipelines/loads/load_collector.h"
 
 namespace pipelines {
 

@@ -10,7 +10,7 @@
 #include "fem/model/model.h"
 #include "fem/values/body.h"
 #include "fem/values/unit_responses.h"
-#include "pipelines/loads/distribute.h"
+#include "pipelines/loads/load_collector.h"
 
 namespace pipelines {
 

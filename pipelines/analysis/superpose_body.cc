@@ -6,6 +6,7 @@
 #include "pipelines/analysis/load_patch.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/submodels.h"
+#include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/finite_stress.h"
 
 namespace pipelines {
@@ -102,7 +103,7 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {
       return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
-                              body.material.density_kg_m3, supporting_ports(body));
+                              body.material.density_kg_m3, kind_of(body).supporting_ports(body));
     });
   return analysis;
 }

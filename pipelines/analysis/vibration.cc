@@ -9,6 +9,7 @@
 #include "fem/model/model.h"
 #include "kinetics/harmonics.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {
@@ -87,30 +88,13 @@ DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int
   return result;
 }
 
-std::vector<std::string> supporting_ports(const BodyScene& body) {
-  switch (body.role) {
-    case BodyRole::vibratory_shaft:
-      return {"main_bearing_1", "main_bearing_2"};
-    case BodyRole::drum:
-      return {"trunnion_1", "trunnion_2"};
-    case BodyRole::stub_axle:
-      return {"clamp"};
-    case BodyRole::train_shaft:
-      return {body.train.bearings[0], body.train.bearings[1]};
-    case BodyRole::table_body:
-      return body.table.bearings;
-    case BodyRole::chamber:
-      break;
-  }
-  return {};
-}
-
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
   fem::Body body = meshed.body;
   body.elastic_supports.clear();
-  for (const auto& name : supporting_ports(scene)) {
+  const BodyKind& kind = kind_of(scene);
+  for (const auto& name : kind.supporting_ports(scene)) {
     const auto& port = find(meshed.mesh.ports, name);
-    if (scene.role == BodyRole::stub_axle) {
+    if (kind.is_clamped()) {
       body.clamps.push_back({port.boundary_id, {true, true, true}});
       continue;
     }
@@ -120,31 +104,19 @@ fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
   return body;
 }
 
-double spin_Hz(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& loads) {
-  const double turn_rad = 2 * M_PI;
-  if (body.role == BodyRole::vibratory_shaft) return std::abs(loads.speed_rad_s.mean()) / turn_rad;
-  if (body.role == BodyRole::drum)
-    return std::abs(loads.quantity("drum_relative_speed").values.mean()) / turn_rad;
-  if (body.role == BodyRole::train_shaft)
-    return std::abs(kinetics::mean_speed_rad_s(std::get<kinetics::DriveTrain>(scene.machine),
-                                               body.train.inertia)) /
-           turn_rad;
-  return 0;
-}
-
 Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                     const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa) {
   Vibration result;
   const auto held = held_body(body, meshed);
   for (const auto& mode : fem::Model(held).natural_frequencies(body.natural_frequencies))
     result.natural_frequencies_Hz.push_back(mode.frequency_Hz);
-  const auto ports = supporting_ports(body);
-  result.held =
-      ports.empty() ? "free" : (body.role == BodyRole::stub_axle ? "held at " : "pinned at ") + joined(ports);
+  const BodyKind& kind = kind_of(body);
+  const auto ports = kind.supporting_ports(body);
+  result.held = ports.empty() ? "free" : (kind.is_clamped() ? "held at " : "pinned at ") + joined(ports);
   const double period_s = (loads.time_s[1] - loads.time_s[0]) * scene.sampling.instants_per_turn;
   result.amplification =
-      dynamic_amplification(peak_stress_Pa, scene.sampling.turns, 1 / period_s, spin_Hz(scene, body, loads),
-                            result.natural_frequencies_Hz.front());
+      dynamic_amplification(peak_stress_Pa, scene.sampling.turns, 1 / period_s,
+                            kind.spin_Hz(scene, body, loads), result.natural_frequencies_Hz.front());
   return result;
 }
 

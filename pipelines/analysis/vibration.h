@@ -60,14 +60,8 @@ inline constexpr double amplification_limit = 1.02;
 DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
                                            double spin_Hz, double f1_Hz);
 
-/// Ports that carry the body: bearings, or the clamp of a stub axle; none of a body that floats.
-std::vector<std::string> supporting_ports(const BodyScene& body);
-
 /// The body held as the file's comment says; elastic feet are left out.
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed);
-
-/// Revolutions per second of the body's axes against what holds it; 0: they do not turn.
-double spin_Hz(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& loads);
 
 /// @param peak_stress_Pa  as for dynamic_amplification, at the place of the peak
 /// @throws fem::TooManyModes if the scene asks for more frequencies than the mesh has to say

@@ -7,6 +7,7 @@
 
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -49,7 +50,7 @@ std::vector<Card> cards_of(const kinetics::LoadHistory& loads) {
   for (const auto& quantity : loads.quantities) {
     const auto dot = quantity.name.rfind('.');
     const std::string component = dot == std::string::npos ? "" : quantity.name.substr(dot + 1);
-    if (loads.machine == "load_table" && (component == "fz" || component == "mx" || component == "my"))
+    if (has_samples(loads) && (component == "fz" || component == "mx" || component == "my"))
       add(quantity.name.substr(0, dot), component, quantity.values, cards);
   }
   std::set<std::string> names;

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 
 #include <ostream>
-#include <variant>
 #include <vector>
 
 #include "fem/loads/nodal_loads.h"
@@ -14,6 +13,8 @@
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/body_kind.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -28,7 +29,7 @@ void refuse_what_has_no_equal(const Scene& scene) {
                        ": has no body, and only bodies have a mesh to write; add one, as [shaft], to "
                        "the scene, or take `loads --calculix`");
   for (const auto& body : scene.bodies)
-    if (body.elastic_feet)
+    if (kind_of(body).has_elastic_feet(body))
       throw StageRefused(body.origin +
                          ": elastic_feet = true: the model for CalculiX is that of a free body; set it "
                          "to false for this command");
@@ -46,7 +47,7 @@ void calculix(const CalculixCommandOptions& options, std::ostream& out) {
   const auto masses = agree_masses(scene, meshed);
   // Unit loads do not depend on the instants; one turn tells which there are.
   auto coarse = scene;
-  if (!std::holds_alternative<kinetics::LoadTable>(scene.machine)) coarse.sampling.turns = 1;
+  if (!kind_of(scene.machine).has_samples()) coarse.sampling.turns = 1;
   const auto history = clock.run("loads", [&] { return load_stage(coarse, masses.machine); });
   std::vector<BodyLoads> loads;
   for (std::size_t i = 0; i < meshed.size(); ++i)

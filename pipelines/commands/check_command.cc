@@ -5,7 +5,6 @@
 #include <ostream>
 #include <sstream>
 #include <utility>
-#include <variant>
 
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/commands/scene_options.h"
@@ -17,6 +16,7 @@
 #include "pipelines/report/summary.h"
 #include "pipelines/report/torsion_report.h"
 #include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 /// The scene over no more turns than take a second; a table's samples need all of theirs.
 Scene for_a_look(Scene scene) {
   constexpr int most_instants = 20'000;
-  if (!std::holds_alternative<kinetics::LoadTable>(scene.machine))
+  if (!kind_of(scene.machine).has_samples())
     scene.sampling.turns =
         std::clamp(most_instants / scene.sampling.instants_per_turn, 1, scene.sampling.turns);
   return scene;
@@ -77,9 +77,9 @@ void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, co
     out << fmt::format("    {}/{} [{}]\n", body.name, channel.name, channel.unit);
 }
 
-/// Throws what the torsional analysis of a drive train would.
+/// Throws what the torsional analysis of the machine would, if there is one.
 void try_torsion(const Scene& scene, const Machine& machine) {
-  if (std::holds_alternative<kinetics::DriveTrain>(machine)) report_torsion(scene, machine);
+  if (kind_of(machine).is_torsional()) report_torsion(scene, machine);
 }
 
 void check_load_stage(std::ostream& out, Scene scene) {

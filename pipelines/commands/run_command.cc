@@ -4,7 +4,6 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "fem/ranks/helper_ranks.h"
 #include "pipelines/accuracy/cost_forecast.h"
@@ -25,6 +24,7 @@
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/report/torsion_report.h"
+#include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/requested_method.h"
 #include "pipelines/search/scene_run.h"
 
@@ -79,7 +79,7 @@ Scene with_machine(Scene scene, const Machine& machine) {
 /// Of a drive train, written into the folder torsion; nothing for other machines.
 std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machine,
                                         const std::filesystem::path& directory, StageClock& clock) {
-  if (!std::holds_alternative<kinetics::DriveTrain>(machine)) return std::nullopt;
+  if (!kind_of(machine).is_torsional()) return std::nullopt;
   auto torsion = clock.run("torsion", [&] { return report_torsion(scene, machine); });
   clock.run("write", [&] { write_torsion_files(directory / "torsion", scene, torsion); });
   return torsion;

@@ -9,12 +9,13 @@
 
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Force = TrainShaftOptions::Force;
+using Force = GivenForce;
 
 double across_N(const Force& force) {
   return std::hypot(force.force_N[0], force.force_N[1]);
@@ -52,7 +53,7 @@ struct PortForces {
 PortForces forces_on(const Scene& scene, const BodyScene& body, const std::string& port,
                      const std::string& effect = "") {
   PortForces sum;
-  for (const auto& force : body.train.forces)
+  for (const auto& force : kind_of(body).given_forces(body))
     if (force.port == port && scene.has_effect(force.effect) && (effect.empty() || force.effect == effect))
       sum.add(force);
   return sum;
@@ -76,7 +77,7 @@ std::vector<LoadShare> shares_on(const Scene& scene, const BodyScene& body, cons
 
 void add_forces(const Scene& scene, const BodyScene& body, BodyEffect& effect) {
   std::vector<std::string> ports;
-  for (const auto& force : body.train.forces) {
+  for (const auto& force : kind_of(body).given_forces(body)) {
     if (force.effect != effect.effect.name) continue;
     for (const auto& text : texts_of(force)) effect.forces.push_back(text);
     if (std::find(ports.begin(), ports.end(), force.port) == ports.end()) ports.push_back(force.port);

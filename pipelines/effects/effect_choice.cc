@@ -8,9 +8,11 @@
 
 #include "pipelines/common/name_lists.h"
 #include "pipelines/effects/effect_report.h"
+#include "pipelines/loads/bearings.h"
 #include "pipelines/loads/closure.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -196,7 +198,7 @@ Scene with_effects_chosen(Scene scene, const std::vector<MeshedBody>& meshed, do
   if (!choice.open) return scene;
   choice.open = false;
   choice.limit = limit;
-  if (std::holds_alternative<kinetics::LoadTable>(scene.machine) || scene.run_up) return scene;
+  if (kind_of(scene.machine).has_samples() || scene.run_up) return scene;
   meshed.empty() ? choose_by_loads(scene) : choose_for_bodies(scene, meshed);
   return scene;
 }

@@ -6,6 +6,7 @@
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
 #include "pipelines/report/summary.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -46,9 +47,7 @@ void print_effect_choice(std::ostream& out, const Scene& scene, const std::vecto
   const std::string off = "off by effects = \"auto\"";
   if (choice.dropped.empty())
     out << fmt::format("\n  {}: none, with a limit of {}{}\n", off, rough_percent(choice.limit),
-                       std::holds_alternative<kinetics::LoadTable>(scene.machine)
-                           ? "; a load table's histories all count"
-                           : "");
+                       kind_of(scene.machine).has_samples() ? "; a load table's histories all count" : "");
   else {
     out << fmt::format("\n  {:<30}{:>16}", off, "of the loads");
     for (const auto& analysis : bodies) out << fmt::format("{:>22}", analysis.scene.name + ", at most");

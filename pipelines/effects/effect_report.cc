@@ -7,8 +7,8 @@
 
 #include "kinetics/machine_refused.h"
 #include "pipelines/common/errors.h"
-
 #include "pipelines/common/name_lists.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -33,7 +33,7 @@ std::vector<Load> loads_of(const LoadHistory& history, const std::string& effect
     loads.push_back({resultant.role + ".force", values->topRows<2>()});
     loads.push_back({resultant.role + ".torque", values->row(2)});
   }
-  if (history.machine == "load_table" && effect.empty())
+  if (has_samples(history) && effect.empty())
     for (const auto& quantity : history.quantities)
       loads.push_back({quantity.name, quantity.values.transpose()});
   return loads;
@@ -66,7 +66,7 @@ double change(const Load& load, const std::vector<Load>& others) {
 /// What an effect brings to the loads. A load table's histories add up, so that one effect's part is what the
 /// table brings with it alone, axial forces and accelerations included.
 std::vector<Load> parts_of(const Scene& scene, const std::string& effect, const LoadHistory& all) {
-  if (all.machine != "load_table") return loads_of(all, effect);
+  if (!has_samples(all)) return loads_of(all, effect);
   return loads_of(compute_loads(scene.machine, {effect}, scene.sampling));
 }
 

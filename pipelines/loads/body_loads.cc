@@ -1,11 +1,9 @@
 #include "pipelines/loads/body_loads.h"
 
-#include <algorithm>
 #include <sstream>
-#include <stdexcept>
 
 #include "pipelines/common/errors.h"
-#include "pipelines/loads/distribute.h"
+#include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
 
@@ -21,44 +19,7 @@ LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed) {
 
 BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                           const LoadedBody& loaded, const MassAgreement& masses) {
-  const auto& attached = masses.attached.at(body.name);
-  switch (body.role) {
-    case BodyRole::vibratory_shaft: {
-      VibratoryShaftOptions options;
-      options.gravity_m_s2 = scene.vibratory_mill().gravity_m_s2;
-      options.own_weight = scene.has_effect("gravity_shaft");
-      options.own_inertia = scene.has_effect("shaft_inertia");
-      options.debalance_shares = {body.debalance_shares.at(0), body.debalance_shares.at(1)};
-      return distribute_vibratory_shaft(history, loaded, options);
-    }
-    case BodyRole::chamber:
-      return distribute_chamber(history, std::get<kinetics::VibratoryMill>(masses.machine), loaded,
-                                {scene.effects, attached.structure, attached.exciter, body.pitch_guide});
-    case BodyRole::drum:
-      return distribute_drum(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded,
-                             {scene.effects, attached.structure});
-    case BodyRole::stub_axle: {
-      auto options = body.stub_axle;
-      options.effects = scene.effects;
-      return distribute_stub_axle(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded,
-                                  options);
-    }
-    case BodyRole::train_shaft: {
-      const auto& train = std::get<kinetics::DriveTrain>(masses.machine);
-      auto options = body.train;
-      options.effects = scene.effects;
-      options.attached = attached.structure;
-      options.forces.erase(std::remove_if(options.forces.begin(), options.forces.end(),
-                                          [&](const auto& force) { return !scene.has_effect(force.effect); }),
-                           options.forces.end());
-      return distribute_train_shaft(history, kinetics::mean_speed_rad_s(train, options.inertia), loaded,
-                                    options);
-    }
-    case BodyRole::table_body:
-      return distribute_table(std::get<kinetics::LoadTable>(scene.machine), scene.effects, scene.sampling,
-                              loaded, body.table);
-  }
-  throw std::logic_error("unknown role of a body");
+  return kind_of(body).distribute(scene, body, history, loaded, masses);
 }
 
 void require_closure(const std::string& body, const Closure& closure) {

@@ -1,4 +1,4 @@
-/// The loads of a scene's bodies, whatever their role.
+/// The loads of a scene's bodies, whatever their kind.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ namespace pipelines {
 /// What distribution needs to know of a meshed body.
 LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);
 
-/// The loads of one body of a scene, by its role.
+/// The loads of one body of a scene, as its kind takes them.
 /// @param history  of the load stage with the machine of `masses`
 BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                           const LoadedBody& loaded, const MassAgreement& masses);

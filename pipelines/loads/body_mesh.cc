@@ -5,6 +5,7 @@
 #include "meshes/keyed_shaft/solid_shaft.h"
 #include "meshes/shaft/shaft.h"
 #include "meshes/values/refused.h"
+#include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
 namespace {
@@ -87,24 +88,18 @@ fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& materia
 
 MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
                      const std::vector<kinetics::Spring>& springs) {
+  const BodyKind& kind = kind_of(body);
   MeshedBody result;
   result.mesh = build_mesh(body, file);
   auto& edges = result.mesh.sharp_edges;
   edges.insert(edges.end(), body.singular.begin(), body.singular.end());
   result.body = to_fem_body(result.mesh, body.material);
   result.body.degree = body.degree;
-  if (body.elastic_feet) result.body.elastic_supports = elastic_feet(result.mesh, springs);
+  if (kind.has_elastic_feet(body)) result.body.elastic_supports = elastic_feet(result.mesh, springs);
   result.model = std::make_shared<const fem::Model>(result.body);
   result.masses = result.model->mass_properties();
   result.geometry_error = result.model->geometry_error(round_ports(result.mesh));
-  if (body.role == BodyRole::chamber && result.mesh.regions.empty())
-    result.regions.push_back({"structure", {}, result.masses});
-  else if (body.role == BodyRole::chamber)
-    for (const auto& region : result.mesh.regions)
-      result.regions.push_back(
-          {region.name, region.volume_ids, result.model->mass_properties(region.volume_ids)});
-  else
-    result.regions.push_back({"", {}, result.masses});
+  result.regions = kind.regions(result);
   return result;
 }
 

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "kinetics/machine_refused.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/scene/body_effects.h"
-
-#include "kinetics/machine_refused.h"
-#include "pipelines/common/errors.h"
+#include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
 namespace {
@@ -33,16 +33,6 @@ std::string rest_text(const Closure& closure) {
     if ((c < 3 ? closure.force[c] : closure.moment[c - 3]) > Closure::limit)
       text += (text.empty() ? "" : " and ") + std::string(names[c]);
   return text;
-}
-
-/// A body's supports that take what its loads leave, by component of the closure.
-std::string missing_support(const BodyScene& body, const Closure& closure) {
-  if (body.role != BodyRole::table_body) return "";
-  if (closure.moment[2] > Closure::limit && body.table.torque_support.empty())
-    return "name the port that takes torque, torque_support in [" + body.name + "]";
-  if (closure.force[2] > Closure::limit && body.table.axial_support.empty())
-    return "name the port that takes axial forces, axial_support in [" + body.name + "]";
-  return body.table.bearings.empty() ? "name the ports of two bearings, bearings in [" + body.name + "]" : "";
 }
 
 struct Remedies {
@@ -114,7 +104,7 @@ void require_equilibrium(const Scene& scene, const std::vector<MeshedBody>& mesh
     const Closure closure = closure_of(loads[i], regions);
     if (closure.holds()) continue;
     const auto unbalanced = unbalanced_effects(loads[i], regions);
-    const auto support = missing_support(body, closure);
+    const auto support = kind_of(body).missing_support(body, closure);
     const auto remedy = remedy_text(remedies_for(scene, meshed, masses, unbalanced), support);
     if (remedy.empty() || closure.channel_resultant > Closure::limit)
       require_closed_loads(loads[i], regions);  // no choice of effects is at fault

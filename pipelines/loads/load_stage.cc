@@ -1,25 +1,11 @@
 #include "pipelines/loads/load_stage.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
-
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/finite_loads.h"
-#include "pipelines/loads/open_loads.h"
+#include "pipelines/scene/body_kind.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
-namespace {
-
-/// What a trunnion that turns with the drum feels: constant loads of the carrier's frame reverse fully.
-void add_turning_trunnions(kinetics::LoadHistory& loads) {
-  auto turning = kinetics::turned_with_drum(loads, loads.resultant("trunnions"));
-  turning.role = "trunnions_turning";
-  turning.description = "the same load in axes that turn with the drum";
-  loads.resultants.push_back(std::move(turning));
-}
-
-}  // namespace
 
 LoadedScene::LoadedScene() = default;
 LoadedScene::LoadedScene(const LoadedScene&) = default;
@@ -29,41 +15,13 @@ LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
 LoadedScene::~LoadedScene() = default;
 
 kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
-  auto loads = scene.run_up
-                   ? kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up)
-                   : compute_loads(machine, scene.kinetics_effects(), scene.sampling);
-  if (scene.drum_axes && !scene.run_up) add_turning_trunnions(loads);
+  auto loads = kind_of(machine).loads(scene, machine);
   require_finite(loads);
   return loads;
 }
 
-namespace {
-
-/// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
-/// figures.
-void add_shaft_quantities(kinetics::LoadHistory& loads, const BodyLoads& body) {
-  if (body.drive_torque_Nm.size() == 0) return;
-  loads.quantities.push_back({"R_E_shaft", "N", "bearing reaction with the shaft's own mass, magnitude",
-                              body.frame_bearing_force_N.matrix().colwise().norm().transpose()});
-  loads.quantities.push_back(
-      {"T_shaft", "N m", "drive torque with the shaft's own mass, clockwise positive", body.drive_torque_Nm});
-}
-
-/// A couple that no machine part carries is worth a word once it matters.
-void warn_of_guide(kinetics::LoadHistory& loads, const BodyLoads& body) {
-  if (body.carried_moment_Nm.size() == 0) return;
-  const double most = body.carried_moment_Nm.abs().maxCoeff();
-  if (most > 0.01 * body.carried_moment_scale_Nm)
-    loads.warnings.push_back(fmt::format(
-        "pitch is off: {} stresses contain a guide couple of {:.4g} N m, {:.2g} % of the moments on it",
-        body.history.body, most, 100 * most / body.carried_moment_scale_Nm));
-}
-
-}  // namespace
-
 std::vector<kinetics::Spring> springs_of(const Scene& scene) {
-  const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
-  return mill ? mill->springs : std::vector<kinetics::Spring>{};
+  return kind_of(scene.machine).springs(scene.machine);
 }
 
 std::vector<MeshedBody> mesh_bodies(const Scene& scene,
@@ -99,18 +57,14 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
                              loaded_body(scene.bodies[i], result.meshed[i]), result.masses);
     }));
   for (std::size_t i = 0; i < result.meshed.size(); ++i)
-    require_supports(scene.bodies[i], result.body_loads[i], result.meshed[i].regions);
+    kind_of(scene.bodies[i])
+        .require_supports(scene.bodies[i], result.body_loads[i], result.meshed[i].regions);
   require_equilibrium(scene, result.meshed, result.masses, result.body_loads);
   for (std::size_t i = 0; i < result.meshed.size(); ++i) {
     const auto& body = scene.bodies[i];
     const auto& loads = result.body_loads[i];
     require_finite(loads);
-    warn_of_guide(result.loads, loads);
-    if (body.role == BodyRole::train_shaft &&
-        std::none_of(body.train.forces.begin(), body.train.forces.end(),
-                     [&](const auto& force) { return scene.has_effect(force.effect); }))
-      result.loads.warnings.push_back("a drive train gives torsion only: bending is not modelled");
-    add_shaft_quantities(result.loads, loads);
+    kind_of(body).report(scene, body, loads, result.loads);
   }
   result.bearings = bearing_lives(scene.bearings, result.loads, result.channels());
   return result;

@@ -16,13 +16,13 @@ using std::filesystem::path;
 constexpr int most_order = 12;
 constexpr double worth_a_line = 1e-9;
 
-struct Series {
+struct StatisticsSeries {
   std::string name, unit;
   Eigen::ArrayXd values;
 };
 
-std::vector<Series> series_of(const kinetics::LoadHistory& loads) {
-  std::vector<Series> all;
+std::vector<StatisticsSeries> series_of(const kinetics::LoadHistory& loads) {
+  std::vector<StatisticsSeries> all;
   for (const auto& quantity : loads.quantities)
     if (quantity.has_statistics && quantity.values.isFinite().all())
       all.push_back({quantity.name, quantity.unit, quantity.values});
@@ -40,7 +40,7 @@ struct Rows {
   std::vector<std::vector<double>> numbers;
 
   explicit Rows(std::size_t n) : numbers(n) {}
-  void add(const Series& series, const std::vector<double>& values) {
+  void add(const StatisticsSeries& series, const std::vector<double>& values) {
     name.push_back(series.name);
     unit.push_back(series.unit);
     for (std::size_t i = 0; i < values.size(); ++i) numbers[i].push_back(values[i]);
@@ -53,7 +53,8 @@ struct Rows {
   }
 };
 
-void write_extremes(const path& file, const std::vector<Series>& all, const kinetics::LoadHistory& loads) {
+void write_extremes(const path& file, const std::vector<StatisticsSeries>& all,
+                    const kinetics::LoadHistory& loads) {
   Rows rows(6);
   for (const auto& series : all) {
     Eigen::Index at_max = 0, at_min = 0;
@@ -65,7 +66,7 @@ void write_extremes(const path& file, const std::vector<Series>& all, const kine
   rows.write(file, {"max", "min", "mean", "rms", "time_of_max", "time_of_min"}, {"", "", "", "", "s", "s"});
 }
 
-void write_harmonics(const path& file, const std::vector<Series>& all, int turns) {
+void write_harmonics(const path& file, const std::vector<StatisticsSeries>& all, int turns) {
   Rows rows(3);
   for (const auto& series : all) {
     const int n_lines = std::min<int>(most_order * turns, int(series.values.size() / 2));
@@ -96,7 +97,7 @@ void write_polar(const path& file, const kinetics::LoadHistory& loads) {
   write_csv(file, columns);
 }
 
-void write_spectra(const path& file, const std::vector<Series>& all, bool repeats) {
+void write_spectra(const path& file, const std::vector<StatisticsSeries>& all, bool repeats) {
   Rows rows(3);
   for (const auto& series : all)
     for (const auto& cycle : kinetics::spectrum(repeats ? kinetics::rainflow_repeating(series.values)

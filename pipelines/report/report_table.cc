@@ -9,26 +9,10 @@
 #include "pipelines/common/statistics.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
-
-/// The quantities a reader of a terminal wants first; the rest is in summary.json.
-const std::vector<std::string> headline_loads{
-    "R_E",         "R_E_shaft", "X_E",       "Y_E",          "B",
-    "T",           "T_shaft",   "theta",     "spring_force", "spring_force_from_moments",
-    "drive_power", "X_A",       "Y_A",       "R_A",          "M_A",
-    "T1",          "T2",        "belt_power"};
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-bool is_headline(const std::string& machine, const std::string& quantity) {
-  if (machine == "drive_train") return ends_with(quantity, ".torque") || ends_with(quantity, ".shear_stress");
-  return machine == "load_table" ||
-         std::find(headline_loads.begin(), headline_loads.end(), quantity) != headline_loads.end();
-}
 
 void print_load(std::ostream& out, const std::string& name, const Eigen::ArrayXd& values) {
   const auto s = statistics(values);
@@ -37,10 +21,11 @@ void print_load(std::ostream& out, const std::string& name, const Eigen::ArrayXd
 
 void print_loads(std::ostream& out, const RunReport& report) {
   out << fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}\n", "load", "max", "min", "mean", "rms");
+  const MachineKind& kind = kind_of(report.scene.machine);
   for (const auto& quantity : report.loads.quantities)
-    if (is_headline(report.loads.machine, quantity.name))
+    if (kind.is_headline(quantity.name))  // the rest is in summary.json
       print_load(out, quantity.name + " [" + quantity.unit + "]", quantity.values);
-  if (report.loads.machine != "load_table") return;
+  if (!kind.has_samples()) return;
   for (const auto& resultant : report.loads.resultants)
     for (const auto& [row, component] : {std::pair{0, ".fx [N]"}, {1, ".fy [N]"}, {2, ".torque [N m]"}})
       if ((resultant.total.row(row) != 0).any())

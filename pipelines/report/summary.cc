@@ -5,10 +5,12 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/bodies/chamber.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/common/version.h"
 #include "pipelines/report/summary_values.h"
 #include "pipelines/responses/response_key.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
@@ -19,7 +21,7 @@ using namespace summary;
 Json carried_json(const BodyLoads& loads) {
   if (loads.carried_moment_Nm.size() == 0) return 0.0;
   const double most = loads.carried_moment_Nm.abs().maxCoeff();
-  return object({{"effect", "pitch_guide"},
+  return object({{"effect", pitch_guide},
                  {"max_Nm", number(most)},
                  {"rms_Nm", number(std::sqrt(loads.carried_moment_Nm.square().mean()))},
                  {"share", number_or_none(most / loads.carried_moment_scale_Nm)}});
@@ -78,9 +80,9 @@ std::string summary_json(const RunReport& report) {
                                            {"rms", number(s.rms)},
                                            {"unit", quantity.unit}});
   }
-  if (const auto* train = std::get_if<kinetics::DriveTrain>(&report.scene.machine))
-    for (const double w : kinetics::natural_modes(*train, kinetics::Shapes::none).frequency_rad_s)
-      json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
+  const Machine& machine = report.scene.machine;
+  for (const double w : kind_of(machine).natural_frequencies_rad_s(machine))
+    json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
   for (const auto& analysis : report.bodies) {
     json["bodies"][analysis.scene.name] = body_json(report, analysis);
     const Closure& closure = analysis.closure;

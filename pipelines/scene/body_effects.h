@@ -13,12 +13,6 @@ namespace pipelines {
 
 struct Scene;
 
-/// What every body of that role adds, under fixed names: its own mass, whose size comes from its mesh.
-const std::vector<kinetics::EffectInfo>& own_effect_table(BodyRole role);
-
-/// The forces that the scene puts on a shaft of a drive train, each effect once.
-std::vector<kinetics::EffectInfo> force_effect_table(const TrainShaftOptions& shaft);
-
 /// All that a body adds.
 std::vector<kinetics::EffectInfo> body_effect_table(const BodyScene& body);
 

@@ -18,9 +18,6 @@
 
 namespace pipelines {
 
-/// What a body is in its machine: decides which loads enter where.
-enum class BodyRole { vibratory_shaft, chamber, drum, stub_axle, train_shaft, table_body };
-
 struct ShaftShape {
   meshes::Shaft geometry;
   meshes::ShaftMeshControl mesh;
@@ -41,11 +38,13 @@ struct AddedMass {
   double polar_inertia_kg_m2 = 0;    ///< about its own centre
 };
 
+using BodyShape = std::variant<ShaftShape, ChamberShape, meshes::Import>;
+
 struct BodyScene {
-  std::string name;    ///< "shaft", "chamber", "drum", "axle", "part": table and directory
-  std::string origin;  ///< "file:line:column: table", named by errors that meshing brings to light
-  BodyRole role = BodyRole::vibratory_shaft;
-  std::variant<ShaftShape, ChamberShape, meshes::Import> shape;
+  std::string name;     ///< "shaft", "chamber", "drum", "axle", "part": table and directory
+  std::string origin;   ///< "file:line:column: table", named by errors that meshing brings to light
+  BodyOptions options;  ///< of its kind (body_kind.h)
+  BodyShape shape;
   fem::Material material;
   std::string material_name;
   double yield_strength_Pa = 0;
@@ -61,13 +60,6 @@ struct BodyScene {
   /// Places where a search found that stress grows without bound: kept out of the peak like sharp edges.
   std::vector<meshes::SharpEdge> singular;
 
-  std::vector<double> debalance_shares = {0.5, 0.5};  ///< vibratory shaft
-  PitchGuide pitch_guide = PitchGuide::body;          ///< chamber
-  bool elastic_feet = false;                          ///< chamber
-  StubAxleOptions stub_axle;
-  TrainShaftOptions train;
-  TableBodyOptions table;
-
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   BodyScene();
   BodyScene(const BodyScene&);
@@ -78,8 +70,5 @@ struct BodyScene {
 
   const ShaftShape* shaft() const { return std::get_if<ShaftShape>(&shape); }
 };
-
-/// Effects that a body adds to those of its machine: they need its mesh.
-std::vector<std::string> own_effects(BodyRole role);
 
 }  // namespace pipelines

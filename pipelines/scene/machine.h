@@ -14,6 +14,7 @@
 
 namespace pipelines {
 
+/// In the order of the table of kinds (machines/table.cc).
 using Machine =
     std::variant<kinetics::VibratoryMill, kinetics::PlanetaryMill, kinetics::DriveTrain, kinetics::LoadTable>;
 

@@ -2,96 +2,24 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
+
+#include "pipelines/scene/body_kind.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
 
 constexpr double g_m_s2 = 9.81, rpm = 2 * M_PI / 60;
 constexpr double most_speed_rad_s = 3600 * rpm * (1 + 1e-3);
-constexpr double most_vibratory = 20 * g_m_s2, most_planetary = 100 * g_m_s2;
 constexpr double most_peripheral_m_s = 50, most_tolerance = 0.2, most_poisson_ratio = 0.49;
 
 const char* const unit_of_speed =
     "a bare number is in rad/s and \"Hz\" counts turns per second; write \"... rpm\" if that is meant";
 
-class Doubts {
-public:
-  void speed(const std::string& of, double speed_rad_s) {
-    if (std::abs(speed_rad_s) > most_speed_rad_s)
-      texts.push_back(
-          fmt::format("{} turns at {:.6g} rpm ({:.6g} rad/s), faster than any motor on the mains "
-                      "without gears (3600 rpm): {}",
-                      of, std::abs(speed_rad_s) / rpm, std::abs(speed_rad_s), unit_of_speed));
-  }
-  void acceleration(const std::string& of, double size_m_s2, double most_m_s2) {
-    if (size_m_s2 > most_m_s2)
-      texts.push_back(
-          fmt::format("{} is accelerated by {:.3g} g, where {:.3g} g is the most that such mills "
-                      "are built for: check speed and radius ({})",
-                      of, size_m_s2 / g_m_s2, most_m_s2 / g_m_s2, unit_of_speed));
-  }
-  void peripheral(const std::string& of, double speed_m_s) {
-    if (std::abs(speed_m_s) > most_peripheral_m_s)
-      texts.push_back(
-          fmt::format("{} runs at a peripheral speed of {:.3g} m/s; bearings and belts end at "
-                      "about {:g} m/s: check speed and diameter",
-                      of, std::abs(speed_m_s), most_peripheral_m_s));
-  }
-
-  std::vector<std::string> texts;
-};
-
-struct MachineDoubts {
-  const Scene& scene;
-  Doubts& doubts;
-
-  void operator()(const kinetics::VibratoryMill& mill) const {
-    double speed_rad_s = mill.speed_rad_s;
-    if (scene.run_up)
-      for (const double speed : scene.run_up->speed_rad_s) speed_rad_s = std::max(speed_rad_s, speed);
-    doubts.speed("machine.drive", speed_rad_s);
-    doubts.acceleration("the chamber", mill.eccentricity_m * speed_rad_s * speed_rad_s, most_vibratory);
-  }
-  void operator()(const kinetics::PlanetaryMill& mill) const {
-    const auto lengths = kinetics::planetary_geometry(mill);
-    doubts.speed("machine.carrier", mill.speed_rad_s);
-    doubts.acceleration("a drum's centre", lengths.carrier_m * mill.speed_rad_s * mill.speed_rad_s,
-                        most_planetary);
-    if (scene.has_effect("belt")) doubts.peripheral("the belt", mill.speed_rad_s * lengths.central_pulley_m);
-  }
-  void operator()(const kinetics::DriveTrain& train) const {
-    doubts.speed("machine.reference", train.reference_speed_rad_s);
-  }
-  void operator()(const kinetics::LoadTable& table) const { doubts.speed("machine", table.speed_rad_s); }
-};
-
-/// Of the shaft against what it runs in; empty where that stands still beside it.
-std::optional<double> speed_of(const Scene& scene, const BodyScene& body) {
-  switch (body.role) {
-    case BodyRole::vibratory_shaft:
-      return scene.vibratory_mill().speed_rad_s;
-    case BodyRole::drum: {
-      const auto& mill = std::get<kinetics::PlanetaryMill>(scene.machine);
-      return mill.speed_rad_s * kinetics::planetary_geometry(mill).relative_speed_ratio;
-    }
-    case BodyRole::train_shaft:
-      return kinetics::mean_speed_rad_s(std::get<kinetics::DriveTrain>(scene.machine), body.train.inertia);
-    case BodyRole::table_body:
-      if (body.name != "shaft") return std::nullopt;
-      return std::get<kinetics::LoadTable>(scene.machine).speed_rad_s;
-    case BodyRole::chamber:
-    case BodyRole::stub_axle:
-      return std::nullopt;
-  }
-  return std::nullopt;
-}
-
 /// The fastest seat of a shaft.
 void doubt_seats(const Scene& scene, const BodyScene& body, Doubts& doubts) {
-  const auto speed_rad_s = speed_of(scene, body);
+  const auto speed_rad_s = kind_of(body).seat_speed_rad_s(scene, body);
   if (!speed_rad_s || body.shaft() == nullptr) return;
   const meshes::ShaftSegment* fastest = nullptr;
   for (const auto& segment : body.shaft()->geometry.segments)
@@ -104,9 +32,33 @@ void doubt_seats(const Scene& scene, const BodyScene& body, Doubts& doubts) {
 
 }  // namespace
 
+void Doubts::speed(const std::string& of, double speed_rad_s) {
+  if (std::abs(speed_rad_s) > most_speed_rad_s)
+    texts.push_back(
+        fmt::format("{} turns at {:.6g} rpm ({:.6g} rad/s), faster than any motor on the mains "
+                    "without gears (3600 rpm): {}",
+                    of, std::abs(speed_rad_s) / rpm, std::abs(speed_rad_s), unit_of_speed));
+}
+
+void Doubts::acceleration(const std::string& of, double size_m_s2, double most_m_s2) {
+  if (size_m_s2 > most_m_s2)
+    texts.push_back(
+        fmt::format("{} is accelerated by {:.3g} g, where {:.3g} g is the most that such mills "
+                    "are built for: check speed and radius ({})",
+                    of, size_m_s2 / g_m_s2, most_m_s2 / g_m_s2, unit_of_speed));
+}
+
+void Doubts::peripheral(const std::string& of, double speed_m_s) {
+  if (std::abs(speed_m_s) > most_peripheral_m_s)
+    texts.push_back(
+        fmt::format("{} runs at a peripheral speed of {:.3g} m/s; bearings and belts end at "
+                    "about {:g} m/s: check speed and diameter",
+                    of, std::abs(speed_m_s), most_peripheral_m_s));
+}
+
 std::vector<std::string> implausible(const Scene& scene) {
   Doubts doubts;
-  std::visit(MachineDoubts{scene, doubts}, scene.machine);
+  kind_of(scene.machine).doubt(scene, doubts);
   for (const auto& body : scene.bodies) {
     doubt_seats(scene, body, doubts);
     if (body.material.poisson_ratio > most_poisson_ratio)

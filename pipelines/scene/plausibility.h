@@ -8,6 +8,16 @@
 
 namespace pipelines {
 
+/// Collects what is hardly meant, each as a sentence.
+class Doubts {
+public:
+  void speed(const std::string& of, double speed_rad_s);
+  void acceleration(const std::string& of, double size_m_s2, double most_m_s2);
+  void peripheral(const std::string& of, double speed_m_s);
+
+  std::vector<std::string> texts;
+};
+
 /// Sentences for the user. Warned of are
 ///   a drive faster than 3600 rpm: no motor turns faster on the mains of 60 Hz without gears or a converter;
 ///   an acceleration of a vibratory mill's chamber above 20 g: such mills run at 3 to 12 g, eccentric ones of

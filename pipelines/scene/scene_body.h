@@ -10,7 +10,9 @@
 
 namespace pipelines {
 
-/// What a contour may hold, by the body's role.
+class BodyKind;
+
+/// What a contour may hold, by the kind of body.
 struct ContourRules {
   std::vector<std::string> ports;  ///< load enters at each of them: all are needed
   bool any_port = false;           ///< the user's own ports beside them
@@ -46,9 +48,11 @@ meshes::SolidControl read_solid_control(SceneTable mesh);
 
 /// Reads the body's table as a whole and closes it.
 /// @param scene  with its machine read
-BodyScene read_body(SceneTable& body, BodyRole role, const Scene& scene, SceneFindings& findings);
+BodyScene read_body(SceneTable& body, const BodyKind& kind, const Scene& scene, SceneFindings& findings);
 
-/// The ports of a body at which a force across acts, for bearings.
-std::vector<std::string> force_ports(const BodyScene& body);
+/// Reads the tables of all bodies that the scene's machine may have into scene.bodies; refuses those of other
+/// machines.
+/// @return the tables of scene.bodies
+std::vector<SceneTable> read_bodies(SceneTable& root, Scene& scene, SceneFindings& findings);
 
 }  // namespace pipelines

@@ -26,7 +26,4 @@ void check_port(SceneTable& table, const std::string& key, const std::string& po
 /// The tables [<body>.pressure.<port>] and pressure_harmonics; after the shape.
 void read_pressures(SceneTable& table, BodyScene& body);
 
-/// inertia, torques, bearings and forces of a shaft of a drive train, into body.train.
-void read_train_shaft(SceneTable& table, const kinetics::DriveTrain& train, BodyScene& body);
-
 }  // namespace pipelines

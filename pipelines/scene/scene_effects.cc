@@ -4,10 +4,9 @@
 
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
-#include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
-namespace {
 
 std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table) {
   std::vector<std::string> names;
@@ -15,6 +14,8 @@ std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table
     if (!contains(names, effect.name)) names.push_back(effect.name);
   return names;
 }
+
+namespace {
 
 const EffectRefusal* find_refusal(const EffectRules& rules, const std::string& effect) {
   const auto refusal = std::find_if(rules.refused.begin(), rules.refused.end(),
@@ -55,39 +56,18 @@ void read_word(SceneTable& root, const EffectRules& rules, Scene& scene) {
 
 }  // namespace
 
-EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft) {
-  using kinetics::Convention;
-  const bool is_published = convention == Convention::published;
-  EffectRules rules{kinetics::vibratory_mill_effects(convention)};
-  add_own_effects(rules, BodyRole::vibratory_shaft, has_shaft, "[shaft]");
-  const Convention other = is_published ? Convention::consistent : Convention::published;
-  for (const auto& name : names_of(kinetics::vibratory_mill_effects(other)))
-    if (!contains(names_of(rules.table), name))
-      rules.refused.push_back({name, "unknown under convention \"" +
-                                         std::string(is_published ? "published" : "consistent") +
-                                         "\", only under the other one; remove it, or change "
-                                         "machine.convention"});
-  return rules;
-}
-
-EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention) {
-  const bool is_consistent = convention == kinetics::PlanetaryConvention::consistent;
-  EffectRules rules{kinetics::planetary_mill_effects(convention)};
-  rules.refused.push_back(
-      {is_consistent ? "charge_relative" : "charge_offset",
-       is_consistent ? "is called \"charge_offset\" under the convention \"consistent\", where it is the "
-                       "transport inertia of the centroid; write that"
-                     : "is called \"charge_relative\" under the paper's conventions; write that"});
-  return rules;
-}
-
-void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std::string& table) {
-  for (const auto& effect : own_effect_table(role)) {
-    if (!contains(names_of(rules.table), effect.name)) rules.table.push_back(effect);
-    if (!has_body)
-      rules.refused.push_back(
-          {effect.name, "needs " + std::string(table == "[axle]" ? "an " : "a ") + table +
-                            ", whose mesh gives its mass; add the table or remove the effect"});
+void add_own_effects(EffectRules& rules, const std::string& machine_type, const SceneTable& root) {
+  for (const auto* kind : body_kinds()) {
+    if (kind->machine_type() != machine_type) continue;
+    const std::string table = kind->tables().front();
+    const bool has_body = root.has(table), begins_with_vowel = table.find_first_of("aeiou") == 0;
+    for (const auto& effect : kind->own_effects()) {
+      if (!contains(names_of(rules.table), effect.name)) rules.table.push_back(effect);
+      if (!has_body)
+        rules.refused.push_back(
+            {effect.name, std::string("needs ") + (begins_with_vowel ? "an [" : "a [") + table +
+                              "], whose mesh gives its mass; add the table or remove the effect"});
+    }
   }
 }
 

@@ -23,15 +23,12 @@ struct EffectRules {
   std::vector<std::string> lacking{};
 };
 
-/// Effects of kinetics under the convention, then those that come from the shaft's mesh; what is known under
-/// the other convention only, or needs a shaft that the scene lacks, is refused with that reason.
-EffectRules vibratory_mill_rules(kinetics::Convention convention, bool has_shaft);
+/// Each name once.
+std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table);
 
-/// The one effect that has two names under the planetary mill's conventions is refused under the wrong one.
-EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention);
-
-/// Adds the effects that a body of that role brings; without the body they are refused, naming its table.
-void add_own_effects(EffectRules& rules, BodyRole role, bool has_body, const std::string& table);
+/// Adds the effects that the bodies of a machine bring; those of a body that the scene lacks are refused,
+/// naming its table.
+void add_own_effects(EffectRules& rules, const std::string& machine_type, const SceneTable& root);
 
 /// Reads `effects` of the root table into scene.effects: a list of names, as written, each known, none twice;
 /// or "all", every effect that the scene has data for; or "auto", the same with the choice left open

@@ -6,21 +6,14 @@
 #include <tuple>
 #include <utility>
 
-#include "kinetics/machine_refused.h"
-#include "pipelines/common/nearest_name.h"
-#include "pipelines/common/units.h"
 #include "pipelines/files/toml_tree.h"
-#include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/body_kind.h"
+#include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene.h"
 #include "pipelines/scene/scene_body.h"
-#include "pipelines/scene/scene_effects.h"
-#include "pipelines/scene/scene_load_table.h"
-#include "pipelines/scene/scene_machine.h"
-#include "pipelines/scene/scene_planetary.h"
 #include "pipelines/scene/scene_stages.h"
 #include "pipelines/scene/scene_table.h"
-#include "pipelines/scene/scene_train.h"
 
 namespace pipelines {
 namespace {
@@ -61,132 +54,25 @@ TomlNode parse(const std::filesystem::path& file) {
   return root;
 }
 
-const std::string machine_types = "\"vibratory_mill\", \"planetary_mill\", \"drive_train\", \"load_table\"";
-
-/// The published formulas leave out terms that a body would feel as a resultant without a counterpart.
-void refuse_open_balance(SceneTable& machine, const kinetics::VibratoryMill& mill) {
-  const double omega2 = mill.speed_rad_s * mill.speed_rad_s;
-  const auto kN = [](double force_N) { return shown(std::round(force_N / 10) / 100) + " kN"; };
-  machine.refuse("convention",
-                 "the published formulas do not close: they leave out m r omega^2 = " +
-                     kN(mill.charge_mass_kg * mill.charge_offset_m * omega2) +
-                     " of the charge and (m1 + m2) ecc omega^2 = " +
-                     kN((mill.structure_mass_kg + mill.exciter_mass_kg) * mill.eccentricity_m * omega2) +
-                     " of the moving structure, which a body in equilibrium needs; write \"consistent\", or "
-                     "remove the bodies for "
-                     "the load stage alone");
+/// "vibratory_mill", "planetary_mill" ...
+std::string machine_types() {
+  std::string types;
+  for (const auto* kind : machine_kinds()) types += (types.empty() ? "\"" : ", \"") + kind->type() + "\"";
+  return types;
 }
 
-/// Tables of bodies that a machine has, and what they are there.
-using BodyTables = std::vector<std::pair<std::string, BodyRole>>;
-
-const BodyTables all_bodies{{"shaft", BodyRole::vibratory_shaft},
-                            {"chamber", BodyRole::chamber},
-                            {"drum", BodyRole::drum},
-                            {"axle", BodyRole::stub_axle},
-                            {"part", BodyRole::table_body}};
-
-BodyTables bodies_of(const std::string& machine_type) {
-  if (machine_type == "vibratory_mill")
-    return {{"shaft", BodyRole::vibratory_shaft}, {"chamber", BodyRole::chamber}};
-  if (machine_type == "planetary_mill") return {{"drum", BodyRole::drum}, {"axle", BodyRole::stub_axle}};
-  if (machine_type == "drive_train") return {{"shaft", BodyRole::train_shaft}};
-  return {{"shaft", BodyRole::table_body}, {"part", BodyRole::table_body}};
-}
-
-/// Tables of the scene's bodies, in the order of bodies_of; those of other machines are refused.
-std::vector<SceneTable> read_bodies(SceneTable& root, const std::string& machine_type, Scene& scene,
-                                    SceneFindings& findings) {
-  std::vector<SceneTable> tables;
-  const BodyTables own = bodies_of(machine_type);
-  for (const auto& [name, role] : own) {
-    root.know(name);
-    if (!root.has(name)) continue;
-    tables.push_back(root.table(name));
-    scene.bodies.push_back(read_body(tables.back(), role, scene, findings));
-  }
-  for (const auto& [name, role] : all_bodies) {
-    if (std::any_of(own.begin(), own.end(), [n = name](const auto& b) { return b.first == n; })) continue;
-    if (!root.has(name)) continue;
-    std::vector<std::string> names;
-    for (const auto& body : own) names.push_back(body.first);
-    root.know(name);
-    root.refuse(name, "this machine has no " + name + " to be analysed; it has " + listed(names));
-  }
-  if (scene.body("drum") && scene.body("axle"))
-    tables.back().refuse_missing("", "a drum with trunnions needs no stub axle: analyse one of the two");
-  return tables;
-}
-
-void read_vibratory_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
-  const auto convention = read_convention(machine);
-  EffectRules rules = vibratory_mill_rules(convention, root.has("shaft"));
-  if (!machine.has("charge") || !machine.table("charge").has("lag")) rules.lacking = {"charge_lag"};
-  if (!machine.has("springs"))
-    for (const char* effect : {"springs", "spring_damping"}) rules.lacking.push_back(effect);
-  read_effects(root, rules, scene, findings);
-  scene.run_up = read_run_up(machine);
-  auto mill = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space,
-                                  root.has("chamber") ? &scene.masses_from_mesh : nullptr);
-  if (scene.run_up && (root.has("shaft") || root.has("chamber")))
-    machine.refuse("run_up", "a run-up belongs to the load stage; remove it, or the bodies, so far");
-  if (convention == kinetics::Convention::published && (root.has("shaft") || root.has("chamber")))
-    refuse_open_balance(machine, mill);
-  scene.machine = std::move(mill);
-}
-
-void read_planetary_mill_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
-  const auto convention = read_planetary_convention(machine);
-  EffectRules rules = planetary_mill_rules(convention);
-  add_own_effects(rules, BodyRole::drum, root.has("drum"), "[drum]");
-  add_own_effects(rules, BodyRole::stub_axle, root.has("axle"), "[axle]");
-  for (const auto& effect : rules.table)
-    if ((effect.name == "belt" && !machine.has("belt")) ||
-        (effect.name.rfind("charge_", 0) == 0 && !machine.has("charge")))
-      rules.lacking.push_back(effect.name);
-  read_effects(root, rules, scene, findings);
-  bool from_mesh = false;
-  scene.machine =
-      read_planetary_mill(machine, convention, scene.effects, scene.drum_axes, root.has("drum"), from_mesh);
-  if (from_mesh) scene.masses_from_mesh.push_back("drum");
-}
-
-/// Only the inertia that [shaft] is can come from its mesh.
-void check_from_mesh(SceneTable& machine, const Scene& scene) {
-  if (scene.masses_from_mesh.empty()) return;
-  const auto* shaft = scene.body("shaft");
-  for (SceneTable& entry : machine.tables("inertias")) {
-    if (!entry.has("from_mesh") || !entry.flag_or("from_mesh", false, "")) continue;
-    const std::string name = entry.text("name");
-    if (shaft == nullptr)
-      entry.refuse("from_mesh", "needs a [shaft] whose mesh gives the inertia; add it, or the inertia");
-    else if (name != shaft->train.inertia)
-      entry.refuse("from_mesh", "the mesh is that of [shaft], which is \"" + shaft->train.inertia +
-                                    "\" in the train; give the inertia of \"" + name + "\"");
-  }
-}
-
-void read_drive_train_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
-  auto train = read_drive_train(machine, scene.torsion, scene.masses_from_mesh);
-  root.know("effects");
-  scene.machine = train;
-  std::vector<SceneTable> tables = read_bodies(root, "drive_train", scene, findings);
-  if (findings.errors.empty()) check_from_mesh(machine, scene);
-  if (!findings.errors.empty()) return;
-  try {
-    EffectRules rules{effect_table(train, scene.bodies)};
-    add_own_effects(rules, BodyRole::train_shaft, root.has("shaft"), "[shaft]");
-    read_effects(root, rules, scene, findings);
-  } catch (const kinetics::MachineRefused& error) {
-    machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
-  }
-}
-
-void read_load_table_scene(SceneTable& root, SceneTable& machine, Scene& scene, SceneFindings& findings) {
-  auto table = read_load_table(machine, scene.file.parent_path(), findings);
-  root.know("effects");
-  if (!table.loads.empty()) read_effects(root, {kinetics::load_table_effects(table)}, scene, findings);
-  scene.machine = std::move(table);
+/// What can be said of a scene whose machine is unknown. There may be no [machine] at all.
+void refuse_machine(SceneTable& root, SceneTable& machine, const std::string& type) {
+  if (!machine.has("type"))
+    machine.refuse_missing("type", "is missing; add it: one of " + machine_types());
+  else if (!type.empty())
+    machine.refuse("type", "unknown machine; write one of " + machine_types());
+  for (const char* key :
+       {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit", "method"})
+    root.know(key);
+  for (const auto* kind : body_kinds())
+    for (const auto& table : kind->tables()) root.know(table);
+  root.finish();
 }
 
 [[noreturn]] void throw_sorted(std::vector<SceneFinding> errors) {
@@ -209,34 +95,15 @@ Scene read_scene(const std::filesystem::path& file) {
   scene.title = root.text_or("title", file.stem().string(), "the name of the file");
   SceneTable machine = root.table("machine");
   const std::string type = machine.has("type") ? machine.text("type") : "";
-  if (type == "vibratory_mill")
-    read_vibratory_mill_scene(root, machine, scene, findings);
-  else if (type == "planetary_mill")
-    read_planetary_mill_scene(root, machine, scene, findings);
-  else if (type == "drive_train")
-    read_drive_train_scene(root, machine, scene, findings);
-  else if (type == "load_table")
-    read_load_table_scene(root, machine, scene, findings);
-  else {
-    if (!machine.has("type"))
-      machine.refuse_missing("type", "is missing; add it: one of " + machine_types);
-    else if (!type.empty())
-      machine.refuse("type", "unknown machine; write one of " + machine_types);
-    for (const char* key :
-         {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit", "method"})
-      root.know(key);
-    for (const auto& body : all_bodies) root.know(body.first);
-    root.finish();  // there may be no [machine] at all
+  const MachineKind* const kind = find_machine_kind(type);
+  if (kind == nullptr) {
+    refuse_machine(root, machine, type);
     throw_sorted(findings.errors);
   }
+  SceneReading reading{root, machine, scene, findings, {}};
+  kind->read(reading);
   scene.sampling = read_sampling(root.table_or_empty("sampling"), scene, findings);
-
-  std::vector<SceneTable> bodies;
-  if (type == "drive_train") {
-    if (!scene.bodies.empty()) bodies.push_back(root.table("shaft"));
-  } else {
-    bodies = read_bodies(root, type, scene, findings);
-  }
+  std::vector<SceneTable> bodies = reading.bodies ? *reading.bodies : read_bodies(root, scene, findings);
   if (bodies.empty() && (root.has("zones") || root.has("results")))
     findings.warnings.push_back("without a body ([shaft], [chamber] ...) [zones] and [results] have no use");
   scene.bearings = read_bearings(root);

@@ -1,35 +1,10 @@
-#include <cmath>
-#include <variant>
-
+#include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/scene_stages.h"
 
 namespace pipelines {
 namespace {
 
 constexpr int most_turns = 1000;
-
-/// The turns after which a machine's loads repeat.
-struct Period {
-  bool is_known = true;  ///< false: a speed could not be read
-  int turns = 1;         ///< 0: never, or not within most_turns
-};
-
-struct PeriodOf {
-  bool drum_axes;  ///< the loads in the drum's axes have to repeat too
-  Period operator()(const kinetics::VibratoryMill& mill) const {
-    if (!std::isfinite(mill.speed_rad_s) || !std::isfinite(mill.charge_relative_speed_rad_s))
-      return {false, 0};
-    return {true, kinetics::period_in_turns(mill, most_turns).value_or(0)};
-  }
-  /// In the carrier's frame every turn; seen from the drum after a few.
-  Period operator()(const kinetics::PlanetaryMill& mill) const {
-    return {true, drum_axes ? kinetics::period_in_turns(mill, most_turns).value_or(0) : 1};
-  }
-  /// Of the reference shaft; excitations that do not fit are warned of by the load stage.
-  Period operator()(const kinetics::DriveTrain&) const { return {}; }
-  /// Samples repeat after as many turns as the user says.
-  Period operator()(const kinetics::LoadTable&) const { return {}; }
-};
 
 }  // namespace
 
@@ -39,7 +14,7 @@ kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneF
   grid.instants_per_turn =
       sampling.count_or("instants_per_turn", 8, 100'000, 120, "one instant every 3 degrees of the drive");
   const auto [speeds_are_known, period] =
-      std::visit(PeriodOf{scene.drum_axes && findings.errors.empty()}, scene.machine);
+      kind_of(scene.machine).period(scene, most_turns, findings.errors.empty());
   if (sampling.has("turns") || period > 0)
     grid.turns = sampling.count_or("turns", 1, most_turns, period, "the period of the motion");
   else if (sampling.know("turns"); speeds_are_known)

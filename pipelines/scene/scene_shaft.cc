@@ -197,7 +197,7 @@ void check_length(Contour& contour, std::size_t i) {
                                mm(taken_m) + "; make it smaller or the segment longer");
 }
 
-/// Lengths to places: the given begin, or the one that the body's role asks for.
+/// Lengths to places: the given begin, or the one that the kind of body asks for.
 meshes::Shaft placed(const Contour& contour, SceneTable& body, const ContourRules& rules) {
   double z_m = 0, middle_m = 0;
   for (const auto& segment : contour.segments) {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/distribute.h"
+#include "pipelines/loads/load_collector.h"
 #include "pipelines/search/place_history.h"
 
 namespace pipelines {

@@ -169,10 +169,11 @@ TEST(EffectsOfBodies, AreListedWithWhatTheSceneTells) {
 // and to sqrt(500^2 + 500^2) N in the mean of squares.
 TEST(EffectsOfBodies, ForcesOnOnePortShareIt) {
   Scene scene = plain::scene("root_peeler_shaft");
-  scene.bodies[0].train.forces = {{"belt_pull", "disc_seat", {300, 0, 0}, false},
-                                  {"belt_pull", "disc_seat", {0, 400, 0}, false},
-                                  {"disc_imbalance", "disc_seat", {500, 0, 10}, true},
-                                  {"disc_weight", "disc_seat", {0, 0, -40}, false}};
+  std::get<pipelines::TrainShaftOptions>(scene.bodies[0].options).forces = {
+      {"belt_pull", "disc_seat", {300, 0, 0}, false},
+      {"belt_pull", "disc_seat", {0, 400, 0}, false},
+      {"disc_imbalance", "disc_seat", {500, 0, 10}, true},
+      {"disc_weight", "disc_seat", {0, 0, -40}, false}};
   const auto effects = effects_of_bodies(scene);
   const auto& pull = of(effects, "belt_pull").shares;
   ASSERT_EQ(pull.size(), 1u);

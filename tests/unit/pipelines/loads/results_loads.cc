@@ -13,7 +13,7 @@ using results_test::Directory;
 
 namespace {
 
-constexpr int n = 5;
+constexpr int n_rows = 5;
 
 kinetics::LoadHistory example() {
   kinetics::LoadHistory loads;
@@ -21,13 +21,13 @@ kinetics::LoadHistory example() {
   loads.convention = "newton";
   loads.effects = {"gravity", "inertia"};
   loads.warnings = {"the pitch is large", "second"};
-  loads.time_s = Eigen::ArrayXd::LinSpaced(n, 0, 0.04);
+  loads.time_s = Eigen::ArrayXd::LinSpaced(n_rows, 0, 0.04);
   loads.phi_rad = loads.time_s * 157.1;
-  loads.speed_rad_s = Eigen::ArrayXd::Constant(n, 157.1);
+  loads.speed_rad_s = Eigen::ArrayXd::Constant(n_rows, 157.1);
   loads.acceleration_rad_s2 = loads.phi_rad.cos();
   loads.quantities = {{"theta", "rad", "angle of the bearing force, (12)", loads.phi_rad.sin()},
                       {"spring_1.fx", "N", "", loads.phi_rad * 3}};
-  const Eigen::Array3Xd a = Eigen::Array3Xd::Random(3, n), b = Eigen::Array3Xd::Random(3, n);
+  const Eigen::Array3Xd a = Eigen::Array3Xd::Random(3, n_rows), b = Eigen::Array3Xd::Random(3, n_rows);
   loads.resultants = {{"eccentric", "on the shaft", a + b, {{"gravity", a}, {"inertia", b}}},
                       {"debalance", "on the shaft", b, {{"inertia", b}}}};
   return loads;
@@ -38,7 +38,7 @@ ChannelHistory example_channels() {
   channels.body = "shaft";
   channels.channels = {{"main_bearing_1.fx", "N"}, {"pulley.mz", "N m"}};
   channels.effects = {"gravity", "gravity_shaft"};
-  channels.by_effect = {Eigen::ArrayXXd::Random(2, n), Eigen::ArrayXXd::Random(2, n)};
+  channels.by_effect = {Eigen::ArrayXXd::Random(2, n_rows), Eigen::ArrayXXd::Random(2, n_rows)};
   channels.values = channels.by_effect[0] + channels.by_effect[1];
   return channels;
 }
@@ -126,7 +126,7 @@ TEST(LoadFiles, CsvHasARowPerInstantAndExactNumbers) {
       row.push_back(std::strtod(cell.c_str(), nullptr));
     ASSERT_EQ(row.size(), titles.size());
   }
-  ASSERT_EQ(rows.size(), static_cast<std::size_t>(n));
+  ASSERT_EQ(rows.size(), static_cast<std::size_t>(n_rows));
   const std::vector<std::pair<std::string, Eigen::ArrayXd>> expected = {
       {"time [s]", loads.time_s},
       {"phi [rad]", loads.phi_rad},
@@ -138,7 +138,7 @@ TEST(LoadFiles, CsvHasARowPerInstantAndExactNumbers) {
   for (const auto& [title, values] : expected) {
     const auto c = static_cast<std::size_t>(column(title));
     ASSERT_LT(c, titles.size()) << title;
-    for (int i = 0; i < n; ++i) EXPECT_EQ(rows[static_cast<std::size_t>(i)][c], values(i)) << title;
+    for (int i = 0; i < n_rows; ++i) EXPECT_EQ(rows[static_cast<std::size_t>(i)][c], values(i)) << title;
   }
 }
 
@@ -161,12 +161,12 @@ TEST(LoadFiles, RefusesWhatWouldMislead) {
   channels.by_effect.pop_back();
   EXPECT_THROW(write_loads_h5(at / "loads.h5", loads, {&channels}), std::invalid_argument);
   channels = example_channels();
-  channels.values.conservativeResize(2, n - 1);
+  channels.values.conservativeResize(2, n_rows - 1);
   EXPECT_THROW(write_loads_csv(at / "loads.csv", loads, {&channels}), std::invalid_argument);
   loads.quantities[0].name = "a/b";
   EXPECT_THROW(write_loads_h5(at / "loads.h5", loads), std::invalid_argument);
   loads = example();
-  loads.quantities[0].values.conservativeResize(n - 2);
+  loads.quantities[0].values.conservativeResize(n_rows - 2);
   EXPECT_THROW(write_loads_h5(at / "loads.h5", loads), std::invalid_argument);
   EXPECT_TRUE(std::filesystem::is_empty(at.path));
 }

@@ -19,7 +19,7 @@ TEST(SceneChamber, HasTheLaboratorySizes) {
   ASSERT_EQ(scene.bodies.size(), 2u);
   const auto* body = scene.body("chamber");
   ASSERT_TRUE(body);
-  EXPECT_EQ(body->role, pipelines::BodyRole::chamber);
+  ASSERT_TRUE(std::holds_alternative<pipelines::ChamberOptions>(body->options));
   EXPECT_EQ(body->shaft(), nullptr);
   const auto& [g, mesh] = std::get<pipelines::ChamberShape>(body->shape);
   expect_same_number(g.tube.inner_radius_m, 0.13);
@@ -53,8 +53,8 @@ TEST(SceneChamber, HasTheLaboratorySizes) {
   EXPECT_EQ(body->material_name, "S235");
   expect_same_number(body->yield_strength_Pa, 235e6);
   EXPECT_EQ(body->difference_port, "covers");
-  EXPECT_EQ(body->pitch_guide, pipelines::PitchGuide::body);
-  EXPECT_FALSE(body->elastic_feet);
+  EXPECT_EQ(std::get<pipelines::ChamberOptions>(body->options).pitch_guide, pipelines::PitchGuide::body);
+  EXPECT_FALSE(std::get<pipelines::ChamberOptions>(body->options).elastic_feet);
   const auto& wall = body->pressures.at("inner_wall");
   EXPECT_EQ(wall.pattern.kind, pipelines::PressurePattern::Kind::cosine);
   expect_same_number(wall.pattern.half_angle_rad, M_PI / 2);
@@ -102,8 +102,8 @@ TEST(SceneChamber, TakesItsOptions) {
                      {"# size = \"20 mm\"", "size = \"20 mm\""}});
   const auto& body = *scene.body("chamber");
   EXPECT_EQ(body.difference_port, "spring_foot_1");
-  EXPECT_EQ(body.pitch_guide, pipelines::PitchGuide::feet);
-  EXPECT_TRUE(body.elastic_feet);
+  EXPECT_EQ(std::get<pipelines::ChamberOptions>(body.options).pitch_guide, pipelines::PitchGuide::feet);
+  EXPECT_TRUE(std::get<pipelines::ChamberOptions>(body.options).elastic_feet);
   const auto& shape = std::get<pipelines::ChamberShape>(body.shape);
   expect_same_number(shape.geometry.tube.inner_radius_m, 0.131);
   expect_same_number(shape.geometry.tube.length_m, 0.3);

@@ -8,7 +8,6 @@
 namespace {
 
 using edited::has_default;
-using pipelines::BodyRole;
 using pipelines::Scene;
 
 void expect_same_size(double value, double expected) {
@@ -25,7 +24,7 @@ TEST(SceneDrum, HasSetB) {
   const Scene scene = edited::scene("planetary_mill", {});
   ASSERT_EQ(scene.bodies.size(), 1u);
   const auto& body = *scene.body("drum");
-  EXPECT_EQ(body.role, BodyRole::drum);
+  EXPECT_TRUE(std::holds_alternative<pipelines::DrumOptions>(body.options));
   ASSERT_TRUE(body.shaft());
   // coupling.md 7.3; z = 0 in the middle of the inner wall, bearings at +-560, pulley at 629.
   struct Expected {
@@ -82,11 +81,11 @@ TEST(SceneDrum, BeltWrapsThePulleysSeat) {
 TEST(SceneAxle, HasTheStub) {
   const Scene scene = edited::scene("stub_axle", {});
   const auto& body = *scene.body("axle");
-  EXPECT_EQ(body.role, BodyRole::stub_axle);
-  expect_same_size(body.stub_axle.bearing_span_m, 1.12);
-  expect_same_size(body.stub_axle.pulley_plane_m, 0.629);
-  expect_same_size(body.stub_axle.pulley_mass_kg, 21.1);
-  EXPECT_FALSE(body.stub_axle.pulley_side) << "the plain side carries more";
+  const auto& axle = std::get<pipelines::StubAxleOptions>(body.options);
+  expect_same_size(axle.bearing_span_m, 1.12);
+  expect_same_size(axle.pulley_plane_m, 0.629);
+  expect_same_size(axle.pulley_mass_kg, 21.1);
+  EXPECT_FALSE(axle.pulley_side) << "the plain side carries more";
   EXPECT_EQ(body.shaft()->geometry.segments.front().begin_m, 0) << "from the clamped end";
   expect_same_size(segment(body, "bearing").end_m, 0.13);
   EXPECT_TRUE(has_default(scene, "axle.begin", "0 m"));
@@ -95,7 +94,7 @@ TEST(SceneAxle, HasTheStub) {
   EXPECT_EQ(of_kinetics.size(), scene.effects.size() - 2) << "axle_gravity and axle_transport are its own";
   const Scene other = edited::scene(
       "stub_axle", {{"side = \"plain\" ", "side = \"pulley\" "}, {"pulley_mass = \"21.1 kg\" ", "# "}});
-  EXPECT_TRUE(other.body("axle")->stub_axle.pulley_side);
+  EXPECT_TRUE(std::get<pipelines::StubAxleOptions>(other.body("axle")->options).pulley_side);
   EXPECT_TRUE(has_default(other, "axle.pulley_mass", "0 kg"));
   const Scene silent = edited::scene("stub_axle", {{"side = \"plain\" ", "# "}});
   EXPECT_TRUE(has_default(silent, "axle.side", "\"plain\""));
@@ -104,8 +103,7 @@ TEST(SceneAxle, HasTheStub) {
 TEST(SceneTrainShaft, HasThePeelers) {
   const Scene scene = edited::scene("root_peeler_shaft", {});
   const auto& body = *scene.body("shaft");
-  EXPECT_EQ(body.role, BodyRole::train_shaft);
-  const auto& train = body.train;
+  const auto& train = std::get<pipelines::TrainShaftOptions>(body.options);
   EXPECT_EQ(train.inertia, "working_shaft");
   ASSERT_EQ(train.torques.size(), 2u);
   EXPECT_EQ(train.torques[0].port, "pulley_seat");
@@ -142,7 +140,7 @@ TEST(SceneTrainShaft, NeedsNoForces) {
        {"[[shaft.forces]]\neffect = \"disc_weight\"\nport = \"disc_seat\"\n"
         "force = [\"0 N\", \"0 N\", \"-118 N\"]\n",
         ""}});
-  EXPECT_TRUE(scene.body("shaft")->train.forces.empty());
+  EXPECT_TRUE(std::get<pipelines::TrainShaftOptions>(scene.body("shaft")->options).forces.empty());
   EXPECT_TRUE(has_default(scene, "shaft.axial_bearing", "\"bearing_1\""));
 }
 
@@ -174,10 +172,10 @@ TEST(ScenePart, TakesAnyPortAndItsSupports) {
   const Scene scene = edited::scene(
       "load_table", {{"turns = 1  # the period of the samples", "turns = 1\n" + std::string(part_table)}});
   const auto& body = *scene.body("part");
-  EXPECT_EQ(body.role, BodyRole::table_body);
-  EXPECT_EQ(body.table.bearings, (std::vector<std::string>{"bearing_1", "bearing_2"}));
-  EXPECT_EQ(body.table.axial_support, "end_1");
-  EXPECT_EQ(body.table.torque_support, "bearing_2");
+  const auto& table = std::get<pipelines::TableBodyOptions>(body.options);
+  EXPECT_EQ(table.bearings, (std::vector<std::string>{"bearing_1", "bearing_2"}));
+  EXPECT_EQ(table.axial_support, "end_1");
+  EXPECT_EQ(table.torque_support, "bearing_2");
   expect_same_size(body.shaft()->geometry.segments.front().begin_m, -0.02);
   EXPECT_EQ(segment(body, "pulley_seat").bore_port, "inside");
   expect_same_size(body.shaft()->mesh.largest_cell_m, 0.005);

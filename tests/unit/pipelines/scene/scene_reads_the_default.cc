@@ -10,8 +10,8 @@
 #include <iterator>
 #include <string>
 
+#include "pipelines/machines/vibratory_mill_reader.h"
 #include "pipelines/scene/scene.h"
-#include "pipelines/scene/scene_machine.h"
 #include "tests/unit/pipelines/examples/edited_scene.h"
 
 namespace {
@@ -98,7 +98,7 @@ TEST(default_scene, HasTheLaboratoryShaft) {
   const Scene scene = pipelines::read_scene(default_scene);
   const auto* body = scene.body("shaft");
   ASSERT_TRUE(body && body->shaft());
-  EXPECT_EQ(body->role, pipelines::BodyRole::vibratory_shaft);
+  EXPECT_TRUE(std::holds_alternative<pipelines::VibratoryShaftOptions>(body->options));
   const auto& [segments, fillets_m] = body->shaft()->geometry;
   struct Expected {
     const char* name;
@@ -132,7 +132,8 @@ TEST(default_scene, HasTheLaboratoryShaft) {
   expect_same(body->material.density_kg_m3, 7850);
   expect_same(body->yield_strength_Pa, 305e6);
   EXPECT_EQ(body->pressure_harmonics, 4);
-  EXPECT_EQ(body->debalance_shares, (std::vector<double>{0.5, 0.5}));
+  EXPECT_EQ(std::get<pipelines::VibratoryShaftOptions>(body->options).debalance_shares,
+            (std::vector<double>{0.5, 0.5}));
   EXPECT_EQ(body->shaft()->mesh.cells_per_fillet_quarter, 8);
   EXPECT_EQ(body->shaft()->mesh.n_sectors, 16);
   EXPECT_EQ(body->shaft()->mesh.largest_cell_m, 0);

@@ -1,7 +1,7 @@
 /// A body under a load table: every component reaches its channel, the supports close what is left.
 #include <gtest/gtest.h>
 
-#include "pipelines/loads/distribute.h"
+#include "pipelines/bodies/table_body.h"
 #include "tests/unit/pipelines/examples/bodies.h"
 
 namespace {

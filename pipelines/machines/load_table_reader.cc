@@ -1,4 +1,4 @@
-#include "pipelines/scene/scene_load_table.h"
+#include "pipelines/machines/load_table_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pipelines/loads/distribute.h"
+#include "pipelines/bodies/train_shaft.h"
 #include "tests/unit/pipelines/examples/plain_body.h"
 
 namespace {
@@ -19,6 +19,7 @@ struct Peeler {
   kinetics::DriveTrain train;
   kinetics::LoadHistory history;
   pipelines::TrainShaftOptions options;
+  std::vector<pipelines::AttachedMass> attached;
   double speed_rad_s = 0;
 
   explicit Peeler(double damping_N_m_s = 0) {
@@ -29,12 +30,13 @@ struct Peeler {
     agreed = agree_masses(scene, {plain::meshed(*scene.body("shaft"))});
     train = std::get<kinetics::DriveTrain>(agreed.machine);
     history = kinetics::compute_loads(train, of_kinetics, {16, 24});
-    options = scene.body("shaft")->train;
-    options.effects = scene.effects;
-    options.attached = agreed.attached.at("shaft").structure;
+    options = std::get<pipelines::TrainShaftOptions>(scene.body("shaft")->options);
+    attached = agreed.attached.at("shaft").structure;
     speed_rad_s = kinetics::mean_speed_rad_s(train, options.inertia);
   }
-  BodyLoads loads() const { return distribute_train_shaft(history, speed_rad_s, body, options); }
+  BodyLoads loads() const {
+    return distribute_train_shaft(history, speed_rad_s, body, options, scene.effects, attached);
+  }
 };
 
 TEST(TrainShaft, InertiaComesFromTheMesh) {
@@ -43,7 +45,7 @@ TEST(TrainShaft, InertiaComesFromTheMesh) {
   EXPECT_NEAR(peeler.train.inertias[3].inertia_kg_m2, 7.20e-5, 0.01e-5);
   ASSERT_EQ(peeler.agreed.figures.size(), 1u);
   EXPECT_TRUE(peeler.agreed.figures[0].from_mesh);
-  EXPECT_TRUE(peeler.options.attached.empty());
+  EXPECT_TRUE(peeler.attached.empty());
 }
 
 TEST(TrainShaft, ClosesAtEveryInstant) {
@@ -109,9 +111,9 @@ TEST(TrainShaft, DifferenceToAGivenInertiaIsCarried) {
   peeler.agreed = agree_masses(peeler.scene, {plain::meshed(*peeler.scene.body("shaft"))});
   peeler.train = std::get<kinetics::DriveTrain>(peeler.agreed.machine);
   peeler.history = kinetics::compute_loads(peeler.train, peeler.scene.kinetics_effects(), {4, 24});
-  peeler.options.attached = peeler.agreed.attached.at("shaft").structure;
-  ASSERT_EQ(peeler.options.attached.size(), 1u);
-  EXPECT_EQ(peeler.options.attached[0].port, "pulley_seat");
+  peeler.attached = peeler.agreed.attached.at("shaft").structure;
+  ASSERT_EQ(peeler.attached.size(), 1u);
+  EXPECT_EQ(peeler.attached[0].port, "pulley_seat");
   const auto loads = peeler.loads();
   EXPECT_LT(bodies::closure_of(loads, peeler.body.regions).worst_moment(), 1e-12);
   EXPECT_GT(bodies::largest(bodies::part(loads, "shaft_inertia", "pulley_seat.torque")), 0);

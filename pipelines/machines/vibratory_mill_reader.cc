@@ -1,4 +1,4 @@
-#include "pipelines/scene/scene_machine.h"
+#include "pipelines/machines/vibratory_mill_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipelines/scene/scene_train.h"
+#include "pipelines/machines/drive_train_reader.h"
 
 #include <algorithm>
 #include <cmath>

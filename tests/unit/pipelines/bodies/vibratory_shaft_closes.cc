@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pipelines/loads/distribute.h"
+#include "pipelines/bodies/vibratory_shaft.h"
 #include "tests/unit/pipelines/examples/bodies.h"
 #include "tests/unit/pipelines/examples/laboratory.h"
 
@@ -15,8 +15,8 @@ using bodies::row;
 using pipelines::BodyLoads;
 using pipelines::distribute_vibratory_shaft;
 
-pipelines::VibratoryShaftOptions all_on() {
-  pipelines::VibratoryShaftOptions options;
+pipelines::VibratoryShaftLoading all_on() {
+  pipelines::VibratoryShaftLoading options;
   options.own_weight = options.own_inertia = true;
   return options;
 }

@@ -1,4 +1,4 @@
-#include "pipelines/scene/scene_planetary.h"
+#include "pipelines/machines/planetary_mill_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,8 @@
 /// clamp closes, and the load hardly changes.
 #include <gtest/gtest.h>
 
-#include "pipelines/loads/distribute.h"
+#include "pipelines/bodies/drum.h"
+#include "pipelines/bodies/stub_axle.h"
 #include "tests/unit/pipelines/examples/plain_body.h"
 
 namespace {
@@ -16,11 +17,13 @@ struct Stub {
   kinetics::PlanetaryMill mill = std::get<kinetics::PlanetaryMill>(scene.machine);
   kinetics::LoadHistory history = kinetics::compute_loads(mill, scene.kinetics_effects(), {1, 360});
 
+  const pipelines::StubAxleOptions& options() const {
+    return std::get<pipelines::StubAxleOptions>(scene.body("axle")->options);
+  }
   pipelines::BodyLoads loads(bool pulley_side) const {
-    auto options = scene.body("axle")->stub_axle;
-    options.effects = scene.effects;
-    options.pulley_side = pulley_side;
-    return distribute_stub_axle(history, mill, body, options);
+    auto side = options();
+    side.pulley_side = pulley_side;
+    return distribute_stub_axle(history, mill, body, side, scene.effects);
   }
 };
 
@@ -39,7 +42,7 @@ TEST(StubAxle, BothSidesAddUpToTheAxlesLoad) {
 TEST(StubAxle, IsTheCounterpartOfTheDrumsTrunnions) {
   const Stub stub;
   using Kind = meshes::Port::Kind;
-  const auto& axle = stub.scene.body("axle")->stub_axle;
+  const auto& axle = stub.options();
   pipelines::LoadedBody drum{"drum",
                              {bodies::port("inner_wall", Kind::bore, 1, {-0.5, 0.5}, 0.1),
                               bodies::port("trunnion_1", Kind::seat, 2, {-0.58, -0.54}, 0.04),
@@ -102,9 +105,8 @@ TEST(StubAxle, TurnsWithTheCarrier) {
   EXPECT_LT(bodies::largest(part("axle_transport", "volume.ax") - omega2 * l_OA), 1e-9);
   EXPECT_LT(bodies::largest(part("axle_gravity", "volume.ax") + 9.81 * stub.history.phi_rad.sin()), 1e-12);
   EXPECT_LT(bodies::largest(part("axle_gravity", "volume.ay") + 9.81 * stub.history.phi_rad.cos()), 1e-12);
-  auto options = stub.scene.body("axle")->stub_axle;
-  options.effects = {"drum_transport"};
-  const auto massless = distribute_stub_axle(stub.history, stub.mill, stub.body, options);
+  const auto massless =
+      distribute_stub_axle(stub.history, stub.mill, stub.body, stub.options(), {"drum_transport"});
   EXPECT_FALSE(bodies::has(massless, "volume.ax"));
   EXPECT_FALSE(bodies::has(massless, "volume.spin"));
 }

@@ -1,0 +1,54 @@
+/// What the kinds of bodies need to let the machine's masses and the mesh's agree.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/loads/machine_masses.h"
+
+namespace pipelines {
+
+/// Mass, first moment and polar inertia about the origin: what planar motion feels of a body.
+struct PlanarMass {
+  double mass_kg = 0, x_kg_m = 0, y_kg_m = 0, polar_kg_m2 = 0;
+
+  PlanarMass& operator+=(const PlanarMass& other) {
+    mass_kg += other.mass_kg;
+    x_kg_m += other.x_kg_m;
+    y_kg_m += other.y_kg_m;
+    polar_kg_m2 += other.polar_kg_m2;
+    return *this;
+  }
+};
+
+PlanarMass planar_mass(const fem::MassProperties& m);
+PlanarMass planar_mass(const std::vector<AttachedMass>& list);
+
+/// Whether the scene leaves that mass to the mesh.
+bool is_open(const Scene& scene, const std::string& mass);
+
+/// The masses that the scene adds to one part of the body, about the origin of the body's frame.
+/// @param region  "structure" and "exciter" of a chamber; empty for other bodies
+/// @throws StageRefused if the mesh lacks a port
+std::vector<AttachedMass> added_masses(const BodyScene& scene, const meshes::BodyMesh& mesh,
+                                       const std::string& region);
+
+/// Collects the figures of one body and what they leave to be carried.
+class MassComparison {
+public:
+  MassComparison(const std::string& body, std::vector<MassFigure>& figures)
+      : body_(body), figures_(figures) {}
+
+  /// @return given - mesh
+  /// @throws StageRefused if they are more than 20 % apart
+  double compare(const std::string& name, const std::string& unit, double given, double mesh, bool from_mesh);
+
+private:
+  std::string body_;
+  std::vector<MassFigure>& figures_;
+};
+
+/// What is left to be carried, as an attached mass on that port; nothing where it vanishes.
+void add_difference(std::vector<AttachedMass>& list, const std::string& port, const PlanarMass& rest);
+
+}  // namespace pipelines

@@ -1,0 +1,86 @@
+#include "kinetics/machine_refused.h"
+#include "pipelines/machines/drive_train_reader.h"
+#include "pipelines/machines/kinds.h"
+#include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/plausibility.h"
+#include "pipelines/scene/scene_body.h"
+#include "pipelines/scene/scene_effects.h"
+
+namespace pipelines {
+namespace {
+
+const kinetics::DriveTrain& train_in(const Machine& machine) {
+  return std::get<kinetics::DriveTrain>(machine);
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Only the inertia that [shaft] is can come from its mesh.
+void check_from_mesh(SceneTable& machine, const Scene& scene) {
+  if (scene.masses_from_mesh.empty()) return;
+  const auto* shaft = scene.body("shaft");
+  for (SceneTable& entry : machine.tables("inertias")) {
+    if (!entry.has("from_mesh") || !entry.flag_or("from_mesh", false, "")) continue;
+    const std::string name = entry.text("name");
+    if (shaft == nullptr)
+      entry.refuse("from_mesh", "needs a [shaft] whose mesh gives the inertia; add it, or the inertia");
+    else if (const auto& own = std::get<TrainShaftOptions>(shaft->options).inertia; name != own)
+      entry.refuse("from_mesh", "the mesh is that of [shaft], which is \"" + own +
+                                    "\" in the train; give the inertia of \"" + name + "\"");
+  }
+}
+
+class DriveTrainKind : public MachineKind {
+public:
+  std::string type() const override { return "drive_train"; }
+
+  /// The bodies first: forces on a shaft are effects too.
+  void read(SceneReading& reading) const override {
+    auto& [root, machine, scene, findings, bodies] = reading;
+    const auto train = read_drive_train(machine, scene.torsion, scene.masses_from_mesh);
+    root.know("effects");
+    scene.machine = train;
+    bodies = read_bodies(root, scene, findings);
+    if (findings.errors.empty()) check_from_mesh(machine, scene);
+    if (!findings.errors.empty()) return;
+    try {
+      EffectRules rules{effect_table(train, scene.bodies)};
+      add_own_effects(rules, type(), root);
+      read_effects(root, rules, scene, findings);
+    } catch (const kinetics::MachineRefused& error) {
+      machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
+    }
+  }
+  // The period is a turn of the reference shaft; excitations that do not fit are warned of by the load stage.
+  void doubt(const Scene& scene, Doubts& doubts) const override {
+    doubts.speed("machine.reference", train_in(scene.machine).reference_speed_rad_s);
+  }
+  std::vector<kinetics::EffectInfo> effects(const Machine& machine) const override {
+    return kinetics::drive_train_effects(train_in(machine));
+  }
+  bool is_headline(const std::string& quantity) const override {
+    return ends_with(quantity, ".torque") || ends_with(quantity, ".shear_stress");
+  }
+  bool is_torsional() const override { return true; }
+  std::vector<double> natural_frequencies_rad_s(const Machine& machine) const override {
+    const auto modes = kinetics::natural_modes(train_in(machine), kinetics::Shapes::none);
+    return {modes.frequency_rad_s.begin(), modes.frequency_rad_s.end()};
+  }
+
+protected:
+  void check_without_masses(const Machine& machine) const override {
+    const auto& train = train_in(machine);
+    kinetics::mean_speed_rad_s(train, train.inertias.at(0).name);
+  }
+};
+
+}  // namespace
+
+const MachineKind& drive_train_kind() {
+  static const DriveTrainKind kind;
+  return kind;
+}
+
+}  // namespace pipelines

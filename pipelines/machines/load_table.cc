@@ -1,0 +1,46 @@
+#include "pipelines/machines/kinds.h"
+#include "pipelines/machines/load_table_reader.h"
+#include "pipelines/scene/plausibility.h"
+#include "pipelines/scene/scene_effects.h"
+
+namespace pipelines {
+namespace {
+
+const kinetics::LoadTable& table_in(const Machine& machine) {
+  return std::get<kinetics::LoadTable>(machine);
+}
+
+class LoadTableKind : public MachineKind {
+public:
+  std::string type() const override { return "load_table"; }
+
+  void read(SceneReading& reading) const override {
+    auto& [root, machine, scene, findings, bodies] = reading;
+    auto table = read_load_table(machine, scene.file.parent_path(), findings);
+    root.know("effects");
+    if (!table.loads.empty()) read_effects(root, {kinetics::load_table_effects(table)}, scene, findings);
+    scene.machine = std::move(table);
+  }
+  // The period is a turn: samples repeat after as many as the user says.
+  void doubt(const Scene& scene, Doubts& doubts) const override {
+    doubts.speed("machine", table_in(scene.machine).speed_rad_s);
+  }
+  std::vector<kinetics::EffectInfo> effects(const Machine& machine) const override {
+    return kinetics::load_table_effects(table_in(machine));
+  }
+  bool has_samples() const override { return true; }
+  std::vector<kinetics::ResamplingError> resampling_errors(const Machine& machine,
+                                                           const kinetics::TimeGrid& grid) const override {
+    return kinetics::resampling_errors(table_in(machine), grid);
+  }
+  bool is_headline(const std::string&) const override { return true; }
+};
+
+}  // namespace
+
+const MachineKind& load_table_kind() {
+  static const LoadTableKind kind;
+  return kind;
+}
+
+}  // namespace pipelines

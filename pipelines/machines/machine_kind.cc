@@ -1,0 +1,55 @@
+/// What most machines have in common.
+#include "pipelines/scene/machine_kind.h"
+
+namespace pipelines {
+
+void MachineKind::check_bodies(const Scene&, std::vector<SceneTable>&) const {}
+
+Period MachineKind::period(const Scene&, int, bool) const {
+  return {};
+}
+
+void MachineKind::refuse_open_balance(const Scene&, SceneTable&) const {}
+
+std::optional<kinetics::LoadHistory> MachineKind::rehearse(const Scene& scene) const {
+  if (!scene.masses_from_mesh.empty()) {
+    check_without_masses(scene.machine);
+    return std::nullopt;
+  }
+  // Samples need all their turns; what a mill refuses shows in one.
+  return compute_loads(scene.machine, scene.kinetics_effects(),
+                       {has_samples() ? scene.sampling.turns : 1, 8});
+}
+
+std::vector<std::string> MachineKind::added_loads(const Scene&) const {
+  return {};
+}
+
+kinetics::LoadHistory MachineKind::loads(const Scene& scene, const Machine& machine) const {
+  return compute_loads(machine, scene.kinetics_effects(), scene.sampling);
+}
+
+bool MachineKind::has_samples() const {
+  return false;
+}
+
+std::vector<kinetics::ResamplingError> MachineKind::resampling_errors(const Machine&,
+                                                                      const kinetics::TimeGrid&) const {
+  return {};
+}
+
+std::vector<kinetics::Spring> MachineKind::springs(const Machine&) const {
+  return {};
+}
+
+bool MachineKind::is_torsional() const {
+  return false;
+}
+
+std::vector<double> MachineKind::natural_frequencies_rad_s(const Machine&) const {
+  return {};
+}
+
+void MachineKind::check_without_masses(const Machine&) const {}
+
+}  // namespace pipelines
