@@ -76,6 +76,12 @@ double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes);
 
+/// As choose_solver, with this machine's memory; where it is direct and small enough, after an analysis of
+/// the matrix. Solves nothing.
+/// @throws DoesNotFit as choose_solver
+SolverReport predict_solver(const Grid& grid, const CellsOfNodes& cells, const CellMaterials& materials,
+                            std::size_t n_loads, const SolverChoice& choice);
+
 /// @param factor_bytes  known, not predicted: CHOLMOD's analysis of the matrix tells it before it factorises
 /// @param memory_bytes  that are left for it
 /// @throws DoesNotFit naming unknowns, bytes, memory and remedy if it does not fit into memory

@@ -29,7 +29,7 @@ public:
   }
 
   ModelForecast of(const std::string& model, const MeshedBody& meshed) {
-    at_hand_ = fem::predict_solver(meshed.body, loads_.n_channels, choice_);
+    at_hand_ = meshed.model->predict_solver(loads_.n_channels, choice_);
     return of(model, meshed.model->n_dofs(), *at_hand_);
   }
   /// Cells of the mesh looked at last become `factor` times smaller.
