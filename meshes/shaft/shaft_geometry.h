@@ -50,6 +50,8 @@ struct Shaft {
 };
 
 struct ShaftMeshControl {
+  static constexpr double steepest_growth = 1;  ///< above, neighbouring cells differ by more than e
+
   int cells_per_fillet_quarter = 8;  ///< even, >= 2
   std::vector<int> fillet_cells;     ///< the same for each of Shaft::fillets_m; empty: alike; 0: as above
   int n_sectors = 16;                ///< around, a multiple of 4, >= 8
