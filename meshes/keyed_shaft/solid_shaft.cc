@@ -63,7 +63,7 @@ public:
 
 private:
   void add(const std::string& name, Feature::Kind kind, double begin_m, double end_m,
-           std::function<bool(const Point&)> holds) {
+           const std::function<bool(const Point&)>& holds) {
     const int id = volume_id + 1 + int(all.size());
     all.push_back({{name, kind, id, begin_m, end_m}, [=, tolerance = tolerance_m_](const Point& p) {
                      return p[2] >= begin_m - tolerance && p[2] <= end_m + tolerance && holds(p);

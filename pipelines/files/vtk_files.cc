@@ -109,7 +109,7 @@ struct Cells {
 
 void set_cells(vtkUnstructuredGrid& grid, const Cells& cells) {
   vtkNew<vtkTypeInt32Array> offsets, connectivity;
-  offsets->SetNumberOfValues(static_cast<vtkIdType>(cells.size() + 1));
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(cells.size()) + 1);
   connectivity->SetNumberOfValues(static_cast<vtkIdType>(cells.nodes.size()));
   for (std::size_t i = 0; i <= cells.size(); ++i)
     offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * cells.n_nodes));
