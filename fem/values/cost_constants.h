@@ -1,7 +1,7 @@
 /// The fitted constants of what solving costs, in one table. Formulas: solvers/solver_prediction.h.
 ///
 ///   machine  AMD EPYC of 2023 (AVX2, AVX-512), two threads, nothing else running; seconds are half the CPU
-///            seconds of both threads
+///            seconds of both threads, or those of one where a factor stays on it
 ///   date     2026-11-21, the analysed factor 2026-11-22
 ///   refit    tests/benchmarks/run solvers fit 4.1e6    prints what it measured, and each constant anew
 ///

@@ -22,6 +22,12 @@ double seconds(const SolverFigures& figures) {
   return figures.cpu_s / 2;
 }
 
+/// A small factor stays on one thread: its seconds are those of that thread.
+double direct_seconds(const SolverRow& row) {
+  const bool is_alone = row.factor.n_dofs > 0 && row.factor.flops < fem::flops_worth_threads;
+  return is_alone ? row.direct->cpu_s : seconds(*row.direct);
+}
+
 double own_bytes(const SolverFigures& figures) {
   return figures.bytes - figures.bytes_before;
 }
@@ -103,7 +109,7 @@ private:
     for (const auto& row : rows_) {
       if (!row.direct) continue;
       const double n = double(row.n_dofs) / cost::direct_unit, power = std::pow(n, cost::direct_exponent);
-      time.push_back({seconds(*row.direct) - cost::direct_s_per_load * power * n_loads_, n, n * n});
+      time.push_back({direct_seconds(row) - cost::direct_s_per_load * power * n_loads_, n, n * n});
       memory.push_back({own_bytes(*row.direct), power, 0});
     }
     two("direct_s_linear", cost::direct_s_linear, "direct_s_square", cost::direct_s_square, std::move(time));
@@ -117,7 +123,7 @@ private:
       if ((row.factor.flops >= fem::flops_worth_threads) != shared) continue;
       auto none = row.factor;
       none.flops = 0;
-      time.push_back({seconds(*row.direct) - fem::predict_direct(none, std::size_t(n_loads_)).seconds,
+      time.push_back({direct_seconds(row) - fem::predict_direct(none, std::size_t(n_loads_)).seconds,
                       row.factor.flops, 0});
     }
     one(name, table, time);
@@ -160,13 +166,11 @@ private:
 
 /// The prediction that is furthest from what was measured, as a ratio.
 double worst_ratio(const std::vector<SolverRow>& rows,
-                   const std::function<const SolverFigures*(const SolverRow&)>& solver) {
+                   const std::function<std::optional<double>(const SolverRow&)>& ratio_of) {
   double worst = 1;
   for (const auto& row : rows)
-    if (const auto* figures = solver(row)) {
-      const double ratio = seconds(*figures) / figures->predicted_s;
-      if (std::abs(std::log(ratio)) > std::abs(std::log(worst))) worst = ratio;
-    }
+    if (const auto ratio = ratio_of(row); ratio && std::abs(std::log(*ratio)) > std::abs(std::log(worst)))
+      worst = *ratio;
   return worst;
 }
 
@@ -183,8 +187,14 @@ void print_fit(const std::vector<SolverRow>& rows, std::size_t n_loads) {
     std::printf("%-28s %12.3g %12.3g %8.2f %5zu\n", c.name.c_str(), c.table, c.fitted, c.fitted / c.table,
                 c.n_rows);
   std::printf("measured over predicted seconds at worst, by the table: direct %.2f, iterative %.2f\n",
-              worst_ratio(rows, [](const SolverRow& row) { return row.direct ? &*row.direct : nullptr; }),
-              worst_ratio(rows, [](const SolverRow& row) { return &row.iterative; }));
+              worst_ratio(rows,
+                          [](const SolverRow& row) {
+                            return row.direct ? std::optional(direct_seconds(row) / row.direct->predicted_s)
+                                              : std::nullopt;
+                          }),
+              worst_ratio(rows, [](const SolverRow& row) {
+                return std::optional(seconds(row.iterative) / row.iterative.predicted_s);
+              }));
 }
 
 }  // namespace measure

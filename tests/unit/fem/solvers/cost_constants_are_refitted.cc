@@ -64,16 +64,19 @@ TEST(CostFit, SeesASlowerMachine) {
   }
 }
 
+// A factor of few flops is on one thread, whose seconds count whole.
 TEST(CostFit, TakesSecondsByFlopFromTheFactor) {
-  auto row = predicted_row(232'000, 2, fem::CoarseLevel::aggregated, 1);
-  row.factor = {232'000, 3e8, 1e12, 2.5e9};
-  row.direct->cpu_s = 2 * fem::predict_direct(row.factor, n_fitted_loads).seconds;
-  bool found = false;
-  for (const auto& c : measure::fit_costs({row}, n_fitted_loads)) {
-    EXPECT_NE(c.name, "factor_s_per_flop_alone");
-    if (c.name != "factor_s_per_flop_shared") continue;
-    found = true;
-    EXPECT_NEAR(c.fitted, c.table, 1e-9 * c.table);
+  for (const bool shared : {false, true}) {
+    auto row = predicted_row(232'000, 2, fem::CoarseLevel::aggregated, 1);
+    row.factor = {232'000, 3e8, (shared ? 3.3 : 0.3) * fem::flops_worth_threads, 2.5e9};
+    row.direct->cpu_s = (shared ? 2 : 1) * fem::predict_direct(row.factor, n_fitted_loads).seconds;
+    std::size_t n_found = 0;
+    for (const auto& c : measure::fit_costs({row}, n_fitted_loads)) {
+      if (c.name.rfind("factor_s_per_flop", 0) != 0) continue;
+      ++n_found;
+      EXPECT_EQ(c.name, shared ? "factor_s_per_flop_shared" : "factor_s_per_flop_alone");
+      EXPECT_NEAR(c.fitted, c.table, 1e-9 * c.table);
+    }
+    EXPECT_EQ(n_found, 1U);
   }
-  EXPECT_TRUE(found);
 }
