@@ -23,9 +23,10 @@ LineSpectrum line_spectrum(const Eigen::ArrayXd& values, int turns, int n_lines)
   if (n == 0) throw std::invalid_argument("values: none given; a series has at least one instant");
   require_all_finite("values", values);
   if (turns < 1) refuse("turns", turns, "must be at least 1: whole turns of the drive that the values cover");
-  if (n_lines < 0 || n_lines > n / 2)
+  const Eigen::Index most_lines = n / 2;
+  if (n_lines < 0 || n_lines > most_lines)
     refuse("n_lines", n_lines,
-           "must lie between 0 and " + number(double(n / 2)) +
+           "must lie between 0 and " + number(double(most_lines)) +
                ", half the number of instants; sample more finely, or ask for fewer");
 
   // Angles are taken modulo one turn as whole numbers, so that high lines lose no digits.

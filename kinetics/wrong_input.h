@@ -16,7 +16,7 @@ std::string number(double value);
 /// @throws MachineRefused if the value is not finite
 void require_finite(const std::string& parameter, double value);
 
-/// The known word that takes the fewest inserted, deleted or replaced letters to reach; empty if `known` is.
+/// The known word with the smallest edit_distance; empty if `known` is.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 /// The words in one line, separated by ", ".

@@ -3,7 +3,7 @@
 # the folder that owns them (internal headers of fem may use deal.II, its public ones may not). Inside a folder, a room
 # (subfolder) includes only rooms below it.
 cmake_policy(VERSION 3.25)
-set(fem_public axisymmetric_responses beam_responses beam_shaft body cell_stress_at_node cost_prediction errors fillet_factors meridian_body natural_mode nodal_loads plated_tube submodel surface_stress solver_choice model unit_load unit_responses vtk_order)
+set(fem_public axisymmetric_responses beam_responses beam_shaft body cell_stress_at_node cost_constants cost_prediction errors fillet_factors meridian_body natural_mode nodal_loads plated_tube submodel surface_stress solver_choice model unit_load unit_responses vtk_order)
 set(faults "")
 
 # Adds a fault for every line of the files that matches.

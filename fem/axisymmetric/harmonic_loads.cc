@@ -93,7 +93,7 @@ HarmonicLoads::Basis HarmonicLoads::basis(const std::vector<const SectionPoint*>
   Eigen::MatrixXd own_0(3 * grid_->n_nodes(), 2), own_1(3 * grid_->n_nodes(), 2);
   for (int k = 0; k < 2; ++k) {
     own_0.col(k) = integrate(points, 0, raw[std::size_t(k)]);
-    own_1.col(k) = integrate(points, 1, raw[std::size_t(2 + k)]);
+    own_1.col(k) = integrate(points, 1, raw[2 + std::size_t(k)]);
   }
   own_0 = product(own_0, inverse(transposed_product(rigid_0, own_0)));
   own_1 = product(own_1, inverse(transposed_product(rigid_1, own_1)));

@@ -70,7 +70,8 @@ Wrench6 on_face(const SurfaceResultant& load) {
 /// Integral from the first of evenly spaced values to each of them: by parabolas through three.
 template <typename Values>
 void accumulate(double length_m, const Values& value, WrenchAlong& sum, Index first, const Wrench6& start) {
-  const double h = length_m / ((points - 1) / 2);
+  constexpr int n_pairs = (points - 1) / 2;  // the number of points is odd
+  const double h = length_m / n_pairs;
   sum.col(first) = start;
   for (Index i = first; i + 2 < first + points; i += 2) {
     const Wrench6 a = value(i), b = value(i + 1), c = value(i + 2);

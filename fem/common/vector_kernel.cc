@@ -59,10 +59,11 @@ void combine(LaneGroups groups, std::size_t n_rows, std::size_t n_columns, std::
       V sum[3] = {};
       if (keep)
         for (int c = 0; c < 3; ++c) sum[c] = load<V>(to + (3 * i + c) * w);
-      for (auto k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
+      for (auto k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
 #pragma GCC unroll 3
         for (int c = 0; c < 3; ++c)
           sum[c] += rows.weight[k] * load<V>(from + (3 * std::size_t(rows.column[k]) + c) * w);
+      }
 #pragma GCC unroll 3
       for (int c = 0; c < 3; ++c) store(to + (3 * i + c) * w, sum[c]);
     }

@@ -8,11 +8,13 @@
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/tria.h>
 
+#include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <sstream>
+#include <istream>
 #include <stdexcept>
+#include <streambuf>
 #include <string>
+#include <system_error>
 
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/manifolds.h"
@@ -27,16 +29,26 @@ namespace {
 /// deal.II's reader trusts the file: one that was cut off makes it write out of bounds.
 std::string read_whole(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw MeshUnusable("cannot open the mesh file " + path.string());
-  std::string text((std::istreambuf_iterator<char>(file)), {});
+  std::error_code no_file;
+  const auto size = std::filesystem::file_size(path, no_file);
+  if (!file || no_file) throw MeshUnusable("cannot open the mesh file " + path.string());
+  std::string text(size, '\0');
+  if (!file.read(text.data(), static_cast<std::streamsize>(size)))
+    throw MeshUnusable("cannot read the mesh file " + path.string());
   if (text.find("$EndElements") == std::string::npos)
     throw MeshUnusable("the mesh file " + path.string() + " is cut off: it has no $EndElements");
   return text;
 }
 
-void read_mesh(const std::filesystem::path& path, const std::string& content,
-               dealii::Triangulation<3>& mesh) {
-  std::istringstream text(content);
+/// Reads a text where it lies: a mesh may have a gigabyte, and a string stream would have it twice.
+class TextInPlace : public std::streambuf {
+public:
+  explicit TextInPlace(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
+};
+
+void read_mesh(const std::filesystem::path& path, std::string& content, dealii::Triangulation<3>& mesh) {
+  TextInPlace buffer(content);
+  std::istream text(&buffer);
   dealii::GridIn<3> reader(mesh);
   try {
     reader.read_msh(text);  // the overload for file names would end the program's own gmsh session
@@ -65,10 +77,11 @@ Grid read_tetrahedra(const Body& body, const std::string& text) {
 Grid read_grid(const Body& body) {
   if (body.degree < 1 || body.degree > 3)
     throw std::invalid_argument("degree = " + std::to_string(body.degree) + ": must be 1, 2 or 3");
-  const std::string text = read_whole(body.mesh);
+  std::string text = read_whole(body.mesh);
   if (has_tetrahedra(element_types(text))) return read_tetrahedra(body, text);
   dealii::Triangulation<3> mesh;
   read_mesh(body.mesh, text, mesh);
+  text = std::string();  // the mesh has it all; what follows needs the memory
   attach_charts(mesh, body.cylinders, body.tori);
 
   // One scalar space numbers the nodes: the unknowns of node i are 3 i, 3 i + 1, 3 i + 2. The mapping has the

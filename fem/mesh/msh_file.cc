@@ -80,7 +80,7 @@ public:
   }
 
 private:
-  void check(char* after) {
+  void check(const char* after) {
     if (after == at_ || after > end_) fail();
     at_ = after;
   }

@@ -101,6 +101,10 @@ GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const
   return fem::geometry_error(impl_->grid, impl_->body, seats);
 }
 
+SolverReport Model::predict_solver(std::size_t n_loads, const SolverChoice& choice) const {
+  return fem::predict_solver(impl_->grid, impl_->cells, impl_->materials, n_loads, choice);
+}
+
 std::vector<NaturalMode> Model::natural_frequencies(int n_modes) const {
   auto modes = fem::natural_frequencies(
       VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body, impl_->materials), n_modes);

@@ -68,6 +68,12 @@ public:
   /// @param seats  cylinders known from elsewhere (imported bodies have no charts)
   GeometryError geometry_error(const std::vector<LoadSurface>& seats = {}) const;
 
+  /// The solver that unit_responses would take for so many unit loads, why, and what both are predicted to
+  /// need (SolverReport::predicted): seconds of the machine in values/cost_constants.h, bytes. Solves
+  /// nothing.
+  /// @throws DoesNotFit if no solver would fit into this machine's memory
+  SolverReport predict_solver(std::size_t n_loads, const SolverChoice& choice) const;
+
   /// The unit loads' responses, all loads as one block: by one factorisation (CHOLMOD; MUMPS on several
   /// ranks) on a statically determinate support, or by conjugate gradients on the free body. Every load
   /// vector is balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the support carries nothing;

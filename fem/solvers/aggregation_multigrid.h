@@ -46,7 +46,7 @@ private:
   void build(BlockMatrix<double> stiffness, const std::vector<double>& xyz_m);
   void multiply(const BlockMatrix<float>& matrix, bool keep, const Lanes& lanes, const BlockVector<float>& x,
                 BlockVector<float>& y) const;
-  void descend(std::size_t level, const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
+  void descend(std::size_t number, const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
                WorkSpace& work) const;
 
   const kernel::Kernels* kernels_;

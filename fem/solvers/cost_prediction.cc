@@ -1,19 +1,18 @@
 #include "fem/solvers/cost_prediction.h"
 
 #include "fem/common/memory.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/solver_prediction.h"
 
 namespace fem {
 
-SolverReport predict_solver(const Body& body, std::size_t n_loads, const SolverChoice& choice) {
+SolverReport predict_solver(const Grid& grid, const CellsOfNodes& cells, const CellMaterials& materials,
+                            std::size_t n_loads, const SolverChoice& choice) {
   constexpr std::size_t most_analysed = 600'000;  // seconds
-  const Grid grid = read_grid(body);
-  auto report = choose_solver(grid, CellMaterials(grid, body), n_loads, choice, physical_memory());
+  auto report = choose_solver(grid, materials, n_loads, choice, physical_memory());
   if (report.used == Solver::direct && 3 * grid.n_nodes <= most_analysed) {
-    report.factor = analyse_factor(grid, cells_of_nodes(grid));
+    report.factor = analyse_factor(grid, cells);
     report.predicted_direct = predict_direct(report.factor, n_loads);
     if (is_too_expensive(report.factor, report, n_loads)) report.used = Solver::iterative;
   }

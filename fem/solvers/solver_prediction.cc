@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fem/solvers/iterative_solve.h"
+#include "fem/values/cost_constants.h"
 #include "fem/values/errors.h"
 
 namespace fem {
@@ -80,17 +81,19 @@ double share_stretched(const Grid& grid) {
 }
 
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads) {
-  const double n = static_cast<double>(n_dofs) / 2e5;
-  const double factor = 10.8 * n + 12.6 * n * n, solve = 0.03 * std::pow(n, 1.3);
-  return {factor + solve * static_cast<double>(n_loads), 3.4e9 * std::pow(n, 1.3)};
+  const double n = static_cast<double>(n_dofs) / cost::direct_unit;
+  const double factor = cost::direct_s_linear * n + cost::direct_s_square * n * n,
+               solve = cost::direct_s_per_load * std::pow(n, cost::direct_exponent);
+  return {factor + solve * static_cast<double>(n_loads),
+          cost::direct_bytes * std::pow(n, cost::direct_exponent)};
 }
 
 SolverCost predict_direct(const FactorSize& factor, std::size_t n_loads) {
-  constexpr double s_per_dof = 1.4e-5, s_per_flop_alone = 6e-11, s_per_flop_shared = 3.5e-11,
-                   s_per_entry = 2.3e-10, s_per_response = 2.4e-7;
   const double n = double(factor.n_dofs), k = double(n_loads);
-  const double s_per_flop = factor.flops < flops_worth_threads ? s_per_flop_alone : s_per_flop_shared;
-  return {s_per_dof * n + s_per_flop * factor.flops + (s_per_entry * factor.entries + s_per_response * n) * k,
+  const double s_per_flop =
+      factor.flops < flops_worth_threads ? cost::factor_s_per_flop_alone : cost::factor_s_per_flop_shared;
+  return {cost::factor_s_per_dof * n + s_per_flop * factor.flops +
+              (cost::factor_s_per_entry * factor.entries + cost::factor_s_per_response * n) * k,
           factor.bytes};
 }
 
@@ -104,16 +107,19 @@ SolverCost predict_iterative(std::size_t n_dofs, int degree, std::size_t n_loads
   const double n = double(n_dofs), k = 4 * std::ceil(double(n_loads) / 4);
   const double lanes = std::min(double(loads_per_block(n_dofs)), k);
   const double trilinear = n / (degree * degree * degree);
-  double iterations = 8 + 2.3 * aspect, setup = 2e-6 * n, each = 8e-8 * n * k, bytes = n * (215 + 48 * lanes);
+  double iterations = cost::iterations_first + cost::iterations_per_aspect * aspect,
+         setup = cost::iterative_setup_s_per_dof * n, each = cost::iteration_s_per_dof * n * k,
+         bytes = n * (cost::iterative_bytes_per_dof + cost::iterative_bytes_per_lane * lanes);
   if (level == CoarseLevel::factorised) {
-    const double factor_s = 7 * std::pow(trilinear / 2e5, 1.75);
-    setup += 3 * factor_s;
-    each += 0.25 * factor_s;
+    const double factor_s =
+        cost::coarse_factor_s * std::pow(trilinear / cost::direct_unit, cost::coarse_factor_exponent);
+    setup += cost::coarse_factor_setups * factor_s;
+    each += cost::coarse_factor_solves * factor_s;
     bytes += predict_direct(static_cast<std::size_t>(trilinear), 0).bytes;
   } else {
-    iterations *= 1.1;
-    setup += 8e-6 * trilinear;
-    bytes += 1100 * trilinear;
+    iterations *= cost::aggregates_more_iterations;
+    setup += cost::aggregates_setup_s_per_dof * trilinear;
+    bytes += cost::aggregates_bytes_per_dof * trilinear;
   }
   return {setup + iterations * each, bytes};
 }
@@ -147,8 +153,8 @@ CoarseLevel cheaper_coarse_level(std::size_t n_dofs, int degree, std::size_t n_l
 }
 
 double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads) {
-  constexpr double program = 2e8, grid = 40, load_and_displacement = 16;
-  return program + double(n_dofs) * (grid + load_and_displacement * double(n_loads));
+  return cost::program_bytes +
+         double(n_dofs) * (cost::grid_bytes_per_dof + cost::load_bytes_per_dof * double(n_loads));
 }
 
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,

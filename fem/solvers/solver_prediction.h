@@ -19,15 +19,16 @@ double share_stretched(const Grid& grid);
 /// The largest of them; 1 without cells, 0 for tetrahedra.
 double largest_aspect(const Grid& grid);
 
-/// For two threads of a quiet server core of 2023 with AVX2 (AMD EPYC; half the CPU seconds of both threads),
-/// with n unknowns, N = n / 2e5, m = n / degree^3 unknowns of the trilinear level, k load cases:
-///   direct      10.8 N + 12.6 N^2 + 0.03 N^1.3 k  s,   3.4e9 N^1.3  bytes
-///   factorised  2e-6 n + 3 c + (8 + 2.3 aspect) (8e-8 n K + 0.25 c)  s,  c = 7 (m / 2e5)^1.75, its bytes as
-///   direct of m aggregated  2e-6 n + 8e-6 m + 1.1 (8 + 2.3 aspect) 8e-8 n K  s,  1100 m bytes
-/// and 215 n + 48 n (load cases of a block) bytes for both of the latter; K is k filled up to a multiple of
-/// 4, which the operator works on at once. Fitted on tests/benchmarks/shaft.toml and stretched rods,
-/// aspect 2.7 to 7, 50 k to 4 M unknowns (direct: 50 k to 700 k). On slower machines the seconds of all grow
-/// alike, and the choice stays.
+/// With the constants of values/cost_constants.h, which says on what they are fitted, n unknowns,
+/// N = n / 2e5, m = n / degree^3 unknowns of the trilinear level, k load cases:
+///   direct      direct_s_linear N + direct_s_square N^2 + direct_s_per_load N^1.3 k  s,
+///               direct_bytes N^1.3  bytes
+///   iterative   setup + steps (iteration_s_per_dof n K + below)  s,  steps = iterations_first +
+///               iterations_per_aspect aspect; (iterative_bytes_per_dof + iterative_bytes_per_lane (load
+///               cases of a block)) n  bytes and those of the level below
+/// K is k filled up to a multiple of 4, which the operator works on at once. The level below is a factor of m
+/// unknowns, with the seconds coarse_factor_s (m / 2e5)^1.75, or aggregates of m unknowns. On slower machines
+/// the seconds of all grow alike, and the choice stays.
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads);
 
 /// Factorisations below stay on one thread: CHOLMOD's many small products gain little from more, and BLAS
@@ -35,9 +36,8 @@ SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads);
 /// seconds.
 constexpr double flops_worth_threads = 3e11;
 
-/// The same of a matrix that was analysed, for a body of any shape, with recovery: 1.4e-5 n + 6e-11 flops
-/// (3.5e-11 where threads share them) + (2.3e-10 entries + 2.4e-7 n) k seconds; its bytes. Fitted on shafts,
-/// drums and chambers, 67 k to 335 k unknowns.
+/// The same of a matrix that was analysed, for a body of any shape, with recovery: factor_s_per_dof n +
+/// factor_s_per_flop flops + (factor_s_per_entry entries + factor_s_per_response n) k seconds; its bytes.
 SolverCost predict_direct(const FactorSize& factor, std::size_t n_loads);
 
 /// Of n_dofs unknowns in a body of the same shape: flops grow as n^2, entries as n^(4/3).
@@ -75,6 +75,12 @@ double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
 /// predicted to fit into memory, or the one asked for not even into a machine that holds nothing else
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes);
+
+/// As choose_solver, with this machine's memory; where it is direct and small enough, after an analysis of
+/// the matrix. Solves nothing.
+/// @throws DoesNotFit as choose_solver
+SolverReport predict_solver(const Grid& grid, const CellsOfNodes& cells, const CellMaterials& materials,
+                            std::size_t n_loads, const SolverChoice& choice);
 
 /// @param factor_bytes  known, not predicted: CHOLMOD's analysis of the matrix tells it before it factorises
 /// @param memory_bytes  that are left for it

@@ -35,15 +35,15 @@ void BodySums::add_couple(Index first, const ArrayXd& couple_Nm) {
   moment_scale_Nm.segment(first, couple_Nm.size()) += couple_Nm.abs();
 }
 
-EffectSums::EffectSums(const VibratoryMill& mill, std::size_t n_effects, const Instants& motion)
-    : motion(motion),
-      chamber(motion.size()),
-      shaft(motion.size()),
-      charge_power_W(ArrayXd::Zero(motion.size())),
+EffectSums::EffectSums(const VibratoryMill& mill, std::size_t n_effects, const Instants& instants)
+    : motion(instants),
+      chamber(instants.size()),
+      shaft(instants.size()),
+      charge_power_W(ArrayXd::Zero(instants.size())),
       damping_power_W(charge_power_W),
       couple_Nm(charge_power_W) {
   const auto open = [&](const std::string& name, const std::string& description) {
-    roles.push_back({name, description, Array3Xd::Zero(3, motion.size()), std::vector<Share>(n_effects)});
+    roles.push_back({name, description, Array3Xd::Zero(3, instants.size()), std::vector<Share>(n_effects)});
   };
   open("eccentric", "force -B of the chamber on the shaft, through E' = ecc e(phi)");
   open("debalance", "force on the debalances, at KE e(phi) of the shaft; torque: its moment about E");

@@ -50,7 +50,7 @@ struct Role {
 
 /// Sums over all instants of a motion, which must outlive them. Blocks are added in the order of time.
 struct EffectSums {
-  EffectSums(const VibratoryMill& mill, std::size_t n_effects, const Instants& motion);
+  EffectSums(const VibratoryMill& mill, std::size_t n_effects, const Instants& instants);
 
   const Instants& motion;
   std::vector<Role> roles;  ///< by RoleIndex

@@ -113,9 +113,10 @@ void check_feet(const Chamber& chamber) {
 
 void check_control(const ChamberMeshControl& control) {
   const auto refuse_control = [](const std::string& what) { throw GeometryRefused("mesh control: " + what); };
-  if (control.cells_through_wall < 1 || control.cells_through_wall > 20)
+  if (control.cells_through_wall < 1 ||
+      control.cells_through_wall > ChamberMeshControl::most_cells_through_wall)
     refuse_control("cells_through_wall = " + std::to_string(control.cells_through_wall) +
-                   " must lie between 1 and 20");
+                   " must lie between 1 and " + std::to_string(ChamberMeshControl::most_cells_through_wall));
   if (!(control.toe_walls > 0 && control.toe_walls <= 2))
     refuse_control("toe_walls = " + std::to_string(control.toe_walls) + " must lie between 0 and 2");
   for (const FineToe& toe : control.fine_toes)
@@ -123,8 +124,9 @@ void check_control(const ChamberMeshControl& control) {
       refuse_control("walls = " + std::to_string(toe.walls) + " of a fine toe must lie between 0 and 2");
   if (!std::isfinite(control.size_m) || control.size_m < 0)
     refuse_control("size_m = " + std::to_string(control.size_m) + " must be positive, or 0");
-  if (!std::isfinite(control.growth) || control.growth <= 0)
-    refuse_control("growth = " + std::to_string(control.growth) + " must be positive");
+  if (!(control.growth > 0 && control.growth <= ChamberMeshControl::steepest_growth))
+    refuse_control("growth = " + std::to_string(control.growth) + " must be positive, and at most " +
+                   std::to_string(ChamberMeshControl::steepest_growth));
   if (!(control.min_scaled_jacobian > 0 && control.min_scaled_jacobian < 1))
     refuse_control("min_scaled_jacobian = " + std::to_string(control.min_scaled_jacobian) +
                    " must lie between 0 and 1");

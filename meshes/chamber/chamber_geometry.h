@@ -78,6 +78,9 @@ struct FineToe {
 };
 
 struct ChamberMeshControl {
+  static constexpr int most_cells_through_wall = 20;
+  static constexpr double steepest_growth = 2;  ///< searches go below any other limit, so there is none
+
   /// Thinner towards the outside where toe cells are small, each at most twice the one outside it.
   int cells_through_wall = 2;
   double size_m = 0;       ///< of cells away from weld toes; 0: 0.15 of the tube's outer radius

@@ -86,27 +86,27 @@ double ChamberLayout::toe_size_at_distance(const FinePlace& place, double distan
 }
 
 double ChamberLayout::toe_size_at_z(double z_m) const {
-  double size_m = toe_size_m;
+  double smallest_m = toe_size_m;
   for (const FinePlace& place : fine_places)
-    size_m = std::min(size_m, toe_size_at_distance(place, std::abs(place.z_m - z_m)));
-  return size_m;
+    smallest_m = std::min(smallest_m, toe_size_at_distance(place, std::abs(place.z_m - z_m)));
+  return smallest_m;
 }
 
 double ChamberLayout::toe_size_within(double first_rad, double last_rad) const {
-  double size_m = toe_size_m;
+  double smallest_m = toe_size_m;
   for (const FinePlace& place : fine_places) {
     const double from_middle_rad =
         std::remainder(place.arc_m / tube_outer_m - 0.5 * (first_rad + last_rad), 2 * pi);
     const double beyond_rad = std::max(0.0, std::abs(from_middle_rad) - 0.5 * (last_rad - first_rad));
-    size_m = std::min(size_m, toe_size_at_distance(place, beyond_rad * tube_outer_m));
+    smallest_m = std::min(smallest_m, toe_size_at_distance(place, beyond_rad * tube_outer_m));
   }
-  return size_m;
+  return smallest_m;
 }
 
 double ChamberLayout::finest_toe_m() const {
-  double size_m = toe_size_m;
-  for (const FinePlace& place : fine_places) size_m = std::min(size_m, place.size_m);
-  return size_m;
+  double smallest_m = toe_size_m;
+  for (const FinePlace& place : fine_places) smallest_m = std::min(smallest_m, place.size_m);
+  return smallest_m;
 }
 
 PlanePoint on_circle(double centre_x_m, double centre_y_m, double radius_m, double angle_rad) {

@@ -63,7 +63,7 @@ public:
 
 private:
   void add(const std::string& name, Feature::Kind kind, double begin_m, double end_m,
-           std::function<bool(const Point&)> holds) {
+           const std::function<bool(const Point&)>& holds) {
     const int id = volume_id + 1 + int(all.size());
     all.push_back({{name, kind, id, begin_m, end_m}, [=, tolerance = tolerance_m_](const Point& p) {
                      return p[2] >= begin_m - tolerance && p[2] <= end_m + tolerance && holds(p);
@@ -160,6 +160,25 @@ std::vector<Port> ports_of(const Shaft& shaft, const SolidLayout& layout, const 
   return ports;
 }
 
+/// Corners of shoulders without a fillet are left out as block meshes leave them out, so that a keyway
+/// elsewhere does not change which stress is reported there.
+/// @param rounding_m  of coordinates
+void widen_at_shoulders(const SolidLayout& layout, double rounding_m, std::vector<SharpEdge>& edges) {
+  for (std::size_t i = 0; i + 1 < layout.segments.size(); ++i) {
+    const auto &before = layout.segments[i], &after = layout.segments[i + 1];
+    if (layout.fillets_m[i] > 0) continue;
+    const auto& small = before.radius_m < after.radius_m ? before : after;
+    const auto is_on_corner = [&](const std::array<double, 3>& p) {
+      const double r_m = std::hypot(p[0] - small.axis_x_m, p[1] - small.axis_y_m);
+      return std::abs(p[2] - before.end_m) < rounding_m && std::abs(r_m - small.radius_m) < rounding_m;
+    };
+    for (auto& edge : edges)
+      if (std::all_of(edge.pieces.begin(), edge.pieces.end(),
+                      [&](const auto& piece) { return is_on_corner(piece[0]) && is_on_corner(piece[1]); }))
+        edge.distance_m = sharp_shoulder_distance_m(2 * small.radius_m);
+  }
+}
+
 }  // namespace
 
 void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, const SolidControl& control) {
@@ -192,8 +211,10 @@ BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyway
   body.quality = measure_quality(model.mesh);
   require_quality(body.quality, control.min_scaled_jacobian,
                   "make the cells smaller there, change the keyway, or lower min_scaled_jacobian");
-  const double exclusion_m = control.exclusion_m > 0 ? control.exclusion_m : 0.01 * diagonal_m(model.mesh);
-  body.sharp_edges = reentrant_edges(model.mesh, names.boundaries, exclusion_m);
+  const double diagonal = diagonal_m(model.mesh);
+  body.sharp_edges = reentrant_edges(model.mesh, names.boundaries,
+                                     control.exclusion_m > 0 ? control.exclusion_m : 0.01 * diagonal);
+  if (control.exclusion_m == 0) widen_at_shoulders(layout, 1e-6 * diagonal, body.sharp_edges);
   write_msh(model.mesh, names, file);
   return body;
 }

@@ -158,8 +158,9 @@ void check_control(const ShaftMeshControl& control) {
       !std::all_of(control.fillet_cells.begin(), control.fillet_cells.end(), can_be_cut))
     refuse_control("subdivisions = " + std::to_string(n) +
                    " must divide half of the cells of every fillet and a quarter of the sectors");
-  if (!std::isfinite(control.growth) || control.growth <= 0)
-    refuse_control("growth = " + std::to_string(control.growth) + " must be positive");
+  if (!(control.growth > 0 && control.growth <= ShaftMeshControl::steepest_growth))
+    refuse_control("growth = " + std::to_string(control.growth) + " must be positive, and at most " +
+                   std::to_string(ShaftMeshControl::steepest_growth));
   if (!std::isfinite(control.largest_cell_m) || control.largest_cell_m < 0)
     refuse_control("largest_cell_m = " + std::to_string(control.largest_cell_m) + " must be positive, or 0");
   if (!std::isfinite(control.rows_factor) || control.rows_factor < 1)

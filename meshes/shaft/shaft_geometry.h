@@ -49,7 +49,16 @@ struct Shaft {
   std::vector<double> fillets_m;
 };
 
+/// At a shoulder without a fillet, on blocks and tetrahedra alike: no stress is reported closer to its
+/// corner.
+/// @param small_diameter_m  of the two segments the smaller
+inline double sharp_shoulder_distance_m(double small_diameter_m) {
+  return 0.1 * small_diameter_m;
+}
+
 struct ShaftMeshControl {
+  static constexpr double steepest_growth = 1;  ///< above, neighbouring cells differ by more than e
+
   int cells_per_fillet_quarter = 8;  ///< even, >= 2
   std::vector<int> fillet_cells;     ///< the same for each of Shaft::fillets_m; empty: alike; 0: as above
   int n_sectors = 16;                ///< around, a multiple of 4, >= 8

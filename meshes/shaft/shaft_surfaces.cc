@@ -137,7 +137,8 @@ std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& lay
     const Junction& junction = layout.junctions[i];
     const std::string pair = shaft.segments[i].name + "/" + shaft.segments[i + 1].name;
     if (junction.kind == Junction::Kind::sharp)
-      edges.push_back(circle(pair, junction.z_m, junction.small_radius_m, 0.2 * junction.small_radius_m));
+      edges.push_back(circle(pair, junction.z_m, junction.small_radius_m,
+                             sharp_shoulder_distance_m(2 * junction.small_radius_m)));
     if (junction.is_bore_step)
       edges.push_back(circle("bore " + pair, junction.z_m, junction.step_radius_m,
                              layout.segments[junction.wide].radius_m - junction.step_radius_m));

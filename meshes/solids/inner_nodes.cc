@@ -36,7 +36,8 @@ public:
     for (double step = 0.3 * group.size; step > 0.01 * group.size; step /= 2) {
       Point best_move{};
       for (int i = 0; i < 27; ++i) {
-        const Point move = {step * (i % 3 - 1), step * (i / 3 % 3 - 1), step * (i / 9 - 1)};
+        const int steps[] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+        const Point move = {step * steps[0], step * steps[1], step * steps[2]};
         shift(group, move, 1);
         if (const double quality = worst_of(group.cells); quality > best) {
           best = quality;

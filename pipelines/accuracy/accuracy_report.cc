@@ -186,6 +186,7 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
              e.n_bounded, e.n_runs, e.median);
   out << disagreements(study);
   if (study.grid) print_grid_study(out, *study.grid);
+  if (!study.effects.empty()) print_effect_prices(out, study.body, study.effects);
 }
 
 void write_accuracy_csv(const std::filesystem::path& file, const AccuracyStudy& study) {

@@ -12,7 +12,9 @@ namespace pipelines {
 namespace {
 
 /// Superposition on two threads: of one product of channel and unit stress; what the measures of stress take
-/// at an instant, and a node's bookkeeping, in such products.
+/// at an instant, and a node's bookkeeping, in such products. AMD EPYC of 2023 with AVX-512, 2026-11-21, from
+/// the times of `tests/benchmarks/run --benchmark_filter=superposition`; the solvers' constants are in
+/// fem/values/cost_constants.h.
 constexpr double s_per_product = 1.5e-10, products_per_instant = 12, products_per_node = 7000;
 
 void move_half(double& factor, double measured) {

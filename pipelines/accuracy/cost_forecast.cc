@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "fem/solvers/cost_prediction.h"
+#include "fem/values/cost_constants.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/files/atomic_file.h"
@@ -18,7 +19,7 @@ namespace pipelines {
 namespace {
 
 constexpr double even_factors[] = {0.5, 0.75, 1.5, 2, 3};
-constexpr double beam_nodes = 1500, harmonic_s_per_unknown = 2e-5;  // measured on shafts
+constexpr double beam_nodes = 1500;
 
 class Forecaster {
 public:
@@ -28,7 +29,7 @@ public:
   }
 
   ModelForecast of(const std::string& model, const MeshedBody& meshed) {
-    at_hand_ = fem::predict_solver(meshed.body, loads_.n_channels, choice_);
+    at_hand_ = meshed.model->predict_solver(loads_.n_channels, choice_);
     return of(model, meshed.model->n_dofs(), *at_hand_);
   }
   /// Cells of the mesh looked at last become `factor` times smaller.
@@ -83,7 +84,8 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
     const double n_harmonics = 1 + std::max(1, body.pressure_harmonics);
     const double per_harmonic = 9.0 / 8 / shaft->mesh.n_sectors * double(meshed.model->n_dofs());
     models.push_back(forecaster.cheap("axisymmetric", n_harmonics * per_harmonic,
-                                      harmonic_s_per_unknown * n_harmonics * per_harmonic, per_harmonic));
+                                      fem::cost::harmonic_s_per_dof * n_harmonics * per_harmonic,
+                                      per_harmonic));
   }
   if (!can_be_refined(body)) return models;
   for (const double factor : even_factors)

@@ -13,8 +13,8 @@ int whole(double wanted, int step, int least) {
   return std::max(least, step * int(std::lround(wanted / step)));
 }
 
-/// Slopes above 1 make neighbouring cells differ by more than e.
-constexpr double steepest_growth = 1;
+/// Of chambers too.
+constexpr double steepest_growth = meshes::ShaftMeshControl::steepest_growth;
 
 /// The mesher's own choice where the scene has none (meshes::ChamberMeshControl::size_m).
 double usual_size_m(const meshes::Chamber& chamber) {
@@ -44,7 +44,8 @@ struct Refine {
   void operator()(ChamberShape& shape) const {
     auto& mesh = shape.mesh;
     mesh.size_m = (mesh.size_m > 0 ? mesh.size_m : usual_size_m(shape.geometry)) / factor;
-    mesh.cells_through_wall = std::clamp(int(std::lround(factor * mesh.cells_through_wall)), 1, 20);
+    mesh.cells_through_wall =
+        std::clamp(int(std::lround(factor * mesh.cells_through_wall)), 1, mesh.most_cells_through_wall);
     mesh.growth = std::min(steepest_growth, mesh.growth / factor);
     mesh.toe_walls /= factor;
     for (auto& toe : mesh.fine_toes) toe.walls /= factor;

@@ -18,9 +18,9 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
   return result;
 }
 
-std::string key_of(const fem::Body& body, const BodyLoads& loads,
+std::string key_of(const MeshedBody& meshed, const BodyLoads& loads,
                    const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
-  auto key = response_key(body, loads.unit_loads, planes, solver, n_threads);
+  auto key = response_key(meshed.body, meshed.mesh_hash, loads.unit_loads, planes, solver, n_threads);
   if (const int n = fem::n_ranks(MPI_COMM_WORLD); n > 1) key += "ranks " + std::to_string(n) + '\n';
   return key;
 }
@@ -40,20 +40,20 @@ int threads(int wanted) {
 Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads& loads,
                const RunOptions& options, StageClock& clock) {
   const auto planes = to_fem_planes(meshed.mesh.sections);
-  const auto key = key_of(meshed.body, loads, planes, body.solver, threads(options.n_threads));
+  const auto key = key_of(meshed, loads, planes, body.solver, threads(options.n_threads));
   if (!options.fresh)
     if (auto kept = clock.run("solve", [&] { return read_unit_responses(kept_responses(options), key); }))
       return {std::move(*kept), true};
   auto responses = clock.run("solve", [&] {
     fem::SolverChoice choice;
     choice.solver = body.solver;
-    choice.gave_up_before =
-        !options.fresh && iteration_gave_up_before(options.directory, body_key(meshed.body));
+    choice.gave_up_before = !options.fresh && iteration_gave_up_before(
+                                                  options.directory, body_key(meshed.body, meshed.mesh_hash));
     return meshed.model->unit_responses(
         loads.unit_loads, planes, fem::Recovery::patch,
         [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
-  remember_iteration(options.directory, body_key(meshed.body), responses.solver.gave_up);
+  remember_iteration(options.directory, body_key(meshed.body, meshed.mesh_hash), responses.solver.gave_up);
   return {std::move(responses), false};
 }
 
@@ -61,7 +61,7 @@ void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyA
                     const RunOptions& options, StageClock& clock) {
   if (analysis.responses_reused) return;
   clock.run("write", [&] {
-    const auto key = key_of(meshed.body, analysis.loads, to_fem_planes(meshed.mesh.sections), body.solver,
+    const auto key = key_of(meshed, analysis.loads, to_fem_planes(meshed.mesh.sections), body.solver,
                             threads(options.n_threads));
     write_unit_responses(kept_responses(options), key, analysis.responses);
   });

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fem/ranks/helper_ranks.h"
 #include "pipelines/accuracy/cost_forecast.h"
@@ -57,6 +58,9 @@ void draw(const std::filesystem::path& envelope, const std::filesystem::path& di
 
 void finish_run(const RunCommandOptions& options, std::ostream& out, const std::filesystem::path& directory,
                 const RunReport& content) {
+  std::vector<std::string> bodies;
+  for (const auto& analysis : content.bodies) bodies.push_back(analysis.scene.name);
+  remove_bodies_of_earlier_run(directory, bodies);
   write_text_file(directory / "summary.json", summary_json(content));
   write_html_report(directory);
   if (options.json)

@@ -43,13 +43,16 @@ std::vector<EffectPrice> price_effects(const BodyAnalysis& analysis, double solv
 }
 
 void print_effect_prices(std::ostream& out, const std::string& body, const std::vector<EffectPrice>& prices) {
-  out << fmt::format("\n  effects on the {}{:>{}}{:>10}{:>12}{:>12}{:>14}\n", body, "of the peak",
+  out << fmt::format("\n  effects on the {}{:>{}}{:>10}{:>12}{:>14}{:>16}\n", body, "of the peak",
                      std::max<int>(1, 30 - int(body.size())), "channels", "its own", "load stage s",
                      "saved if off s");
   for (const auto& p : prices)
-    out << fmt::format("    {:<30}{:>12.2f}%{:>10}{:>12}{:>12.2g}{:>14.2g}\n", p.effect, 100 * p.share,
+    out << fmt::format("    {:<30}{:>12.2f}%{:>10}{:>12}{:>14.3g}{:>16.3g}\n", p.effect, 100 * p.share,
                        p.n_channels, p.n_own, p.evaluation_s,
                        p.evaluation_s + p.unit_loads_s + p.superposition_s);
+  out << "    saved if off, at most: its own seconds of the load stage, and the share of solve and "
+         "superposition "
+         "that the\n    channels have which no other effect feeds\n";
 }
 
 }  // namespace pipelines

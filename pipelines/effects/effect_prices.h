@@ -16,8 +16,8 @@ struct EffectPrice {
   std::size_t n_channels = 0;  ///< that it feeds
   std::size_t n_own = 0;       ///< that it alone feeds: without it they are neither solved nor superposed
   double evaluation_s = 0;     ///< of the load stage
-  double unit_loads_s =
-      0;  ///< of the solve, at most: the factorisation is counted as if it grew with channels
+  /// Of the solve, at most: the factorisation is counted as if it grew with channels.
+  double unit_loads_s = 0;
   double superposition_s = 0;  ///< likewise
 };
 
@@ -29,6 +29,7 @@ struct EffectPrice {
 std::vector<EffectPrice> price_effects(const BodyAnalysis& analysis, double solve_s, double superpose_s,
                                        const std::vector<std::pair<std::string, double>>& evaluation_s);
 
+/// One line for each effect: share of the peak, channels, seconds.
 void print_effect_prices(std::ostream& out, const std::string& body, const std::vector<EffectPrice>& prices);
 
 }  // namespace pipelines

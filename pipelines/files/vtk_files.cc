@@ -109,7 +109,7 @@ struct Cells {
 
 void set_cells(vtkUnstructuredGrid& grid, const Cells& cells) {
   vtkNew<vtkTypeInt32Array> offsets, connectivity;
-  offsets->SetNumberOfValues(static_cast<vtkIdType>(cells.size() + 1));
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(cells.size()) + 1);
   connectivity->SetNumberOfValues(static_cast<vtkIdType>(cells.nodes.size()));
   for (std::size_t i = 0; i <= cells.size(); ++i)
     offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * cells.n_nodes));
@@ -190,9 +190,20 @@ int face_type(const fem::CellShape& shape) {
 
 }  // namespace
 
+void refuse_beyond_32_bits(const std::filesystem::path& path, std::size_t n_nodes, std::size_t n_cells,
+                           std::size_t nodes_per_cell) {
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  // By division: the product may not even fit into 64 bits.
+  if (n_nodes <= most && (nodes_per_cell == 0 || n_cells <= most / nodes_per_cell)) return;
+  throw FileError(path.string() + ": " + std::to_string(n_cells) + " cells of " +
+                  std::to_string(nodes_per_cell) + " nodes, of " + std::to_string(n_nodes) +
+                  ", are more than the indices of 32 bits in a VTK file can tell apart; take larger cells");
+}
+
 void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                         const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
                         VtuCompression compression, const FieldData& data) {
+  refuse_beyond_32_bits(path, nodes.n, nodes.n_cells(), nodes.nodes_per_cell());
   std::vector<std::int32_t> all(nodes.n);
   std::iota(all.begin(), all.end(), 0);
   const Cells cells = {cell_type(nodes.shape()), nodes.nodes_per_cell(), nodes.cells};
@@ -234,6 +245,7 @@ void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& 
                            const std::vector<int>& piece_of_cell, int n_pieces,
                            const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
                            VtuCompression compression, const FieldData& data) {
+  refuse_beyond_32_bits(pvtu, nodes.n, nodes.n_cells(), nodes.nodes_per_cell());
   const int type =
       nodes.kind == fem::CellKind::tetrahedra ? VTK_QUADRATIC_TETRA : VTK_TRIQUADRATIC_HEXAHEDRON;
   std::vector<std::string> names;
@@ -266,6 +278,7 @@ void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& 
 void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                                 const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
                                 VtuCompression compression, const std::vector<NameList>& names) {
+  refuse_beyond_32_bits(path, nodes.n, nodes.face_boundary_id.size(), nodes.nodes_per_face());
   std::vector<std::int32_t> place(nodes.n, -1), chosen;
   for (const std::int32_t node : nodes.faces) place[static_cast<std::size_t>(node)] = 0;
   for (std::size_t node = 0; node < nodes.n; ++node)

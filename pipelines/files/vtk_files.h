@@ -58,6 +58,11 @@ struct FieldData {
 
 enum class VtuCompression { none, zlib };
 
+/// The files have indices of 32 bits: numbers of nodes, and the place where each cell's list of nodes ends.
+/// @throws FileError naming the file, what it would hold and the remedy if they do not suffice
+void refuse_beyond_32_bits(const std::filesystem::path& path, std::size_t n_nodes, std::size_t n_cells,
+                           std::size_t nodes_per_cell);
+
 /// The whole body: VTK_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON or
 /// VTK_QUADRATIC_TETRA, all nodes in their order. VTK takes the nodes of cubic cells as evenly spaced in the
 /// cell's own coordinates, where they are Gauss-Lobatto points: exact at the nodes, a little off between

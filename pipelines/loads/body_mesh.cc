@@ -5,6 +5,7 @@
 #include "meshes/keyed_shaft/solid_shaft.h"
 #include "meshes/shaft/shaft.h"
 #include "meshes/values/refused.h"
+#include "pipelines/responses/response_key.h"
 #include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
@@ -96,6 +97,7 @@ MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
   result.body = to_fem_body(result.mesh, body.material);
   result.body.degree = body.degree;
   if (kind.has_elastic_feet(body)) result.body.elastic_supports = elastic_feet(result.mesh, springs);
+  result.mesh_hash = content_hash(file);  // once: reading it takes seconds where the mesh is large
   result.model = std::make_shared<const fem::Model>(result.body);
   result.masses = result.model->mass_properties();
   result.geometry_error = result.model->geometry_error(round_ports(result.mesh));

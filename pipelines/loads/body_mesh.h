@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "fem/model/model.h"
 #include "kinetics/vibratory_mill.h"
@@ -14,7 +15,8 @@ namespace pipelines {
 
 struct MeshedBody {
   meshes::BodyMesh mesh;
-  fem::Body body;  ///< what the model was made of
+  fem::Body body;         ///< what the model was made of
+  std::string mesh_hash;  ///< content_hash of its mesh file; empty: it has none
   std::shared_ptr<const fem::Model> model;
   fem::MassProperties masses;  ///< of the whole mesh
   fem::GeometryError geometry_error;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "kinetics/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
@@ -21,6 +23,14 @@ void write_load_results(const std::filesystem::path& directory, const kinetics::
 /// envelope_<rank>.vtu stand for envelope.vtu
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,
                         const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces = 1);
+
+/// Removes what an earlier run wrote for bodies that this one does not have: the files that
+/// write_body_results, the search and the pictures leave, of the bodies that the summary.json in `directory`
+/// names, and their folders where nothing else is in them. Without a summary.json of this program, or with
+/// one that cannot be read, nothing is touched.
+/// @param bodies  of this run. To be called before its summary.json is written
+void remove_bodies_of_earlier_run(const std::filesystem::path& directory,
+                                  const std::vector<std::string>& bodies);
 
 /// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
 struct Moment {

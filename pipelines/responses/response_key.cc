@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 
 #include "pipelines/common/errors.h"
 #include "pipelines/files/csv.h"
@@ -78,9 +79,10 @@ const std::string& program_fingerprint() {
 
 namespace {
 
-void describe(KeyText& key, const fem::Body& body) {
+void describe(KeyText& key, const fem::Body& body, const std::string& mesh_hash) {
+  if (mesh_hash.empty()) throw std::logic_error("the mesh of " + body.mesh.string() + " has no hash");
   key.line("program", program_fingerprint())
-      .line("mesh", content_hash(body.mesh))
+      .line("mesh", mesh_hash)
       .line("degree", body.degree)
       .line("material", body.material.youngs_modulus_Pa, body.material.poisson_ratio,
             body.material.density_kg_m3);
@@ -96,16 +98,17 @@ void describe(KeyText& key, const fem::Body& body) {
 
 }  // namespace
 
-std::string body_key(const fem::Body& body) {
+std::string body_key(const fem::Body& body, const std::string& mesh_hash) {
   KeyText key;
-  describe(key, body);
+  describe(key, body, mesh_hash);
   return key.text();
 }
 
-std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
+std::string response_key(const fem::Body& body, const std::string& mesh_hash,
+                         const std::vector<fem::UnitLoad>& loads,
                          const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
   KeyText key;
-  describe(key, body);
+  describe(key, body, mesh_hash);
   key.line("threads", n_threads).line("solver", int(solver));
   for (const auto& support : body.elastic_supports) {
     key.line("springs", support.stiffness_N_m[0], support.stiffness_N_m[1], support.stiffness_N_m[2]);

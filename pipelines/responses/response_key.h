@@ -13,14 +13,16 @@ namespace pipelines {
 
 /// Program, content of the mesh file, charts, material, unit loads, section planes and choice of the solver.
 /// Two runs with equal keys have equal unit responses, bit for bit on the same machine.
-/// @throws FileError if the mesh file cannot be read
-std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
+/// @param mesh_hash  content_hash of the body's mesh file
+/// @throws std::logic_error if it is empty: all meshes would have one key
+std::string response_key(const fem::Body& body, const std::string& mesh_hash,
+                         const std::vector<fem::UnitLoad>& loads,
                          const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads);
 
 /// Program, content of the mesh file, charts and material: what decides whether the iterative solver
 /// converges.
-/// @throws FileError if the mesh file cannot be read
-std::string body_key(const fem::Body& body);
+/// @param mesh_hash, @throws  as response_key
+std::string body_key(const fem::Body& body, const std::string& mesh_hash);
 
 /// 128-bit hash of a file's content in hexadecimal digits. @throws FileError if it cannot be read
 std::string content_hash(const std::filesystem::path& file);

@@ -229,7 +229,7 @@ meshes::ShaftMeshControl read_mesh(SceneTable mesh) {
   if (control.n_sectors % 4 != 0)
     mesh.refuse("sectors",
                 "must be a multiple of 4; write " + std::to_string((control.n_sectors / 4 + 1) * 4));
-  control.growth = mesh.quantity_or("growth", "1", between(0.05, 1), usual.growth,
+  control.growth = mesh.quantity_or("growth", "1", between(0.05, usual.steepest_growth), usual.growth,
                                     "slope of the cell size away from fillets");
   mesh.know("largest_cell");
   if (mesh.has("largest_cell")) control.largest_cell_m = mesh.quantity("largest_cell", "m", positive(10));

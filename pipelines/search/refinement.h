@@ -43,7 +43,7 @@ struct OtherRefinement {
   bool possible = false;     ///< something of the two became finer
   bool mesh_matters = true;  ///< the mesh dominates
 };
-OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t body, const ErrorBudget& errors);
+OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const ErrorBudget& errors);
 
 /// Makes the mesh finer where the place that holds the error back feels it most: `part` of a shaft's mesh (on
 /// those fillets only whose stress with its error could be the largest); weld toes of a chamber, half as

@@ -7,7 +7,7 @@ namespace measure {
 pipelines::BodyScene refined_shaft(const pipelines::Scene& scene, const Refinement& refinement) {
   auto body = scene.bodies.at(0);
   auto& control = std::get<pipelines::ShaftShape>(body.shape).mesh;
-  control.largest_cell_m *= control.n_sectors / double(refinement.sectors);
+  control.largest_cell_m *= refinement.stretch * control.n_sectors / double(refinement.sectors);
   control.cells_per_fillet_quarter = refinement.fillet_cells;
   control.n_sectors = refinement.sectors;
   return body;

@@ -12,6 +12,7 @@ namespace measure {
 /// How finely the shaft is meshed; the lengths of its cells follow the sectors.
 struct Refinement {
   int fillet_cells = 2, sectors = 16;
+  double stretch = 1;  ///< of the cells along the axis, away from fillets
 };
 
 /// @param scene  of shaft.toml

@@ -56,7 +56,7 @@ SolverRow compare_solvers(const fem::Body& body, const std::vector<fem::UnitLoad
   SolverRow row;
   row.n_dofs = 3 * grid.n_nodes;
   row.aspect = report.largest_aspect;
-  row.coarse_level = report.coarse_level == fem::CoarseLevel::aggregated ? "aggregates" : "factor";
+  row.coarse_level = report.coarse_level == fem::CoarseLevel::aggregated ? aggregates : coarse_factor;
 
   Eigen::MatrixXd answer;
   for (int repeat = 0; repeat < n_repeats; ++repeat) {
@@ -78,6 +78,7 @@ SolverRow compare_solvers(const fem::Body& body, const std::vector<fem::UnitLoad
     return *fem::solve_directly(grid, cells, colours, body.material, loads, silent);
   });
   row.direct = figures;
+  row.factor = direct.factor;
   const auto integrals = fem::integrate_nodes(grid, colours);
   const fem::RigidBalance rigid(grid, integrals);
   rigid.remove_motion(answer);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fem/values/body.h"
+#include "fem/values/solver_choice.h"
 #include "fem/values/unit_load.h"
 
 namespace measure {
@@ -17,6 +18,9 @@ struct SolverFigures {
   double predicted_s = 0, predicted_bytes = 0;
 };
 
+/// Names of what solves the trilinear level.
+inline constexpr const char *aggregates = "aggregates", *coarse_factor = "factor";
+
 struct SolverRow {
   std::size_t n_dofs = 0;
   double aspect = 0;
@@ -24,6 +28,7 @@ struct SolverRow {
   std::string coarse_level;
   SolverFigures iterative;
   std::optional<SolverFigures> direct;  ///< nothing if it would not fit into memory
+  fem::FactorSize factor{};             ///< of the direct one; nothing likewise
   double difference = 0;                ///< of the answers, largest of the load cases, relative
 };
 

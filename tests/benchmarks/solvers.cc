@@ -2,6 +2,9 @@
 /// iteratively, and the operator against deal.II's and a sparse matrix. Ratios of one run.
 ///   solver_benchmarks <shaft.toml> [largest number of unknowns, default 700000] [picture.svg]
 ///       [largest number for the direct solver, default: what fits into memory]
+///   solver_benchmarks <shaft.toml> fit [largest number of unknowns, default 700000]
+/// Twelve load cases at the same sizes, and with stretched cells at the smaller ones: the constants of
+/// fem/values/cost_constants.h, fitted anew.
 #include <unistd.h>
 
 #include <cstdio>
@@ -9,11 +12,13 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "fem/model/model.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/scene/scene.h"
 #include "tests/benchmarks/benchmark_shaft.h"
+#include "tests/benchmarks/cost_fit.h"
 #include "tests/benchmarks/operator_comparison.h"
 #include "tests/benchmarks/solver_comparison.h"
 #include "tests/benchmarks/solver_plot.h"
@@ -28,8 +33,10 @@ struct Size {
   std::size_t n_dofs;  // about
   measure::Refinement refinement;
 };
-constexpr Size sizes[] = {
+const Size sizes[] = {
     {65000, {2, 16}}, {230000, {4, 28}}, {670000, {4, 40}}, {1460000, {6, 52}}, {4010000, {8, 72}}};
+constexpr double stretches[] = {1.5, 2};
+constexpr std::size_t most_when_unasked = 700000;
 
 /// Its middle segment alone, extruded, without ports.
 pipelines::BodyScene extruded(pipelines::BodyScene part) {
@@ -37,6 +44,32 @@ pipelines::BodyScene extruded(pipelines::BodyScene part) {
   shaft.segments = {shaft.segments.at(1)};
   shaft.fillets_m.clear();
   return part;
+}
+
+void fit(const char* scene_file, std::size_t most, const std::filesystem::path& directory) {
+  const auto scene = pipelines::read_scene(scene_file);
+  std::vector<measure::SolverRow> rows;
+  std::size_t n_loads = 0;
+  const auto add = [&](const Size& size) {
+    const auto part = measure::refined_shaft(scene, size.refinement);
+    const auto mesh = pipelines::build_mesh(part, directory / "shaft.msh");
+    const auto loads = measure::seat_loads(mesh);
+    n_loads = loads.size();
+    rows.push_back(measure::compare_solvers(pipelines::to_fem_body(mesh, part.material), loads,
+                                            size.n_dofs < small ? n_repeats_small : 1, true));
+    measure::print_row(rows.back(), n_loads);
+  };
+  measure::print_heading();
+  for (auto size : sizes) {
+    if (size.n_dofs > most) break;
+    add(size);
+    if (size.n_dofs > small) continue;
+    for (const double stretch : stretches) {
+      size.refinement.stretch = stretch;
+      add(size);
+    }
+  }
+  measure::print_fit(rows, n_loads);
 }
 
 void run(const char* scene_file, std::size_t most, std::size_t most_direct,
@@ -71,7 +104,8 @@ int main(int argc, char** argv) {
   if (argc < 2) {
     std::fprintf(stderr,
                  "usage: solver_benchmarks <shaft.toml> [largest number of unknowns] [picture.svg] [largest "
-                 "for the direct solver]\n");
+                 "for the direct solver]\n       solver_benchmarks <shaft.toml> fit [largest number of "
+                 "unknowns]\n");
     return 2;
   }
   const fem::Environment environment(argc, argv, n_threads);
@@ -80,9 +114,12 @@ int main(int argc, char** argv) {
   std::filesystem::create_directory(directory);
   int code = 0;
   try {
-    run(argv[1], argc > 2 ? std::size_t(std::atof(argv[2])) : 700000,
-        argc > 4 ? std::size_t(std::atof(argv[4])) : 100000000,
-        argc > 3 ? argv[3] : "results/benchmarks/solvers.svg", directory);
+    if (argc > 2 && std::string(argv[2]) == "fit")
+      fit(argv[1], argc > 3 ? std::size_t(std::atof(argv[3])) : most_when_unasked, directory);
+    else
+      run(argv[1], argc > 2 ? std::size_t(std::atof(argv[2])) : most_when_unasked,
+          argc > 4 ? std::size_t(std::atof(argv[4])) : 100000000,
+          argc > 3 ? argv[3] : "results/benchmarks/solvers.svg", directory);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     code = 1;

@@ -61,6 +61,8 @@ TEST(Accuracy, EveryModelBoundsItsError) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("the next factor of two in accuracy costs"), std::string::npos) << outcome.out;
   const auto files = directory / "out/accuracy";
+  // What the effect costs: it feeds all channels.
+  EXPECT_NE(outcome.out.find("effects on the shaft"), std::string::npos) << outcome.out;
   const auto models = first_column(files / "shaft.csv");
   for (const std::string model :
        {"beam", "axisymmetric", "Q1 solid", "even mesh", "Q3 solid", "fewer instants", "refined mesh"})

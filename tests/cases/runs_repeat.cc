@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "tests/cases/program.h"
+#include "tests/cases/stepped_shaft.h"
 
 using namespace cases;
 
@@ -65,6 +66,49 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   write(directory / "mill.toml", shaft_alone(coarse() + Edits{{"206 GPa", "205 GPa"}}));
   ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
   EXPECT_NE(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
+}
+
+// A body that the scene no longer has takes its files along: they would stand beside a summary that does not
+// know them. What a user put there stays, and so does a folder that no run of this program wrote.
+TEST(Runs, FilesOfBodiesThatAreGoneAreRemoved) {
+  const results_test::Directory directory;
+  const auto whole = stepped_shaft();
+  auto alone = whole;
+  alone.erase(alone.find("[shaft]"), alone.find("[results]") - alone.find("[shaft]"));
+  const auto run = [&](const std::string& scene, const std::string& options = "") {
+    write(directory / "small.toml", scene);
+    return millstress(directory.path, "run small.toml -o out " + options).exit_code;
+  };
+  const auto out = directory / "out";
+  ASSERT_EQ(run(whole, "--method solid"), 0);
+  ASSERT_TRUE(fs::exists(out / "shaft/unit_responses.h5"));
+  ASSERT_EQ(run(whole, "--method solid"), 0);
+  ASSERT_TRUE(fs::exists(out / "shaft/unit_responses.h5"));
+  ASSERT_EQ(run(alone), 0);
+  EXPECT_FALSE(fs::exists(out / "shaft"));
+  EXPECT_TRUE(fs::exists(out / "loads.csv"));
+
+  ASSERT_EQ(run(whole, "--method beam"), 0);
+  ASSERT_TRUE(fs::exists(out / "shaft/zones.csv"));
+  write(out / "shaft/notes.txt", "mine");
+  write(out / "shaft/zones_of_last_year.csv", "mine");
+  fs::create_directory(out / "chamber");
+  write(out / "chamber/zones.csv", "mine: no summary names it");
+  ASSERT_EQ(run(alone), 0);
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(out / "shaft")) left.insert(entry.path().filename());
+  EXPECT_EQ(left, (std::set<std::string>{"notes.txt", "zones_of_last_year.csv"}));
+  EXPECT_TRUE(fs::exists(out / "chamber/zones.csv"));
+
+  // A summary of another program is not believed, nor a name that leads elsewhere.
+  write(out / "summary.json", R"({"program": {"name": 5}, "bodies": {"chamber": {}}})");
+  ASSERT_EQ(run(alone), 0);
+  EXPECT_TRUE(fs::exists(out / "chamber/zones.csv"));
+  fs::create_directory(directory / "elsewhere");
+  write(directory / "elsewhere/zones.csv", "mine");
+  write(out / "summary.json", R"({"program": {"name": "millstress"}, "bodies": {"../elsewhere": {}}})");
+  ASSERT_EQ(run(alone), 0);
+  EXPECT_TRUE(fs::exists(directory / "elsewhere/zones.csv"));
 }
 
 TEST(Runs, BrokenUnitResponsesAreSolvedAgain) {

@@ -115,8 +115,8 @@ TEST_P(Refused, WithTheExpectedErrors) {
         << report;
 }
 
-INSTANTIATE_TEST_SUITE_P(scenes, Refused, testing::ValuesIn(refused_files()), [](const auto& info) {
-  std::string name = info.param.stem().string();
+INSTANTIATE_TEST_SUITE_P(scenes, Refused, testing::ValuesIn(refused_files()), [](const auto& test) {
+  std::string name = test.param.stem().string();
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;

@@ -107,6 +107,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"spin_Q1", {true, hexahedra, 1, 0, 0.3}, {4, 8, 16}},
                     Case{"pressure_P2", {false, tetrahedra, 2, 0.1, 0.3}, {2, 4, 8}},
                     Case{"spin_P2", {true, tetrahedra, 2, 0, 0.3}, {2, 4, 8}}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -67,9 +67,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Setting{0.0, 2, fem::Solver::direct}, Setting{0.0, 3, fem::Solver::iterative},
                     Setting{0.4999, 2, fem::Solver::direct}, Setting{0.4999, 3, fem::Solver::direct},
                     Setting{0.4999, 2, fem::Solver::iterative}, Setting{0.4999, 3, fem::Solver::iterative}),
-    [](const auto& info) {
-      return std::string(info.param.solver == fem::Solver::direct ? "direct" : "iterative") + "_degree" +
-             std::to_string(info.param.degree) + (info.param.poisson_ratio > 0 ? "_nu_4999" : "_nu_0");
+    [](const auto& test) {
+      return std::string(test.param.solver == fem::Solver::direct ? "direct" : "iterative") + "_degree" +
+             std::to_string(test.param.degree) + (test.param.poisson_ratio > 0 ? "_nu_4999" : "_nu_0");
     });
 
 /// A mesh of n x n cells for a quarter, and what it may miss: of u(a), and of the largest stress.
@@ -102,9 +102,9 @@ INSTANTIATE_TEST_SUITE_P(
                     CylinderCase{0.49, 2, 4, 3e-4, 0.05}, CylinderCase{0.4999, 2, 4, 0.06, 0.11},
                     CylinderCase{0.4999, 2, 8, 3e-3, 0.035}, CylinderCase{0.4999, 3, 4, 2e-4, 0.0047},
                     CylinderCase{0.4999, 3, 8, 2e-6, 7e-4}),
-    [](const auto& info) {
-      return "nu_" + std::to_string(int(1e4 * info.param.poisson_ratio + 0.5)) + "_degree_" +
-             std::to_string(info.param.degree) + "_cells_" + std::to_string(info.param.n);
+    [](const auto& test) {
+      return "nu_" + std::to_string(int(1e4 * test.param.poisson_ratio + 0.5)) + "_degree_" +
+             std::to_string(test.param.degree) + "_cells_" + std::to_string(test.param.n);
     });
 
 /// Where lambda div u is not constant: what it may miss, of the largest stress.
@@ -124,9 +124,9 @@ TEST_P(SpinningCylinder, HasItsStressAt4999) {
 INSTANTIATE_TEST_SUITE_P(Cases, SpinningCylinder,
                          testing::Values(SpinningCase{2, 4, 0.074}, SpinningCase{2, 8, 9e-3},
                                          SpinningCase{3, 4, 3e-3}, SpinningCase{3, 8, 3e-4}),
-                         [](const auto& info) {
-                           return "degree_" + std::to_string(info.param.degree) + "_cells_" +
-                                  std::to_string(info.param.n);
+                         [](const auto& test) {
+                           return "degree_" + std::to_string(test.param.degree) + "_cells_" +
+                                  std::to_string(test.param.n);
                          });
 
 class ThinCells : public testing::TestWithParam<double> {};
@@ -218,6 +218,6 @@ TEST_P(ThinCells, TubeBendsAsABeam) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Aspects, ThinCells, testing::Values(17.0, 1000.0),
-                         [](const auto& info) { return "aspect_" + std::to_string(int(info.param)); });
+                         [](const auto& test) { return "aspect_" + std::to_string(int(test.param)); });
 
 }  // namespace

@@ -118,9 +118,9 @@ TEST_P(ShoulderFillet, HasTheStressConcentrationOfTheElasticSolution) {
   row("P09", "tension", c.tension, patch.tension);
 }
 
-INSTANTIATE_TEST_SUITE_P(P08_P09, ShoulderFillet, testing::ValuesIn(cases), [](const auto& info) {
-  return "D" + std::to_string(std::lround(100 * info.param.D)) + "_r" +
-         std::to_string(std::lround(100 * info.param.r));
+INSTANTIATE_TEST_SUITE_P(P08_P09, ShoulderFillet, testing::ValuesIn(cases), [](const auto& test) {
+  return "D" + std::to_string(std::lround(100 * test.param.D)) + "_r" +
+         std::to_string(std::lround(100 * test.param.r));
 });
 
 // A fillet of a hundredth of the diameter, h / r = 3. Source of the charts: Pilkey, Peterson's Stress

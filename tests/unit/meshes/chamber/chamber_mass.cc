@@ -76,7 +76,7 @@ TEST(ChamberSolids, ConvergeToTheRoundPartsWithSecondOrder) {
   for (const double size_m : {0.016, 0.004}) {
     meshes::ChamberMeshControl control;
     control.size_m = size_m;
-    control.growth = 10;  // nearly all cells have the size
+    control.growth = 2;  // nearly all cells have the size
     const auto sums = mesh_sums(meshed(chamber, control, "fine"));
     for (const std::string part : {"tube", "housing"}) {
       errors[part].push_back(1 - sums.at(part)[0] / round.at(part)[0]);

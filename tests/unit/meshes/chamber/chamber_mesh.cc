@@ -30,7 +30,7 @@ TEST(ChamberMesh, IsWatertightWithEveryFreeFaceInExactlyOneGroup) {
   fine.cells_through_wall = 3;
   meshes::ChamberMeshControl coarse;
   coarse.size_m = 0.1;
-  coarse.growth = 3;
+  coarse.growth = 2;
   coarse.cells_through_wall = 1;
   meshes::ChamberMeshControl local;
   local.cells_through_wall = 4;

@@ -52,8 +52,14 @@ std::vector<RefusedChamber> size_refusals() {
       {"thin pads", [](auto& c, auto&) { c.pads.size_z_m = 7 * mm; }, {"lugs' thickness = 8 mm", "7 mm"}},
       {"pads meet", [](auto& c, auto&) { c.pads.size_z_m = 195 * mm; }, {"size in z = 195 mm", "194 mm"}},
       {"cells", [](auto&, auto& k) { k.cells_through_wall = 0; }, {"cells_through_wall = 0"}},
+      {"many cells",
+       [](auto&, auto& k) { k.cells_through_wall = k.most_cells_through_wall + 1; },
+       {"cells_through_wall = 21", "1 and 20"}},
       {"size", [](auto&, auto& k) { k.size_m = -1; }, {"size_m = -1"}},
       {"growth", [](auto&, auto& k) { k.growth = 0; }, {"growth = 0"}},
+      {"steep growth",
+       [](auto&, auto& k) { k.growth = 1.01 * k.steepest_growth; },
+       {"growth = 2.02", "at most 2"}},
       {"quality", [](auto&, auto& k) { k.min_scaled_jacobian = 1.5; }, {"min_scaled_jacobian = 1.5"}},
   };
 }

@@ -139,6 +139,26 @@ TEST(SolidShaft, KeywaysTakeTheirVolume) {
   }
 }
 
+// A keyway elsewhere does not change what is left out beside a shoulder without a fillet: 0.1 of the smaller
+// diameter, 3 mm, as on blocks. Elsewhere it is 1 % of the diagonal, and an exclusion that was asked for
+// holds everywhere.
+TEST(SolidShaft, LeavesOutAtShouldersWhatBlocksLeaveOut) {
+  const auto shaft = keyed_shaft();
+  const Keyway key{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true};
+  const auto blocks = meshes::build_shaft(shaft, {}, temporary_msh("blocks")).sharp_edges;
+  ASSERT_EQ(blocks.size(), 1U);
+  auto control = coarse();
+  const auto edges = meshes::build_solid_shaft(shaft, {key}, control, temporary_msh("keyed")).sharp_edges;
+  ASSERT_EQ(edges.size(), 2U);
+  EXPECT_DOUBLE_EQ(edges[0].distance_m, blocks[0].distance_m);
+  EXPECT_DOUBLE_EQ(edges[0].distance_m, 0.003);
+  EXPECT_NEAR(edges[1].distance_m, 0.01 * std::hypot(0.18, 0.05, 0.05), 1e-4);  // of the polygon's box
+  control.exclusion_m = 0.001;
+  for (const auto& edge :
+       meshes::build_solid_shaft(shaft, {key}, control, temporary_msh("asked")).sharp_edges)
+    EXPECT_EQ(edge.distance_m, 0.001) << edge.name;
+}
+
 TEST(SolidShaft, AnOpenKeywayRunsOutAtTheEnd) {
   const auto shaft = plain_cylinder();  // 50 mm, 200 mm long
   const Keyway key{shaft.segments[0].name, 0.014, 0.0055, 0.05, shaft.segments[0].begin_m, 1, false};

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "pipelines/accuracy/accuracy.h"
 #include "pipelines/accuracy/accuracy_report.h"
 
@@ -98,4 +100,41 @@ TEST(AccuracyReport, WarnsWhereRunsDisagree) {
   study.rows.front().errors.set_numerical({"discretisation", "", 28e6});
   compare_runs(study, 0);
   EXPECT_EQ(disagreements(study), "");
+}
+
+// By hand: three channels of 30 s of solve and 6 s of superposition, one fed by the pull alone, one by the
+// weight alone, one by both.
+TEST(EffectPrices, ShareOutSecondsByTheChannelsOfTheirOwn) {
+  BodyAnalysis analysis;
+  auto& history = analysis.loads.history;
+  history.effects = {"weight", "pull", "idle"};
+  history.values = Eigen::ArrayXXd::Ones(3, 2);
+  history.by_effect.assign(3, Eigen::ArrayXXd::Zero(3, 2));
+  history.by_effect[0].bottomRows(2) = 1;
+  history.by_effect[1].topRows(2) = 1;
+  analysis.peak.effect_share = {0.25, -0.75, 0};
+  const auto prices = price_effects(analysis, 30, 6, {{"pull", 0.5}});
+  ASSERT_EQ(prices.size(), 3U);
+  EXPECT_EQ(prices[0].effect, "pull");  // the larger share comes first, whatever its sign
+  EXPECT_EQ(prices[0].n_channels, 2U);
+  EXPECT_EQ(prices[0].n_own, 1U);
+  EXPECT_DOUBLE_EQ(prices[0].unit_loads_s, 10);
+  EXPECT_DOUBLE_EQ(prices[0].superposition_s, 2);
+  EXPECT_EQ(prices[0].evaluation_s, 0.5);
+  EXPECT_EQ(prices[1].effect, "weight");
+  EXPECT_EQ(prices[1].evaluation_s, 0);
+  EXPECT_EQ(prices[2].n_channels, 0U);
+  EXPECT_EQ(prices[2].unit_loads_s, 0);
+
+  auto study = four_runs();
+  study.body = "shaft";
+  std::ostringstream without, with;
+  print_accuracy(without, study);
+  EXPECT_EQ(without.str().find("effects on the"), std::string::npos);
+  study.effects = prices;
+  print_accuracy(with, study);
+  const auto text = with.str();
+  EXPECT_NE(text.find("effects on the shaft"), std::string::npos) << text;
+  const auto line = text.substr(text.find("    pull"));
+  EXPECT_NE(line.substr(0, line.find('\n')).find("12.5"), std::string::npos) << text;  // 10 + 2 + 0.5 s
 }

@@ -65,7 +65,7 @@ TEST_P(Guide, IsNotThereWherePitchIsOn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(both, Guide, testing::Values(PitchGuide::body, PitchGuide::feet),
-                         [](const auto& info) { return info.param == PitchGuide::body ? "body" : "feet"; });
+                         [](const auto& test) { return test.param == PitchGuide::body ? "body" : "feet"; });
 
 // Springs and damping off too: 1436 N m, mean -131.
 TEST(PitchGuide, CarriesTheWeightsMomentWithoutSprings) {

@@ -92,8 +92,8 @@ TEST(Failures, TheForecastSaysWhyAMeshIsLeftOut) {
   auto& body = scene.bodies.front();
   const auto meshed = mesh_body(body, directory / "failures_forecast.msh", {});
   std::get<ShaftShape>(body.shape).mesh.min_scaled_jacobian = 0.95;
+  std::filesystem::remove(directory / "failures_forecast.msh");  // the model has it: no second reading
   const auto rows = forecast_ladder(body, meshed, {10, 100}, {});
-  std::filesystem::remove(directory / "failures_forecast.msh");
   ASSERT_EQ(rows.back().model, "first of a search");
   EXPECT_NE(rows.back().left_out.find("scaled Jacobian"), std::string::npos) << rows.back().left_out;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) EXPECT_EQ(rows[i].left_out, "") << rows[i].model;

@@ -15,6 +15,7 @@
 #include <set>
 
 #include "fem/values/vtk_order.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/files/vtk_files.h"
 #include "tests/unit/pipelines/examples/results_bar.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
@@ -220,6 +221,23 @@ TEST(VtkFiles, WrongSizesAreRefusedAndTheOldFileStays) {
   EXPECT_THROW(write_envelope_vtu(at / "e.vtu", nodes, {}, {{"zone", {1, 2}}}), std::invalid_argument);
   EXPECT_EQ(bytes(at / "e.vtu"), old);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(at.path), {}), 1);
+}
+
+// Goes red where the product is taken in 32 bits, or in 64 where that overflows too.
+TEST(VtkFiles, IndicesBeyond32BitsAreRefusedByName) {
+  constexpr std::size_t most = 2147483647;
+  EXPECT_NO_THROW(refuse_beyond_32_bits("e.vtu", most, most / 27, 27));
+  EXPECT_NO_THROW(refuse_beyond_32_bits("e.vtu", 0, 0, 0));
+  EXPECT_THROW(refuse_beyond_32_bits("e.vtu", 100, most / 27 + 1, 27), FileError);
+  EXPECT_THROW(refuse_beyond_32_bits("e.vtu", most + 1, 1, 27), FileError);
+  EXPECT_THROW(refuse_beyond_32_bits("e.vtu", 100, std::size_t(1) << 62, 4), FileError);
+  try {
+    refuse_beyond_32_bits("out/e.vtu", 100, most, 27);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("out/e.vtu: 2147483647 cells of 27 nodes", 0), 0U)
+        << error.what();
+  }
 }
 
 TEST(VtkFiles, ADirectoryInTheWayIsAnErrorThatNamesTheFile) {

@@ -175,4 +175,4 @@ std::vector<std::string> shipped_scenes() {
 }  // namespace
 
 INSTANTIATE_TEST_SUITE_P(shipped, ShippedEffects, testing::ValuesIn(shipped_scenes()),
-                         [](const auto& info) { return info.param.substr(0, info.param.find('.')); });
+                         [](const auto& test) { return test.param.substr(0, test.param.find('.')); });

@@ -144,4 +144,4 @@ TEST_P(MutatedScene, IsRefusedOrHasFiniteLoads) {
 INSTANTIATE_TEST_SUITE_P(shipped, MutatedScene,
                          testing::Values("vibratory_mill.toml", "planetary_mill.toml", "drive_train.toml",
                                          "load_table.toml", "stub_axle.toml", "root_peeler_shaft.toml"),
-                         [](const auto& info) { return info.param.substr(0, info.param.find('.')); });
+                         [](const auto& test) { return test.param.substr(0, test.param.find('.')); });

@@ -26,13 +26,15 @@ TEST(IterationMemory, KeyIsThatOfMeshAndMaterialAndBeginsTheResponsesKey) {
   body.mesh = scratch.path / "a.msh";
   std::ofstream(body.mesh) << "a mesh";
   body.material = {206e9, 0.3, 7850};
-  const auto key = pipelines::body_key(body);
-  EXPECT_EQ(pipelines::response_key(body, {}, {}, fem::Solver::direct, 2).rfind(key, 0), 0u);
+  const auto hash = pipelines::content_hash(body.mesh);
+  const auto key = pipelines::body_key(body, hash);
+  EXPECT_EQ(pipelines::response_key(body, hash, {}, {}, fem::Solver::direct, 2).rfind(key, 0), 0u);
   auto other = body;
   other.material.poisson_ratio = 0.4;
-  EXPECT_NE(pipelines::body_key(other), key);
+  EXPECT_NE(pipelines::body_key(other, hash), key);
   std::ofstream(body.mesh) << "another mesh";
-  EXPECT_NE(pipelines::body_key(body), key);
+  EXPECT_NE(pipelines::body_key(body, pipelines::content_hash(body.mesh)), key);
+  EXPECT_THROW(pipelines::body_key(body, ""), std::logic_error);
 }
 
 }  // namespace

@@ -125,9 +125,9 @@ INSTANTIATE_TEST_SUITE_P(ports, PressureRound,
                                          Case{"outside", 90, 12}, Case{"inside", 90, 4},
                                          Case{"inside", 90, 8}, Case{"outside", 60, 5}, Case{"inside", 60, 8},
                                          Case{"outside", 120, 3}, Case{"inside", 120, 7}),
-                         [](const auto& info) {
-                           return info.param.port + std::to_string(info.param.half_angle_deg) + "_to_" +
-                                  std::to_string(info.param.highest);
+                         [](const auto& test) {
+                           return test.param.port + std::to_string(test.param.half_angle_deg) + "_to_" +
+                                  std::to_string(test.param.highest);
                          });
 
 // Odd harmonics turn over with the port's kind, even ones do not: they must not be left out where the arc is

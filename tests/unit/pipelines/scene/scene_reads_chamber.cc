@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "meshes/chamber/chamber_checks.h"
 #include "tests/unit/pipelines/examples/edited_scene.h"
 
 namespace {
@@ -69,6 +70,24 @@ TEST(SceneChamber, HasTheLaboratorySizes) {
   EXPECT_EQ(rings.port, "housing_bore");
   EXPECT_EQ(rings.region, "exciter") << "it rides on the bore";
   EXPECT_TRUE(scene.masses_from_mesh.empty());
+}
+
+// Scene and mesher have one limit: what the mesher takes may be asked for, and nothing beyond it.
+TEST(SceneChamber, MeshLimitsAreThoseOfTheMesher) {
+  const int most = meshes::ChamberMeshControl::most_cells_through_wall;
+  const double steepest = meshes::ChamberMeshControl::steepest_growth;
+  const auto with = [](int cells, double growth) {
+    return edited::scene("vibratory_mill",
+                         {{"cells_through_wall = 2\n", "cells_through_wall = " + std::to_string(cells) +
+                                                           "\ngrowth = " + std::to_string(growth) + "\n"}});
+  };
+  const auto scene = with(most, steepest);
+  const auto& mesh = std::get<pipelines::ChamberShape>(scene.body("chamber")->shape).mesh;
+  EXPECT_EQ(mesh.cells_through_wall, most);
+  EXPECT_EQ(mesh.growth, steepest);
+  EXPECT_NO_THROW(meshes::check_control(mesh));
+  EXPECT_ANY_THROW(with(most + 1, steepest));
+  EXPECT_ANY_THROW(with(most, 1.01 * steepest));
 }
 
 TEST(SceneChamber, RecordsItsDefaults) {

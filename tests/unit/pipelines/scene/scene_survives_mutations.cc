@@ -91,6 +91,6 @@ TEST_P(EveryScene, MutatedIsReadOrRefusedAndNothingElse) {
 INSTANTIATE_TEST_SUITE_P(shipped, EveryScene,
                          testing::Values("vibratory_mill", "planetary_mill", "stub_axle", "drive_train",
                                          "root_peeler_shaft"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
