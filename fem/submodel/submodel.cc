@@ -82,7 +82,7 @@ Part cut_out(const UnitResponses& responses, const std::vector<std::size_t>& cel
   const bool is_in_order = nodes.shape().is_tetrahedron();
   std::map<std::int32_t, std::int32_t> place;
   for (const auto c : cells) {
-    grid.volume_id.push_back(nodes.cell_volume_id[c]);
+    grid.volume_id.push_back(nodes.cell_volume_id.empty() ? 0 : nodes.cell_volume_id[c]);
     std::vector<std::int32_t> own(nodes.nodes_per_cell());
     for (std::size_t v = 0; v < own.size(); ++v) {
       const auto i = nodes.cell(c)[v];

@@ -26,6 +26,29 @@ const auto bent = [](const Point& x) {
                x[2] + 0.04 * x[0] * x[1]);
 };
 
+/// n^3 cells of the unit cube, all nodes moved by `bend`; groups as tetrahedra_cube.
+fem::Grid hexahedra_cube(int n, const std::function<Point(const Point&)>& bend) {
+  fem::Grid grid;
+  const int m = 2 * n + 1;  // nodes along an edge
+  for (int k = 0; k < m; ++k)
+    for (int j = 0; j < m; ++j)
+      for (int i = 0; i < m; ++i) {
+        const Point x = bend(Point(i, j, k) / (m - 1));
+        grid.xyz_m.insert(grid.xyz_m.end(), x.data(), x.data() + 3);
+      }
+  grid.n_nodes = grid.xyz_m.size() / 3;
+  for (int c = 0; c < n * n * n; ++c) {
+    const std::array<int, 3> at = {c % n, c / n % n, c / n / n};
+    for (int v = 0; v < 27; ++v)
+      grid.cell_nodes.push_back(2 * at[0] + v % 3 + m * (2 * at[1] + v / 3 % 3 + m * (2 * at[2] + v / 9)));
+    grid.volume_id.push_back(7);
+    for (int face = 0; face < 6; ++face)
+      if (at[std::size_t(face / 2)] == (face % 2 == 0 ? 0 : n - 1))
+        grid.boundary.push_back({c, face, face + 1});
+  }
+  return grid;
+}
+
 fem::Body of_steel() {
   fem::Body body;
   body.material = submodel_steel;
@@ -77,36 +100,52 @@ double area_of_groups(const fem::Grid& grid, int id) {
   return area;
 }
 
-TEST(CutTetrahedra, KeepShapeSurfaceAndField) {
-  fem::GridField coarse{fem_tests::tetrahedra_cube(2, bent), {}};
-  coarse.field.setZero(Eigen::Index(coarse.grid.n_nodes), 1);
+void expect_same_shape(const fem::Grid& grid) {
+  fem::GridField coarse{grid, {}};
+  coarse.field.setZero(Eigen::Index(grid.n_nodes), 1);
   const auto fine = fem::cut_into_eight(coarse);
-  ASSERT_EQ(fine.grid.n_cells(), 8 * coarse.grid.n_cells());
+  ASSERT_EQ(fine.grid.n_cells(), 8 * grid.n_cells());
   fem::refuse_inverted_cells(fine.grid);
-  const auto volume = [](const fem::Grid& grid) {
-    return fem::integrate_nodes(grid, std::vector<int>{7}).col(0).sum();
+  const auto volume = [](const fem::Grid& of) {
+    return fem::integrate_nodes(of, std::vector<int>{7}).col(0).sum();
   };
-  EXPECT_NEAR(volume(fine.grid), volume(coarse.grid), 1e-13);
+  EXPECT_NEAR(volume(fine.grid), volume(grid), 1e-13);
   for (int id = 1; id <= 6; ++id)  // Gauss points of order 9 on roots of polynomials: not exact
-    EXPECT_NEAR(area_of_groups(fine.grid, id), area_of_groups(coarse.grid, id), 1e-6) << id;
-  EXPECT_EQ(fine.grid.boundary.size(), 4 * coarse.grid.boundary.size());
+    EXPECT_NEAR(area_of_groups(fine.grid, id), area_of_groups(grid, id), 1e-6) << id;
+  EXPECT_EQ(fine.grid.boundary.size(), 4 * grid.boundary.size());
 }
 
-TEST(CutTetrahedra, QuadraticFieldsStayOnStraightCells) {
+void expect_quadratic_fields_stay(const fem::Grid& grid) {
   const auto field = [](const double* x) { return 1 + x[0] * x[1] - 2 * x[2] * x[2] + x[1]; };
-  fem::GridField coarse{fem_tests::irregular_cube(2), {}};
-  coarse.field.resize(Eigen::Index(coarse.grid.n_nodes), 1);
-  for (std::size_t i = 0; i < coarse.grid.n_nodes; ++i)
-    coarse.field(Eigen::Index(i), 0) = field(coarse.grid.position(std::int32_t(i)));
+  fem::GridField coarse{grid, {}};
+  coarse.field.resize(Eigen::Index(grid.n_nodes), 1);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i)
+    coarse.field(Eigen::Index(i), 0) = field(grid.position(std::int32_t(i)));
   const auto fine = fem::cut_into_eight(fem::cut_into_eight(coarse));
-  ASSERT_EQ(fine.grid.n_cells(), 64 * coarse.grid.n_cells());
+  ASSERT_EQ(fine.grid.n_cells(), 64 * grid.n_cells());
   for (std::size_t i = 0; i < fine.grid.n_nodes; ++i)
     EXPECT_NEAR(fine.field(Eigen::Index(i), 0), field(fine.grid.position(std::int32_t(i))), 1e-13);
 }
 
+TEST(CutCells, KeepShapeAndSurface) {
+  expect_same_shape(fem_tests::tetrahedra_cube(2, bent));
+  expect_same_shape(hexahedra_cube(2, bent));
+}
+
+TEST(CutCells, QuadraticFieldsStayOnStraightCells) {
+  expect_quadratic_fields_stay(fem_tests::irregular_cube(2));
+  expect_quadratic_fields_stay(hexahedra_cube(2, not_bent));
+}
+
+// Cells share the nodes between them: a conforming mesh of n^3 cells has (2 n + 1)^3 nodes.
+TEST(CutCells, NeighboursShareTheirNodes) {
+  fem::GridField coarse{hexahedra_cube(2, bent), {}};
+  coarse.field.setZero(Eigen::Index(coarse.grid.n_nodes), 1);
+  EXPECT_EQ(fem::cut_into_eight(coarse).grid.n_nodes, 9u * 9u * 9u);
+}
+
 // A column hung up at z = 1: stress rho g z along z, all quadratic. Its sides are free.
-TEST(Submodel, BodyForcesAct) {
-  const auto grid = fem_tests::tetrahedra_cube(5, not_bent);
+void expect_weight_acts(const fem::Grid& grid) {
   // For an acceleration of 1 m/s2 upwards; gravity is -g of that.
   const double a = -submodel_steel.density_kg_m3 / submodel_steel.youngs_modulus_Pa,
                nu = submodel_steel.poisson_ratio;
@@ -122,6 +161,43 @@ TEST(Submodel, BodyForcesAct) {
   const auto weightless =
       fem::submodel_stress(responses, of_steel(), {load_on(nowhere)}, {{node}}, {-g_m_s2}, {}, {2, 1});
   EXPECT_GT(std::abs(weightless.at_point_Pa - known_Pa), 0.01 * known_Pa);
+}
+
+TEST(Submodel, BodyForcesAct) {
+  expect_weight_acts(fem_tests::tetrahedra_cube(5, not_bent));
+  expect_weight_acts(hexahedra_cube(5, not_bent));
+}
+
+// Two channels, the column's weight and a uniform pull along z, at a point of two nodes as weld toes have.
+TEST(Submodel, UnitStressesAreThoseOfTheChannels) {
+  const auto grid = hexahedra_cube(7, not_bent);
+  const double a = -submodel_steel.density_kg_m3 / submodel_steel.youngs_modulus_Pa,
+               nu = submodel_steel.poisson_ratio;
+  const auto hung = responses_of(grid, [&](const Point& x) {
+    return Point(-nu * a * x[0] * x[2], -nu * a * x[1] * x[2],
+                 a / 2 * (x[2] * x[2] + nu * (x[0] * x[0] + x[1] * x[1])));
+  });
+  const auto pulled = responses_of(grid, [&](const Point& x) { return Point(-nu * x[0], -nu * x[1], x[2]); });
+  auto both = hung;
+  both.channels = {"weight", "pull"};
+  both.displacement_m.clear();
+  for (std::size_t i = 0; i < grid.n_nodes; ++i)
+    for (const auto* of : {&hung, &pulled})
+      both.displacement_m.insert(both.displacement_m.end(), &of->displacement_m[3 * i],
+                                 &of->displacement_m[3 * i] + 3);
+  auto pull = load_on(nowhere);
+  pull.channel = "pull";
+  const auto near = node_at(grid, {0, 3. / 7, 3. / 7}), far = node_at(grid, {0, 3. / 7, 4. / 7});
+  const auto unit =
+      fem::submodel_unit_stress_Pa(both, of_steel(), {weight, pull}, {{near, 1.67}, {far, -0.67}}, {2, 1});
+  ASSERT_EQ(unit.size(), 2u);
+  const double density = submodel_steel.density_kg_m3, modulus_Pa = submodel_steel.youngs_modulus_Pa;
+  EXPECT_NEAR(unit[0][2], -density * (1.67 * 3 - 0.67 * 4) / 7, 1e-8 * density);
+  EXPECT_NEAR(unit[1][2], modulus_Pa, 1e-9 * modulus_Pa);
+  for (const int c : {0, 1, 3, 4, 5}) {
+    EXPECT_NEAR(unit[0][std::size_t(c)], 0, 1e-8 * density);
+    EXPECT_NEAR(unit[1][std::size_t(c)], 0, 1e-8 * modulus_Pa);
+  }
 }
 
 // Stress is the same everywhere, and does not vanish on the face x = 0: that is held, as loaded ones are.

@@ -211,3 +211,17 @@ TEST(Search, StandsStillAfterFiveStepsWithoutALowerError) {
   add(5.0);
   EXPECT_FALSE(stands_still(search));
 }
+
+// Meshes that agree take back most of what single cells tell, and nothing of what submodels do.
+TEST(PlaceHistory, WhatSubmodelsTellIsKept) {
+  for (const bool is_resolved : {false, true}) {
+    PlaceHistory history({MeshPart::all}, {0.3, 0.2});
+    auto toe = place("toe", 100, 10);
+    toe.is_resolved = is_resolved;
+    history.add({toe}, std::nullopt);
+    history.add({toe}, MeshStep{MeshPart::all, 2, 1, {}});
+    EXPECT_DOUBLE_EQ(error_of(history.judged(), "toe"), is_resolved ? 10 : 3);
+    history.add({toe}, MeshStep{MeshPart::all, 2, 1, {}});
+    EXPECT_DOUBLE_EQ(error_of(history.judged(), "toe"), is_resolved ? 10 : 2);
+  }
+}
