@@ -47,7 +47,8 @@ void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
     run.loaded = load_bodies(scene, std::move(run.loaded.meshed), own);
     auto& analysis = run.analyses.front();
     analysis = superpose_body(scene, scene.bodies[body], run.loaded.meshed[body], run.loaded.body_loads[body],
-                              std::move(analysis.responses), bench.options().n_threads, own);
+                              std::move(analysis.responses), bench.options().n_threads, own,
+                              {{}, analysis.hot_spots});
     run.scene = scene;
     auto row = row_of("fewer instants", run);
     row.errors.set_numerical({"discretisation", "as at all instants", full.errors.of("discretisation")});

@@ -142,7 +142,7 @@ void ErrorBudget::set_model(const ErrorEntry& entry) {
 
 std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& responses,
                                                   const StressPoint& point) {
-  if (point.resolved) return point.resolved->finest_Pa;
+  if (point.resolved) return point.resolved->unit_Pa;
   const std::size_t n_channels = responses.channels.size();
   std::vector<std::array<double, 6>> unit(n_channels, std::array<double, 6>{});
   for (const auto& part : point.parts)
@@ -193,7 +193,7 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
   budget.numerical.push_back({"pressure_harmonics", "what the highest harmonic contributes",
                               std::abs(von_mises_of(unit, without) - value)});
   if (point.resolved)
-    budget.numerical.push_back(resolved_estimate(point, factors));
+    budget.numerical.push_back({"discretisation", submodel_method, point.resolved->error_share * value, 1});
   else if (responses.nodes.n_cells() > 0 && responses.nodes.shape().is_tetrahedron())
     budget.numerical.push_back(
         tetrahedra_estimate(point, responses, material, {factors.begin(), factors.end()}));

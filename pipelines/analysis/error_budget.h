@@ -55,9 +55,10 @@ struct ErrorBudget {
   void set_model(const ErrorEntry& entry);
 };
 
-/// Unit stress of a point by submodels, per channel (submodels.h).
+/// Unit stress of a point by a submodel (submodels.h).
 struct ResolvedStress {
-  std::vector<std::array<double, 6>> finest_Pa, coarser_Pa, wider_Pa;
+  std::vector<std::array<double, 6>> unit_Pa;  ///< per channel
+  double error_share = 0;  ///< of the von Mises stress: what the submodel itself is off by
 };
 
 /// Where a headline stress comes from: the weighted sum of the stress at some nodes (one node for a peak, two

@@ -33,33 +33,48 @@ double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& res
          std::abs(wider_Pa - coarser_Pa);
 }
 
-ErrorEntry resolved_estimate(const StressPoint& point, const Eigen::ArrayXd& factors) {
-  const auto& resolved = *point.resolved;
-  const double finest_Pa = von_mises_of(resolved.finest_Pa, factors),
-               coarser_Pa = von_mises_of(resolved.coarser_Pa, factors),
-               wider_Pa = von_mises_of(resolved.wider_Pa, factors);
-  return {"discretisation", submodel_method,
-          1.5 * std::abs(finest_Pa - coarser_Pa) + 2 * std::abs(wider_Pa - coarser_Pa), 1};
+namespace {
+
+/// By name.
+template <typename Spot>
+const Spot* find(const std::vector<Spot>& spots, const std::string& name) {
+  const auto found = std::find_if(spots.begin(), spots.end(), [&](const Spot& s) { return s.name == name; });
+  return found == spots.end() ? nullptr : &*found;
 }
 
+void resolve(const meshes::HotSpot& drawn, const fem::UnitResponses& responses, const fem::Body& body,
+             const BodyLoads& loads, HotSpotStress& spot) {
+  const auto nodes = nodes_of(stress_point(spot));
+  auto resolved = std::make_shared<ResolvedStress>();
+  resolved->unit_Pa = fem::submodel_unit_stress_Pa(responses, body, loads.unit_loads, nodes, finest);
+  take_course(drawn, resolved->unit_Pa, loads.history, spot);
+  const Eigen::ArrayXd column = loads.history.values.col(spot.instant);
+  const std::vector<double> factors(column.begin(), column.end());
+  const auto stress_Pa = [&](const fem::SubmodelControl& control) {
+    return fem::submodel_stress(responses, body, loads.unit_loads, nodes, factors, {}, control).at_point_Pa;
+  };
+  const double coarser_Pa = stress_Pa(coarser), wider_Pa = stress_Pa(wider);
+  const double error_Pa =
+      1.5 * std::abs(spot.von_mises_Pa - coarser_Pa) + 2 * std::abs(wider_Pa - coarser_Pa);
+  resolved->error_share = spot.von_mises_Pa > 0 ? error_Pa / spot.von_mises_Pa : 0;
+  spot.resolved = std::move(resolved);
+}
+
+}  // namespace
+
 void resolve_hot_spots(const std::vector<meshes::HotSpot>& of_mesh, const fem::UnitResponses& responses,
-                       const fem::Body& body, const BodyLoads& loads, std::vector<HotSpotStress>& spots) {
+                       const fem::Body& body, const BodyLoads& loads, std::vector<HotSpotStress>& spots,
+                       const std::vector<HotSpotStress>& known) {
   double largest_Pa = 0;      // of those that are resolved
   for (auto& spot : spots) {  // in descending order: the first that cannot lead ends it
     if (spot.von_mises_Pa * (1 + largest_error_of_toes) < largest_Pa) break;
-    const auto nodes = nodes_of(stress_point(spot));
-    const auto unit = [&](const fem::SubmodelControl& control) {
-      return fem::submodel_unit_stress_Pa(responses, body, loads.unit_loads, nodes, control);
-    };
-    auto stress = std::make_shared<ResolvedStress>();
-    stress->coarser_Pa = unit(coarser);
-    stress->finest_Pa = unit(finest);
-    stress->wider_Pa = unit(wider);
-    spot.resolved = std::move(stress);
-    const auto drawn = std::find_if(of_mesh.begin(), of_mesh.end(), [&](const meshes::HotSpot& drawing) {
-      return drawing.name == spot.name;
-    });
-    take_course(*drawn, spot.resolved->finest_Pa, loads.history, spot);
+    const auto& drawn = *find(of_mesh, spot.name);
+    if (const auto* before = find(known, spot.name); before != nullptr && before->resolved) {
+      spot.resolved = before->resolved;
+      take_course(drawn, spot.resolved->unit_Pa, loads.history, spot);
+    } else {
+      resolve(drawn, responses, body, loads, spot);
+    }
     largest_Pa = std::max(largest_Pa, spot.von_mises_Pa);
   }
   sort_by_stress(spots);

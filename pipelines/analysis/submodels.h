@@ -23,23 +23,21 @@ inline constexpr const char* submodel_method =
 double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& responses, const fem::Body& body,
                          const BodyLoads& loads, const std::vector<char>& left_out);
 
-/// The "discretisation" entry of a stress that a submodel gives:
-///   error = 3/2 |S22 - S21| + 2 |S31 - S21|
-/// 3/2: halved cells find two fifths of what is missing at order 0.74 and more.
-/// @param point    resolved
-/// @param factors  one per channel
-ErrorEntry resolved_estimate(const StressPoint& point, const Eigen::ArrayXd& factors);
-
 /// Toes that are not resolved may be off by this much: less than their own cells tell, which end at the toe.
 /// On meshes of a search submodels moved the stress of toes by 3 to 22 %.
 inline constexpr double largest_error_of_toes = 0.5;
 
 /// Solves the largest toes once more in submodels: all that may hold the largest stress as long as no toe is
 /// off by more than largest_error_of_toes. Their stress over the cycle is the submodel's, on two layers of
-/// cells around both reference points, cut twice.
+/// cells around both reference points, cut twice. At the instant of the largest stress two smaller ones tell
+/// its error:
+///   error = 3/2 |S22 - S21| + 2 |S31 - S21|
+/// 3/2: halved cells find two fifths of what is missing at order 0.74 and more.
 /// @param spots  in descending order, before and after
+/// @param known  of the same responses under other loads: toes resolved there are not solved again
 /// @throws fem::SolveFailed as submodel_stress
 void resolve_hot_spots(const std::vector<meshes::HotSpot>& of_mesh, const fem::UnitResponses& responses,
-                       const fem::Body& body, const BodyLoads& loads, std::vector<HotSpotStress>& spots);
+                       const fem::Body& body, const BodyLoads& loads, std::vector<HotSpotStress>& spots,
+                       const std::vector<HotSpotStress>& known = {});
 
 }  // namespace pipelines

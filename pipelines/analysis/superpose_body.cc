@@ -63,7 +63,7 @@ double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
 
 BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                             BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
-                            std::optional<Envelope> known) {
+                            KnownBefore known) {
   const ShaftShape* shaft = body.shaft();
   BodyAnalysis analysis;
   analysis.scene = body;
@@ -78,8 +78,8 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
 
   const auto start = std::chrono::steady_clock::now();
   analysis.envelope = clock.run("superpose", [&] {
-    return known ? std::move(*known)
-                 : envelope(analysis.loads.history, analysis.responses, threads(n_threads));
+    return known.envelope ? std::move(*known.envelope)
+                          : envelope(analysis.loads.history, analysis.responses, threads(n_threads));
   });
   require_finite(body.name, analysis.envelope);
   analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -96,7 +96,7 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
   if (!analysis.hot_spots.empty() && has_cells(analysis.responses))
     clock.run("submodels", [&] {
       resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
-                        analysis.hot_spots);
+                        analysis.hot_spots, known.hot_spots);
     });
   clock.run("zones", [&] { estimate_errors(analysis); });
   clock.run("superpose", [&] { add_load_patch_error(analysis); });

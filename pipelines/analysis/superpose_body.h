@@ -8,11 +8,16 @@
 
 namespace pipelines {
 
+/// What need not be computed again.
+struct KnownBefore {
+  std::optional<Envelope> envelope{};      ///< of these loads and responses
+  std::vector<HotSpotStress> hot_spots{};  ///< of these responses, whatever the loads
+};
+
 /// The second half of analyse_body: everything that follows from unit responses.
-/// @param known  the envelope of these loads and responses, where it has been computed
 /// @throws LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
 BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                             BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
-                            std::optional<Envelope> known = std::nullopt);
+                            KnownBefore known = {});
 
 }  // namespace pipelines

@@ -14,8 +14,8 @@
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
-#include "pipelines/analysis/superpose_body.h"
 #include "pipelines/analysis/submodels.h"
+#include "pipelines/analysis/superpose_body.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
@@ -385,9 +385,9 @@ private:
     run_.scene.bodies[i].singular.push_back(spot);
     run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
     BodyAnalysis before = std::move(analysis);
-    analysis =
-        superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                       std::move(before.responses), options_.n_threads, clock_);
+    analysis = superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
+                              run_.loaded.body_loads[i], std::move(before.responses), options_.n_threads,
+                              clock_, {{}, std::move(before.hot_spots)});
     analysis.responses_reused = before.responses_reused;
   }
 
@@ -442,9 +442,9 @@ private:
       }
       BodyAnalysis before = std::move(run_.analyses[i]);
       auto& after = run_.analyses[i];
-      after =
-          superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                         std::move(before.responses), options_.n_threads, clock_);
+      after = superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
+                             run_.loaded.body_loads[i], std::move(before.responses), options_.n_threads,
+                             clock_, {{}, std::move(before.hot_spots)});
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);

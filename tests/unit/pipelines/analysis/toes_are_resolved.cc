@@ -84,3 +84,16 @@ TEST(ResolvedToes, ANodesErrorIsWhatTheSubmodelFinds) {
   // Its cells reach to x = 2/3, where the stress is 66.7 MPa: the largest there is compared.
   EXPECT_NEAR(submodel_error_Pa(point, responses, steel_body(), loads, {}), 1.5 * (200e6 / 3 - 60e6), 100);
 }
+
+// Other loads, the same responses: what was solved is not solved again.
+TEST(ResolvedToes, KnownOnesAreTaken) {
+  const auto responses = bent_cube();
+  const auto loads = one_load();
+  const std::vector<meshes::HotSpot> drawn{toe("large", 0.5)};
+  auto known = hot_spot_stresses(drawn, responses, loads.history);
+  known[0].resolved = std::make_shared<ResolvedStress>(ResolvedStress{{{0, 0, 70e6, 0, 0, 0}}, 0.1});
+  auto spots = hot_spot_stresses(drawn, responses, loads.history);
+  resolve_hot_spots(drawn, responses, steel_body(), loads, spots, known);
+  EXPECT_EQ(spots[0].resolved, known[0].resolved);
+  EXPECT_NEAR(spots[0].von_mises_Pa, 70e6, 1);
+}
