@@ -227,6 +227,14 @@ Solved solve_submodel(const UnitResponses& responses, const Body& body, const st
   return solved;
 }
 
+template <typename Is>
+bool any_held_face(const Nodes& nodes, const std::vector<int>& held, const Is& is) {
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f)
+    if (std::find(held.begin(), held.end(), nodes.face_boundary_id[f]) != held.end() && is(nodes.face(f)))
+      return true;
+  return false;
+}
+
 Eigen::RowVectorXd at_point(const Solved& solved, const std::vector<WeightedNode>& point) {
   const auto& nodes = solved.part.node;
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(solved.stress.cols());
@@ -278,6 +286,29 @@ SubmodelStress submodel_stress(const UnitResponses& responses, const Body& body,
   result.at_point_Pa = von_mises(at_point(solved, point));
   result.largest_Pa = std::max(result.at_point_Pa, largest_beside(responses, solved, point, left_out));
   return result;
+}
+
+bool is_on_load(const UnitResponses& responses, const Body& body, const std::vector<UnitLoad>& loads,
+                const std::vector<WeightedNode>& point) {
+  const auto holds = [](const NodeList& face, std::size_t node) {
+    return std::find(face.begin(), face.end(), std::int32_t(node)) != face.end();
+  };
+  return any_held_face(responses.nodes, held_groups(body, loads), [&](const NodeList& face) {
+    return std::any_of(point.begin(), point.end(),
+                       [&](const WeightedNode& p) { return holds(face, p.node); });
+  });
+}
+
+bool is_beside_load(const UnitResponses& responses, const Body& body, const std::vector<UnitLoad>& loads,
+                    const std::vector<WeightedNode>& point) {
+  const auto& nodes = responses.nodes;
+  std::vector<char> is_near(nodes.n, 0);
+  for (const auto c : cells_around(nodes, point, 1))
+    for (const auto i : nodes.cell(c)) is_near[std::size_t(i)] = 1;
+  return any_held_face(nodes, held_groups(body, loads), [&](const NodeList& face) {
+    return std::all_of(face.begin(), face.end(),
+                       [&](std::int32_t i) { return is_near[std::size_t(i)] != 0; });
+  });
 }
 
 std::vector<std::array<double, 6>> submodel_unit_stress_Pa(const UnitResponses& responses, const Body& body,

@@ -47,6 +47,15 @@ SubmodelStress submodel_stress(const UnitResponses& responses, const Body& body,
                                const std::vector<double>& factors, const std::vector<char>& left_out = {},
                                const SubmodelControl& control = {});
 
+/// Whether a node of the point lies on a surface that a submodel holds: the displacement of the whole body
+/// then decides the stress there, and a submodel learns nothing.
+bool is_on_load(const UnitResponses& responses, const Body& body, const std::vector<UnitLoad>& loads,
+                const std::vector<WeightedNode>& point);
+
+/// Whether one of the cells that hold the point has such a face.
+bool is_beside_load(const UnitResponses& responses, const Body& body, const std::vector<UnitLoad>& loads,
+                    const std::vector<WeightedNode>& point);
+
 /// Stress of every unit load, (xx, yy, zz, xy, yz, xz) [Pa], summed over the nodes of the point.
 /// @throws as submodel_stress
 std::vector<std::array<double, 6>> submodel_unit_stress_Pa(const UnitResponses& responses, const Body& body,

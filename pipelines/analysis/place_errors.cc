@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fem/submodel/submodel.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/submodels.h"
@@ -26,16 +27,18 @@ double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
 }
 
 /// Of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is looked at by
-/// a submodel.
+/// a submodel. Beside a load, which holds the submodel's displacement, single cells have the word.
 void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, std::vector<PlaceStress>& places) {
   const auto& responses = analysis.responses;
   if (responses.nodes.n_cells() == 0 || !responses.nodes.shape().is_tetrahedron()) return;
+  const auto body = to_fem_body(analysis.mesh, analysis.scene.material);
   for (auto& place : places)
-    if (place.value_Pa + place.error_Pa >= largest_Pa) {
+    if (place.value_Pa + place.error_Pa >= largest_Pa &&
+        !fem::is_beside_load(responses, body, analysis.loads.unit_loads, {{place.node}})) {
       place.is_resolved = true;
-      place.error_Pa = submodel_error_Pa(
-          {{{place.node, 1.0}}, analysis.envelope.von_mises.instant[place.node]}, responses,
-          to_fem_body(analysis.mesh, analysis.scene.material), analysis.loads, analysis.places.excluded);
+      place.error_Pa =
+          submodel_error_Pa({{{place.node, 1.0}}, analysis.envelope.von_mises.instant[place.node]}, responses,
+                            body, analysis.loads, analysis.places.excluded);
     }
 }
 

@@ -68,6 +68,7 @@ void resolve_hot_spots(const std::vector<meshes::HotSpot>& of_mesh, const fem::U
   double largest_Pa = 0;      // of those that are resolved
   for (auto& spot : spots) {  // in descending order: the first that cannot lead ends it
     if (spot.von_mises_Pa * (1 + largest_error_of_toes) < largest_Pa) break;
+    if (fem::is_on_load(responses, body, loads.unit_loads, nodes_of(stress_point(spot)))) continue;
     const auto& drawn = *find(of_mesh, spot.name);
     if (const auto* before = find(known, spot.name); before != nullptr && before->resolved) {
       spot.resolved = before->resolved;

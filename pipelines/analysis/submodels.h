@@ -28,9 +28,9 @@ double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& res
 inline constexpr double largest_error_of_toes = 0.5;
 
 /// Solves the largest toes once more in submodels: all that may hold the largest stress as long as no toe is
-/// off by more than largest_error_of_toes. Their stress over the cycle is the submodel's, on two layers of
-/// cells around both reference points, cut twice. At the instant of the largest stress two smaller ones tell
-/// its error:
+/// off by more than largest_error_of_toes; but for those on a loaded surface, which a
+/// submodel holds. Their stress over the cycle is the submodel's, on two layers of cells around both
+/// reference points, cut twice. At the instant of the largest stress two smaller ones tell its error:
 ///   error = 3/2 |S22 - S21| + 2 |S31 - S21|
 /// 3/2: halved cells find two fifths of what is missing at order 0.74 and more.
 /// @param spots  in descending order, before and after

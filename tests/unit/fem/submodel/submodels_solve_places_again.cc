@@ -216,6 +216,23 @@ TEST(Submodel, LoadedFacesAreHeld) {
   EXPECT_GT(std::abs(stress_Pa(nowhere) - known_Pa), 0.05 * known_Pa);
 }
 
+TEST(Submodel, KnowsWhatIsBesideALoad) {
+  const auto grid = hexahedra_cube(5, not_bent);
+  const auto responses = responses_of(grid, [](const Point& x) { return x; });
+  const auto point = [&](double z) {
+    return std::vector<fem::WeightedNode>{{node_at(grid, {0, 0.4, 0.4})}, {node_at(grid, {0, 0.4, z})}};
+  };
+  const auto is_beside = [&](double z) {
+    return fem::is_beside_load(responses, of_steel(), {load_on(6)}, point(z));
+  };
+  EXPECT_TRUE(fem::is_on_load(responses, of_steel(), {load_on(6)}, point(1)));
+  EXPECT_FALSE(fem::is_on_load(responses, of_steel(), {load_on(6)}, point(0.8)));
+  EXPECT_TRUE(is_beside(1));
+  EXPECT_TRUE(is_beside(0.8));  // its cells reach to the loaded face
+  EXPECT_FALSE(is_beside(0.6));
+  EXPECT_FALSE(fem::is_beside_load(responses, of_steel(), {weight}, point(1)));
+}
+
 // The gradient of a harmonic function loads no cell. Its interpolant on the coarse cells is the rim of the
 // submodel: only the inside gets better.
 TEST(Submodel, FinerCellsComeNearerToTheTruth) {
