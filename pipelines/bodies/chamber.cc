@@ -7,6 +7,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/loads/mass_comparison.h"
+#include "pipelines/scene/effect_names.h"
 
 namespace pipelines {
 
@@ -245,15 +246,20 @@ BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics:
   AccelerationField weight{Array3Xd::Zero(3, n), {}, {}}, inertia = weight;
   weight.translation_m_s2.row(1) = -mill.gravity_m_s2;
   inertia.translation_m_s2.topRows<2>() = inertial_translation(loads, mill.eccentricity_m);
-  if (contains(loading.effects, "gravity_structure")) parts.structure("gravity_structure", weight);
-  if (contains(loading.effects, "gravity_exciter")) parts.exciter("gravity_exciter", weight);
-  if (contains(loading.effects, "structure_inertia")) parts.structure("structure_inertia", inertia);
-  if (contains(loading.effects, "exciter_inertia")) parts.exciter("exciter_inertia", inertia);
-  if (contains(loading.effects, "pitch")) parts.all("pitch", {{}, -loads.quantity("theta_ddot").values, {}});
+  if (contains(loading.effects, effect_name::gravity_structure))
+    parts.structure(effect_name::gravity_structure, weight);
+  if (contains(loading.effects, effect_name::gravity_exciter))
+    parts.exciter(effect_name::gravity_exciter, weight);
+  if (contains(loading.effects, effect_name::structure_inertia))
+    parts.structure(effect_name::structure_inertia, inertia);
+  if (contains(loading.effects, effect_name::exciter_inertia))
+    parts.exciter(effect_name::exciter_inertia, inertia);
+  if (contains(loading.effects, effect_name::pitch))
+    parts.all(effect_name::pitch, {{}, -loads.quantity("theta_ddot").values, {}});
 
   ArrayXd carried;
   const double scale = collector.moment_scale_Nm();
-  if (!contains(loading.effects, "pitch")) {
+  if (!contains(loading.effects, effect_name::pitch)) {
     carried = -collector.sum().row(5).transpose();
     if (loading.guide == PitchGuide::body)
       guide_by_body(parts, carried);

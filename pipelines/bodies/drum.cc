@@ -5,6 +5,7 @@
 #include "pipelines/bodies/planetary_fields.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/loads/mass_comparison.h"
+#include "pipelines/scene/effect_names.h"
 
 namespace pipelines {
 
@@ -94,9 +95,9 @@ BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::Pl
     collector.accelerate(body.region(), effect, field);
     for (const auto& mass : loading.attached) collector.accelerate(mass, effect, field);
   };
-  accelerate(planetary::drum_transport,
+  accelerate(effect_name::drum_transport,
              planetary::translation(turned(planetary::transport(loads, mill), psi)));
-  accelerate(planetary::drum_gravity,
+  accelerate(effect_name::drum_gravity,
              planetary::translation(turned(planetary::gravity(loads, mill.gravity_m_s2), psi)));
   accelerate(DrumKind::spin, {{}, {}, loads.quantity("drum_speed").values.square()});
 

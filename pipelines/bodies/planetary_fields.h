@@ -7,9 +7,6 @@
 
 namespace pipelines::planetary {
 
-// Effects of kinetics that accelerate the mesh.
-inline constexpr const char *drum_gravity = "drum_gravity", *drum_transport = "drum_transport";
-
 /// Conventions that leave a residual are not for bodies; where the two readings agree they may.
 /// @throws StageRefused
 void require_equilibrium(const kinetics::LoadHistory& loads);

@@ -3,6 +3,7 @@
 #include "pipelines/bodies/planetary_fields.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/loads/machine_masses.h"
+#include "pipelines/scene/effect_names.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {
@@ -72,10 +73,10 @@ BodyLoads distribute_stub_axle(const kinetics::LoadHistory& loads, const kinetic
                  acceleration_of_transport = planetary::transport(loads, mill);
   for (const auto& part : loads.resultant("axle").contributions) {
     Array2Xd share = part.load.topRows<2>() / 2;
-    if (part.effect == "belt") share += off_middle * part.load.topRows<2>();
-    if (part.effect == planetary::drum_gravity)
+    if (part.effect == effect_name::belt) share += off_middle * part.load.topRows<2>();
+    if (part.effect == effect_name::drum_gravity)
       share += off_middle * options.pulley_mass_kg * acceleration_of_gravity;
-    if (part.effect == planetary::drum_transport)
+    if (part.effect == effect_name::drum_transport)
       share += off_middle * options.pulley_mass_kg * acceleration_of_transport;
     collector.force(StubAxleKind::bearing, part.effect, share);
   }

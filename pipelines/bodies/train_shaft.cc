@@ -7,6 +7,7 @@
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
 #include "pipelines/loads/mass_comparison.h"
+#include "pipelines/scene/effect_names.h"
 #include "pipelines/scene/scene_body_parts.h"
 
 namespace pipelines {
@@ -17,8 +18,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 namespace {
-
-constexpr const char* inertia_effect = "shaft_inertia";  // the body's own
 
 /// @return whether the train has it, and it turns freely
 bool read_inertia(SceneTable& table, const kinetics::DriveTrain& train, TrainShaftOptions& shaft) {
@@ -71,7 +70,7 @@ void read_forces(SceneTable& table, const kinetics::DriveTrain& train, TrainShaf
       force.effect = entry.text("effect");
       force.port = entry.text("port");
       const auto is_excitation = [&](const auto& excitation) { return excitation.name == force.effect; };
-      if (force.effect == inertia_effect ||
+      if (force.effect == effect_name::shaft_inertia ||
           std::any_of(train.excitations.begin(), train.excitations.end(), is_excitation))
         entry.refuse("effect", "is the name of another effect of this scene; take a name of its own");
       const auto value = entry.quantities("force", "N", between(-1e9, 1e9), 3);
@@ -141,7 +140,8 @@ public:
     return mean_speed_of(scene, body);
   }
   std::vector<kinetics::EffectInfo> own_effects() const override {
-    return {{inertia_effect, "Angular inertia of the shaft itself, -J phi'', from its mesh.", "coupling 6"}};
+    return {{effect_name::shaft_inertia, "Angular inertia of the shaft itself, -J phi'', from its mesh.",
+             "coupling 6"}};
   }
   /// Its own, then the forces that the scene puts on it, each effect once.
   std::vector<kinetics::EffectInfo> effects(const BodyScene& body) const override {
@@ -158,7 +158,8 @@ public:
   /// What the balance T_34 - T_45 - D phi' = J phi'' of a train's shaft needs.
   void add_needs(const Machine& machine, std::vector<kinetics::EffectInfo>& table) const override {
     const kinetics::EffectNeed inertia{
-        inertia_effect, "its torque accelerates the shaft, and nothing but the shaft's inertia balances that",
+        effect_name::shaft_inertia,
+        "its torque accelerates the shaft, and nothing but the shaft's inertia balances that",
         "coupling 6, T_34 - T_45 - D_4 phi_4' = J_4 phi_4''"};
     for (const auto& excitation : std::get<kinetics::DriveTrain>(machine).excitations)
       for (auto& info : table)
@@ -245,10 +246,10 @@ BodyLoads distribute_train_shaft(const kinetics::LoadHistory& loads, double mean
         for (const auto& bearing : options.bearings)
           collector.torque(bearing, part.effect, part.load.row(2).transpose() / 2);
 
-  if (contains(effects, inertia_effect)) {
+  if (contains(effects, effect_name::shaft_inertia)) {
     const AccelerationField field{{}, -loads.quantity(options.inertia + ".acceleration").values, {}};
-    collector.accelerate(body.region(), inertia_effect, field);
-    for (const auto& mass : attached) collector.accelerate(mass, inertia_effect, field);
+    collector.accelerate(body.region(), effect_name::shaft_inertia, field);
+    for (const auto& mass : attached) collector.accelerate(mass, effect_name::shaft_inertia, field);
   }
 
   // Across and along: only what the scene asks for beyond torsion.

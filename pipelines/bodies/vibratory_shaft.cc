@@ -4,6 +4,7 @@
 
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/machine_masses.h"
+#include "pipelines/scene/effect_names.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {
@@ -18,7 +19,7 @@ namespace {
 class VibratoryShaftKind : public BodyKind {
 public:
   // Its own effects.
-  static constexpr const char *weight = "gravity_shaft", *inertia = "shaft_inertia";
+  static constexpr const char *weight = "gravity_shaft", *inertia = effect_name::shaft_inertia;
   // Its ports.
   static constexpr const char *seat = "eccentric_seat", *bearing_1 = "main_bearing_1",
                               *bearing_2 = "main_bearing_2", *debalance_1 = "debalance_1",

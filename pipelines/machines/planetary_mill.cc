@@ -1,6 +1,7 @@
 #include "pipelines/common/name_lists.h"
 #include "pipelines/machines/kinds.h"
 #include "pipelines/machines/planetary_mill_reader.h"
+#include "pipelines/scene/effect_names.h"
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene_effects.h"
 
@@ -15,7 +16,7 @@ EffectRules planetary_mill_rules(kinetics::PlanetaryConvention convention) {
   const bool is_consistent = convention == kinetics::PlanetaryConvention::consistent;
   EffectRules rules{kinetics::planetary_mill_effects(convention)};
   rules.refused.push_back(
-      {is_consistent ? "charge_relative" : "charge_offset",
+      {is_consistent ? effect_name::charge_relative : effect_name::charge_offset,
        is_consistent ? "is called \"charge_offset\" under the convention \"consistent\", where it is the "
                        "transport inertia of the centroid; write that"
                      : "is called \"charge_relative\" under the paper's conventions; write that"});
@@ -38,7 +39,7 @@ public:
     EffectRules rules = planetary_mill_rules(convention);
     add_own_effects(rules, type(), root);
     for (const auto& effect : rules.table)
-      if ((effect.name == "belt" && !machine.has("belt")) ||
+      if ((effect.name == effect_name::belt && !machine.has("belt")) ||
           (effect.name.rfind("charge_", 0) == 0 && !machine.has("charge")))
         rules.lacking.push_back(effect.name);
     read_effects(root, rules, scene, findings);
@@ -62,7 +63,8 @@ public:
     doubts.speed("machine.carrier", mill.speed_rad_s);
     doubts.acceleration("a drum's centre", lengths.carrier_m * mill.speed_rad_s * mill.speed_rad_s,
                         most_planetary_m_s2);
-    if (scene.has_effect("belt")) doubts.peripheral("the belt", mill.speed_rad_s * lengths.central_pulley_m);
+    if (scene.has_effect(effect_name::belt))
+      doubts.peripheral("the belt", mill.speed_rad_s * lengths.central_pulley_m);
   }
   /// The conventions of the paper leave a resultant, unless they agree with the consistent one.
   void refuse_open_balance(const Scene& scene, SceneTable& machine) const override {

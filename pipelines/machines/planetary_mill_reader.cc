@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/scene/effect_names.h"
+
 namespace pipelines {
 namespace {
 
@@ -132,10 +134,10 @@ PlanetaryMill read_planetary_mill(SceneTable& machine, PlanetaryConvention conve
   drum.finish();
   read_geometry(machine.table("geometry"), mill);
   for (const char* name : {"charge", "belt"}) machine.know(name);
-  const bool has_charge =
-      any_of(effects, {"charge_transport", "charge_relative", "charge_offset", "charge_gravity"});
+  const bool has_charge = any_of(effects, {"charge_transport", effect_name::charge_relative,
+                                           effect_name::charge_offset, "charge_gravity"});
   if (machine.has("charge") || has_charge) read_charge(machine.table("charge"), mill);
-  if (machine.has("belt") || any_of(effects, {"belt"})) read_belt(machine.table("belt"), mill);
+  if (machine.has("belt") || any_of(effects, {effect_name::belt})) read_belt(machine.table("belt"), mill);
   machine.finish();
   return mill;
 }

@@ -3,6 +3,7 @@
 #include "pipelines/common/name_lists.h"
 #include "pipelines/machines/kinds.h"
 #include "pipelines/machines/vibratory_mill_reader.h"
+#include "pipelines/scene/effect_names.h"
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene_effects.h"
 
@@ -51,9 +52,11 @@ public:
     auto& [root, machine, scene, findings, bodies] = reading;
     const auto convention = read_convention(machine);
     EffectRules rules = vibratory_mill_rules(convention, root);
-    if (!machine.has("charge") || !machine.table("charge").has("lag")) rules.lacking = {"charge_lag"};
+    if (!machine.has("charge") || !machine.table("charge").has("lag"))
+      rules.lacking = {effect_name::charge_lag};
     if (!machine.has("springs"))
-      for (const char* effect : {"springs", "spring_damping"}) rules.lacking.push_back(effect);
+      for (const char* effect : {effect_name::springs, effect_name::spring_damping})
+        rules.lacking.push_back(effect);
     read_effects(root, rules, scene, findings);
     scene.run_up = read_run_up(machine);
     auto mill = read_vibratory_mill(machine, convention, scene.effects, scene.milling_space,

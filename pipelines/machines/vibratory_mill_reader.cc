@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipelines/common/name_lists.h"
+#include "pipelines/scene/effect_names.h"
 
 namespace pipelines {
 namespace {
@@ -101,16 +102,18 @@ void read_charge(SceneTable charge, const std::vector<std::string>& effects, kin
     mill.charge_relative_speed_rad_s = std::nan("");
   mill.charge_initial_angle_rad =
       charge.quantity_or("initial_angle", "rad", {}, 0, "the charge begins on the side of the rest position");
-  read_charge_lag(charge, contains(effects, "charge_lag"), mill);
+  read_charge_lag(charge, contains(effects, effect_name::charge_lag), mill);
   charge.finish();
 }
 
 void read_structure(SceneTable structure, const std::vector<std::string>& effects,
                     kinetics::VibratoryMill& mill) {
-  mill.structure_mass_kg = read_mass(structure, {"gravity_structure", "structure_inertia", "pitch"}, effects);
+  mill.structure_mass_kg = read_mass(
+      structure, {effect_name::gravity_structure, effect_name::structure_inertia, effect_name::pitch},
+      effects);
   mill.structure_centre_m = pair(structure, "centre", "m", between(-longest_machine_m, longest_machine_m));
   structure.know("pitch_inertia");
-  if (contains(effects, "pitch") || structure.has("pitch_inertia"))
+  if (contains(effects, effect_name::pitch) || structure.has("pitch_inertia"))
     mill.pitch_inertia_kg_m2 = structure.quantity("pitch_inertia", "kg m2", positive(1e9));
   const double least = mill.structure_mass_kg * mill.structure_centre_m.squaredNorm();
   if (structure.has("pitch_inertia") && mill.pitch_inertia_kg_m2 < least * (1 - 1e-12))
@@ -152,8 +155,9 @@ std::optional<MillingSpace> read_chamber(SceneTable chamber, SceneTable charge,
 
 void read_springs(SceneTable& machine, const std::vector<std::string>& effects,
                   kinetics::VibratoryMill& mill) {
-  const bool are_needed =
-      contains(effects, "springs") || contains(effects, "spring_damping") || contains(effects, "pitch");
+  const bool are_needed = contains(effects, effect_name::springs) ||
+                          contains(effects, effect_name::spring_damping) ||
+                          contains(effects, effect_name::pitch);
   if (!machine.has("springs") && !are_needed) return machine.know("springs");
   std::vector<SceneTable> springs = machine.tables("springs");
   for (SceneTable& table : springs) {
@@ -172,7 +176,7 @@ void read_springs(SceneTable& machine, const std::vector<std::string>& effects,
   }
   if (springs.empty() && machine.has("springs"))
     machine.refuse("springs", "has no spring; add a table [[machine.springs]], or remove the spring effects");
-  else if (!springs.empty() && !springs.front().has("preload") && contains(effects, "springs") &&
+  else if (!springs.empty() && !springs.front().has("preload") && contains(effects, effect_name::springs) &&
            mill.convention == kinetics::Convention::consistent)
     machine.record_default("springs.preload", "static balance", "the springs carry the weights at rest");
 
@@ -180,7 +184,7 @@ void read_springs(SceneTable& machine, const std::vector<std::string>& effects,
   for (const kinetics::Spring& spring : mill.springs)
     pitch_stiffness_N_m += spring.stiffness_N_m.x() * std::pow(spring.position_m.y(), 2) +
                            spring.stiffness_N_m.y() * std::pow(spring.position_m.x(), 2);
-  if (contains(effects, "pitch") && !springs.empty() && pitch_stiffness_N_m == 0)
+  if (contains(effects, effect_name::pitch) && !springs.empty() && pitch_stiffness_N_m == 0)
     machine.refuse("springs",
                    "resist no pitch: every stiffness or lever is 0; give stiffness and position, or switch "
                    "the effect \"pitch\" off");
@@ -262,7 +266,8 @@ kinetics::VibratoryMill read_vibratory_mill(SceneTable& machine, kinetics::Conve
 
   if (machine.has("exciter") || masses_from_mesh == nullptr) {
     SceneTable exciter = machine.table("exciter");
-    mill.exciter_mass_kg = read_mass(exciter, {"gravity_exciter", "exciter_inertia"}, effects);
+    mill.exciter_mass_kg =
+        read_mass(exciter, {effect_name::gravity_exciter, effect_name::exciter_inertia}, effects);
     exciter.finish();
   } else {
     machine.know("exciter");
