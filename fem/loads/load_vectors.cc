@@ -107,6 +107,19 @@ Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, d
   return force;
 }
 
+std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads, const Body& body) {
+  std::vector<int> groups;
+  for (const auto& spring : body.elastic_supports) groups.push_back(spring.surface.boundary_id);
+  for (const auto& clamp : body.clamps) groups.push_back(clamp.boundary_id);
+  for (const auto& load : loads) {
+    if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
+      groups.push_back(resultant->surface.boundary_id);
+    if (const auto* pressure = std::get_if<SeatPressure>(&load.shape))
+      groups.push_back(pressure->surface.boundary_id);
+  }
+  return groups;
+}
+
 Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface) {
   using Component = SurfaceResultant::Component;
   const LoadedSurface loaded(grid, surface);

@@ -8,6 +8,7 @@
 
 #include "fem/mesh/grid.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/values/body.h"
 #include "fem/values/unit_load.h"
 
 namespace fem {
@@ -65,5 +66,8 @@ Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, d
 
 /// Unit resultants of a surface as columns (3 n_nodes x 3): fx, fy, fz.
 Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface);
+
+/// Boundary groups that any of the loads, springs or clamps acts on.
+std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads, const Body& body);
 
 }  // namespace fem

@@ -216,20 +216,6 @@ double memory_of_ranks(MPI_Comm communicator) {
   return memory_of_all_machines(communicator);
 }
 
-/// Boundary groups that any of the loads, springs or clamps acts on.
-std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads, const Body& body) {
-  std::vector<int> groups;
-  for (const auto& spring : body.elastic_supports) groups.push_back(spring.surface.boundary_id);
-  for (const auto& clamp : body.clamps) groups.push_back(clamp.boundary_id);
-  for (const auto& load : loads) {
-    if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
-      groups.push_back(resultant->surface.boundary_id);
-    if (const auto* pressure = std::get_if<SeatPressure>(&load.shape))
-      groups.push_back(pressure->surface.boundary_id);
-  }
-  return groups;
-}
-
 }  // namespace
 
 UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,

@@ -129,15 +129,8 @@ Part cut_out(const UnitResponses& responses, const std::vector<std::size_t>& cel
 
 /// Groups that are held: the rim, and those where the body is loaded.
 std::vector<int> held_groups(const Body& body, const std::vector<UnitLoad>& loads) {
-  std::vector<int> groups = {rim};
-  for (const auto& spring : body.elastic_supports) groups.push_back(spring.surface.boundary_id);
-  for (const auto& clamp : body.clamps) groups.push_back(clamp.boundary_id);
-  for (const auto& load : loads) {
-    if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
-      groups.push_back(resultant->surface.boundary_id);
-    if (const auto* pressure = std::get_if<SeatPressure>(&load.shape))
-      groups.push_back(pressure->surface.boundary_id);
-  }
+  auto groups = loaded_groups(loads, body);
+  groups.push_back(rim);
   return groups;
 }
 
