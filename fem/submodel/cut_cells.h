@@ -1,6 +1,8 @@
 /// Quadratic cells cut into eight each. Internal to fem.
 #pragma once
 
+#include <vector>
+
 #include "fem/mesh/grid.h"
 #include "fem/stress/cell_stress.h"
 
@@ -20,8 +22,9 @@ struct GridField {
 /// @throws std::invalid_argument if it is not
 GridField cut_into_eight(const GridField& coarse);
 
-// By kind, for cut_into_eight.
+// For cut_into_eight: by kind, and the values at new nodes below those at the old ones.
 GridField cut_tetrahedra(const GridField& coarse);
 GridField cut_hexahedra(const GridField& coarse);
+RowMajor with_rows_below(const RowMajor& old_values, const std::vector<Eigen::RowVectorXd>& new_values);
 
 }  // namespace fem

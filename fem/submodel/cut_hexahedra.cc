@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <stdexcept>
 
 #include "fem/common/lagrange.h"
 #include "fem/submodel/cut_cells.h"
@@ -68,10 +67,7 @@ public:
       for (int part = 0; part < 8; ++part)
         if ((part >> (face.face / 2) & 1) == face.face % 2)
           fine_.grid.boundary.push_back({8 * face.cell + part, face.face, face.boundary_id});
-    fine_.field.resize(Eigen::Index(fine_.grid.n_nodes), coarse_.field.cols());
-    fine_.field.topRows(coarse_.field.rows()) = coarse_.field;
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      fine_.field.row(coarse_.field.rows() + Eigen::Index(i)) = values_[i];
+    fine_.field = with_rows_below(coarse_.field, values_);
     return std::move(fine_);
   }
 
@@ -118,11 +114,6 @@ private:
 
 GridField cut_hexahedra(const GridField& coarse) {
   return HexahedraCutter(coarse).cut();
-}
-
-GridField cut_into_eight(const GridField& coarse) {
-  if (coarse.grid.degree != 2) throw std::invalid_argument("cut_into_eight: the cells are not of degree 2");
-  return coarse.grid.kind == CellKind::tetrahedra ? cut_tetrahedra(coarse) : cut_hexahedra(coarse);
 }
 
 }  // namespace fem

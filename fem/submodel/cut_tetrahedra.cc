@@ -62,17 +62,13 @@ public:
     fine_.grid.degree = 2;
     fine_.grid.n_nodes = coarse.grid.n_nodes;
     fine_.grid.xyz_m = coarse.grid.xyz_m;
-    fine_.field = coarse.field;
   }
 
   GridField cut() {
     faces_.resize(coarse_.grid.n_cells());
     for (const auto& face : coarse_.grid.boundary) faces_[std::size_t(face.cell)].push_back(face);
     for (std::size_t c = 0; c < coarse_.grid.n_cells(); ++c) cut(c);
-    fine_.field.resize(Eigen::Index(fine_.grid.n_nodes), coarse_.field.cols());
-    fine_.field.topRows(coarse_.field.rows()) = coarse_.field;
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      fine_.field.row(coarse_.field.rows() + Eigen::Index(i)) = values_[i];
+    fine_.field = with_rows_below(coarse_.field, values_);
     return std::move(fine_);
   }
 
