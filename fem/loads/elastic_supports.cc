@@ -6,6 +6,7 @@
 
 #include "fem/common/dense_algebra.h"
 #include "fem/loads/surface_loads.h"
+#include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/rigid_modes.h"
 
 namespace fem {
@@ -43,6 +44,7 @@ ElasticSupports::ElasticSupports(const Grid& grid, const std::vector<ElasticSupp
   }
   forces_.resize(3 * grid.n_nodes, columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) forces_.col(i) = columns[i];
+  move_to_masters(grid.hanging, forces_);
   stiffness_N_m_ = Eigen::Map<const Eigen::VectorXd>(stiffness.data(), stiffness.size());
   if (!columns.empty()) closed_ = closing_forces(grid, forces_);
 }

@@ -14,6 +14,11 @@ std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
     for (const int i : corner_nodes(grid.shape())) corners.push_back(grid.nodes_of(c)[i]);
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  const auto& hanging = grid.hanging.node;
+  corners.erase(
+      std::remove_if(corners.begin(), corners.end(),
+                     [&](auto node) { return std::binary_search(hanging.begin(), hanging.end(), node); }),
+      corners.end());
 
   const auto at = [&](std::int32_t node) { return Eigen::Vector3d(grid.position(node)); };
   const auto farthest = [&](const auto& distance) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fem/mesh/hanging_nodes.h"
+
 namespace fem {
 
 std::vector<int> face_nodes(CellShape shape, int face) {
@@ -43,31 +45,56 @@ bool joined_by_edge(CellShape shape, int corner, int other) {
   return shape.is_tetrahedron() ? difference != 0 : difference == 1 || difference == 2 || difference == 4;
 }
 
-CellsOfNodes cells_of_nodes(const Grid& grid) {
+namespace {
+
+/// @param n_nodes_of, nodes_of  of each cell
+template <typename Number, typename Nodes>
+CellsOfNodes invert(const Grid& grid, const Number& n_nodes_of, const Nodes& nodes_of) {
   CellsOfNodes result;
   result.begin.assign(grid.n_nodes + 1, 0);
-  for (const auto node : grid.cell_nodes) ++result.begin[node + 1];
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (int i = 0; i < n_nodes_of(c); ++i) ++result.begin[nodes_of(c)[i] + 1];
   for (std::size_t i = 0; i < grid.n_nodes; ++i) result.begin[i + 1] += result.begin[i];
-  result.cell.resize(grid.cell_nodes.size());
+  result.cell.resize(result.begin.back());
   auto next = result.begin;
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (int i = 0; i < grid.nodes_per_cell(); ++i)
-      result.cell[next[grid.nodes_of(c)[i]]++] = static_cast<std::int32_t>(c);
+    for (int i = 0; i < n_nodes_of(c); ++i)
+      result.cell[next[nodes_of(c)[i]]++] = static_cast<std::int32_t>(c);
   return result;
 }
 
+}  // namespace
+
+CellsOfNodes cells_of_nodes(const Grid& grid) {
+  return invert(
+      grid, [n = grid.nodes_per_cell()](std::size_t) { return n; },
+      [&](std::size_t c) { return grid.nodes_of(c); });
+}
+
+CellsOfNodes cells_that_couple(const Grid& grid, const CellCouplings& couplings) {
+  return invert(
+      grid, [&](std::size_t c) { return couplings.n_nodes(c); },
+      [&](std::size_t c) { return couplings.nodes(c); });
+}
+
 std::vector<std::vector<std::int32_t>> colour_cells(const Grid& grid, const CellsOfNodes& cells) {
+  const CellCouplings couplings(grid);
+  const bool is_plain = grid.hanging.n() == 0;
+  const CellsOfNodes coupled = is_plain ? cells : cells_that_couple(grid, couplings);
+  const auto corners = corner_nodes(grid.shape());
   std::vector<std::vector<std::int32_t>> groups;
   std::vector<int> colour(grid.n_cells(), -1);
   std::vector<char> taken;
-  const auto corners = corner_nodes(grid.shape());  // cells that share any node share a corner
+  const auto take_neighbours = [&](std::int32_t node) {
+    for (auto k = coupled.begin[node]; k < coupled.begin[node + 1]; ++k)
+      if (colour[coupled.cell[k]] >= 0) taken[colour[coupled.cell[k]]] = 1;
+  };
   for (std::size_t c = 0; c < grid.n_cells(); ++c) {
     taken.assign(groups.size() + 1, 0);
-    for (const int corner : corners) {
-      const auto node = grid.nodes_of(c)[corner];
-      for (auto k = cells.begin[node]; k < cells.begin[node + 1]; ++k)
-        if (colour[cells.cell[k]] >= 0) taken[colour[cells.cell[k]]] = 1;
-    }
+    if (is_plain)  // cells that share any node share a corner
+      for (const int corner : corners) take_neighbours(grid.nodes_of(c)[corner]);
+    else
+      for (int i = 0; i < couplings.n_nodes(c); ++i) take_neighbours(couplings.nodes(c)[i]);
     colour[c] = static_cast<int>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
     if (colour[c] == static_cast<int>(groups.size())) groups.emplace_back();
     groups[colour[c]].push_back(static_cast<std::int32_t>(c));

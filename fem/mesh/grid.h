@@ -22,6 +22,17 @@ struct BoundaryFace {
   int boundary_id = 0;  ///< physical group
 };
 
+/// Nodes on the faces and edges of larger neighbours, whose polynomials fix their position and displacement:
+/// value at node[i] = sum over k in begin[i] .. begin[i + 1] - 1 of weight[k] * value at master[k].
+struct HangingNodes {
+  std::vector<std::int32_t> node;     ///< ascending
+  std::vector<std::size_t> begin{0};  ///< n + 1
+  std::vector<std::int32_t> master;   ///< none of them hangs
+  std::vector<double> weight;         ///< sum to 1 at each node
+
+  std::size_t n() const noexcept { return node.size(); }
+};
+
 struct Grid {
   CellKind kind = CellKind::hexahedra;
   int degree = 2;
@@ -31,8 +42,10 @@ struct Grid {
   std::vector<int> volume_id;            ///< n_cells
   std::vector<BoundaryFace> boundary;
   std::vector<BoundaryFace> interfaces{};  ///< faces inside the body where no stress is smoothed across
+  HangingNodes hanging{};                  ///< of locally refined hexahedra
 
   std::size_t n_cells() const noexcept { return volume_id.size(); }
+  std::size_t n_unknowns() const noexcept { return 3 * (n_nodes - hanging.n()); }
   CellShape shape() const noexcept { return {kind, degree}; }
   int nodes_per_cell() const noexcept { return shape().nodes_per_cell(); }
   int nodes_per_face() const noexcept { return shape().nodes_per_face(); }

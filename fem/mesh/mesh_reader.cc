@@ -15,8 +15,11 @@
 #include <streambuf>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/hanging_nodes.h"
+#include "fem/mesh/local_refinement.h"
 #include "fem/mesh/manifolds.h"
 #include "fem/mesh/msh_file.h"
 #include "fem/mesh/tetrahedra_reader.h"
@@ -64,6 +67,9 @@ Grid read_tetrahedra(const Body& body, const std::string& text) {
   if (!body.cylinders.empty() || !body.tori.empty())
     throw std::invalid_argument("the mesh file " + body.mesh.string() +
                                 " has quadratic tetrahedra, curved as they are: charts are for hexahedra");
+  if (!body.refinements.empty())
+    throw std::invalid_argument("the mesh file " + body.mesh.string() +
+                                " has tetrahedra: only hexahedra are refined locally");
   if (body.degree != 2)
     throw std::invalid_argument("degree = " + std::to_string(body.degree) +
                                 ": must be 2 for the quadratic tetrahedra of " + body.mesh.string());
@@ -79,10 +85,15 @@ Grid read_grid(const Body& body) {
     throw std::invalid_argument("degree = " + std::to_string(body.degree) + ": must be 1, 2 or 3");
   std::string text = read_whole(body.mesh);
   if (has_tetrahedra(element_types(text))) return read_tetrahedra(body, text);
-  dealii::Triangulation<3> mesh;
+  dealii::Triangulation<3> mesh(dealii::Triangulation<3>::limit_level_difference_at_vertices);
   read_mesh(body.mesh, text, mesh);
   text = std::string();  // the mesh has it all; what follows needs the memory
   attach_charts(mesh, body.cylinders, body.tori);
+  if (body.degree < 2 && !body.refinements.empty())
+    throw std::invalid_argument(
+        "cells of degree 1 are not refined locally: on a hanging face the chord of the larger cell may cut "
+        "through the smaller ones");
+  refine_locally(mesh, body.refinements);
 
   // One scalar space numbers the nodes: the unknowns of node i are 3 i, 3 i + 1, 3 i + 2. The mapping has the
   // same degree, so geometry and displacement share their nodes and rigid rotations are in the space exactly.
@@ -98,7 +109,9 @@ Grid read_grid(const Body& body) {
 
   Grid grid;
   grid.degree = body.degree;
-  grid.n_nodes = nodes.n_dofs();
+  auto numbering = number_nodes(nodes);
+  grid.n_nodes = numbering.n_nodes;
+  grid.hanging = std::move(numbering.hanging);
   grid.xyz_m.resize(3 * grid.n_nodes);
   grid.cell_nodes.reserve(mesh.n_active_cells() * support_points.size());
   std::vector<dealii::types::global_dof_index> numbers(support_points.size());
@@ -106,7 +119,7 @@ Grid read_grid(const Body& body) {
     values.reinit(cell);
     cell->get_dof_indices(numbers);
     for (std::size_t i = 0; i < support_points.size(); ++i) {
-      const auto node = numbers[hierarchic[i]];
+      const auto node = std::size_t(numbering.of_dof[numbers[hierarchic[i]]]);
       grid.cell_nodes.push_back(static_cast<std::int32_t>(node));
       for (int d = 0; d < 3; ++d) grid.xyz_m[3 * node + d] = values.quadrature_point(i)[d];
     }
@@ -116,6 +129,8 @@ Grid read_grid(const Body& body) {
                                  static_cast<int>(cell->face(face)->boundary_id())});
     grid.volume_id.push_back(static_cast<int>(cell->material_id()));
   }
+  // Faces between cells of unlike size have one shape for both, so that rigid rotations stay in the space.
+  set_hanging_rows(grid.hanging, Eigen::Map<NodeRows>(grid.xyz_m.data(), Eigen::Index(grid.n_nodes), 3));
   refuse_inverted_cells(grid);
   return grid;
 }

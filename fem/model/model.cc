@@ -13,6 +13,7 @@
 #include "fem/mesh/connected_pieces.h"
 #include "fem/mesh/geometry_distance.h"
 #include "fem/mesh/grid.h"
+#include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/modes/natural_frequencies.h"
@@ -64,12 +65,14 @@ Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
   impl_->communicator = communicator;
   impl_->body = body;
   impl_->grid = read_grid(body);
-  refuse_several_pieces(impl_->grid);
+  if (body.refinements.empty()) refuse_several_pieces(impl_->grid);
   impl_->materials = CellMaterials(impl_->grid, body);
   impl_->cells = cells_of_nodes(impl_->grid);
   impl_->colours = colour_cells(impl_->grid, impl_->cells);
   impl_->integrals = integrate_nodes(impl_->grid, impl_->colours, impl_->relative_density());
   if (impl_->materials.is_uniform()) return;
+  if (impl_->grid.hanging.n() > 0)
+    throw std::invalid_argument("a body of several materials cannot be refined locally");
   auto& seen = impl_->seen.emplace();
   seen.split = split_at_interfaces(impl_->grid, impl_->cells, impl_->materials);
   seen.cells = cells_of_nodes(seen.split.grid);
@@ -80,7 +83,7 @@ Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 
 std::size_t Model::n_dofs() const {
-  return 3 * impl_->grid.n_nodes;
+  return impl_->grid.n_unknowns();
 }
 
 MassProperties Model::mass_properties() const {
@@ -108,6 +111,9 @@ SolverReport Model::predict_solver(std::size_t n_loads, const SolverChoice& choi
 std::vector<NaturalMode> Model::natural_frequencies(int n_modes) const {
   auto modes = fem::natural_frequencies(
       VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body, impl_->materials), n_modes);
+  for (auto& mode : modes)
+    set_hanging_rows(impl_->grid.hanging,
+                     Eigen::Map<NodeRows>(mode.shape.data(), Eigen::Index(impl_->grid.n_nodes), 3));
   if (impl_->seen)
     for (auto& mode : modes)
       for (const auto node : impl_->seen->split.copy)
@@ -182,7 +188,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
   };
   if (report.used == Solver::iterative)
     if (auto solution = iterate()) return std::move(*solution);
-  if (!alone) {
+  if (!alone && grid.hanging.n() == 0) {
     std::optional<Solution> solution;
     call_helpers(Task::solve_directly, communicator);
     together(communicator, [&] {
@@ -249,7 +255,8 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const Eigen::RowVectorXd scale = to_unit_size(force);
     force.array().rowwise() *= scale.array();
     const RigidBalance rigid(grid, impl_->integrals);
-    const BalancedLoads balanced = balance(rigid, clamped, std::move(force));
+    BalancedLoads balanced = balance(rigid, clamped, std::move(force));
+    move_to_masters(grid.hanging, balanced.force);
     responses.solver = choose_solver(grid, impl_->materials, static_cast<std::size_t>(balanced.force.cols()),
                                      choice, memory_of_ranks(impl_->communicator));
     if (!clamped.empty()) {
@@ -271,6 +278,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
       responses.solver.predicted_direct =
           predict_direct(solution.factor, static_cast<std::size_t>(balanced.force.cols()));
     }
+    set_hanging_unknowns(grid.hanging, solution.displacement);
     if (clamped.empty()) rigid.remove_motion(solution.displacement);
     solution.displacement.array().rowwise() *= scale.array().inverse();
     const Eigen::MatrixXd displacement = springs.apply(solution.displacement);
@@ -300,6 +308,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
                               displacement, stress, impl_->communicator);
     });
   }
+  set_hanging_rows(grid.hanging, stress);
   responses.energy_error = energy_error(seen, elastic, displacement, stress);
   responses.nodes = export_nodes(seen, impl_->seen ? impl_->seen->volumes : impl_->integrals);
   respond_on_sections(seen, planes, responses);

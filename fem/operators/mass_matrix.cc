@@ -5,6 +5,7 @@
 
 #include "fem/common/parallel.h"
 #include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/reference_cell.h"
 
 namespace fem {
@@ -39,20 +40,23 @@ MassMatrix::MassMatrix(const Grid& grid, const std::vector<std::vector<std::int3
     : nodes_(make_node_matrix(graph)) {
   // N_i N_j det J has the degree of the second moments' N_i x det J.
   const Tabulation at = moment_points_in_cell(grid.shape());
+  const CellCouplings couplings(grid);
   const Eigen::Map<const Eigen::MatrixXd> shapes(at.value.data(), at.n_shapes, at.n_points);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
-      Eigen::MatrixXd scaled(at.n_shapes, at.n_points), products(at.n_shapes, at.n_shapes);
+      Eigen::MatrixXd scaled, products;
       for (std::size_t c = begin; c < end; ++c) {
+        scaled.resize(at.n_shapes, at.n_points);
         for (int q = 0; q < at.n_points; ++q)
           scaled.col(q) = std::sqrt(density_kg_m3[cells[c]] * jacobian(grid, cells[c], at, q).determinant() *
                                     at.weight[q]) *
                           shapes.col(q);
-        products.setZero();
+        couplings.couple(std::size_t(cells[c]), 1, scaled);
+        products.setZero(scaled.rows(), scaled.rows());
         products.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
-        const auto* nodes = grid.nodes_of(cells[c]);
-        for (int j = 0; j < at.n_shapes; ++j)
-          for (int i = j; i < at.n_shapes; ++i) entry(nodes_, nodes[i], nodes[j]) += products(i, j);
+        const auto* nodes = couplings.nodes(std::size_t(cells[c]));
+        for (int j = 0; j < int(scaled.rows()); ++j)
+          for (int i = j; i < int(scaled.rows()); ++i) entry(nodes_, nodes[i], nodes[j]) += products(i, j);
       }
     });
 }

@@ -7,6 +7,7 @@
 
 #include "fem/common/parallel.h"
 #include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/reference_cell.h"
 
 namespace fem {
@@ -91,6 +92,7 @@ void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
                         const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix) {
   const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
+  const CellCouplings couplings(grid);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
       CellGradients gradients;
@@ -98,9 +100,18 @@ void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int
       for (std::size_t c = begin; c < end; ++c) {
         compute_gradients(grid, cells[c], at, gradients);
         scale_gradients(gradients, scaled);
-        add_cell_stiffness(scaled, grid.nodes_of(cells[c]), elastic[cells[c]], graph, products, matrix);
+        couplings.couple(std::size_t(cells[c]), 3, scaled);
+        add_cell_stiffness(scaled, couplings.nodes(std::size_t(cells[c])), elastic[cells[c]], graph, products,
+                           matrix);
       }
     });
+  // What hangs has equations of its own that say nothing; their size is that of the others.
+  const auto& hanging = grid.hanging;
+  for (std::size_t i = 0; i < hanging.n(); ++i) {
+    const auto master = 3 * std::int64_t(hanging.master[hanging.begin[i]]);
+    const double size = matrix.value[std::size_t(matrix.column_begin[std::size_t(master)])];
+    add_diagonal_block(matrix, hanging.node[i], size * Eigen::Matrix3d::Identity());
+  }
 }
 
 }  // namespace fem

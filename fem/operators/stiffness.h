@@ -22,7 +22,7 @@ Lame lame(const Material& material);
 void refuse_impossible(const Material& material);
 
 /// Adds all cells' stiffness with (k+1)^3 Gauss points: colour after colour, so that the sums do not depend
-/// on threads.
+/// on threads. Hanging nodes are resolved: their rows and columns keep a diagonal only.
 /// @param matrix  made from the graph, zero on entry
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
                         const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix);

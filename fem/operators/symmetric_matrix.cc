@@ -3,19 +3,23 @@
 #include <algorithm>
 
 #include "fem/common/parallel.h"
+#include "fem/mesh/hanging_nodes.h"
 
 namespace fem {
 
 NodeGraph make_node_graph(const Grid& grid, const CellsOfNodes& cells) {
+  const CellCouplings couplings(grid);
+  const CellsOfNodes of_hanging = grid.hanging.n() > 0 ? cells_that_couple(grid, couplings) : CellsOfNodes{};
+  const CellsOfNodes& coupled = grid.hanging.n() > 0 ? of_hanging : cells;
   std::vector<std::vector<std::int32_t>> larger(grid.n_nodes);
-  const int n_local = grid.nodes_per_cell();
   parallel_for(grid.n_nodes, 500, [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t> found;
     for (std::size_t node = begin; node < end; ++node) {
       found.clear();
-      for (auto k = cells.begin[node]; k < cells.begin[node + 1]; ++k) {
-        const auto* nodes = grid.nodes_of(cells.cell[k]);
-        for (int i = 0; i < n_local; ++i)
+      for (auto k = coupled.begin[node]; k < coupled.begin[node + 1]; ++k) {
+        const auto cell = std::size_t(coupled.cell[k]);
+        const auto* nodes = couplings.nodes(cell);
+        for (int i = 0; i < couplings.n_nodes(cell); ++i)
           if (nodes[i] > static_cast<std::int32_t>(node)) found.push_back(nodes[i]);
       }
       std::sort(found.begin(), found.end());

@@ -10,7 +10,8 @@
 
 namespace fem {
 
-/// Neighbours of every node in the mesh that have a larger number, ascending.
+/// Neighbours of every node in the mesh that have a larger number, ascending. Masters stand for the nodes that
+/// hang on them; these have no neighbours.
 struct NodeGraph {
   std::vector<std::int64_t> begin;  ///< n_nodes + 1
   std::vector<std::int32_t> neighbour;

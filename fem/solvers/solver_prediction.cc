@@ -135,9 +135,10 @@ bool is_too_expensive(const FactorSize& factor, const SolverReport& report, std:
 
 bool may_be_iterated(const Grid& grid, const CellMaterials& materials, const SolverChoice& choice,
                      const SolverReport& report, double memory_bytes) {
-  return choice.solver == Solver::automatic && !report.gave_up && !grid.shape().is_tetrahedron() &&
-         grid.degree > 1 && materials.largest_poisson_ratio() <= most_incompressible &&
-         share_stretched(grid) <= 0.5 && report.predicted_iterative.bytes < memory_bytes;
+  return choice.solver == Solver::automatic && !report.gave_up && grid.hanging.n() == 0 &&
+         !grid.shape().is_tetrahedron() && grid.degree > 1 &&
+         materials.largest_poisson_ratio() <= most_incompressible && share_stretched(grid) <= 0.5 &&
+         report.predicted_iterative.bytes < memory_bytes;
 }
 
 bool saves_time(const SolverReport& report) {
@@ -159,7 +160,7 @@ double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads) {
 
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes) {
-  const std::size_t n_dofs = 3 * grid.n_nodes;
+  const std::size_t n_dofs = grid.n_unknowns();
   SolverReport report;
   report.predicted_direct = predict_direct(n_dofs, n_loads);
   report.largest_aspect = largest_aspect(grid);
@@ -170,6 +171,7 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
     return report;
   };
   if (grid.shape().is_tetrahedron()) return take(Solver::direct, "the body has tetrahedra");
+  if (grid.hanging.n() > 0) return take(Solver::direct, "the mesh is refined locally");
   if (grid.degree < 2) return take(Solver::direct, "cells of degree 1 have no coarser polynomials");
   if (report.coarse_level == CoarseLevel::automatic)
     report.coarse_level = cheaper_coarse_level(n_dofs, grid.degree, n_loads);

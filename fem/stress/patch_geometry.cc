@@ -68,7 +68,7 @@ Eigen::Vector3d PatchGeometry::offset(const Eigen::Vector3d& position, std::int3
 /// it on the other side. In a round patch theta is one of them (mesh lines run round the axis), the two
 /// others lie in the meridian.
 Eigen::Matrix3d PatchGeometry::directions(std::int32_t corner, bool round) const {
-  constexpr double nearly_coplanar = 0.05;
+  constexpr double nearly_coplanar = 0.05, skewed = 0.5;
   if (grid_.shape().is_tetrahedron()) return Eigen::Matrix3d::Identity();
   const auto corners = corner_nodes(grid_.shape());
   std::vector<Eigen::Vector3d> edges;  // the first three belong to the first cell
@@ -102,6 +102,12 @@ Eigen::Matrix3d PatchGeometry::directions(std::int32_t corner, bool round) const
     directions.colwise().normalize();
   }
   if (!(std::abs(directions.determinant()) > nearly_coplanar)) directions.setIdentity();
+  // Where cells of unlike size meet, their edges do not continue each other: right angles instead.
+  if (grid_.hanging.n() > 0 && std::abs(directions.determinant()) < skewed)
+    for (int d = 1; d < 3; ++d)
+      for (int e = 0; e < d; ++e)
+        directions.col(d) =
+            (directions.col(d) - directions.col(e).dot(directions.col(d)) * directions.col(e)).normalized();
   return directions;
 }
 

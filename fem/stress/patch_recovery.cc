@@ -78,7 +78,8 @@ Shares stand_ins(const Grid& grid, const CellsOfNodes& cells, const std::vector<
   for (auto k = cells.begin[corner]; k < cells.begin[corner + 1]; ++k) {
     const auto* nodes = grid.nodes_of(cells.cell[k]);
     int own = 0;
-    while (nodes[corners[own]] != corner) ++own;
+    while (own < n_corners && nodes[corners[own]] != corner) ++own;
+    if (own == n_corners) continue;  // a larger cell, in the middle of whose face or edge the corner lies
     for (int c = 0; c < n_corners; ++c) {
       const auto other = nodes[corners[c]];
       if (centre[other] != Centre::interior || !shares_a_cell(cells, other, node)) continue;
@@ -101,6 +102,11 @@ Shares shares_of(const Grid& grid, const CellsOfNodes& cells, const std::vector<
                  const Tabulation& table, std::int32_t node) {
   const auto corners = corner_nodes(grid.shape());
   const auto* nodes = grid.nodes_of(cells.cell[cells.begin[node]]);
+  for (auto k = cells.begin[node]; k < cells.begin[node + 1] && grid.hanging.n() > 0; ++k) {
+    const auto* of_cell = grid.nodes_of(cells.cell[k]);  // rather one of the smaller cells' corners
+    if (std::any_of(corners.begin(), corners.end(), [&](int c) { return of_cell[c] == node; }))
+      nodes = of_cell;
+  }
   const auto hats =
       corner_hats(grid.shape(), table.point[std::find(nodes, nodes + grid.nodes_per_cell(), node) - nodes]);
   Shares interior, substitutes, boundary;
@@ -160,18 +166,20 @@ PatchOperator patch_operator(const Grid& grid, const CellsOfNodes& cells, const 
   const int degree = rule.degree > 0 ? rule.degree : grid.degree;
   const Eigen::Map<const Eigen::VectorXd> weights(patch.weights.data(), patch.weights.size());
   PatchOperator result;
-  if (grid.kind ==
-      CellKind::tetrahedra)  // their patches are of any shape: larger ones where one is too small
-    for (int n_layers = 1; n_layers <= 3; ++n_layers) {
-      result.samples = geometry.samples_around(patch.corner, n_layers);
-      if (result.samples.empty()) break;
-      const auto fit = complete_fit(degree, patch.on_boundary ? surface_concentration : 0,
-                                    geometry.points(patch.corner, result.samples, patch.nodes));
-      if (fit.size() > 0) {
-        result.fit = weights.asDiagonal() * fit;
-        return result;
-      }
+  // Tetrahedra and cells of unlike size have patches of any shape: larger ones where one is too small.
+  const bool is_irregular = grid.kind == CellKind::tetrahedra || grid.hanging.n() > 0;
+  for (int n_layers = 1; is_irregular && n_layers <= 3; ++n_layers) {
+    result.samples = geometry.samples_around(patch.corner, n_layers);
+    if (result.samples.empty()) break;
+    const double concentration =
+        patch.on_boundary && grid.kind == CellKind::tetrahedra ? surface_concentration : 0;
+    const auto fit =
+        complete_fit(degree, concentration, geometry.points(patch.corner, result.samples, patch.nodes));
+    if (fit.size() > 0) {
+      result.fit = weights.asDiagonal() * fit;
+      return result;
     }
+  }
   const bool wide = rule.widens_at_boundary && patch.on_boundary;
   result.samples = geometry.samples_around(patch.corner, wide ? 2 : 1);
   if (result.samples.empty()) {

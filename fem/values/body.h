@@ -52,6 +52,9 @@ struct Body {
   std::vector<TorusChart> tori;
   Material material;
   std::vector<ElasticSupport> elastic_supports;
+  /// Hexahedra cut into eight, cycle after cycle: indices of cells of the mesh before (Nodes::cells of a model
+  /// with the cycles before). More are cut where neighbours would differ by more than one halving of edges.
+  std::vector<std::vector<std::int32_t>> refinements{};
   int degree = 2;  ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
   /// None: a free body, whose loads inertia balances. Otherwise they hold all six rigid motions.
   std::vector<Clamp> clamps{};

@@ -1,0 +1,108 @@
+#include "fem/mesh/local_refinement.h"
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "fem/values/errors.h"
+
+namespace fem {
+
+namespace {
+
+using Dof = dealii::types::global_dof_index;
+
+/// Faces that match nowhere in a refined grid are hanging ones, so pieces are looked for before.
+void refuse_pieces(const dealii::Triangulation<3>& mesh) {
+  std::vector<char> is_reached(mesh.n_active_cells(), 0);
+  std::vector<dealii::Triangulation<3>::active_cell_iterator> open{mesh.begin_active()};
+  is_reached[mesh.begin_active()->active_cell_index()] = 1;
+  std::size_t n_reached = 1;
+  while (!open.empty()) {
+    const auto cell = open.back();
+    open.pop_back();
+    for (const auto face : cell->face_indices()) {
+      if (cell->at_boundary(face)) continue;
+      const auto neighbour = cell->neighbor(face);
+      auto& known = is_reached[neighbour->active_cell_index()];
+      if (known != 0) continue;
+      known = 1;
+      ++n_reached;
+      open.emplace_back(neighbour);
+    }
+  }
+  if (n_reached < mesh.n_active_cells())
+    throw MeshUnusable("the mesh is in several pieces that share no face: make a body of each");
+}
+
+/// The degree of freedom that stands for each one: a vertex in the middle of a larger cell's edge is the node
+/// which that cell has there.
+std::vector<Dof> merge_same_places(const dealii::AffineConstraints<double>& hanging, std::size_t n_dofs) {
+  std::vector<Dof> same(n_dofs);
+  std::iota(same.begin(), same.end(), Dof(0));
+  for (const auto& line : hanging.get_lines())
+    if (line.entries.size() == 1 && std::abs(line.entries[0].second - 1) < 1e-12)
+      same[line.index] = line.entries[0].first;
+  for (Dof i = 0; i < n_dofs; ++i)
+    while (same[same[i]] != same[i]) same[i] = same[same[i]];
+  return same;
+}
+
+}  // namespace
+
+void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<std::vector<std::int32_t>>& cycles) {
+  if (cycles.empty()) return;
+  refuse_pieces(mesh);
+  for (const auto& cycle : cycles) {
+    std::vector<char> is_cut(mesh.n_active_cells(), 0);
+    for (const auto cell : cycle) {
+      if (cell < 0 || std::size_t(cell) >= is_cut.size())
+        throw std::invalid_argument("refinements: the mesh has no cell " + std::to_string(cell));
+      is_cut[std::size_t(cell)] = 1;
+    }
+    for (const auto& cell : mesh.active_cell_iterators())
+      if (is_cut[cell->active_cell_index()] != 0) cell->set_refine_flag();
+    mesh.execute_coarsening_and_refinement();
+  }
+}
+
+NodeNumbers number_nodes(const dealii::DoFHandler<3>& space) {
+  dealii::AffineConstraints<double> direct;
+  dealii::DoFTools::make_hanging_node_constraints(space, direct);
+  const auto same = merge_same_places(direct, space.n_dofs());
+
+  // The rest in terms of what is left, chains of hanging nodes resolved by deal.II.
+  dealii::AffineConstraints<double> constraints;
+  for (const auto& line : direct.get_lines()) {
+    if (same[line.index] != line.index || constraints.is_constrained(line.index)) continue;
+    constraints.add_line(line.index);
+    for (const auto& [master, weight] : line.entries) constraints.add_entry(line.index, same[master], weight);
+  }
+  constraints.close();
+
+  NodeNumbers numbers;
+  numbers.of_dof.assign(space.n_dofs(), -1);
+  for (Dof i = 0; i < space.n_dofs(); ++i)
+    if (same[i] == i) numbers.of_dof[i] = std::int32_t(numbers.n_nodes++);
+  for (Dof i = 0; i < space.n_dofs(); ++i) numbers.of_dof[i] = numbers.of_dof[same[i]];
+  auto& hanging = numbers.hanging;
+  for (Dof i = 0; i < space.n_dofs(); ++i) {
+    if (same[i] != i || !constraints.is_constrained(i)) continue;
+    hanging.node.push_back(numbers.of_dof[i]);
+    auto entries = *constraints.get_constraint_entries(i);
+    std::sort(entries.begin(), entries.end());
+    for (const auto& [master, weight] : entries) {
+      hanging.master.push_back(numbers.of_dof[master]);
+      hanging.weight.push_back(weight);
+    }
+    hanging.begin.push_back(hanging.master.size());
+  }
+  return numbers;
+}
+
+}  // namespace fem

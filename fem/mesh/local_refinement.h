@@ -1,0 +1,30 @@
+/// Local refinement of a deal.II mesh, and what hangs after it. Internal to fem.
+#pragma once
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/grid/tria.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "fem/mesh/grid.h"
+
+namespace fem {
+
+/// Cuts cells into eight, cycle after cycle; more where levels would differ by more than one across a face,
+/// an edge or a vertex. New vertices lie on the manifolds.
+/// @param cycles  indices of active cells (Body::refinements)
+/// @throws std::invalid_argument for an index that is no cell
+/// @throws MeshUnusable if the mesh is in several pieces
+void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<std::vector<std::int32_t>>& cycles);
+
+/// Numbers of the nodes of a scalar space on a mesh that may have hanging nodes.
+struct NodeNumbers {
+  std::vector<std::int32_t> of_dof;  ///< a vertex in the middle of a larger cell's edge or face is that
+                                     ///< cell's node there
+  std::size_t n_nodes = 0;
+  HangingNodes hanging;
+};
+NodeNumbers number_nodes(const dealii::DoFHandler<3>& space);
+
+}  // namespace fem

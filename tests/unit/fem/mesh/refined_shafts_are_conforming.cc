@@ -1,0 +1,144 @@
+// Shafts whose cells are cut at random, some several times: nodes hang, geometry and displacement stay
+// continuous.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "fem/mesh/hanging_nodes.h"
+#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/operators/stiffness.h"
+#include "fem/stress/stress_recovery.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+
+namespace {
+
+using Point = Eigen::Vector3d;
+
+/// Cycles that cut a share of the cells each.
+fem::Body refined_at_random(fem::Body body, int n_cycles, double share, unsigned seed) {
+  std::mt19937 random(seed);
+  for (int cycle = 0; cycle < n_cycles; ++cycle) {
+    const auto n_cells = fem::read_grid(body).n_cells();
+    std::vector<std::int32_t> cut;
+    for (std::size_t c = 0; c < n_cells; ++c)
+      if (double(random()) < share * double(std::mt19937::max())) cut.push_back(std::int32_t(c));
+    body.refinements.push_back(cut);
+  }
+  return body;
+}
+
+/// Of the whole mesh: rows at hanging nodes are zero.
+Eigen::MatrixXd stiffness_times(const fem::Grid& grid, Eigen::MatrixXd displacement) {
+  const auto cells = fem::cells_of_nodes(grid);
+  const auto graph = fem::make_node_graph(grid, cells);
+  auto matrix = fem::make_matrix(graph);
+  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(fem_tests::steel), matrix);
+  for (const auto node : grid.hanging.node) displacement.middleRows<3>(3 * Eigen::Index(node)).setZero();
+  return fem::multiply(matrix, displacement);
+}
+
+fem::Grid refined_shaft(int n_cycles, unsigned seed, int degree = 2) {
+  const double share = degree == 2 ? 0.05 : 0.01;
+  auto body = fem_tests::eccentric_shaft(2).body;
+  body.degree = degree;
+  return fem::read_grid(refined_at_random(body, n_cycles, share, seed));
+}
+
+TEST(RefinedShafts, HangOnNodesThatDoNotHang) {
+  const auto grid = refined_shaft(3, 1);
+  const auto& hanging = grid.hanging;
+  ASSERT_GT(hanging.n(), 1000u);
+  std::vector<char> hangs(grid.n_nodes, 0);
+  for (const auto node : hanging.node) hangs[std::size_t(node)] = 1;
+  for (std::size_t i = 0; i < hanging.n(); ++i) {
+    double sum = 0;
+    Point place = Point::Zero();
+    for (auto k = hanging.begin[i]; k < hanging.begin[i + 1]; ++k) {
+      EXPECT_EQ(hangs[std::size_t(hanging.master[k])], 0);
+      sum += hanging.weight[k];
+      place += hanging.weight[k] * Point(grid.position(hanging.master[k]));
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_LT((place - Point(grid.position(hanging.node[i]))).norm(), 1e-15);
+  }
+  // No two nodes at one place: vertices in the middle of larger edges are the nodes there.
+  std::map<std::array<long, 3>, int> places;
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) {
+    const double* x = grid.position(std::int32_t(i));
+    EXPECT_EQ(++places[(std::array<long, 3>{std::lround(x[0] * 1e9), std::lround(x[1] * 1e9),
+                                            std::lround(x[2] * 1e9)})],
+              1);
+  }
+}
+
+// The energy of a rigid rotation was 4e-4 of that of a unit strain in a prototype whose hanging nodes kept
+// their places on the true surface.
+TEST(RefinedShafts, MoveRigidlyWithoutForce) {
+  for (const int degree : {2, 3})
+    for (unsigned seed = 1; seed <= (degree == 2 ? 4u : 1u); ++seed) {
+      const auto grid = refined_shaft(2, seed, degree);
+      const Eigen::MatrixXd rigid = fem::rigid_modes(grid, Point::Zero());
+      const Eigen::MatrixXd strain = [&] {
+        Eigen::MatrixXd u = Eigen::MatrixXd::Zero(rigid.rows(), 1);
+        for (std::size_t i = 0; i < grid.n_nodes; ++i)
+          u(3 * Eigen::Index(i), 0) = grid.position(std::int32_t(i))[1];
+        return u;
+      }();
+      const double scale = stiffness_times(grid, strain).norm();
+      const Eigen::MatrixXd force = stiffness_times(grid, rigid);
+      for (int mode = 3; mode < 6; ++mode) EXPECT_LT(force.col(mode).norm(), 1e-12 * scale) << degree << mode;
+    }
+}
+
+TEST(RefinedShafts, PassThePatchTest) {
+  const auto grid = refined_shaft(2, 7);
+  Eigen::MatrixXd u(3 * Eigen::Index(grid.n_nodes), 1);
+  Eigen::Matrix3d gradient;
+  gradient << 1, 0.3, -0.2, 0.7, -0.4, 0.1, -0.5, 0.6, 0.8;
+  for (std::size_t i = 0; i < grid.n_nodes; ++i)
+    u.middleRows<3>(3 * Eigen::Index(i)) = gradient * Point(grid.position(std::int32_t(i)));
+  Eigen::MatrixXd force = stiffness_times(grid, u);
+  const double scale = force.norm();
+  for (const auto& face : grid.boundary)
+    for (const int i : fem::face_nodes(grid.shape(), face.face))
+      force.middleRows<3>(3 * Eigen::Index(grid.nodes_of(std::size_t(face.cell))[i])).setZero();
+  EXPECT_LT(force.norm(), 1e-12 * scale);
+}
+
+TEST(RefinedShafts, RecoverQuadraticFieldsExactly) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const auto grid = refined_shaft(2, seed);
+    const auto field = [](const Point& x) {
+      const Point s = x / 0.06;
+      return 1 + s[0] - 2 * s[1] * s[1] + 3 * s[0] * s[1] - s[2] * s[2] + s[1] * s[2];
+    };
+    const auto cells = fem::cells_of_nodes(grid);
+    for (const auto& free : {std::vector<fem::BoundaryFace>{}, grid.boundary}) {
+      const auto samples = fem::make_samples(grid, free);
+      fem::RowMajor values(samples.cell.size(), 1), nodal(grid.n_nodes, 1);
+      for (std::size_t s = 0; s < samples.cell.size(); ++s) values(s, 0) = field(samples.position.col(s));
+      fem::recover_by_patches(grid, cells, {}, samples, values, nodal);
+      double worst = 0, size = 0;
+      for (std::size_t i = 0; i < grid.n_nodes; ++i) {
+        worst = std::max(worst, std::abs(nodal(i, 0) - field(Point(grid.position(std::int32_t(i))))));
+        size = std::max(size, std::abs(nodal(i, 0)));
+      }
+      EXPECT_LT(worst, 1e-10 * size) << seed;
+    }
+  }
+}
+
+TEST(RefinedShafts, RefuseCellsThatAreNot) {
+  auto body = fem_tests::eccentric_shaft(2).body;
+  body.refinements = {{-1}};
+  EXPECT_THROW(fem::read_grid(body), std::invalid_argument);
+  body.refinements = {{1 << 30}};
+  EXPECT_THROW(fem::read_grid(body), std::invalid_argument);
+  body.refinements = {{0}};
+  body.degree = 1;
+  EXPECT_THROW(fem::read_grid(body), std::invalid_argument);
+}
+
+}  // namespace
