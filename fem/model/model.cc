@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/adaptivity/goal_errors.h"
 #include "fem/common/memory.h"
 #include "fem/loads/balanced_loads.h"
 #include "fem/loads/clamps.h"
@@ -51,6 +52,7 @@ struct Model::Impl {
   CellMaterials materials{Material{}};
   NodeIntegrals integrals;   // of the volume, weighted with the density relative to body.material's
   std::optional<Seen> seen;  // only of several materials
+  mutable std::shared_ptr<const FactorisedBody> factor{};
 
   PerCell<double> relative_density() const { return materials.density(body.material.density_kg_m3); }
 };
@@ -180,7 +182,7 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
-               SolverReport& report, MPI_Comm communicator) {
+               SolverReport& report, MPI_Comm communicator, std::shared_ptr<const FactorisedBody>* kept) {
   const bool alone = n_ranks(communicator) == 1;
   choice.coarse_level = report.coarse_level;
   const auto iterate = [&] {
@@ -200,7 +202,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     return is_too_expensive(factor, report, std::size_t(loads.force.cols()));
   };
   try {
-    if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, is_dear))
+    if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, is_dear, kept))
       return std::move(*solution);
   } catch (const DoesNotFit&) {
     if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) throw;
@@ -264,8 +266,9 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
       responses.solver.by_analysis = false;
       responses.solver.reason = "the body is clamped";
     }
-    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,
-                              responses.solver, impl_->communicator);
+    Solution solution =
+        solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,
+              responses.solver, impl_->communicator, choice.keep_factor ? &impl_->factor : nullptr);
     responses.residual = responses.solver.relative_residual = solution.residual;
     responses.support_reaction = solution.support_reaction;
     responses.solver.rounding = solution.rounding;
@@ -314,6 +317,40 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   respond_on_sections(seen, planes, responses);
   respond_on_rings(seen, impl_->body, responses);
   return responses;
+}
+
+std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& responses,
+                                                       const std::vector<StressGoal>& goals) const {
+  const auto& grid = impl_->grid;
+  if (grid.shape().is_tetrahedron() || impl_->seen)
+    throw std::invalid_argument("goal_errors_Pa: for hexahedra of one material");
+  if (responses.nodes.n != grid.n_nodes || responses.nodes.n_cells() != grid.n_cells())
+    throw std::invalid_argument("goal_errors_Pa: the responses are of another model");
+  const auto elastic = impl_->materials.elastic();
+  const ElasticSupports springs(grid, impl_->body.elastic_supports);
+  const auto n_goals = Eigen::Index(goals.size()), n_springs = springs.unit_forces().cols();
+  Eigen::MatrixXd force(3 * Eigen::Index(grid.n_nodes), n_goals + n_springs);
+  for (Eigen::Index g = 0; g < n_goals; ++g)
+    force.col(g) = dual_load(grid, goals[std::size_t(g)], responses.nodes.volume_m3, elastic);
+  force.rightCols(n_springs) = springs.unit_forces();
+  const RigidBalance rigid(grid, impl_->integrals);
+  BalancedLoads loads = balance(rigid, clamped_unknowns(grid, impl_->body.clamps), std::move(force));
+  move_to_masters(grid.hanging, loads.force);
+  Eigen::MatrixXd dual;
+  if (impl_->factor)
+    dual = impl_->factor->solve(std::move(loads.force));
+  else
+    dual = solve_directly(
+               grid, impl_->cells, impl_->colours, impl_->materials, loads, [](double, const std::string&) {},
+               {}, &impl_->factor)
+               ->displacement;
+  set_hanging_unknowns(grid.hanging, dual);
+  if (loads.clamped.empty()) rigid.remove_motion(dual);
+  const Eigen::MatrixXd errors =
+      goal_errors(grid, impl_->cells, impl_->body.cylinders, elastic, responses, goals, springs.apply(dual));
+  std::vector<std::vector<double>> result;
+  for (Eigen::Index g = 0; g < n_goals; ++g) result.emplace_back(errors.col(g).begin(), errors.col(g).end());
+  return result;
 }
 
 }  // namespace fem

@@ -15,6 +15,7 @@
 #include "fem/values/geometry_error.h"
 #include "fem/values/natural_mode.h"
 #include "fem/values/solver_choice.h"
+#include "fem/values/stress_goal.h"
 #include "fem/values/unit_load.h"
 #include "fem/values/unit_responses.h"
 
@@ -88,6 +89,15 @@ public:
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
                                Recovery recovery = Recovery::patch, const Progress& progress = {},
                                const SolverChoice& choice = {}) const;
+
+  /// What each cell contributes to the errors of stresses at places, estimated (adaptivity/goal_errors.h). One
+  /// more solve for each goal; by the factor of unit_responses where SolverChoice::keep_factor kept it.
+  /// @param responses  of this model
+  /// @return goal after goal, one value per cell [Pa]; their sum estimates the error of the goal
+  /// @throws std::invalid_argument for tetrahedra, several materials, goals that do not fit the responses
+  /// @throws SolveFailed as unit_responses
+  std::vector<std::vector<double>> goal_errors_Pa(const UnitResponses& responses,
+                                                  const std::vector<StressGoal>& goals) const;
 
   /// The lowest natural frequencies, ascending, without the rigid motions that nothing holds. Mass and
   /// stiffness are consistent, so frequencies come out from above. Clamps hold the body; elastic supports are

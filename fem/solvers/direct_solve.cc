@@ -52,11 +52,17 @@ FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells) {
   return CholmodFactor(make_matrix(graph), order_nodes(graph)).size();
 }
 
+Eigen::MatrixXd FactorisedBody::solve(Eigen::MatrixXd force) const {
+  for (const auto unknown : held_) force.row(unknown).setZero();
+  return factor_->solve(force);
+}
+
 std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
                                        const std::vector<std::vector<std::int32_t>>& colours,
                                        const CellMaterials& materials, const BalancedLoads& loads,
                                        const StepReport& progress,
-                                       const std::function<bool(const FactorSize&)>& is_too_expensive) {
+                                       const std::function<bool(const FactorSize&)>& is_too_expensive,
+                                       std::shared_ptr<const FactorisedBody>* kept) {
   progress(0.05, "assemble");
   const NodeGraph graph = make_node_graph(grid, cells);
   auto order =
@@ -70,7 +76,8 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
     clamp(loads.clamped, matrix);
 
   progress(0.1, "order");
-  CholmodFactor factor(matrix, order.get());
+  auto own_factor = std::make_unique<CholmodFactor>(matrix, order.get());
+  CholmodFactor& factor = *own_factor;
   if (is_too_expensive && is_too_expensive(factor.size())) return std::nullopt;
   // CHOLMOD turns the matrix into its own order; displacements, stress and what becomes of them follow.
   const double more = 16.0 * static_cast<double>(matrix.value.size()) +
@@ -107,6 +114,9 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
                                     .lpNorm<Eigen::Infinity>()
                                     .cwiseQuotient(loads.largest_entry)
                                     .maxCoeff();
+  if (kept != nullptr)
+    *kept = std::make_shared<const FactorisedBody>(std::move(own_factor),
+                                                   supports ? supports->unknowns() : loads.clamped);
   return solution;
 }
 

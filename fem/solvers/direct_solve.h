@@ -1,24 +1,46 @@
 /// Unit responses by one factorisation on a statically determinate support. Internal to fem.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "fem/loads/balanced_loads.h"
 #include "fem/operators/cell_materials.h"
+#include "fem/solvers/cholmod_factor.h"
 
 namespace fem {
+
+/// The factor of a body's stiffness with its supports or clamps, for further loads.
+class FactorisedBody {
+public:
+  /// @param held  unknowns of supports and clamps
+  FactorisedBody(std::unique_ptr<const CholmodFactor> factor, std::vector<std::int64_t> held)
+      : factor_(std::move(factor)), held_(std::move(held)) {}
+
+  /// Displacements of loads without resultants, with some rigid motion.
+  Eigen::MatrixXd solve(Eigen::MatrixXd force) const;
+
+private:
+  std::unique_ptr<const CholmodFactor> factor_;
+  std::vector<std::int64_t> held_;
+};
 
 /// Of the stiffness, without computing it.
 FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells);
 
 /// @param is_too_expensive asked once the matrix is analysed: if so, nothing is solved and nothing returned
 /// @throws SolveFailed as CholmodFactor, or if rounding reaches more than 1 % of displacements
+/// @param kept  if given, holds the factor afterwards
 std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
                                        const std::vector<std::vector<std::int32_t>>& colours,
                                        const CellMaterials& materials, const BalancedLoads& loads,
                                        const StepReport& progress,
-                                       const std::function<bool(const FactorSize&)>& is_too_expensive = {});
+                                       const std::function<bool(const FactorSize&)>& is_too_expensive = {},
+                                       std::shared_ptr<const FactorisedBody>* kept = nullptr);
 
 /// The largest share of a load case's displacement that the correction is; of those cases that need one.
 double rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& correction,

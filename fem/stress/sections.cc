@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "fem/common/dense_algebra.h"
 #include "fem/mesh/cell_geometry.h"
@@ -57,6 +59,7 @@ struct Section {
   };
   std::map<std::int32_t, Weight> weights;
   std::vector<std::int32_t> rim;
+  std::vector<double> rim_weight;  ///< sum to 1
   double area_m2 = 0;
   Eigen::Matrix<double, 6, 6> rigid =
       Eigen::Matrix<double, 6, 6>::Zero();  // of the modes about the section's axis
@@ -75,6 +78,9 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
     const double* x = grid.position(node);
     return std::hypot(x[0] - plane.axis_x_m, x[1] - plane.axis_y_m);
   };
+  const auto hangs = [&](std::int32_t node) {  // on the larger neighbour's parabola, not on the circle
+    return std::binary_search(grid.hanging.node.begin(), grid.hanging.node.end(), node);
+  };
   const auto from_z_axis = [&](std::int32_t node) {
     return std::hypot(grid.position(node)[0], grid.position(node)[1]);
   };
@@ -84,8 +90,8 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
                                [](const FlatFace& f, double z) { return f.z_m < z; });
   for (; face != faces.end() && face->z_m <= plane.z_m + tolerance; ++face) {
     if (std::any_of(face->nodes.begin(), face->nodes.end(), [&](auto node) {
-          return from_axis(node) > plane.radius_m + tolerance ||
-                 from_z_axis(node) < plane.inner_radius_m - tolerance;
+          return !hangs(node) && (from_axis(node) > plane.radius_m + tolerance ||
+                                  from_z_axis(node) < plane.inner_radius_m - tolerance);
         }))
       continue;
     for (int q = 0; q < at.n_points; ++q) {
@@ -113,9 +119,17 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
   if (std::abs(section.area_m2 - ring) > allowed * ring)
     refuse(plane, "its cell faces have " + std::to_string(section.area_m2 / ring) + " of the area of the " +
                       (plane.inner_radius_m > 0 ? "ring" : "disc"));
-  for (const auto& [node, weight] : section.weights)
-    if (std::abs(from_axis(node) - plane.radius_m) <= tolerance) section.rim.push_back(node);
+  std::vector<double> angles_rad;
+  for (const auto& [node, weight] : section.weights) {
+    if (hangs(node) || std::abs(from_axis(node) - plane.radius_m) > tolerance) continue;
+    section.rim.push_back(node);
+    angles_rad.push_back(
+        std::atan2(grid.position(node)[1] - plane.axis_y_m, grid.position(node)[0] - plane.axis_x_m));
+  }
   if (section.rim.empty()) refuse(plane, "no node lies on its rim");
+  section.rim_weight.assign(section.rim.size(), 1.0 / double(section.rim.size()));
+  if (grid.hanging.n() > 0)
+    if (auto weights = weights_around(angles_rad); !weights.empty()) section.rim_weight = std::move(weights);
   return section;
 }
 
@@ -142,10 +156,11 @@ SectionResponse respond(const Grid& grid, const SectionPlane& plane, const Secti
     motion[4] -= x * u[2];
     motion[5] += x * u[1] - y * u[0];
   }
-  for (const auto node : section.rim) {
+  for (std::size_t i = 0; i < section.rim.size(); ++i) {
+    const auto node = section.rim[i];
     const auto shear = rim_shear(grid.position(node)[0] - plane.axis_x_m,
                                  grid.position(node)[1] - plane.axis_y_m, stress(node));
-    for (int c = 0; c < 2; ++c) r.mean_rim_shear_Pa[c] += shear[c] / double(section.rim.size());
+    for (int c = 0; c < 2; ++c) r.mean_rim_shear_Pa[c] += section.rim_weight[i] * shear[c];
   }
   motion = solve_symmetric(section.rigid, motion);
   for (int d = 0; d < 3; ++d) {
@@ -161,6 +176,23 @@ std::array<double, 2> rim_shear(double x_m, double y_m, const double* stress_Pa)
   const double r = std::hypot(x_m, y_m), c = x_m / r, s = y_m / r;
   return {(stress_Pa[1] - stress_Pa[0]) * s * c + stress_Pa[3] * (c * c - s * s),
           stress_Pa[4] * c - stress_Pa[5] * s};
+}
+
+std::vector<double> weights_around(const std::vector<double>& angles_rad) {
+  const std::size_t n = angles_rad.size();
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return angles_rad[a] < angles_rad[b]; });
+  std::vector<double> weights(n, 0);
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto here = order[k], next = order[(k + 1) % n];
+    double gap = angles_rad[next] - angles_rad[here];
+    if (k + 1 == n) gap += 2 * pi;
+    if (gap > pi / 2 * (1 + relative_tolerance)) return {};
+    weights[here] += gap / (4 * pi);
+    weights[next] += gap / (4 * pi);
+  }
+  return weights;
 }
 
 void respond_on_sections(const Grid& grid, const std::vector<SectionPlane>& planes,

@@ -46,6 +46,7 @@ std::vector<RingNode> concentric_nodes(const Grid& grid, const Body& body) {
     if (!fillet && (volume == concentric.end() || !volume->second || is_flat(grid, nodes))) continue;
     const std::pair<bool, int> candidate(!fillet, face.boundary_id);
     for (const auto node : nodes) {
+      if (std::binary_search(grid.hanging.node.begin(), grid.hanging.node.end(), node)) continue;
       const auto known = group.emplace(node, candidate).first;
       known->second = std::min(known->second, candidate);
       material[node] = materials.kind(std::size_t(face.cell));
@@ -85,6 +86,14 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
 
   using Iterator = std::vector<RingNode>::iterator;
   const auto add_ring = [&](Iterator begin, Iterator end) {
+    std::vector<double> weights(std::size_t(end - begin), 1.0 / double(end - begin));
+    if (grid.hanging.n() > 0) {
+      std::vector<double> angles_rad;
+      for (auto node = begin; node != end; ++node)
+        angles_rad.push_back(std::atan2(grid.position(node->node)[1], grid.position(node->node)[0]));
+      weights = weights_around(angles_rad);
+      if (weights.empty()) return;
+    }
     const auto least = std::min_element(
         begin, end, [](const auto& a, const auto& b) { return a.boundary_id < b.boundary_id; });
     responses.rings.push_back({begin->z_m, begin->radius_m, least->boundary_id});
@@ -93,7 +102,7 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
       for (auto node = begin; node != end; ++node) {
         const double* x = grid.position(node->node);
         const auto shear = rim_shear(x[0], x[1], responses.stress_Pa.data() + (node->node * n_loads + k) * 6);
-        for (int c = 0; c < 2; ++c) mean[c] += shear[c] / double(end - begin);
+        for (int c = 0; c < 2; ++c) mean[c] += weights[std::size_t(node - begin)] * shear[c];
       }
       responses.ring_shear_Pa.push_back(mean);
     }

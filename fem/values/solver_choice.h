@@ -31,6 +31,7 @@ struct SolverChoice {
   CoarseLevel coarse_level = CoarseLevel::automatic;
   bool gave_up_before =
       false;  ///< the iteration is known to stall on this mesh and material: not tried again
+  bool keep_factor = false;  ///< of the direct solver, for Model::goal_errors_Pa
 };
 
 /// What a solver is expected to need on a machine like the one that was measured (solver_prediction.h).

@@ -20,7 +20,7 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
   auto answer = respond(body, meshed, loads, options, clock);
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
   auto analysis = superpose_body(scene, body, meshed, std::move(loads), std::move(answer.responses),
-                                 options.n_threads, clock);
+                                 options.n_threads, clock, {{}, {}, !options.keep_factor});
   analysis.responses_reused = answer.reused;
   analysis.solve_s = answer.reused ? 0 : solve.count();
   return analysis;

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/submodel/submodel.h"
+#include "fem/values/constants.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/submodels.h"
@@ -42,13 +44,6 @@ void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, std::vector<
     }
 }
 
-/// Cells on the quarter of a fillet; 0 for other places.
-int cells_on(const BodyScene& body, const std::string& feature) {
-  const auto names = fillets_of(body);
-  const auto fillet = std::find(names.begin(), names.end(), feature);
-  return fillet == names.end() ? 0 : body.shaft()->mesh.cells_at(int(fillet - names.begin()));
-}
-
 std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
   std::vector<PlaceStress> places;
   for (const auto& spot : analysis.hot_spots) {
@@ -60,7 +55,41 @@ std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
   return places;
 }
 
+/// The largest angle that a face at the node takes of the fillet's quarter circle; 0: no face of it is there.
+double arc_at(const BodyAnalysis& analysis, const meshes::TorusChart& torus, std::size_t node) {
+  const auto& nodes = analysis.responses.nodes;
+  double largest_rad = 0;
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    if (nodes.face_boundary_id[f] != torus.boundary_id ||
+        std::find(face.begin(), face.end(), std::int32_t(node)) == face.end())
+      continue;
+    const auto angle_rad = [&](std::size_t corner) {
+      const double* x = &nodes.xyz_m[3 * std::size_t(face[corner])];
+      return std::atan2(x[2] - torus.centre_z_m, std::hypot(x[0], x[1]) - torus.centre_radius_m);
+    };
+    for (std::size_t a = 0; a < std::size_t(nodes.shape().n_face_corners()); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        largest_rad =
+            std::max(largest_rad, std::abs(std::remainder(angle_rad(a) - angle_rad(b), 2 * fem::pi)));
+  }
+  return largest_rad;
+}
+
 }  // namespace
+
+int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place) {
+  const auto names = fillets_of(analysis.scene);
+  const auto fillet = std::find(names.begin(), names.end(), place.feature);
+  if (fillet == names.end()) return 0;
+  if (!analysis.scene.refinements.empty())
+    for (const auto& feature : analysis.mesh.features)
+      for (const auto& torus : analysis.mesh.tori)
+        if (feature.name == place.feature && torus.boundary_id == feature.boundary_id)
+          if (const double arc_rad = arc_at(analysis, torus, place.node); arc_rad > 0)
+            return std::max(1, int(std::lround(fem::pi / 2 / arc_rad)));
+  return analysis.scene.shaft()->mesh.cells_at(int(fillet - names.begin()));
+}
 
 std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
@@ -73,7 +102,7 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
       continue;
     }
     place.error_Pa = own_error_Pa(analysis, {{{place.node, 1.0}}, maximum.instant[place.node]});
-    if (const int cells = cells_on(analysis.scene, place.feature); cells > 0)
+    if (const int cells = cells_on_quarter(analysis, place); cells > 0)
       place.error_Pa = std::max(place.error_Pa, for_want_of_cells(cells) * place.value_Pa);
   }
   ask_submodels(analysis, largest_Pa, places);

@@ -21,4 +21,8 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis);
 void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
                        const std::string& method);
 
+/// Cells on the quarter of a fillet, on a locally refined mesh the fewest beside the place's maximum; 0 for
+/// places that are no fillets of a shaft of blocks.
+int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place);
+
 }  // namespace pipelines

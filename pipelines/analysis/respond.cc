@@ -47,6 +47,7 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
   auto responses = clock.run("solve", [&] {
     fem::SolverChoice choice;
     choice.solver = body.solver;
+    choice.keep_factor = options.keep_factor;
     choice.gave_up_before = !options.fresh && iteration_gave_up_before(
                                                   options.directory, body_key(meshed.body, meshed.mesh_hash));
     return meshed.model->unit_responses(

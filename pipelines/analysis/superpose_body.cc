@@ -93,7 +93,7 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                                 body.yield_strength_Pa);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
   });
-  if (!analysis.hot_spots.empty() && has_cells(analysis.responses))
+  if (known.needs_submodels && !analysis.hot_spots.empty() && has_cells(analysis.responses))
     clock.run("submodels", [&] {
       resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
                         analysis.hot_spots, known.hot_spots);

@@ -12,6 +12,7 @@ namespace pipelines {
 struct KnownBefore {
   std::optional<Envelope> envelope{};      ///< of these loads and responses
   std::vector<HotSpotStress> hot_spots{};  ///< of these responses, whatever the loads
+  bool needs_submodels = true;  ///< at weld toes; a search that refines the mesh there does without
 };
 
 /// The second half of analyse_body: everything that follows from unit responses.

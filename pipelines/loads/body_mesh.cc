@@ -88,16 +88,23 @@ fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& materia
 }
 
 MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
-                     const std::vector<kinetics::Spring>& springs) {
+                     const std::vector<kinetics::Spring>& springs, const MeshedBody* coarse) {
   const BodyKind& kind = kind_of(body);
   MeshedBody result;
-  result.mesh = build_mesh(body, file);
-  auto& edges = result.mesh.sharp_edges;
-  edges.insert(edges.end(), body.singular.begin(), body.singular.end());
+  if (coarse != nullptr) {
+    result.mesh = coarse->mesh;
+  } else {
+    result.mesh = build_mesh(body, file);
+    auto& edges = result.mesh.sharp_edges;
+    edges.insert(edges.end(), body.singular.begin(), body.singular.end());
+  }
   result.body = to_fem_body(result.mesh, body.material);
   result.body.degree = body.degree;
+  result.body.refinements = body.refinements;
   if (kind.has_elastic_feet(body)) result.body.elastic_supports = elastic_feet(result.mesh, springs);
-  result.mesh_hash = content_hash(file);  // once: reading it takes seconds where the mesh is large
+  result.mesh_hash = coarse != nullptr
+                         ? coarse->mesh_hash
+                         : content_hash(file);  // once: reading it takes seconds where the mesh is large
   result.model = std::make_shared<const fem::Model>(result.body);
   result.masses = result.model->mass_properties();
   result.geometry_error = result.model->geometry_error(round_ports(result.mesh));

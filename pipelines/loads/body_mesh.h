@@ -38,8 +38,9 @@ meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& 
 
 /// Mesh, model and masses.
 /// @param springs  of the machine, for elastic feet; empty otherwise
+/// @param coarse   the same body with fewer refinements, whose mesh file is taken over; none: it is meshed
 MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
-                     const std::vector<kinetics::Spring>& springs);
+                     const std::vector<kinetics::Spring>& springs, const MeshedBody* coarse = nullptr);
 
 /// What fem needs of a mesh.
 fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& material);

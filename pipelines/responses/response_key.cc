@@ -1,5 +1,6 @@
 #include "pipelines/responses/response_key.h"
 
+#include <fmt/core.h>
 #include <xxhash.h>
 
 #include <fstream>
@@ -79,11 +80,20 @@ const std::string& program_fingerprint() {
 
 namespace {
 
+/// Of the cells that are cut in each cycle; empty if there is none.
+std::string hash_of(const std::vector<std::vector<std::int32_t>>& refinements) {
+  std::string text;
+  for (const auto& cells : refinements)
+    text += fmt::format("{:016x}", XXH3_64bits(cells.data(), sizeof(std::int32_t) * cells.size()));
+  return text;
+}
+
 void describe(KeyText& key, const fem::Body& body, const std::string& mesh_hash) {
   if (mesh_hash.empty()) throw std::logic_error("the mesh of " + body.mesh.string() + " has no hash");
   key.line("program", program_fingerprint())
       .line("mesh", mesh_hash)
       .line("degree", body.degree)
+      .line("refinements", hash_of(body.refinements))
       .line("material", body.material.youngs_modulus_Pa, body.material.poisson_ratio,
             body.material.density_kg_m3);
   for (const auto& [volume, material] : body.material_of_volume)

@@ -1,6 +1,7 @@
 /// A body as a scene describes it: shape, material, how loads meet it. Values in SI units.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,6 +55,8 @@ struct BodyScene {
   fem::Solver solver = fem::Solver::automatic;
   int degree =
       2;  ///< of the polynomials in a cell (fem::Body); 2 in every scene, accuracy studies take 1 and 3 too
+  /// Cells cut into eight after meshing, cycle after cycle (fem::Body): a search chooses them.
+  std::vector<std::vector<std::int32_t>> refinements;
   int natural_frequencies = 0;  ///< how many to compute and compare with the loads; 0: none
   std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
 

@@ -18,6 +18,7 @@ bool is_fillet(const std::string& feature) {
 }
 
 double order_at(const std::string& feature, const MeshStep& step) {
+  if (contains(step.coarse, feature)) return 1;
   if (step.part == MeshPart::all) return step.order;
   return is_fillet(feature) ? step.order : 1;
 }
@@ -56,6 +57,8 @@ std::string to_string(MeshPart part) {
       return "along";
     case MeshPart::through:
       return "through";
+    case MeshPart::local:
+      return "local";
     case MeshPart::all:
       return "all";
   }

@@ -17,6 +17,7 @@ enum class MeshPart {
   around,   ///< sectors of a shaft
   along,    ///< cells along a shaft, away from fillets
   through,  ///< rows of cells through a bored shaft's wall
+  local,    ///< cells that contribute most to the error
   all       ///< the whole mesh, or what leads of it: chambers, tetrahedra
 };
 
@@ -28,6 +29,7 @@ struct MeshStep {
   double ratio = 1;  ///< of cell sizes, before : after
   double order = 2;  ///< with which stress converges at least: of fillets, and of all where `part` is all
   std::vector<std::string> features{};  ///< where cells became smaller; empty: everywhere
+  std::vector<std::string> coarse{};    ///< fillets whose cells were too few for that order: 1 there
 };
 
 /// Another model's stresses at the same places.

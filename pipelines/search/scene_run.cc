@@ -25,6 +25,7 @@
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/report/body_files.h"
 #include "pipelines/scene/why_not.h"
+#include "pipelines/search/local_refinement.h"
 #include "pipelines/search/peak_growth.h"
 #include "pipelines/search/place_history.h"
 #include "pipelines/search/refinement.h"
@@ -136,9 +137,10 @@ private:
     return is_search() ? search_mesh(i) : solve_once(i);
   }
 
-  MeshedBody mesh(std::size_t i) {
-    return clock_.run(
-        "mesh", [&] { return mesh_body(run_.scene.bodies[i], files_[i].mesh(), springs_of(run_.scene)); });
+  MeshedBody mesh(std::size_t i, const MeshedBody* coarse = nullptr) {
+    return clock_.run("mesh", [&] {
+      return mesh_body(run_.scene.bodies[i], files_[i].mesh(), springs_of(run_.scene), coarse);
+    });
   }
 
   void load(std::vector<MeshedBody> meshed) {
@@ -146,7 +148,8 @@ private:
   }
 
   RunOptions options_of(std::size_t i) const {
-    return {options_.directory / run_.scene.bodies[i].name, options_.n_threads, options_.fresh};
+    return {options_.directory / run_.scene.bodies[i].name, options_.n_threads, options_.fresh,
+            is_search() && is_refined_locally(run_.scene.bodies[i])};
   }
 
   BodyAnalysis analyse(std::size_t i) {
@@ -339,9 +342,11 @@ private:
     for (const auto part : state.history.by_promise(target)) {
       if (state.exhausted.count(part)) continue;
       Scene finer = next;
-      auto step = refine_mesh(finer.bodies[i], analysis, judged, part);
+      const bool is_local = part == MeshPart::local;
+      auto step = is_local ? refine_locally(i, finer.bodies[i], analysis)
+                           : refine_mesh(finer.bodies[i], analysis, judged, part);
       if (!step) continue;
-      auto mesh = try_to_mesh(i, finer, refusal);
+      auto mesh = try_to_mesh(i, finer, refusal, is_local ? &run_.loaded.meshed[i] : nullptr);
       if (!mesh) {
         state.exhausted.insert(part);
         continue;
@@ -354,11 +359,23 @@ private:
     return false;
   }
 
+  /// Cuts the cells that contribute most to what is not known of the leading places.
+  std::optional<MeshStep> refine_locally(std::size_t i, BodyScene& body, const BodyAnalysis& analysis) {
+    return clock_.run("refine", [&]() -> std::optional<MeshStep> {
+      auto local = cells_to_cut(*run_.loaded.meshed[i].model, analysis, analysis.place_stresses);
+      if (local.cells.empty()) return std::nullopt;
+      body.refinements.push_back(std::move(local.cells));
+      return MeshStep{MeshPart::local, 2, 2, std::move(local.features), std::move(local.coarse)};
+    });
+  }
+
   /// The body's mesh in another version of the scene; nothing if the mesher refuses it.
-  std::optional<MeshedBody> try_to_mesh(std::size_t i, const Scene& scene, std::string& refusal) {
+  /// @param coarse  the same mesh with fewer refinements
+  std::optional<MeshedBody> try_to_mesh(std::size_t i, const Scene& scene, std::string& refusal,
+                                        const MeshedBody* coarse) {
     const Scene present = std::exchange(run_.scene, scene);
     std::optional<MeshedBody> result;
-    const auto refused = refusal_of([&] { result = mesh(i); });
+    const auto refused = refusal_of([&] { result = mesh(i, coarse); });
     if (!refused.empty()) refusal = refused;
     run_.scene = present;
     return result;
@@ -387,7 +404,7 @@ private:
     BodyAnalysis before = std::move(analysis);
     analysis = superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
                               run_.loaded.body_loads[i], std::move(before.responses), options_.n_threads,
-                              clock_, {{}, std::move(before.hot_spots)});
+                              clock_, {{}, std::move(before.hot_spots), !options_of(i).keep_factor});
     analysis.responses_reused = before.responses_reused;
   }
 
@@ -444,7 +461,7 @@ private:
       auto& after = run_.analyses[i];
       after = superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
                              run_.loaded.body_loads[i], std::move(before.responses), options_.n_threads,
-                             clock_, {{}, std::move(before.hot_spots)});
+                             clock_, {{}, std::move(before.hot_spots), !options_of(i).keep_factor});
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);

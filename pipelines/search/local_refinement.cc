@@ -1,0 +1,166 @@
+#include "pipelines/search/local_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "pipelines/analysis/error_budget.h"
+#include "pipelines/analysis/place_errors.h"
+#include "pipelines/search/refinement.h"
+#include "pipelines/superposition/superposition.h"
+
+namespace pipelines {
+namespace {
+
+/// Of what a goal's cells contribute: cells are cut by falling share until this is reached (Doerfler 1996).
+constexpr double part_that_is_cut = 0.6;
+/// The power of von Mises stress by which the nodes of a place count: high enough to follow its maximum,
+/// which moves between nodes, low enough to see the cells around it.
+constexpr double concentration = 11;
+/// Below this share of the place's maximum a node counts nothing: 0.5^11 is 5e-4.
+constexpr double least_share = 0.5;
+/// Places by falling sum of stress and error: solving for more of them costs more than it tells.
+constexpr std::size_t most_goals = 6;
+
+/// A place with the goal of the search there.
+struct Goal {
+  std::string feature;
+  fem::StressGoal stress;
+  std::vector<std::size_t> nodes;  ///< whose cells are cut at least
+};
+
+/// The derivative of von Mises stress by the stress, times a weight; its product with the stress itself is
+/// the weighted von Mises stress.
+std::array<double, 6> direction_of(const Stress& s, double weight) {
+  const double mean = (s[0] + s[1] + s[2]) / 3, von_mises = von_mises_Pa(s);
+  std::array<double, 6> tensor{};
+  if (!(von_mises > 0)) return tensor;
+  for (std::size_t c = 0; c < 6; ++c) tensor[c] = 1.5 * weight * (s[c] - (c < 3 ? mean : 0)) / von_mises;
+  return tensor;
+}
+
+std::vector<double> factors_at(const BodyAnalysis& analysis, std::int32_t instant) {
+  const Eigen::ArrayXd column = analysis.loads.history.values.col(instant);
+  return {column.begin(), column.end()};
+}
+
+Goal goal_at(const BodyAnalysis& analysis, const HotSpotStress& spot) {
+  Goal goal{spot.name, {factors_at(analysis, spot.instant), {}}, {}};
+  const auto point = stress_point(spot);
+  Stress stress{};
+  for (const auto& part : point.parts) {
+    const auto own = stress_at(analysis.responses, analysis.loads.history, part.node, spot.instant);
+    for (std::size_t c = 0; c < 6; ++c) stress[c] += part.weight * own[c];
+  }
+  for (const auto& part : point.parts) {
+    goal.stress.parts.push_back({part.node, direction_of(stress, part.weight)});
+    goal.nodes.push_back(part.node);
+  }
+  return goal;
+}
+
+/// Nodes on the faces of a feature outside the exclusion distances; inside the body those without a feature.
+std::vector<std::size_t> nodes_of(const BodyAnalysis& analysis, const std::string& feature) {
+  const auto& nodes = analysis.responses.nodes;
+  std::vector<char> belongs(nodes.n, 0);
+  for (const auto& known : analysis.mesh.features) {
+    if (known.name != feature) continue;
+    for (std::size_t f = 0; f < nodes.n_faces(); ++f)
+      if (nodes.face_boundary_id[f] == known.boundary_id)
+        for (const auto node : nodes.face(f)) belongs[std::size_t(node)] = 1;
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < nodes.n; ++i) {
+    const bool is_inside = feature == inside_the_body && analysis.places.feature[i] < 0;
+    if ((belongs[i] || is_inside) && !analysis.places.excluded[i]) result.push_back(i);
+  }
+  return result;
+}
+
+Goal goal_at(const BodyAnalysis& analysis, const PlaceStress& place) {
+  const auto instant = analysis.envelope.von_mises.instant[place.node];
+  Goal goal{place.feature, {factors_at(analysis, instant), {}}, {place.node}};
+  double sum = 0;
+  for (const auto node : nodes_of(analysis, place.feature)) {
+    const auto stress = stress_at(analysis.responses, analysis.loads.history, node, instant);
+    const double share = von_mises_Pa(stress) / place.value_Pa;
+    if (share < least_share) continue;
+    // Nodes are dense where cells are small already.
+    const double weight =
+        std::pow(share, concentration) * std::cbrt(std::pow(analysis.responses.nodes.volume_m3[node], 2));
+    goal.stress.parts.push_back({node, direction_of(stress, weight)});
+    sum += weight;
+  }
+  for (auto& part : goal.stress.parts)
+    for (double& component : part.tensor) component /= sum;
+  return goal;
+}
+
+std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+  const double leading_Pa = judged[judge(judged).governing].value_Pa;
+  std::vector<const PlaceStress*> leading;
+  for (const auto& place : judged)
+    if (place.value_Pa > 0 && place.value_Pa + place.error_Pa >= leading_Pa) leading.push_back(&place);
+  std::stable_sort(leading.begin(), leading.end(), [](const auto* a, const auto* b) {
+    return a->value_Pa + a->error_Pa > b->value_Pa + b->error_Pa;
+  });
+  leading.resize(std::min(most_goals, leading.size()));
+  std::vector<Goal> goals;
+  for (const auto* place : leading) {
+    const auto spot = std::find_if(analysis.hot_spots.begin(), analysis.hot_spots.end(),
+                                   [&](const auto& s) { return s.name == place->feature; });
+    goals.push_back(spot != analysis.hot_spots.end() ? goal_at(analysis, *spot) : goal_at(analysis, *place));
+  }
+  return goals;
+}
+
+/// Marks the cells by falling contribution until they make up the part that is cut.
+void mark_largest(const std::vector<double>& contributions, std::vector<char>& marked) {
+  std::vector<std::size_t> order(contributions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto a, auto b) { return contributions[a] > contributions[b]; });
+  const double wanted = part_that_is_cut * std::accumulate(contributions.begin(), contributions.end(), 0.0);
+  double sum = 0;
+  for (const auto cell : order) {
+    if (sum >= wanted) break;
+    sum += contributions[cell];
+    marked[cell] = 1;
+  }
+}
+
+}  // namespace
+
+bool is_refined_locally(const BodyScene& body) {
+  return (body.shaft() != nullptr && body.shaft()->keyways.empty()) ||
+         std::holds_alternative<ChamberShape>(body.shape);
+}
+
+LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,
+                             const std::vector<PlaceStress>& judged) {
+  const auto goals = goals_of(analysis, judged);
+  std::vector<fem::StressGoal> stresses;
+  for (const auto& goal : goals) stresses.push_back(goal.stress);
+  const auto errors_Pa = model.goal_errors_Pa(analysis.responses, stresses);
+  const auto& nodes = analysis.responses.nodes;
+  std::vector<char> marked(nodes.n_cells(), 0), is_place(nodes.n, 0);
+  for (const auto& of_goal : errors_Pa) mark_largest(of_goal, marked);
+  for (const auto& goal : goals)
+    for (const auto node : goal.nodes) is_place[node] = 1;
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto cell = nodes.cell(c);
+    if (std::any_of(cell.begin(), cell.end(), [&](auto i) { return is_place[std::size_t(i)] != 0; }))
+      marked[c] = 1;
+  }
+  LocalRefinement result;
+  for (std::size_t c = 0; c < marked.size(); ++c)
+    if (marked[c] != 0) result.cells.push_back(std::int32_t(c));
+  for (const auto& goal : goals) result.features.push_back(goal.feature);
+  for (const auto& place : judged)
+    if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < resolved_fillet)
+      result.coarse.push_back(place.feature);
+  return result;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,33 @@
+/// Which cells of a body of hexahedra a search cuts into eight: those that contribute most to the errors of
+/// the places that may hold the largest stress.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/analysis/place_stress.h"
+
+namespace pipelines {
+
+/// Whether a search refines the body locally: parametric bodies of hexahedra.
+bool is_refined_locally(const BodyScene& body);
+
+struct LocalRefinement {
+  std::vector<std::int32_t> cells;    ///< of the present mesh, ascending
+  std::vector<std::string> features;  ///< places whose own cells are among them
+  std::vector<std::string> coarse;    ///< of these, fillets of few cells (MeshStep::coarse)
+};
+
+/// For each place that may lead, by its stress and error, the stress there is a goal: on surfaces a mean of
+/// von Mises stress at the instant of its maximum, weighted so that it follows the maximum smoothly; at weld
+/// toes the extrapolated hot-spot stress. The product of the errors of the load case and of the goal's dual
+/// solution (fem::Model::goal_errors_Pa) says what each cell contributes. Cut are the cells that together
+/// contribute the larger part to any of the goals, and those at the places themselves.
+/// @param model   that the analysis' responses are of
+/// @param judged  the places with their errors, not empty
+LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,
+                             const std::vector<PlaceStress>& judged);
+
+}  // namespace pipelines
