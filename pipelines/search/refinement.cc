@@ -19,6 +19,8 @@ constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
 /// Cells on a fillet quarter and sectors of a shaft's first mesh; the later ones where the mesher refuses
 /// one.
 constexpr std::array<std::array<int, 2>, 4> first_shaft_meshes = {{{2, 8}, {4, 8}, {4, 12}, {6, 16}}};
+/// With fewer cells on its quarter a fillet's stress does not converge with its order yet.
+constexpr int resolved_fillet = 4;
 /// Of the largest stress: fillets above are resolved from the start, above the second one half as well.
 constexpr double leading_share = 0.8, minor_share = 0.5;
 constexpr double toe_step = 2, other_toes_step = 1.1, elsewhere_step = 1.05, toe_order = 1;

@@ -14,9 +14,6 @@
 
 namespace pipelines {
 
-/// With fewer cells on its quarter a fillet's stress does not converge with its order yet.
-inline constexpr int resolved_fillet = 4;
-
 /// Whether a body is a parametric shaft of hexahedra.
 bool is_block_shaft(const BodyScene& body);
 
