@@ -10,11 +10,12 @@ namespace fem {
 
 namespace {
 
-constexpr int tag = 4;
+constexpr int task_tag = 4;
 using Call = std::array<int, 2>;  // task, exit code
 
 void tell(const Call& call, MPI_Comm communicator) {
-  for (int r = 1; r < n_ranks(communicator); ++r) MPI_Send(call.data(), 2, MPI_INT, r, tag, communicator);
+  for (int r = 1; r < n_ranks(communicator); ++r)
+    MPI_Send(call.data(), 2, MPI_INT, r, task_tag, communicator);
 }
 
 }  // namespace
@@ -22,12 +23,12 @@ void tell(const Call& call, MPI_Comm communicator) {
 HelperCall wait_for_call(MPI_Comm communicator) {
   int is_there = 0;
   while (true) {
-    MPI_Iprobe(0, tag, communicator, &is_there, MPI_STATUS_IGNORE);
+    MPI_Iprobe(0, task_tag, communicator, &is_there, MPI_STATUS_IGNORE);
     if (is_there != 0) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   Call call{};
-  MPI_Recv(call.data(), 2, MPI_INT, 0, tag, communicator, MPI_STATUS_IGNORE);
+  MPI_Recv(call.data(), 2, MPI_INT, 0, task_tag, communicator, MPI_STATUS_IGNORE);
   return {Task(call[0]), call[1]};
 }
 
