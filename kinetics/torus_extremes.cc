@@ -18,7 +18,7 @@ using Eigen::Index;
 
 constexpr int points = 72;       // to a turn of either angle
 constexpr int n_candidates = 4;  // local extremes of the grid that are refined
-const double turn_rad = 2 * std::acos(-1.0);
+const double circle_rad = 2 * std::acos(-1.0);
 
 /// The mill's steady loads as a function of the two angles.
 class Torus {
@@ -46,14 +46,14 @@ private:
 };
 
 double within_turn(double angle_rad) {
-  const double rest = std::fmod(angle_rad, turn_rad);
-  return rest < 0 ? rest + turn_rad : rest;
+  const double rest = std::fmod(angle_rad, circle_rad);
+  return rest < 0 ? rest + circle_rad : rest;
 }
 
 /// Climbs sign * quantity from a point of the grid: to the best of 5 x 5 neighbours, or half the step.
 TorusPoint climb(const Torus& torus, const std::string& quantity, double sign, double phi_rad,
                  double chi_rad) {
-  double step_rad = turn_rad / points / 2;
+  double step_rad = circle_rad / points / 2;
   TorusPoint best{0, phi_rad, chi_rad};
   ArrayXd phi(25), chi(25);
   while (step_rad > 1e-8) {
@@ -119,8 +119,8 @@ std::vector<TorusExtremes> torus_extremes(const VibratoryMill& mill, const std::
   vibratory::check_parameters(mill, effects);
   ArrayXd phi(points * points), chi(points * points);
   for (Index i = 0; i < phi.size(); ++i) {
-    phi[i] = turn_rad * double(i / points) / points;
-    chi[i] = turn_rad * double(i % points) / points;
+    phi[i] = circle_rad * double(i / points) / points;
+    chi[i] = circle_rad * double(i % points) / points;
   }
   const Torus torus(mill, effects);
   const LoadHistory on_grid = torus.at(phi, chi);

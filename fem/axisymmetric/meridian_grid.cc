@@ -20,7 +20,7 @@
 namespace fem {
 namespace {
 
-using Cell = dealii::DoFHandler<2>::active_cell_iterator;
+using DofCell = dealii::DoFHandler<2>::active_cell_iterator;
 using Line = dealii::Triangulation<2>::face_iterator;
 using Ends = std::pair<unsigned, unsigned>;
 
@@ -140,13 +140,13 @@ private:
   }
 
   /// The edge that the face of a cell is, or none.
-  SurfaceEdge* edge_of(const Cell& cell, unsigned face) {
+  SurfaceEdge* edge_of(const DofCell& cell, unsigned face) {
     const auto line = cell->face(face);
     const auto found = edge_of_.find(std::minmax(line->vertex_index(0), line->vertex_index(1)));
     return found == edge_of_.end() ? nullptr : &grid_.edges[found->second];
   }
 
-  void sample(const Cell& cell, const MeridianNumbering::OfCell& numbers, dealii::FEValues<2>& values) {
+  void sample(const DofCell& cell, const MeridianNumbering::OfCell& numbers, dealii::FEValues<2>& values) {
     std::array<int, 9> points;
     points.fill(-1);
     for (unsigned v = 0; v < 4; ++v)
@@ -203,7 +203,7 @@ private:
     }
   }
 
-  void integrate_cell(const Cell& cell, const MeridianNumbering::OfCell& numbers,
+  void integrate_cell(const DofCell& cell, const MeridianNumbering::OfCell& numbers,
                       const dealii::FEValues<2>& inside) {
     auto base = static_cast<dealii::Triangulation<2>::cell_iterator>(cell);
     while (base->level() > 0) base = base->parent();
@@ -221,7 +221,7 @@ private:
   }
 
   /// The section plane that a side of a cell lies in, or -1.
-  int plane_of(const Cell& cell, unsigned face) const {
+  int plane_of(const DofCell& cell, unsigned face) const {
     const auto a = cell->face(face)->vertex(0), b = cell->face(face)->vertex(1);
     for (std::size_t i = 0; i < planes_.size(); ++i) {
       const auto& plane = planes_[i];

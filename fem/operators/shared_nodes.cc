@@ -11,7 +11,7 @@ namespace fem {
 
 namespace {
 
-constexpr int tag = 2;
+constexpr int shared_nodes_tag = 2;
 
 /// Calls use(first of the node's numbers, how many) for each group of lanes.
 template <typename T, typename Use>
@@ -60,8 +60,10 @@ std::vector<std::vector<T>> SharedNodes::exchange(const std::vector<std::vector<
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
     received[n].resize(sent[n].size());
     const auto bytes = static_cast<int>(sent[n].size() * sizeof(T));
-    MPI_Irecv(received[n].data(), bytes, MPI_BYTE, neighbours_[n].rank, tag, communicator_, &requests[2 * n]);
-    MPI_Isend(sent[n].data(), bytes, MPI_BYTE, neighbours_[n].rank, tag, communicator_, &requests[2 * n + 1]);
+    MPI_Irecv(received[n].data(), bytes, MPI_BYTE, neighbours_[n].rank, shared_nodes_tag, communicator_,
+              &requests[2 * n]);
+    MPI_Isend(sent[n].data(), bytes, MPI_BYTE, neighbours_[n].rank, shared_nodes_tag, communicator_,
+              &requests[2 * n + 1]);
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   return received;

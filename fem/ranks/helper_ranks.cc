@@ -14,7 +14,8 @@ constexpr int task_tag = 4;
 using Call = std::array<int, 2>;  // task, exit code
 
 void tell(const Call& call, MPI_Comm communicator) {
-  for (int r = 1; r < n_ranks(communicator); ++r) MPI_Send(call.data(), 2, MPI_INT, r, task_tag, communicator);
+  for (int r = 1; r < n_ranks(communicator); ++r)
+    MPI_Send(call.data(), 2, MPI_INT, r, task_tag, communicator);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace fem {
 
 namespace {
-constexpr int tag = 1;
+constexpr int message_tag = 1;
 constexpr std::size_t piece = std::size_t(1) << 30;  // MPI counts in int
 }  // namespace
 
@@ -33,20 +33,20 @@ Message& Message::operator>>(Grid& grid) {
 
 void Message::send(int to, MPI_Comm communicator) const {
   const std::size_t size = bytes_.size();
-  MPI_Send(&size, sizeof size, MPI_BYTE, to, tag, communicator);
+  MPI_Send(&size, sizeof size, MPI_BYTE, to, message_tag, communicator);
   for (std::size_t at = 0; at < size; at += piece)
-    MPI_Send(bytes_.data() + at, static_cast<int>(std::min(piece, size - at)), MPI_BYTE, to, tag,
+    MPI_Send(bytes_.data() + at, static_cast<int>(std::min(piece, size - at)), MPI_BYTE, to, message_tag,
              communicator);
 }
 
 Message Message::receive(int from, MPI_Comm communicator) {
   std::size_t size = 0;
-  MPI_Recv(&size, sizeof size, MPI_BYTE, from, tag, communicator, MPI_STATUS_IGNORE);
+  MPI_Recv(&size, sizeof size, MPI_BYTE, from, message_tag, communicator, MPI_STATUS_IGNORE);
   Message message;
   message.bytes_.resize(size);
   for (std::size_t at = 0; at < size; at += piece)
-    MPI_Recv(message.bytes_.data() + at, static_cast<int>(std::min(piece, size - at)), MPI_BYTE, from, tag,
-             communicator, MPI_STATUS_IGNORE);
+    MPI_Recv(message.bytes_.data() + at, static_cast<int>(std::min(piece, size - at)), MPI_BYTE, from,
+             message_tag, communicator, MPI_STATUS_IGNORE);
   return message;
 }
 

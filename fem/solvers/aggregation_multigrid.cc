@@ -13,7 +13,7 @@ namespace fem {
 namespace {
 
 constexpr double strong = 0.08;
-constexpr Chebyshev::Control smoothing{5, 20};
+constexpr Chebyshev::Control aggregate_smoothing{5, 20};
 constexpr std::size_t small = 800;         // aggregates: factorised and solved in no time
 constexpr std::size_t rows_at_once = 512;  // nodes
 
@@ -42,7 +42,7 @@ void AggregationMultigrid::build(BlockMatrix<double> stiffness, const std::vecto
     Level level;
     level.stiffness = to_float(stiffness);
     level.smoother = std::make_unique<Chebyshev>(
-        diagonal(stiffness), smoothing,
+        diagonal(stiffness), aggregate_smoothing,
         [&](const Lanes& lanes, const auto& x, auto& y) { multiply(level.stiffness, false, lanes, x, y); },
         *kernels_);
     const auto aggregates = aggregate_nodes(stiffness, siblings, strong);

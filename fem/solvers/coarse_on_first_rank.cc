@@ -11,7 +11,7 @@ namespace fem {
 
 namespace {
 
-constexpr int tag = 3;
+constexpr int coarse_tag = 3;
 
 /// What a rank brings.
 struct Part {
@@ -110,8 +110,8 @@ void CoarseOnFirstRank::solve(const Lanes& lanes, const BlockVector<float>& b, B
                               WorkSpace& work) const {
   const auto size = [&](std::size_t n_nodes) { return static_cast<int>(3 * n_nodes * lanes.n_lanes); };
   if (!solver_) {
-    MPI_Send(b.data(), size(b.n_nodes()), MPI_FLOAT, 0, tag, communicator_);
-    MPI_Recv(x.data(), size(x.n_nodes()), MPI_FLOAT, 0, tag, communicator_, MPI_STATUS_IGNORE);
+    MPI_Send(b.data(), size(b.n_nodes()), MPI_FLOAT, 0, coarse_tag, communicator_);
+    MPI_Recv(x.data(), size(x.n_nodes()), MPI_FLOAT, 0, coarse_tag, communicator_, MPI_STATUS_IGNORE);
     return;
   }
   const std::size_t n = solver_->n_nodes();
@@ -121,7 +121,7 @@ void CoarseOnFirstRank::solve(const Lanes& lanes, const BlockVector<float>& b, B
     const float* from = b.data();
     if (r > 0) {
       received.resize(size(node_[r].size()));
-      MPI_Recv(received.data(), size(node_[r].size()), MPI_FLOAT, int(r), tag, communicator_,
+      MPI_Recv(received.data(), size(node_[r].size()), MPI_FLOAT, int(r), coarse_tag, communicator_,
                MPI_STATUS_IGNORE);
       from = received.data();
     }
@@ -133,7 +133,7 @@ void CoarseOnFirstRank::solve(const Lanes& lanes, const BlockVector<float>& b, B
     received.resize(size(node_[r].size()));
     float* to = r > 0 ? received.data() : x.data();
     for_rows(lanes, node_[r], n, whole, to, [](float value, float& own) { own = value; });
-    if (r > 0) MPI_Send(to, size(node_[r].size()), MPI_FLOAT, int(r), tag, communicator_);
+    if (r > 0) MPI_Send(to, size(node_[r].size()), MPI_FLOAT, int(r), coarse_tag, communicator_);
   }
 }
 

@@ -81,7 +81,8 @@ private:
       for (int place = 0; place < 27; ++place) {
         const int x = place % 3 + 2 * (part & 1), y = place / 3 % 3 + 2 * (part >> 1 & 1),
                   z = place / 9 + 2 * (part >> 2);
-        fine_.grid.cell_nodes.push_back(lattice[std::size_t(x + 5 * y + 25 * z)]);
+        const int at = x + 5 * y + 25 * z;
+        fine_.grid.cell_nodes.push_back(lattice[std::size_t(at)]);
       }
       fine_.grid.volume_id.push_back(coarse_.grid.volume_id[c]);
     }

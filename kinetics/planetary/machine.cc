@@ -11,7 +11,7 @@
 namespace kinetics {
 namespace {
 
-void require_positive(const std::string& parameter, double value) {
+void require_positive_geometry(const std::string& parameter, double value) {
   require_finite(parameter, value);
   if (value <= 0) refuse(parameter, value, "must be positive");
 }
@@ -27,11 +27,11 @@ void add_belt(double difference_m, PlanetaryGeometry& g) {
 }
 
 PlanetaryGeometry from(const PlanetaryRatios& ratios, double drum_radius_m) {
-  require_positive("geometry.k", ratios.k);
+  require_positive_geometry("geometry.k", ratios.k);
   if (ratios.k >= 1) refuse("geometry.k", ratios.k, "must be below 1: k = r_A / (l_OA + r_A)");
-  require_positive("geometry.b", ratios.b);
-  require_positive("geometry.c", ratios.c);
-  require_positive("drum_radius_m", drum_radius_m);
+  require_positive_geometry("geometry.b", ratios.b);
+  require_positive_geometry("geometry.c", ratios.c);
+  require_positive_geometry("drum_radius_m", drum_radius_m);
   const double d_over_rA = (1 - ratios.c) / ratios.c;
   PlanetaryGeometry g;
   g.drum_pulley_m = drum_radius_m / ratios.b;                   // (7)
@@ -44,9 +44,9 @@ PlanetaryGeometry from(const PlanetaryRatios& ratios, double drum_radius_m) {
 }
 
 PlanetaryGeometry from(const PlanetaryLengths& lengths) {
-  require_positive("geometry.carrier_m", lengths.carrier_m);
-  require_positive("geometry.central_pulley_m", lengths.central_pulley_m);
-  require_positive("geometry.drum_pulley_m", lengths.drum_pulley_m);
+  require_positive_geometry("geometry.carrier_m", lengths.carrier_m);
+  require_positive_geometry("geometry.central_pulley_m", lengths.central_pulley_m);
+  require_positive_geometry("geometry.drum_pulley_m", lengths.drum_pulley_m);
   const double difference_m = lengths.central_pulley_m - lengths.drum_pulley_m;
   PlanetaryGeometry g;
   g.carrier_m = lengths.carrier_m;

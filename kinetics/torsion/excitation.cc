@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinetics/constants.h"
 #include "kinetics/torsion/checks.h"
 
 namespace kinetics::torsion {
 namespace {
-
-constexpr double two_pi = 2 * 3.14159265358979323846;
 
 /// Order of the reference shaft for an order of a shaft line.
 double reference_order(const DriveTrain& train, const ReducedTrain& reduced, double order,
@@ -28,7 +27,7 @@ double add_table(const std::vector<double>& torque_Nm, const TorqueLine& fundame
   for (std::size_t j = 0; j < n; ++j) {
     largest_Nm = std::max(largest_Nm, std::abs(torque_Nm[j]));
     mean_Nm += torque_Nm[j] / double(n);
-    root[j] = std::polar(1.0, -two_pi * double(j) / double(n));
+    root[j] = std::polar(1.0, -2 * pi * double(j) / double(n));
   }
   for (std::size_t k = 1; 2 * k <= n; ++k) {
     std::complex<double> sum = 0;
@@ -85,7 +84,7 @@ std::optional<double> common_period_s(const std::vector<double>& frequencies_rad
     const auto whole = [&](double w) {
       return std::abs(w / base * q - std::round(w / base * q)) <= 1e-9 * (w / base) * q;
     };
-    if (std::all_of(frequencies_rad_s.begin(), frequencies_rad_s.end(), whole)) return q * two_pi / base;
+    if (std::all_of(frequencies_rad_s.begin(), frequencies_rad_s.end(), whole)) return q * (2 * pi) / base;
   }
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 /// The paper's own tables, errata included (kinetics/README.md, errata 1-6).
 #include <cmath>
 
+#include "kinetics/constants.h"
 #include "kinetics/drive_train.h"
 #include "kinetics/machine_refused.h"
 #include "kinetics/torsion/checks.h"
@@ -14,8 +15,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-constexpr double two_pi = 2 * 3.14159265358979323846;
 
 /// A chain as the tables hold it: J and C in their order, M and w.
 struct Chain {
@@ -53,7 +52,7 @@ Chain reduced_to(const DriveTrain& train, std::size_t inertia) {
   if (reduced.n_nodes() != n || reduced.held)
     throw MachineRefused("the published tables hold a free chain without rigid elements; take them out");
   Chain chain{reduced.inertia, reduced.stiffness, torque_Nm,
-              frequency_rad_s / two_pi / std::abs(reduced.ratio[0])};
+              frequency_rad_s / (2 * pi) / std::abs(reduced.ratio[0])};
   for (Index e = 0; e < reduced.n_edges(); ++e) {
     const TrainElement& element = train.elements[e];
     if (reduced.edges[e].first != e || reduced.edges[e].second != e + 1)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinetics/constants.h"
 #include "kinetics/machine_refused.h"
 #include "kinetics/torsion/forced.h"
 #include "kinetics/wrong_input.h"
@@ -9,10 +10,8 @@ namespace kinetics {
 namespace torsion {
 namespace {
 
-constexpr double two_pi = 2 * 3.14159265358979323846;
-
 std::string both_units(double frequency_rad_s) {
-  return number(frequency_rad_s) + " rad/s (" + number(frequency_rad_s / two_pi) + " Hz)";
+  return number(frequency_rad_s) + " rad/s (" + number(frequency_rad_s / (2 * pi)) + " Hz)";
 }
 
 /// Column of the natural frequency nearest to w, on a scale of ratios.

@@ -145,9 +145,8 @@ Eigen::Array2Xd translation_velocity(const VibratoryMill& mill, const Instants& 
 }
 
 Eigen::Array2Xd translation_acceleration(const VibratoryMill& mill, const Instants& at, double shift_rad) {
-  const Eigen::Array2Xd acceleration_m_s2 =
-      composed(-mill.eccentricity_m * at.speed_rad_s.square(), mill.eccentricity_m * at.acceleration_rad_s2,
-               at.along_phi);
+  Eigen::Array2Xd acceleration_m_s2 = composed(-mill.eccentricity_m * at.speed_rad_s.square(),
+                                               mill.eccentricity_m * at.acceleration_rad_s2, at.along_phi);
   if (shift_rad == 0) return acceleration_m_s2;
   return (Eigen::Rotation2Dd(-shift_rad).toRotationMatrix() * acceleration_m_s2.matrix()).array();
 }

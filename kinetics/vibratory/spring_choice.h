@@ -25,7 +25,7 @@ struct ScalableMill {
 };
 
 /// Scales at which an excited harmonic of the moment meets the natural frequency of pitch, by rising scale.
-std::vector<PitchResonance> pitch_resonances(const ScalableMill& mill, const SpringSearch& search);
+std::vector<PitchResonance> pitch_resonances(const ScalableMill& scalable, const SpringSearch& search);
 
 /// The scale of the search with the least objective: log-spaced scan, golden section in each local minimum.
 /// @param objective  infinite where it is not defined

@@ -87,7 +87,7 @@ gmsh::vectorpair eccentric_disc(const SolidLayout& layout, const SolidSegment& s
   for (const double z : {segment.begin_m, segment.zone_begin_m, segment.zone_end_m, segment.end_m})
     outline.line_to({x + segment.radius_m, y, z});
   outline.line_to({x, y, segment.end_m});
-  const auto disc = turned_round(outline.close(), x, y);
+  auto disc = turned_round(outline.close(), x, y);
   if (layout.bore_radius_m == 0) return disc;
   const int hole = occ::addCylinder(0, 0, to_mm * segment.begin_m, 0, 0,
                                     to_mm * (segment.end_m - segment.begin_m), to_mm * layout.bore_radius_m);

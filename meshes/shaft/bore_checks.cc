@@ -19,7 +19,7 @@ std::string bored(const ShaftSegment& segment) {
   return segment.name + (segment.bore_m > 0 ? " (bore " + mm(segment.bore_m) + ")" : " (solid)");
 }
 
-void check_names(const Shaft& shaft) {
+void check_port_names(const Shaft& shaft) {
   std::set<std::string> names = {"end_1", "end_2"};
   for (const ShaftSegment& segment : shaft.segments) names.insert(segment.name);
   for (const ShaftSegment& segment : shaft.segments)
@@ -95,7 +95,7 @@ double widest_bore(const Shaft& shaft, std::size_t segment) {
 }  // namespace
 
 void check_bores(const Shaft& shaft) {
-  check_names(shaft);
+  check_port_names(shaft);
   for (const ShaftSegment& segment : shaft.segments) check_size(segment);
   for (std::size_t i = 0; i + 1 < shaft.segments.size(); ++i) {
     const ShaftSegment &left = shaft.segments[i], &right = shaft.segments[i + 1];

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double usual_tolerance = 0.05;
+constexpr double bench_tolerance = 0.05;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ AccuracyBench::~AccuracyBench() {
 
 double AccuracyBench::tolerance() const {
   if (options_.tolerance > 0) return options_.tolerance;
-  return scene_.accuracy.tolerance > 0 ? scene_.accuracy.tolerance : usual_tolerance;
+  return scene_.accuracy.tolerance > 0 ? scene_.accuracy.tolerance : bench_tolerance;
 }
 
 double AccuracyBench::elapsed_s() const {

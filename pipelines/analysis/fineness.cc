@@ -44,8 +44,8 @@ struct Refine {
   void operator()(ChamberShape& shape) const {
     auto& mesh = shape.mesh;
     mesh.size_m = (mesh.size_m > 0 ? mesh.size_m : usual_size_m(shape.geometry)) / factor;
-    mesh.cells_through_wall =
-        std::clamp(int(std::lround(factor * mesh.cells_through_wall)), 1, mesh.most_cells_through_wall);
+    mesh.cells_through_wall = std::clamp(int(std::lround(factor * mesh.cells_through_wall)), 1,
+                                         meshes::ChamberMeshControl::most_cells_through_wall);
     mesh.growth = std::min(steepest_growth, mesh.growth / factor);
     mesh.toe_walls /= factor;
     for (auto& toe : mesh.fine_toes) toe.walls /= factor;

@@ -62,7 +62,7 @@ std::vector<Card> cards_of(const kinetics::LoadHistory& loads) {
 }
 
 /// Room for every double, and few enough characters for eight in a line.
-std::string number(double value) {
+std::string digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.12E", value);
   return text;
@@ -73,7 +73,7 @@ std::string amplitude(const Card& card, const kinetics::LoadHistory& loads) {
   const double period_s = n > 1 ? loads.time_s[n - 1] + (loads.time_s[1] - loads.time_s[0]) : 1;
   std::string text = "*AMPLITUDE, NAME=" + card.name + "\n";
   for (Eigen::Index i = 0; i <= n; ++i) {
-    text += number(i < n ? loads.time_s[i] : period_s) + "," + number(card.values[i < n ? i : 0]);
+    text += digits(i < n ? loads.time_s[i] : period_s) + "," + digits(card.values[i < n ? i : 0]);
     text += i % 4 == 3 || i == n ? "\n" : ",";
   }
   return text;

@@ -38,7 +38,7 @@ void write_model(std::FILE* out, const std::string& title, const fem::Material& 
                "MATERIAL=MATERIAL\n*BOUNDARY\n",
                material.youngs_modulus_Pa, material.poisson_ratio);
   for (const auto unknown : loads.held)
-    std::fprintf(out, "%lld,%d\n", static_cast<long long>(unknown / 3 + 1), int(unknown % 3 + 1));
+    std::fprintf(out, "%lld,%d\n", static_cast<long long>(unknown) / 3 + 1, int(unknown % 3 + 1));
 }
 
 void write_step(std::FILE* out, const std::string& channel, const double* force, const Serendipity& kept,

@@ -64,13 +64,13 @@ LoadCollector::LoadCollector(const LoadedBody& body, std::vector<std::string> ef
   }
 }
 
-const meshes::Port& LoadCollector::find(const std::string& name) const {
+const meshes::Port& LoadCollector::find(const std::string& port_name) const {
   std::vector<std::string> names;
   for (const auto& port : body_.ports) {
-    if (port.name == name) return port;
+    if (port.name == port_name) return port;
     names.push_back(port.name);
   }
-  throw StageRefused("port \"" + name + "\" is missing on the " + body_.name +
+  throw StageRefused("port \"" + port_name + "\" is missing on the " + body_.name +
                      ": load enters there; it has " + listed(names));
 }
 
@@ -131,11 +131,11 @@ void LoadCollector::enter(const meshes::Port& port, const char* component, Compo
   count(port.name, effect, centre_of(port), load);
 }
 
-void LoadCollector::force(const std::string& name, const std::string& effect, const Array2Xd& force_N) {
-  const auto& port = find(name);
+void LoadCollector::force(const std::string& port_name, const std::string& effect, const Array2Xd& force_N) {
+  const auto& port = find(port_name);
   enter(port, "fx", Component::fx, effect, force_N.row(0).transpose());
   enter(port, "fy", Component::fy, effect, force_N.row(1).transpose());
-  const auto [known, is_first] = forces_[name].try_emplace(effect, force_N);
+  const auto [known, is_first] = forces_[port_name].try_emplace(effect, force_N);
   if (!is_first) known->second += force_N;
 }
 
@@ -147,17 +147,17 @@ void LoadCollector::torque(const std::string& port, const std::string& effect, c
   enter(find(port), "torque", Component::torque, effect, moment_Nm);
 }
 
-void LoadCollector::tilt(const std::string& name, const std::string& effect, const Array2Xd& moment_Nm) {
-  const auto& port = find(name);
+void LoadCollector::tilt(const std::string& port_name, const std::string& effect, const Array2Xd& moment_Nm) {
+  const auto& port = find(port_name);
   enter(port, "mx", Component::mx, effect, moment_Nm.row(0).transpose());
   enter(port, "my", Component::my, effect, moment_Nm.row(1).transpose());
 }
 
-void LoadCollector::pressure(const std::string& name) {
-  const auto& port = find(name);
-  const auto forces = forces_.find(name);
+void LoadCollector::pressure(const std::string& port_name) {
+  const auto& port = find(port_name);
+  const auto forces = forces_.find(port_name);
   if (forces == forces_.end() || port.kind == meshes::Port::Kind::face) return;
-  const auto found = body_.pressures.find(name);
+  const auto found = body_.pressures.find(port_name);
   const PressureModel model = found != body_.pressures.end() ? found->second : PressureModel{};
   Array2Xd total = Array2Xd::Zero(2, n_instants_);
   for (const auto& [effect, force] : forces->second) total += force;
@@ -178,7 +178,7 @@ void LoadCollector::pressure(const std::string& name) {
       if (n == 1) continue;
       const double c = pattern_coefficient(model.pattern, n);
       if (c == 0) continue;
-      const std::string channel = name + ".p" + std::to_string(n);
+      const std::string channel = port_name + ".p" + std::to_string(n);
       add({channel + "c", fem::SeatPressure{surface, n, c, Phase::cosine}}, "N", effect,
           share * (n * beta).cos(), force_scale_N_);
       if (n > 0)
@@ -195,6 +195,7 @@ void LoadCollector::accelerate(const RegionMass& region, const std::string& effe
   const double mass = region.masses.mass_kg;
   const auto& s = region.masses.first_moment_kg_m;
   const auto& [xx, yy, zz, xy, yz, xz] = region.masses.second_moments_kg_m2;
+  const double polar = xx + yy;
   Wrench load = Wrench::Zero(6, n_instants_);
   const auto enter_field = [&](const char* component, Field which, const char* unit, const ArrayXd& a,
                                const std::array<double, 6>& per_unit) {
@@ -202,7 +203,7 @@ void LoadCollector::accelerate(const RegionMass& region, const std::string& effe
     // What the field's forces add up to where none cancels the other; for spin and rotation at most, by
     // Cauchy and Schwarz. The resultant is no measure: that of a body that spins about its axis is round-off.
     const bool is_uniform = which <= Field::translation_z;
-    const double lever = is_uniform ? mass : std::sqrt(mass * (xx + yy));
+    const double lever = is_uniform ? mass : std::sqrt(mass * polar);
     add({prefix + component, fem::BodyForce{which, region.volume_ids}}, unit, effect, a,
         lever > 0 ? force_scale_N_ / lever * 1e-3 : 0);
     for (Index c = 0; c < 6; ++c) load.row(c) += per_unit[std::size_t(c)] * a.transpose();

@@ -74,15 +74,15 @@ public:
 
   // Loads at a port, in the body's frame. Force through the port's own point, moments about it.
   // @throws StageRefused if the body has no such port
-  void force(const std::string& port, const std::string& effect, const Eigen::Array2Xd& force_N);
+  void force(const std::string& port_name, const std::string& effect, const Eigen::Array2Xd& force_N);
   void axial_force(const std::string& port, const std::string& effect, const Eigen::ArrayXd& force_N);
   void torque(const std::string& port, const std::string& effect, const Eigen::ArrayXd& moment_Nm);
-  void tilt(const std::string& port, const std::string& effect, const Eigen::Array2Xd& moment_Nm);
+  void tilt(const std::string& port_name, const std::string& effect, const Eigen::Array2Xd& moment_Nm);
 
   /// Harmonics of the pressure that the forces entered at the port so far make, by the port's model. They
   /// carry |F| cos(n beta), which is not linear in the effects; effect e gets the share F_e . F/|F|, so that
   /// the shares add up exactly.
-  void pressure(const std::string& port);
+  void pressure(const std::string& port_name);
 
   void accelerate(const RegionMass& region, const std::string& effect, const AccelerationField& field);
   void accelerate(const AttachedMass& mass, const std::string& effect, const AccelerationField& field);
@@ -114,15 +114,16 @@ private:
     std::string unit;
     std::map<std::size_t, Eigen::ArrayXd> parts;  // by effect
   };
-  const meshes::Port& find(const std::string& port) const;
+  const meshes::Port& find(const std::string& port_name) const;
   fem::LoadSurface surface_of(const meshes::Port& port) const;
   std::size_t index_of(const std::string& effect);
   void enter(const meshes::Port& port, const char* component, fem::SurfaceResultant::Component which,
              const std::string& effect, const Eigen::ArrayXd& values);
   void add(const fem::UnitLoad& load, const std::string& unit, const std::string& effect,
            const Eigen::ArrayXd& values, double scale);
+  /// @param load  about the point
   void count(const std::string& place, const std::string& effect, const Eigen::Vector3d& point,
-             const Wrench& about_point);
+             const Wrench& load);
 
   LoadedBody body_;
   std::vector<std::string> effects_;

@@ -64,9 +64,10 @@ double MassComparison::compare(const std::string& name, const std::string& unit,
   return given - mesh;
 }
 
-void add_difference(std::vector<AttachedMass>& list, const std::string& port, const PlanarMass& d) {
-  if (d.mass_kg == 0 && d.x_kg_m == 0 && d.y_kg_m == 0 && d.polar_kg_m2 == 0) return;
-  list.push_back({"difference to the mesh", port, d.mass_kg, {d.x_kg_m, d.y_kg_m}, d.polar_kg_m2});
+void add_difference(std::vector<AttachedMass>& list, const std::string& port, const PlanarMass& rest) {
+  if (rest.mass_kg == 0 && rest.x_kg_m == 0 && rest.y_kg_m == 0 && rest.polar_kg_m2 == 0) return;
+  list.push_back(
+      {"difference to the mesh", port, rest.mass_kg, {rest.x_kg_m, rest.y_kg_m}, rest.polar_kg_m2});
 }
 
 }  // namespace pipelines

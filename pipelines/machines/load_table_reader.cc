@@ -50,7 +50,7 @@ std::string not_a_load() {
 /// A column in SI; errors go to the findings, at the column's title.
 Eigen::ArrayXd in_si(const TableFile& table, const TableColumn& column, const std::string& si_unit,
                      SceneFindings& findings) {
-  const Eigen::ArrayXd values =
+  Eigen::ArrayXd values =
       Eigen::Map<const Eigen::ArrayXd>(column.values.data(), Eigen::Index(column.values.size()));
   const auto refuse = [&](const std::string& remedy) {
     findings.errors.push_back(
@@ -59,7 +59,7 @@ Eigen::ArrayXd in_si(const TableFile& table, const TableColumn& column, const st
   };
   if (column.unit.empty()) return refuse("has no unit; write \"" + column.name + " [" + si_unit + "]\"");
   try {
-    const Eigen::ArrayXd in_SI = values * to_si("1 " + column.unit, si_unit);
+    Eigen::ArrayXd in_SI = values * to_si("1 " + column.unit, si_unit);
     for (Eigen::Index i = 0; i < in_SI.size(); ++i)
       if (!loads_within.contains(in_SI[i])) {
         findings.errors.push_back({table.file.string(), table.lines[std::size_t(i)], column.column,
@@ -126,7 +126,7 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
 
 std::optional<LoadName> read_load_name(SceneTable& entry) {
   const std::string name = entry.text("load");
-  const auto load = parse_load(name);
+  auto load = parse_load(name);
   if (!load && !name.empty()) entry.refuse("load", not_a_load());
   return load;
 }

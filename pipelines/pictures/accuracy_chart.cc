@@ -21,7 +21,7 @@ namespace pipelines {
 namespace {
 
 // Pixels.
-constexpr int width = 1500, height = 950, font = 22, small_font = 18;
+constexpr int width = 1500, height = 950, chart_font = 22, small_font = 18;
 constexpr double left = 130, right = 1130, bottom = 110, top = 800, disc_radius = 8;
 
 /// Told apart by hue and by lightness (the first six after Okabe and Ito).
@@ -81,7 +81,7 @@ public:
   }
 
   void draw(const std::string& title) {
-    words(title, font + 4, left, height - 60);
+    words(title, chart_font + 4, left, height - 60);
     words(fmt::format("{} of the {}; reference {:.2f} MPa ({})", study_.quantity, study_.body,
                       study_.reference_Pa / 1e6, study_.reference),
           small_font, left, height - 95);
@@ -128,8 +128,8 @@ private:
     frame.line(left, bottom, right, bottom);
     frame.line(left, bottom, left, top);
     frame.put(renderer_, ink, 2);
-    words("seconds", font, 0.5 * (left + right) - 40, bottom - 70);
-    words("error of the stress", font, left - 100, top + 20);
+    words("seconds", chart_font, 0.5 * (left + right) - 40, bottom - 70);
+    words("error of the stress", chart_font, left - 100, top + 20);
   }
 
   void draw_tolerance() {

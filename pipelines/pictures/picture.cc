@@ -37,7 +37,7 @@ namespace pipelines {
 namespace {
 
 /// Viridis, the colour map of matplotlib: even steps in lightness, legible in grey and to the colour-blind.
-vtkSmartPointer<vtkLookupTable> colours(const std::array<double, 2>& range) {
+vtkSmartPointer<vtkLookupTable> colours_of(const std::array<double, 2>& range) {
   constexpr std::array<std::array<double, 3>, 11> viridis = {{{0.267004, 0.004874, 0.329415},
                                                               {0.282623, 0.140926, 0.457517},
                                                               {0.253935, 0.265254, 0.529983},
@@ -205,8 +205,8 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const View& view = seen.view;
   const double lowest = drawn.surface->GetPointData()->GetScalars()->GetRange()[0];
   const double from = std::min(0., lowest);
-  const auto table =
-      colours(options.range.value_or(std::array<double, 2>{from, peak.value > from ? peak.value : from + 1}));
+  const auto table = colours_of(
+      options.range.value_or(std::array<double, 2>{from, peak.value > from ? peak.value : from + 1}));
   const bool some_excluded = drawn.surface->GetPointData()->GetArray(excluded_array)->GetRange()[1] > 0;
   Frame all = frame_of(drawn.surface.get(), view);
   if (seen.cut)

@@ -217,9 +217,10 @@ meshes::Shaft placed(const Contour& contour, SceneTable& body, const ContourRule
   return result;
 }
 
-meshes::ShaftMeshControl read_mesh(SceneTable mesh) {
-  const meshes::ShaftMeshControl usual;
-  meshes::ShaftMeshControl control;
+meshes::ShaftMeshControl read_shaft_mesh(SceneTable mesh) {
+  using Control = meshes::ShaftMeshControl;
+  const Control usual;
+  Control control;
   control.cells_per_fillet_quarter = mesh.count_or("cells_per_fillet_quarter", 2, 64,
                                                    usual.cells_per_fillet_quarter, "along a quarter circle");
   if (control.cells_per_fillet_quarter % 2 != 0)
@@ -229,7 +230,7 @@ meshes::ShaftMeshControl read_mesh(SceneTable mesh) {
   if (control.n_sectors % 4 != 0)
     mesh.refuse("sectors",
                 "must be a multiple of 4; write " + std::to_string((control.n_sectors / 4 + 1) * 4));
-  control.growth = mesh.quantity_or("growth", "1", between(0.05, usual.steepest_growth), usual.growth,
+  control.growth = mesh.quantity_or("growth", "1", between(0.05, Control::steepest_growth), usual.growth,
                                     "slope of the cell size away from fillets");
   mesh.know("largest_cell");
   if (mesh.has("largest_cell")) control.largest_cell_m = mesh.quantity("largest_cell", "m", positive(10));
@@ -250,7 +251,7 @@ ShaftShape read_shaft_shape(SceneTable& body, const ContourRules& rules, SceneFi
   shape.geometry = placed(contour, body, rules);
   shape.keyways = read_keyways(body);
   if (shape.keyways.empty())
-    shape.mesh = read_mesh(body.table_or_empty("mesh"));
+    shape.mesh = read_shaft_mesh(body.table_or_empty("mesh"));
   else
     shape.solid = read_solid_control(body.table_or_empty("mesh"));
   return shape;

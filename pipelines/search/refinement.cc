@@ -65,7 +65,8 @@ MeshStep refine_chamber(BodyScene& body, const BodyAnalysis& analysis,
   const auto before = std::get<ChamberShape>(body.shape).mesh;
   body = with_fineness(body, elsewhere_step);
   auto& mesh = std::get<ChamberShape>(body.shape).mesh;
-  mesh.cells_through_wall = std::min(before.cells_through_wall + 1, mesh.most_cells_through_wall);
+  mesh.cells_through_wall =
+      std::min(before.cells_through_wall + 1, meshes::ChamberMeshControl::most_cells_through_wall);
   mesh.toe_walls = before.toe_walls / other_toes_step;
   mesh.fine_toes = before.fine_toes;
   MeshStep step{MeshPart::all, toe_step, toe_order, {}};

@@ -62,7 +62,7 @@ public:
   Bench& operator=(const Bench&) = delete;
 
   fs::path place(const measure::Refinement& mesh) const {
-    const auto result = directory_ / (std::to_string(mesh.fillet_cells) + "_" + std::to_string(mesh.sectors));
+    auto result = directory_ / (std::to_string(mesh.fillet_cells) + "_" + std::to_string(mesh.sectors));
     fs::create_directory(result);
     return result;
   }
@@ -130,7 +130,7 @@ Row theirs(const Bench& bench, const measure::Refinement& mesh, double unknowns,
     std::printf("  CalculiX's solver: %s\n", log.substr(at + 10, log.find('\n', at) - at - 10).c_str());
   Row row{std::string("CalculiX, ") + which, unknowns, cost.wall_s, cost.cpu_s, cost.peak_gigabytes, true};
   if (cost.finished) return row;
-  const Row not_measured{row.name, 0, 0, 0, 0, false};
+  Row not_measured{row.name, 0, 0, 0, 0, false};
   row.finished = false;
   if (!cost.timed_out) {
     std::printf("  CalculiX failed:\n%s\n", log.c_str());

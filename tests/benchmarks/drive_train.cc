@@ -33,7 +33,8 @@ kinetics::DriveTrain tree(int n) {
 
 void spectrum(benchmark::State& state, kinetics::DriveTrain (*make)(int)) {
   const auto train = make(int(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(natural_modes(train, kinetics::Shapes::none));
+  for ([[maybe_unused]] auto _ : state)
+    benchmark::DoNotOptimize(natural_modes(train, kinetics::Shapes::none));
 }
 
 }  // namespace

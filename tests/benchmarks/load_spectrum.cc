@@ -12,7 +12,7 @@ void rainflow(benchmark::State& state) {
   std::normal_distribution<> load;
   const Eigen::ArrayXd series =
       Eigen::ArrayXd::NullaryExpr(Eigen::Index(state.range(0)), [&] { return load(generator); });
-  for (auto _ : state) benchmark::DoNotOptimize(kinetics::rainflow(series));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(kinetics::rainflow(series));
   using benchmark::Counter;
   state.counters["per_point"] =
       Counter(double(series.size()), Counter::kIsIterationInvariantRate | Counter::kInvert);

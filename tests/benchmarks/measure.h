@@ -28,7 +28,7 @@ double smallest_s(const Call& call, int n_calls = 15) {
 template <class Call>
 void loads(benchmark::State& state, const Call& call) {
   const kinetics::LoadHistory history = call();
-  for (auto _ : state) benchmark::DoNotOptimize(call());
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(call());
   std::size_t stored = 4 + history.quantities.size();
   for (const kinetics::Resultant& resultant : history.resultants)
     stored += 3 * (1 + resultant.contributions.size());

@@ -40,7 +40,7 @@ void superposition(benchmark::State& state) {
   const auto superpose = [](const Problem& p) { return [&p] { return envelope(p.loads, p.responses, 1); }; };
   const auto n_channels = std::size_t(state.range(0));
   const auto p = problem(n_channels, state.range(1) != 0), changing = problem(n_channels, false);
-  for (auto _ : state) benchmark::DoNotOptimize(superpose(p)());
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(superpose(p)());
   state.counters["ns_per_instant"] =
       1e9 * measure::smallest_s(superpose(p)) / double(n_nodes) / double(n_instants);
   state.counters["of_changing"] =

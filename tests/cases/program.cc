@@ -76,7 +76,7 @@ std::string on_its_own_mesh(const fs::path& directory, const std::string& argume
   return arguments + " --tolerance none";
 }
 
-Outcome millstress(const fs::path& directory, std::string arguments, const std::string& before) {
+Outcome millstress(const fs::path& directory, const std::string& arguments, const std::string& before) {
   return as_a_user(directory, on_its_own_mesh(directory, arguments), before);
 }
 

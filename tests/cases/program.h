@@ -59,7 +59,8 @@ std::string on_its_own_mesh(const fs::path& directory, const std::string& argume
 /// otherwise: tests run two at a time, and the threads of BLAS wait for each other by yielding, which beside
 /// another program costs many times the seconds.
 /// @param before  a command of the shell that sets the stage
-Outcome millstress(const fs::path& directory, std::string arguments, const std::string& before = "true");
+Outcome millstress(const fs::path& directory, const std::string& arguments,
+                   const std::string& before = "true");
 
 /// The same as the arguments stand: `run` searches by default.
 Outcome as_a_user(const fs::path& directory, std::string arguments, const std::string& before = "true");

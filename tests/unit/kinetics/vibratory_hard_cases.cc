@@ -13,7 +13,7 @@ using machines::largest;
 const kinetics::TimeGrid grid{2, 60};
 
 LoadHistory all_effects(const VibratoryMill& mill) {
-  const auto loads = compute_loads(mill, effects_without(mill, {"charge_lag"}), grid);
+  auto loads = compute_loads(mill, effects_without(mill, {"charge_lag"}), grid);
   for (const auto& quantity : loads.quantities) EXPECT_TRUE(quantity.values.allFinite()) << quantity.name;
   EXPECT_LE(largest(loads.quantity("closure_force").values), 1e-12);
   EXPECT_LE(largest(loads.quantity("closure_moment").values), 1e-12);

@@ -58,7 +58,7 @@ std::array<double, 6> stress_of(const Eigen::Matrix3d& gradient) {
 }  // namespace
 
 TEST_P(EveryDegree, CountsAreThoseOfTheDegree) {
-  const auto n = std::size_t(GetParam() + 1);
+  const auto n = std::size_t(GetParam()) + 1;
   EXPECT_EQ(nodes.degree, GetParam());
   EXPECT_EQ(nodes.nodes_per_cell(), n * n * n);
   EXPECT_EQ(nodes.nodes_per_face(), n * n);

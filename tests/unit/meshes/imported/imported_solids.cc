@@ -26,7 +26,7 @@ constexpr int cells_around = 10;  // cells: coarse, for speed
 
 /// Runs a construction in a session of its own and writes what it left.
 std::filesystem::path written(const std::string& name, const std::function<void()>& construct) {
-  const auto file = temporary_msh("sample").parent_path() / name;
+  auto file = temporary_msh("sample").parent_path() / name;
   meshes::with_gmsh("making a sample", [&] {
     gmsh::model::add("sample");
     construct();

@@ -49,7 +49,7 @@ TEST(RandomShafts, AllMeshWithGoodCellsAndTheRightVolume) {
   int n_eccentric = 0, n_bored = 0, n_steps = 0, n_grooves = 0;
   const double worst = worst_of(
       [&] {
-        const auto shaft = random_shaft(random);
+        auto shaft = random_shaft(random);
         bool bored = false;
         for (std::size_t i = 0; i < shaft.segments.size(); ++i) {
           const auto& segment = shaft.segments[i];

@@ -129,7 +129,7 @@ std::vector<Refusal> refusals() {
       {"few sectors", [](auto&, ShaftMeshControl& c) { c.n_sectors = 4; }, {"n_sectors = 4", "at least 8"}},
       {"growth", [](auto&, ShaftMeshControl& c) { c.growth = 0; }, {"growth = 0"}},
       {"steep growth",
-       [](auto&, ShaftMeshControl& c) { c.growth = 1.01 * c.steepest_growth; },
+       [](auto&, ShaftMeshControl& c) { c.growth = 1.01 * ShaftMeshControl::steepest_growth; },
        {"growth = 1.01", "at most 1"}},
       {"rows", [](auto&, ShaftMeshControl& c) { c.rows_factor = 0.5; }, {"rows_factor = 0.5", "at least 1"}},
       {"largest cell", [](auto&, ShaftMeshControl& c) { c.largest_cell_m = -1; }, {"largest_cell_m = -1"}},

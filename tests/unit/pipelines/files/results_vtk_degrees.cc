@@ -48,7 +48,7 @@ fem::Nodes one_cell(int degree, const std::function<Point(Point)>& map) {
   const int n = degree + 1;
   fem::Nodes nodes;
   nodes.degree = degree;
-  nodes.n = std::size_t(n * n * n);
+  nodes.n = std::size_t(n) * n * n;
   nodes.volume_m3.assign(nodes.n, 1. / double(nodes.n));
   for (int l = 0; l < n * n * n; ++l)
     for (const double x :

@@ -28,7 +28,7 @@ std::vector<std::string> doubts_of(const std::string& scene, const std::string& 
   text.replace(at, old_text.size(), new_text);
   std::ofstream(directory / "scene.toml") << text;
   const auto read = read_scene(directory / "scene.toml");
-  const auto doubts = implausible(read);
+  auto doubts = implausible(read);
   for (const auto& doubt : doubts)
     EXPECT_EQ(std::count(read.warnings.begin(), read.warnings.end(), doubt), 1) << doubt;
   return doubts;

@@ -43,7 +43,7 @@ Scene read_without(const std::vector<std::string>& words) {
     if (std::none_of(words.begin(), words.end(), [&](const auto& w) { return line.rfind(w, 0) == 0; }))
       out << line << '\n';
   out.close();
-  const Scene scene = pipelines::read_scene(file);
+  Scene scene = pipelines::read_scene(file);
   fs::remove_all(file.parent_path());
   return scene;
 }

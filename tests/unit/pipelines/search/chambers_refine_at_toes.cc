@@ -63,9 +63,10 @@ TEST(Refine, AChamberWhereItsHotSpotsFeelIt) {
   }
   // The mesher refuses more: a search that is there goes on with its other cells.
   auto& mesh = std::get<ChamberShape>(scene.bodies[chamber].shape).mesh;
-  mesh.cells_through_wall = mesh.most_cells_through_wall;
+  mesh.cells_through_wall = meshes::ChamberMeshControl::most_cells_through_wall;
   ASSERT_TRUE(refine_mesh(scene.bodies[chamber], analysis, toes_of(analysis, 4e6), MeshPart::all));
-  EXPECT_EQ(mesh_of(scene.bodies[chamber]).cells_through_wall, mesh.most_cells_through_wall);
+  EXPECT_EQ(mesh_of(scene.bodies[chamber]).cells_through_wall,
+            meshes::ChamberMeshControl::most_cells_through_wall);
 }
 
 // A toe that joins the leading ones later starts from the others' cells; one that no longer leads keeps its

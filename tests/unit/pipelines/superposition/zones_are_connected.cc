@@ -19,7 +19,7 @@ struct Row {
   std::vector<meshes::Port> ports{{"seat", meshes::Port::Kind::seat, 3, 2, 3, 1, 0, 0}};
 
   explicit Row(int n_cells) {
-    nodes.n = std::size_t(9 * (2 * n_cells + 1));
+    nodes.n = 9 * (2 * std::size_t(n_cells) + 1);
     for (std::size_t i = 0; i < nodes.n; ++i) {
       nodes.xyz_m.insert(nodes.xyz_m.end(), {double(i % 3), double(i / 3 % 3), double(i / 9)});
     }
