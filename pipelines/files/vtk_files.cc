@@ -170,10 +170,10 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
   else
     writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);  // half the time of the default for one percent more bytes
-  if (!writer->Write() || !trouble.empty())
+  if (!writer->Write() || writer->GetErrorCode() != 0 || !trouble.empty())
     throw FileError(path.string() + ": cannot be written; check the directory and the free space" +
                     (trouble.empty() ? "" : " (VTK: " + trouble + ")"));
-  file.commit();
+  file.commit("</VTKFile>\n");
 }
 
 int cell_type(const fem::CellShape& shape) {

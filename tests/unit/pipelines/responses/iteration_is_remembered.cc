@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pipelines/files/content_hash.h"
 #include "pipelines/responses/iteration_memory.h"
 #include "pipelines/responses/response_key.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
