@@ -100,6 +100,7 @@ void AtomicFile::commit(std::string_view end) {
 
 void AtomicFile::commit_as(std::filesystem::path target) {
   target_ = std::move(target);
+  std::filesystem::create_directories(directory_of(target_));
   commit();
 }
 

@@ -32,7 +32,7 @@ public:
   /// @throws std::filesystem::filesystem_error if nothing was written or the target cannot be replaced
   void commit(std::string_view end = {});
 
-  /// The same under another name in the same file system, known only now.
+  /// The same under another name in the same file system, known only now. Makes its directory.
   void commit_as(std::filesystem::path target);
 
 private:
