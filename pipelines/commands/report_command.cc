@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <iostream>
 #include <ostream>
 
 #include "pipelines/commands/commands.h"
@@ -19,6 +20,9 @@ void report(const std::filesystem::path& directory, std::ostream& out) {
   if (check.is_mixed())
     throw OptionError(check.text(directory) +
                       ": the files are not of one run, or were changed since; run the scene again");
+  for (const auto& name : check.missing)
+    std::cerr << "millstress: " << (directory / name).string()
+              << ": is gone, of the files that the run wrote\n";
   write_html_report(directory, directory / "accuracy");
   out << (directory / "report.html").string() << '\n';
 }

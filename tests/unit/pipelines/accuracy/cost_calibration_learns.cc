@@ -46,19 +46,26 @@ TEST(CostCalibration, BelievesNoChangedDigit) {
   const results_test::Directory directory;
   const auto file = directory / "costs.json";
   learn_cost(file, fem::Solver::direct, 3, 0.7);
-  EXPECT_EQ(read_calibration(file).fault, "");
+  const auto kept = read_calibration(file);
+  EXPECT_EQ(kept.fault, "");
   const auto whole = results_test::bytes(file);
-  int n_digits = 0;
+  int n_digits = 0, n_refused = 0;
   for (std::size_t i = 0; i < whole.size(); ++i) {
     if (whole[i] < '0' || whole[i] > '9') continue;
     auto changed = whole;
     changed[i] = whole[i] == '9' ? '8' : char(whole[i] + 1);
     std::ofstream(file) << changed;
     ++n_digits;
-    EXPECT_EQ(read_calibration(file).n_runs, 0) << i;
-    EXPECT_NE(read_calibration(file).fault, "") << i;
+    const auto read = read_calibration(file);
+    if (!read.fault.empty())
+      EXPECT_EQ(read.n_runs, 0) << i;
+    else  // a last digit that reads back to the same number
+      EXPECT_TRUE(read.direct == kept.direct && read.superposition == kept.superposition) << i;
+    n_refused += read.fault.empty() ? 0 : 1;
   }
   EXPECT_GT(n_digits, 30);
+  EXPECT_GT(n_refused, n_digits - 5);
+  std::ofstream(file) << "{}";
   learn_cost(file, fem::Solver::direct, 3, 0.7);  // made anew
   EXPECT_EQ(read_calibration(file).n_runs, 1);
 }

@@ -64,7 +64,7 @@ TEST(Replaceable, AnInputStaysUnderEveryNameItHas) {
   std::ofstream(at / "loads.csv") << "measured";
   fs::create_hard_link(at / "loads.csv", at / "second_name.csv");
   note_input(at / "loads.csv");
-  for (const fs::path file : {at / "loads.csv", at / "second_name.csv", at.path / "." / "loads.csv"}) {
+  for (const auto& file : {at / "loads.csv", at / "second_name.csv", at.path / "." / "loads.csv"}) {
     EXPECT_NE(refusal_to_write(file).find("is an input of this run"), std::string::npos) << file;
     EXPECT_EQ(bytes(file), "measured");
   }

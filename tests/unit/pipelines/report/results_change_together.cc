@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -25,6 +26,8 @@ namespace {
 /// Changes of names until the process kills itself; negative: it does not.
 int n_changes_left = -1;
 
+bool disk_fails = false;
+
 void count_change() {
   if (n_changes_left == 0) raise(SIGKILL);
   if (n_changes_left > 0) --n_changes_left;
@@ -41,6 +44,11 @@ extern "C" int rename(const char* from, const char* to) noexcept {
 extern "C" int remove(const char* file) noexcept {
   count_change();
   return unlinkat(AT_FDCWD, file, 0) == 0 ? 0 : unlinkat(AT_FDCWD, file, AT_REMOVEDIR);
+}
+
+extern "C" int fsync(int) {
+  errno = EIO;
+  return disk_fails ? -1 : 0;
 }
 
 namespace {
@@ -128,6 +136,18 @@ TEST(StagedResults, WithoutPublishingNothingChanges) {
   EXPECT_FALSE(check_manifest(at.path).is_mixed());
 }
 
+// What does not reach the disk is not published.
+TEST(StagedResults, ADiskThatFailsIsTold) {
+  const Directory at;
+  publish_first(at.path);
+  const auto before = visible_files(at.path);
+  disk_fails = true;
+  EXPECT_THROW(publish_second(at.path), FileError);
+  disk_fails = false;
+  EXPECT_EQ(visible_files(at.path), before);
+  EXPECT_FALSE(fs::exists(at / ".results.complete"));
+}
+
 // A kill before every single change of a name: then the earlier results are whole, or the new ones are as
 // soon as they are looked at through finish_exchange. The kept responses of a body that goes may be gone.
 TEST(StagedResults, AKillAtAnyChangeLeavesOneRun) {
@@ -150,10 +170,11 @@ TEST(StagedResults, AKillAtAnyChangeLeavesOneRun) {
     waitpid(child, &status, 0);
     const bool mixed = check_manifest(directory).is_mixed();
     n_seen_half_way += mixed ? 1 : 0;
-    if (const auto seen = visible_files(directory); seen != first && seen != second)
+    if (const auto seen = visible_files(directory); seen != first && seen != second) {
       EXPECT_TRUE(mixed || !check_manifest(directory).missing.empty() ||
                   fs::exists(directory / ".results.complete"))
           << change;
+    }
     finish_exchange(directory);
     const auto files = visible_files(directory);
     EXPECT_TRUE(files == first || files == second) << change;
