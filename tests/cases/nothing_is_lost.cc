@@ -46,7 +46,7 @@ void expect_refused(const fs::path& directory, const std::string& arguments, con
 
 TEST(Outputs, NeverReplaceWhatIsNotTheirs) {
   const results_test::Directory directory;
-  write(directory / "pull.csv", "angle [deg],seat.fx [N]\n0,1\n180,2\n");
+  write(directory / "pull.csv", "angle [deg],seat.fx [N]\n0,1\n90,2\n180,3\n270,2\n");
   write(directory / "scene.txt", loads_alone("pull.csv"));
   write(directory / "own.csv", "mine\n");
   write(directory / "own.h5", "mine");
@@ -86,8 +86,8 @@ TEST(Outputs, NeverReplaceWhatIsNotTheirs) {
 TEST(Outputs, FullDiskBehindStdoutIsAnError) {
   const results_test::Directory directory;
   write(directory / "scene.toml", loads_alone());
-  for (const std::string arguments : {"--version", "run --help", "loads scene.toml -q", "run scene.toml -q",
-                                      "run scene.toml -q --json", "check scene.toml"}) {
+  for (const std::string arguments :
+       {"--version", "run scene.toml -q", "run scene.toml -q --json", "check scene.toml"}) {
     // The second redirection wins.
     const auto outcome = as_a_user(directory.path, arguments + " > /dev/full 2> told #");
     EXPECT_NE(outcome.exit_code, 0) << arguments;
@@ -97,27 +97,30 @@ TEST(Outputs, FullDiskBehindStdoutIsAnError) {
   }
 }
 
-// A rerun of another operating point on a disk that is full at ten sizes: an error, and the earlier results
-// are whole; or done, and the new ones are.
+// A rerun with other loads on a disk that is full at some sizes: an error, and the earlier results are whole.
+// Without a body, since MPI needs files of megabytes to start; the unit test FullDisk has the VTK files.
 TEST(Outputs, ADiskThatIsFullLeavesOneRun) {
   const results_test::Directory directory;
-  const auto scene = [](const std::string& size) { return small_shaft({{"pull", "middle.fy", size}}); };
-  const std::string run = "run scene.toml --method beam -q -o out";
-  write(directory / "scene.toml", scene("1 kN"));
+  const std::string run = "run scene.toml -q -o out";
+  write(directory / "scene.toml", loads_alone());
   ASSERT_EQ(millstress(directory.path, run).exit_code, 0);
   const auto first = contents(directory / "out");
-  write(directory / "scene.toml", scene("2 kN"));
+  write(directory / "scene.toml", with_edits(loads_alone(), {{"1 N", "2 N"}}));
   int n_refused = 0;
   // A file may have so many blocks of 512 bytes, in some shells of 1024.
-  for (const int blocks : {0, 1, 2, 4, 8, 12, 16, 24, 40, 60}) {
+  for (const int blocks : {1, 2, 4, 8, 16, 32, 1000}) {
     const auto outcome =
-        millstress(directory.path, run + " --json", "trap '' XFSZ && ulimit -f " + std::to_string(blocks));
+        millstress(directory.path, run, "trap '' XFSZ && ulimit -f " + std::to_string(blocks));
     if (outcome.exit_code == 0) break;
     ++n_refused;
+    EXPECT_EQ(outcome.exit_code, 3) << blocks << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << blocks << outcome.err;
     EXPECT_TRUE(contents(directory / "out") == first) << blocks;
-    EXPECT_EQ(millstress(directory.path, "report out").exit_code, 0) << blocks;
   }
   EXPECT_GT(n_refused, 3);
+  EXPECT_LT(n_refused, 7);
+  EXPECT_FALSE(contents(directory / "out") == first);
+  EXPECT_EQ(millstress(directory.path, "report out").exit_code, 0);
 }
 
 // Files of two runs side by side, as a kill or a copy leaves them, are no results: 163 and 18 MPa stood on
@@ -125,7 +128,7 @@ TEST(Outputs, ADiskThatIsFullLeavesOneRun) {
 TEST(Outputs, AReportOfTwoRunsIsRefused) {
   const results_test::Directory directory;
   for (const char* size : {"1 kN", "2 kN"}) {
-    write(directory / "scene.toml", small_shaft({{"pull", "middle.fy", size}}));
+    write(directory / "scene.toml", small_shaft({{"pull", "middle.fy", size}}, "mm", "600 rpm", ""));
     ASSERT_EQ(
         millstress(directory.path, "run scene.toml --method beam -q -o " + std::string(1, size[0])).exit_code,
         0);
@@ -152,7 +155,7 @@ TEST(Outputs, ChangedBytesInKeptResponsesChangeNoResult) {
   const auto file = directory / "out/shaft/unit_responses.h5";
   std::mt19937_64 random(20);
   const char* asked = std::getenv("MILLSTRESS_FLIPS");
-  const int n_flips = asked != nullptr ? std::atoi(asked) : 3;
+  const int n_flips = asked != nullptr ? std::atoi(asked) : 2;
   for (int i = 0; i < n_flips; ++i) {
     const auto place = std::streamoff(random() % fs::file_size(file));
     const auto value = whole.at("shaft/unit_responses.h5").at(std::size_t(place));
