@@ -7,6 +7,8 @@
 
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/files/content_hash.h"
+#include "pipelines/files/kept_file.h"
 
 namespace pipelines {
 namespace {
@@ -16,6 +18,30 @@ namespace {
 /// the times of `tests/benchmarks/run --benchmark_filter=superposition`; the solvers' constants are in
 /// fem/values/cost_constants.h.
 constexpr double s_per_product = 1.5e-10, products_per_instant = 12, products_per_node = 7000;
+
+using Json = nlohmann::ordered_json;
+
+const char* const checksum_key = "checksum";
+
+/// Of the other keys in their order.
+std::string checksum_of(const Json& json) {
+  return text_hash(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+CostCalibration calibration_of(const Json& json) {
+  const auto factor = [&](const char* key) {
+    const auto found = json.find(key);
+    const double value = found != json.end() && found->is_number() ? found->get<double>() : 1.0;
+    return value > 0 && std::isfinite(value) ? value : 1.0;
+  };
+  CostCalibration kept;
+  kept.direct = factor("direct");
+  kept.iterative = factor("iterative");
+  kept.superposition = factor("superposition");
+  if (const auto runs = json.find("runs"); runs != json.end() && runs->is_number_integer())
+    kept.n_runs = runs->get<int>();
+  return kept;
+}
 
 void move_half(double& factor, double measured) {
   if (measured > 0 && std::isfinite(measured)) factor = std::sqrt(factor * measured);
@@ -32,21 +58,17 @@ std::filesystem::path calibration_file() {
 }
 
 CostCalibration read_calibration(const std::filesystem::path& file) {
-  CostCalibration kept;
   std::ifstream in(file);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) return kept;
-  const auto factor = [&](const char* key) {
-    const auto found = json.find(key);
-    const double value = found != json.end() && found->is_number() ? found->get<double>() : 1.0;
-    return value > 0 && std::isfinite(value) ? value : 1.0;
-  };
-  kept.direct = factor("direct");
-  kept.iterative = factor("iterative");
-  kept.superposition = factor("superposition");
-  if (const auto runs = json.find("runs"); runs != json.end() && runs->is_number_integer())
-    kept.n_runs = runs->get<int>();
-  return kept;
+  if (!in) return {};
+  auto json = Json::parse(in, nullptr, false);
+  if (json.is_object() && json.contains(checksum_key)) {
+    const Json checksum = json[checksum_key];
+    json.erase(checksum_key);
+    if (checksum == checksum_of(json)) return calibration_of(json);
+  }
+  CostCalibration none;
+  none.fault = damaged_file_text(file);
+  return none;
 }
 
 void learn_cost(const std::filesystem::path& file, fem::Solver solver, double solve_ratio,
@@ -55,13 +77,15 @@ void learn_cost(const std::filesystem::path& file, fem::Solver solver, double so
   auto kept = read_calibration(file);
   move_half(solver == fem::Solver::iterative ? kept.iterative : kept.direct, solve_ratio);
   move_half(kept.superposition, superposition_ratio);
-  const nlohmann::ordered_json json{{"direct", kept.direct},
-                                    {"iterative", kept.iterative},
-                                    {"superposition", kept.superposition},
-                                    {"runs", kept.n_runs + 1}};
+  Json json{{"direct", kept.direct},
+            {"iterative", kept.iterative},
+            {"superposition", kept.superposition},
+            {"runs", kept.n_runs + 1}};
+  json[checksum_key] = checksum_of(json);
   try {
     write_text_file(file, json.dump(2) + "\n");
   } catch (const FileError&) {  // a run need not be able to remember
+  } catch (const OptionError&) {
   } catch (const std::filesystem::filesystem_error&) {
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "fem/values/solver_choice.h"
 
@@ -11,12 +12,13 @@ namespace pipelines {
 struct CostCalibration {
   double direct = 1, iterative = 1, superposition = 1;
   int n_runs = 0;
+  std::string fault;  ///< for the user, where the file is damaged; empty otherwise
 };
 
 /// $XDG_CACHE_HOME/millstress/costs.json, else ~/.cache/millstress/costs.json; empty if neither is known.
 std::filesystem::path calibration_file();
 
-/// What is kept there; the default where nothing is, or nothing that can be read.
+/// What is kept there; the default where nothing is, or where the file's own checksum does not fit.
 CostCalibration read_calibration(const std::filesystem::path& file);
 
 /// Takes a run in: each factor moves half of the way, as a geometric mean. A file that cannot be written is

@@ -131,6 +131,7 @@ void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& 
                     const ForecastLoads& loads) {
   const auto calibration = read_calibration(calibration_file());
   print_models(out, forecast_ladder(body, meshed, loads, calibration));
+  if (!calibration.fault.empty()) out << "  (" << calibration.fault << ")\n";
   out << (calibration.n_runs > 0
               ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)
               : "  (seconds of the machine that the prediction was made on: no run yet on this one)\n");

@@ -22,6 +22,7 @@ BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const Meshe
   auto analysis = superpose_body(scene, body, meshed, std::move(loads), std::move(answer.responses),
                                  options.n_threads, clock, {{}, {}, !options.keep_factor});
   analysis.responses_reused = answer.reused;
+  analysis.warnings = std::move(answer.warnings);
   analysis.solve_s = answer.reused ? 0 : solve.count();
   return analysis;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ struct DroppedBounds {
   EffectBound together;  ///< its effect has no name
 };
 
+class AtomicFile;
+
 struct BodyAnalysis {
   BodyScene scene;
   Method method = Method::solid;  ///< the model that the responses are of
@@ -63,6 +66,7 @@ struct BodyAnalysis {
   BodyLoads loads;
   fem::UnitResponses responses;
   bool responses_reused = false;        ///< taken from an earlier run
+  std::vector<std::string> warnings;    ///< of damaged files that an earlier run has left
   double solve_s = 0, superpose_s = 0;  ///< wall time; solve_s: 0 if reused
   Closure closure;
   NodePlaces places;
@@ -77,6 +81,8 @@ struct BodyAnalysis {
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
   std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
   std::optional<DroppedBounds> dropped;  ///< where effects = "auto" has dropped any
+  /// The mesh file of a solid until write_body_results gives it its name; it goes with the last copy.
+  std::shared_ptr<AtomicFile> mesh_file;
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   BodyAnalysis();

@@ -41,21 +41,25 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
                const RunOptions& options, StageClock& clock) {
   const auto planes = to_fem_planes(meshed.mesh.sections);
   const auto key = key_of(meshed, loads, planes, body.solver, threads(options.n_threads));
+  std::vector<std::string> warnings;
+  const auto tell = [&](const std::string& line) { warnings.push_back(line); };
   if (!options.fresh)
-    if (auto kept = clock.run("solve", [&] { return read_unit_responses(kept_responses(options), key); }))
-      return {std::move(*kept), true};
+    if (auto kept =
+            clock.run("solve", [&] { return read_unit_responses(kept_responses(options), key, tell); }))
+      return {std::move(*kept), true, {}};
   auto responses = clock.run("solve", [&] {
     fem::SolverChoice choice;
     choice.solver = body.solver;
     choice.keep_factor = options.keep_factor;
-    choice.gave_up_before = !options.fresh && iteration_gave_up_before(
-                                                  options.directory, body_key(meshed.body, meshed.mesh_hash));
+    choice.gave_up_before =
+        !options.fresh &&
+        iteration_gave_up_before(options.directory, body_key(meshed.body, meshed.mesh_hash), tell);
     return meshed.model->unit_responses(
         loads.unit_loads, planes, fem::Recovery::patch,
         [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
   remember_iteration(options.directory, body_key(meshed.body, meshed.mesh_hash), responses.solver.gave_up);
-  return {std::move(responses), false};
+  return {std::move(responses), false, std::move(warnings)};
 }
 
 void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,

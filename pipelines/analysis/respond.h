@@ -2,13 +2,17 @@
 /// solved.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "pipelines/analysis/body_analysis.h"
 
 namespace pipelines {
 
 struct Answer {
   fem::UnitResponses responses;
-  bool reused = false;  ///< taken from an earlier run
+  bool reused = false;                ///< taken from an earlier run
+  std::vector<std::string> warnings;  ///< of damaged files that an earlier run has left
 };
 
 /// @throws fem::SolveFailed, fem::DoesNotFit as fem::Model::unit_responses

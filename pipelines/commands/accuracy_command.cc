@@ -7,12 +7,15 @@
 #include "pipelines/accuracy/accuracy.h"
 #include "pipelines/accuracy/accuracy_report.h"
 #include "pipelines/commands/option_value.h"
+#include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/pictures/accuracy_chart.h"
 #include "pipelines/report/html_report.h"
+#include "pipelines/report/manifest.h"
+#include "pipelines/report/staged_results.h"
 
 namespace pipelines {
 namespace {
@@ -44,6 +47,17 @@ AccuracyOptions study_options_of(const AccuracyCommandOptions& options, const Sc
   return study;
 }
 
+/// The page of the run beside which the study stands, if there is one, with the study in it.
+void write_page(const std::filesystem::path& study) {
+  const auto run = study.parent_path();
+  finish_exchange(run);
+  if (!std::filesystem::exists(run / "summary.json")) return;
+  if (const auto check = check_manifest(run); check.is_mixed())
+    std::cerr << "millstress: no report.html: " << check.text(run) << '\n';
+  else
+    write_html_report(run, study);
+}
+
 void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
   if (scene.bodies.empty())
@@ -51,6 +65,10 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
                        ": has no body, and the load stage alone is exact; add one, as [shaft], to the scene");
   AccuracyOptions study_options = study_options_of(options, scene);
   const auto directory = results_directory(options.output, scene) / "accuracy";
+  for (const auto& body : scene.bodies)
+    require_writable(output_files(
+        "-o", directory,
+        {body.name + ".txt", body.name + ".csv", body.name + "_gci.csv", body.name + ".png", "accuracy.h5"}));
   StageClock clock(progress_on_stderr(options.verbosity()));
   const FemEnvironment environment(options.n_threads);
   std::vector<AccuracyStudy> studies;
@@ -72,8 +90,7 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
     std::filesystem::remove(study_options.directory, ignored);
   }
   write_accuracy_h5(directory / "accuracy.h5", studies);
-  if (std::filesystem::exists(directory.parent_path() / "summary.json"))
-    write_html_report(directory.parent_path());
+  write_page(directory);
   out << "\n  results in " << directory.string() << '\n';
 }
 

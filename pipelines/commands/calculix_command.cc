@@ -7,6 +7,7 @@
 #include "fem/loads/nodal_loads.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/calculix/calculix_model.h"
+#include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/fem_environment.h"
@@ -39,6 +40,7 @@ void calculix(const CalculixCommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene);
   refuse_what_has_no_equal(scene);
   const auto directory = results_directory(options.output, scene);
+  for (const auto& body : scene.bodies) require_writable(output_files("-o", directory, {body.name + ".inp"}));
   StageClock clock(progress_on_stderr(options.verbosity()));
   const FemEnvironment environment(all_cores);
   const auto meshes = clock.run("mesh", [&] { return ScratchMeshes(scene); });

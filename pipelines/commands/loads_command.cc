@@ -5,6 +5,7 @@
 
 #include "pipelines/calculix/calculix_cards.h"
 #include "pipelines/commands/option_value.h"
+#include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/effects/body_effect_report.h"
@@ -52,6 +53,22 @@ kinetics::LoadHistory loads_of(Scene& scene, StageClock& clock) {
   return std::move(trial.history);
 }
 
+void require_outputs(const LoadsCommandOptions& options) {
+  auto all = output_files("--statistics", options.statistics,
+                          {"statistics.csv", "harmonics.csv", "polar.csv", "spectrum.csv"});
+  if (!options.calculix.empty())
+    for (const char* end : {"_amplitudes.inp", "_loads.inp"})
+      all.push_back({"--calculix", options.calculix.string() + end});
+  for (const auto& [option, file] :
+       {std::pair("--output", options.output), std::pair("--csv", options.csv)}) {
+    if (file.empty()) continue;
+    all.push_back({option, file});
+  }
+  require_writable(all);
+  for (const auto& output : all)
+    if (output.option == "--output" || output.option == "--csv") require_own_loads(output);
+}
+
 void loads(const LoadsCommandOptions& options, std::ostream& out) {
   require_extension(
       "--output", options.output, {".h5", ".hdf5", ".hdf"},
@@ -60,6 +77,7 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
       "--csv", options.csv, {".csv", ".txt"},
       "is written as CSV; for HDF5 write -o " + options.csv.string() + ", or end the name in .csv");
   Scene scene = read_scene(options.scene);
+  require_outputs(options);
   StageClock clock(progress_on_stderr(options.verbosity()));
   const auto history = loads_of(scene, clock);
   std::vector<BearingScene> bearings;  // those at a port of a body need `run`

@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 
 #include "fem/model/model.h"
 #include "fem/ranks/helper_ranks.h"
 #include "pipelines/commands/commands.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/common/several_ranks.h"
@@ -25,6 +27,13 @@ int guarded(Command&& command) {
   }
 }
 
+/// What was printed may wait in buffers until now: a full disk behind stdout shows here at the latest.
+void require_written_stdout() {
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0) return;
+  throw pipelines::FileError("standard output cannot be written; is the disk full behind it?");
+}
+
 /// The program on this rank: rank 0 does what the arguments say, any other one helps it to solve.
 int run(int argc, char** argv) {
   const bool first = fem::this_rank(MPI_COMM_WORLD) == 0;
@@ -42,13 +51,19 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (first) return app.exit(error) == 0 ? pipelines::done : pipelines::scene_is_wrong;
+    if (first) {
+      if (app.exit(error) != 0) return pipelines::scene_is_wrong;
+      return guarded(require_written_stdout);
+    }
   }
   if (!first) {
     const pipelines::FemEnvironment threads(chosen.n_threads);
     return fem::help_first_rank();
   }
-  return guarded([&] { chosen.run(std::cout); });
+  return guarded([&] {
+    chosen.run(std::cout);
+    require_written_stdout();
+  });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/values/body_nodes.h"
+#include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
@@ -25,6 +26,8 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
     throw StageRefused(scene.file.string() +
                        ": has no body, and only bodies have ports; add one, as [shaft], to the scene");
   const auto directory = results_directory(options.output, scene);
+  for (const auto& body : scene.bodies)
+    require_writable(output_files("-o", directory / body.name, {"ports.vtu", "ports.png"}));
   StageClock clock(progress_on_stderr(options.verbosity()));
 
   // All meshes before any file: a body that cannot be meshed leaves nothing behind.

@@ -1,15 +1,29 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <iostream>
 #include <ostream>
 
 #include "pipelines/commands/commands.h"
+#include "pipelines/commands/output_files.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/report/html_report.h"
+#include "pipelines/report/manifest.h"
+#include "pipelines/report/staged_results.h"
 
 namespace pipelines {
 namespace {
 
 void report(const std::filesystem::path& directory, std::ostream& out) {
-  write_html_report(directory);
+  require_writable({{"report", directory / "report.html"}});
+  finish_exchange(directory);
+  const auto check = check_manifest(directory);
+  if (check.is_mixed())
+    throw OptionError(check.text(directory) +
+                      ": the files are not of one run, or were changed since; run the scene again");
+  for (const auto& name : check.missing)
+    std::cerr << "millstress: " << (directory / name).string()
+              << ": is gone, of the files that the run wrote\n";
+  write_html_report(directory, directory / "accuracy");
   out << (directory / "report.html").string() << '\n';
 }
 

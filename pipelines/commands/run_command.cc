@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/ranks/helper_ranks.h"
+#include "pipelines/accuracy/cost_calibration.h"
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/error_text.h"
@@ -23,6 +24,7 @@
 #include "pipelines/report/envelope_files.h"
 #include "pipelines/report/html_report.h"
 #include "pipelines/report/results.h"
+#include "pipelines/report/staged_results.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/report/torsion_report.h"
 #include "pipelines/scene/machine_kind.h"
@@ -57,12 +59,10 @@ void draw(const std::filesystem::path& envelope, const std::filesystem::path& di
 }
 
 void finish_run(const RunCommandOptions& options, std::ostream& out, const std::filesystem::path& directory,
-                const RunReport& content) {
-  std::vector<std::string> bodies;
-  for (const auto& analysis : content.bodies) bodies.push_back(analysis.scene.name);
-  remove_bodies_of_earlier_run(directory, bodies);
-  write_text_file(directory / "summary.json", summary_json(content));
-  write_html_report(directory);
+                StagedResults& staged, const RunReport& content) {
+  write_text_file(staged.folder() / "summary.json", summary_json(content));
+  write_html_report(staged.folder(), directory / "accuracy");
+  staged.publish();
   if (options.json)
     out << summary_json(content);
   else
@@ -80,6 +80,22 @@ Scene with_machine(Scene scene, const Machine& machine) {
   return scene;
 }
 
+/// Says it at once, and in the results.
+void warn(kinetics::LoadHistory& loads, const std::string& text) {
+  std::cerr << "millstress: " << text << '\n';
+  loads.warnings.push_back(text);
+}
+
+std::vector<std::string> body_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& body : scene.bodies) names.push_back(body.name);
+  return names;
+}
+
+void warn_of_earlier(const StagedResults& staged) {
+  if (!staged.warning().empty()) std::cerr << "millstress: " << staged.warning() << '\n';
+}
+
 /// Of a drive train, written into the folder torsion; nothing for other machines.
 std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machine,
                                         const std::filesystem::path& directory, StageClock& clock) {
@@ -95,10 +111,11 @@ void run_load_stage(const RunCommandOptions& options, std::ostream& out, const S
   const Scene scene = with_effects_chosen(given, {}, negligible_share(tolerance));
   const auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
-  std::filesystem::create_directories(directory);
-  clock.run("write", [&] { write_load_results(directory, loads, {}); });
-  const auto torsion = torsion_of(scene, scene.machine, directory, clock);
-  finish_run(options, out, directory, {scene, loads, {}, {}, clock.costs(), lives});
+  StagedResults staged(directory, {});
+  warn_of_earlier(staged);
+  clock.run("write", [&] { write_load_results(staged.folder(), loads, {}); });
+  const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
+  finish_run(options, out, directory, staged, {scene, loads, {}, {}, clock.costs(), lives});
   if (options.json) return;
   if (torsion) print_torsion(out, scene, *torsion);
   out << "\n  results in " << directory.string() << '\n';
@@ -113,22 +130,32 @@ void warn_of_default(SceneRun& run) {
         "{}: {:.3g} MPa is known to {:.2g} % only, since {}; the default is 5 % within 60 s. Give "
         "--time-limit or --tolerance for another",
         analysis.scene.name, stress.value_Pa / 1e6, 100 * stress.relative_error(), analysis.search.ended);
-    std::cerr << "millstress: " << text << '\n';
-    run.loaded.loads.warnings.push_back(text);
+    warn(run.loaded.loads, text);
   }
+}
+
+/// Damaged files of an earlier run, each once: the last solve of every body has met those that matter.
+void warn_of_damage(SceneRun& run) {
+  for (const auto& analysis : run.analyses)
+    for (const auto& text : analysis.warnings) warn(run.loaded.loads, text);
+  if (const auto fault = read_calibration(calibration_file()).fault; !fault.empty())
+    std::cerr << "millstress: " << fault << '\n';
 }
 
 void run_bodies(const RunCommandOptions& options, std::ostream& out, const Scene& scene,
                 const std::filesystem::path& directory, StageClock& clock) {
   const auto accuracy = with_default(requested_accuracy_of(options, scene));
   const FemEnvironment environment(options.n_threads);
+  StagedResults staged(directory, body_names(scene));
+  warn_of_earlier(staged);
   auto run = run_scene(scene, {directory, options.n_threads, options.fresh, true, accuracy}, clock);
+  warn_of_damage(run);
   learn_from(run);
   if (accuracy.by_default) warn_of_default(run);
   const auto& loads = run.loaded.loads;
   const auto channels = run.loaded.channels();
   for (const auto& analysis : run.analyses) {
-    const auto place = directory / analysis.scene.name;
+    const auto place = staged.folder() / analysis.scene.name;
     const int n_ranks = fem::n_ranks(MPI_COMM_WORLD);
     clock.run("write", [&] { write_body_results(place, run.scene, loads, analysis, n_ranks); });
     if (!scene.pictures) continue;
@@ -139,10 +166,10 @@ void run_bodies(const RunCommandOptions& options, std::ostream& out, const Scene
       draw(whole.temporary(), place, scene.title, analysis);
     });
   }
-  clock.run("write", [&] { write_load_results(directory, loads, channels); });
+  clock.run("write", [&] { write_load_results(staged.folder(), loads, channels); });
   const Scene reported = with_machine(run.scene, run.loaded.masses.machine);
-  const auto torsion = torsion_of(reported, reported.machine, directory, clock);
-  finish_run(options, out, directory,
+  const auto torsion = torsion_of(reported, reported.machine, staged.folder(), clock);
+  finish_run(options, out, directory, staged,
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings});
   if (!options.json && torsion) print_torsion(out, reported, *torsion);
   if (!options.json) out << "\n  results in " << directory.string() << '\n';

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <ostream>
 
+#include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/loads/load_stage.h"
@@ -24,6 +25,8 @@ Machine machine_with_masses(const Scene& scene) {
 
 void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene);
+  require_writable(output_files("-o", options.output,
+                                {"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv"}));
   const TorsionReport report = report_torsion(scene, machine_with_masses(scene));
   if (!options.output.empty()) write_torsion_files(options.output, scene, report);
   if (options.json) {

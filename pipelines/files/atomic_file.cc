@@ -1,5 +1,6 @@
 #include "pipelines/files/atomic_file.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -8,8 +9,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/files/replaceable.h"
 
 namespace pipelines {
 namespace {
@@ -38,28 +41,67 @@ void remove_left_behind(const std::filesystem::path& directory, const std::strin
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
     if (is_left_behind(entry.path().filename().string(), start))
-      std::filesystem::remove(entry.path(), ignored);
+      std::filesystem::remove_all(entry.path(), ignored);
+}
+
+std::filesystem::path directory_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+bool ends_with(const std::filesystem::path& file, std::string_view end) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(file, none);
+  if (none || size < end.size()) return false;
+  std::string text(end.size(), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(std::streamoff(size - end.size()));
+  in.read(text.data(), std::streamsize(text.size()));
+  return in && text == end;
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
+std::filesystem::path partial_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> count{0};
-  const auto directory = target_.has_parent_path() ? target_.parent_path() : std::filesystem::path(".");
+  const auto directory = directory_of(target);
   std::filesystem::create_directories(directory);
-  const std::string start = common_start(target_);
+  const std::string start = common_start(target);
   remove_left_behind(directory, start);
-  temporary_ = directory / (start + std::to_string(getpid()) + "-" + std::to_string(count++) + suffix);
+  return directory / (start + std::to_string(getpid()) + "-" + std::to_string(count++) + suffix);
 }
+
+void bring_to_disk(const std::filesystem::path& file_or_directory) {
+  const int file = open(file_or_directory.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool failed = file < 0 || (fsync(file) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS);
+  const std::string why = failed ? std::generic_category().message(errno) : "";
+  if (file >= 0) close(file);
+  if (failed)
+    throw FileError(file_or_directory.string() + ": cannot be brought to the disk: " + why +
+                    "; check the directory and the free space");
+}
+
+AtomicFile::AtomicFile(std::filesystem::path target)
+    : target_(std::move(target)), temporary_(partial_name(target_)) {}
 
 AtomicFile::~AtomicFile() {
   std::error_code ignored;
   if (!committed_) std::filesystem::remove(temporary_, ignored);
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(std::string_view end) {
+  require_replaceable(target_);
+  if (!end.empty() && !ends_with(temporary_, end))
+    throw FileError(target_.string() + ": cannot be written completely; check the free space");
+  if (std::filesystem::exists(temporary_)) bring_to_disk(temporary_);
   std::filesystem::rename(temporary_, target_);
   committed_ = true;
+  bring_to_disk(directory_of(target_));
+}
+
+void AtomicFile::commit_as(std::filesystem::path target) {
+  target_ = std::move(target);
+  std::filesystem::create_directories(directory_of(target_));
+  commit();
 }
 
 void write_text_file(const std::filesystem::path& path, std::string_view content) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace pipelines {
@@ -22,17 +23,35 @@ public:
   /// Where to write. Close the file before commit().
   const std::filesystem::path& temporary() const noexcept { return temporary_; }
 
-  /// Puts the written file in the place of the target.
+  /// Puts the written file in the place of the target. File and name are on the disk when it returns: a loss
+  /// of power harms neither the old content nor the new one.
+  /// @param end  what the file has to end with: libraries that write files do not always tell that the disk
+  ///             was full
+  /// @throws OptionError if the target is no regular file, or an input of this process (replaceable.h)
+  /// @throws FileError if the file is cut, or cannot be brought to the disk
   /// @throws std::filesystem::filesystem_error if nothing was written or the target cannot be replaced
-  void commit();
+  void commit(std::string_view end = {});
+
+  /// The same under another name in the same file system, known only now. Makes its directory.
+  void commit_as(std::filesystem::path target);
 
 private:
   std::filesystem::path target_, temporary_;
   bool committed_ = false;
 };
 
+/// A name for what is not complete yet, hidden and unique among threads, processes and machines, beside the
+/// target. Removes what processes of this machine that are gone have left under such names, files or folders,
+/// and makes the directory of the target.
+/// @throws std::filesystem::filesystem_error if the directory cannot be made
+std::filesystem::path partial_name(const std::filesystem::path& target);
+
+/// Waits until a file's content, or a directory's names, are on the disk.
+/// @throws FileError if that fails; file systems that cannot tell are believed
+void bring_to_disk(const std::filesystem::path& file_or_directory);
+
 /// Writes a whole file in one go.
-/// @throws FileError naming the file if it cannot be written
+/// @throws FileError naming the file if it cannot be written; as AtomicFile::commit
 void write_text_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace pipelines

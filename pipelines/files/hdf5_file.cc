@@ -25,7 +25,12 @@ std::string last_cause() {
         return 1;
       },
       &cause);
-  return cause.empty() ? "unknown cause" : cause;
+  if (cause.empty()) return "unknown cause";
+  // What the system said is in there, among times and addresses over two lines.
+  const std::string title = "error message = '";
+  if (const auto begin = cause.find(title); begin != std::string::npos)
+    return cause.substr(begin + title.size(), cause.find('\'', begin + title.size()) - begin - title.size());
+  return cause.substr(0, cause.find('\n'));
 }
 
 [[noreturn]] void fail(const std::string& file, const std::string& object, const std::string& what) {
@@ -69,7 +74,11 @@ void no_lock(hid_t list, const std::string& file) {
   if (H5Pset_file_locking(list, false, true) < 0) fail(file, "", "cannot switch file locking off");
 }
 
+/// A file that could not be closed, because the disk is full, crashes the library's own clean-up when the
+/// program ends; it has nothing else to do then. Only the first call of the library can switch it off.
 void print_nothing() {
+  static const herr_t without_clean_up = H5dont_atexit();
+  static_cast<void>(without_clean_up);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 

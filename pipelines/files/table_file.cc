@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/files/replaceable.h"
 
 namespace pipelines {
 namespace {
@@ -50,6 +51,7 @@ public:
   explicit Reader(const std::filesystem::path& file) { table_.file = file; }
 
   TableFile read() {
+    note_input(table_.file);
     std::ifstream in(table_.file, std::ios::binary);
     if (!std::filesystem::is_regular_file(table_.file) || !in)
       refuse(0, 0, "", "", "cannot be read as a table; give the path of a CSV file, from the scene's folder");

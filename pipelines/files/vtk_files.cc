@@ -5,6 +5,7 @@
 #include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -152,14 +153,15 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
   }
 
   AtomicFile file(path);
-  std::string trouble;
+  bool failed = false;
   vtkNew<vtkCallbackCommand> listener;
-  listener->SetClientData(&trouble);
-  listener->SetCallback([](vtkObject*, unsigned long, void* text, void* message) {
-    if (message) *static_cast<std::string*>(text) = static_cast<const char*>(message);
-  });
+  listener->SetClientData(&failed);
+  listener->SetCallback(
+      [](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->AddObserver(vtkCommand::ErrorEvent, listener);  // with a listener VTK prints nothing
+  // With listeners VTK prints nothing.
+  writer->AddObserver(vtkCommand::ErrorEvent, listener);
+  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
   writer->SetFileName(file.temporary().c_str());
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
@@ -170,10 +172,9 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
   else
     writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);  // half the time of the default for one percent more bytes
-  if (!writer->Write() || !trouble.empty())
-    throw FileError(path.string() + ": cannot be written; check the directory and the free space" +
-                    (trouble.empty() ? "" : " (VTK: " + trouble + ")"));
-  file.commit();
+  if (!writer->Write() || writer->GetErrorCode() != 0 || failed)
+    throw FileError(path.string() + ": cannot be written; check the directory and the free space");
+  file.commit("</VTKFile>\n");
 }
 
 int cell_type(const fem::CellShape& shape) {

@@ -5,7 +5,7 @@
 #include "meshes/keyed_shaft/solid_shaft.h"
 #include "meshes/shaft/shaft.h"
 #include "meshes/values/refused.h"
-#include "pipelines/responses/response_key.h"
+#include "pipelines/files/content_hash.h"
 #include "pipelines/scene/body_kind.h"
 
 namespace pipelines {

@@ -1,6 +1,7 @@
 #include "pipelines/loads/load_files.h"
 
 #include <array>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -125,6 +126,20 @@ void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHisto
   for (const auto* body : bodies) out.make_group("/channels/" + body->body);
   out.close();
   file.commit();
+}
+
+bool is_loads_file(const std::filesystem::path& path) {
+  const std::string titles = "time [s],phi [rad],speed [rad/s],acceleration [rad/s2]";
+  std::string start(titles.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), std::streamsize(start.size()));
+  if (start == titles) return true;
+  if (start.compare(0, 8, "\x89HDF\r\n\x1a\n") != 0) return false;
+  try {
+    const Hdf5Reader in(path);
+    return in.has("/time") && in.has("/effect_names") && !in.text_attribute("/", "convention").empty();
+  } catch (const FileError&) {
+    return false;
+  }
 }
 
 void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHistory& loads,

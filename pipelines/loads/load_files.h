@@ -25,4 +25,7 @@ void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHisto
 void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
                      const BodyChannels& bodies = {});
 
+/// Whether a file begins as those that write_loads_csv leaves, or holds what write_loads_h5 does.
+bool is_loads_file(const std::filesystem::path& path);
+
 }  // namespace pipelines

@@ -118,7 +118,7 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
   writer->Write();
   if (writer->GetErrorCode() != 0)
     throw FileError(png.string() + ": cannot be written; check the directory and the free space");
-  file.commit();
+  file.commit(std::string_view("\0\0\0\0IEND\xAE\x42\x60\x82", 12));
 }
 
 }  // namespace pipelines

@@ -13,19 +13,18 @@ namespace pipelines {
 class BodyFiles {
 public:
   explicit BodyFiles(const std::filesystem::path& directory)
-      : directory_(directory), mesh_(std::make_unique<AtomicFile>(directory / "mesh.msh")) {}
+      : mesh_(std::make_shared<AtomicFile>(directory / "mesh.msh")) {}
 
   const std::filesystem::path& mesh() const { return mesh_->temporary(); }
 
-  /// The mesh gets its name.
+  /// The mesh waits for its name, which it gets together with the other results (write_body_results).
   void finish(BodyAnalysis& analysis, MeshedBody& meshed) {
-    mesh_->commit();
-    analysis.mesh.file = meshed.mesh.file = meshed.body.mesh = directory_ / "mesh.msh";
+    analysis.mesh_file = mesh_;
+    analysis.mesh.file = meshed.mesh.file = meshed.body.mesh = mesh();
   }
 
 private:
-  std::filesystem::path directory_;
-  std::unique_ptr<AtomicFile> mesh_;
+  std::shared_ptr<AtomicFile> mesh_;
 };
 
 }  // namespace pipelines

@@ -222,7 +222,8 @@ void add_timing(HtmlPage& page, const Json& summary) {
   page.table({"stage", "seconds", "largest memory so far, GB"}, rows);
 }
 
-std::string page_of(const Json& summary, const std::filesystem::path& directory) {
+std::string page_of(const Json& summary, const std::filesystem::path& directory,
+                    const std::filesystem::path& accuracy) {
   const auto& input = summary.at("input");
   HtmlPage page(input.at("title").get<std::string>());
   page.heading(1, input.at("title").get<std::string>());
@@ -237,14 +238,14 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory)
   add_loads(page, summary);
   add_bearings(page, summary);
   add_natural_frequencies(page, summary);
-  add_accuracy(page, directory / "accuracy");
+  add_accuracy(page, accuracy);
   if (summary.contains("timing")) add_timing(page, summary);
   return page.text();
 }
 
 }  // namespace
 
-void write_html_report(const std::filesystem::path& directory) {
+void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
   const auto file = directory / "summary.json";
   std::ifstream in(file);
   if (!in)
@@ -257,7 +258,7 @@ void write_html_report(const std::filesystem::path& directory) {
   };
   std::string page;
   try {
-    page = page_of(Json::parse(in), directory);
+    page = page_of(Json::parse(in), directory, accuracy);
   } catch (const nlohmann::json::exception& error) {
     refuse(error.what());
   }

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
-#include <nlohmann/json.hpp>
-#include <regex>
 
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/loads/load_files.h"
 #include "pipelines/report/envelope_files.h"
@@ -176,43 +173,7 @@ void write_torsion(const path& directory, const kinetics::LoadHistory& loads, co
   write_csv(directory / "torsion_cycle.csv", cycle);
 }
 
-/// Bodies of the run that wrote a summary.json; none if this program did not write it.
-std::vector<std::string> bodies_of_summary(const path& file) {
-  std::ifstream in(file);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  const auto part = [](const nlohmann::json& of, const char* key) {
-    return of.is_object() && of.contains(key) ? of.at(key) : nlohmann::json();
-  };
-  std::vector<std::string> names;
-  if (part(part(json, "program"), "name") != "millstress") return names;
-  const auto bodies = part(json, "bodies");
-  for (const auto& body : bodies.items()) names.push_back(body.key());
-  return names;
-}
-
-/// Whether a file in a body's folder has a name that the program gives.
-bool is_body_file(const std::string& name) {
-  static const std::regex given(
-      R"(mesh\.msh|unit_responses\.h5|iteration_gave_up\.txt|(zones|hot_spots|diagrams|torsion|torsion_cycle)\.csv|)"
-      R"(envelope(\.vtu|\.pvtu|\.png|_\d+\.vtu)|cycle\.pvd|cycle_\d+\.vtu)");
-  return std::regex_match(name, given);
-}
-
 }  // namespace
-
-void remove_bodies_of_earlier_run(const path& directory, const std::vector<std::string>& bodies) {
-  for (const auto& body : bodies_of_summary(directory / "summary.json")) {
-    if (contains(bodies, body) || path(body).filename() != path(body) || body == "..") continue;
-    const auto folder = directory / body;
-    if (std::filesystem::is_symlink(folder) || !std::filesystem::is_directory(folder)) continue;
-    std::vector<path> own;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.is_regular_file() && is_body_file(entry.path().filename().string()))
-        own.push_back(entry.path());
-    for (const auto& file : own) std::filesystem::remove(file);
-    if (std::filesystem::is_empty(folder)) std::filesystem::remove(folder);
-  }
-}
 
 Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::Index instant) {
   double angle = std::remainder(loads.phi_rad[instant] - M_PI, 2 * M_PI) + M_PI;
@@ -228,6 +189,7 @@ void write_load_results(const path& directory, const kinetics::LoadHistory& load
 
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
                         const BodyAnalysis& analysis, int n_pieces) {
+  if (analysis.mesh_file) analysis.mesh_file->commit_as(directory / "mesh.msh");
   write_envelope_files(directory, scene, loads, analysis, n_pieces);
   write_cycle_files(directory, scene, loads, analysis);
   write_zones(directory / "zones.csv", scene, loads, analysis);

@@ -16,21 +16,14 @@ namespace pipelines {
 void write_load_results(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
                         const BodyChannels& bodies);
 
-/// In `directory`: envelope.vtu, cycle.pvd with cycle_*.vtu, zones.csv; hot_spots.csv for a body with weld
-/// toes; diagrams.csv, torsion.csv, torsion_cycle.csv for a parametric shaft or drum. Snapshots of an earlier
-/// run that this one does not write are removed, so that the folder shows one run.
+/// In `directory`: mesh.msh of a solid that run_scene has left waiting, to be called once then; envelope.vtu,
+/// cycle.pvd with cycle_*.vtu, zones.csv; hot_spots.csv for a body with weld toes; diagrams.csv, torsion.csv,
+/// torsion_cycle.csv for a parametric shaft or drum. Snapshots of an earlier run that this one does not write
+/// are removed, so that the folder shows one run.
 /// @param n_pieces  of the envelope, one for each MPI rank: with several of them envelope.pvtu and
 /// envelope_<rank>.vtu stand for envelope.vtu
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,
                         const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces = 1);
-
-/// Removes what an earlier run wrote for bodies that this one does not have: the files that
-/// write_body_results, the search and the pictures leave, of the bodies that the summary.json in `directory`
-/// names, and their folders where nothing else is in them. Without a summary.json of this program, or with
-/// one that cannot be read, nothing is touched.
-/// @param bodies  of this run. To be called before its summary.json is written
-void remove_bodies_of_earlier_run(const std::filesystem::path& directory,
-                                  const std::vector<std::string>& bodies);
 
 /// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
 struct Moment {

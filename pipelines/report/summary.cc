@@ -8,8 +8,8 @@
 #include "pipelines/bodies/chamber.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/common/version.h"
+#include "pipelines/files/content_hash.h"
 #include "pipelines/report/summary_values.h"
-#include "pipelines/responses/response_key.h"
 #include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {

@@ -1,10 +1,11 @@
 #include "pipelines/responses/iteration_memory.h"
 
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
+#include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/files/kept_file.h"
 
 namespace pipelines {
 
@@ -16,17 +17,28 @@ std::filesystem::path file_in(const std::filesystem::path& directory) {
 
 }  // namespace
 
-bool iteration_gave_up_before(const std::filesystem::path& directory, const std::string& key) {
-  std::ifstream file(file_in(directory), std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(file), {}) == key && !key.empty();
+bool iteration_gave_up_before(const std::filesystem::path& directory, const std::string& key,
+                              const Tell& tell) {
+  if (key.empty()) return false;
+  const auto state = check_kept_file(file_in(directory), key);
+  if (state == KeptFile::damaged && tell) tell(damaged_file_text(file_in(directory)));
+  return state == KeptFile::whole;
 }
 
 void remember_iteration(const std::filesystem::path& directory, const std::string& key, bool gave_up) {
+  const auto path = file_in(directory);
   std::error_code none;
-  if (gave_up)
-    write_text_file(file_in(directory), key);
-  else
-    std::filesystem::remove(file_in(directory), none);
+  if (!gave_up) {
+    std::filesystem::remove(path, none);
+    return;
+  }
+  AtomicFile file(path);
+  std::ofstream out(file.temporary(), std::ios::binary);
+  out << key;
+  out.close();
+  if (!out) throw FileError(path.string() + ": cannot be written; check the directory and the free space");
+  append_checksum(file.temporary(), key);
+  file.commit();
 }
 
 }  // namespace pipelines

@@ -4,11 +4,15 @@
 #include <filesystem>
 #include <string>
 
+#include "pipelines/responses/response_files.h"
+
 namespace pipelines {
 
 /// Whether the iteration gave up on the body with this key (body_key), whatever its loads. A file that is
-/// missing, unreadable or about another body says no.
-bool iteration_gave_up_before(const std::filesystem::path& directory, const std::string& key);
+/// missing, damaged or about another body says no.
+/// @param tell  called if the file is damaged
+bool iteration_gave_up_before(const std::filesystem::path& directory, const std::string& key,
+                              const Tell& tell = {});
 
 /// Writes `iteration_gave_up.txt`, or removes it.
 /// @throws FileError naming the file if it cannot be written

@@ -11,6 +11,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/hdf5_file.h"
+#include "pipelines/files/kept_file.h"
 
 namespace pipelines {
 namespace {
@@ -206,23 +207,30 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
         out.write(name, entries(values), extents, label);
       });
   out.close();
+  append_checksum(file.temporary(), key);
   file.commit();
 }
 
 std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::path& path,
-                                                      const std::string& key) {
+                                                      const std::string& key, const Tell& tell) {
+  const auto damaged = [&] {
+    if (tell) tell(damaged_file_text(path));
+    return std::nullopt;
+  };
+  const auto state = check_kept_file(path, key);
+  if (state == KeptFile::damaged) return damaged();
+  if (state != KeptFile::whole) return std::nullopt;
   try {
-    if (!std::filesystem::exists(path)) return std::nullopt;
     const Hdf5Reader in(path);
     if (in.text_attribute("/", "key") != key || in.number_attribute("/", "arrangement") != arrangement)
       return std::nullopt;
     return read(in);
-  } catch (const FileError&) {  // a damaged file is as good as none
-    return std::nullopt;
-  } catch (const std::bad_alloc&) {  // likewise: its extents are
+  } catch (const FileError&) {  // whole, but not written by write_unit_responses
+    return damaged();
+  } catch (const std::bad_alloc&) {  // more than this machine's memory now holds
     return std::nullopt;
   } catch (const std::length_error&) {
-    return std::nullopt;
+    return damaged();
   }
 }
 

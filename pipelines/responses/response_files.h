@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -9,16 +10,19 @@
 
 namespace pipelines {
 
-/// Writes every field, exactly. The large arrays are written in place, without copies.
+/// Writes every field, exactly, with a checksum behind (kept_file.h). The large arrays are written in place,
+/// without copies.
 /// @throws std::invalid_argument naming the field if the sizes of the fields do not fit each other;
 ///         std::runtime_error naming the file if it cannot be written
 void write_unit_responses(const std::filesystem::path& path, const std::string& key,
                           const fem::UnitResponses& responses);
 
-/// @return empty if the file is missing, cannot be read as unit responses, or was written under another key:
-/// compute
-///         them anew then
+/// Takes a line for the user.
+using Tell = std::function<void(const std::string&)>;
+
+/// @param tell  called if the file is damaged, or is none of this version's
+/// @return empty if the file is missing, damaged, or was written under another key: compute them anew then
 std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::path& path,
-                                                      const std::string& key);
+                                                      const std::string& key, const Tell& tell = {});
 
 }  // namespace pipelines

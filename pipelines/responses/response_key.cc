@@ -3,12 +3,10 @@
 #include <fmt/core.h>
 #include <xxhash.h>
 
-#include <fstream>
-#include <memory>
 #include <sstream>
 #include <stdexcept>
 
-#include "pipelines/common/errors.h"
+#include "pipelines/files/content_hash.h"
 #include "pipelines/files/csv.h"
 
 namespace pipelines {
@@ -57,21 +55,6 @@ struct Describe {
 };
 
 }  // namespace
-
-std::string content_hash(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
-  if (!stream || !state) throw FileError(file.string() + ": cannot be read");
-  XXH3_128bits_reset(state.get());
-  std::string buffer(1 << 20, '\0');
-  while (stream.read(buffer.data(), std::streamsize(buffer.size())), stream.gcount() > 0)
-    XXH3_128bits_update(state.get(), buffer.data(), std::size_t(stream.gcount()));
-  const auto hash = XXH3_128bits_digest(state.get());
-  char digits[33];
-  std::snprintf(digits, sizeof digits, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return digits;
-}
 
 const std::string& program_fingerprint() {
   static const std::string fingerprint = content_hash("/proc/self/exe");

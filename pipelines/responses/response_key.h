@@ -24,9 +24,6 @@ std::string response_key(const fem::Body& body, const std::string& mesh_hash,
 /// @param mesh_hash, @throws  as response_key
 std::string body_key(const fem::Body& body, const std::string& mesh_hash);
 
-/// 128-bit hash of a file's content in hexadecimal digits. @throws FileError if it cannot be read
-std::string content_hash(const std::filesystem::path& file);
-
 /// Hash of the running program, so that another build never reuses the results of this one.
 const std::string& program_fingerprint();
 

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "pipelines/files/replaceable.h"
 #include "pipelines/files/toml_tree.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/machine_kind.h"
@@ -34,6 +35,7 @@ std::string read_text(const std::filesystem::path& file) {
   constexpr std::uintmax_t most_bytes = 10'000'000;
   if (!std::filesystem::is_regular_file(status) || std::filesystem::file_size(file, error) > most_bytes)
     refuse_file(file, "is no ordinary file of less than 10 MB; give the path of a scene, a .toml file");
+  note_input(file);
   std::ifstream in(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in) refuse_file(file, "cannot be read; check its permissions");

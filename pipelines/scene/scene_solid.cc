@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "pipelines/common/nearest_name.h"
+#include "pipelines/files/replaceable.h"
 #include "pipelines/scene/scene_body.h"
 
 namespace pipelines {
@@ -107,6 +108,7 @@ meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_
   meshes::Import import;
   const std::string file = body.text("file");
   import.geometry = scene_directory / file;
+  note_input(import.geometry);
   if (!file.empty() && !std::filesystem::is_regular_file(import.geometry))
     body.refuse("file", "there is no such file; its path counts from the scene's folder");
   body.know("length_unit");

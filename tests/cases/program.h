@@ -65,7 +65,11 @@ Outcome millstress(const fs::path& directory, const std::string& arguments,
 /// The same as the arguments stand: `run` searches by default.
 Outcome as_a_user(const fs::path& directory, std::string arguments, const std::string& before = "true");
 
-/// Every file below a directory with its bytes; summary.json and report.html without their timing.
+/// costs.json with the checksum that the program asks for: of the other keys, as compact text.
+std::string with_checksum(nlohmann::ordered_json costs);
+
+/// Every file below a directory with its bytes; summary.json and report.html without their timing,
+/// manifest.json without the checksum of that.
 std::map<std::string, std::string> contents(const fs::path& directory);
 
 nlohmann::json summary(const fs::path& results);

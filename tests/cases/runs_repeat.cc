@@ -16,6 +16,7 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   const std::set<std::string> wanted{"loads.h5",
                                      "loads.csv",
                                      "summary.json",
+                                     "manifest.json",
                                      "report.html",
                                      "shaft/mesh.msh",
                                      "shaft/unit_responses.h5",
@@ -118,7 +119,15 @@ TEST(Runs, BrokenUnitResponsesAreSolvedAgain) {
   const auto whole = contents(directory / "out");
   const auto file = directory / "out/shaft/unit_responses.h5";
   fs::resize_file(file, fs::file_size(file) / 2);
-  const auto again = millstress(directory.path, "run mill.toml -o out");
+  const auto again = millstress(directory.path, "run mill.toml -q -o out");
   ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.err.rfind("millstress: out/shaft/unit_responses.h5: is damaged", 0), 0u) << again.err;
+  // The summary and the page have the warning; the next run does not.
+  const std::set<std::string> with_warning{"summary.json", "report.html", "loads.h5", "manifest.json"};
+  for (const auto& [name, bytes] : contents(directory / "out"))
+    EXPECT_TRUE(with_warning.count(name) == 1 || bytes == whole.at(name)) << name;
+  const auto warnings = summary(directory / "out")["warnings"].dump();
+  EXPECT_NE(warnings.find("unit_responses.h5: is damaged"), std::string::npos) << warnings;
+  ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
   for (const auto& [name, bytes] : contents(directory / "out")) EXPECT_TRUE(bytes == whole.at(name)) << name;
 }

@@ -106,7 +106,7 @@ TEST(Tolerance, CheckForecastsTheModels) {
 
   fs::create_directories(directory / "cache/millstress");
   std::ofstream(directory / "cache/millstress/costs.json")
-      << R"({"direct": 10, "iterative": 10, "superposition": 4, "runs": 3})";
+      << with_checksum({{"direct", 10}, {"iterative", 10}, {"superposition", 4}, {"runs", 3}});
   const auto slow = forecast("the scene's mesh");
   EXPECT_NEAR(slow.solve_s, 10 * once.solve_s, 0.1 * slow.solve_s);  // two digits are printed
   EXPECT_NEAR(slow.superpose_s, 4 * once.superpose_s, 0.1 * slow.superpose_s);

@@ -33,6 +33,39 @@ TEST(CostCalibration, SurvivesARuinedFile) {
   for (const char* text : {"", "{", "[1, 2]", "{\"direct\": \"fast\"}", "{\"direct\": -2, \"runs\": 1}"}) {
     std::ofstream(directory / "costs.json") << text;
     EXPECT_EQ(read_calibration(directory / "costs.json").direct, 1) << text;
+    EXPECT_NE(read_calibration(directory / "costs.json").fault.find("costs.json: is damaged"),
+              std::string::npos)
+        << text;
   }
+  EXPECT_EQ(read_calibration(directory / "nothing.json").fault, "");
   learn_cost({}, fem::Solver::direct, 2, 2);
+}
+
+// One digit changed is another factor, which the next forecast would believe.
+TEST(CostCalibration, BelievesNoChangedDigit) {
+  const results_test::Directory directory;
+  const auto file = directory / "costs.json";
+  learn_cost(file, fem::Solver::direct, 3, 0.7);
+  const auto kept = read_calibration(file);
+  EXPECT_EQ(kept.fault, "");
+  const auto whole = results_test::bytes(file);
+  int n_digits = 0, n_refused = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (whole[i] < '0' || whole[i] > '9') continue;
+    auto changed = whole;
+    changed[i] = whole[i] == '9' ? '8' : char(whole[i] + 1);
+    std::ofstream(file) << changed;
+    ++n_digits;
+    const auto read = read_calibration(file);
+    if (!read.fault.empty())
+      EXPECT_EQ(read.n_runs, 0) << i;
+    else  // a last digit that reads back to the same number
+      EXPECT_TRUE(read.direct == kept.direct && read.superposition == kept.superposition) << i;
+    n_refused += read.fault.empty() ? 0 : 1;
+  }
+  EXPECT_GT(n_digits, 30);
+  EXPECT_GT(n_refused, n_digits - 5);
+  std::ofstream(file) << "{}";
+  learn_cost(file, fem::Solver::direct, 3, 0.7);  // made anew
+  EXPECT_EQ(read_calibration(file).n_runs, 1);
 }

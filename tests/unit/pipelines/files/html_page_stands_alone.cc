@@ -47,7 +47,7 @@ TEST(HtmlReport, NeedsASummary) {
   const results_test::Directory directory;
   const auto message = [&] {
     try {
-      write_html_report(directory.path);
+      write_html_report(directory.path, directory / "accuracy");
     } catch (const std::invalid_argument& error) {
       return std::string(error.what());
     }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pipelines/files/content_hash.h"
 #include "pipelines/responses/iteration_memory.h"
 #include "pipelines/responses/response_key.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
@@ -15,6 +16,14 @@ TEST(IterationMemory, LastsForOneBodyUntilItIsTakenBack) {
   pipelines::remember_iteration(scratch.path, "mesh 1\n", true);
   EXPECT_TRUE(pipelines::iteration_gave_up_before(scratch.path, "mesh 1\n"));
   EXPECT_FALSE(pipelines::iteration_gave_up_before(scratch.path, "mesh 2\n"));
+  // One letter changed: it is told, and says no.
+  auto text = results_test::bytes(scratch / "iteration_gave_up.txt");
+  text[2] = 'S';
+  std::ofstream(scratch / "iteration_gave_up.txt") << text;
+  std::string told;
+  EXPECT_FALSE(pipelines::iteration_gave_up_before(scratch.path, "mesh 1\n",
+                                                   [&](const std::string& line) { told += line; }));
+  EXPECT_NE(told.find("iteration_gave_up.txt: is damaged"), std::string::npos);
   pipelines::remember_iteration(scratch.path, "mesh 1\n", false);
   EXPECT_FALSE(pipelines::iteration_gave_up_before(scratch.path, "mesh 1\n"));
   EXPECT_TRUE(std::filesystem::is_empty(scratch.path));

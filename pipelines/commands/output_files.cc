@@ -1,0 +1,47 @@
+#include "pipelines/commands/output_files.h"
+
+#include "pipelines/common/errors.h"
+#include "pipelines/files/replaceable.h"
+#include "pipelines/loads/load_files.h"
+
+namespace pipelines {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path resolved(const fs::path& file) {
+  std::error_code unknown;
+  const auto folder = fs::weakly_canonical(fs::absolute(file), unknown);
+  return unknown ? file.lexically_normal() : folder;
+}
+
+}  // namespace
+
+std::vector<OutputFile> output_files(const std::string& option, const fs::path& directory,
+                                     const std::vector<std::string>& names) {
+  std::vector<OutputFile> files;
+  if (directory.empty()) return files;
+  for (const auto& name : names) files.push_back({option, directory / name});
+  return files;
+}
+
+void require_writable(const std::vector<OutputFile>& outputs) {
+  for (const auto& output : outputs) require_replaceable(output.file, output.option);
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (resolved(outputs[i].file) == resolved(outputs[j].file))
+        throw OptionError(outputs[i].option + ' ' + outputs[i].file.string() + ": is the file that " +
+                          outputs[j].option +
+                          " writes too, and one would replace the other; give them different names");
+}
+
+void require_own_loads(const OutputFile& output) {
+  std::error_code none;
+  const auto size = fs::file_size(output.file, none);
+  if (none || size == 0 || is_loads_file(output.file)) return;
+  throw OptionError(output.option + ' ' + output.file.string() +
+                    ": is there already, and holds no loads that this program has written; give " +
+                    output.option + " a new name, or move it away");
+}
+
+}  // namespace pipelines

@@ -1,0 +1,31 @@
+/// What the options of a command would write, looked at before anything runs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pipelines {
+
+/// A file that an option writes.
+struct OutputFile {
+  std::string option;  ///< as on the command line
+  std::filesystem::path file;
+};
+
+/// The files that an option writes into its directory. None if the directory is empty: the option was not
+/// given.
+std::vector<OutputFile> output_files(const std::string& option, const std::filesystem::path& directory,
+                                     const std::vector<std::string>& names);
+
+/// Call it after the scene was read: inputs are known then.
+/// @throws OptionError naming option, file and remedy if a file is there that must not be replaced
+///         (replaceable.h), or if two of them are one file
+void require_writable(const std::vector<OutputFile>& outputs);
+
+/// For outputs that are nothing but loads: what is there has to be loads as this program writes them, or
+/// empty.
+/// @throws OptionError naming option, file and remedy if it is another file
+void require_own_loads(const OutputFile& output);
+
+}  // namespace pipelines

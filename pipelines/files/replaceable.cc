@@ -1,0 +1,78 @@
+#include "pipelines/files/replaceable.h"
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+#include "pipelines/common/errors.h"
+
+namespace pipelines {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The one list of the process: whoever writes has to heed it, whichever stage has read.
+struct Inputs {
+  std::mutex mutex;
+  std::vector<fs::path> files;
+};
+
+Inputs& inputs() {
+  static Inputs all;
+  return all;
+}
+
+bool is_input(const fs::path& file) {
+  std::error_code ignored;
+  const std::lock_guard<std::mutex> lock(inputs().mutex);
+  return std::any_of(inputs().files.begin(), inputs().files.end(),
+                     [&](const fs::path& input) { return fs::equivalent(input, file, ignored); });
+}
+
+std::string kind_of_file(fs::file_type type) {
+  switch (type) {
+    case fs::file_type::symlink:
+      return "is a symbolic link";
+    case fs::file_type::fifo:
+      return "is a pipe";
+    case fs::file_type::block:
+    case fs::file_type::character:
+      return "is a device";
+    case fs::file_type::socket:
+      return "is a socket";
+    case fs::file_type::directory:
+      return "is a directory";
+    default:
+      return "is no regular file";
+  }
+}
+
+}  // namespace
+
+void note_input(const fs::path& file) {
+  std::error_code unknown;
+  auto whole = fs::absolute(file, unknown);
+  if (unknown) whole = file;
+  const std::lock_guard<std::mutex> lock(inputs().mutex);
+  auto& files = inputs().files;
+  if (std::find(files.begin(), files.end(), whole) == files.end()) files.push_back(std::move(whole));
+}
+
+std::string why_not_replaceable(const fs::path& file) {
+  std::error_code none;
+  const auto status = fs::symlink_status(file, none);
+  if (status.type() == fs::file_type::not_found) return "";
+  if (status.type() != fs::file_type::regular)
+    return kind_of_file(status.type()) + ", and only a regular file is replaced";
+  return is_input(file) ? "is an input of this run, and is not replaced" : "";
+}
+
+void require_replaceable(const fs::path& file, const std::string& option) {
+  const auto why = why_not_replaceable(file);
+  if (why.empty()) return;
+  throw OptionError((option.empty() ? "" : option + ' ') + file.string() + ": " + why +
+                    (option.empty() ? "; choose another output with -o, or move it away"
+                                    : "; give " + option + " a new name, or move it away"));
+}
+
+}  // namespace pipelines
