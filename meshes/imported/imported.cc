@@ -4,17 +4,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <sstream>
 
+#include "meshes/checks/affordable.h"
 #include "meshes/checks/curved_quality.h"
 #include "meshes/checks/reentrant_edges.h"
 #include "meshes/gmsh/gmsh_session.h"
+#include "meshes/imported/apart.h"
+#include "meshes/imported/file_checks.h"
+#include "meshes/imported/model_bytes.h"
 #include "meshes/imported/port_selection.h"
+#include "meshes/solids/cell_estimate.h"
 #include "meshes/values/refused.h"
 
 namespace meshes {
 
 namespace {
+
+// Seconds of a core before gmsh is taken to hang: ten times what sound files take
+// (tests/unit/meshes/imported).
+constexpr double least_reading_s = 4, s_per_byte = 4e-6;
+constexpr double least_meshing_s = 4, s_per_cell = 2e-3;
 
 enum class Format { step, msh };
 
@@ -57,30 +71,90 @@ void set_order_of_cells() {
   if (highest != wanted) gmsh::model::mesh::setOrder(wanted);
 }
 
-ModelMesh load(const Import& import, double scale_to_m) {
-  ModelMesh model;
-  const std::string name = import.geometry.string();
-  if (!std::filesystem::is_regular_file(import.geometry))
-    throw GeometryRefused("the geometry " + name + " is no file; check the path");
-  try {
-    const GmshSession session;
-    if (format_of(import.geometry) == Format::step) {
-      import_solids(import.geometry);
-      model = mesh_and_collect(import.control, scale_to_m);
-    } else {
-      gmsh::open(name);
-      set_order_of_cells();
-      model = collect_model(scale_to_m);
-    }
-  } catch (const std::string& message) {
-    throw GeometryRefused("the geometry " + name + " cannot be read or meshed: gmsh says: " + message);
-  } catch (const GeometryRefused& error) {
-    throw GeometryRefused("the geometry " + name + ": " + error.what());
+std::string text_of(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) throw GeometryRefused("is no file; check the path");
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in) throw GeometryRefused("cannot be read; check its permissions");
+  return text;
+}
+
+/// In the child: gmsh prints what it is at, which is all that is known if it crashes.
+ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
+  const GmshSession session;
+  gmsh::option::setNumber("General.Terminal", 1);
+  gmsh::option::setNumber("General.Verbosity", 4);
+  gmsh::option::setNumber("General.NumThreads", 1);
+  if (format_of(import.geometry) == Format::msh) {
+    gmsh::open(import.geometry.string());
+    set_order_of_cells();
+    return collect_model(scale_to_m);
   }
-  if (const int n = n_separate_parts(model.mesh); n > 1)
-    throw GeometryRefused("the geometry " + name + " has " + std::to_string(n) +
-                          " parts that do not touch: join them, or import one");
-  return model;
+  import_solids(import.geometry);
+  const double n_cells = estimated_cells(import.control, scale_to_m);
+  require_affordable(n_cells, bytes_per_tetrahedron, control_of_cells(import.control),
+                     "make the cells larger, or the fine parts fewer");
+  limit_rest_apart(import.time_limit_s > 0 ? import.time_limit_s : least_meshing_s + n_cells * s_per_cell);
+  return mesh_and_collect(import.control, scale_to_m);
+}
+
+/// What gmsh was at when it ended: the last line of its log that says so.
+std::string last_deed(const std::string& log) {
+  std::string deed;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);)
+    for (const char* word : {"Meshing curve", "Meshing surface", "Meshing volume", "Meshing 1D", "Meshing 2D",
+                             "Meshing 3D", "Meshing order"})
+      if (const auto at = line.find(word); at != std::string::npos && line.find("Done") == std::string::npos)
+        deed = line.substr(at + 8, line.find('(', at) == std::string::npos ? std::string::npos
+                                                                           : line.find('(', at) - at - 9);
+  return deed.empty() ? "while reading it" : "while meshing " + deed;
+}
+
+[[noreturn]] void refuse_end(const EndApart& end) {
+  const std::string where = last_deed(end.log);
+  switch (end.kind) {
+    case EndApart::Kind::too_slow:
+      throw GeometryRefused("gmsh did not come to an end " + where +
+                            ": repair the geometry there and export it again, or give it longer with "
+                            "time_limit in the table mesh");
+    case EndApart::Kind::too_large:
+      throw GeometryRefused("gmsh ran out of memory " + where +
+                            ": make the cells larger, or the part simpler");
+    default:
+      throw GeometryRefused("gmsh crashed " + where + " (" +
+                            (end.signal == 0 ? "it ended itself" : strsignal(end.signal)) +
+                            "): repair the geometry there and export it again");
+  }
+}
+
+/// The mesh of the file; whatever gmsh does with it, this process goes on.
+ModelMesh load_apart(const Import& import, double scale_to_m) {
+  const std::string text = text_of(import.geometry);
+  format_of(import.geometry) == Format::step ? check_step_text(text) : check_msh_text(text);
+  const double reading_s =
+      import.time_limit_s > 0 ? import.time_limit_s : least_reading_s + s_per_byte * double(text.size());
+  const auto end =
+      run_apart([&] { return bytes_of([&] { return load_with_gmsh(import, scale_to_m); }); }, reading_s);
+  if (end.kind != EndApart::Kind::finished) refuse_end(end);
+  return model_from(end.result);
+}
+
+ModelMesh load(const Import& import, double scale_to_m) {
+  const std::string name = "the geometry " + import.geometry.string();
+  try {
+    ModelMesh model = load_apart(import, scale_to_m);
+    if (const int n = n_separate_parts(model.mesh); n > 1)
+      throw GeometryRefused("it has " + std::to_string(n) +
+                            " parts that do not touch: join them, or import one");
+    return model;
+  } catch (const TooManyCells& error) {
+    throw TooManyCells(error.control(), name + " " + error.what());
+  } catch (const GeometryRefused& error) {
+    throw GeometryRefused(name + ": " + error.what());
+  } catch (const MeshRefused& error) {
+    throw MeshRefused(name + ": " + error.what());
+  }
 }
 
 std::string unused(std::string name, const std::set<std::string>& used) {
