@@ -37,7 +37,7 @@ Format format_of(const std::filesystem::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
   if (extension == ".step" || extension == ".stp") return Format::step;
   if (extension == ".msh") return Format::msh;
-  throw GeometryRefused("the geometry " + file.string() + " must be a .step, .stp or .msh file");
+  throw GeometryRefused("must be a .step, .stp or .msh file");
 }
 
 void import_solids(const std::filesystem::path& file) {
@@ -140,21 +140,27 @@ ModelMesh load_apart(const Import& import, double scale_to_m) {
   return model_from(end.result);
 }
 
-ModelMesh load(const Import& import, double scale_to_m) {
-  const std::string name = "the geometry " + import.geometry.string();
-  try {
-    ModelMesh model = load_apart(import, scale_to_m);
-    if (const int n = n_separate_parts(model.mesh); n > 1)
-      throw GeometryRefused("it has " + std::to_string(n) +
-                            " parts that do not touch: join them, or import one");
-    return model;
-  } catch (const TooManyCells& error) {
-    throw TooManyCells(error.control(), name + " " + error.what());
-  } catch (const GeometryRefused& error) {
-    throw GeometryRefused(name + ": " + error.what());
-  } catch (const MeshRefused& error) {
-    throw MeshRefused(name + ": " + error.what());
+/// Names of the file's groups become names of features, in tables and files.
+void check_group_names(const std::vector<Piece>& pieces) {
+  for (const Piece& piece : pieces) {
+    const std::string& name = piece.name;
+    const bool is_printed = std::none_of(name.begin(), name.end(),
+                                         [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '"'; });
+    if (!is_printed || (!name.empty() && std::string("=+-@").find(name[0]) != std::string::npos))
+      throw GeometryRefused("the name of its physical group " + std::to_string(piece.tag) +
+                            " holds quotes or control characters, or begins with = + - or @, which a "
+                            "spreadsheet takes for a formula; rename it");
   }
+}
+
+ModelMesh load(const Import& import, double scale_to_m) {
+  ModelMesh model = load_apart(import, scale_to_m);
+  if (const int n = n_separate_parts(model.mesh); n > 1)
+    throw GeometryRefused("it has " + std::to_string(n) +
+                          " parts that do not touch: join them, or import one");
+  check_group_names(model.pieces);
+  check_group_names(model.volumes);
+  return model;
 }
 
 std::string unused(std::string name, const std::set<std::string>& used) {
@@ -211,9 +217,8 @@ void name_surfaces(const Import& import, ModelMesh& model, GroupNames& names, Bo
   for (int& id : model.mesh.face_id) id = id_of_piece[id];
 }
 
-}  // namespace
-
-BodyMesh build_imported(const Import& import, const std::filesystem::path& file) {
+/// What it throws does not name the file.
+BodyMesh build_unnamed(const Import& import, const std::filesystem::path& file) {
   check_control(import.control);
   const double default_scale = format_of(import.geometry) == Format::step ? 1e-3 : 1;
   const double scale_to_m = import.scale_to_m == 0 ? default_scale : import.scale_to_m;
@@ -235,6 +240,21 @@ BodyMesh build_imported(const Import& import, const std::filesystem::path& file)
   body.sharp_edges = reentrant_edges(model.mesh, names.boundaries, exclusion_m);
   write_msh(model.mesh, names, file);
   return body;
+}
+
+}  // namespace
+
+BodyMesh build_imported(const Import& import, const std::filesystem::path& file) {
+  const std::string name = "the geometry " + import.geometry.string() + ": ";
+  try {
+    return build_unnamed(import, file);
+  } catch (const TooManyCells& error) {
+    throw TooManyCells(error.control(), name + error.what());
+  } catch (const GeometryRefused& error) {
+    throw GeometryRefused(name + error.what());
+  } catch (const MeshRefused& error) {
+    throw MeshRefused(name + error.what());
+  }
 }
 
 }  // namespace meshes

@@ -11,16 +11,22 @@ namespace meshes {
 
 namespace {
 
-/// Cells that follow the wanted size over a length: the integral of its reciprocal, each source by itself.
-double n_cells_along(double length_m, const AxialSize& size) {
-  double n = length_m / size.largest_m;
-  for (const auto& source : size.sources)
-    n += std::log1p(size.growth * length_m / source.size_m) / size.growth;
-  return n;
+/// Cells that follow the wanted size in a segment's column: the integral of its reciprocal.
+double n_cells_along(const SegmentLayout& segment, const AxialSize& size) {
+  constexpr int n_samples = 1000;
+  const double step_m = (segment.column_end_m - segment.column_begin_m) / n_samples;
+  double n = 0;
+  for (int i = 0; i < n_samples; ++i) n += step_m / size.at(segment.column_begin_m + (i + 0.5) * step_m);
+  return std::max(1.0, n);
 }
 
-double n_cells_of_fan(const Junction& junction, int n_sectors) {
-  return 4.0 * junction.n_half_arc * std::max(0, junction.n_depth()) * n_sectors;
+/// In the meridian, without a core: the five blocks that fillet_fan.h draws.
+double n_quads_of_fan(const Junction& junction, const ShaftLayout& layout) {
+  const double n_half = junction.n_half_arc, n_depth = junction.n_depth();
+  const double n_below = std::max(0.0, layout.segments[std::size_t(junction.small)].n_rows() - n_depth);
+  const double n_above =
+      std::max(0.0, layout.segments[std::size_t(junction.big)].n_rows() - n_below - n_half);
+  return 2 * n_half * n_depth + n_half * n_below + n_depth * n_above;
 }
 
 }  // namespace
@@ -34,11 +40,13 @@ double estimated_cells(const Shaft& shaft, const ShaftMeshControl& control) {
     const SegmentLayout& segment = layout.segments[i];
     const double n_in_section =
         double(segment.n_rows()) * before.n_sectors + (segment.is_bored() ? 0 : n_of_core);
-    n_cells += n_in_section * n_cells_along(segment.column_end_m - segment.column_begin_m,
-                                            axial_size(layout, int(i), before));
+    n_cells += n_in_section * n_cells_along(segment, axial_size(layout, int(i), before));
   }
-  for (const Junction& junction : layout.junctions)
-    if (junction.has_fan()) n_cells += n_cells_of_fan(junction, before.n_sectors);
+  for (const Junction& junction : layout.junctions) {
+    if (!junction.has_fan()) continue;
+    n_cells += n_quads_of_fan(junction, layout) * before.n_sectors;
+    if (!layout.segments[std::size_t(junction.small)].is_bored()) n_cells += junction.n_half_arc * n_of_core;
+  }
   return n_cells * std::pow(control.subdivisions, 3);
 }
 

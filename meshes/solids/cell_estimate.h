@@ -9,7 +9,7 @@ namespace meshes {
 
 /// Of gmsh's current model, as built or imported by OpenCASCADE: regular tetrahedra in the volumes, and three
 /// for each triangle of a surface whose curvature asks for shorter edges. Within a factor of 3 of gmsh's
-/// meshes (unit test imported_limits).
+/// meshes (unit test cell_estimates).
 /// @param unit_m  length of the model's unit
 double estimated_cells(const SolidControl& control, double unit_m);
 

@@ -38,8 +38,8 @@ double share_of_estimate(const meshes::SolidControl& control) {
   return found / estimate;
 }
 
-TEST(ImportedLimits, CellsAreEstimatedWithinAFactorOfThree) {
-  for (const double size_m : {0.01, 0.005, 0.0025})
+TEST(CellEstimates, CellsAreEstimatedWithinAFactorOfThree) {
+  for (const double size_m : {0.01, 0.004})
     for (const int around : {8, 24}) {
       meshes::SolidControl control;
       control.size_m = size_m;
@@ -50,7 +50,7 @@ TEST(ImportedLimits, CellsAreEstimatedWithinAFactorOfThree) {
     }
 }
 
-TEST(ImportedLimits, AbsurdSizesOfStepAreRefusedBeforeMeshing) {
+TEST(CellEstimates, AbsurdSizesOfStepAreRefusedBeforeMeshing) {
   const auto file = temporary_msh("x").parent_path() / "block.step";
   meshes::with_gmsh("a sample", [&] {
     bored_block();
@@ -68,19 +68,20 @@ TEST(ImportedLimits, AbsurdSizesOfStepAreRefusedBeforeMeshing) {
   }
 }
 
-TEST(ImportedLimits, CellsOfShaftsAreEstimatedWithinAThird) {
+TEST(CellEstimates, CellsOfShaftsAreEstimated) {
   for (const auto& shaft : {laboratory_shaft(), plain_cylinder(), planetary_drum(), grooved_shaft()})
     for (const int cells : {2, 8, 16}) {
       meshes::ShaftMeshControl control;
       control.cells_per_fillet_quarter = cells;
       control.min_scaled_jacobian = 0.01;
       const auto body = meshes::build_shaft(shaft, control, temporary_msh("estimated"));
-      EXPECT_NEAR(meshes::estimated_cells(shaft, control) / double(body.quality.n_cells), 1, 0.34)
+      EXPECT_NEAR(meshes::estimated_cells(shaft, control) / double(body.quality.n_cells), 1,
+                  0.2)  // rounded up to whole cells, column by column
           << shaft.segments.front().name << ' ' << cells;
     }
 }
 
-TEST(ImportedLimits, AbsurdCellsOfBlocksAreRefusedBeforeMeshing) {
+TEST(CellEstimates, AbsurdCellsOfBlocksAreRefusedBeforeMeshing) {
   const auto refused_control = [](const auto& build) {
     try {
       build();
