@@ -79,7 +79,7 @@ TEST_F(MutatedImports, SoundFilesAreAccepted) {
 }
 
 TEST_F(MutatedImports, EndByThemselvesAndNameTheFile) {
-  const int n_mutants = damaged::n_mutants(16);
+  const int n_mutants = damaged::n_mutants(12);
   damaged::Mutator mutator(20);
   std::map<std::string, int> count;
   double slowest_s = 0;

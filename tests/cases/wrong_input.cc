@@ -60,15 +60,16 @@ TEST(WrongInput, StagesNameThePlaceInTheScene) {
     return outcome.err;
   };
   const auto line_of = [](const std::string& text, const std::string& words) {
-    return std::to_string(1 + std::count(text.begin(), text.begin() + long(text.find("\n" + words) + 1), '\n'));
+    return std::to_string(1 +
+                          std::count(text.begin(), text.begin() + long(text.find("\n" + words) + 1), '\n'));
   };
   const std::string train = edited("drive_train.toml", {}), mill = edited("vibratory_mill.toml", {});
   EXPECT_NE(refusal(train, "springs").find("scene.toml:" + line_of(train, "type = \"drive_train\"")),
             std::string::npos);
   EXPECT_NE(refusal(mill, "torsion").find("scene.toml:" + line_of(mill, "type = \"vibratory_mill\"")),
             std::string::npos);
-  const std::string heavy =
-      chamber_alone({{"bearings\nmass = \"6 kg\"", "bearings\nmass = \"16 kg\""}});
+  const std::string heavy = chamber_alone({{"bearings\nmass = \"6 kg\"", "bearings\nmass = \"16 kg\""},
+                                           {"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}});
   const auto masses = refusal(heavy, "check");
   EXPECT_NE(masses.find("scene.toml:" + line_of(heavy, "[chamber]") + ":"), std::string::npos) << masses;
   EXPECT_NE(masses.find("exciter mass"), std::string::npos) << masses;
