@@ -25,7 +25,8 @@ public:
   void check() {
     while (at_ < text_.size()) step();
     if (in_statement_) refuse_step(statement_line_, "this statement does not end: the file is cut off");
-    if (ended_at_ != std::string_view::npos && text_.find("END-ISO-10303-21", ended_at_) == text_.npos)
+    if (ended_at_ != std::string_view::npos &&
+        text_.find("END-ISO-10303-21", ended_at_) == std::string_view::npos)
       refuse_step(line_, "there is no END-ISO-10303-21: the file is cut off");
     for (const auto& use : uses_)
       if (defined_.count(use.entity) == 0)
@@ -73,7 +74,7 @@ private:
 
   void pass(const char* closing, const std::string& what, std::size_t n_opening) {
     const auto end = text_.find(closing, at_ + n_opening);
-    if (end == text_.npos) refuse_step(line_, what + " that begins here does not end");
+    if (end == std::string_view::npos) refuse_step(line_, what + " that begins here does not end");
     line_ += int(std::count(text_.begin() + long(at_), text_.begin() + long(end), '\n'));
     at_ = end + n_opening;
   }
@@ -108,7 +109,7 @@ private:
 }  // namespace
 
 void check_step_text(const std::string& text) {
-  if (text.find("ISO-10303-21") == text.npos)
+  if (text.find("ISO-10303-21") == std::string::npos)
     refuse_step(1, "this is no STEP file: it does not begin with ISO-10303-21");
   StepText(text).check();
 }
