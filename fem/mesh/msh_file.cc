@@ -1,5 +1,6 @@
 #include "fem/mesh/msh_file.h"
 
+#include <cmath>
 #include <cstdlib>
 
 #include "fem/values/errors.h"
@@ -59,6 +60,11 @@ public:
     check(after);
     return value;
   }
+  double finite() {
+    const double value = number();
+    if (!std::isfinite(value)) fail();
+    return value;
+  }
   std::int64_t integer() {
     char* after = nullptr;
     const long long value = std::strtoll(at_, &after, 10);
@@ -71,6 +77,8 @@ public:
     if (value < 0 || value > end_ - at_) fail();
     return static_cast<std::size_t>(value);
   }
+  /// Bytes that are not read yet.
+  std::size_t n_left() const { return std::size_t(end_ - at_); }
   void skip(std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) number();
   }
@@ -130,7 +138,7 @@ void read_nodes(const std::string& text, const std::string& name, MshFile& mesh)
     const std::size_t first = mesh.xyz_m.size() / 3;
     for (std::size_t i = 0; i < n; ++i) mesh.place_of_node.emplace(in.integer(), first + i);
     for (std::size_t i = 0; i < n; ++i) {
-      for (int d = 0; d < 3; ++d) mesh.xyz_m.push_back(in.number());
+      for (int d = 0; d < 3; ++d) mesh.xyz_m.push_back(in.finite());
       if (parametric) in.skip(static_cast<std::size_t>(dimension));
     }
   }
@@ -148,6 +156,7 @@ MshFile::Elements read_block(Section& in, const std::string& name) {
                        std::to_string(block.type) +
                        ": linear hexahedra or tetrahedra of 10 nodes are expected");
   const std::size_t n = in.count();
+  if (n > in.n_left() / std::size_t(block.nodes_per_element)) in.fail();
   block.nodes.reserve(n * block.nodes_per_element);
   for (std::size_t e = 0; e < n; ++e) {
     in.integer();

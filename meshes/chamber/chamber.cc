@@ -35,6 +35,7 @@ BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control
   check_control(control);
   check_sizes(chamber);
   const ChamberLayout layout = lay_out(chamber, control);
+  check_cells(chamber, layout, control);
   check_clearances(chamber, layout);
   const ChamberStations stations = place_stations(chamber, layout, control);
   const ChamberSurfaces surfaces = name_surfaces(chamber, layout);

@@ -4,6 +4,8 @@
 #include <sstream>
 #include <string>
 
+#include "meshes/checks/affordable.h"
+#include "meshes/values/constants.h"
 #include "meshes/values/refusal.h"
 #include "meshes/values/refused.h"
 
@@ -136,6 +138,13 @@ void check_sizes(const Chamber& chamber) {
   check_rings(chamber);
   check_webs(chamber);
   check_feet(chamber);
+}
+
+void check_cells(const Chamber& chamber, const ChamberLayout& layout, const ChamberMeshControl& control) {
+  const double n_around = 2 * pi * layout.tube_outer_m / layout.size_m;
+  const double n_along = chamber.tube.length_m / layout.size_m;
+  require_affordable(n_around * n_along * control.cells_through_wall, bytes_per_hexahedron, "size_m",
+                     "make it larger, or leave it out");
 }
 
 }  // namespace meshes

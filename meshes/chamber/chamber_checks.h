@@ -11,6 +11,10 @@ namespace meshes {
 void check_sizes(const Chamber& chamber);
 void check_control(const ChamberMeshControl& control);
 
+/// @param layout  of the chamber and the control
+/// @throws TooManyCells naming size_m, from the cells of the tube alone
+void check_cells(const Chamber& chamber, const ChamberLayout& layout, const ChamberMeshControl& control);
+
 /// Parts against each other: they keep clear where they share a range of z; edges of plates taper by at most
 /// 1 in 2.
 /// @throws GeometryRefused naming the parts, their distance and the least one, or the taper

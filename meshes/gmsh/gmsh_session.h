@@ -20,7 +20,8 @@ public:
   GmshSession& operator=(const GmshSession&) = delete;
 };
 
-/// Runs an action in a session of its own; gmsh's errors, which are plain strings, become MeshRefused.
+/// Runs an action in a session of its own; gmsh's errors, which are plain strings or nothing known, become
+/// MeshRefused.
 template <typename Action>
 void with_gmsh(const std::string& purpose, Action action) {
   try {
@@ -28,6 +29,10 @@ void with_gmsh(const std::string& purpose, Action action) {
     action();
   } catch (const std::string& message) {
     throw MeshRefused(purpose + ": gmsh says: " + message);
+  } catch (const std::exception&) {
+    throw;
+  } catch (...) {  // OpenCASCADE throws what it likes
+    throw MeshRefused(purpose + ": gmsh gave up without a word");
   }
 }
 

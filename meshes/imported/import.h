@@ -41,7 +41,8 @@ struct Import {
   std::filesystem::path geometry;  ///< .step, .stp, or .msh of any version
   double scale_to_m = 0;           ///< length of the file's unit; 0: 1e-3 for STEP (mm), 1 for .msh
   std::vector<ImportPort> ports;
-  SolidControl control;  ///< for a .msh only min_scaled_jacobian and exclusion_m count
+  SolidControl control;     ///< for a .msh only min_scaled_jacobian and exclusion_m count
+  double time_limit_s = 0;  ///< of a core, for reading and again for meshing; 0: from size and cells
 };
 
 }  // namespace meshes

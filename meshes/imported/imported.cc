@@ -1,14 +1,12 @@
 #include "meshes/imported/imported.h"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "meshes/checks/curved_quality.h"
 #include "meshes/checks/reentrant_edges.h"
-#include "meshes/gmsh/gmsh_session.h"
+#include "meshes/imported/load_apart.h"
 #include "meshes/imported/port_selection.h"
 #include "meshes/values/refused.h"
 
@@ -16,70 +14,26 @@ namespace meshes {
 
 namespace {
 
-enum class Format { step, msh };
-
-Format format_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-  if (extension == ".step" || extension == ".stp") return Format::step;
-  if (extension == ".msh") return Format::msh;
-  throw GeometryRefused("the geometry " + file.string() + " must be a .step, .stp or .msh file");
-}
-
-void import_solids(const std::filesystem::path& file) {
-  gmsh::vectorpair shapes, volumes, fragments;
-  gmsh::model::occ::importShapes(file.string(), shapes, true, "step");
-  gmsh::model::occ::synchronize();
-  gmsh::model::getEntities(volumes, 3);
-  if (volumes.empty()) throw GeometryRefused("it has no solid, surfaces at most: export the part as a solid");
-  if (volumes.size() == 1) return;
-  std::vector<gmsh::vectorpair> map;  // solids that touch share their surfaces afterwards
-  gmsh::model::occ::fragment({volumes.front()}, {volumes.begin() + 1, volumes.end()}, fragments, map);
-  gmsh::model::occ::synchronize();
-}
-
-/// The order the cells are written in: second for tetrahedra, first for hexahedra.
-void set_order_of_cells() {
-  std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types, 3);
-  bool tetrahedra = false;
-  int highest = 1;
-  for (const int type : types) {
-    std::string name;
-    int dimension, order, n_nodes, n_primary;
-    std::vector<double> coordinates;
-    gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_nodes, coordinates, n_primary);
-    tetrahedra = tetrahedra || n_primary == 4;
-    highest = std::max(highest, order);
+/// Names of the file's groups become names of features, in tables and files.
+void check_group_names(const std::vector<Piece>& pieces) {
+  for (const Piece& piece : pieces) {
+    const std::string& name = piece.name;
+    const bool is_printed = std::none_of(name.begin(), name.end(),
+                                         [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '"'; });
+    if (!is_printed || (!name.empty() && std::string("=+-@").find(name[0]) != std::string::npos))
+      throw GeometryRefused("the name of its physical group " + std::to_string(piece.tag) +
+                            " holds quotes or control characters, or begins with = + - or @, which a "
+                            "spreadsheet takes for a formula; rename it");
   }
-  if (types.empty()) throw GeometryRefused("it has no cells, only a surface: mesh its volumes");
-  const int wanted = tetrahedra ? 2 : 1;
-  if (highest != wanted) gmsh::model::mesh::setOrder(wanted);
 }
 
 ModelMesh load(const Import& import, double scale_to_m) {
-  ModelMesh model;
-  const std::string name = import.geometry.string();
-  if (!std::filesystem::is_regular_file(import.geometry))
-    throw GeometryRefused("the geometry " + name + " is no file; check the path");
-  try {
-    const GmshSession session;
-    if (format_of(import.geometry) == Format::step) {
-      import_solids(import.geometry);
-      model = mesh_and_collect(import.control, scale_to_m);
-    } else {
-      gmsh::open(name);
-      set_order_of_cells();
-      model = collect_model(scale_to_m);
-    }
-  } catch (const std::string& message) {
-    throw GeometryRefused("the geometry " + name + " cannot be read or meshed: gmsh says: " + message);
-  } catch (const GeometryRefused& error) {
-    throw GeometryRefused("the geometry " + name + ": " + error.what());
-  }
+  ModelMesh model = load_apart(import, scale_to_m);
   if (const int n = n_separate_parts(model.mesh); n > 1)
-    throw GeometryRefused("the geometry " + name + " has " + std::to_string(n) +
+    throw GeometryRefused("it has " + std::to_string(n) +
                           " parts that do not touch: join them, or import one");
+  check_group_names(model.pieces);
+  check_group_names(model.volumes);
   return model;
 }
 
@@ -137,11 +91,10 @@ void name_surfaces(const Import& import, ModelMesh& model, GroupNames& names, Bo
   for (int& id : model.mesh.face_id) id = id_of_piece[id];
 }
 
-}  // namespace
-
-BodyMesh build_imported(const Import& import, const std::filesystem::path& file) {
+/// What it throws does not name the file.
+BodyMesh build_unnamed(const Import& import, const std::filesystem::path& file) {
   check_control(import.control);
-  const double default_scale = format_of(import.geometry) == Format::step ? 1e-3 : 1;
+  const double default_scale = format_of(import.geometry) == GeometryFormat::step ? 1e-3 : 1;
   const double scale_to_m = import.scale_to_m == 0 ? default_scale : import.scale_to_m;
   if (!std::isfinite(scale_to_m) || !(scale_to_m > 0))
     throw GeometryRefused("scale_to_m = " + std::to_string(import.scale_to_m) +
@@ -161,6 +114,21 @@ BodyMesh build_imported(const Import& import, const std::filesystem::path& file)
   body.sharp_edges = reentrant_edges(model.mesh, names.boundaries, exclusion_m);
   write_msh(model.mesh, names, file);
   return body;
+}
+
+}  // namespace
+
+BodyMesh build_imported(const Import& import, const std::filesystem::path& file) {
+  const std::string name = "the geometry " + import.geometry.string() + ": ";
+  try {
+    return build_unnamed(import, file);
+  } catch (const TooManyCells& error) {
+    throw TooManyCells(error.control(), name + error.what());
+  } catch (const GeometryRefused& error) {
+    throw GeometryRefused(name + error.what());
+  } catch (const MeshRefused& error) {
+    throw MeshRefused(name + error.what());
+  }
 }
 
 }  // namespace meshes

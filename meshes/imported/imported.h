@@ -18,9 +18,12 @@ namespace meshes {
 /// its groups of volumes regions if there are several. Every boundary face belongs to one feature: that of a
 /// port, or of its group, or "surface <n>", n the surface's number in the CAD. Sharp edges: where faces meet
 /// at more than 60 degrees re-entrant. One call at a time in a process: gmsh is global.
+/// The file's text is checked first (file_checks.h); gmsh reads and meshes it in a process of its own, with
+/// limits of time and memory (apart.h), so that a file that makes it crash or hang is refused like any other.
 /// @throws GeometryRefused naming file or port and the remedy: a file that is missing, cannot be read
 /// or has no solid, solids that do not touch, a port without surfaces (what there is, is listed), a surface
 /// that two ports claim, a seat or bore that is no cylinder, a surface that sticks out of the range of z
+/// @throws TooManyCells before anything is meshed, if memory cannot hold the cells asked for
 /// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian, or the file cannot be
 /// written
 BodyMesh build_imported(const Import& import, const std::filesystem::path& file);

@@ -7,11 +7,13 @@
 #include <functional>
 #include <stdexcept>
 
+#include "meshes/checks/affordable.h"
 #include "meshes/checks/curved_quality.h"
 #include "meshes/checks/reentrant_edges.h"
 #include "meshes/gmsh/gmsh_session.h"
 #include "meshes/keyed_shaft/solid_layout.h"
 #include "meshes/shaft/shaft_checks.h"
+#include "meshes/solids/cell_estimate.h"
 #include "meshes/solids/model_mesh.h"
 #include "meshes/solids/surface_pieces.h"
 #include "meshes/values/refused.h"
@@ -194,6 +196,8 @@ BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyway
   ModelMesh model;
   with_gmsh("meshing the shaft with keyways", [&] {
     model_solid(shaft, layout, keyways);
+    require_affordable(estimated_cells(control, 1e-3), bytes_per_tetrahedron, control_of_cells(control),
+                       "make the cells larger, or the fine parts fewer");
     model = mesh_and_collect(control, 1e-3);
   });
   const Surfaces surfaces(shaft, layout, keyways);

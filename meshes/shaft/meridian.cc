@@ -33,7 +33,8 @@ double usual_cell(const SegmentLayout& segment, int n_sectors) {
   return std::min(size_m, std::max(2 * pi * segment.radius_m, 64 * segment.wall_m()) / n_sectors);
 }
 
-/// Wanted axial cell sizes in a segment's column.
+}  // namespace
+
 AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshControl& control) {
   const SegmentLayout& segment = layout.segments[index];
   AxialSize size;
@@ -56,6 +57,8 @@ AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshContro
   }
   return size;
 }
+
+namespace {
 
 /// Where a cell boundary must lie inside the column: the limits of the loaded zone; the middle, if the part
 /// at least half a diameter from both ends is shorter than the largest cell, so that it might get no boundary

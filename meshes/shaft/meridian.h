@@ -8,6 +8,7 @@
 
 #include "meshes/shaft/shaft_layout.h"
 #include "meshes/shaft/shaft_surfaces.h"
+#include "meshes/spacing/grading.h"
 
 namespace meshes {
 
@@ -47,6 +48,10 @@ struct Meridian {
   std::vector<CoreLine> cores;            ///< ascending in z
   std::vector<MeridianStation> stations;  ///< ascending in z, without the end faces
 };
+
+/// Wanted axial cell sizes in the column of a segment.
+/// @param index  of the segment
+AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshControl& control);
 
 /// Blocks: one column per segment, a fan of five at each fillet; transfinite inside, shared edges built once.
 /// @param layout, control before subdivision

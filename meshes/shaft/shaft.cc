@@ -64,6 +64,7 @@ struct Blocks {
 Blocks blocks_of(const Shaft& shaft, const ShaftMeshControl& control) {
   check_control(control);
   check_shaft(shaft);
+  check_cells(shaft, control);
   const ShaftMeshControl before = before_subdivision(control);
   ShaftLayout layout = lay_out(shaft, before);
   SurfaceTable surfaces = name_surfaces(shaft, layout);

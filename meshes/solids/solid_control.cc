@@ -100,10 +100,13 @@ void check_control(const SolidControl& control) {
            " must lie between 0 and 1");
 }
 
+double longest_edge(const SolidControl& control, double unit_m) {
+  return control.size_factor * (control.size_m > 0 ? control.size_m / unit_m : diagonal_of_model() / 20);
+}
+
 void mesh_solids(const SolidControl& control, double unit_m) {
   const auto set = [](const char* name, double value) { gmsh::option::setNumber(name, value); };
-  const double size =
-      control.size_factor * (control.size_m > 0 ? control.size_m / unit_m : diagonal_of_model() / 20);
+  const double size = longest_edge(control, unit_m);
   set("General.NumThreads", 1);
   set("Mesh.Algorithm", 6);
   set("Mesh.Algorithm3D", 1);

@@ -30,6 +30,10 @@ struct SolidControl {
 /// @throws GeometryRefused naming the value that is out of range
 void check_control(const SolidControl& control);
 
+/// Longest edge wanted in gmsh's current model, in its unit.
+/// @param unit_m  length of that unit
+double longest_edge(const SolidControl& control, double unit_m);
+
 /// Meshes the volumes of gmsh's current model, as imported or built: second order with the nodes on the
 /// surfaces.
 /// @param unit_m  length of the model's unit

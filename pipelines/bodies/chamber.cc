@@ -169,7 +169,7 @@ public:
       mill.structure_centre_m = {structure.x_kg_m / structure.mass_kg, structure.y_kg_m / structure.mass_kg};
       mill.pitch_inertia_kg_m2 = structure.polar_kg_m2 + exciter.polar_kg_m2;
     }
-    MassComparison comparison(body.name, result.figures);
+    MassComparison comparison(body, result.figures);
     const double m1 = mill.structure_mass_kg;
     PlanarMass rest;
     rest.mass_kg = comparison.compare("structure mass", "kg", m1, structure.mass_kg, open);

@@ -53,7 +53,7 @@ public:
     drum += planar_mass(attached);
     const bool open = is_open(scene, "drum");
     if (open) mill.drum_mass_kg = drum.mass_kg;
-    MassComparison comparison(body.name, result.figures);
+    MassComparison comparison(body, result.figures);
     PlanarMass rest;
     rest.mass_kg = comparison.compare("drum mass", "kg", mill.drum_mass_kg, drum.mass_kg, open);
     rest.x_kg_m = -drum.x_kg_m;  // the load stage has its centre on the axis

@@ -184,7 +184,7 @@ public:
                          "\": the train has no such inertia");
     const bool open = is_open(scene, inertia->name);
     if (open) inertia->inertia_kg_m2 = shaft.polar_kg_m2;
-    MassComparison comparison(body.name, result.figures);
+    MassComparison comparison(body, result.figures);
     PlanarMass rest;
     rest.polar_kg_m2 = comparison.compare("inertia of " + inertia->name, "kg m2", inertia->inertia_kg_m2,
                                           shaft.polar_kg_m2, open);

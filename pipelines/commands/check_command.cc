@@ -2,10 +2,12 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iostream>
 #include <ostream>
 #include <sstream>
 #include <utility>
 
+#include "meshes/shaft/shaft_checks.h"
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/fem_environment.h"
@@ -90,9 +92,24 @@ void check_load_stage(std::ostream& out, Scene scene) {
   try_torsion(scene, scene.machine);
 }
 
+/// A large mesh keeps silent for long: it is told before.
+void tell_what_takes_long(const Scene& scene) {
+  constexpr double many_cells = 1e5;
+  constexpr double s_per_cell = 1e-4;  // of the vibratory mill's shaft with 64 cells on each fillet's quarter
+  for (const auto& body : scene.bodies) {
+    const auto* shaft = body.shaft();
+    if (shaft == nullptr || !shaft->keyways.empty()) continue;
+    const double n_cells = meshes::estimated_cells(shaft->geometry, shaft->mesh);
+    if (n_cells > many_cells)
+      std::cerr << fmt::format("{}: about {:.2g} cells; to mesh and weigh them takes about {:.2g} s\n",
+                               body.name, n_cells, s_per_cell * n_cells);
+  }
+}
+
 /// The mesh is a second's work and the only honest answer to what will be solved; it is made aside and thrown
 /// away.
 void check_bodies(std::ostream& out, Scene scene) {
+  tell_what_takes_long(scene);
   const FemEnvironment environment(all_cores);
   const ScratchMeshes meshes(scene);
   const auto& meshed = meshes.bodies();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fem/values/errors.h"
+#include "kinetics/machine_refused.h"
 #include "meshes/values/refused.h"
 
 namespace pipelines {
@@ -24,6 +25,17 @@ std::string refusal_of(Work&& work) {
     return error.what();
   } catch (const fem::SolveFailed& error) {
     return error.what();
+  }
+}
+
+/// Does the work; what kinetics refuses then begins with a place in the scene.
+/// @throws kinetics::MachineRefused "place: what", and anything else that the work throws
+template <typename Work>
+auto with_place(const std::string& place, Work&& work) {
+  try {
+    return std::forward<Work>(work)();
+  } catch (const kinetics::MachineRefused& error) {
+    throw kinetics::MachineRefused(place + ": " + error.what());
   }
 }
 

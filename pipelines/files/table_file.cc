@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "pipelines/common/errors.h"
 #include "pipelines/files/replaceable.h"
@@ -84,6 +85,7 @@ private:
   void read_titles(const std::string& line, int number) {
     table_.title_line = number;
     separator_ = separator_of(line);
+    std::set<std::string> names;
     for (const auto& cell : cells_of(line, separator_)) {
       const auto open = cell.text.find('[');
       TableColumn column;
@@ -96,12 +98,12 @@ private:
           refuse(number, cell.column, column.name, cell.text,
                  "the unit's bracket is not closed; write \"name [unit]\"");
       }
+      if (errors_.size() >= most_errors) return;
       if (column.name.empty())
         refuse(number, cell.column, "", cell.text, "the column has no name; write \"name [unit]\"");
-      for (const auto& other : table_.columns)
-        if (other.name == column.name)
-          refuse(number, cell.column, column.name, cell.text,
-                 "names a second column so; rename one of the two");
+      else if (!names.insert(column.name).second)
+        refuse(number, cell.column, column.name, cell.text,
+               "names a second column so; rename one of the two");
       table_.columns.push_back(std::move(column));
     }
   }
@@ -113,7 +115,7 @@ private:
                     "has " + std::to_string(cells.size()) + " cells where the titles name " +
                         std::to_string(table_.columns.size()) + " columns; give one number per column");
     table_.lines.push_back(number);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (std::size_t c = 0; c < cells.size() && errors_.size() < most_errors; ++c) {
       double value = 0;
       const std::string& text = cells[c].text;
       const char* const begin = text.c_str() + (text[0] == '+' ? 1 : 0);

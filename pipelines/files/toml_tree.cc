@@ -32,22 +32,38 @@ public:
     const bool goes_on = region.end.line > region.begin.line;
     const std::size_t begin = byte_of(line, region.begin.column);
     const std::size_t end = goes_on ? line.size() : byte_of(line, region.end.column);
-    std::string text(line.substr(begin, end - begin));
+    std::string text(line.substr(begin, std::min(longest_cut, end - begin)));
+    if (end - begin > longest_cut) return text + " ...";
     while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
     return goes_on ? text + " ..." : text;
   }
 
 private:
-  /// Offset of the 1-based column, counted in UTF-8 characters.
-  static std::size_t byte_of(std::string_view line, std::size_t column) {
-    std::size_t byte = 0;
-    for (std::size_t c = 1; c < column && byte < line.size(); ++c) do
+  static constexpr std::size_t longest_cut = 4000;
+
+  /// Offset of the 1-based column, counted in UTF-8 characters. It goes on from the last place asked for,
+  /// forwards or back: values of a line lie beside each other, and there may be 100 000 of them.
+  std::size_t byte_of(std::string_view line, std::size_t column) const {
+    column = std::max<std::size_t>(1, column);
+    if (last_.line != line.data()) last_ = {line.data(), 1, 0};
+    auto& [start, at, byte] = last_;
+    const auto inside = [&] { return (static_cast<unsigned char>(line[byte]) & 0xC0) == 0x80; };
+    for (; at > column; --at) do
+        --byte;
+      while (inside());
+    for (; at < column && byte < line.size(); ++at) do
         ++byte;
-      while (byte < line.size() && (static_cast<unsigned char>(line[byte]) & 0xC0) == 0x80);
+      while (byte < line.size() && inside());
     return byte;
   }
 
+  struct Place {
+    const char* line = nullptr;
+    std::size_t column = 1, byte = 0;
+  };
+
   std::vector<std::string_view> lines_;
+  mutable Place last_;
 };
 
 TomlNode convert(const toml::node& node, const SourceLines& lines) {

@@ -43,6 +43,12 @@ std::vector<fem::ElasticSupport> elastic_feet(const meshes::BodyMesh& mesh,
   return supports;
 }
 
+/// Where the scene has the key of a mesh control; the body's place if it leaves the key out.
+std::string place_of(const std::string& control, const BodyScene& body) {
+  const auto found = body.mesh_keys.find(mesh_key(control));
+  return found == body.mesh_keys.end() ? body.origin : found->second;
+}
+
 std::vector<fem::LoadSurface> round_ports(const meshes::BodyMesh& mesh) {
   std::vector<fem::LoadSurface> seats;
   for (const auto& port : mesh.ports) {
@@ -68,6 +74,8 @@ MeshedBody::~MeshedBody() = default;
 meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file) {
   try {
     return std::visit(Build{file}, body.shape);
+  } catch (const meshes::TooManyCells& error) {
+    throw meshes::GeometryRefused(place_of(error.control(), body) + ": " + error.what());
   } catch (const meshes::GeometryRefused& error) {
     throw meshes::GeometryRefused(body.origin + ": " + error.what());
   } catch (const meshes::MeshRefused& error) {

@@ -1,5 +1,6 @@
 #include "pipelines/loads/load_stage.h"
 
+#include "pipelines/common/refusal_of.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/finite_loads.h"
 #include "pipelines/scene/body_kind.h"
@@ -15,7 +16,7 @@ LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
 LoadedScene::~LoadedScene() = default;
 
 kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
-  auto loads = kind_of(machine).loads(scene, machine);
+  auto loads = with_place(scene.machine_origin, [&] { return kind_of(machine).loads(scene, machine); });
   require_finite(loads);
   return loads;
 }

@@ -55,7 +55,7 @@ double MassComparison::compare(const std::string& name, const std::string& unit,
   const double share = figures_.back().share();
   if (share > largest_share) {
     std::ostringstream text;
-    text << body_ << ": the machine's " << name << " is " << given << ' ' << unit
+    text << origin_ << ": the machine's " << name << " is " << given << ' ' << unit
          << ", mesh and added masses give " << mesh << ' ' << unit << ": " << 100 * share
          << " % apart, at most 20 % can be carried; correct one of "
          << "them, or leave the machine's out, so that the mesh gives it";

@@ -36,15 +36,15 @@ std::vector<AttachedMass> added_masses(const BodyScene& scene, const meshes::Bod
 /// Collects the figures of one body and what they leave to be carried.
 class MassComparison {
 public:
-  MassComparison(const std::string& body, std::vector<MassFigure>& figures)
-      : body_(body), figures_(figures) {}
+  MassComparison(const BodyScene& body, std::vector<MassFigure>& figures)
+      : body_(body.name), origin_(body.origin), figures_(figures) {}
 
   /// @return given - mesh
-  /// @throws StageRefused if they are more than 20 % apart
+  /// @throws StageRefused with the body's place in the scene if they are more than 20 % apart
   double compare(const std::string& name, const std::string& unit, double given, double mesh, bool from_mesh);
 
 private:
-  std::string body_;
+  std::string body_, origin_;
   std::vector<MassFigure>& figures_;
 };
 

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
+#include <vector>
+
+#include "pipelines/common/nearest_name.h"
 
 namespace pipelines {
 namespace {
@@ -26,6 +30,12 @@ std::optional<double> optional_quantity(SceneTable& table, const std::string& na
 double quantity_if_given(SceneTable& table, const std::string& name, const std::string& unit,
                          const Range& range, double otherwise = 0) {
   return optional_quantity(table, name, unit, range).value_or(otherwise);
+}
+
+/// Names are unique over inertias and elements, and over excitations.
+void refuse_second(SceneTable& table, const std::string& name, std::set<std::string>& taken) {
+  if (!name.empty() && !taken.insert(name).second)
+    table.refuse("name", "is the name of two; names are unique within a train: rename one");
 }
 
 std::string text_if_given(SceneTable& table, const std::string& name) {
@@ -206,10 +216,24 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
   train.reference_speed_rad_s = reference.quantity("speed", "rad/s", positive(1e6));
   reference.finish();
   train.modal_damping_ratio = quantity_if_given(machine, "modal_damping", "1", between(0, 0.999));
-  for (SceneTable& table : machine.tables("inertias"))
+  std::set<std::string> taken, shafts;
+  for (SceneTable& table : machine.tables("inertias")) {
     train.inertias.push_back(read_inertia(table, masses_from_mesh));
-  for (SceneTable& table : machine.tables("elements")) train.elements.push_back(read_element(table));
-  for (SceneTable& table : machine.tables("excitations")) train.excitations.push_back(read_excitation(table));
+    refuse_second(table, train.inertias.back().name, taken);
+    shafts.insert(train.inertias.back().shaft);
+  }
+  for (SceneTable& table : machine.tables("elements")) {
+    train.elements.push_back(read_element(table));
+    refuse_second(table, train.elements.back().name, taken);
+  }
+  taken.clear();
+  for (SceneTable& table : machine.tables("excitations")) {
+    train.excitations.push_back(read_excitation(table));
+    refuse_second(table, train.excitations.back().name, taken);
+  }
+  if (!train.reference_shaft.empty() && shafts.count(train.reference_shaft) == 0)
+    reference.refuse("shaft", "no inertia sits on this shaft; write one of " +
+                                  listed(std::vector<std::string>(shafts.begin(), shafts.end())));
   read_campbell(machine.table_or_empty("campbell"), train.reference_speed_rad_s, torsion);
   read_transient(machine, torsion);
   machine.finish();

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "pipelines/common/name_fault.h"
 #include "pipelines/common/nearest_name.h"
 #include "pipelines/common/units.h"
 #include "pipelines/files/table_file.h"
@@ -114,9 +115,10 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
   for (std::size_t c = 1; c < table.columns.size(); ++c) {
     const auto& column = table.columns[c];
     const auto load = parse_load(column.name);
-    if (!load) {
-      findings.errors.push_back(
-          {table.file.string(), table.title_line, column.column, column.name, "", not_a_load()});
+    const std::string fault = name_fault(column.name);
+    if (!load || !fault.empty()) {
+      findings.errors.push_back({table.file.string(), table.title_line, column.column, column.name, "",
+                                 fault.empty() ? not_a_load() : fault});
       continue;
     }
     loads.loads.push_back({effect, load->port, load->component, load->unit,

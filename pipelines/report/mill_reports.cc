@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 const kinetics::VibratoryMill& mill_of(const Scene& scene, const std::string& command) {
   if (const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine)) return *mill;
-  throw StageRefused(scene.file.string() + ": " + command +
+  throw StageRefused(scene.machine_type_at + ": " + command +
                      " needs a scene whose machine.type is \"vibratory_mill\"");
 }
 

@@ -5,13 +5,16 @@
 
 #include "pipelines/common/errors.h"
 #include "pipelines/common/finite.h"
+#include "pipelines/common/refusal_of.h"
 
 namespace pipelines {
 
-TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
+namespace {
+
+TorsionReport report_of(const Scene& scene, const Machine& machine) {
   const auto* train = std::get_if<kinetics::DriveTrain>(&machine);
   if (!train)
-    throw StageRefused(scene.file.string() +
+    throw StageRefused(scene.machine_type_at +
                        ": torsion needs a scene whose machine.type is \"drive_train\"; see "
                        "pipelines/scenes/drive_train.toml");
   const auto effects = scene.kinetics_effects();
@@ -44,6 +47,12 @@ TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
   }
   require_finite(report);
   return report;
+}
+
+}  // namespace
+
+TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
+  return with_place(scene.machine_origin, [&] { return report_of(scene, machine); });
 }
 
 void require_finite(const TorsionReport& torsion) {

@@ -41,10 +41,14 @@ struct AddedMass {
 
 using BodyShape = std::variant<ShaftShape, ChamberShape, meshes::Import>;
 
+/// The key of [<body>.mesh] that a field of a mesh control is read from: the field without its unit.
+std::string mesh_key(const std::string& control);
+
 struct BodyScene {
-  std::string name;     ///< "shaft", "chamber", "drum", "axle", "part": table and directory
-  std::string origin;   ///< "file:line:column: table", named by errors that meshing brings to light
-  BodyOptions options;  ///< of its kind (body_kind.h)
+  std::string name;    ///< "shaft", "chamber", "drum", "axle", "part": table and directory
+  std::string origin;  ///< "file:line:column: table", named by errors that meshing brings to light
+  std::map<std::string, std::string> mesh_keys;  ///< "file:line:column: key = value" by key of [<name>.mesh]
+  BodyOptions options;                           ///< of its kind (body_kind.h)
   BodyShape shape;
   fem::Material material;
   std::string material_name;

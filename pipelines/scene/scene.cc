@@ -7,6 +7,12 @@
 #include "pipelines/scene/body_effects.h"
 
 namespace pipelines {
+std::string mesh_key(const std::string& control) {
+  const std::string unit = "_m";
+  const bool has_unit = control.size() > unit.size() && control.substr(control.size() - 2) == unit;
+  return has_unit ? control.substr(0, control.size() - unit.size()) : control;
+}
+
 BodyScene::BodyScene() = default;
 BodyScene::BodyScene(const BodyScene&) = default;
 BodyScene::BodyScene(BodyScene&&) noexcept = default;

@@ -82,6 +82,8 @@ struct EffectsKey {
 struct Scene {
   std::filesystem::path file;
   std::string title;
+  std::string machine_origin;   ///< "file:line:column: machine", named by errors that come after reading
+  std::string machine_type_at;  ///< "file:line:column: machine.type = ..."
   Machine machine;
   std::optional<MillingSpace> milling_space;  ///< empty if the scene does not give it
   std::vector<std::string> effects;           ///< those that are on; each known, none twice

@@ -65,6 +65,7 @@ BodyScene read_body(SceneTable& table, const BodyKind& kind, const Scene& scene,
   BodyScene body;
   body.name = table.key();
   body.origin = table.origin();
+  body.mesh_keys = table.places_in("mesh");
   body.options = kind.read_options(table, scene);
   table.know("file");
   if (table.has("file"))

@@ -97,6 +97,9 @@ Scene read_scene(const std::filesystem::path& file) {
   scene.title = root.text_or("title", file.stem().string(), "the name of the file");
   SceneTable machine = root.table("machine");
   const std::string type = machine.has("type") ? machine.text("type") : "";
+  scene.machine_origin = machine.origin();
+  const auto places = root.places_in("machine");
+  if (const auto at = places.find("type"); at != places.end()) scene.machine_type_at = at->second;
   const MachineKind* const kind = find_machine_kind(type);
   if (kind == nullptr) {
     refuse_machine(root, machine, type);

@@ -31,16 +31,20 @@ void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, Scen
 /// @throws meshes::GeometryRefused as the mesher, without meshing
 void check_shape(const BodyScene& body) {
   if (const auto* shaft = body.shaft()) {
-    if (shaft->keyways.empty())
+    if (shaft->keyways.empty()) {
       meshes::check_shaft(shaft->geometry);
-    else
+      meshes::check_cells(shaft->geometry, shaft->mesh);
+    } else {
       meshes::check_solid_shaft(shaft->geometry, shaft->keyways, shaft->solid);
+    }
   }
   if (const auto* chamber = std::get_if<ChamberShape>(&body.shape)) {
     const auto& [geometry, control] = *chamber;
     meshes::check_control(control);
     meshes::check_sizes(geometry);
-    meshes::check_clearances(geometry, meshes::lay_out(geometry, control));
+    const auto layout = meshes::lay_out(geometry, control);
+    meshes::check_cells(geometry, layout, control);
+    meshes::check_clearances(geometry, layout);
   }
 }
 
@@ -56,6 +60,8 @@ void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::ve
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) try {
       check_shape(scene.bodies[i]);
+    } catch (const meshes::TooManyCells& error) {
+      bodies[i].table_or_empty("mesh").refuse(mesh_key(error.control()), error.what());
     } catch (const meshes::GeometryRefused& error) {
       const std::string remedy = "the mesher refuses it: " + std::string(error.what());
       scene.bodies[i].shaft() ? bodies[i].refuse("contour", remedy) : bodies[i].refuse_missing("", remedy);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "pipelines/common/nearest_name.h"
 #include "pipelines/files/replaceable.h"
@@ -120,7 +121,10 @@ meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_
       missing.push_back(name);
   if (!missing.empty() && body.has("ports"))
     body.refuse("ports", "loads have no place to enter: add the port " + listed(missing));
-  import.control = read_solid_control(body.table_or_empty("mesh"));
+  SceneTable mesh = body.table_or_empty("mesh");
+  mesh.know("time_limit");
+  if (mesh.has("time_limit")) import.time_limit_s = mesh.quantity("time_limit", "s", between(1, 1e6));
+  import.control = read_solid_control(std::move(mesh));
   return import;
 }
 

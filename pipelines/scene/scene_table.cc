@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "pipelines/common/name_fault.h"
 #include "pipelines/common/nearest_name.h"
 #include "pipelines/common/units.h"
 
@@ -15,6 +16,11 @@ constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
 const TomlNode& empty_table() {
   static const TomlNode node;
   return node;
+}
+
+/// Titles and paths may begin as they like: they head no column and no row of a table.
+std::string text_fault(const std::string& key, const std::string& text) {
+  return key == "title" || key == "file" ? control_character_in(text) : name_fault(text);
 }
 
 std::string item_of(const std::string& name, std::size_t index) {
@@ -212,6 +218,8 @@ std::string SceneTable::text(const std::string& name, const std::string& remedy)
     refuse_node(entry->value, name, describe(entry->value.kind) + " where a text in quotes is wanted");
   else if (entry->value.text.empty())
     refuse_node(entry->value, name, "is empty; write a text, or leave out the key if it may be missing");
+  else if (const std::string fault = text_fault(name, entry->value.text); !fault.empty())
+    refuse_node(entry->value, name, fault);
   return entry->value.text;
 }
 
@@ -233,6 +241,8 @@ std::vector<TextAt> SceneTable::texts(const std::string& name) {
   }
   for (std::size_t i = 0; i < entry->value.items.size(); ++i) {
     const TomlNode& item = entry->value.items[i];
+    const std::string fault = item.kind == TomlNode::Kind::text ? text_fault(name, item.text) : "";
+    if (!fault.empty()) refuse_node(item, item_of(name, i), fault);
     if (item.kind == TomlNode::Kind::text)
       texts.push_back({item.text, item.at, dotted(item_of(name, i)), item.as_written});
     else
@@ -285,16 +295,31 @@ TextAt SceneTable::written_at(const std::string& name) const {
                           : TextAt{"", entry->value.at, dotted(name), entry->value.as_written};
 }
 
+std::map<std::string, std::string> SceneTable::places_in(const std::string& name) const {
+  std::map<std::string, std::string> places;
+  const TomlEntry* const table = node_->find(name);
+  if (table == nullptr) return places;
+  for (const TomlEntry& entry : table->value.entries) {
+    const TomlNode& value = entry.value;
+    const SceneFinding at{findings_->file,  value.at.line,
+                          value.at.column,  dotted(name + "." + entry.key),
+                          value.as_written, ""};
+    const std::string text = at.text();
+    places[entry.key] = text.substr(0, text.size() - 2);  // without the colon before the remedy
+  }
+  return places;
+}
+
 std::string SceneTable::origin() const {
   return findings_->file + ":" + std::to_string(at_.line) + ":" + std::to_string(at_.column) + ": " + key_;
 }
 
 void SceneTable::finish() {
+  std::vector<std::string> free;  // a key in use is not what was meant
+  for (const std::string& name : known_)
+    if (!has(name)) free.push_back(name);
   for (const TomlEntry& entry : node_->entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-    std::vector<std::string> free;  // a key in use is not what was meant
-    for (const std::string& name : known_)
-      if (!has(name)) free.push_back(name);
     const std::string nearest = nearest_name(entry.key, free);
     std::string remedy = "unknown key; known here: " + listed(known_);
     if (!nearest.empty()) {

@@ -6,6 +6,7 @@
 /// counted from 1.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,8 @@ public:
   /// Where a key's value stands and how it is written, for errors that come to light after reading; the
   /// table's own place if it has no such key.
   TextAt written_at(const std::string& name) const;
+  /// "file:line:column: key = value" of every key in the table of that name, for the same; by key.
+  std::map<std::string, std::string> places_in(const std::string& name) const;
   /// "file:line:column: key", for errors that come to light after reading.
   std::string origin() const;
 

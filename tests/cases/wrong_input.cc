@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "tests/cases/program.h"
 
 using namespace cases;
@@ -46,6 +48,31 @@ TEST(WrongInput, IsNamedBeforeAnythingRuns) {
     EXPECT_FALSE(outcome.err.empty()) << arguments;
   }
   EXPECT_FALSE(fs::exists(directory / "results"));
+}
+
+// What only a stage finds is told with the place in the scene, too.
+TEST(WrongInput, StagesNameThePlaceInTheScene) {
+  const results_test::Directory directory;
+  const auto refusal = [&](const std::string& scene, const std::string& command) {
+    write(directory / "scene.toml", scene);
+    const auto outcome = millstress(directory.path, command + " scene.toml");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    return outcome.err;
+  };
+  const auto line_of = [](const std::string& text, const std::string& words) {
+    return std::to_string(1 +
+                          std::count(text.begin(), text.begin() + long(text.find("\n" + words) + 1), '\n'));
+  };
+  const std::string train = edited("drive_train.toml", {}), mill = edited("vibratory_mill.toml", {});
+  EXPECT_NE(refusal(train, "springs").find("scene.toml:" + line_of(train, "type = \"drive_train\"")),
+            std::string::npos);
+  EXPECT_NE(refusal(mill, "torsion").find("scene.toml:" + line_of(mill, "type = \"vibratory_mill\"")),
+            std::string::npos);
+  const std::string heavy = chamber_alone({{"bearings\nmass = \"6 kg\"", "bearings\nmass = \"16 kg\""},
+                                           {"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}});
+  const auto masses = refusal(heavy, "check");
+  EXPECT_NE(masses.find("scene.toml:" + line_of(heavy, "[chamber]") + ":"), std::string::npos) << masses;
+  EXPECT_NE(masses.find("exciter mass"), std::string::npos) << masses;
 }
 
 // What `run` refuses after meshing is refused by `check` with the same words, and nothing is called valid.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -121,6 +122,67 @@ INSTANTIATE_TEST_SUITE_P(scenes, Refused, testing::ValuesIn(refused_files()), []
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;
 });
+
+/// What reading a text as a scene says; the CSV file of `table` lies beside it.
+std::string refusal_of_text(const std::string& text, const std::string& table = "") {
+  const fs::path folder = fs::path(testing::TempDir()) / ("refused_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.toml", std::ios::binary) << text;
+  std::ofstream(folder / "wide.csv", std::ios::binary) << table;
+  std::string refusal = "accepted";
+  try {
+    pipelines::read_scene(folder / "scene.toml");
+  } catch (const pipelines::SceneError& error) {
+    refusal = error.what();
+  }
+  fs::remove_all(folder);
+  return refusal;
+}
+
+std::string repeated(int n, const std::string& first, const std::string& last) {
+  std::string text;
+  for (int i = 0; i < n; ++i) text += first + std::to_string(i) + last;
+  return text;
+}
+
+std::string base(const std::string& name, const std::string& from, const std::string& to) {
+  std::string text = read(fs::path(TEST_DATA) / "base" / name);
+  text.replace(text.find(from), from.size(), to);
+  replace_all(text, "@SOURCE@", SOURCE_DIR);
+  return text;
+}
+
+/// What is large and wrong is refused in a second's work (quadratic work would take minutes) and in few
+/// words.
+TEST(refused, LargeScenesAreRefusedSoonAndShort) {
+  constexpr int n = 100'000;
+  const std::string in_one_line = "debalance_shares = [" + repeated(n, "", ", ") + "]";
+  const std::string tables =
+      "contour = [" + repeated(n, "{ name = \"s", "\", diameter = 1, length = 1 }, ") + "] # ";
+  const std::string scenes[] = {
+      base("train.toml", "effects = [\"motor\"]", "effects = [" + repeated(n, "\"e", "\", ") + "]"),
+      base("train.toml", "effects", repeated(n, "key_", " = 1\n") + "effects"),
+      base("mill.toml", "debalance_shares = [0.5, 0.5]", in_one_line),
+      base("mill.toml", "contour = [", tables + "\nremainder = ["),
+      base("table.toml", "@SOURCE@/pipelines/scenes/belt_pull.csv", "wide.csv")};
+  const std::string wide = "angle [deg],disc.fx [N]" + std::string(4000, ',') + "\n" +
+                           repeated(4, "", ",1" + std::string(4000, ',') + "\n");
+  for (const auto& scene : scenes) {
+    const auto begin = std::clock();
+    const std::string refusal = refusal_of_text(scene, wide);
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 10) << refusal.substr(0, 300);
+    EXPECT_LT(refusal.size(), 10'000u) << refusal.substr(0, 300);
+    EXPECT_NE(refusal, "accepted");
+  }
+}
+
+TEST(refused, OfManyMistakesTheFirstTwentyAreTold) {
+  const std::string refusal =
+      refusal_of_text(base("train.toml", "effects", repeated(50, "k", " = 1\n") + "effects"));
+  EXPECT_EQ(std::count(refusal.begin(), refusal.end(), '\n'), 20) << refusal;
+  EXPECT_NE(refusal.find(":20:1: k19 = 1"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("and 30 more of 50 in all"), std::string::npos) << refusal;
+}
 
 TEST(refused, TheBasesOfTheRefusedScenesAreAccepted) {
   for (const auto& entry : fs::directory_iterator(fs::path(TEST_DATA) / "base")) {

@@ -93,6 +93,11 @@ TEST(TetrahedraFile, IsRefusedInWords) {
   for (const double share : {0.1, 0.3, 0.6, 0.9})
     expect_words(refusal(text.substr(0, std::size_t(share * double(text.size())))), {"cut off"});
   expect_words(refusal(replaced(text, "3 7 11 6\n", "3 7 11 900\n")), {"$Elements", "damaged"});
+  const auto place = text.find("\n", text.find("$Nodes"));
+  const auto coordinate = text.find(" 0\n", place);
+  ASSERT_NE(coordinate, std::string::npos);
+  for (const char* wrong : {"nan", "inf", "1e999"})
+    expect_words(refusal(std::string(text).replace(coordinate + 1, 1, wrong)), {"$Nodes", "damaged"});
   expect_words(refusal(replaced(text, "0 0 6 1\n1 0 0 0 1 1 1 1 1 0\n", "0 0 6 1\n1 0 0 0 1 1 1 0 0\n")),
                {"surface near", "physical group"});
   expect_words(refusal(replaced(text, "7 0 0 0 1 1 1 1 7 0\n", "7 0 0 0 1 1 1 0 0\n")),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <iterator>
 
 #include "meshes/gmsh/gmsh_session.h"
 #include "meshes/imported/imported.h"
@@ -261,6 +262,18 @@ TEST(Imported, AMshWithGroupsGoesInAndOut) {
       meshes::build_imported(in_mm, file);
       EXPECT_NEAR(read_tetrahedra(file).volume_m3, 2e-9, 1e-17);
     }
+}
+
+TEST(Imported, GroupsWithNamesThatTablesCannotCarryAreRefused) {
+  const auto msh = written("grouped.msh", [&] { grouped_boxes(1, 4.1, false); });
+  std::ifstream in(msh);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  for (const char* name : {"=1+1", "a\tb", "@x"}) {
+    std::string renamed = text;
+    renamed.replace(renamed.find("\"sides\""), 7, "\"" + std::string(name) + "\"");
+    std::ofstream(msh, std::ios::trunc) << renamed;
+    expect_words(refused(import_of(msh, {})), {"grouped.msh", "physical group 21", "rename it"});
+  }
 }
 
 TEST(Imported, HexahedraPassThrough) {

@@ -1,0 +1,18 @@
+/// Damage in the user's files that can be told with a line, before gmsh or OpenCASCADE trusts them.
+#pragma once
+
+#include <string>
+
+namespace meshes {
+
+/// Of a STEP file (ISO 10303-21): cut off, an entity that is defined twice, or that refers to one that the
+/// file does not have. Readers pass over such entities, or crash: either way the solid would be another.
+/// @throws GeometryRefused "line 12: ..."
+void check_step_text(const std::string& text);
+
+/// Of a .msh of version 2.2 or 4.1 in text form: counts, numbers of nodes and elements, types, and
+/// coordinates that are finite. Other versions and binary files are left to gmsh.
+/// @throws GeometryRefused "line 12: ..."
+void check_msh_text(const std::string& text);
+
+}  // namespace meshes

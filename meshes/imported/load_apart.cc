@@ -1,0 +1,143 @@
+#include "meshes/imported/load_apart.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "meshes/checks/affordable.h"
+#include "meshes/gmsh/gmsh_session.h"
+#include "meshes/imported/apart.h"
+#include "meshes/imported/file_checks.h"
+#include "meshes/imported/model_bytes.h"
+#include "meshes/solids/cell_estimate.h"
+#include "meshes/values/refused.h"
+
+namespace meshes {
+
+namespace {
+
+// Seconds of a core before gmsh is taken to hang. The samples of tests/unit/meshes/imported take 0.1 s to
+// read, and 1e-4 s for each cell.
+constexpr double least_reading_s = 4, s_per_byte = 4e-6;
+constexpr double least_meshing_s = 4, s_per_cell = 2e-3;
+
+void import_solids(const Import& import) {
+  gmsh::vectorpair shapes, volumes, fragments;
+  gmsh::model::occ::importShapes(import.geometry.string(), shapes, true, "step");
+  gmsh::model::occ::synchronize();
+  gmsh::model::getEntities(volumes, 3);
+  if (volumes.empty()) throw GeometryRefused("it has no solid, surfaces at most: export the part as a solid");
+  if (volumes.size() == 1) return;
+  if (import.time_limit_s == 0) limit_rest_apart(least_reading_s * double(volumes.size()));
+  std::vector<gmsh::vectorpair> map;  // solids that touch share their surfaces afterwards
+  gmsh::model::occ::fragment({volumes.front()}, {volumes.begin() + 1, volumes.end()}, fragments, map);
+  gmsh::model::occ::synchronize();
+}
+
+/// The order the cells are written in: second for tetrahedra, first for hexahedra.
+void set_order_of_cells() {
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, 3);
+  bool tetrahedra = false;
+  int highest = 1;
+  for (const int type : types) {
+    std::string name;
+    int dimension, order, n_nodes, n_primary;
+    std::vector<double> coordinates;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_nodes, coordinates, n_primary);
+    tetrahedra = tetrahedra || n_primary == 4;
+    highest = std::max(highest, order);
+  }
+  if (types.empty()) throw GeometryRefused("it has no cells, only a surface: mesh its volumes");
+  const int wanted = tetrahedra ? 2 : 1;
+  if (highest != wanted) gmsh::model::mesh::setOrder(wanted);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) throw GeometryRefused("is no file; check the path");
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in) throw GeometryRefused("cannot be read; check its permissions");
+  return text;
+}
+
+/// In the child: gmsh prints what it is at, which is all that is known if it crashes.
+ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
+  const GmshSession session;
+  gmsh::option::setNumber("General.Terminal", 1);
+  gmsh::option::setNumber("General.Verbosity", 4);
+  gmsh::option::setNumber("General.NumThreads", 1);
+  if (format_of(import.geometry) == GeometryFormat::msh) {
+    gmsh::open(import.geometry.string());
+    set_order_of_cells();
+    return collect_model(scale_to_m);
+  }
+  import_solids(import);
+  const double n_cells = estimated_cells(import.control, scale_to_m);
+  require_affordable(n_cells, bytes_per_tetrahedron, control_of_cells(import.control),
+                     "make the cells larger, or the fine parts fewer");
+  limit_rest_apart(import.time_limit_s > 0 ? import.time_limit_s : least_meshing_s + n_cells * s_per_cell);
+  return mesh_and_collect(import.control, scale_to_m);
+}
+
+/// What gmsh was at when it ended: the last line of its log that says "Meshing surface 7 (Cylinder)" or so.
+std::string last_deed(const std::string& log) {
+  const std::string verb = "Meshing ";
+  std::string deed;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);)
+    for (const char* what : {"curve", "surface", "volume", "1D", "2D", "3D", "order"})
+      if (const auto at = line.find(verb + what); at != std::string::npos) {
+        const auto begin = at + verb.size();
+        deed = line.substr(begin, line.find_first_of("(.", begin) - begin);
+        if (!deed.empty() && deed.back() == ' ') deed.pop_back();
+      }
+  return deed.empty() ? "while reading it" : "while meshing " + deed;
+}
+
+[[noreturn]] void refuse_end(const EndApart& end) {
+  const std::string where = last_deed(end.log);
+  switch (end.kind) {
+    case EndApart::Kind::too_slow:
+      throw GeometryRefused("gmsh did not come to an end " + where +
+                            ": repair the geometry there and export it again, or give it longer with "
+                            "time_limit in the table mesh");
+    case EndApart::Kind::too_large:
+      throw GeometryRefused("gmsh ran out of memory " + where +
+                            ": make the cells larger, or the part simpler");
+    default:
+      throw GeometryRefused("gmsh crashed " + where + " (" +
+                            (end.signal == 0 ? "it ended itself" : strsignal(end.signal)) +
+                            "): repair the geometry there and export it again");
+  }
+}
+
+}  // namespace
+
+GeometryFormat format_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
+  if (extension == ".step" || extension == ".stp") return GeometryFormat::step;
+  if (extension == ".msh") return GeometryFormat::msh;
+  throw GeometryRefused("must be a .step, .stp or .msh file");
+}
+
+ModelMesh load_apart(const Import& import, double scale_to_m) {
+  const std::string text = text_of(import.geometry);
+  format_of(import.geometry) == GeometryFormat::step ? check_step_text(text) : check_msh_text(text);
+  const double reading_s =
+      import.time_limit_s > 0 ? import.time_limit_s : least_reading_s + s_per_byte * double(text.size());
+  const auto end =
+      run_apart([&] { return bytes_of([&] { return load_with_gmsh(import, scale_to_m); }); }, reading_s);
+  if (end.kind != EndApart::Kind::finished) refuse_end(end);
+  return model_from(end.result);
+}
+
+}  // namespace meshes

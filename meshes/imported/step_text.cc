@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "meshes/imported/file_checks.h"
+#include "meshes/values/refused.h"
+
+namespace meshes {
+
+namespace {
+
+const char* const write_step_again = "; export the part from the CAD again";
+
+[[noreturn]] void refuse_step(int line, const std::string& what) {
+  throw GeometryRefused("line " + std::to_string(line) + ": " + what + write_step_again);
+}
+
+/// Goes through the text once, passing over strings and comments.
+class StepText {
+public:
+  explicit StepText(const std::string& text) : text_(text) {}
+
+  void check() {
+    while (at_ < text_.size()) step();
+    if (in_statement_) refuse_step(statement_line_, "this statement does not end: the file is cut off");
+    if (ended_at_ != std::string_view::npos &&
+        text_.find("END-ISO-10303-21", ended_at_) == std::string_view::npos)
+      refuse_step(line_, "there is no END-ISO-10303-21: the file is cut off");
+    for (const auto& use : uses_)
+      if (defined_.count(use.entity) == 0)
+        refuse_step(use.line, "#" + std::to_string(use.by) + " refers to #" + std::to_string(use.entity) +
+                                  ", which the file does not have: a line is missing or damaged");
+  }
+
+private:
+  struct Use {
+    long entity, by;
+    int line;
+  };
+
+  void step() {
+    const char c = text_[at_];
+    if (c == '\n') ++line_;
+    if (std::isspace(static_cast<unsigned char>(c))) {
+      ++at_;
+    } else if (c == '\'') {
+      begin();
+      pass("'", "a text", 1);
+    } else if (text_.compare(at_, 2, "/*") == 0) {
+      pass("*/", "a comment", 2);
+    } else if (c == '#' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1])) {
+      number();
+    } else if (c == ';') {
+      in_statement_ = false;
+      ended_at_ = statement_at_;
+      ++at_;
+    } else {
+      begin();
+      ++at_;
+    }
+  }
+
+  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+  void begin() {
+    if (in_statement_) return;
+    in_statement_ = true;
+    statement_at_ = at_;
+    statement_line_ = line_;
+    entity_ = 0;
+  }
+
+  void pass(const char* closing, const std::string& what, std::size_t n_opening) {
+    const auto end = text_.find(closing, at_ + n_opening);
+    if (end == std::string_view::npos) refuse_step(line_, what + " that begins here does not end");
+    line_ += int(std::count(text_.begin() + long(at_), text_.begin() + long(end), '\n'));
+    at_ = end + n_opening;
+  }
+
+  void number() {
+    const bool first = !in_statement_;
+    begin();
+    constexpr long most = 1L << 40;
+    long entity = 0;
+    for (++at_; at_ < text_.size() && is_digit(text_[at_]); ++at_)
+      entity = std::min(most, 10 * entity + (text_[at_] - '0'));
+    if (!first) {
+      uses_.push_back({entity, entity_, line_});
+      return;
+    }
+    entity_ = entity;
+    if (const auto [other, is_new] = defined_.emplace(entity, line_); !is_new)
+      refuse_step(line_, "#" + std::to_string(entity) + " is defined a second time, first in line " +
+                             std::to_string(other->second));
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0, statement_at_ = 0;
+  std::size_t ended_at_ = std::string_view::npos;  // begin of the last whole statement
+  int line_ = 1, statement_line_ = 1;
+  bool in_statement_ = false;
+  long entity_ = 0;  // that the statement defines
+  std::unordered_map<long, int> defined_;
+  std::vector<Use> uses_;
+};
+
+}  // namespace
+
+void check_step_text(const std::string& text) {
+  if (text.find("ISO-10303-21") == std::string::npos)
+    refuse_step(1, "this is no STEP file: it does not begin with ISO-10303-21");
+  StepText(text).check();
+}
+
+}  // namespace meshes

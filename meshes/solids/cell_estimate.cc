@@ -1,0 +1,68 @@
+#include "meshes/solids/cell_estimate.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "meshes/values/constants.h"
+
+namespace meshes {
+
+namespace {
+
+const double per_volume = 6 * std::sqrt(2.0);    // regular tetrahedra of edge 1 in a volume of 1
+const double per_area = 3 * 4 / std::sqrt(3.0);  // three for each regular triangle of edge 1
+
+/// Largest curvature found at a few places of a surface; 0 where gmsh knows none.
+double curvature_of(int surface) {
+  std::vector<double> low, high, places, found;
+  gmsh::model::getParametrizationBounds(2, surface, low, high);
+  if (low.size() < 2 || high.size() < 2) return 0;
+  for (const double u : {0.2, 0.5, 0.8})
+    for (const double v : {0.2, 0.5, 0.8}) {
+      places.push_back(low[0] + u * (high[0] - low[0]));
+      places.push_back(low[1] + v * (high[1] - low[1]));
+    }
+  gmsh::model::getCurvature(2, surface, places, found);
+  double largest = 0;
+  for (const double curvature : found)
+    if (std::isfinite(curvature)) largest = std::max(largest, std::abs(curvature));
+  return largest;
+}
+
+double measure(int dimension, int tag) {
+  double value = 0;
+  gmsh::model::occ::getMass(dimension, tag, value);
+  return std::isfinite(value) ? std::abs(value) : 0;
+}
+
+}  // namespace
+
+double estimated_cells(const SolidControl& control, double unit_m) {
+  const double size = longest_edge(control, unit_m);
+  gmsh::vectorpair volumes, surfaces;
+  gmsh::model::getEntities(volumes, 3);
+  gmsh::model::getEntities(surfaces, 2);
+  double volume = 0, n_cells = 0;
+  for (const auto& [dimension, tag] : volumes) volume += measure(dimension, tag);
+  n_cells += per_volume * volume / std::pow(size, 3);
+  for (const auto& [dimension, tag] : surfaces) {
+    const double curvature = curvature_of(tag);
+    const double curved = curvature > 0 ? 2 * pi / (control.cells_per_circle * curvature) : size;
+    const double edge = std::min(size, std::max(curved, control.smallest_size_m / unit_m));
+    n_cells += per_area * measure(dimension, tag) / (edge * edge);
+  }
+  for (const auto& spot : control.fine_spots) {
+    const double ball = 4 * pi / 3 * std::pow(spot.radius_m / unit_m, 3);
+    n_cells += per_volume * std::min(volume, ball) / std::pow(std::min(size, spot.size_m / unit_m), 3);
+  }
+  return n_cells;
+}
+
+std::string control_of_cells(const SolidControl& control) {
+  return control.size_m > 0 ? "size_m" : "cells_per_circle";
+}
+
+}  // namespace meshes
