@@ -301,7 +301,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
   const bool by_patches = recovery == Recovery::patch;
   const auto loaded = loaded_groups(loads, impl_->body);
-  if (n_ranks(impl_->communicator) == 1) {
+  if (n_ranks(impl_->communicator) == 1 || grid.hanging.n() > 0) {
     recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches, displacement,
                    stress);
   } else {

@@ -6,6 +6,7 @@
 #include <vtkClipPolyData.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkNew.h>
+#include <vtkNonMergingPointLocator.h>
 #include <vtkPlane.h>
 #include <vtkPlaneCollection.h>
 #include <vtkPolyData.h>
@@ -29,6 +30,7 @@ vtkSmartPointer<vtkPlane> plane_of(const CutPlane& cut) {
 std::shared_ptr<vtkPolyData> clipped(vtkPolyData* data, const CutPlane& cut) {
   vtkNew<vtkClipPolyData> clip;
   clip->SetInputData(data);
+  clip->SetLocator(vtkNew<vtkNonMergingPointLocator>());  // merging takes long where cells crowd
   clip->SetClipFunction(plane_of(cut));
   clip->InsideOutOn();
   clip->Update();

@@ -7,6 +7,7 @@
 #include <vtkDataObject.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
+#include <vtkNonMergingPointLocator.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -138,6 +139,7 @@ void add_drawn(vtkRenderer* renderer, const Drawn& drawn, vtkLookupTable* table,
   marked->GetPointData()->SetActiveScalars(excluded_array);
   vtkNew<vtkClipPolyData> parts;
   parts->SetInputData(marked);
+  parts->SetLocator(vtkNew<vtkNonMergingPointLocator>());  // merging takes long where cells crowd
   parts->SetValue(0.5);
   parts->InsideOutOn();
   parts->GenerateClippedOutputOn();

@@ -47,6 +47,22 @@ std::shared_ptr<Object> shared(const vtkSmartPointer<Object>& object) {
   return {object.Get(), [object](Object*) {}};
 }
 
+/// Leaves out faces between cells of unlike size, which VTK takes for the surface: they have a point inside.
+void keep_surface(vtkUnstructuredGrid& faces, vtkDataArray& on_surface) {
+  vtkNew<vtkCellArray> kept;
+  std::vector<int> types;
+  for (vtkIdType f = 0; f < faces.GetNumberOfCells(); ++f) {
+    vtkIdList* points = faces.GetCell(f)->GetPointIds();
+    bool is_outside = true;
+    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+      is_outside = is_outside && on_surface.GetComponent(points->GetId(i), 0) != 0;
+    if (!is_outside) continue;
+    kept->InsertNextCell(points);
+    types.push_back(faces.GetCellType(f));
+  }
+  faces.SetCells(types.data(), kept);
+}
+
 }  // namespace
 
 std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
@@ -59,6 +75,7 @@ std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path&
   geometry->SetInputConnection(reader->GetOutputPort());
   geometry->Update();
   auto* grid = vtkUnstructuredGrid::SafeDownCast(geometry->GetOutput());
+  if (auto* on_surface = grid->GetPointData()->GetArray(on_surface_array)) keep_surface(*grid, *on_surface);
   auto* values = grid->GetPointData()->GetArray(field.c_str());
   if (!values || values->GetNumberOfComponents() != 1 || values->GetNumberOfTuples() == 0)
     throw FileError(vtu.string() + ": has no nodal field \"" + field + "\" of one component");

@@ -17,6 +17,8 @@ using Colour = std::array<unsigned char, 3>;  ///< red, green, blue
 
 /// The point array that says where the field has no converged value: 1 there, 0 elsewhere.
 inline constexpr const char* excluded_array = "excluded";
+/// The nodal field of the file that is 1 on the surface of the body; files may have none.
+inline constexpr const char* on_surface_array = "on the surface";
 
 /// The boundary faces of the cells with their quadratic shape; the field times `scale` is the active scalars.
 /// @param excluded  a field of the file that is not 0 where the other counts for nothing; empty or absent:

@@ -66,6 +66,14 @@ IdField excluded_ids(const NodePlaces& places) {
   return {excluded_field, std::vector<std::int32_t>(places.excluded.begin(), places.excluded.end())};
 }
 
+/// Cells of unlike size have faces inside the body that match no other face: viewers that take such faces for
+/// the surface can tell by the nodes.
+IdField surface_ids(const fem::Nodes& nodes) {
+  IdField field{surface_field, std::vector<std::int32_t>(nodes.n, 0)};
+  for (const auto node : nodes.faces) field.values[std::size_t(node)] = 1;
+  return field;
+}
+
 std::size_t nearest_node(const fem::Nodes& nodes, const std::array<double, 3>& p) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::max();
@@ -126,7 +134,8 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
   const std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},
                                  {"turn of maximum", turn},
                                  {"instant of maximum", envelope.von_mises.instant},
-                                 excluded_ids(analysis.places)};
+                                 excluded_ids(analysis.places),
+                                 surface_ids(nodes)};
   const auto data = governing_data(analysis);
   if (n_pieces > 1)
     write_envelope_pieces(file, nodes, fem::shares_of_cells(nodes, n_pieces), n_pieces, fields.fields(), ids,

@@ -24,6 +24,9 @@ inline constexpr const char* hot_spot_field = "hot-spot stress at weld toes [Pa]
 /// 1 within the exclusion distances.
 inline constexpr const char* excluded_field = "excluded";
 
+/// 1 on the surface of the body.
+inline constexpr const char* surface_field = "on the surface";
+
 /// The field that has values at excluded nodes, too.
 std::string unconverged(const std::string& field);
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "fem/ranks/helper_ranks.h"
 #include "pipelines/analysis/error_budget.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/superposition/superposition.h"
@@ -136,8 +137,9 @@ void mark_largest(const std::vector<double>& contributions, std::vector<char>& m
 }  // namespace
 
 bool is_refined_locally(const BodyScene& body) {
-  return (body.shaft() != nullptr && body.shaft()->keyways.empty()) ||
-         std::holds_alternative<ChamberShape>(body.shape);
+  const bool is_of_blocks = (body.shaft() != nullptr && body.shaft()->keyways.empty()) ||
+                            std::holds_alternative<ChamberShape>(body.shape);
+  return is_of_blocks && body.degree > 1 && fem::n_ranks(MPI_COMM_WORLD) == 1;
 }
 
 LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,

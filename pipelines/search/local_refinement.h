@@ -11,7 +11,8 @@
 
 namespace pipelines {
 
-/// Whether a search refines the body locally: parametric bodies of hexahedra.
+/// Whether a search refines the body locally: parametric bodies of hexahedra, where the program runs on one
+/// rank.
 bool is_refined_locally(const BodyScene& body);
 
 struct LocalRefinement {

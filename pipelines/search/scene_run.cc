@@ -186,20 +186,8 @@ private:
       if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
         warnings_.push_back(warning);
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
-    if (is_without_mesh(i))
-      remove_files_of_solid(i);
-    else
-      files_[i].finish(analysis, run_.loaded.meshed[i]);
+    if (!is_without_mesh(i)) files_[i].finish(analysis, run_.loaded.meshed[i]);
     run_.loaded.meshed[i].model.reset();
-  }
-
-  /// What an earlier run of the solid has left and this one does not, so that the folder shows one run. Its
-  /// unit responses stay for the next one.
-  void remove_files_of_solid(std::size_t i) const {
-    const auto folder = options_of(i).directory;
-    fs::remove(folder / "mesh.msh");
-    if (run_.scene.method != Method::beam) return;
-    for (const char* file : {"diagrams.csv", "torsion.csv", "torsion_cycle.csv"}) fs::remove(folder / file);
   }
 
   SearchStep record(std::size_t i, const GoverningStress& stress, const BodyAnalysis& analysis,
@@ -465,6 +453,7 @@ private:
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);
+      after.mesh_file = std::move(before.mesh_file);
       take_place_errors(after, before.place_stresses, "as found by the body's search");
       bound_dropped_effects(run_.scene, i, run_.loaded, after);
     }
