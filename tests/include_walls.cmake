@@ -3,7 +3,7 @@
 # the folder that owns them (internal headers of fem may use deal.II, its public ones may not). Inside a folder, a room
 # (subfolder) includes only rooms below it.
 cmake_policy(VERSION 3.25)
-set(fem_public axisymmetric_responses beam_responses beam_shaft body cell_stress_at_node cost_constants cost_prediction errors fillet_factors meridian_body natural_mode nodal_loads plated_tube submodel surface_stress solver_choice model unit_load unit_responses vtk_order)
+set(fem_public axisymmetric_responses beam_responses beam_shaft body cell_stress_at_node cost_constants cost_prediction errors fillet_factors meridian_body natural_mode nodal_loads plated_tube stress_goal submodel surface_stress solver_choice model unit_load unit_responses vtk_order)
 set(faults "")
 
 # Adds a fault for every line of the files that matches.
@@ -46,7 +46,7 @@ foreach(name IN LISTS fem_public)
 endforeach()
 
 # Rooms from the ground floor up: a room includes only itself and rooms before it.
-set(rooms_fem values common mesh ranks operators loads stress solvers submodel modes beam axisymmetric model)
+set(rooms_fem values common mesh ranks operators loads stress solvers submodel adaptivity modes beam axisymmetric model)
 set(rooms_meshes values gmsh spacing checks shaft chamber solids keyed_shaft imported)
 set(rooms_pipelines common files scene machines responses loads bodies superposition analysis calculix cheap_models report effects search accuracy pictures commands)
 foreach(folder fem meshes pipelines)

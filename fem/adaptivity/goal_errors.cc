@@ -84,7 +84,7 @@ Eigen::VectorXd dual_load(const Grid& grid, const StressGoal& goal, const std::v
     known->second += symmetric(part.tensor) / volume_m3[part.node];
   }
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * Eigen::Index(grid.n_nodes));
-  const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
+  const Tabulation at = moment_points_in_cell(grid.shape());  // as the nodes' volumes
   CellGradients gradients;
   for (std::size_t c = 0; c < grid.n_cells(); ++c) {
     const auto* nodes = grid.nodes_of(c);
