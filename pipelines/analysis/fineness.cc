@@ -81,12 +81,23 @@ std::vector<std::string> fillets_of(const BodyScene& body) {
   return names;
 }
 
+namespace {
+
+std::string locally_text(const BodyScene& body) {
+  const auto n = body.refinements.size();
+  return n == 0 ? ""
+                : fmt::format("; {} cells cut{}", body.refinements.back().size(), n > 1 ? " at last" : "");
+}
+
+}  // namespace
+
 std::string fineness_text(const BodyScene& body) {
   if (const auto* chamber = std::get_if<ChamberShape>(&body.shape))
     return fmt::format(
-        "{} cells through the wall, {}{:.2g} walls at the weld toes, {:.3g} mm elsewhere",
+        "{} cells through the wall, {}{:.2g} walls at the weld toes, {:.3g} mm elsewhere{}",
         chamber->mesh.cells_through_wall, fine_toes_text(chamber->mesh), chamber->mesh.toe_walls,
-        1e3 * (chamber->mesh.size_m > 0 ? chamber->mesh.size_m : usual_size_m(chamber->geometry)));
+        1e3 * (chamber->mesh.size_m > 0 ? chamber->mesh.size_m : usual_size_m(chamber->geometry)),
+        locally_text(body));
   const auto* shaft = body.shaft();
   if (shaft == nullptr || !shaft->keyways.empty()) {
     const auto& control = shaft ? shaft->solid : std::get<meshes::Import>(body.shape).control;
@@ -98,8 +109,8 @@ std::string fineness_text(const BodyScene& body) {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!names[i].empty()) cells += fmt::format(" {}", shaft->mesh.cells_at(int(i)));
   const double rows = shaft->mesh.rows_factor;
-  return fmt::format("cells on fillet quarters{}; {} sectors{}", cells, shaft->mesh.n_sectors,
-                     rows > 1 ? fmt::format("; rows times {:.3g}", rows) : "");
+  return fmt::format("cells on fillet quarters{}; {} sectors{}{}", cells, shaft->mesh.n_sectors,
+                     rows > 1 ? fmt::format("; rows times {:.3g}", rows) : "", locally_text(body));
 }
 
 }  // namespace pipelines

@@ -15,6 +15,8 @@ namespace {
 
 /// Of what a goal's cells contribute: cells are cut by falling share until this is reached (Doerfler 1996).
 constexpr double part_that_is_cut = 0.6;
+/// Contributions that differ by less count as equal.
+constexpr double alike = 1e-3;
 /// The power of von Mises stress by which the nodes of a place count: high enough to follow its maximum,
 /// which moves between nodes, low enough to see the cells around it.
 constexpr double concentration = 11;
@@ -126,10 +128,12 @@ void mark_largest(const std::vector<double>& contributions, std::vector<char>& m
   std::stable_sort(order.begin(), order.end(),
                    [&](auto a, auto b) { return contributions[a] > contributions[b]; });
   const double wanted = part_that_is_cut * std::accumulate(contributions.begin(), contributions.end(), 0.0);
-  double sum = 0;
+  double sum = 0, last = 0;
   for (const auto cell : order) {
-    if (sum >= wanted) break;
+    // Cells that symmetry makes alike are cut together, whatever rounding makes of them.
+    if (sum >= wanted && contributions[cell] < (1 - alike) * last) break;
     sum += contributions[cell];
+    last = contributions[cell];
     marked[cell] = 1;
   }
 }

@@ -8,6 +8,7 @@
 #include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/model/model.h"
 #include "fem/operators/stiffness.h"
 #include "fem/stress/stress_recovery.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
@@ -127,6 +128,18 @@ TEST(RefinedShafts, RecoverQuadraticFieldsExactly) {
       }
       EXPECT_LT(worst, 1e-10 * size) << seed;
     }
+  }
+}
+
+// A finer space has lower frequencies, by less than the coarse one is off.
+TEST(RefinedShafts, VibrateAsTheCoarseOnes) {
+  auto body = fem_tests::eccentric_shaft(2).body;
+  const auto coarse = fem::Model(body).natural_frequencies(3);
+  const auto fine = fem::Model(refined_at_random(body, 1, 0.1, 3)).natural_frequencies(3);
+  for (std::size_t mode = 0; mode < 3; ++mode) {
+    const double ratio = fine[mode].frequency_Hz / coarse[mode].frequency_Hz;
+    EXPECT_LT(ratio, 1 + 1e-6) << mode;
+    EXPECT_GT(ratio, 0.99) << mode;
   }
 }
 
