@@ -19,7 +19,12 @@ struct LocalRefinement {
   std::vector<std::int32_t> cells;    ///< of the present mesh, ascending
   std::vector<std::string> features;  ///< places whose own cells are among them
   std::vector<std::string> coarse;    ///< of these, fillets of few cells (MeshStep::coarse)
+  std::vector<double> goal_error_Pa;  ///< of `features`, from what all cells contribute together
 };
+
+/// The places with at least the errors that follow from the contributions of all cells: what a stress changes
+/// by from step to step is blind to cells that no step has cut.
+std::vector<PlaceStress> with_goal_errors(std::vector<PlaceStress> judged, const LocalRefinement& local);
 
 /// For each place that may lead, by its stress and error, the stress there is a goal: on surfaces a mean of
 /// von Mises stress at the instant of its maximum, weighted so that it follows the maximum smoothly; at weld

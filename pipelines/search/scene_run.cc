@@ -250,6 +250,7 @@ private:
     PlaceHistory history;
     PeakGrowth growth;
     std::optional<MeshStep> step;  ///< that led to the present mesh
+    LocalRefinement local{};       ///< what the next step would cut
     std::set<MeshPart> exhausted;  ///< parts that cannot be finer
     double end_s = 0;              ///< when the time is up, from the start of the run; 0: never
     Clock::time_point step_start = Clock::now();
@@ -284,7 +285,13 @@ private:
   void take_stock(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
     if (state.growth.at(analysis, state.step ? state.step->ratio : 1)) leave_out(i, analysis);
     state.history.add(places_of_one_mesh(analysis), state.step);
-    take_place_errors(analysis, state.history.judged(),
+    auto judged = state.history.judged();
+    if (is_refined_locally(run_.scene.bodies[i])) {
+      state.local =
+          clock_.run("refine", [&] { return cells_to_cut(*run_.loaded.meshed[i].model, analysis, judged); });
+      judged = with_goal_errors(std::move(judged), state.local);
+    }
+    take_place_errors(analysis, judged,
                       state.history.second_model()
                           ? "changes of the stress with the mesh, and harmonics around the axis beside it"
                           : "changes of the stress with the mesh, or cells around");
@@ -331,7 +338,7 @@ private:
       if (state.exhausted.count(part)) continue;
       Scene finer = next;
       const bool is_local = part == MeshPart::local;
-      auto step = is_local ? refine_locally(i, finer.bodies[i], analysis)
+      auto step = is_local ? refine_locally(finer.bodies[i], state.local)
                            : refine_mesh(finer.bodies[i], analysis, judged, part);
       if (!step) continue;
       auto mesh = try_to_mesh(i, finer, refusal, is_local ? &run_.loaded.meshed[i] : nullptr);
@@ -348,13 +355,10 @@ private:
   }
 
   /// Cuts the cells that contribute most to what is not known of the leading places.
-  std::optional<MeshStep> refine_locally(std::size_t i, BodyScene& body, const BodyAnalysis& analysis) {
-    return clock_.run("refine", [&]() -> std::optional<MeshStep> {
-      auto local = cells_to_cut(*run_.loaded.meshed[i].model, analysis, analysis.place_stresses);
-      if (local.cells.empty()) return std::nullopt;
-      body.refinements.push_back(std::move(local.cells));
-      return MeshStep{MeshPart::local, 2, 2, std::move(local.features), std::move(local.coarse)};
-    });
+  static std::optional<MeshStep> refine_locally(BodyScene& body, const LocalRefinement& local) {
+    if (local.cells.empty()) return std::nullopt;
+    body.refinements.push_back(local.cells);
+    return MeshStep{MeshPart::local, 2, 2, local.features, local.coarse};
   }
 
   /// The body's mesh in another version of the scene; nothing if the mesher refuses it.
