@@ -46,7 +46,7 @@ private:
   std::size_t byte_of(std::string_view line, std::size_t column) const {
     column = std::max<std::size_t>(1, column);
     if (last_.line != line.data()) last_ = {line.data(), 1, 0};
-    auto& [start, at, byte] = last_;
+    std::size_t &at = last_.column, &byte = last_.byte;
     const auto inside = [&] { return (static_cast<unsigned char>(line[byte]) & 0xC0) == 0x80; };
     for (; at > column; --at) do
         --byte;

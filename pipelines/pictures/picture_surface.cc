@@ -103,8 +103,9 @@ std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subd
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputConnection(surface->GetOutputPort());
   normals->SetFeatureAngle(30);
-  normals->ConsistencyOn();
-  normals->AutoOrientNormalsOn();
+  // Faces of cells are seen from outside. VTK's own orientation wants a closed surface, and where small faces
+  // meet large ones this one is in pieces.
+  normals->ConsistencyOff();
   normals->Update();
   return shared(vtkSmartPointer<vtkPolyData>(normals->GetOutput()));
 }
