@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
+Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -53,10 +53,10 @@ std::string effects_json(const Scene& scene, const EffectReport& report) {
   for (const auto& worth : report.effects) {
     Json entry{{"description", worth.effect.description}, {"source", worth.effect.source}};
     for (const auto& share : worth.shares)
-      entry["loads"][share.load] = {{"largest_share", number(share.largest)},
-                                    {"rms_share", number(share.rms)},
-                                    {"change_if_off", number(share.if_off)}};
-    entry["change_if_off"] = number(worth.if_off);
+      entry["loads"][share.load] = {{"largest_share", number_or_null(share.largest)},
+                                    {"rms_share", number_or_null(share.rms)},
+                                    {"change_if_off", number_or_null(share.if_off)}};
+    entry["change_if_off"] = number_or_null(worth.if_off);
     entry["worst_load"] = worth.worst_load;
     entry["indispensable"] = worth.indispensable;
     entry["seconds_per_instant"] = worth.seconds_per_instant;
