@@ -93,7 +93,7 @@ TEST(TetrahedraFile, IsRefusedInWords) {
   for (const double share : {0.1, 0.3, 0.6, 0.9})
     expect_words(refusal(text.substr(0, std::size_t(share * double(text.size())))), {"cut off"});
   expect_words(refusal(replaced(text, "3 7 11 6\n", "3 7 11 900\n")), {"$Elements", "damaged"});
-  const auto place = text.find("\n", text.find("$Nodes"));
+  const auto place = text.find('\n', text.find("$Nodes"));
   const auto coordinate = text.find(" 0\n", place);
   ASSERT_NE(coordinate, std::string::npos);
   for (const char* wrong : {"nan", "inf", "1e999"})
