@@ -98,7 +98,7 @@ struct RunOptions {
   std::filesystem::path directory;  ///< of this body
   int n_threads = 0;                ///< 0: all cores
   bool fresh = false;               ///< do not reuse unit responses of an earlier run
-  bool keep_factor = false;         ///< for the goals of local refinement
+  bool keep_factor = false;         ///< a search refines locally: for its goals, and instead of submodels
 };
 
 /// Solves and superposes. Writes no results.
