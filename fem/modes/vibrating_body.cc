@@ -36,6 +36,8 @@ VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
   factor_->factorise(held);
   const Eigen::Map<const Eigen::Matrix3Xd> nodes(grid.xyz_m.data(), 3, grid.n_nodes);
   rigid_ = rigid_modes(grid, nodes.rowwise().mean());
+  // Vectors here are those of the unknowns that are left: nothing at nodes that hang.
+  for (const auto node : grid.hanging.node) rigid_.middleRows<3>(3 * Eigen::Index(node)).setZero();
   for (int pass = 0; pass < 2; ++pass) {  // the second one mends the rounding of the first
     const Eigen::MatrixXd gram = transposed_product(rigid_, mass(rigid_));
     rigid_ = orthonormal_by(gram, rigid_);
