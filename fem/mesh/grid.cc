@@ -80,7 +80,8 @@ CellsOfNodes cells_that_couple(const Grid& grid, const CellCouplings& couplings)
 std::vector<std::vector<std::int32_t>> colour_cells(const Grid& grid, const CellsOfNodes& cells) {
   const CellCouplings couplings(grid);
   const bool is_plain = grid.hanging.n() == 0;
-  const CellsOfNodes coupled = is_plain ? cells : cells_that_couple(grid, couplings);
+  const CellsOfNodes of_hanging = is_plain ? CellsOfNodes{} : cells_that_couple(grid, couplings);
+  const CellsOfNodes& coupled = is_plain ? cells : of_hanging;
   const auto corners = corner_nodes(grid.shape());
   std::vector<std::vector<std::int32_t>> groups;
   std::vector<int> colour(grid.n_cells(), -1);

@@ -33,7 +33,8 @@ struct SubmodelStress {
 
 /// Of the sum of all channels times their factors. Surfaces that carry loads, springs or clamps are held like
 /// the rim, body forces act. What the displacement of the whole body is wrong by at the rim stays.
-/// @param responses  of cells of degree 2
+/// @param responses  of cells of degree 2, not refined locally: faces between large and small cells would be
+///                   held like the rim
 /// @param body       of one material; its charts serve the recovery, its mesh is not read
 /// @param loads      one per channel
 /// @param point      one node, or several whose weighted sum counts
