@@ -1,5 +1,6 @@
 #include "pipelines/common/failure.h"
 
+#include <cerrno>
 #include <filesystem>
 
 #include "fem/values/errors.h"
@@ -16,6 +17,11 @@ Failure told(ExitCode code, const std::string& what) {
 
 Failure internal(const std::string& what) {
   return told(mesh_or_solve_failed, "internal error, please report it with the scene: " + what);
+}
+
+/// Whether a disk failed at what it could have done with a name that is right.
+bool is_fault_of_disk(const std::error_code& code) {
+  return code == std::errc::no_space_on_device || code == std::errc::io_error || code.value() == EDQUOT;
 }
 
 /// Rethrows what is none of these.
@@ -35,8 +41,9 @@ Failure users_mistake() {
   } catch (const fem::TooManyModes& error) {
     return told(scene_is_wrong, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    return told(scene_is_wrong, error.code().message() + ": " + error.path1().string() +
-                                    ": choose another output with -o, or make room for it");
+    if (is_fault_of_disk(error.code())) throw;
+    return told(scene_is_wrong,
+                error.code().message() + ": " + error.path1().string() + ": choose another output with -o");
   }
 }
 
@@ -60,6 +67,9 @@ Failure failed_work() {
     return told(mesh_or_solve_failed, error.what());
   } catch (const FileError& error) {
     return told(mesh_or_solve_failed, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return told(mesh_or_solve_failed, error.code().message() + ": " + error.path1().string() +
+                                          ": check the free space, or choose another output with -o");
   }
 }
 

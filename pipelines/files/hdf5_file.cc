@@ -38,7 +38,9 @@ std::string last_cause() {
   throw FileError(file + ": " + (object.empty() ? "" : object + ": ") + what + " (HDF5: " + cause + ")");
 }
 
-/// An HDF5 identifier and how to close it. Construction from a failed call throws.
+/// An HDF5 identifier and how to close it. Construction from a failed call throws. What was written through
+/// it may reach the disk only when it is closed: then call close(), since a destructor cannot tell of a
+/// failure.
 class Handle {
 public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& file, const std::string& object,
@@ -53,6 +55,11 @@ public:
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
+
+  void close(const std::string& file, const std::string& object) {
+    if (close_(std::exchange(id_, -1)) < 0)
+      fail(file, object, "cannot be written completely; check the free space");
+  }
 
 private:
   hid_t id_;
@@ -97,8 +104,9 @@ void make_groups(hid_t root, const std::string& file, const std::string& path) {
     if (!exists) {
       const Handle creation = property_list(H5P_GROUP_CREATE, file);
       keep_order(creation, file);
-      const Handle group(H5Gcreate2(root, part.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose, file,
-                         part, "cannot make the group");
+      Handle group(H5Gcreate2(root, part.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose, file, part,
+                   "cannot make the group");
+      group.close(file, part);
     }
     if (end == std::string::npos) return;
   }
@@ -107,9 +115,10 @@ void make_groups(hid_t root, const std::string& file, const std::string& path) {
 void set_attribute(hid_t object, const std::string& file, const std::string& path, const std::string& name,
                    hid_t type, const void* value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, file, path, "no data space");
-  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                         file, path, "cannot make the attribute \"" + name + "\"");
+  Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, file,
+                   path, "cannot make the attribute \"" + name + "\"");
   if (H5Awrite(attribute, type, value) < 0) fail(file, path, "cannot write the attribute \"" + name + "\"");
+  attribute.close(file, path);
 }
 
 void set_text(hid_t object, const std::string& file, const std::string& path, const std::string& name,
@@ -144,12 +153,13 @@ void write_dataset(hid_t root, const std::string& file, const std::string& path,
         H5Pset_shuffle(creation) < 0 || H5Pset_deflate(creation, 4) < 0)
       fail(file, path, "cannot compress");
   }
-  const Handle dataset(H5Dcreate2(root, path.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                       H5Dclose, file, path, "cannot make the dataset");
+  Handle dataset(H5Dcreate2(root, path.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                 H5Dclose, file, path, "cannot make the dataset");
   if (!empty && H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     fail(file, path, "cannot write the dataset");
   if (!label.unit.empty()) set_text(dataset, file, path, "unit", label.unit);
   if (!label.description.empty()) set_text(dataset, file, path, "description", label.description);
+  dataset.close(file, path);  // packs and writes the last chunks
 }
 
 Handle open_dataset(hid_t root, const std::string& file, const std::string& path) {
@@ -227,13 +237,15 @@ void Hdf5Writer::make_group(const std::string& object) {
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, const std::string& value) {
-  const Handle open(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose, file_, object, "no such object");
+  Handle open(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose, file_, object, "no such object");
   set_text(open, file_, object, name, value);
+  open.close(file_, object);
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
-  const Handle open(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose, file_, object, "no such object");
+  Handle open(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose, file_, object, "no such object");
   set_attribute(open, file_, object, name, H5T_IEEE_F64LE, &value);
+  open.close(file_, object);
 }
 
 void Hdf5Writer::close() {

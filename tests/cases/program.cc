@@ -82,19 +82,34 @@ Outcome millstress(const fs::path& directory, const std::string& arguments, cons
   return as_a_user(directory, on_its_own_mesh(directory, arguments), before);
 }
 
-Outcome as_a_user(const fs::path& directory, std::string arguments, const std::string& before) {
+std::string two_ranks() {
+  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+         "OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none '" MPIEXEC "' -n 2";
+}
+
+std::string shell_command(const Start& start) {
+  auto arguments = start.arguments;
   const bool solves = arguments.rfind("run ", 0) == 0 || arguments.rfind("accuracy ", 0) == 0;
   if (solves && arguments.find("--threads") == std::string::npos) arguments += " --threads 1";
-  const auto out = directory / "stdout.txt", err = directory / "stderr.txt";
-  const std::string command = "cd '" + directory.string() + "' && " + before + " && XDG_CACHE_HOME='" +
-                              (directory / "cache").string() + "' '" + MILLSTRESS + "' " + arguments +
-                              " > '" + out.string() + "' 2> '" + err.string() + "'";
-  const int status = std::system(command.c_str());
+  const auto file = [&](const std::string& name) { return "'" + (start.directory / name).string() + "'"; };
+  return "cd '" + start.directory.string() + "' && " + start.before + " && XDG_CACHE_HOME=" + file("cache") +
+         " " + start.launcher + " '" MILLSTRESS "' " + arguments + " > " + file(start.name + "stdout.txt") +
+         " 2> " + file(start.name + "stderr.txt");
+}
+
+Outcome outcome_of(const Start& start, int status) {
+  const auto out = start.directory / (start.name + "stdout.txt"),
+             err = start.directory / (start.name + "stderr.txt");
   Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, results_test::bytes(out),
                   results_test::bytes(err)};
   fs::remove(out);
   fs::remove(err);
   return outcome;
+}
+
+Outcome as_a_user(const fs::path& directory, const std::string& arguments, const std::string& before) {
+  const Start start{directory, arguments, before};
+  return outcome_of(start, std::system(shell_command(start).c_str()));
 }
 
 std::string with_checksum(nlohmann::ordered_json costs) {

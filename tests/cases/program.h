@@ -63,7 +63,27 @@ Outcome millstress(const fs::path& directory, const std::string& arguments,
                    const std::string& before = "true");
 
 /// The same as the arguments stand: `run` searches by default.
-Outcome as_a_user(const fs::path& directory, std::string arguments, const std::string& before = "true");
+Outcome as_a_user(const fs::path& directory, const std::string& arguments,
+                  const std::string& before = "true");
+
+/// How the program is started, for tests that do it themselves: at the same time as others, or to end it.
+struct Start {
+  fs::path directory;
+  std::string arguments;
+  std::string before = "true";
+  std::string launcher{};  ///< what stands before the program, such as "mpirun -n 2"
+  std::string name{};  ///< begins the names of the files that take what it prints: one for each of several
+};
+
+/// The launcher for two ranks. mpirun refuses root and more ranks than cores unless told.
+std::string two_ranks();
+
+/// One line of the shell; one thread as in as_a_user.
+std::string shell_command(const Start& start);
+
+/// What it printed, and its exit code. -1: a signal ended the shell.
+/// @param status  as waitpid and std::system give it
+Outcome outcome_of(const Start& start, int status);
 
 /// costs.json with the checksum that the program asks for: of the other keys, as compact text.
 std::string with_checksum(nlohmann::ordered_json costs);

@@ -31,15 +31,8 @@ std::string small_scene() {
 
 /// Runs `millstress ARGUMENTS` on two ranks in `directory`.
 Outcome on_two_ranks(const fs::path& directory, const std::string& arguments) {
-  const auto out = directory / "stdout.txt", err = directory / "stderr.txt";
-  const std::string command =
-      "cd '" + directory.string() +
-      "' && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-      "OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none '" MPIEXEC
-      "' -n 2 '" MILLSTRESS "' " +
-      on_its_own_mesh(directory, arguments) + " > '" + out.string() + "' 2> '" + err.string() + "'";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, results_test::bytes(out), results_test::bytes(err)};
+  const Start start{directory, on_its_own_mesh(directory, arguments), "true", two_ranks()};
+  return outcome_of(start, std::system(shell_command(start).c_str()));
 }
 
 std::size_t count(const std::string& text, const std::string& word) {

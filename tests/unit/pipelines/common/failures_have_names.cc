@@ -58,7 +58,9 @@ TEST(Failures, OfMeshesAndSolvesAreNoMistakeOfTheScene) {
        {failure_of(meshes::MeshRefused("a cause")), failure_of(fem::MeshUnusable("a cause")),
         failure_of(fem::SolveFailed("a cause")), failure_of(fem::DoesNotFit("a cause")),
         failure_of(kinetics::LoadsFailed("a cause")), failure_of(NotFinite("a cause")),
-        failure_of(FileError("a cause"))}) {
+        failure_of(FileError("a cause")),
+        failure_of(std::filesystem::filesystem_error("a cause",
+                                                     std::make_error_code(std::errc::no_space_on_device)))}) {
     EXPECT_EQ(failure.code, mesh_or_solve_failed);
     EXPECT_EQ(failure.message, "millstress: a cause");
   }

@@ -1,0 +1,105 @@
+// The disk fails, or the process is killed, at any point of a run. SQLite's tests are the model: not only at
+// random moments, but at each operation on the disk that the run takes. MILLSTRESS_FAULTS says how many of
+// them are tried per kind of failure; 0 takes all.
+#include <cstdio>
+
+#include "tests/faults/disturbed_runs.h"
+
+namespace {
+
+using faults::asked_for;
+
+struct Tally {
+  long n = 0, next_results = 0, done = 0;
+};
+
+class Disk : public faults::DisturbedRuns {
+protected:
+  /// Disturbs a run at points spread over all its operations.
+  void try_points(const std::string& kind, long by_default) {
+    const long n_operations = count_operations(), n = asked_for(by_default, n_operations);
+    Tally tally;
+    for (long i = 0; i < n; ++i) {
+      // Few points lie closer towards the end, where results take their places.
+      const double left = 1 - (2 * double(i) + 1) / (2 * double(n));
+      const long at = n == n_operations ? i : long(double(n_operations) * (1 - left * left));
+      try_one(kind, at, tally);
+      if (HasFailure()) break;
+    }
+    std::printf(
+        "%s: %ld of %ld operations tried; the run ended well %ld times, the next results were there %ld "
+        "times\n",
+        kind.c_str(), tally.n, n_operations, tally.done, tally.next_results);
+    EXPECT_GT(tally.n, tally.done) << "no disturbance was seen";
+  }
+
+  void try_one(const std::string& kind, long at, Tally& tally) {
+    const std::string what = kind + " at " + std::to_string(at);
+    restore();
+    const auto outcome = run_next(failing(kind, at));
+    const bool killed = kind == "kill" || kind == "torn";
+    ++tally.n;
+    tally.done += outcome.exit_code == 0;
+    if (killed) {
+      EXPECT_TRUE(outcome.exit_code == 137 || outcome.exit_code == 0) << what << ": " << outcome.exit_code;
+    } else {
+      EXPECT_TRUE(outcome.exit_code == 3 || outcome.exit_code == 0)
+          << what << ": " << outcome.exit_code << outcome.err;
+      EXPECT_EQ(outcome.err.find("internal error"), std::string::npos) << what << ": " << outcome.err;
+      EXPECT_LE(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << what << ": " << outcome.err;
+      if (outcome.exit_code == 3) {
+        EXPECT_NE(outcome.err.find("millstress: "), std::string::npos) << what;
+      }
+      // A disk that fails for good does not stand in the way of a run that says it is done.
+      if (outcome.exit_code == 0) {
+        EXPECT_EQ(difference_to_next(), "") << what;
+      }
+    }
+    tally.next_results += expect_nothing_lost(what);
+  }
+
+  std::string difference_to_next() const {
+    std::string names;
+    const auto found = faults::results_in(directory_ / "out");
+    for (const auto& [name, bytes] : next_)
+      if (found.count(name) == 0 || found.at(name) != bytes) names += name + " ";
+    return names;
+  }
+};
+
+TEST_F(Disk, AKillBeforeAnyOperationOfABeamLosesNothing) {
+  prepare("beam");
+  try_points("kill", 6);
+}
+
+TEST_F(Disk, AWriteTornByAKillLosesNothing) {
+  prepare("beam");
+  try_points("torn", 3);
+}
+
+TEST_F(Disk, OneFailureAnywhereIsToldAndLosesNothing) {
+  prepare("beam");
+  try_points("once", 5);
+}
+
+TEST_F(Disk, FailureForGoodIsToldAndLosesNothing) {
+  prepare("beam");
+  try_points("from", 4);
+}
+
+TEST_F(Disk, AWriteCutInHalfIsToldAndLosesNothing) {
+  prepare("beam");
+  try_points("short", 3);
+}
+
+TEST_F(Disk, ASolidsFilesAreNoExceptionToKills) {
+  prepare("solid");
+  try_points("kill", 2);
+}
+
+TEST_F(Disk, ASolidsFilesAreNoExceptionToFailures) {
+  prepare("solid");
+  try_points("from", 2);
+}
+
+}  // namespace

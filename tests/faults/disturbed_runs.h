@@ -1,0 +1,61 @@
+/// Runs that something goes wrong with, in a directory that has the results of an earlier one.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/cases/program.h"
+
+namespace faults {
+
+namespace fs = std::filesystem;
+using Files = std::map<std::string, std::string>;
+
+/// How many disturbances a test tries: by default what it says, else what MILLSTRESS_FAULTS says; 0 there
+/// means every possible one.
+long asked_for(long by_default, long all);
+
+/// A short bar between two bearings, pulled in the middle by so many kN; each pull has a length of its own,
+/// hence a mesh and unit responses of its own. A second and a half as a solid, half of one as a beam.
+std::string short_bar(int pull_kN);
+
+/// Everything below a directory, hidden names too, without timing (cases::contents); without what is kept for
+/// later runs, whose content does not have to be that of the results.
+Files results_in(const fs::path& directory);
+
+class DisturbedRuns : public testing::Test {
+protected:
+  /// Makes the earlier results and, elsewhere, those that an undisturbed run of the next scene has.
+  void prepare(const std::string& model);
+
+  /// Puts the directory `out` back to the earlier results.
+  void restore() const;
+
+  /// Runs the next scene into `out`.
+  /// @param before  commands of the shell that set the stage
+  cases::Outcome run_next(const std::string& before = "true") const;
+
+  /// The shell's commands that make the disk fail (failing_disk.cc).
+  std::string failing(const std::string& kind, long at) const;
+
+  /// How many operations on the disk an undisturbed run takes, from the earlier results on.
+  long count_operations() const;
+
+  /// The earlier results are whole, or the next ones; a report can be made of them; and the next run ends
+  /// with what an undisturbed one has, nothing more and nothing less.
+  /// @return whether the next results were there at once
+  bool expect_nothing_lost(const std::string& what) const;
+
+  results_test::Directory directory_;
+  std::string launcher_;  ///< cases::Start
+  std::string arguments_;
+  Files earlier_, next_;
+
+private:
+  cases::Outcome run(const std::string& arguments, const std::string& before = "true") const;
+
+  Files next_kept_;
+};
+
+}  // namespace faults
