@@ -1,5 +1,7 @@
 #include "tests/faults/disturbed_runs.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace faults {
@@ -53,6 +55,10 @@ std::string difference(const Files& found, const Files& wanted) {
   return names;
 }
 
+double stress_Pa(const Files& results) {
+  return nlohmann::json::parse(results.at("summary.json"))["bodies"]["shaft"]["governing"]["value"];
+}
+
 }  // namespace
 
 Files results_in(const fs::path& directory) {
@@ -103,6 +109,13 @@ long DisturbedRuns::count_operations() const {
   return n;
 }
 
+bool DisturbedRuns::same(const Files& found, const Files& wanted) const {
+  if (bits_repeat_) return found == wanted;
+  const auto same_name = [](const auto& a, const auto& b) { return a.first == b.first; };
+  return std::equal(found.begin(), found.end(), wanted.begin(), wanted.end(), same_name) &&
+         std::abs(stress_Pa(found) / stress_Pa(wanted) - 1) < 1e-9;
+}
+
 bool DisturbedRuns::expect_nothing_lost(const std::string& what) const {
   const auto report = cases::millstress(directory_.path, "report out");
   EXPECT_EQ(report.exit_code, 0) << what << ": " << report.err;
@@ -110,15 +123,15 @@ bool DisturbedRuns::expect_nothing_lost(const std::string& what) const {
   Files found;
   for (auto& [name, bytes] : results_in(directory_ / "out"))
     if (name[0] != '.' && name.find("/.") == std::string::npos) found.emplace(name, std::move(bytes));
-  const bool there = found == next_;
-  EXPECT_TRUE(there || found == earlier_)
+  const bool there = same(found, next_);
+  EXPECT_TRUE(there || same(found, earlier_))
       << what << ": neither the earlier results:" << difference(found, earlier_)
       << "\nnor the next ones:" << difference(found, next_);
   const auto again = run_next();
   EXPECT_EQ(again.exit_code, 0) << what << ": " << again.err;
   EXPECT_EQ(again.err, "") << what;
   const auto all = cases::contents(directory_ / "out");
-  EXPECT_TRUE(all == next_kept_) << what << ": the next run:" << difference(all, next_kept_);
+  EXPECT_TRUE(same(all, next_kept_)) << what << ": the next run:" << difference(all, next_kept_);
   for (const auto& entry : fs::recursive_directory_iterator(directory_ / "out"))
     EXPECT_NE(entry.path().filename().string()[0], '.') << what << ": left behind " << entry.path();
   return there;

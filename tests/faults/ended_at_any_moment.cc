@@ -104,6 +104,7 @@ TEST_F(Moments, InterruptFromTheKeyboardLosesNothing) {
 
 TEST_F(Moments, OneRankThatIsKilledEndsTheRunAndLosesNothing) {
   launcher_ = cases::two_ranks();
+  bits_repeat_ = false;
   prepare("solid");
   std::mt19937_64 random(23);
   const long n = asked_for(2, 10);
