@@ -97,8 +97,8 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
   for (const auto& candidate : first_meshes(body)) {  // as a search tries them
     refused = refusal_of([&] {
       auto coarse = mesh_body(candidate, scratch.temporary(), loads.springs);
-      const auto model =
-          loads.of_body ? axisymmetric_second_model(candidate, coarse, *loads.of_body, 1) : std::nullopt;
+      const auto model = loads.of_body ? axisymmetric_second_model(candidate, coarse, *loads.of_body, 0.05, 1)
+                                       : std::nullopt;
       if (model) coarse = mesh_body(guided_by(*model, candidate), scratch.temporary(), loads.springs);
       models.push_back(forecaster.of(first, coarse));
     });

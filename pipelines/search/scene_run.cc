@@ -237,7 +237,7 @@ private:
       std::optional<SecondModel> model;
       const auto refusal = refusal_of([&] {
         model = axisymmetric_second_model(run_.scene.bodies[i], run_.loaded.meshed[i],
-                                          run_.loaded.body_loads[i], options_.n_threads);
+                                          run_.loaded.body_loads[i], tolerance(), options_.n_threads);
       });
       return refusal.empty() ? std::move(model) : std::nullopt;  // the solid has to do without
     });
@@ -287,8 +287,8 @@ private:
     state.history.add(places_of_one_mesh(analysis), state.step);
     auto judged = state.history.judged();
     if (is_refined_locally(run_.scene.bodies[i])) {
-      state.local =
-          clock_.run("refine", [&] { return cells_to_cut(*run_.loaded.meshed[i].model, analysis, judged); });
+      const auto& model = *run_.loaded.meshed[i].model;
+      state.local = clock_.run("refine", [&] { return cells_to_cut(model, analysis, judged); });
       judged = with_goal_errors(std::move(judged), state.local);
     }
     take_place_errors(analysis, judged,
