@@ -72,6 +72,13 @@ TEST(HardKinetics, DrumsNearlyEmptyAndNearlyFull) {
        "formula (12)", hard_cases::relative(naive_centroid(1e-120), 1),
        hard_cases::relative(centroid_distance(kinetics::planetary::segment_of_half_angle(1e-120)), 1),
        1e-15});
+  hard_cases::check({"kinetics", "filling of a half angle of 1e-6", "the area's formula subtracts equals",
+                     "(gamma - sin gamma cos gamma) / pi",
+                     hard_cases::relative((gamma - std::sin(gamma) * std::cos(gamma)) / machines::pi,
+                                          long_x_minus_sin(2.0L * gamma) / (2 * pi_l)),
+                     hard_cases::relative(kinetics::planetary::segment_of_half_angle(gamma).filling,
+                                          long_x_minus_sin(2.0L * gamma) / (2 * pi_l)),
+                     1e-15});
   const double filling = 1e-20;
   hard_cases::check({"kinetics", "half angle of a filling of 1e-20", "the area's formula subtracts equals",
                      "bisection of gamma - sin gamma cos gamma",
