@@ -15,6 +15,7 @@ using Eigen::Index;
 
 constexpr double turn_rad = 2 * M_PI;
 constexpr double worth_a_warning = 0.01;
+constexpr double too_much_missed = 0.1;  // below, a smooth course is told by the error of time sampling
 
 std::string name_of(const TableLoad& load) {
   return load.port + "." + load.component;
@@ -48,16 +49,22 @@ void check_samples(const std::string& name, const SampledCourse& samples, double
                number(period_rad / turn_rad) + " turns");
 }
 
-void check_harmonic(const std::string& name, const HarmonicCourse& harmonic, int turns) {
+void check_harmonic(const std::string& name, const HarmonicCourse& harmonic, const TimeGrid& grid) {
   require_finite(name + ".mean", harmonic.mean);
   require_finite(name + ".amplitude", harmonic.amplitude);
   require_finite(name + ".phase", harmonic.phase_rad);
   require_finite(name + ".order", harmonic.order);
-  const double periods = harmonic.order * turns;
+  const double periods = harmonic.order * grid.turns;
   if (harmonic.order < 0 || std::abs(periods - std::round(periods)) > 1e-9 * std::max(1.0, periods))
     refuse(name + ".order", harmonic.order,
-           "must not be negative, and a whole number of its periods must fit the " + std::to_string(turns) +
-               " turns; change one of the two");
+           "must not be negative, and a whole number of its periods must fit the " +
+               std::to_string(grid.turns) + " turns; change one of the two");
+  if (harmonic.amplitude != 0 && 2 * harmonic.order >= grid.instants_per_turn)
+    refuse(name + ".order", harmonic.order,
+           "has " + std::to_string(grid.instants_per_turn) +
+               " instants per turn, not more than two per period: they cannot tell it from a slower "
+               "harmonic or a constant; take more than " +
+               number(2 * harmonic.order) + " instants per turn");
 }
 
 void check_effects(const std::vector<std::string>& effects, const LoadTable& table) {
@@ -84,7 +91,7 @@ void check(const LoadTable& table, const TimeGrid& grid) {
     if (const auto* samples = std::get_if<SampledCourse>(&load.course))
       check_samples(name_of(load), *samples, grid.turns * turn_rad);
     else
-      check_harmonic(name_of(load), std::get<HarmonicCourse>(load.course), grid.turns);
+      check_harmonic(name_of(load), std::get<HarmonicCourse>(load.course), grid);
   }
 }
 
@@ -137,6 +144,16 @@ void warn(const ResamplingError& error, LoadHistory& history) {
     history.warnings.push_back(name + " changes by up to " + percent(error.between) +
                                " of its largest value between every second sample: interpolation adds up to "
                                "that much where the samples are that coarse");
+}
+
+/// Where the instants lie further apart than the samples, they may miss their largest value.
+void warn_of_missed(const TableLoad& load, const SampledCourse& samples, const ArrayXd& values,
+                    LoadHistory& history) {
+  const double largest = samples.values.abs().maxCoeff(), missed = largest - values.abs().maxCoeff();
+  if (missed > too_much_missed * largest)
+    history.warnings.push_back(load.effect + "/" + name_of(load) + " is " +
+                               number(std::round(1000 * missed / largest) / 10) +
+                               " % larger between the instants than at them; take more instants per turn");
 }
 
 void post(const TableLoad& load, const ArrayXd& values, LoadHistory& history) {
@@ -208,9 +225,12 @@ LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>
     history.effects.push_back(effect.name);
     for (const auto& load : table.loads) {
       if (load.effect != effect.name) continue;
-      post(load, evaluate(load, history.phi_rad, grid.turns * turn_rad), history);
-      if (const auto* samples = std::get_if<SampledCourse>(&load.course))
+      const ArrayXd values = evaluate(load, history.phi_rad, grid.turns * turn_rad);
+      post(load, values, history);
+      if (const auto* samples = std::get_if<SampledCourse>(&load.course)) {
         warn(error_of(load, *samples, grid.turns * turn_rad), history);
+        warn_of_missed(load, *samples, values, history);
+      }
     }
   }
   return history;

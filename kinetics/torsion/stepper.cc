@@ -60,13 +60,14 @@ Stepper::Midpoint Stepper::solve(const ArrayXd& load) const {
 
 void Stepper::advance(const ArrayXd& load, StepState& state) const {
   const double dt = time_step_s_;
-  const auto mid =
-      solve(load + 2 / dt * reduced_.inertia * state.speed - leaving(reduced_.stiffness * state.twist));
+  const ArrayXd torque = reduced_.stiffness * state.twist + edge_ * state.rate + modal(state.rate);
+  const auto change = solve(load - reduced_.damping * state.speed - leaving(torque));
+  const Midpoint mid{state.speed + change.speed, state.rate + change.rate};
   state.work_J += dt * (load * mid.speed).sum();
   state.dissipated_J += dt * ((reduced_.damping * mid.speed.square()).sum() +
                               ((viscous_ * mid.rate + modal(mid.rate)) * mid.rate).sum());
-  state.speed = 2 * mid.speed - state.speed;
-  state.rate = 2 * mid.rate - state.rate;
+  state.speed += 2 * change.speed;
+  state.rate += 2 * change.rate;
   state.angle += dt * mid.speed;
   state.twist += dt * mid.rate;
 }

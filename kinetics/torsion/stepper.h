@@ -1,9 +1,10 @@
 /// One step of the average-acceleration method, in midpoint form.
 ///
-///   (2 J / dt + D) v_m + B^T T_m = M_m + 2 J v_n / dt,   T_m = C theta_n + (C dt / 2 + d) B v_m + modal
-///   damping v_(n+1) = 2 v_m - v_n,   theta_(n+1) = theta_n + dt B v_m
+///   (2 J / dt + D) d + B^T (C theta_n + (C dt / 2 + d_e) (r_n + B d) + modal damping) = M_m - D v_n
+///   v_m = v_n + d,  r_m = r_n + B d,  v_(n+1) = v_n + 2 d,  theta_(n+1) = theta_n + dt r_m
 ///
-/// The twist theta of every element is a state of its own, so that a train that turns for long loses nothing.
+/// The twist theta of every element and its rate r are states of their own, and a step is solved for the
+/// change d of the speeds: so a train that turns for long, or fast, loses nothing of its torques.
 #pragma once
 
 #include <Eigen/Core>

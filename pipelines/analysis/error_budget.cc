@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "fem/stress/cell_stress_at_node.h"
 #include "pipelines/analysis/submodels.h"
 #include "pipelines/analysis/tetrahedra_estimate.h"
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {
@@ -39,17 +41,6 @@ std::vector<bool> highest_harmonic(const std::vector<fem::UnitLoad>& loads) {
     belongs.push_back(pressure && highest > 1 && pressure->harmonic == highest);
   }
   return belongs;
-}
-
-double time_sampling_error(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXXd& values,
-                           Eigen::Index instant) {
-  // The cycle is periodic, so the neighbours of the first and last instant are each other.
-  const auto n = values.cols();
-  const double before = von_mises_of(unit, values.col((instant + n - 1) % n));
-  const double here = von_mises_of(unit, values.col(instant));
-  const double after = von_mises_of(unit, values.col((instant + 1) % n));
-  const double curvature = before - 2 * here + after;
-  return curvature < 0 ? (before - after) / (-8 * curvature) * (before - after) : 0.0;
 }
 
 /// Nodes of the boundary faces that hold the node; of its own alone if none does.
@@ -161,6 +152,25 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 
 namespace {
 
+/// What is left of channels and effects that cancel has the errors of all of them: the solver's and
+/// rounding's share of each channel's own stress, and rounding's of each effect's. Nothing where one channel
+/// of one effect stands alone.
+double cancellation_error_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads,
+                             Eigen::Index instant, double value_Pa, double solver_share) {
+  if (value_Pa == 0) return 0;  // nothing is stressed
+  double of_channels_Pa = 0, of_effects_Pa = 0;
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    const double unit_Pa = von_mises_Pa(unit[k]);
+    double effects = 0;
+    for (const auto& effect : loads.by_effect) effects += std::abs(effect(Eigen::Index(k), instant));
+    const double sum = std::abs(loads.values(Eigen::Index(k), instant));
+    of_channels_Pa += sum * unit_Pa;
+    of_effects_Pa += std::max(effects, sum) * unit_Pa;
+  }
+  return solver_share * std::max(0.0, of_channels_Pa - value_Pa) +
+         std::numeric_limits<double>::epsilon() * std::max(0.0, of_effects_Pa - value_Pa);
+}
+
 /// How much too low a stress may come out because cells of degree 1 and 2 cannot keep the volume of an almost
 /// incompressible material; the recovered stress does not see it. Fitted to the fillets of a stepped shaft
 /// (tests/cases/stepped_shaft.h, 4 to 8 cells on a quarter) against axisymmetric harmonics of degree 3, which
@@ -184,8 +194,8 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
   const double value = von_mises_of(unit, factors);
 
   ErrorBudget budget;
-  budget.numerical.push_back({"time_sampling", "parabola through the neighbouring instants",
-                              time_sampling_error(unit, values, point.instant)});
+  budget.numerical.push_back({"time_sampling", "channels and stress interpolated between the instants",
+                              time_sampling_error_Pa(unit, values, point.instant)});
   Eigen::ArrayXd without = factors;
   const auto belongs = highest_harmonic(loads.unit_loads);
   for (std::size_t k = 0; k < belongs.size(); ++k)
@@ -206,8 +216,11 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
         {"locking", "displacement cells of an almost incompressible material, fitted", share * value});
   budget.numerical.push_back(
       {"geometry", "distance of curved faces around from their surfaces", geometry_share * value});
-  budget.numerical.push_back({"linear_solver", "relative residual, or rounding",
-                              std::max(responses.residual, responses.solver.rounding) * value});
+  const double solver_share = std::max(responses.residual, responses.solver.rounding);
+  budget.numerical.push_back({"linear_solver", "relative residual, or rounding", solver_share * value});
+  budget.numerical.push_back(
+      {"cancellation", "the solver's and rounding's share of all that cancels",
+       cancellation_error_Pa(unit, loads.history, point.instant, value, solver_share)});
   return budget;
 }
 

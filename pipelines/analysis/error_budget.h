@@ -81,13 +81,14 @@ std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& resp
 double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXd& factors);
 
 /// What one run can tell about itself:
-///   time_sampling       what a parabola through the neighbouring instants adds
+///   time_sampling       what stress interpolated between the instants exceeds theirs by (time_sampling.h)
 ///   pressure_harmonics  what the highest harmonic of the seat pressures contributes
 ///   discretisation      the largest difference between the recovered stress and that of one cell, over the
 ///                       faces around the point, times discretisation_safety: a single cell may agree by
 ///                       chance; of tetrahedra as tetrahedra_estimate.h, of resolved points as submodels.h
 ///   geometry            geometry_share
 ///   linear_solver       relative residual, or rounding if that is more
+///   cancellation        the same share, and rounding, of the stress of all channels and effects that cancel
 /// Responses without cells (cheap models) get no discretisation entry here.
 /// @param geometry_share  as of the function of that name
 /// @param left_out  one per node, or empty: what stress does there tells nothing of the point

@@ -29,7 +29,9 @@ std::string remedy_of_model(const std::string& source) {
   return "no mesh lowers it";
 }
 
-std::string remedy_of_calculation(const Search& search) {
+std::string remedy_of_calculation(const std::string& source, const Search& search) {
+  if (source == "cancellation")
+    return "give the difference of the loads that cancel as one load; no mesh lowers it";
   if (search.steps.empty()) return "--tolerance \"5 %\"";
   if (search.met) return "a smaller --tolerance";
   if (search.ended == "the time is up") return "more time (--time-limit)";
@@ -67,9 +69,10 @@ std::string not_known_well(const GoverningStress& stress, const Search& search) 
   };
   const auto numerical = largest_of(stress.errors.numerical), model = largest_of(stress.errors.model);
   const bool is_model = smaller(numerical, model);
-  return fmt::format("{} MPa +- {} MPa ({:.0f} %): {}; remedy: {}", in_MPa(stress.value_Pa), in_MPa(total_Pa),
-                     100 * total_Pa / stress.value_Pa, in_words((is_model ? model : numerical).source),
-                     is_model ? remedy_of_model(model.source) : remedy_of_calculation(search));
+  return fmt::format(
+      "{} MPa +- {} MPa ({:.0f} %): {}; remedy: {}", in_MPa(stress.value_Pa), in_MPa(total_Pa),
+      100 * total_Pa / stress.value_Pa, in_words((is_model ? model : numerical).source),
+      is_model ? remedy_of_model(model.source) : remedy_of_calculation(numerical.source, search));
 }
 
 }  // namespace pipelines

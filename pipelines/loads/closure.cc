@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "pipelines/loads/closure.h"
@@ -121,12 +122,16 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
   Closure closure;
   const auto& values = loads.history.values;
   double force_made_of_N = 0, moment_made_of_Nm = 0;
-  std::array<Eigen::ArrayXd, 6> sums, sizes;
-  for (std::size_t c = 0; c < 6; ++c) sums[c] = sizes[c] = Eigen::ArrayXd::Zero(values.cols());
+  std::array<Eigen::ArrayXd, 6> sums, sizes, sizes_of_effects;
+  for (std::size_t c = 0; c < 6; ++c)
+    sums[c] = sizes[c] = sizes_of_effects[c] = Eigen::ArrayXd::Zero(values.cols());
   for (std::size_t k = 0; k < mesh_resultants.size(); ++k) {
     const auto wanted = wanted_resultant(loads.unit_loads[k], regions);
     const Eigen::ArrayXd a = values.row(Eigen::Index(k)).transpose();
     const Scale scale = std::visit(ScaleOf{regions}, loads.unit_loads[k].shape);
+    Eigen::ArrayXd of_effects = Eigen::ArrayXd::Zero(values.cols());
+    for (const auto& effect : loads.history.by_effect)
+      of_effects += effect.row(Eigen::Index(k)).abs().transpose();
     if (a.size() > 0) {
       force_made_of_N = std::max(force_made_of_N, a.abs().maxCoeff() * scale.force);
       moment_made_of_Nm = std::max(moment_made_of_Nm, a.abs().maxCoeff() * scale.moment);
@@ -134,6 +139,7 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
     for (std::size_t c = 0; c < 6; ++c) {
       sums[c] += a * mesh_resultants[k][c];
       sizes[c] += (a * mesh_resultants[k][c]).abs();
+      sizes_of_effects[c] += of_effects * std::abs(mesh_resultants[k][c]);
       const double error = std::abs(mesh_resultants[k][c] - wanted[c]) / (c < 3 ? scale.force : scale.moment);
       closure.channel_resultant = std::max(closure.channel_resultant, error);
     }
@@ -159,11 +165,17 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
   if (force_size < round_off * force_made_of_N) force_size = force_made_of_N;
   if (moment_size < round_off * moment_made_of_Nm) moment_size = moment_made_of_Nm;
   for (std::size_t c = 0; c < 3 && values.cols() > 0; ++c) {
-    const auto relative = [](double residual, double own, double common) {
-      return residual == 0 ? 0.0 : residual / (own > 1e-6 * common ? own : common);
+    // Effects that cancel each other leave the rounding of what they are by themselves.
+    const auto relative = [](double residual, double own, double common, const Eigen::ArrayXd& of_effects) {
+      if (residual == 0) return 0.0;
+      const double error = residual / (own > 1e-6 * common ? own : common), made_of = of_effects.maxCoeff();
+      const bool is_rounding = residual <= 64 * std::numeric_limits<double>::epsilon() * made_of;
+      return error > Closure::limit && is_rounding ? residual / made_of : error;
     };
-    closure.force[c] = relative(sums[c].abs().maxCoeff(), closure.force_scale_N[c], force_size);
-    closure.moment[c] = relative(sums[c + 3].abs().maxCoeff(), closure.moment_scale_Nm[c], moment_size);
+    closure.force[c] =
+        relative(sums[c].abs().maxCoeff(), closure.force_scale_N[c], force_size, sizes_of_effects[c]);
+    closure.moment[c] = relative(sums[c + 3].abs().maxCoeff(), closure.moment_scale_Nm[c], moment_size,
+                                 sizes_of_effects[c + 3]);
   }
   return closure;
 }

@@ -1,5 +1,7 @@
 #include "pipelines/scene/pressure_pattern.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -10,16 +12,34 @@ namespace {
 
 constexpr int n_summed = 4096;
 
-/// sin(k a) / k, a for k = 0.
+/// sin(k a) / k, a for k = 0. Beyond 90 degrees by the opening pi - a, of which k a would lose the digits.
 double sinc(int k, double a) {
-  return k == 0 ? a : std::sin(k * a) / k;
+  constexpr double pi_beyond_double = 1.2246467991473532e-16;
+  if (k == 0) return a;
+  if (a <= M_PI / 2) return std::sin(k * a) / k;
+  return (k % 2 == 0 ? -1 : 1) * std::sin(k * ((M_PI - a) + pi_beyond_double)) / k;
+}
+
+/// Integral over |t| < a of (cos t - cos a) cos(n t), n a up to 1.5: the closed form is the rest of terms
+/// that cancel like a^2, the integrand is a product without signs. Gauss's rule of ten points is exact to
+/// rounding.
+double narrow_cosine_integral(double a, int n) {
+  constexpr std::array<double, 5> x{0.1488743389816312, 0.4333953941292472, 0.6794095682990244,
+                                    0.8650633666889845, 0.9739065285171717},
+      w{0.2955242247147529, 0.2692667193099964, 0.2190863625159820, 0.1494513491505806, 0.0666713443086881};
+  double sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    sum += w[i] * 2 * std::sin(a * (1 + x[i]) / 2) * std::sin(a * (1 - x[i]) / 2) * std::cos(n * a * x[i]);
+  return 2 * a * sum;
 }
 
 /// (1/pi) integral over |t| < a of p(t) cos(n t), half of it for n = 0.
 double harmonic(const PressurePattern& pattern, int n) {
   const double a = pattern.half_angle_rad, half = n == 0 ? 0.5 : 1;
   if (pattern.kind == PressurePattern::Kind::uniform) return half * 2 / M_PI * sinc(n, a);
-  return half / M_PI * (sinc(n - 1, a) + sinc(n + 1, a) - 2 * std::cos(a) * sinc(n, a));
+  if (std::max(1, n) * a <= 1.5) return half / M_PI * narrow_cosine_integral(a, n);
+  if (n == 0) return (std::sin(a) - a * std::cos(a)) / M_PI;
+  return (sinc(n - 1, a) - sinc(n + 1, a)) / (M_PI * n);  // by parts: fewer terms that cancel
 }
 
 void refuse_impossible(const PressurePattern& pattern) {
@@ -45,7 +65,9 @@ double pattern_value(const PressurePattern& pattern, double t_rad) {
   refuse_impossible(pattern);
   const double t = std::abs(std::remainder(t_rad, 2 * M_PI)), a = pattern.half_angle_rad;
   if (t >= a) return 0;
-  const double p = pattern.kind == PressurePattern::Kind::uniform ? 1 : std::cos(t) - std::cos(a);
+  const double p = pattern.kind == PressurePattern::Kind::uniform
+                       ? 1
+                       : 2 * std::sin((a + t) / 2) * std::sin((a - t) / 2);  // cos t - cos a
   return p / harmonic(pattern, 1);
 }
 

@@ -278,6 +278,8 @@ bool stands_still(const Search& search) {
 std::string reason_to_end(const Search& search, const GoverningStress& stress, bool of_blocks) {
   if (search.tolerance > 0 && search.met) return "the tolerance is met";
   if (stress.value_Pa == 0) return "nothing is stressed";
+  if (search.tolerance > 0 && stress.errors.of("cancellation") > search.tolerance * stress.value_Pa)
+    return "what is left of loads that cancel has no more digits";
   if (int(search.steps.size()) >= most_steps) return "too many steps";
   if (of_blocks && stands_still(search)) return "finer meshes no longer lower the error";
   return {};

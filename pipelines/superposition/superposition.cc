@@ -118,6 +118,26 @@ Stress scaled(Stress s, double factor) {
   return s;
 }
 
+/// Jacobi's rotation in the plane across axis r of a symmetric tensor; beside[r] is its entry off the
+/// diagonal in that plane, and vanishes.
+void rotate(std::array<double, 3>& diagonal, std::array<double, 3>& beside, std::size_t r) {
+  const std::size_t p = (r + 1) % 3, q = (r + 2) % 3;
+  const double entry = beside[r];
+  if (entry == 0) return;
+  const double ratio = (diagonal[q] - diagonal[p]) / (2 * entry);
+  const double tangent = (ratio < 0 ? -1 : 1) / (std::abs(ratio) + std::hypot(1, ratio));
+  const double cosine = 1 / std::hypot(1, tangent), sine = tangent * cosine;
+  diagonal[p] -= tangent * entry;
+  diagonal[q] += tangent * entry;
+  beside[r] = 0;
+  const double at_q = beside[p], at_p = beside[q];  // entries (r, q) and (r, p)
+  beside[q] = cosine * at_p - sine * at_q;
+  beside[p] = sine * at_p + cosine * at_q;
+}
+
+/// Convergence is quadratic: five sweeps are rarely needed.
+constexpr int most_sweeps = 10;
+
 /// The envelope of loads times `scale`, brought back.
 Envelope unscaled(Envelope envelope, double scale) {
   for (NodalMaximum* maximum : {&envelope.von_mises, &envelope.principal}) {
@@ -138,14 +158,10 @@ double von_mises_Pa(const Stress& s) {
 double largest_principal_Pa(const Stress& s) {
   if (const double scale = power_to_unit_size(s); scale != 1)
     return largest_principal_Pa(scaled(s, scale)) / scale;
-  const double mean = (s[0] + s[1] + s[2]) / 3;
-  const double x = s[0] - mean, y = s[1] - mean, z = s[2] - mean;
-  const double j2 = 0.5 * (x * x + y * y + z * z) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
-  if (j2 == 0) return mean;
-  const double j3 =
-      x * (y * z - s[4] * s[4]) - s[3] * (s[3] * z - s[4] * s[5]) + s[5] * (s[3] * s[4] - y * s[5]);
-  const double cosine = std::clamp(1.5 * std::sqrt(3.0) * j3 / (j2 * std::sqrt(j2)), -1.0, 1.0);
-  return mean + 2 * std::sqrt(j2 / 3) * std::cos(std::acos(cosine) / 3);
+  std::array<double, 3> diagonal{s[0], s[1], s[2]}, beside{s[4], s[5], s[3]};  // yz, xz, xy
+  for (int sweep = 0; sweep < most_sweeps && (beside[0] != 0 || beside[1] != 0 || beside[2] != 0); ++sweep)
+    for (std::size_t r = 0; r < 3; ++r) rotate(diagonal, beside, r);
+  return std::max({diagonal[0], diagonal[1], diagonal[2]});
 }
 
 Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node,

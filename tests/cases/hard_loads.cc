@@ -75,6 +75,24 @@ TEST(HardLoads, LoadsThatCancelLeaveAZeroAnswer) {
   EXPECT_TRUE(fs::exists(directory / "out/shaft/envelope.vtu"));
 }
 
+// What two effects leave that cancel to 1e-13 is an answer of three digits, and says so: its sum in double
+// precision is off by 2^-53 of each, its stated error at most a hundred times as much.
+TEST(HardLoads, LoadsThatNearlyCancelStateFewDigits) {
+  const results_test::Directory directory;
+  const auto peak = [&](const std::vector<SmallLoad>& loads) {
+    return run_small(directory.path,
+                     small_shaft(loads, "mm", "600 rpm", ""))["bodies"]["shaft"]["peak_von_mises"];
+  };
+  const auto alone = peak({{"load", "middle.fy", "100 N", 0}});
+  const double alone_Pa = alone["value"], wanted_Pa = 1e-13 * alone_Pa;
+  EXPECT_LT(alone["error"]["cancellation"].get<double>(), 1e-8 * alone_Pa);
+  const auto rest = peak({{"load", "middle.fy", "100 N", 0}, {"other", "middle.fy", "-99.99999999999 N", 0}});
+  const double told_Pa = rest["error"]["cancellation"];
+  EXPECT_LT(std::abs(rest["value"].get<double>() - wanted_Pa), told_Pa);
+  EXPECT_GT(told_Pa, 1e-3 * wanted_Pa);
+  EXPECT_LT(told_Pa, 0.1 * wanted_Pa);
+}
+
 TEST(HardLoads, ALoadOfZeroIsRefusedByName) {
   const results_test::Directory directory;
   write(directory / "scene.toml", small_shaft({{"load", "middle.fy", "0 N", 0}}));

@@ -7,20 +7,14 @@
 
 #include "tests/verification/fem/block_mesh.h"
 #include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/two_layers.h"
 
 namespace {
 
 using Component = fem::SurfaceResultant::Component;
 using verification::Point;
 
-constexpr int soft_volume = 7, hard_volume = 8;
-
-fem::Material soft(double poisson_ratio) {
-  return {1e6, poisson_ratio, 1000};
-}
-fem::Material hard(double jump, double poisson_ratio) {
-  return {1e6 * jump, poisson_ratio, 3000};
-}
+using namespace verification::two_layers;
 
 // A bar of 40 x 40 mm, soft from z = 0 to 0.1 m, hard from there to 0.3 m.
 constexpr double side = 0.04, middle = 0.1, length = 0.3, area = side * side;
@@ -28,8 +22,8 @@ constexpr double side = 0.04, middle = 0.1, length = 0.3, area = side * side;
 fem::Body bar(double jump) {
   verification::Block block;
   block.cells = {2, 2, 6};
-  block.map = [](const Point& c) { return Point(side * (c[0] - 0.5), side * (c[1] - 0.5), length * c[2]); };
-  block.volume = [](const std::array<int, 3>& c) { return c[2] < 2 ? soft_volume : hard_volume; };
+  block.map = [](const Point& q) { return Point(side * (q[0] - 0.5), side * (q[1] - 0.5), length * q[2]); };
+  block.volume = [](const std::array<int, 3>& cell) { return cell[2] < 2 ? soft_volume : hard_volume; };
   fem::Body body;
   body.mesh = verification::write_hexahedra(block);
   body.material = soft(0);  // Poisson's ratio 0: sections stay as they are, and beam theory is exact
@@ -93,84 +87,6 @@ TEST_P(Jump, RodAcceleratedByAPull) {
     // Stress is linear in each half but recovered at points, over the hard half's three cells.
     ASSERT_NEAR(s.stress_Pa(2, i), behind / mass / area, exact_in_the_space / area);
   }
-}
-
-// A tube of two layers under pressure from inside, between radii a, b, c.
-constexpr double a = 0.05, b = 0.07, c = 0.1, height = 0.02, p_Pa = 1e5;
-constexpr int n_inner = 6, n_outer = 6;
-
-Point in_tube(const Point& q, double turn) {
-  const double t = q[0] * (n_inner + n_outer) / n_inner;
-  const double r = t <= 1 ? a * std::pow(b / a, t) : b * std::pow(c / b, (t - 1) * n_inner / n_outer);
-  return {r * std::cos(turn * q[1]), r * std::sin(turn * q[1]), height * q[2]};
-}
-
-/// Hard outside of b.
-fem::Body tube(bool whole, const fem::Material& inner, const fem::Material& outer) {
-  verification::Block block;
-  block.cells = {n_inner + n_outer, whole ? 12 : 3, 1};
-  block.is_ring = whole;
-  block.map = [whole](const Point& q) {
-    return in_tube(q, whole ? 2 * verification::pi : verification::pi / 2);
-  };
-  block.volume = [](const std::array<int, 3>& cell) { return cell[0] < n_inner ? soft_volume : hard_volume; };
-  fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
-  for (const int volume : {soft_volume, hard_volume}) {
-    fem::CylinderChart chart;
-    chart.volume_id = volume;
-    body.cylinders.push_back(chart);
-  }
-  body.material = outer;
-  body.material_of_volume = {{soft_volume, inner}};
-  return body;
-}
-
-verification::LoadCase inside() {
-  return {{verification::uniform_pressure(verification::begin_1, {0, 0, height / 2}, height), p_Pa}};
-}
-
-/// Lame's solution of each layer in plane strain, sigma_r = C - D / r^2, sigma_theta = C + D / r^2,
-/// u = (1 + nu) / E ((1 - 2 nu) C r + D / r); four conditions: pressure, equal sigma_r and u at b, none at c.
-struct Lame {
-  Eigen::Vector4d k;  // C, D inside; C, D outside
-  fem::Material inner, outer;
-
-  Lame(const fem::Material& in, const fem::Material& out) : inner(in), outer(out) {
-    const auto u = [](const fem::Material& m, double r) {
-      const double f = (1 + m.poisson_ratio) / m.youngs_modulus_Pa;
-      return Eigen::RowVector2d(f * (1 - 2 * m.poisson_ratio) * r, f / r);
-    };
-    Eigen::Matrix4d conditions;
-    conditions << 1, -1 / (a * a), 0, 0,                                     //
-        1, -1 / (b * b), -1, 1 / (b * b),                                    //
-        u(in, b) * in.youngs_modulus_Pa, -u(out, b) * in.youngs_modulus_Pa,  //
-        0, 0, 1, -1 / (c * c);
-    k = conditions.fullPivLu().solve(Eigen::Vector4d(-p_Pa, 0, 0, 0));
-  }
-  double radial_Pa(bool is_outer, double r) const {
-    return k[is_outer ? 2 : 0] - k[is_outer ? 3 : 1] / (r * r);
-  }
-  double hoop_Pa(bool is_outer, double r) const {
-    return k[is_outer ? 2 : 0] + k[is_outer ? 3 : 1] / (r * r);
-  }
-  double displacement_m(bool is_outer, double r) const {
-    const auto& m = is_outer ? outer : inner;
-    return (1 + m.poisson_ratio) / m.youngs_modulus_Pa *
-           ((1 - 2 * m.poisson_ratio) * k[is_outer ? 2 : 0] * r + k[is_outer ? 3 : 1] / r);
-  }
-};
-
-/// Whether the cells of a node are in the outer layer: by the radius of a node at the cells' other side.
-std::vector<char> outer_nodes(const verification::Solution& s) {
-  std::vector<char> outer(s.nodes.n, 0);
-  for (std::size_t cell = 0; cell < s.nodes.n_cells(); ++cell) {
-    double largest = 0;
-    for (const auto node : s.nodes.cell(cell))
-      largest = std::max(largest, s.place_m.col(node).head<2>().norm());
-    for (const auto node : s.nodes.cell(cell)) outer[node] = largest > b * (1 + 1e-6);
-  }
-  return outer;
 }
 
 void expect_lame(const verification::Solution& s, const Lame& exact) {

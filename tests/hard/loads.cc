@@ -1,43 +1,17 @@
-// Lengths and loads far from 1, and no load at all, by both solvers.
+// Loads whose squares are no numbers, and no load at all, by both solvers. Powers of two change no bit, so
+// that answers are compared bit by bit.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <utility>
 
+#include "pipelines/superposition/superposition.h"
+#include "tests/hard/hard_case.h"
 #include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/distorted_beam.h"
 #include "tests/verification/fem/figures.h"
 
 namespace {
 
-using Component = fem::SurfaceResultant::Component;
 using verification::Point;
-
-// The same bent and pulled beam, a thousand times smaller and larger: stress times length squared (to the
-// third) is a number without dimension. 1e-9: what coordinates of another rounding leave.
-TEST(Scaling, LengthsOfMicrometresAndKilometresGiveTheSameNumbers) {
-  const auto answer = [](double unit, Component component, int power, fem::Solver solver) {
-    const Point size = unit * Point(0.3, 0.4, 1.2);
-    const auto body = verification::distorted_beam(size, {2, 2, 4}, 0.04, {206e9, 0.3, 7850}, 2);
-    const auto s = verification::solve(
-        body, {{verification::on_face(verification::end_3, {0, 0, size[2]}, component), 1}},
-        fem::Recovery::patch, solver);
-    return std::pair<Eigen::MatrixXd, Eigen::MatrixXd>(s.stress_Pa * std::pow(unit, power),
-                                                       s.displacement_m * std::pow(unit, power - 1));
-  };
-  for (const auto solver : {fem::Solver::direct, fem::Solver::iterative})
-    for (const auto& [component, power] :
-         {std::pair{Component::fx, 2}, {Component::fz, 2}, {Component::torque, 3}}) {
-      const auto one = answer(1, component, power, solver);
-      for (const double unit : {1e-6, 1e-3, 1e3}) {
-        const auto other = answer(unit, component, power, solver);
-        EXPECT_LT((other.first - one.first).cwiseAbs().maxCoeff(), 1e-9 * one.first.cwiseAbs().maxCoeff())
-            << unit;
-        EXPECT_LT((other.second - one.second).cwiseAbs().maxCoeff(), 1e-9 * one.second.cwiseAbs().maxCoeff())
-            << unit;
-      }
-    }
-}
 
 /// A whole tube of radii 0.2 and 0.3 m.
 fem::Body tube(double density_kg_m3) {
@@ -67,9 +41,16 @@ fem::UnitResponses pressed_and_spun(double factor, fem::Solver solver) {
           fem::Recovery::patch, {}, {solver, 1e-10, 100});
 }
 
-// Unit loads of 1e-150 and 1e150: their squares are no numbers any more. Powers of two change no bit, so the
-// answers are compared bit by bit.
-TEST(Scaling, LoadsAreLinearOverThreeHundredDecades) {
+/// |f| of a vector of ones times a factor, by the sum of squares.
+double naive_norm(double factor) {
+  double sum = 0;
+  for (int i = 0; i < 9; ++i) sum += factor * factor;
+  return std::sqrt(sum);
+}
+
+// Unit loads of 1e-150 and 1e150, and farther.
+TEST(HardLoads, LoadsAreLinearOverThreeHundredDecades) {
+  double ours = 0, naive = 0;
   for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
     const auto usual = pressed_and_spun(1, solver);
     EXPECT_EQ(usual.solver.used, solver) << usual.solver.reason;
@@ -81,12 +62,22 @@ TEST(Scaling, LoadsAreLinearOverThreeHundredDecades) {
       EXPECT_EQ(other.energy_error.error, usual.energy_error.error) << exponent;
       for (std::size_t k = 0; k < 2; ++k)
         EXPECT_EQ(std::ldexp(other.energy_error.norm_sqrtJ[k], -exponent), usual.energy_error.norm_sqrtJ[k]);
+      for (std::size_t i = 0; i < usual.displacement_m.size(); ++i)
+        if (usual.displacement_m[i] != 0)
+          ours = std::max(ours, hard_cases::relative(std::ldexp(other.displacement_m[i], -exponent),
+                                                     usual.displacement_m[i]));
+      naive = std::max(naive,
+                       hard_cases::relative(std::ldexp(naive_norm(std::ldexp(1.0, exponent)), -exponent), 3));
     }
   }
+  hard_cases::check({"loads", "unit loads of 1e-200, 1e-150, 1e150 and 1e200, both solvers",
+                     "the norms of residuals and energies are squares", "|f| by the sum of squares", naive,
+                     ours, 0});
 }
 
 // A load vector of nothing but zeros, beside one that is none.
-TEST(Scaling, NoLoadGivesZeroByBothSolvers) {
+TEST(HardLoads, NoLoadGivesZeroByBothSolvers) {
+  double ours = 0;
   for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
     auto nothing = verification::uniform_pressure(verification::begin_1, {0, 0, 0.1}, 0.2);
     nothing.coefficient = 0;
@@ -104,7 +95,23 @@ TEST(Scaling, NoLoadGivesZeroByBothSolvers) {
       for (std::size_t d = 0; d < 3; ++d) ASSERT_EQ(r.displacement_m[6 * i + d], 0);
       ASSERT_TRUE(std::isfinite(r.stress_Pa[12 * i + 6]));
     }
+    ours = std::isfinite(r.residual) ? std::max(ours, r.energy_error.error[0]) : r.residual;
   }
+  const double residual = naive_norm(0) / naive_norm(0);
+  hard_cases::check({"loads", "no load, both solvers", "its residual has nothing to be compared with",
+                     "|K u - f| / |f|", residual, ours, 0});
+}
+
+// Shear of sizes beyond the squares of doubles: sqrt(3) times itself. A square root and a product: 4e-16.
+TEST(HardLoads, MeasuresOfStressOfAnySize) {
+  double ours = 0, naive = 0;
+  for (const double s : {1e-300, 1e-200, 1e200, 1e300}) {
+    const long double wanted = std::sqrt(3.0L) * s;
+    ours = std::max(ours, hard_cases::relative(pipelines::von_mises_Pa({0, 0, 0, s, 0, 0}), wanted));
+    naive = std::max(naive, hard_cases::relative(std::sqrt(3 * s * s), wanted));
+  }
+  hard_cases::check({"loads", "von Mises stress of 1e-300 to 1e300 Pa", "it is a root of squares",
+                     "its formula", naive, ours, 1e-15});
 }
 
 }  // namespace
