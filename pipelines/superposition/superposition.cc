@@ -1,5 +1,6 @@
 #include "pipelines/superposition/superposition.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -118,26 +119,6 @@ Stress scaled(Stress s, double factor) {
   return s;
 }
 
-/// Jacobi's rotation in the plane across axis r of a symmetric tensor; beside[r] is its entry off the
-/// diagonal in that plane, and vanishes.
-void rotate(std::array<double, 3>& diagonal, std::array<double, 3>& beside, std::size_t r) {
-  const std::size_t p = (r + 1) % 3, q = (r + 2) % 3;
-  const double entry = beside[r];
-  if (entry == 0) return;
-  const double ratio = (diagonal[q] - diagonal[p]) / (2 * entry);
-  const double tangent = (ratio < 0 ? -1 : 1) / (std::abs(ratio) + std::hypot(1, ratio));
-  const double cosine = 1 / std::hypot(1, tangent), sine = tangent * cosine;
-  diagonal[p] -= tangent * entry;
-  diagonal[q] += tangent * entry;
-  beside[r] = 0;
-  const double at_q = beside[p], at_p = beside[q];  // entries (r, q) and (r, p)
-  beside[q] = cosine * at_p - sine * at_q;
-  beside[p] = sine * at_p + cosine * at_q;
-}
-
-/// Convergence is quadratic: five sweeps are rarely needed.
-constexpr int most_sweeps = 10;
-
 /// The envelope of loads times `scale`, brought back.
 Envelope unscaled(Envelope envelope, double scale) {
   for (NodalMaximum* maximum : {&envelope.von_mises, &envelope.principal}) {
@@ -158,10 +139,9 @@ double von_mises_Pa(const Stress& s) {
 double largest_principal_Pa(const Stress& s) {
   if (const double scale = power_to_unit_size(s); scale != 1)
     return largest_principal_Pa(scaled(s, scale)) / scale;
-  std::array<double, 3> diagonal{s[0], s[1], s[2]}, beside{s[4], s[5], s[3]};  // yz, xz, xy
-  for (int sweep = 0; sweep < most_sweeps && (beside[0] != 0 || beside[1] != 0 || beside[2] != 0); ++sweep)
-    for (std::size_t r = 0; r < 3; ++r) rotate(diagonal, beside, r);
-  return std::max({diagonal[0], diagonal[1], diagonal[2]});
+  Eigen::Matrix3d tensor;
+  tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
 Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node,

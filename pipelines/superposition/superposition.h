@@ -18,9 +18,9 @@ using Stress = std::array<double, 6>;
 /// sigma_v = sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + yz^2 + xz^2)) [Pa]
 double von_mises_Pa(const Stress& stress);
 
-/// Largest principal stress [Pa], tension positive; by Jacobi's rotations, to rounding. (Of the closed form,
-/// Smith 1961, two equal principal stresses leave half of the digits; the walk through the instants compares
-/// by it.)
+/// Largest principal stress [Pa], tension positive; by QR iteration, to rounding of the largest. (Of the
+/// closed form, Smith 1961, two equal principal stresses leave half of the digits; the walk through the
+/// instants compares by it.)
 double largest_principal_Pa(const Stress& stress);
 
 /// Per node the maximum over the cycle, when it occurs, and the whole tensor at that instant.
