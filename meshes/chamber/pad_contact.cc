@@ -56,7 +56,8 @@ PadContact pad_contact(const Chamber& chamber, const ChamberFoot& foot, double d
   const std::vector<SeenPoint> seen = seen_corners(chamber.pads, away, left);
   const double first_m = seen.front().offset_m, last_m = seen.back().offset_m;
   const double width_m = std::min(chamber.lugs.width_m, last_m - first_m);
-  const double low_m = std::clamp(-0.5 * width_m, first_m, last_m - width_m);
+  // Where the lug takes all that is seen, rounding may put the second limit below the first.
+  const double low_m = std::clamp(-0.5 * width_m, first_m, std::max(first_m, last_m - width_m));
   const SeenPoint low = edge_end(seen, low_m, width_m);
   const SeenPoint high = edge_end(seen, std::min(low_m + width_m, last_m), width_m);
 

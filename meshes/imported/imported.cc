@@ -9,6 +9,7 @@
 #include "meshes/imported/load_apart.h"
 #include "meshes/imported/port_selection.h"
 #include "meshes/values/refused.h"
+#include "meshes/values/utf8.h"
 
 namespace meshes {
 
@@ -20,6 +21,9 @@ void check_group_names(const std::vector<Piece>& pieces) {
     const std::string& name = piece.name;
     const bool is_printed = std::none_of(name.begin(), name.end(),
                                          [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '"'; });
+    if (!is_utf8(name))
+      throw GeometryRefused("the name of its physical group " + std::to_string(piece.tag) +
+                            " is not written in UTF-8; rename it");
     if (!is_printed || (!name.empty() && std::string("=+-@").find(name[0]) != std::string::npos))
       throw GeometryRefused("the name of its physical group " + std::to_string(piece.tag) +
                             " holds quotes or control characters, or begins with = + - or @, which a "

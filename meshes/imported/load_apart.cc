@@ -61,7 +61,8 @@ void set_order_of_cells() {
 }
 
 std::string text_of(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw GeometryRefused("is no file; check the path");
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) throw GeometryRefused("is no file; check the path");
   std::ifstream in(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in) throw GeometryRefused("cannot be read; check its permissions");

@@ -1,13 +1,15 @@
 #include "pipelines/accuracy/cost_calibration.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/content_hash.h"
+#include "pipelines/files/json_file.h"
 #include "pipelines/files/kept_file.h"
 
 namespace pipelines {
@@ -20,6 +22,9 @@ namespace {
 constexpr double s_per_product = 1.5e-10, products_per_instant = 12, products_per_node = 7000;
 
 using Json = nlohmann::ordered_json;
+
+/// More are not counted.
+constexpr std::uint64_t most_runs = 1'000'000'000;
 
 const char* const checksum_key = "checksum";
 
@@ -38,8 +43,8 @@ CostCalibration calibration_of(const Json& json) {
   kept.direct = factor("direct");
   kept.iterative = factor("iterative");
   kept.superposition = factor("superposition");
-  if (const auto runs = json.find("runs"); runs != json.end() && runs->is_number_integer())
-    kept.n_runs = runs->get<int>();
+  if (const auto runs = json.find("runs"); runs != json.end() && runs->is_number_unsigned())
+    kept.n_runs = int(std::min(runs->get<std::uint64_t>(), most_runs));
   return kept;
 }
 
@@ -58,9 +63,9 @@ std::filesystem::path calibration_file() {
 }
 
 CostCalibration read_calibration(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) return {};
-  auto json = Json::parse(in, nullptr, false);
+  std::error_code none_there;
+  if (file.empty() || !std::filesystem::exists(file, none_there)) return {};
+  auto json = read_json_file(file);
   if (json.is_object() && json.contains(checksum_key)) {
     const Json checksum = json[checksum_key];
     json.erase(checksum_key);

@@ -7,6 +7,7 @@
 #include "fem/values/errors.h"
 #include "kinetics/machine_refused.h"
 #include "meshes/values/refused.h"
+#include "pipelines/common/errors.h"
 
 namespace pipelines {
 
@@ -28,14 +29,17 @@ std::string refusal_of(Work&& work) {
   }
 }
 
-/// Does the work; what kinetics refuses then begins with a place in the scene.
-/// @throws kinetics::MachineRefused "place: what", and anything else that the work throws
+/// Does the work; what kinetics refuses, and figures that are not finite, then begin with a place in the
+/// scene: its numbers alone make them.
+/// @throws kinetics::MachineRefused or StageRefused "place: what", and anything else that the work throws
 template <typename Work>
 auto with_place(const std::string& place, Work&& work) {
   try {
     return std::forward<Work>(work)();
   } catch (const kinetics::MachineRefused& error) {
     throw kinetics::MachineRefused(place + ": " + error.what());
+  } catch (const NotFinite& error) {
+    throw StageRefused(place + ": " + error.what());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 
+#include "meshes/values/utf8.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/replaceable.h"
 
@@ -54,7 +55,8 @@ public:
   TableFile read() {
     note_input(table_.file);
     std::ifstream in(table_.file, std::ios::binary);
-    if (!std::filesystem::is_regular_file(table_.file) || !in)
+    std::error_code none;  // a name of 300 characters is none of a file
+    if (!std::filesystem::is_regular_file(table_.file, none) || !in)
       refuse(0, 0, "", "", "cannot be read as a table; give the path of a CSV file, from the scene's folder");
     int number = 0;
     for (std::string line; errors_.size() < most_errors && std::getline(in, line);) read_line(line, ++number);
@@ -84,6 +86,10 @@ private:
 
   void read_titles(const std::string& line, int number) {
     table_.title_line = number;
+    if (!meshes::is_utf8(line)) {
+      refuse(number, 1, "", "", "the titles are not written in UTF-8, as results are; save the file so");
+      throw SceneError(std::move(errors_));
+    }
     separator_ = separator_of(line);
     std::set<std::string> names;
     for (const auto& cell : cells_of(line, separator_)) {

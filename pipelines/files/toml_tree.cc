@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -65,6 +66,33 @@ private:
   std::vector<std::string_view> lines_;
   mutable Place last_;
 };
+
+constexpr int most_parts_of_a_name = 100;
+
+/// The parser follows a name such as a.b.c by recursion, part by part, and a page of them overflows the
+/// stack. Looks at texts and comments, too: they have no such words.
+void refuse_endless_names(const std::string& text) {
+  SourcePosition at{1, 1};
+  int n_parts = 0;
+  bool after_dot = false, after_part = false;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '.' && after_part) {
+      after_dot = true;
+      after_part = false;
+    } else if (std::isalnum(byte) != 0 || c == '_' || c == '-' || c == '"' || c == '\'') {
+      if (!after_part) n_parts = after_dot ? n_parts + 1 : 1;
+      after_part = true;
+      after_dot = false;
+    } else if (c != ' ' && c != '\t') {
+      after_dot = after_part = false;
+    }
+    if (n_parts > most_parts_of_a_name)
+      throw TomlSyntaxError(at, "a name has more than " + std::to_string(most_parts_of_a_name) + " parts");
+    if (c == '\n') at = {at.line + 1, 0};
+    if ((byte & 0xC0) != 0x80) ++at.column;
+  }
+}
 
 TomlNode convert(const toml::node& node, const SourceLines& lines) {
   TomlNode result;
@@ -130,6 +158,7 @@ std::string describe(TomlNode::Kind kind) {
 }
 
 TomlNode parse_toml(const std::string& text) {
+  refuse_endless_names(text);
   try {
     const toml::table table = toml::parse(std::string_view(text));
     return convert(table, SourceLines(text));

@@ -16,9 +16,11 @@ LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
 LoadedScene::~LoadedScene() = default;
 
 kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
-  auto loads = with_place(scene.machine_origin, [&] { return kind_of(machine).loads(scene, machine); });
-  require_finite(loads);
-  return loads;
+  return with_place(scene.machine_origin, [&] {
+    auto loads = kind_of(machine).loads(scene, machine);
+    require_finite(loads);
+    return loads;
+  });
 }
 
 std::vector<kinetics::Spring> springs_of(const Scene& scene) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/html_page.h"
+#include "pipelines/files/json_file.h"
 
 namespace pipelines {
 namespace {
@@ -27,7 +29,8 @@ std::string file_text(const std::filesystem::path& file) {
 /// JSON has no infinities: they are null or text there.
 std::string number(const Json& value, double factor = 1, const char* format = "{:.4g}") {
   if (!value.is_number()) return value.is_string() ? value.get<std::string>() : "-";
-  return fmt::format(fmt::runtime(format), factor * value.get<double>());
+  const double shown = factor * value.get<double>();
+  return std::isfinite(shown) ? fmt::format(fmt::runtime(format), shown) : "-";
 }
 
 std::string MPa(const Json& pascals) {
@@ -37,12 +40,13 @@ std::string MPa(const Json& pascals) {
 std::string where(const Json& at) {
   const auto& x = at.at("position_m");
   const std::string feature = at.at("feature").get<std::string>();
-  return fmt::format("{}{}({}, {}, {}) mm", feature, feature.empty() ? "" : ", ", number(x[0], 1e3, "{:.1f}"),
-                     number(x[1], 1e3, "{:.1f}"), number(x[2], 1e3, "{:.1f}"));
+  return fmt::format("{}{}({}, {}, {}) mm", feature, feature.empty() ? "" : ", ",
+                     number(x.at(0), 1e3, "{:.1f}"), number(x.at(1), 1e3, "{:.1f}"),
+                     number(x.at(2), 1e3, "{:.1f}"));
 }
 
 std::string moment(const Json& at) {
-  return fmt::format("turn {}, {} deg", at.at("turn").get<int>(),
+  return fmt::format("turn {}, {} deg", number(at.at("turn"), 1, "{:.0f}"),
                      number(at.at("drive_angle_rad"), 57.29577951308232, "{:.0f}"));
 }
 
@@ -79,7 +83,7 @@ void add_headlines(HtmlPage& page, const Json& body) {
   rows.push_back({"largest principal stress", MPa(body.at("peak_principal").at("value")) + " MPa",
                   where(body.at("peak_principal")), moment(body.at("peak_principal"))});
   if (body.contains("hot_spots") && governing.at("kind") != "hot_spot") {
-    const auto& spot = body.at("hot_spots")[0];
+    const auto& spot = body.at("hot_spots").at(0);
     rows.push_back({"hot-spot stress",
                     MPa(spot.at("von_mises_Pa")) + " MPa, error " + MPa(spot.at("error").at("total")),
                     spot.at("name").get<std::string>(), ""});
@@ -227,11 +231,11 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
   const auto& input = summary.at("input");
   HtmlPage page(input.at("title").get<std::string>());
   page.heading(1, input.at("title").get<std::string>());
-  page.paragraph(fmt::format("{}, {} turns of {} instants; scene {} ({}); millstress {}",
-                             with_spaces(input.at("machine").get<std::string>()),
-                             input.at("turns").get<int>(), input.at("instants_per_turn").get<int>(),
-                             input.at("scene").get<std::string>(), input.at("hash").get<std::string>(),
-                             summary.at("program").at("version").get<std::string>()));
+  page.paragraph(fmt::format(
+      "{}, {} turns of {} instants; scene {} ({}); millstress {}",
+      with_spaces(input.at("machine").get<std::string>()), number(input.at("turns"), 1, "{:.0f}"),
+      number(input.at("instants_per_turn"), 1, "{:.0f}"), input.at("scene").get<std::string>(),
+      input.at("hash").get<std::string>(), summary.at("program").at("version").get<std::string>()));
   for (const auto& warning : summary.at("warnings")) page.warning(warning.get<std::string>());
   if (summary.contains("bodies"))
     for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);
@@ -247,8 +251,7 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
 
 void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
   const auto file = directory / "summary.json";
-  std::ifstream in(file);
-  if (!in)
+  if (std::error_code none; !std::filesystem::exists(file, none))
     throw OptionError(file.string() +
                       ": there is no such file; give the result directory of a run "
                       "(millstress run SCENE -o DIR leaves one)");
@@ -256,9 +259,11 @@ void write_html_report(const std::filesystem::path& directory, const std::filesy
     throw OptionError(file.string() + ": is no summary of a run (" + why +
                       "); run the scene again with this version");
   };
+  const auto summary = read_json_file(file);
+  if (summary.is_discarded()) refuse("it is no whole JSON text");
   std::string page;
   try {
-    page = page_of(Json::parse(in), directory, accuracy);
+    page = page_of(summary, directory, accuracy);
   } catch (const nlohmann::json::exception& error) {
     refuse(error.what());
   }

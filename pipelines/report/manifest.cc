@@ -1,7 +1,6 @@
 #include "pipelines/report/manifest.h"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "pipelines/common/errors.h"
@@ -9,6 +8,7 @@
 #include "pipelines/common/version.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/content_hash.h"
+#include "pipelines/files/json_file.h"
 
 namespace pipelines {
 namespace {
@@ -33,8 +33,7 @@ bool stays_inside(const fs::path& name) {
 
 /// @return false if the manifest cannot be believed
 bool read_list(const fs::path& file, std::vector<ListedFile>& list) {
-  std::ifstream in(file);
-  const auto json = ManifestJson::parse(in, nullptr, false);
+  const auto json = read_json_file(file);
   if (!json.is_object() || !json.contains("files") || !json.contains("checksum")) return false;
   const auto& files = json.at("files");
   if (!files.is_object() || json.at("checksum") != list_checksum(files)) return false;

@@ -1,11 +1,11 @@
 #include "pipelines/report/result_names.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 
 #include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
+#include "pipelines/files/json_file.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/report/manifest.h"
 
@@ -25,14 +25,15 @@ bool is_torsion_file(const std::string& name) {
   return contains({"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv"}, name);
 }
 
-nlohmann::json part(const nlohmann::json& of, const char* key) {
-  return of.is_object() && of.contains(key) ? of.at(key) : nlohmann::json();
+using SummaryJson = nlohmann::ordered_json;
+
+SummaryJson part(const SummaryJson& of, const char* key) {
+  return of.is_object() && of.contains(key) ? of.at(key) : SummaryJson();
 }
 
-nlohmann::json summary_of_program(const fs::path& file) {
-  std::ifstream in(file);
-  auto json = nlohmann::json::parse(in, nullptr, false);
-  return part(part(json, "program"), "name") == "millstress" ? json : nlohmann::json();
+SummaryJson summary_of_program(const fs::path& file) {
+  auto json = read_json_file(file);
+  return part(part(json, "program"), "name") == "millstress" ? json : SummaryJson();
 }
 
 class ForeignFiles {

@@ -148,13 +148,18 @@ void check_names(Contour& contour, SceneTable& body, const ContourRules& rules) 
                                "; write port = \"" + missing.front() + "\" in place of that segment's name");
 }
 
+/// Of the segment's axis across. std::polar takes no negative lengths, nor those that could not be read.
+std::complex<double> offset_of(const meshes::ShaftSegment& segment) {
+  return segment.eccentricity_m * std::complex<double>(std::cos(segment.eccentricity_angle_rad),
+                                                       std::sin(segment.eccentricity_angle_rad));
+}
+
 /// A step needs r < (D - d) / 2 - offset of the axes; coupling specification 7.1.
 void check_shoulder(Contour& contour, std::size_t i, SceneFindings& findings) {
   const auto& left = contour.segments[i];
   const auto& right = contour.segments[i + 1];
   const double height_m = std::abs(left.diameter_m - right.diameter_m) / 2;
-  const double offset_m = std::abs(std::polar(left.eccentricity_m, left.eccentricity_angle_rad) -
-                                   std::polar(right.eccentricity_m, right.eccentricity_angle_rad));
+  const double offset_m = std::abs(offset_of(left) - offset_of(right));
   const double room_m = height_m - offset_m;
   const double rounding_m = 1e-9 * (left.diameter_m + right.diameter_m);
   const std::string step = "the step from " + mm(left.diameter_m) + " to " + mm(right.diameter_m) + " is " +

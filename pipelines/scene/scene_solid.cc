@@ -110,7 +110,7 @@ meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_
   const std::string file = body.text("file");
   import.geometry = scene_directory / file;
   note_input(import.geometry);
-  if (!file.empty() && !std::filesystem::is_regular_file(import.geometry))
+  if (std::error_code none; !file.empty() && !std::filesystem::is_regular_file(import.geometry, none))
     body.refuse("file", "there is no such file; its path counts from the scene's folder");
   body.know("length_unit");
   if (body.has("length_unit")) import.scale_to_m = body.quantity("length_unit", "m", positive(1e3));

@@ -11,6 +11,9 @@
 namespace pipelines {
 namespace {
 
+/// Squares of what is larger, and what is divided by them, stay within the range of numbers.
+constexpr double least_magnitude = 1e-152;
+
 constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
 
 const TomlNode& empty_table() {
@@ -119,6 +122,12 @@ double SceneTable::read_quantity(const TomlNode& node, const std::string& name, 
                 range.rule(value, si_unit) +
                     (unit_may_be_missing ? "; a number without a unit is in " + si_unit
                                          : "; check the number" + std::string(bare ? "" : " and its unit")));
+    return unreadable;
+  }
+  if (value != 0 && std::abs(value) < least_magnitude) {
+    refuse_node(node, name,
+                "is nearer to zero than " + shown(least_magnitude) + (si_unit == "1" ? "" : " " + si_unit) +
+                    ": its square is lost; check the exponent, or write 0");
     return unreadable;
   }
   return value;

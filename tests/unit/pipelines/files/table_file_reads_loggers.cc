@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "meshes/values/utf8.h"
 #include "pipelines/files/table_file.h"
 #include "pipelines/scene/scene.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
@@ -74,4 +75,23 @@ TEST(TableFile, NamesEveryWrongCellAtItsPlace) {
             10u);
   EXPECT_THROW(pipelines::read_table_file("/nowhere/log.csv"), pipelines::SceneError);
   EXPECT_THROW(pipelines::read_table_file("/tmp"), pipelines::SceneError);
+  EXPECT_THROW(pipelines::read_table_file("/tmp/" + std::string(300, 'a')), pipelines::SceneError);
+}
+
+// Loggers on Windows write the sign for degrees in Latin-1: such names ended a run at the writing of its
+// results.
+TEST(TableFile, TitlesAreUtf8) {
+  EXPECT_EQ(refusals("angle [\xB0],seat.fx [N]\n0,1\n1,\xB0\n"), Places{"1:1  = "});
+  EXPECT_EQ(read_table("angle [\xC2\xB0],seat.fx [N]\n0,1\n").columns.front().unit, "\xC2\xB0");
+}
+
+// The shortest and the longest of each length, and what RFC 3629, section 4, leaves out.
+TEST(Utf8, IsToldFromBytes) {
+  for (const std::string text : {"", "a", "\x7F", "\xC2\x80", "\xDF\xBF", "\xE0\xA0\x80", "\xED\x9F\xBF",
+                                 "\xEF\xBF\xBF", "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBF"})
+    EXPECT_TRUE(meshes::is_utf8(text)) << text;
+  for (const std::string bytes :
+       {"\x80", "\xBF", "\xC0\x80", "\xC1\xBF", "\xC2", "\xC2\x41", "\xE0\x9F\xBF", "\xED\xA0\x80",
+        "\xEF\xBF", "\xF0\x8F\xBF\xBF", "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xFF"})
+    EXPECT_FALSE(meshes::is_utf8("a" + bytes)) << bytes;
 }

@@ -104,4 +104,22 @@ TEST(nearest_name, SuggestsOnlyWhatIsNear) {
   EXPECT_EQ(pipelines::nearest_name(std::string(100000, 'x'), known), "");
 }
 
+// The parser follows such names by recursion: 50,000 parts ended the program by a signal.
+TEST(toml_tree, NamesHaveAHundredPartsAtMost) {
+  const auto name_of = [](int n_parts) {
+    std::string name = "a";
+    for (int i = 1; i < n_parts; ++i) name += i % 2 == 0 ? ".a" : " . \"a\"";
+    return name;
+  };
+  EXPECT_NO_THROW(
+      pipelines::parse_toml("[" + name_of(100) + "]\n# ......\nx = [1.5, 2.5] # " + std::string(1000, '.')));
+  for (const int n_parts : {101, 100'000}) try {
+      pipelines::parse_toml("b = 1\n[" + name_of(n_parts) + "]\n");
+      ADD_FAILURE() << n_parts;
+    } catch (const pipelines::TomlSyntaxError& error) {
+      EXPECT_EQ(error.at().line, 2);
+      EXPECT_NE(std::string(error.what()).find("more than 100 parts"), std::string::npos);
+    }
+}
+
 }  // namespace

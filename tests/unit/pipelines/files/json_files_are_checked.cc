@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/accuracy/cost_calibration.h"
+#include "pipelines/files/json_file.h"
+#include "pipelines/report/manifest.h"
+#include "tests/unit/pipelines/examples/results_directory.h"
+
+using namespace pipelines;
+
+namespace {
+
+bool is_read(const results_test::Directory& at, const std::string& text) {
+  std::ofstream(at / "file.json", std::ios::binary) << text;
+  return !read_json_file(at / "file.json").is_discarded();
+}
+
+std::string nested_lists(std::size_t levels) {
+  return std::string(levels, '[') + std::string(levels, ']');
+}
+
+TEST(JsonFile, IsReadOrDiscarded) {
+  const results_test::Directory at;
+  EXPECT_TRUE(read_json_file(at / "none.json").is_discarded());
+  EXPECT_TRUE(read_json_file(at.path).is_discarded());
+  EXPECT_FALSE(is_read(at, ""));
+  EXPECT_FALSE(is_read(at, "{\"a\": 1"));
+  EXPECT_TRUE(is_read(at, "{\"a\": [1, {\"b\": null}]}"));
+}
+
+TEST(JsonFile, IsNotReadBelowAHundredLevels) {
+  const results_test::Directory at;
+  EXPECT_TRUE(is_read(at, nested_lists(100)));
+  EXPECT_FALSE(is_read(at, nested_lists(101)));
+  EXPECT_TRUE(is_read(at, "[\"\\\"" + std::string(1000, '[') + "\"]"));
+}
+
+// The library writes and compares by recursion: such files ended the program by a signal.
+TEST(JsonFile, OfManyBracketsIsDamaged) {
+  const results_test::Directory at;
+  const std::string deep = nested_lists(200'000);
+  std::ofstream(at / "costs.json") << "{\"direct\": " + deep + ", \"checksum\": \"\"}";
+  EXPECT_NE(read_calibration(at / "costs.json").fault.find("is damaged"), std::string::npos);
+  std::ofstream(at / manifest_name) << "{\"files\": {\"a\": " + deep + "}, \"checksum\": \"\"}";
+  EXPECT_TRUE(check_manifest(at.path).damaged);
+}
+
+TEST(Calibration, OfADirectoryIsDamaged) {
+  const results_test::Directory at;
+  std::filesystem::create_directory(at / "costs.json");
+  EXPECT_NE(read_calibration(at / "costs.json").fault.find("is damaged"), std::string::npos);
+}
+
+}  // namespace
