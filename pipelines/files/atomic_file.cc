@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
 
@@ -29,12 +30,22 @@ std::string common_start(const std::filesystem::path& target) {
   return "." + target.filename().string() + "." + host_name() + ".";
 }
 
+/// Also of one that was killed and whose parent has not asked for it yet: Linux names its state Z, behind the
+/// name in brackets.
+bool is_gone(pid_t process) {
+  if (kill(process, 0) != 0) return errno == ESRCH;
+  std::ifstream in("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto end = text.rfind(") ");
+  return end != std::string::npos && text.compare(end, 3, ") Z") == 0;
+}
+
 bool is_left_behind(const std::string& name, const std::string& start) {
   if (name.size() <= start.size() + suffix.size() || name.compare(0, start.size(), start) != 0 ||
       name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
     return false;
   const long process = std::strtol(name.c_str() + start.size(), nullptr, 10);
-  return process > 0 && kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+  return process > 0 && is_gone(static_cast<pid_t>(process));
 }
 
 void remove_left_behind(const std::filesystem::path& directory, const std::string& start) {

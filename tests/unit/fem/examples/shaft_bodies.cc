@@ -20,19 +20,25 @@ std::size_t column(const fem::UnitResponses& responses, const std::string& chann
 
 }  // namespace
 
+fem::Body steel_body(const meshes::BodyMesh& mesh) {
+  fem::Body body;
+  body.mesh = mesh.file;
+  body.material = steel;
+  for (const auto& c : mesh.cylinders)
+    body.cylinders.push_back(
+        {c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m, c.axis_x_m, c.axis_y_m});
+  for (const auto& t : mesh.tori)
+    body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
+  return body;
+}
+
 ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control) {
   static const ScratchDirectory scratch;
   static int number = 0;
   const auto mesh =
       meshes::build_shaft(shaft, control, scratch.path() / ("shaft_" + std::to_string(number++) + ".msh"));
   ShaftBody result;
-  result.body.mesh = mesh.file;
-  result.body.material = steel;
-  for (const auto& c : mesh.cylinders)
-    result.body.cylinders.push_back(
-        {c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m});
-  for (const auto& t : mesh.tori)
-    result.body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
+  result.body = steel_body(mesh);
   for (const auto& p : mesh.ports) {
     const bool seat = p.kind == meshes::Port::Kind::seat;
     result.ports[p.name] = {seat ? fem::LoadSurface::Kind::seat : fem::LoadSurface::Kind::face,

@@ -13,6 +13,7 @@
 #include "fem/values/unit_load.h"
 #include "fem/values/unit_responses.h"
 #include "meshes/shaft/shaft_geometry.h"
+#include "meshes/values/body_mesh.h"
 
 namespace fem_tests {
 
@@ -24,6 +25,9 @@ struct ShaftBody {
   std::map<std::string, int> features;  ///< boundary ids
   std::vector<fem::SectionPlane> planes;
 };
+
+/// A mesh with its surfaces, of steel.
+fem::Body steel_body(const meshes::BodyMesh& mesh);
 
 /// Meshes the shaft in a directory of this process, which goes when the process ends.
 ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control);

@@ -1,0 +1,138 @@
+// Shafts, drums and chambers drawn at random, a twentieth of their cells cut at random: no cell is inverted,
+// what is rigid stays so, and a linear displacement is in equilibrium. MILLSTRESS_REFINED_BODIES says how
+// many of each kind (default 4).
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <random>
+
+#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/rigid_modes.h"
+#include "fem/operators/stiffness.h"
+#include "meshes/chamber/chamber.h"
+#include "meshes/shaft/shaft.h"
+#include "meshes/values/refused.h"
+#include "tests/unit/fem/examples/scratch_directory.h"
+#include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/unit/meshes/examples/example_chambers.h"
+#include "tests/unit/meshes/examples/random_bodies.h"
+
+namespace {
+
+int n_refined_bodies() {
+  const char* asked = std::getenv("MILLSTRESS_REFINED_BODIES");
+  return asked != nullptr ? std::atoi(asked) : 4;
+}
+
+/// Reads the mesh with cells cut at random; throws where one of them comes out inverted.
+fem::Grid with_cells_cut(const meshes::BodyMesh& mesh, std::mt19937& random) {
+  auto body = fem_tests::steel_body(mesh);
+  const auto n_cells = fem::read_grid(body).n_cells();
+  std::vector<std::int32_t> cut;
+  for (std::size_t c = 0; c < n_cells; ++c)
+    if (random() % 20 == 0) cut.push_back(std::int32_t(c));
+  if (cut.empty()) cut = {0};
+  body.refinements = {cut};
+  return fem::read_grid(body);
+}
+
+/// Forces of displacements, one per column; hanging nodes take theirs from the others.
+Eigen::MatrixXd forces_of(const fem::Grid& grid, Eigen::MatrixXd displacement) {
+  const auto cells = fem::cells_of_nodes(grid);
+  const auto graph = fem::make_node_graph(grid, cells);
+  auto matrix = fem::make_matrix(graph);
+  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(fem_tests::steel), matrix);
+  for (const auto node : grid.hanging.node) displacement.middleRows<3>(3 * Eigen::Index(node)).setZero();
+  return fem::multiply(matrix, displacement);
+}
+
+struct Worst {
+  double rotation = 0, patch = 0;
+  std::size_t most_nodes = 0, n_hanging = 0;
+};
+
+/// Forces of the rigid rotations, and inside the body of a linear displacement, relative to those of that
+/// displacement on the surface.
+void examine(const fem::Grid& grid, Worst& worst) {
+  const Eigen::Index n = 3 * Eigen::Index(grid.n_nodes);
+  Eigen::Matrix3d gradient;
+  gradient << 1, 0.3, -0.2, 0.7, -0.4, 0.1, -0.5, 0.6, 0.8;
+  Eigen::MatrixXd displacement(n, 4);
+  displacement.leftCols<3>() = fem::rigid_modes(grid, Eigen::Vector3d::Zero()).rightCols<3>();
+  for (std::size_t i = 0; i < grid.n_nodes; ++i)
+    displacement.col(3).segment<3>(3 * Eigen::Index(i)) =
+        gradient * Eigen::Vector3d(grid.position(std::int32_t(i)));
+  // Rigid modes come normed, a linear displacement has the body's size: compared at one size.
+  for (int c = 0; c < 4; ++c) displacement.col(c).normalize();
+  Eigen::MatrixXd force = forces_of(grid, displacement);
+  const double scale = force.col(3).norm();
+  worst.rotation = std::max(worst.rotation, force.leftCols<3>().colwise().norm().maxCoeff() / scale);
+  for (const auto& face : grid.boundary)
+    for (const int i : fem::face_nodes(grid.shape(), face.face))
+      force.col(3).segment<3>(3 * Eigen::Index(grid.nodes_of(std::size_t(face.cell))[i])).setZero();
+  worst.patch = std::max(worst.patch, force.col(3).norm() / scale);
+  worst.most_nodes = std::max(worst.most_nodes, grid.n_nodes);
+  worst.n_hanging += grid.hanging.n();
+}
+
+/// Rounding: of 1e5 nodes' sums on cells up to 1 : 40, whose stiffnesses differ by the square of that.
+void expect_rounding(const Worst& worst, const char* kind) {
+  std::printf("%s: rotations %.1e, patch test %.1e, up to %zu nodes\n", kind, worst.rotation, worst.patch,
+              worst.most_nodes);
+  EXPECT_LT(worst.rotation, 1e-12);
+  EXPECT_LT(worst.patch, 1e-12);
+  EXPECT_GT(worst.n_hanging, 100u);
+}
+
+void examine_shafts(const std::function<meshes::Shaft(std::mt19937&)>& draw, const char* kind) {
+  const fem_tests::ScratchDirectory scratch;
+  std::mt19937 random(20261123);
+  meshes::ShaftMeshControl control;
+  control.cells_per_fillet_quarter = 2;
+  control.n_sectors = 8;
+  control.min_scaled_jacobian = 0.01;  // refuse nothing: what is cut is judged here
+  Worst worst;
+  for (int i = 0; i < n_refined_bodies(); ++i) {
+    const auto shaft = draw(random);
+    SCOPED_TRACE(std::to_string(i) + ": " + text(shaft));
+    ASSERT_NO_THROW(examine(
+        with_cells_cut(meshes::build_shaft(shaft, control, scratch.path() / "shaft.msh"), random), worst));
+  }
+  expect_rounding(worst, kind);
+}
+
+TEST(RefinedBodies, ShaftsStayWhole) {
+  examine_shafts(random_shaft, "shafts");
+}
+
+TEST(RefinedBodies, DrumsStayWhole) {
+  examine_shafts(random_drum, "drums");
+}
+
+TEST(RefinedBodies, ChambersStayWhole) {
+  const fem_tests::ScratchDirectory scratch;
+  std::mt19937 random(20261124);
+  Worst worst;
+  for (int n_meshed = 0; n_meshed < n_refined_bodies();) {
+    const auto chamber = random_chamber(random);
+    SCOPED_TRACE(text(chamber));
+    meshes::ChamberMeshControl control;
+    control.min_scaled_jacobian = 0.01;
+    control.cells_through_wall = 1;
+    control.size_m = 0.5 * chamber.tube.inner_radius_m;
+    control.toe_walls = 2;
+    meshes::BodyMesh mesh;
+    try {
+      mesh = meshes::build_chamber(chamber, control, scratch.path() / "chamber.msh");
+    } catch (const meshes::GeometryRefused& refused) {  // parts in each other's way: the draw allows it
+      continue;
+    }
+    ++n_meshed;
+    ASSERT_NO_THROW(examine(with_cells_cut(mesh, random), worst));
+  }
+  expect_rounding(worst, "chambers");
+}
+
+}  // namespace
