@@ -1,5 +1,6 @@
 #include "fem/mesh/cell_geometry.h"
 
+#include <optional>
 #include <sstream>
 
 #include "fem/values/errors.h"
@@ -59,19 +60,44 @@ std::vector<std::int32_t> nodes_of_face(const Grid& grid, std::size_t cell, int 
   return nodes;
 }
 
-void refuse_inverted_cells(const Grid& grid) {
+namespace {
+
+struct InvertedPoint {
+  std::size_t cell = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+/// One point of each inverted cell, at most so many.
+std::vector<InvertedPoint> inverted_points(const Grid& grid, std::size_t most) {
   const Tabulation tables[] = {nodes_in_cell(grid.shape()), gauss_in_cell(grid.shape(), grid.degree + 1)};
-  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+  const auto inverted_point = [&](std::size_t cell) -> std::optional<Eigen::Vector3d> {
     for (const auto& at : tables)
       for (int q = 0; q < at.n_points; ++q)
-        if (!(jacobian(grid, c, at, q).determinant() > 0)) {
-          const Eigen::Vector3d x = position(grid, c, at, q);
-          std::ostringstream message;
-          message << "the mesh has an inverted or degenerate cell in volume " << grid.volume_id[c]
-                  << " (number " << c + 1 << " of all cells) near (" << x[0] << ", " << x[1] << ", " << x[2]
-                  << ") m: refine the mesh there or check its geometry";
-          throw MeshUnusable(message.str());
-        }
+        if (!(jacobian(grid, cell, at, q).determinant() > 0)) return position(grid, cell, at, q);
+    return std::nullopt;
+  };
+  std::vector<InvertedPoint> found;
+  for (std::size_t c = 0; c < grid.n_cells() && found.size() < most; ++c)
+    if (const auto point = inverted_point(c)) found.push_back({c, *point});
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::size_t> inverted_cells(const Grid& grid) {
+  std::vector<std::size_t> cells;
+  for (const auto& point : inverted_points(grid, grid.n_cells())) cells.push_back(point.cell);
+  return cells;
+}
+
+void refuse_inverted_cells(const Grid& grid) {
+  for (const auto& [cell, x] : inverted_points(grid, 1)) {
+    std::ostringstream message;
+    message << "the mesh has an inverted or degenerate cell in volume " << grid.volume_id[cell] << " (number "
+            << cell + 1 << " of all cells) near (" << x[0] << ", " << x[1] << ", " << x[2]
+            << ") m: refine the mesh there or check its geometry";
+    throw MeshUnusable(message.str());
+  }
 }
 
 }  // namespace fem

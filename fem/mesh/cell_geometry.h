@@ -35,9 +35,10 @@ FacePoint face_point(const Grid& grid, const std::vector<std::int32_t>& nodes, c
 /// Global nodes of a face in the order of face_nodes.
 std::vector<std::int32_t> nodes_of_face(const Grid& grid, std::size_t cell, int face);
 
-/// @throws MeshUnusable naming volume and centre of the first cell whose Jacobian is not positive
-/// everywhere it
-///         is looked at (its nodes and Gauss points)
+/// Cells whose Jacobian is not positive everywhere it is looked at (nodes and Gauss points), ascending.
+std::vector<std::size_t> inverted_cells(const Grid& grid);
+
+/// @throws MeshUnusable naming volume and place of the first of inverted_cells
 void refuse_inverted_cells(const Grid& grid);
 
 }  // namespace fem

@@ -1,11 +1,13 @@
 #include "fem/mesh/local_refinement.h"
 
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -69,6 +71,21 @@ void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<std::vecto
       if (is_cut[cell->active_cell_index()] != 0) cell->set_refine_flag();
     mesh.execute_coarsening_and_refinement();
   }
+}
+
+std::vector<std::int32_t> larger_neighbours(const dealii::Triangulation<3>& mesh,
+                                            const std::vector<std::size_t>& cells) {
+  const auto cells_at = dealii::GridTools::vertex_to_cell_map(mesh);  // hanging vertices too
+  std::vector<char> is_meant(mesh.n_active_cells(), 0);
+  for (const auto cell : cells) is_meant[cell] = 1;
+  std::set<std::int32_t> larger;
+  for (const auto& cell : mesh.active_cell_iterators()) {
+    if (is_meant[cell->active_cell_index()] == 0) continue;
+    for (const auto vertex : cell->vertex_indices())
+      for (const auto& neighbour : cells_at[cell->vertex_index(vertex)])
+        if (neighbour->level() < cell->level()) larger.insert(std::int32_t(neighbour->active_cell_index()));
+  }
+  return {larger.begin(), larger.end()};
 }
 
 NodeNumbers number_nodes(const dealii::DoFHandler<3>& space) {

@@ -18,6 +18,11 @@ namespace fem {
 /// @throws MeshUnusable if the mesh is in several pieces
 void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<std::vector<std::int32_t>>& cycles);
 
+/// Larger cells that share a vertex with one of these, ascending.
+/// @param cells  indices of active cells
+std::vector<std::int32_t> larger_neighbours(const dealii::Triangulation<3>& mesh,
+                                            const std::vector<std::size_t>& cells);
+
 /// Numbers of the nodes of a scalar space on a mesh that may have hanging nodes.
 struct NodeNumbers {
   std::vector<std::int32_t> of_dof;  ///< a vertex in the middle of a larger cell's edge or face is that

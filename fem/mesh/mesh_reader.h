@@ -10,6 +10,7 @@ namespace fem {
 /// curved cells. Quadratic tetrahedra (what the file holds decides): nodes as they are.
 /// @throws MeshUnusable if the file cannot be read, mixes kinds of cells, lacks groups, or has inverted
 /// cells
+/// @throws InvertedBesideLarger if body.refinements invert cells beside larger ones
 /// @throws std::invalid_argument for a chart without cells or faces, a degree outside 1 to 3, charts or
 /// another degree than 2 with tetrahedra
 Grid read_grid(const Body& body);

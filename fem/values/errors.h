@@ -1,7 +1,11 @@
 /// What fem throws besides mistakes of the program, which are standard types.
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace fem {
 
@@ -10,6 +14,19 @@ namespace fem {
 class MeshUnusable : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
+};
+
+/// Local refinement turned cells inside out: their faces on larger neighbours keep these neighbours' shape,
+/// and cells may be thinner than that is off. Cutting the larger ones mends it.
+class InvertedBesideLarger : public MeshUnusable {
+public:
+  /// @param larger  indices of the larger neighbours, ascending: a further cycle of Body::refinements
+  InvertedBesideLarger(const std::string& what, std::vector<std::int32_t> larger)
+      : MeshUnusable(what), larger_(std::move(larger)) {}
+  const std::vector<std::int32_t>& larger() const noexcept { return larger_; }
+
+private:
+  std::vector<std::int32_t> larger_;
 };
 
 /// Equations or an eigenvalue problem that no solver solved.

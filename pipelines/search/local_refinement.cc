@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "fem/ranks/helper_ranks.h"
+#include "fem/values/errors.h"
 #include "pipelines/analysis/error_budget.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/superposition/superposition.h"
@@ -34,6 +35,9 @@ constexpr std::size_t most_goals = 6;
 /// From fewer cells on a fillet's quarter halving shows less than second order: with it 3 of 12 shafts halved
 /// from 4 to 8 cells were off by up to 1.4 times what the change said.
 constexpr int resolved_by_halving = 6;
+
+/// Each mending makes the larger cells half as large; those of a search are at most so often cut.
+constexpr int most_mendings = 10;
 
 /// A place with the goal of the search there.
 struct Goal {
@@ -189,6 +193,23 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
     if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < resolved_by_halving)
       result.coarse.push_back(place.feature);
   return result;
+}
+
+std::optional<MeshStep> refine_locally(BodyScene& body, const LocalRefinement& local) {
+  if (local.cells.empty()) return std::nullopt;
+  body.refinements.push_back(local.cells);
+  return MeshStep{MeshPart::local, 2, 2, local.features, local.coarse};
+}
+
+MeshedBody mesh_refined(BodyScene& body, const std::function<MeshedBody()>& mesh) {
+  for (int n_mended = 0;; ++n_mended) {
+    try {
+      return mesh();
+    } catch (const fem::InvertedBesideLarger& inverted) {
+      if (n_mended == most_mendings) throw;
+      body.refinements.push_back(inverted.larger());
+    }
+  }
 }
 
 }  // namespace pipelines

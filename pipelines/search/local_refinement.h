@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/place_stress.h"
+#include "pipelines/search/place_history.h"
 
 namespace pipelines {
 
@@ -35,5 +38,15 @@ std::vector<PlaceStress> with_goal_errors(std::vector<PlaceStress> judged, const
 /// @param judged  the places with their errors, not empty
 LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,
                              const std::vector<PlaceStress>& judged);
+
+/// Cuts them: a further cycle of body.refinements.
+/// @return nothing if there are none
+std::optional<MeshStep> refine_locally(BodyScene& body, const LocalRefinement& local);
+
+/// The body's mesh. Where cells that were cut come out inverted beside larger ones, these are cut too, in
+/// further cycles of body.refinements.
+/// @param mesh  makes the mesh of the body as it is
+/// @throws what `mesh` throws; fem::InvertedBesideLarger if ten cycles do not mend it
+MeshedBody mesh_refined(BodyScene& body, const std::function<MeshedBody()>& mesh);
 
 }  // namespace pipelines

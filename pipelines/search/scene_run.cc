@@ -354,22 +354,16 @@ private:
     return false;
   }
 
-  /// Cuts the cells that contribute most to what is not known of the leading places.
-  static std::optional<MeshStep> refine_locally(BodyScene& body, const LocalRefinement& local) {
-    if (local.cells.empty()) return std::nullopt;
-    body.refinements.push_back(local.cells);
-    return MeshStep{MeshPart::local, 2, 2, local.features, local.coarse};
-  }
-
   /// The body's mesh in another version of the scene; nothing if the mesher refuses it.
   /// @param coarse  the same mesh with fewer refinements
-  std::optional<MeshedBody> try_to_mesh(std::size_t i, const Scene& scene, std::string& refusal,
+  std::optional<MeshedBody> try_to_mesh(std::size_t i, Scene& scene, std::string& refusal,
                                         const MeshedBody* coarse) {
-    const Scene present = std::exchange(run_.scene, scene);
+    std::swap(run_.scene, scene);
     std::optional<MeshedBody> result;
-    const auto refused = refusal_of([&] { result = mesh(i, coarse); });
+    const auto refused =
+        refusal_of([&] { result = mesh_refined(run_.scene.bodies[i], [&] { return mesh(i, coarse); }); });
     if (!refused.empty()) refusal = refused;
-    run_.scene = present;
+    std::swap(run_.scene, scene);
     return result;
   }
 
