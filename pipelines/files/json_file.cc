@@ -30,7 +30,7 @@ bool nests_too_deep(const std::string& text) {
 }  // namespace
 
 AnyJson read_json_file(const std::filesystem::path& file) {
-  const AnyJson none(AnyJson::value_t::discarded);
+  AnyJson none(AnyJson::value_t::discarded);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return none;  // a stream on a directory throws
   std::ifstream in(file, std::ios::binary);

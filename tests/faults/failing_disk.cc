@@ -159,6 +159,8 @@ bool opens_for_writing(const char* mode) {
 
 }  // namespace
 
+// The C library names its parameters as users may not.
+// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name)
 extern "C" {
 
 #define OPEN(name)                                                                                          \
@@ -287,3 +289,4 @@ int unlinkat(int directory, const char* path, int flags) noexcept {
 }
 
 }  // extern "C"
+// NOLINTEND(readability-inconsistent-declaration-parameter-name)

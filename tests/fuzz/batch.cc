@@ -18,6 +18,7 @@
 #include "tests/fuzz/child.h"
 
 // Of the sanitizer for addresses; null without it.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" __attribute__((weak)) int __lsan_do_recoverable_leak_check();
 
 namespace fuzz {

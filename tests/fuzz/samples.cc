@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string source_file(const std::string& name) {
-  const auto text = read_bytes(fs::path(SOURCE_DIR) / name);
+  auto text = read_bytes(fs::path(SOURCE_DIR) / name);
   if (text.empty()) throw std::runtime_error(name + " is missing or empty");
   return text;
 }

@@ -52,7 +52,7 @@ HexahedraMesh hexahedra(const Block& block) {
 }
 
 std::filesystem::path write(const HexahedraMesh& mesh) {
-  const auto path = next_file();
+  auto path = next_file();
   std::ofstream out(path);
   out.precision(17);
   std::map<int, std::vector<std::size_t>> volumes;  // cells of each
@@ -91,7 +91,7 @@ std::filesystem::path write_hexahedra(const Block& block) {
 }
 
 std::filesystem::path write_tetrahedra(const Block& block) {
-  const auto path = next_file();
+  auto path = next_file();
   std::ofstream(path) << fem_tests::as_msh(fem_tests::tetrahedra_block(block.cells, block.map));
   return path;
 }

@@ -42,7 +42,7 @@ fem::Grid with_cells_cut(const meshes::BodyMesh& mesh, std::mt19937& random, int
     try {
       return fem::read_grid(body);
     } catch (const fem::InvertedBesideLarger& inverted) {
-      if (body.refinements.size() > 5) throw;
+      if (body.refinements.size() > 10) throw;
       body.refinements.push_back(inverted.larger());
       ++n_mended;
     }
