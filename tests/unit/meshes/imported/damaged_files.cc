@@ -75,7 +75,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 using Damage = std::pair<std::string, std::vector<std::string>>;  // text, words of the refusal
 
 void expect_all_refused(void (*check)(const std::string&), const std::vector<Damage>& all) {
-  for (const auto& [text, words] : all) expect_words(refusal_of([&] { check(text); }), words);
+  for (const auto& damage : all) expect_words(refusal_of([&] { check(damage.first); }), damage.second);
 }
 
 TEST(DamagedFiles, SoundTextsPass) {

@@ -131,7 +131,9 @@ TEST(FullDisk, IsToldByEveryKindOfFile) {
          append_checksum(atomic.temporary(), "key");
          atomic.commit();
        }}};
-  for (const auto& [kind, write] : kinds) {
+  for (const auto& known : kinds) {
+    const std::string& kind = known.first;
+    const auto& write = known.second;  // a lambda does not capture structured bindings
     const auto file = at / "file";
     write(file);
     const auto size = fs::file_size(file);

@@ -156,7 +156,7 @@ TEST(SeenPorts, ArePointedAtInside) {
   PortPixels pixels{30, 20, std::vector<std::size_t>(600, 0)};
   const auto fill = [&](int x0, int x1, int y0, int y1, std::size_t port) {
     for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) pixels.port[std::size_t(y * 30 + x)] = port;
+      for (int x = x0; x < x1; ++x) pixels.port[std::size_t(y) * 30 + std::size_t(x)] = port;
   };
   fill(2, 17, 2, 17, 1);
   fill(7, 12, 7, 12, 0);
