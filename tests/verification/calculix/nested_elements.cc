@@ -29,9 +29,10 @@ fem::Nodes cubes(int n_cells) {
   const double simpson[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
   nodes.volume_m3.assign(nodes.n, 0.0);
   for (int c = 0; c < n_cells; ++c)
-    for (int l = 0; l < 27; ++l)
-      nodes.volume_m3[std::size_t(2 * c + l % 3 + row * (l / 3 % 3) + row * 3 * (l / 9))] +=
-          simpson[l % 3] * simpson[l / 3 % 3] * simpson[l / 9];
+    for (int l = 0; l < 27; ++l) {
+      const int node = 2 * c + l % 3 + row * (l / 3 % 3) + row * 3 * (l / 9);
+      nodes.volume_m3[std::size_t(node)] += simpson[l % 3] * simpson[l / 3 % 3] * simpson[l / 9];
+    }
   return nodes;
 }
 
