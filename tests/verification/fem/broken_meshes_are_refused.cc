@@ -39,7 +39,8 @@ verification::HexahedraMesh together(verification::HexahedraMesh mesh,
     for (int& node : cell) node = number[node];
     mesh.cells.push_back(cell);
   }
-  for (auto [face, id] : other.faces) {
+  for (const auto& other_face : other.faces) {
+    auto face = other_face.first;
     for (int& node : face) node = number[node];
     const auto sorted = [](std::array<int, 4> corners) {
       std::sort(corners.begin(), corners.end());
@@ -48,7 +49,7 @@ verification::HexahedraMesh together(verification::HexahedraMesh mesh,
     const auto twin = std::find_if(mesh.faces.begin(), mesh.faces.end(),
                                    [&](const auto& known) { return sorted(known.first) == sorted(face); });
     if (twin == mesh.faces.end())
-      mesh.faces.push_back({face, id});
+      mesh.faces.push_back({face, other_face.second});
     else
       mesh.faces.erase(twin);  // inside now
   }

@@ -125,7 +125,7 @@ TEST_P(Jump, FreeTubeUnderPressure) {
 
 std::string case_name(const testing::TestParamInfo<Jump::ParamType>& info) {
   return (std::get<1>(info.param) == fem::Solver::direct ? "direct_1e" : "iterative_1e") +
-         std::to_string(int(std::log10(std::get<0>(info.param)) + 0.5));
+         std::to_string(std::lround(std::log10(std::get<0>(info.param))));
 }
 INSTANTIATE_TEST_SUITE_P(Solvers, Jump,
                          testing::Combine(testing::Values(1.0, 1e3, 1e6),
