@@ -35,7 +35,6 @@
 namespace pipelines {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges

@@ -12,7 +12,7 @@ namespace pipelines {
 namespace {
 
 /// Accuracy, relative to the largest stress: a share of the tolerance, between these.
-constexpr double share_of_tolerance = 0.2, best_accuracy = 2e-3, worst_accuracy = 1e-2;
+constexpr double share_of_tolerance = 0.1, best_accuracy = 2e-3, worst_accuracy = 1e-2;
 /// Reached by the first section, whatever it is.
 constexpr double any_accuracy = 10;
 /// The first section's stresses were within 2.3 % of the last one's on 30 shafts drawn at random, wherever

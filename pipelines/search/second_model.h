@@ -11,7 +11,7 @@
 namespace pipelines {
 
 /// Stresses of all places of a shaft by the axisymmetric model. On concentric shafts, where it solves the
-/// same problem, to a fifth of the tolerance (between 0.2 and 1 % of the largest stress), with the errors of
+/// same problem, to a tenth of the tolerance (between 0.2 and 1 % of the largest stress), with the errors of
 /// its section and what nodes at a distance around the axis can miss of a peak between them. On others it is
 /// a guide, with an error of its own that no section lowers: one section, whose stresses are taken to be
 /// known to 5 %.
