@@ -29,6 +29,7 @@ pid_t started(const cases::Start& start) {
   const pid_t process = fork();
   if (process == 0) {
     setpgid(0, 0);
+    signal(SIGINT, SIG_DFL);  // a test in the background inherits that it is ignored
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(127);
   }
