@@ -78,14 +78,15 @@ Grid read_tetrahedra(const Body& body, const std::string& text) {
   return grid;
 }
 
-void refuse_inverted_beside_larger(const dealii::Triangulation<3>& mesh, const Grid& grid) {
+/// Looks at all cells once; a mesh that is not refined has no larger ones.
+void refuse_inverted(const dealii::Triangulation<3>& mesh, const Grid& grid) {
   const auto inverted = inverted_cells(grid);
   if (inverted.empty()) return;
   auto larger = larger_neighbours(mesh, inverted);
-  if (!larger.empty())
-    throw InvertedBesideLarger("local refinement inverts " + std::to_string(inverted.size()) +
-                                   " cells beside larger ones: cut these too",
-                               std::move(larger));
+  if (larger.empty()) refuse_inverted_cells(grid);
+  throw InvertedBesideLarger("local refinement inverts " + std::to_string(inverted.size()) +
+                                 " cells beside larger ones: cut these too",
+                             std::move(larger));
 }
 
 }  // namespace
@@ -141,8 +142,7 @@ Grid read_grid(const Body& body) {
   }
   // Faces between cells of unlike size have one shape for both, so that rigid rotations stay in the space.
   set_hanging_rows(grid.hanging, Eigen::Map<NodeRows>(grid.xyz_m.data(), Eigen::Index(grid.n_nodes), 3));
-  if (!body.refinements.empty()) refuse_inverted_beside_larger(mesh, grid);
-  refuse_inverted_cells(grid);
+  refuse_inverted(mesh, grid);
   return grid;
 }
 

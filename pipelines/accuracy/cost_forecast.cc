@@ -12,6 +12,7 @@
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/scene/requested_accuracy.h"
 #include "pipelines/search/refinement.h"
 #include "pipelines/search/second_model.h"
 
@@ -97,8 +98,10 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
   for (const auto& candidate : first_meshes(body)) {  // as a search tries them
     refused = refusal_of([&] {
       auto coarse = mesh_body(candidate, scratch.temporary(), loads.springs);
-      const auto model = loads.of_body ? axisymmetric_second_model(candidate, coarse, *loads.of_body, 0.05, 1)
-                                       : std::nullopt;
+      const double tolerance = with_default({}).tolerance;
+      const auto model = loads.of_body
+                             ? axisymmetric_second_model(candidate, coarse, *loads.of_body, tolerance, 1)
+                             : std::nullopt;
       if (model) coarse = mesh_body(guided_by(*model, candidate), scratch.temporary(), loads.springs);
       models.push_back(forecaster.of(first, coarse));
     });

@@ -11,7 +11,8 @@ namespace fem_tests {
 class ScratchDirectory {
 public:
   ScratchDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "millstress-fem-XXXXXX").string();
+    // mkdtemp fills six letters X at the end.
+    std::string name = (std::filesystem::temp_directory_path() / "millstress-fem-").string() + std::string(6, 'X');
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary directory");
     path_ = name;
   }

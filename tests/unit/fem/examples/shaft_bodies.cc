@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include "meshes/shaft/shaft.h"
 
+#include "fem/operators/stiffness.h"
 #include "meshes/shaft/half_section.h"
+#include "meshes/shaft/shaft.h"
 #include "tests/unit/fem/examples/scratch_directory.h"
 
 namespace fem_tests {
@@ -30,6 +31,15 @@ fem::Body steel_body(const meshes::BodyMesh& mesh) {
   for (const auto& t : mesh.tori)
     body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
   return body;
+}
+
+Eigen::MatrixXd stiffness_times(const fem::Grid& grid, Eigen::MatrixXd displacement) {
+  const auto cells = fem::cells_of_nodes(grid);
+  const auto graph = fem::make_node_graph(grid, cells);
+  auto matrix = fem::make_matrix(graph);
+  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(steel), matrix);
+  for (const auto node : grid.hanging.node) displacement.middleRows<3>(3 * Eigen::Index(node)).setZero();
+  return fem::multiply(matrix, displacement);
 }
 
 ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control) {

@@ -1,6 +1,7 @@
 /// Shafts of meshes as bodies of fem, and sums of unit responses: what the tests of fem share.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "fem/axisymmetric/meridian_body.h"
+#include "fem/mesh/grid.h"
 #include "fem/values/body.h"
 #include "fem/values/unit_load.h"
 #include "fem/values/unit_responses.h"
@@ -25,6 +27,10 @@ struct ShaftBody {
   std::map<std::string, int> features;  ///< boundary ids
   std::vector<fem::SectionPlane> planes;
 };
+
+/// Forces of displacements of a body of steel, one per column; rows at hanging nodes are zero, and their
+/// displacements those of the nodes they hang on.
+Eigen::MatrixXd stiffness_times(const fem::Grid& grid, Eigen::MatrixXd displacement);
 
 /// A mesh with its surfaces, of steel.
 fem::Body steel_body(const meshes::BodyMesh& mesh);

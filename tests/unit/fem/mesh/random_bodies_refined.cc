@@ -11,7 +11,6 @@
 
 #include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/rigid_modes.h"
-#include "fem/operators/stiffness.h"
 #include "fem/values/errors.h"
 #include "meshes/chamber/chamber.h"
 #include "meshes/shaft/shaft.h"
@@ -49,16 +48,6 @@ fem::Grid with_cells_cut(const meshes::BodyMesh& mesh, std::mt19937& random, int
   }
 }
 
-/// Forces of displacements, one per column; hanging nodes take theirs from the others.
-Eigen::MatrixXd forces_of(const fem::Grid& grid, Eigen::MatrixXd displacement) {
-  const auto cells = fem::cells_of_nodes(grid);
-  const auto graph = fem::make_node_graph(grid, cells);
-  auto matrix = fem::make_matrix(graph);
-  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(fem_tests::steel), matrix);
-  for (const auto node : grid.hanging.node) displacement.middleRows<3>(3 * Eigen::Index(node)).setZero();
-  return fem::multiply(matrix, displacement);
-}
-
 /// Forces of the rigid rotations, and inside the body of a linear displacement, relative to those of that
 /// displacement on the surface.
 struct Forces {
@@ -75,7 +64,7 @@ Forces relative_forces(const fem::Grid& grid) {
     displacement.col(3).segment<3>(3 * Eigen::Index(i)) =
         gradient * Eigen::Vector3d(grid.position(std::int32_t(i)));
   displacement.colwise().normalize();
-  Eigen::MatrixXd force = forces_of(grid, displacement);
+  Eigen::MatrixXd force = fem_tests::stiffness_times(grid, displacement);
   const double scale = force.col(3).norm();
   for (const auto& face : grid.boundary)
     for (const int i : fem::face_nodes(grid.shape(), face.face))

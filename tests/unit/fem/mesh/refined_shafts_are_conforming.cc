@@ -9,7 +9,6 @@
 #include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
-#include "fem/operators/stiffness.h"
 #include "fem/stress/stress_recovery.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
@@ -28,16 +27,6 @@ fem::Body refined_at_random(fem::Body body, int n_cycles, double share, unsigned
     body.refinements.push_back(cut);
   }
   return body;
-}
-
-/// Of the whole mesh: rows at hanging nodes are zero.
-Eigen::MatrixXd stiffness_times(const fem::Grid& grid, Eigen::MatrixXd displacement) {
-  const auto cells = fem::cells_of_nodes(grid);
-  const auto graph = fem::make_node_graph(grid, cells);
-  auto matrix = fem::make_matrix(graph);
-  fem::assemble_stiffness(grid, fem::colour_cells(grid, cells), graph, fem::lame(fem_tests::steel), matrix);
-  for (const auto node : grid.hanging.node) displacement.middleRows<3>(3 * Eigen::Index(node)).setZero();
-  return fem::multiply(matrix, displacement);
 }
 
 fem::Grid refined_shaft(int n_cycles, unsigned seed, int degree = 2) {
@@ -87,8 +76,8 @@ TEST(RefinedShafts, MoveRigidlyWithoutForce) {
           u(3 * Eigen::Index(i), 0) = grid.position(std::int32_t(i))[1];
         return u;
       }();
-      const double scale = stiffness_times(grid, strain).norm();
-      const Eigen::MatrixXd force = stiffness_times(grid, rigid);
+      const double scale = fem_tests::stiffness_times(grid, strain).norm();
+      const Eigen::MatrixXd force = fem_tests::stiffness_times(grid, rigid);
       for (int mode = 3; mode < 6; ++mode) EXPECT_LT(force.col(mode).norm(), 1e-12 * scale) << degree << mode;
     }
 }
@@ -100,7 +89,7 @@ TEST(RefinedShafts, PassThePatchTest) {
   gradient << 1, 0.3, -0.2, 0.7, -0.4, 0.1, -0.5, 0.6, 0.8;
   for (std::size_t i = 0; i < grid.n_nodes; ++i)
     u.middleRows<3>(3 * Eigen::Index(i)) = gradient * Point(grid.position(std::int32_t(i)));
-  Eigen::MatrixXd force = stiffness_times(grid, u);
+  Eigen::MatrixXd force = fem_tests::stiffness_times(grid, u);
   const double scale = force.norm();
   for (const auto& face : grid.boundary)
     for (const int i : fem::face_nodes(grid.shape(), face.face))
