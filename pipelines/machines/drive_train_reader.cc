@@ -17,7 +17,7 @@ using kinetics::ElementKind;
 
 constexpr double most_stiffness_N_m_rad = 1e15;
 constexpr double most_ratio = 1e4;  // worm gears end at a few hundred
-const Range torques = between(-1e12, 1e12), phases = between(-1e6, 1e6);
+const Range torques = between(-1e12, 1e12);
 
 std::optional<double> optional_quantity(SceneTable& table, const std::string& name, const std::string& unit,
                                         const Range& range) {
@@ -136,7 +136,7 @@ kinetics::TrainExcitation read_excitation(SceneTable& table) {
     for (SceneTable& entry : table.tables("harmonics")) {
       kinetics::TorqueHarmonic harmonic;
       harmonic.amplitude_Nm = entry.quantity("amplitude", "N m", torques);
-      harmonic.phase_rad = quantity_if_given(entry, "phase", "rad", phases);
+      harmonic.phase_rad = quantity_if_given(entry, "phase", "rad", any_angle());
       read_rate(entry, harmonic);
       entry.finish();
       excitation.harmonics.push_back(harmonic);

@@ -141,7 +141,7 @@ void read_harmonic(SceneTable& entry, kinetics::LoadTable& loads) {
   harmonic.mean = entry.quantity_or("mean", unit, loads_within, 0, "the harmonic alone");
   harmonic.amplitude = entry.quantity("amplitude", unit, loads_within);
   harmonic.order = entry.quantity_or("order", "1", not_negative(1e4), 1, "once per turn of the drive");
-  harmonic.phase_rad = entry.quantity_or("phase", "rad", {}, 0, "largest at the first instant");
+  harmonic.phase_rad = entry.quantity_or("phase", "rad", any_angle(), 0, "largest at the first instant");
   entry.finish();
   if (load) loads.loads.push_back({effect, load->port, load->component, load->unit, harmonic});
 }

@@ -116,7 +116,8 @@ PlanetaryMill read_planetary_mill(SceneTable& machine, PlanetaryConvention conve
       machine.quantity_or("gravity", "m/s2", not_negative(100), 9.81, "gravity on the ground");
   SceneTable carrier = machine.table("carrier");
   mill.speed_rad_s = carrier.quantity("speed", "rad/s", positive(1e4));
-  mill.initial_angle_rad = carrier.quantity_or("initial_angle", "rad", {}, 0, "OA is level at first");
+  mill.initial_angle_rad =
+      carrier.quantity_or("initial_angle", "rad", any_angle(), 0, "OA is level at first");
   carrier.finish();
   SceneTable drum = machine.table("drum");
   mill.drum_radius_m = drum.quantity("inner_radius", "m", positive(longest_m));
@@ -129,7 +130,7 @@ PlanetaryMill read_planetary_mill(SceneTable& machine, PlanetaryConvention conve
     mass_from_mesh = true;
   }
   mill.initial_drum_angle_rad =
-      drum.quantity_or("initial_angle", "rad", {}, 0, "the drum's axes are the carrier's at first");
+      drum.quantity_or("initial_angle", "rad", any_angle(), 0, "the drum's axes are the carrier's at first");
   drum_axes = drum.flag_or("turning_axes", false, "loads in the carrier's frame only");
   drum.finish();
   read_geometry(machine.table("geometry"), mill);

@@ -51,7 +51,8 @@ std::optional<bool> one_of(SceneTable& table, const std::string& first, const st
 void read_drive(SceneTable drive, kinetics::VibratoryMill& mill) {
   mill.eccentricity_m = drive.quantity("eccentricity", "m", not_negative(0.1));
   mill.speed_rad_s = drive.quantity("speed", "rad/s", positive(most_speed_rad_s));
-  mill.initial_angle_rad = drive.quantity_or("initial_angle", "rad", {}, 0, "the cycle begins at phi = 0");
+  mill.initial_angle_rad =
+      drive.quantity_or("initial_angle", "rad", any_angle(), 0, "the cycle begins at phi = 0");
   drive.finish();
 }
 
@@ -100,8 +101,8 @@ void read_charge(SceneTable charge, const std::vector<std::string>& effects, kin
                   : charge.quantity("relative_speed", "rad/s", between(-most_speed_rad_s, most_speed_rad_s));
   else
     mill.charge_relative_speed_rad_s = std::nan("");
-  mill.charge_initial_angle_rad =
-      charge.quantity_or("initial_angle", "rad", {}, 0, "the charge begins on the side of the rest position");
+  mill.charge_initial_angle_rad = charge.quantity_or("initial_angle", "rad", any_angle(), 0,
+                                                     "the charge begins on the side of the rest position");
   read_charge_lag(charge, contains(effects, effect_name::charge_lag), mill);
   charge.finish();
 }

@@ -41,6 +41,10 @@ inline Range not_negative(double most = std::numeric_limits<double>::infinity())
 inline Range between(double least, double most) {
   return {least, most, false};
 }
+/// Of angles in rad that may be of many turns: beyond, a double has no ten digits of the last turn left.
+inline Range any_angle() {
+  return between(-1e6, 1e6);
+}
 
 /// A number as an engineer writes it: "9.81", "-0.05".
 /// @param digits  significant digits at most
