@@ -11,4 +11,7 @@ double physical_memory();
 /// the system does not tell.
 double free_memory();
 
+/// Gives memory that is free, but kept for later, back to the system: before something large.
+void release_free_memory();
+
 }  // namespace fem

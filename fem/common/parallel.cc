@@ -2,9 +2,6 @@
 
 #include <deal.II/base/parallel.h>
 #include <dlfcn.h>
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 
 namespace fem {
 
@@ -28,12 +25,6 @@ void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   if (n == 0) return;
   dealii::parallel::apply_to_subranges(std::size_t{0}, n, body, static_cast<unsigned>(grain));
-}
-
-void release_free_memory() {
-#if defined(__GLIBC__)
-  malloc_trim(0);
-#endif
 }
 
 void set_blas_threads(int n_threads) {

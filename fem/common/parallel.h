@@ -38,9 +38,6 @@ private:
   int levels_before_;
 };
 
-/// Gives memory that is free, but kept for later, back to the system: before something large.
-void release_free_memory();
-
 /// Threads of OpenBLAS; nothing happens with another BLAS.
 void set_blas_threads(int n_threads);
 

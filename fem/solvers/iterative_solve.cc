@@ -4,6 +4,7 @@
 #include <sstream>
 #include <utility>
 
+#include "fem/common/memory.h"
 #include "fem/common/parallel.h"
 #include "fem/solvers/block_cg.h"
 

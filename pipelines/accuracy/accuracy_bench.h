@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/common/parallel.h"
+#include "fem/common/memory.h"
 #include "pipelines/accuracy/accuracy.h"
 #include "pipelines/search/scene_run.h"
 
