@@ -85,7 +85,7 @@ std::vector<double> column_stations(const ShaftLayout& layout, int index, const 
   const double column_m = breaks.back() - breaks.front();
   std::vector<double> stations = {breaks.front()};
   for (std::size_t i = 1; i < breaks.size(); ++i) {
-    const int n_usual = control.subdivisions > 1 ? 2 : 4;
+    const int n_usual = control.is_cut_later() ? 2 : 4;
     const int n_wanted = segment.is_short() && !segment.is_port ? 1 : n_usual;
     const int n_min = static_cast<int>(std::ceil(n_wanted * (breaks[i] - breaks[i - 1]) / column_m - 0.5));
     const auto piece =

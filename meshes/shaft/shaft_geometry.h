@@ -72,7 +72,12 @@ struct ShaftMeshControl {
   /// proportion to it, and growth and largest_cell_m to its reciprocal, are systematic: all their cells
   /// shrink alike.
   int subdivisions = 1;
+  /// Few cells away from the fillets' arcs, for a mesh that is refined locally afterwards: they grow three
+  /// times from row to row of a fan, walls have one row, columns two cells at least.
+  bool lean = false;
 
+  /// Whether cells are cut after the blocks are laid out.
+  bool is_cut_later() const { return lean || subdivisions > 1; }
   /// On a quarter of one of Shaft::fillets_m.
   int cells_at(int fillet) const {
     const bool own = std::size_t(fillet) < fillet_cells.size() && fillet_cells[std::size_t(fillet)] > 0;

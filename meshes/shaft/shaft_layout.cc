@@ -242,7 +242,7 @@ ShaftLayout subdivided(const ShaftLayout& layout, int n) {
 }
 
 ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
-  const double ratio = control.subdivisions > 1 ? fan_ratio_before : fan_ratio;
+  const double ratio = control.is_cut_later() ? fan_ratio_before : fan_ratio;
   ShaftLayout layout;
   layout.segments = segments_of(shaft);
   set_base_radii(layout.segments);
@@ -256,7 +256,7 @@ ShaftLayout lay_out(const Shaft& shaft, const ShaftMeshControl& control) {
   for (Junction& junction : layout.junctions) set_bore_border(junction, layout);
   set_columns_and_shifts(layout, shaft);
   set_lines(layout);
-  set_rows(layout, {control.n_sectors, control.subdivisions > 1 ? 1 : 2, control.rows_factor});
+  set_rows(layout, {control.n_sectors, control.is_cut_later() ? 1 : 2, control.rows_factor});
   return layout;
 }
 

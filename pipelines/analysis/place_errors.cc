@@ -22,6 +22,10 @@ double for_want_of_cells(int cells) {
   return cells < 4 ? 0.5 : cells < 6 ? 0.15 : 0.04;
 }
 
+/// With fewer cells on a fillet's quarter two meshes may agree that are both wrong: a stress of 152 MPa was
+/// 130 with two cells and 132 with four.
+constexpr int cells_that_converge = 6;
+
 double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
   return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material, 0,
                        analysis.places.excluded)
@@ -102,8 +106,11 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
       continue;
     }
     place.error_Pa = own_error_Pa(analysis, {{{place.node, 1.0}}, maximum.instant[place.node]});
-    if (const int cells = cells_on_quarter(analysis, place); cells > 0)
-      place.error_Pa = std::max(place.error_Pa, for_want_of_cells(cells) * place.value_Pa);
+    if (const int cells = cells_on_quarter(analysis, place); cells > 0) {
+      const double wanting_Pa = for_want_of_cells(cells) * place.value_Pa;
+      place.error_Pa = std::max(place.error_Pa, wanting_Pa);
+      if (cells < cells_that_converge) place.least_error_Pa = wanting_Pa;
+    }
   }
   ask_submodels(analysis, largest_Pa, places);
   const auto toes = weld_toes(analysis);

@@ -21,7 +21,8 @@ struct PlaceStress {
   double value_Pa = 0;
   double error_Pa = 0;  ///< numerical, for want of a finer mesh
   std::array<double, 3> position_m{};
-  bool is_resolved = false;  ///< the error is that of submodels: no margin to give away
+  bool is_resolved = false;   ///< the error is that of submodels: no margin to give away
+  double least_error_Pa = 0;  ///< for want of cells, however well coarse meshes agree
 };
 
 inline constexpr const char* inside_the_body = "inside";

@@ -96,7 +96,7 @@ double PlaceHistory::from_changes(const Record& record) const {
   const double kept = !all_varied || record.now.is_resolved   ? 1
                       : record.n_changes > int(parts_.size()) ? kept_share_.after_more
                                                               : kept_share_.after_one;
-  return std::max(missing_Pa(record), kept * record.now.error_Pa);
+  return std::max({missing_Pa(record), kept * record.now.error_Pa, record.now.least_error_Pa});
 }
 
 std::vector<PlaceStress> PlaceHistory::judged() const {

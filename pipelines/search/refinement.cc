@@ -196,13 +196,16 @@ std::vector<BodyScene> first_meshes(const BodyScene& body) {
   if (!is_block_shaft(body)) {
     meshes = {with_fineness(body, coarser_start)};
   } else {
-    for (const auto& [cells, sectors] : first_shaft_meshes) {
+    const auto add = [&](const std::array<int, 2>& cells_and_sectors, bool lean) {
       meshes.push_back(body);
       auto& mesh = std::get<ShaftShape>(meshes.back().shape).mesh;
-      mesh.cells_per_fillet_quarter = cells;
+      mesh.cells_per_fillet_quarter = cells_and_sectors[0];
       mesh.fillet_cells.clear();
-      mesh.n_sectors = sectors;
-    }
+      mesh.n_sectors = cells_and_sectors[1];
+      mesh.lean = lean;
+    };
+    if (is_refined_locally(body)) add(first_shaft_meshes.front(), true);
+    for (const auto& cells_and_sectors : first_shaft_meshes) add(cells_and_sectors, false);
   }
   meshes.push_back(body);
   return meshes;
@@ -219,11 +222,12 @@ BodyScene guided_by(const SecondModel& model, const BodyScene& body) {
   const auto names = fillets_of(body);
   const double largest_Pa = model.places[judge(model.places).governing].value_Pa;
   mesh.fillet_cells.resize(names.size(), 0);
+  const int leading_cells = mesh.lean ? 8 : 6;
   for (std::size_t f = 0; f < names.size(); ++f)
     for (const auto& place : model.places) {
       if (names[f].empty() || place.feature != names[f]) continue;
       const double share = (place.value_Pa + place.error_Pa) * (1 + model.model_error) / largest_Pa;
-      const int wanted = share > leading_share ? 6 : share > minor_share ? 4 : 2;
+      const int wanted = share > leading_share ? leading_cells : share > minor_share ? 4 : 2;
       mesh.fillet_cells[f] = std::max(wanted, mesh.cells_at(int(f)));
     }
   return result;

@@ -111,6 +111,7 @@ void examine_shafts(const std::function<meshes::Shaft(std::mt19937&)>& draw, con
   Seen seen;
   for (int i = 0; i < n_refined_bodies(); ++i) {
     const auto shaft = draw(random);
+    control.lean = i % 2 == 0;
     SCOPED_TRACE(std::to_string(i) + ": " + text(shaft));
     ASSERT_NO_THROW(examine(meshes::build_shaft(shaft, control, scratch.path() / "shaft.msh"), random, seen));
   }

@@ -26,6 +26,7 @@ double worst_of(const std::function<meshes::Shaft()>& draw, const std::string& n
     control.cells_per_fillet_quarter = cells_choices[trial % 3];
     control.n_sectors = sector_choices[trial % 5];
     control.rows_factor = std::array{1.0, 1.5, 1.0, 3.375}[std::size_t(trial % 4)];
+    control.lean = trial % 7 < 3;
     meshes::BodyMesh body;
     EXPECT_NO_THROW(body = meshes::build_shaft(shaft, control, temporary_msh(name)));
     if (body.file.empty()) continue;
@@ -33,7 +34,7 @@ double worst_of(const std::function<meshes::Shaft()>& draw, const std::string& n
         << "at z = " << body.quality.worst_z_m
         << ", r = " << std::hypot(body.quality.worst_x_m, body.quality.worst_y_m) << ", cells "
         << control.cells_per_fillet_quarter << ", sectors " << control.n_sectors << ", rows times "
-        << control.rows_factor;
+        << control.rows_factor << (control.lean ? ", lean" : "");
     worst = std::min(worst, body.quality.min_scaled_jacobian);
     most_cells = std::max(most_cells, body.quality.n_cells);
     const double expected = polygonal_volume(shaft, control.cells_per_fillet_quarter, control.n_sectors);
