@@ -59,7 +59,7 @@ void write_page(const std::filesystem::path& study) {
 }
 
 void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene);
+  const Scene scene = read_scene(options.scene, options.settings);
   if (scene.bodies.empty())
     throw StageRefused(scene.file.string() +
                        ": has no body, and the load stage alone is exact; add one, as [shaft], to the scene");

@@ -37,7 +37,7 @@ void refuse_what_has_no_equal(const Scene& scene) {
 }
 
 void calculix(const CalculixCommandOptions& options, std::ostream& out) {
-  Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene, options.settings);
   refuse_what_has_no_equal(scene);
   const auto directory = results_directory(options.output, scene);
   for (const auto& body : scene.bodies) require_writable(output_files("-o", directory, {body.name + ".inp"}));

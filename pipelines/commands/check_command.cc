@@ -127,7 +127,7 @@ void check_bodies(std::ostream& out, Scene scene) {
 
 /// Throws what a run would throw before it solves.
 void check(const SceneOptions& options, std::ostream& printed) {
-  const Scene scene = read_scene(options.scene);
+  const Scene scene = read_scene(options.scene, options.settings);
   std::ostringstream out;  // nothing is called valid before all of it is
   print_scene(out, scene);
   (scene.bodies.empty() ? check_load_stage : check_bodies)(out, scene);

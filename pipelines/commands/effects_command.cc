@@ -21,7 +21,7 @@ double usual_threshold(const Scene& scene) {
 }
 
 void effects(const EffectsCommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene);
+  const Scene scene = read_scene(options.scene, options.settings);
   const double threshold = options.threshold.empty() ? usual_threshold(scene)
                                                      : option_in_si("--threshold", options.threshold, "1");
   const EffectReport worth = report_effects(scene, threshold);

@@ -11,7 +11,7 @@ struct ExtremesCommandOptions : SceneOptions {
 };
 
 void extremes(const ExtremesCommandOptions& options, std::ostream& out) {
-  print_torus_extremes(out, read_scene(options.scene), options.json);
+  print_torus_extremes(out, read_scene(options.scene, options.settings), options.json);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   require_extension(
       "--csv", options.csv, {".csv", ".txt"},
       "is written as CSV; for HDF5 write -o " + options.csv.string() + ", or end the name in .csv");
-  Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene, options.settings);
   require_outputs(options);
   StageClock clock(progress_on_stderr(options.verbosity()));
   const auto history = loads_of(scene, clock);

@@ -21,7 +21,7 @@ struct PortsCommandOptions : SceneOptions {
 };
 
 void ports(const PortsCommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene);
+  const Scene scene = read_scene(options.scene, options.settings);
   if (scene.bodies.empty())
     throw StageRefused(scene.file.string() +
                        ": has no body, and only bodies have ports; add one, as [shaft], to the scene");

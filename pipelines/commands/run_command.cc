@@ -178,7 +178,7 @@ void run_bodies(const RunCommandOptions& options, std::ostream& out, const Scene
 }
 
 void run(const RunCommandOptions& options, std::ostream& out) {
-  Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene, options.settings);
   scene.method = requested_method(options.method, scene);
   const auto directory = results_directory(options.output, scene);
   StageClock clock(progress_on_stderr(options.verbosity()));

@@ -11,6 +11,10 @@ Verbosity SceneOptions::verbosity() const {
 CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, SceneOptions& options) {
   auto* command = app.add_subcommand(name, description);
   command->add_option("scene", options.scene, "scene file (TOML)")->required();
+  command
+      ->add_option("--set", options.settings,
+                   "KEY=VALUE: a key of the scene as if the file said so; may be repeated")
+      ->allow_extra_args(false);
   command->add_flag("-q,--quiet", options.quiet, "no progress");
   command->add_flag("-v,--verbose", options.verbose, "more progress");
   return command;

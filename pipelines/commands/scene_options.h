@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "pipelines/commands/commands.h"
 #include "pipelines/common/progress.h"
@@ -12,6 +14,7 @@ namespace pipelines {
 /// The options of a command begin with these.
 struct SceneOptions {
   std::filesystem::path scene;
+  std::vector<std::string> settings;    ///< --set KEY=VALUE, each
   bool quiet = false, verbose = false;  ///< quiet wins
 
   Verbosity verbosity() const;
@@ -19,7 +22,7 @@ struct SceneOptions {
 
 constexpr int all_cores = 0;  ///< threads of a command without --threads
 
-/// A subcommand with the scene, -q and -v.
+/// A subcommand with the scene, --set, -q and -v.
 CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, SceneOptions& options);
 
 /// --threads of a command and of the helper ranks.

@@ -11,7 +11,7 @@ struct SpringsCommandOptions : SceneOptions {
 };
 
 void springs(const SpringsCommandOptions& options, std::ostream& out) {
-  print_spring_choice(out, read_scene(options.scene), options.json);
+  print_spring_choice(out, read_scene(options.scene, options.settings), options.json);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Machine machine_with_masses(const Scene& scene) {
 }
 
 void torsion(const TorsionCommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene);
+  const Scene scene = read_scene(options.scene, options.settings);
   require_writable(output_files("-o", options.output,
                                 {"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv"}));
   const TorsionReport report = report_torsion(scene, machine_with_masses(scene));

@@ -50,6 +50,7 @@ void print_effects(std::ostream& out, const Scene& scene, const EffectReport& re
 std::string effects_json(const Scene& scene, const EffectReport& report) {
   Json json;
   json["scene"] = scene.file.filename().string();
+  if (!scene.settings.empty()) json["settings"] = scene.settings;
   for (const auto& worth : report.effects) {
     Json entry{{"description", worth.effect.description}, {"source", worth.effect.source}};
     for (const auto& share : worth.shares)

@@ -236,6 +236,9 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
       with_spaces(input.at("machine").get<std::string>()), number(input.at("turns"), 1, "{:.0f}"),
       number(input.at("instants_per_turn"), 1, "{:.0f}"), input.at("scene").get<std::string>(),
       input.at("hash").get<std::string>(), summary.at("program").at("version").get<std::string>()));
+  if (input.contains("settings"))
+    for (const auto& setting : input.at("settings"))
+      page.paragraph("Set on the command line: " + setting.get<std::string>());
   for (const auto& warning : summary.at("warnings")) page.warning(warning.get<std::string>());
   if (summary.contains("bodies"))
     for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);

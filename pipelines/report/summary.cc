@@ -64,6 +64,7 @@ std::string summary_json(const RunReport& report) {
                           {"effects", report.scene.effects},
                           {"turns", report.scene.sampling.turns},
                           {"instants_per_turn", report.scene.sampling.instants_per_turn}});
+  if (!report.scene.settings.empty()) json["input"]["settings"] = report.scene.settings;
   if (!report.scene.effect_choice.offered.empty()) json["dropped_effects"] = choice_json(report);
   json["warnings"] = Json::array();
   for (const auto& analysis : report.bodies)

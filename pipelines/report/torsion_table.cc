@@ -120,6 +120,7 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
 std::string torsion_json(const Scene& scene, const TorsionReport& report) {
   Json json;
   json["scene"] = scene.file.filename().string();
+  if (!scene.settings.empty()) json["settings"] = scene.settings;
   Json& torsion = json["torsion"];
   for (const double w : report.modes.frequency_rad_s)
     torsion["natural_frequencies"].push_back({{"value", w}, {"unit", "rad/s"}});

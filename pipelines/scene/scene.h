@@ -81,6 +81,7 @@ struct EffectsKey {
 
 struct Scene {
   std::filesystem::path file;
+  std::vector<std::string> settings;  ///< "KEY=VALUE" of the command line, which the file does not have
   std::string title;
   std::string machine_origin;   ///< "file:line:column: machine", named by errors that come after reading
   std::string machine_type_at;  ///< "file:line:column: machine.type = ..."
@@ -127,8 +128,9 @@ struct Scene {
 };
 
 /// Reads and checks a scene. pipelines/scenes/vibratory_mill.toml shows every key with its meaning.
+/// @param settings  "KEY=VALUE", which stand for what the file says (set_keys)
 /// @throws SceneError with every error found, in the order of the file
 /// @throws FileError if the unit database of udunits2 is not installed
-Scene read_scene(const std::filesystem::path& file);
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
 }  // namespace pipelines

@@ -9,6 +9,7 @@
 #include "pipelines/files/replaceable.h"
 #include "pipelines/files/toml_tree.h"
 #include "pipelines/scene/body_kind.h"
+#include "pipelines/scene/key_settings.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene.h"
@@ -86,14 +87,16 @@ void refuse_machine(SceneTable& root, SceneTable& machine, const std::string& ty
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) {
-  const TomlNode tree = parse(file);
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  TomlNode tree = parse(file);
+  set_keys(tree, settings, file);
   SceneFindings findings;
   findings.file = file.string();
   SceneTable root(tree, "", findings);
 
   Scene scene;
   scene.file = file;
+  scene.settings = settings;
   scene.title = root.text_or("title", file.stem().string(), "the name of the file");
   SceneTable machine = root.table("machine");
   const std::string type = machine.has("type") ? machine.text("type") : "";

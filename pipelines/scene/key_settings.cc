@@ -1,0 +1,142 @@
+#include "pipelines/scene/key_settings.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "pipelines/common/errors.h"
+
+namespace pipelines {
+namespace {
+
+constexpr const char* example = "write KEY=VALUE, such as machine.drive.speed=\"1500 rpm\"";
+
+/// One part of a key: a name, or the number of an item, from 1.
+struct Part {
+  std::string name;
+  std::size_t item = 0;  ///< 0: a name
+};
+
+class Setting {
+public:
+  Setting(const std::string& text, const std::filesystem::path& file) : file_(file.string()) {
+    const auto equals = text.find('=');
+    key_ = text.substr(0, equals);
+    while (!key_.empty() && key_.back() == ' ') key_.pop_back();
+    if (equals == std::string::npos || key_.empty()) refuse("is no setting; " + std::string(example));
+    value_ = text.substr(equals + 1);
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (std::any_of(text.begin(), text.end(), is_control))
+      refuse("has a control character or more than one line; leave it out");
+    if (value_.find_first_not_of(' ') == std::string::npos) refuse("has no value; " + std::string(example));
+    split();
+  }
+
+  const std::string& key() const { return key_; }
+
+  void apply(TomlNode& root) const {
+    TomlNode* node = &root;
+    for (std::size_t i = 0; i + 1 < parts_.size(); ++i) node = &step(*node, i, parts_[i + 1].item > 0);
+    TomlNode& target = step(*node, parts_.size() - 1, false);
+    target = value();
+  }
+
+  [[noreturn]] void refuse(const std::string& remedy) const {
+    throw SceneError({{file_, 0, 0, "--set " + key_, value_, remedy}});
+  }
+
+private:
+  void split() {
+    std::string name;
+    const auto end_name = [&] {
+      if (name.empty()) refuse("has an empty name in its key; " + std::string(example));
+      parts_.push_back({name, 0});
+      name.clear();
+    };
+    for (std::size_t i = 0; i < key_.size(); ++i) {
+      if (key_[i] == '.') {
+        if (!(i > 0 && key_[i - 1] == ']')) end_name();
+        if (i + 1 == key_.size()) end_name();
+      } else if (key_[i] == '[') {
+        if (!(i > 0 && key_[i - 1] == ']')) end_name();
+        const auto close = std::min(key_.find(']', i), key_.size());
+        Part part;
+        const char* const last = key_.data() + close;
+        const auto [end, error] = std::from_chars(key_.data() + i + 1, last, part.item);
+        const bool goes_on = close + 1 < key_.size() && key_[close + 1] != '.' && key_[close + 1] != '[';
+        if (close == key_.size() || error != std::errc() || end != last || part.item == 0 || goes_on)
+          refuse("has no number of an item between its brackets; the first is [1]");
+        parts_.push_back(part);
+        i = close;
+      } else {
+        name += key_[i];
+      }
+    }
+    if (!name.empty()) end_name();
+  }
+
+  /// The key up to a part.
+  std::string up_to(std::size_t i) const {
+    std::string text;
+    for (std::size_t k = 0; k <= i; ++k)
+      text += parts_[k].item > 0 ? "[" + std::to_string(parts_[k].item) + "]"
+                                 : (k > 0 ? "." : "") + parts_[k].name;
+    return text;
+  }
+
+  TomlNode& step(TomlNode& node, std::size_t i, bool to_array) const {
+    const Part& part = parts_[i];
+    if (part.item > 0) {
+      if (node.kind != TomlNode::Kind::array)
+        refuse(up_to(i - 1) + " is " + describe(node.kind) + ", not an array");
+      if (part.item > node.items.size())
+        refuse(up_to(i - 1) + " has " + std::to_string(node.items.size()) + " items, counted from 1");
+      return node.items[part.item - 1];
+    }
+    if (node.kind != TomlNode::Kind::table)
+      refuse(up_to(i - 1) + " is " + describe(node.kind) + " and has no keys; check the key");
+    const auto found = std::find_if(node.entries.begin(), node.entries.end(),
+                                    [&](const TomlEntry& entry) { return entry.key == part.name; });
+    if (found != node.entries.end()) return found->value;
+    if (to_array) refuse("the scene has no " + up_to(i) + "; write the array in the scene, or set it whole");
+    node.entries.push_back({part.name, {}, {}});
+    return node.entries.back().value;
+  }
+
+  TomlNode value() const {
+    try {
+      const auto tree = parse_toml("value = " + value_);
+      if (tree.entries.size() == 1) return by_command_line(tree.entries.front().value);
+    } catch (const TomlSyntaxError&) {  // a text without quotes
+    }
+    TomlNode text;
+    text.kind = TomlNode::Kind::text;
+    text.text = value_;
+    text.as_written = '"' + value_ + "\" (by --set)";
+    return text;
+  }
+
+  static TomlNode by_command_line(TomlNode node) {
+    node.at = {};
+    if (!node.as_written.empty()) node.as_written += " (by --set)";
+    for (auto& item : node.items) item = by_command_line(std::move(item));
+    for (auto& entry : node.entries) entry = {entry.key, {}, by_command_line(std::move(entry.value))};
+    return node;
+  }
+
+  std::string file_, key_, value_;
+  std::vector<Part> parts_;
+};
+
+}  // namespace
+
+void set_keys(TomlNode& root, const std::vector<std::string>& settings, const std::filesystem::path& file) {
+  std::set<std::string> keys;
+  for (const auto& text : settings) {
+    const Setting setting(text, file);
+    if (!keys.insert(setting.key()).second) setting.refuse("sets the key again; set it once");
+    setting.apply(root);
+  }
+}
+
+}  // namespace pipelines

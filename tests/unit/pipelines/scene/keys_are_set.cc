@@ -1,0 +1,79 @@
+// Keys that the command line sets stand for what the file says; what cannot be set is refused by its key.
+#include <gtest/gtest.h>
+
+#include "pipelines/common/errors.h"
+#include "pipelines/scene/key_settings.h"
+#include "pipelines/scene/scene.h"
+
+namespace {
+
+using Settings = std::vector<std::string>;
+
+const std::filesystem::path shipped =
+    std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/vibratory_mill.toml";
+
+/// The message of the refusal.
+std::string refusal_of_settings(const Settings& settings) {
+  try {
+    pipelines::read_scene(shipped, settings);
+  } catch (const pipelines::SceneError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(KeySettings, StandForWhatTheFileSays) {
+  const auto scene = pipelines::read_scene(
+      shipped, {"machine.drive.speed=1500 rpm", "machine.springs[2].damping=[1, \"2 N s/m\"]",
+                "sampling.turns = 1", "machine.drive.initial_angle=\"90 deg\""});
+  const auto& mill = scene.vibratory_mill();
+  EXPECT_NEAR(mill.speed_rad_s, 1500 * M_PI / 30, 1e-12 * 157);
+  EXPECT_NEAR(mill.initial_angle_rad, M_PI / 2, 1e-15);
+  EXPECT_EQ(mill.springs.at(1).damping_N_s_m[0], 1);
+  EXPECT_EQ(mill.springs.at(1).damping_N_s_m[1], 2);
+  EXPECT_EQ(mill.springs.at(0).damping_N_s_m[0], 30);
+  EXPECT_EQ(scene.sampling.turns, 1);
+  EXPECT_EQ(scene.settings.size(), 4u);
+}
+
+TEST(KeySettings, AddTablesThatTheFileLeavesOut) {
+  pipelines::TomlNode root = pipelines::parse_toml("a = 1\n[[list]]\nx = 1\n[[list]]\nx = 2\n");
+  pipelines::set_keys(root, {"b.c.d=true", "list[2].x=[[1, 2], [3]]", "list[2].x[1][2]=7", "a={ k = \"v\" }"},
+                      "scene.toml");
+  EXPECT_TRUE(root.find("b")->value.find("c")->value.find("d")->value.boolean);
+  const auto& x = root.find("list")->value.items.at(1).find("x")->value;
+  EXPECT_EQ(x.items.at(0).items.at(1).integer, 7);
+  EXPECT_EQ(x.items.at(1).items.at(0).integer, 3);
+  EXPECT_EQ(root.find("list")->value.items.at(0).find("x")->value.integer, 1);
+  EXPECT_EQ(root.find("a")->value.find("k")->value.text, "v");
+}
+
+TEST(KeySettings, ThatLeadNowhereAreRefused) {
+  const std::vector<std::pair<Settings, std::string>> cases{
+      {{"machine.drive.speed"}, "is no setting"},
+      {{"machine.drive.speed= "}, "has no value"},
+      {{"=3"}, "is no setting"},
+      {{"machine..drive=3"}, "empty name"},
+      {{".machine=3"}, "empty name"},
+      {{"machine.=3"}, "empty name"},
+      {{"sampling.turns=1\n2"}, "control character"},
+      {{"machine.springs[3].stiffness=3"}, "machine.springs has 2 items"},
+      {{"machine.springs[0].stiffness=3"}, "the first is [1]"},
+      {{"machine.springs[1x].stiffness=3"}, "the first is [1]"},
+      {{"machine.springs[1.stiffness=3"}, "the first is [1]"},
+      {{"machine.springs[1]x=3"}, "the first is [1]"},
+      {{"machine.drive[1]=3"}, "is a table, not an array"},
+      {{"machine.drive.speed.x=3"}, "is a text and has no keys"},
+      {{"nothing[1]=3"}, "the scene has no nothing"},
+      {{"sampling.turns=1", "sampling.turns=2"}, "set it once"},
+      {{"machine.drive.sped=3"}, "machine.drive.sped = 3 (by --set): unknown key"},
+      {{"machine.drive.speed=fast"},
+       "machine.drive.speed = \"fast\" (by --set): does not begin with a number"}};
+  for (const auto& [settings, fragment] : cases) {
+    const auto message = refusal_of_settings(settings);
+    EXPECT_NE(message.find(fragment), std::string::npos) << settings.front() << ": " << message;
+    EXPECT_NE(message.find("vibratory_mill.toml"), std::string::npos) << message;
+  }
+}
+
+}  // namespace
