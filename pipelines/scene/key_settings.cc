@@ -4,12 +4,21 @@
 #include <charconv>
 #include <set>
 
+#include "meshes/values/utf8.h"
 #include "pipelines/common/errors.h"
 
 namespace pipelines {
 namespace {
 
 constexpr const char* example = "write KEY=VALUE, such as machine.drive.speed=\"1500 rpm\"";
+
+/// Trees are copied and freed by recursion.
+constexpr std::size_t most_parts = 100;
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
 
 /// One part of a key: a name, or the number of an item, from 1.
 struct Part {
@@ -21,15 +30,16 @@ class Setting {
 public:
   Setting(const std::string& text, const std::filesystem::path& file) : file_(file.string()) {
     const auto equals = text.find('=');
-    key_ = text.substr(0, equals);
-    while (!key_.empty() && key_.back() == ' ') key_.pop_back();
+    key_ = trimmed(text.substr(0, equals));
     if (equals == std::string::npos || key_.empty()) refuse("is no setting; " + std::string(example));
-    value_ = text.substr(equals + 1);
     const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
     if (std::any_of(text.begin(), text.end(), is_control))
       refuse("has a control character or more than one line; leave it out");
-    if (value_.find_first_not_of(' ') == std::string::npos) refuse("has no value; " + std::string(example));
+    if (!meshes::is_utf8(text)) refuse("is not UTF-8; write it so");
+    value_ = trimmed(text.substr(equals + 1));
+    if (value_.empty()) refuse("has no value; " + std::string(example));
     split();
+    if (parts_.size() > most_parts) refuse("has a key of more than " + std::to_string(most_parts) + " parts");
   }
 
   const std::string& key() const { return key_; }

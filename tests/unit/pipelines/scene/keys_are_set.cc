@@ -49,6 +49,8 @@ TEST(KeySettings, AddTablesThatTheFileLeavesOut) {
 }
 
 TEST(KeySettings, ThatLeadNowhereAreRefused) {
+  std::string long_key = "a";
+  for (int i = 0; i < 50'000; ++i) long_key += ".a";
   const std::vector<std::pair<Settings, std::string>> cases{
       {{"machine.drive.speed"}, "is no setting"},
       {{"machine.drive.speed= "}, "has no value"},
@@ -57,6 +59,8 @@ TEST(KeySettings, ThatLeadNowhereAreRefused) {
       {{".machine=3"}, "empty name"},
       {{"machine.=3"}, "empty name"},
       {{"sampling.turns=1\n2"}, "control character"},
+      {{"title=\xff"}, "is not UTF-8"},
+      {{long_key + "=1"}, "more than 100 parts"},
       {{"machine.springs[3].stiffness=3"}, "machine.springs has 2 items"},
       {{"machine.springs[0].stiffness=3"}, "the first is [1]"},
       {{"machine.springs[1x].stiffness=3"}, "the first is [1]"},
