@@ -90,9 +90,9 @@ void release_free_memory() {
 }  // namespace fem
 
 #ifdef MILLSTRESS_JEMALLOC
-// Read by jemalloc as the program starts. A factor of gigabytes touches each of its pages once: huge ones save a
-// third of the seconds of a solve where pages are slow to get, as in virtual machines. What is free goes back
-// wholly, so that a limit on addresses (ulimit -v) counts what is in use.
+// Read by jemalloc as the program starts. A factor of gigabytes touches each of its pages once: huge ones
+// save a quarter of the seconds of a solve where pages are slow to get, as in virtual machines. What is free
+// goes back wholly, so that a limit on addresses (ulimit -v) counts what is in use.
 extern "C" {
 extern const char* malloc_conf;
 const char* malloc_conf = "thp:always,retain:false";

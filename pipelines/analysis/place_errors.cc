@@ -22,10 +22,6 @@ double for_want_of_cells(int cells) {
   return cells < 4 ? 0.5 : cells < 6 ? 0.15 : 0.04;
 }
 
-/// With fewer cells on a fillet's quarter two meshes may agree that are both wrong: a stress of 152 MPa was
-/// 130 with two cells and 132 with four.
-constexpr int cells_that_converge = 6;
-
 double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
   return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material, 0,
                        analysis.places.excluded)

@@ -32,9 +32,6 @@ constexpr double least_share = 0.5;
 /// Places by falling sum of stress and error: solving for more of them costs more than it tells.
 constexpr std::size_t most_goals = 6;
 
-/// From fewer cells on a fillet's quarter halving shows less than second order: with it 3 of 12 shafts halved
-/// from 4 to 8 cells were off by up to 1.4 times what the change said.
-constexpr int resolved_by_halving = 6;
 /// Of a fillet's stress beside larger cells: 8 and 16 cells on one that held 152.2 MPa gave 146.9 and 150.2.
 constexpr double order_of_halving = 1.5;
 
@@ -192,7 +189,7 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
     result.goal_error_Pa.push_back((goals[g].is_toe ? share_at_toes : share_on_surfaces) * sum_Pa);
   }
   for (const auto& place : judged)
-    if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < resolved_by_halving)
+    if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < cells_that_converge)
       result.coarse.push_back(place.feature);
   return result;
 }

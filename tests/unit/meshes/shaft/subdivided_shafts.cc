@@ -33,6 +33,21 @@ std::vector<meshes::Shaft> shafts() {
   return result;
 }
 
+// Of what lies away from the arcs, with as many cells on them and around.
+TEST(LeanShafts, HaveFewerCellsAndTheSameSurfaces) {
+  for (const auto& shaft : {laboratory_shaft(), planetary_drum(), grooved_shaft()}) {
+    meshes::ShaftMeshControl control;
+    control.cells_per_fillet_quarter = 4;
+    control.n_sectors = 8;
+    const auto usual = meshes::build_shaft(shaft, control, temporary_msh("usual"));
+    control.lean = true;
+    const auto lean = meshes::build_shaft(shaft, control, temporary_msh("lean"));
+    EXPECT_LT(double(lean.quality.n_cells), 0.95 * double(usual.quality.n_cells));
+    EXPECT_EQ(lean.ports.size(), usual.ports.size());
+    EXPECT_EQ(lean.features.size(), usual.features.size());
+  }
+}
+
 TEST(Subdivision, KeepsValuesAndTheirOrder) {
   const std::vector<double> values{1, 1.1, 2, 2.05, 7};
   for (const int n : {1, 2, 3, 6}) {
