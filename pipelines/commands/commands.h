@@ -63,6 +63,9 @@ void add_calculix_command(CLI::App& app, ChosenCommand& chosen);
 /// `millstress report`: report.html of a result directory, anew.
 void add_report_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress init`: a commented scene that runs, for the user to change. Replaces nothing.
+void add_init_command(CLI::App& app, ChosenCommand& chosen);
+
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.
 void add_check_command(CLI::App& app, ChosenCommand& chosen);

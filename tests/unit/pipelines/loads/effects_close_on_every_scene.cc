@@ -51,7 +51,7 @@ void make_coarse(Scene& scene) {
 /// A shipped scene, coarse, with the meshes of its bodies: they do not depend on its effects.
 struct Shipped {
   explicit Shipped(const std::string& name) : text(results_test::bytes(folder() / name)) {
-    fs::copy(folder() / "belt_pull.csv", at / "belt_pull.csv");
+    for (const char* input : {"belt_pull.csv", "part.step"}) fs::copy(folder() / input, at / input);
     scene = read(scene_text("\"all\"")).value();
     shared::start_fem();
     meshes = std::make_unique<ScratchMeshes>(scene);
