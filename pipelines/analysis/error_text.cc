@@ -34,7 +34,7 @@ std::string remedy_of_calculation(const std::string& source, const Search& searc
     return "give the difference of the loads that cancel as one load; no mesh lowers it";
   if (search.steps.empty()) return "--tolerance \"5 %\"";
   if (search.met) return "a smaller --tolerance";
-  if (search.ended == "the time is up") return "more time (--time-limit)";
+  if (search.time_was_up()) return "more time (--time-limit)";
   return "another mesh, since " + search.ended;
 }
 

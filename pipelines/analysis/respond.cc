@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "fem/ranks/helper_ranks.h"
+#include "pipelines/files/content_hash.h"
 #include "pipelines/responses/iteration_memory.h"
 #include "pipelines/responses/response_files.h"
 #include "pipelines/responses/response_key.h"
@@ -62,14 +63,13 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
   return {std::move(responses), false, std::move(warnings)};
 }
 
-void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
-                    const RunOptions& options, StageClock& clock) {
-  if (analysis.responses_reused) return;
-  clock.run("write", [&] {
-    const auto key = key_of(meshed, analysis.loads, to_fem_planes(meshed.mesh.sections), body.solver,
-                            threads(options.n_threads));
-    write_unit_responses(kept_responses(options), key, analysis.responses);
-  });
+std::string keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+                           const RunOptions& options, StageClock& clock) {
+  const auto key = key_of(meshed, analysis.loads, to_fem_planes(meshed.mesh.sections), body.solver,
+                          threads(options.n_threads));
+  if (!analysis.responses_reused)
+    clock.run("write", [&] { write_unit_responses(kept_responses(options), key, analysis.responses); });
+  return text_hash(key);
 }
 
 }  // namespace pipelines

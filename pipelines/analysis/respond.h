@@ -20,8 +20,9 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
                const RunOptions& options, StageClock& clock);
 
 /// Leaves the unit responses in unit_responses.h5 for the next run.
-void keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
-                    const RunOptions& options, StageClock& clock);
+/// @return text_hash of the key that they are kept under
+std::string keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+                           const RunOptions& options, StageClock& clock);
 
 /// So many threads, or as many as the machine has where the number is not positive.
 int threads(int wanted);

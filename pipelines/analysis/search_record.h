@@ -30,6 +30,8 @@ struct Search {
   std::string ended;                ///< why no further step was taken
   double next_seconds = 0;          ///< what the next step was predicted to take; 0: none was planned
   std::vector<SearchStep> steps{};  ///< none: the scene's own mesh, once
+
+  bool time_was_up() const { return ended == "the time is up"; }
 };
 
 }  // namespace pipelines

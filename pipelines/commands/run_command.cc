@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,18 +13,21 @@
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/analysis/respond.h"
 #include "pipelines/commands/option_value.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/files/replaceable.h"
 #include "pipelines/loads/load_files.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/pictures/picture.h"
 #include "pipelines/report/envelope_files.h"
 #include "pipelines/report/html_report.h"
 #include "pipelines/report/results.h"
+#include "pipelines/report/run_record.h"
 #include "pipelines/report/staged_results.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/report/torsion_report.h"
@@ -44,29 +48,56 @@ struct RunCommandOptions : SceneOptions {
 
 /// The envelope as a picture that marks the governing stress; a machine that cannot draw gets a line instead.
 /// @param envelope  the .vtu
-void draw(const std::filesystem::path& envelope, const std::filesystem::path& directory,
-          const std::string& title, const BodyAnalysis& analysis) {
+/// @return the line; empty if it is drawn
+std::string draw(const std::filesystem::path& envelope, const std::filesystem::path& directory,
+                 const std::string& title, const BodyAnalysis& analysis) {
   const auto stress = governing_stress(analysis);
   PictureOptions options;
   options.scale = 1e-6;
   options.excluded = excluded_field;
   options.mark = PictureMark{stress.position_m, fmt::format("{} {} MPa\n{}", stress.name(),
                                                             fixed(stress.value_Pa / 1e6, 1), stress.place)};
-  if (!write_picture(envelope, pictured_field(analysis),
-                     title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle", "MPa",
-                     directory / "envelope.png", options))
-    std::cerr << "no picture: this machine offers no EGL (package libegl1); envelope.vtu opens in ParaView\n";
+  return write_picture(envelope, pictured_field(analysis),
+                       title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle",
+                       "MPa", directory / "envelope.png", options)
+             ? ""
+             : "no picture: this machine offers no EGL (package libegl1); envelope.vtu opens in ParaView";
 }
 
-void finish_run(const RunCommandOptions& options, std::ostream& out, const std::filesystem::path& directory,
-                StagedResults& staged, const RunReport& content) {
-  write_text_file(staged.folder() / "summary.json", summary_json(content));
-  write_html_report(staged.folder(), directory / "accuracy");
-  staged.publish();
-  if (options.json)
-    out << summary_json(content);
+/// What is asked for, and where the results go.
+struct Request {
+  const RunCommandOptions& options;
+  std::ostream& out;
+  const std::filesystem::path& directory;
+  RequestedAccuracy accuracy;
+  std::string key;  ///< run_key
+};
+
+void print(const Request& request, const std::string& summary, const std::string& table) {
+  if (request.options.json)
+    request.out << summary;
   else
-    print_report(out, content);
+    request.out << table << "\n  results in " << request.directory.string() << '\n';
+}
+
+std::string table_of(const RunReport& content, const std::optional<TorsionReport>& torsion) {
+  std::ostringstream table;
+  print_report(table, content);
+  if (torsion) print_torsion(table, content.scene, *torsion);
+  return table.str();
+}
+
+/// @param record  but for its table; without a key: this run is not to be taken for a later one
+void finish_run(const Request& request, StagedResults& staged, const RunReport& content,
+                const std::optional<TorsionReport>& torsion, RunRecord record) {
+  const auto summary = summary_json(content);
+  write_text_file(staged.folder() / "summary.json", summary);
+  write_html_report(staged.folder(), request.directory / "accuracy");
+  record.table = table_of(content, torsion);
+  if (!are_as_noted(noted_inputs())) record.key.clear();
+  write_run_record(staged.folder(), record);
+  staged.publish();
+  print(request, summary, record.table);
 }
 
 RequestedAccuracy requested_accuracy_of(const RunCommandOptions& options, const Scene& scene) {
@@ -105,20 +136,16 @@ std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machi
   return torsion;
 }
 
-void run_load_stage(const RunCommandOptions& options, std::ostream& out, const Scene& given,
-                    const std::filesystem::path& directory, StageClock& clock) {
-  const double tolerance = requested_accuracy_of(options, given).tolerance;
-  const Scene scene = with_effects_chosen(given, {}, negligible_share(tolerance));
+void run_load_stage(const Request& request, const Scene& given, StageClock& clock) {
+  const Scene scene = with_effects_chosen(given, {}, negligible_share(request.accuracy.tolerance));
   const auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
-  StagedResults staged(directory, {});
+  StagedResults staged(request.directory, {});
   warn_of_earlier(staged);
   clock.run("write", [&] { write_load_results(staged.folder(), loads, {}); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
-  finish_run(options, out, directory, staged, {scene, loads, {}, {}, clock.costs(), lives});
-  if (options.json) return;
-  if (torsion) print_torsion(out, scene, *torsion);
-  out << "\n  results in " << directory.string() << '\n';
+  finish_run(request, staged, {scene, loads, {}, {}, clock.costs(), lives}, torsion,
+             {request.key, {}, {}, ""});
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.
@@ -142,47 +169,67 @@ void warn_of_damage(SceneRun& run) {
     std::cerr << "millstress: " << fault << '\n';
 }
 
-void run_bodies(const RunCommandOptions& options, std::ostream& out, const Scene& scene,
-                const std::filesystem::path& directory, StageClock& clock) {
-  const auto accuracy = with_default(requested_accuracy_of(options, scene));
+void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
+  const auto& options = request.options;
+  const auto accuracy = with_default(request.accuracy);
   const FemEnvironment environment(options.n_threads);
-  StagedResults staged(directory, body_names(scene));
+  StagedResults staged(request.directory, body_names(scene));
   warn_of_earlier(staged);
-  auto run = run_scene(scene, {directory, options.n_threads, options.fresh, true, accuracy}, clock);
+  auto run = run_scene(scene, {request.directory, options.n_threads, options.fresh, true, accuracy}, clock);
   warn_of_damage(run);
   learn_from(run);
   if (accuracy.by_default) warn_of_default(run);
   const auto& loads = run.loaded.loads;
   const auto channels = run.loaded.channels();
+  RunRecord record{run.met() && run.is_repeatable() ? request.key : "", run.kept_under, {}, ""};
   for (const auto& analysis : run.analyses) {
     const auto place = staged.folder() / analysis.scene.name;
     const int n_ranks = fem::n_ranks(MPI_COMM_WORLD);
     clock.run("write", [&] { write_body_results(place, run.scene, loads, analysis, n_ranks); });
     if (!scene.pictures) continue;
-    clock.run("pictures", [&] {
+    const auto fault = clock.run("pictures", [&] {
       if (n_ranks == 1) return draw(place / "envelope.vtu", place, scene.title, analysis);
       const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
       write_whole_envelope(whole.temporary(), run.scene, loads, analysis);
-      draw(whole.temporary(), place, scene.title, analysis);
+      return draw(whole.temporary(), place, scene.title, analysis);
     });
+    if (fault.empty()) continue;
+    std::cerr << fault << '\n';
+    record.warnings.push_back(fault);
   }
   clock.run("write", [&] { write_load_results(staged.folder(), loads, channels); });
   const Scene reported = with_machine(run.scene, run.loaded.masses.machine);
   const auto torsion = torsion_of(reported, reported.machine, staged.folder(), clock);
-  finish_run(options, out, directory, staged,
-             {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings});
-  if (!options.json && torsion) print_torsion(out, reported, *torsion);
-  if (!options.json) out << "\n  results in " << directory.string() << '\n';
+  finish_run(request, staged,
+             {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings},
+             torsion, std::move(record));
   if (!run.met() && !accuracy.by_default)
     throw ToleranceNotMet("the tolerance is not met; the results are kept");
+}
+
+/// Prints what the last run printed, if this one would be the same and its results are there, whole.
+bool is_unchanged(const Request& request, const Scene& scene) {
+  if (request.options.fresh) return false;
+  const auto earlier = earlier_run(request.directory, body_names(scene), request.key);
+  if (!earlier) return false;
+  for (const auto& warning : earlier->record.warnings) std::cerr << warning << '\n';
+  if (request.options.verbosity() != Verbosity::quiet)
+    std::cerr << "unchanged since the last run: nothing was computed (--fresh computes anew)\n";
+  print(request, earlier->summary, earlier->record.table);
+  return true;
 }
 
 void run(const RunCommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene, options.settings);
   scene.method = requested_method(options.method, scene);
   const auto directory = results_directory(options.output, scene);
+  const auto accuracy = requested_accuracy_of(options, scene);
+  const Request request{
+      options, out, directory, accuracy,
+      run_key(scene, accuracy, threads(options.n_threads), fem::n_ranks(MPI_COMM_WORLD), noted_inputs())};
+  if (is_unchanged(request, scene)) return;
   StageClock clock(progress_on_stderr(options.verbosity()));
-  (scene.bodies.empty() ? run_load_stage : run_bodies)(options, out, scene, directory, clock);
+  (scene.bodies.empty() ? run_load_stage : run_bodies)(request, scene, clock);
 }
 
 }  // namespace
@@ -199,7 +246,8 @@ void add_run_command(CLI::App& app, ChosenCommand& chosen) {
                       "stop refining in time, like \"60 s\" (default: the scene's)");
   command->add_option("--method", options->method,
                       "model of every body: auto, beam, axisymmetric or solid (default: the scene's)");
-  command->add_flag("--fresh", options->fresh, "reuse nothing of an earlier run");
+  command->add_flag("--fresh", options->fresh,
+                    "reuse nothing of an earlier run, and compute even if nothing has changed");
   command->add_flag("--json", options->json, "print summary.json instead of the table");
   command->callback(to_choose(chosen, options, run));
 }

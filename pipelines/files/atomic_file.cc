@@ -81,6 +81,18 @@ std::filesystem::path partial_name(const std::filesystem::path& target) {
   return directory / (start + std::to_string(getpid()) + "-" + std::to_string(count++) + suffix);
 }
 
+void remove_partial_names(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  const std::string host = "." + host_name() + ".";
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
+    const auto name = entry.path().filename().string();
+    const auto at = name.rfind(host);
+    if (at != std::string::npos && at > 0 && name[0] == '.' &&
+        is_left_behind(name, name.substr(0, at + host.size())))
+      std::filesystem::remove_all(entry.path(), ignored);
+  }
+}
+
 void bring_to_disk(const std::filesystem::path& file_or_directory) {
   const int file = open(file_or_directory.c_str(), O_RDONLY | O_CLOEXEC);
   const bool failed = file < 0 || (fsync(file) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS);

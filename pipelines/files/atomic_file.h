@@ -46,6 +46,10 @@ private:
 /// @throws std::filesystem::filesystem_error if the directory cannot be made
 std::filesystem::path partial_name(const std::filesystem::path& target);
 
+/// Removes what processes of this machine that are gone have left in a directory under such names, whatever
+/// the target.
+void remove_partial_names(const std::filesystem::path& directory);
+
 /// Waits until a file's content, or a directory's names, are on the disk.
 /// @throws FileError if that fails; file systems that cannot tell are believed
 void bring_to_disk(const std::filesystem::path& file_or_directory);

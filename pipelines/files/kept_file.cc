@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t n_digits = 32;
 const std::string key_title = "\nmillstress key ", content_title = " content ";
 
-std::string start_of_line(std::string_view key) {
-  return key_title + text_hash(key) + content_title;
+std::string start_of_line(std::string_view key_hash) {
+  return key_title + std::string(key_hash) + content_title;
 }
 
 std::string read_end(const std::filesystem::path& file, std::uintmax_t size, std::size_t n_bytes) {
@@ -33,17 +33,20 @@ void append_checksum(const std::filesystem::path& file, std::string_view key) {
     out.close();
     if (!out) throw FileError(file.string() + ": cannot be written; check the directory and the free space");
   };
-  append(start_of_line(key));
+  append(start_of_line(text_hash(key)));
   append(content_hash(file) + "\n");
 }
 
 KeptFile check_kept_file(const std::filesystem::path& file, std::string_view key) {
+  return check_kept_file_of(file, text_hash(key));
+}
+
+KeptFile check_kept_file_of(const std::filesystem::path& file, std::string_view key_hash) {
   std::error_code none;
   const auto status = std::filesystem::status(file, none);
   if (status.type() == std::filesystem::file_type::not_found) return KeptFile::missing;
   if (status.type() != std::filesystem::file_type::regular) return KeptFile::damaged;
-  const auto expected = start_of_line(key);
-  const std::size_t line = expected.size() + n_digits + 1;
+  const std::size_t start = key_title.size() + n_digits + content_title.size(), line = start + n_digits + 1;
   const auto size = std::filesystem::file_size(file, none);
   if (none || size < line) return KeptFile::damaged;
   const auto end = read_end(file, size, line);
@@ -51,11 +54,10 @@ KeptFile check_kept_file(const std::filesystem::path& file, std::string_view key
       end.compare(key_title.size() + n_digits, content_title.size(), content_title) != 0 ||
       end.back() != '\n')
     return KeptFile::damaged;
-  if (end.compare(0, expected.size(), expected) != 0) return KeptFile::other_key;
+  if (!key_hash.empty() && end.compare(0, start, start_of_line(key_hash)) != 0) return KeptFile::other_key;
   try {
-    return content_hash(file, size - n_digits - 1) == end.substr(expected.size(), n_digits)
-               ? KeptFile::whole
-               : KeptFile::damaged;
+    return content_hash(file, size - n_digits - 1) == end.substr(start, n_digits) ? KeptFile::whole
+                                                                                  : KeptFile::damaged;
   } catch (const FileError&) {  // unreadable, or cut meanwhile
     return KeptFile::damaged;
   }

@@ -22,6 +22,10 @@ void append_checksum(const std::filesystem::path& file, std::string_view key);
 /// Reads the whole file if the key fits.
 KeptFile check_kept_file(const std::filesystem::path& file, std::string_view key);
 
+/// The same for a key of which only its text_hash is known.
+/// @param key_hash  empty: any key will do
+KeptFile check_kept_file_of(const std::filesystem::path& file, std::string_view key_hash);
+
 /// For the user: what a damaged file is called, and what becomes of it.
 std::string damaged_file_text(const std::filesystem::path& file);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/files/content_hash.h"
 
 namespace pipelines {
 namespace {
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 /// The one list of the process: whoever writes has to heed it, whichever stage has read.
 struct Inputs {
   std::mutex mutex;
-  std::vector<fs::path> files;
+  std::vector<NotedInput> files;
 };
 
 Inputs& inputs() {
@@ -26,7 +27,18 @@ bool is_input(const fs::path& file) {
   std::error_code ignored;
   const std::lock_guard<std::mutex> lock(inputs().mutex);
   return std::any_of(inputs().files.begin(), inputs().files.end(),
-                     [&](const fs::path& input) { return fs::equivalent(input, file, ignored); });
+                     [&](const NotedInput& input) { return fs::equivalent(input.file, file, ignored); });
+}
+
+/// Of a pipe nothing is read: what was taken from it would be missing later.
+std::string hash_or_nothing(const fs::path& file) {
+  std::error_code none;
+  if (!fs::is_regular_file(file, none)) return "";
+  try {
+    return content_hash(file);
+  } catch (const FileError&) {
+    return "";
+  }
 }
 
 std::string kind_of_file(fs::file_type type) {
@@ -55,7 +67,21 @@ void note_input(const fs::path& file) {
   if (unknown) whole = file;
   const std::lock_guard<std::mutex> lock(inputs().mutex);
   auto& files = inputs().files;
-  if (std::find(files.begin(), files.end(), whole) == files.end()) files.push_back(std::move(whole));
+  if (std::any_of(files.begin(), files.end(), [&](const NotedInput& input) { return input.file == whole; }))
+    return;
+  auto hash = hash_or_nothing(whole);
+  files.push_back({std::move(whole), std::move(hash)});
+}
+
+std::vector<NotedInput> noted_inputs() {
+  const std::lock_guard<std::mutex> lock(inputs().mutex);
+  return inputs().files;
+}
+
+bool are_as_noted(const std::vector<NotedInput>& inputs) {
+  return std::all_of(inputs.begin(), inputs.end(), [](const NotedInput& input) {
+    return !input.hash.empty() && hash_or_nothing(input.file) == input.hash;
+  });
 }
 
 std::string why_not_replaceable(const fs::path& file) {

@@ -252,7 +252,7 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
 
 }  // namespace
 
-void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
+std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
   const auto file = directory / "summary.json";
   if (std::error_code none; !std::filesystem::exists(file, none))
     throw OptionError(file.string() +
@@ -270,7 +270,11 @@ void write_html_report(const std::filesystem::path& directory, const std::filesy
   } catch (const nlohmann::json::exception& error) {
     refuse(error.what());
   }
-  write_text_file(directory / "report.html", page);
+  return page;
+}
+
+void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
+  write_text_file(directory / "report.html", html_report(directory, accuracy));
 }
 
 }  // namespace pipelines

@@ -8,6 +8,7 @@
 #include "pipelines/files/json_file.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/report/manifest.h"
+#include "pipelines/report/run_record.h"
 
 namespace pipelines {
 namespace {
@@ -18,7 +19,8 @@ const std::string summary_name = "summary.json";
 const std::string torsion_folder = "torsion";
 
 bool is_run_file(const std::string& name) {
-  return contains({summary_name, "report.html", "loads.h5", "loads.csv", manifest_name}, name);
+  return contains({summary_name, "report.html", "loads.h5", "loads.csv", manifest_name, run_record_name},
+                  name);
 }
 
 bool is_torsion_file(const std::string& name) {

@@ -1,15 +1,12 @@
 #include "pipelines/report/staged_results.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <set>
 
 #include "pipelines/common/name_lists.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/replaceable.h"
+#include "pipelines/report/directory_lock.h"
 #include "pipelines/report/manifest.h"
 #include "pipelines/report/result_names.h"
 
@@ -21,24 +18,6 @@ namespace fs = std::filesystem;
 fs::path complete_folder(const fs::path& directory) {
   return directory / ".results.complete";
 }
-
-/// Two runs that end at the same time exchange one after the other. A file system without locks is used
-/// without.
-class DirectoryLock {
-public:
-  explicit DirectoryLock(const fs::path& directory)
-      : file_(open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (file_ >= 0) flock(file_, LOCK_EX);
-  }
-  ~DirectoryLock() {
-    if (file_ >= 0) close(file_);
-  }
-  DirectoryLock(const DirectoryLock&) = delete;
-  DirectoryLock& operator=(const DirectoryLock&) = delete;
-
-private:
-  int file_;
-};
 
 /// Every file below a folder, relative to it, in a fixed order with the manifest last.
 std::vector<std::string> files_below(const fs::path& folder) {

@@ -179,7 +179,8 @@ private:
 
   void finish(std::size_t i, BodyAnalysis& analysis) {
     if (options_.keep && !is_without_mesh(i))
-      keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
+      run_.kept_under[run_.scene.bodies[i].name] =
+          keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
     add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
     if (analysis.vibration)
       if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
@@ -476,6 +477,11 @@ SceneRun::~SceneRun() = default;
 
 bool SceneRun::met() const {
   return std::all_of(analyses.begin(), analyses.end(), [](const auto& a) { return a.search.met; });
+}
+
+bool SceneRun::is_repeatable() const {
+  return std::all_of(analyses.begin(), analyses.end(),
+                     [](const auto& a) { return !a.search.time_was_up() && a.warnings.empty(); });
 }
 
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
@@ -26,7 +28,8 @@ struct SceneRunOptions {
 struct SceneRun {
   Scene scene;  ///< with the meshes, instants and harmonics that were chosen
   LoadedScene loaded;
-  std::vector<BodyAnalysis> analyses;  ///< in the order of Scene::bodies, or of the only body
+  std::vector<BodyAnalysis> analyses;             ///< in the order of Scene::bodies, or of the only body
+  std::map<std::string, std::string> kept_under;  ///< of bodies with kept unit responses: hash of their key
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   SceneRun();
@@ -38,6 +41,10 @@ struct SceneRun {
 
   /// False if a tolerance was asked for and is not reached.
   bool met() const;
+
+  /// Whether another run of the same would end alike: it was not the time that ended a search, and no damaged
+  /// file of an earlier run, mended since, is told of in the results.
+  bool is_repeatable() const;
 };
 
 /// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the

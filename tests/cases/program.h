@@ -88,8 +88,8 @@ Outcome outcome_of(const Start& start, int status);
 /// costs.json with the checksum that the program asks for: of the other keys, as compact text.
 std::string with_checksum(nlohmann::ordered_json costs);
 
-/// Every file below a directory with its bytes; summary.json and report.html without their timing,
-/// manifest.json without the checksum of that.
+/// Every file below a directory with its bytes; summary.json, run.json and report.html without their timing,
+/// manifest.json without the checksums of that.
 std::map<std::string, std::string> contents(const fs::path& directory);
 
 nlohmann::json summary(const fs::path& results);

@@ -36,6 +36,7 @@ Json without_warnings(const std::string& text) {
 /// That the results are the wanted ones but for the warning that something was damaged.
 void expect_same_figures(const faults::Files& found, const faults::Files& wanted, const std::string& what) {
   for (const auto& [name, bytes] : wanted) {
+    if (name == "run.json") continue;  // results that tell of damage are not those of the same run later
     ASSERT_EQ(found.count(name), 1u) << what << ": " << name;
     if (name == "summary.json") {
       EXPECT_EQ(without_warnings(found.at(name)), without_warnings(bytes)) << what;
@@ -58,6 +59,7 @@ TEST_F(Flips, InWhatIsKeptChangeNoResult) {
   for (const auto& file : {responses, costs})
     for (long i = 0; i < n && !HasFailure(); ++i) {
       const auto what = change(file);
+      faults::fs::remove(directory_ / "out/run.json");  // else nothing is computed, and nothing kept is read
       const auto again = run_next();
       EXPECT_EQ(again.exit_code, 0) << what << again.err;
       EXPECT_EQ(std::count(again.err.begin(), again.err.end(), '\n'), 1) << what << again.err;

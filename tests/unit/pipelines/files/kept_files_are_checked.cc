@@ -42,6 +42,20 @@ TEST(KeptFile, IsBelievedUnderItsKeyAlone) {
   EXPECT_EQ(check_kept_file(at / "foreign", "key"), KeptFile::damaged);
 }
 
+TEST(KeptFile, IsWholeForWhoKnowsTheHashOfTheKeyAlone) {
+  const Directory at;
+  EXPECT_EQ(check_kept_file_of(at / "a", ""), KeptFile::missing);
+  write_kept(at / "a", "content", "key");
+  EXPECT_EQ(check_kept_file_of(at / "a", text_hash("key")), KeptFile::whole);
+  EXPECT_EQ(check_kept_file_of(at / "a", text_hash("another key")), KeptFile::other_key);
+  EXPECT_EQ(check_kept_file_of(at / "a", ""), KeptFile::whole) << "any key";
+  auto changed = bytes(at / "a");
+  changed[2] = 'x';
+  std::ofstream(at / "a", std::ios::binary) << changed;
+  EXPECT_EQ(check_kept_file_of(at / "a", ""), KeptFile::damaged);
+  EXPECT_EQ(check_kept_file_of(at / "a", text_hash("key")), KeptFile::damaged);
+}
+
 // A bit of every byte, every length, and bytes behind. Only within the hash of the key a flip
 // makes it a file of another key, which is not believed either.
 TEST(KeptFile, NoChangedBitAndNoLengthIsBelieved) {

@@ -11,6 +11,7 @@
 
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/files/content_hash.h"
 #include "pipelines/files/hdf5_file.h"
 #include "pipelines/files/kept_file.h"
 #include "pipelines/files/replaceable.h"
@@ -77,6 +78,29 @@ TEST(Replaceable, AnInputStaysUnderEveryNameItHas) {
                                              ": is an input of this run, and is not replaced; give --csv a "
                                              "new name, or move it away");
   }
+}
+
+// A run whose input changes while it computes has results of neither. A pipe is not read for its hash: what
+// was taken from it would be missing later.
+TEST(Replaceable, InputsAreNotedWithTheirContent) {
+  const Directory at;
+  std::ofstream(at / "a.csv") << "1";
+  ASSERT_EQ(mkfifo((at / "pipe").c_str(), 0600), 0);
+  const auto n_before = noted_inputs().size();
+  for (const char* name : {"a.csv", "a.csv", "pipe", "missing"}) note_input(at / name);
+  const auto noted = noted_inputs();
+  ASSERT_EQ(noted.size(), n_before + 3);
+  const auto input = noted[n_before];
+  EXPECT_EQ(input.file, at / "a.csv");
+  EXPECT_EQ(input.hash, text_hash("1"));
+  EXPECT_EQ(noted[n_before + 1].hash, "");
+  EXPECT_EQ(noted[n_before + 2].hash, "");
+  EXPECT_TRUE(are_as_noted({input}));
+  EXPECT_FALSE(are_as_noted({input, noted[n_before + 2]}));
+  std::ofstream(at / "a.csv") << "2";
+  EXPECT_FALSE(are_as_noted({input}));
+  fs::remove(at / "a.csv");
+  EXPECT_FALSE(are_as_noted({input}));
 }
 
 TEST(AtomicFile, RefusesAFileWithoutItsEnd) {

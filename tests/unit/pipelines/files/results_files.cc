@@ -70,6 +70,32 @@ TEST(AtomicFile, AKilledProcessHarmsNothingAndTheNextWriteCleansUp) {
   EXPECT_EQ(n_entries(at.path), 2U);  // the file, and the one still being written
 }
 
+// Whatever the killed process was writing goes, whole folders too; what a living one writes stays, and so
+// does what only looks alike.
+TEST(AtomicFile, WhatKilledProcessesLeftIsRemovedWhateverTheTarget) {
+  const Directory at;
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    for (const char* name : {"a.vtu", "b.c.h5"})
+      std::ofstream(partial_name(at / name)) << "half" << std::flush;
+    std::filesystem::create_directories(partial_name(at / "results") / "shaft");
+    raise(SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_EQ(n_entries(at.path), 3U);
+  const AtomicFile of_a_living_process(at / "a.vtu");
+  std::ofstream(of_a_living_process.temporary()) << "half";
+  for (const char* name : {".partial", ".a.vtu.partial", ".a.elsewhere.1-0.partial", "zones.csv"})
+    std::ofstream(at / name) << "mine";
+  EXPECT_EQ(n_entries(at.path), 7U) << "the living one's name has removed one already";
+  remove_partial_names(at.path);
+  EXPECT_EQ(n_entries(at.path), 5U);
+  EXPECT_TRUE(std::filesystem::exists(of_a_living_process.temporary()));
+  remove_partial_names(at / "nowhere");
+}
+
 TEST(AtomicFile, NamesTheFileThatCannotBeWritten) {
   const Directory at;
   std::filesystem::create_directories(at / "taken/inside");
