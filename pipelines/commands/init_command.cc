@@ -54,7 +54,7 @@ void require_missing(const fs::path& file, const std::string& remedy) {
 
 /// A name as a shell takes it.
 std::string quoted_name(const fs::path& file) {
-  const auto text = file.string();
+  auto text = file.string();
   const bool is_plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || std::string("._-/+,").find(char(c)) != std::string::npos;
   });

@@ -97,7 +97,7 @@ TEST(UnchangedRuns, AnyChangeOfInputsOrOptionsComputesAnew) {
   const auto scene = directory / "scene.toml", table = directory / "pull.csv";
   write(scene, samples(directory.path));
   const auto run = [&](const std::string& options) {
-    const auto outcome = millstress(directory.path, "run scene.toml -o out " + options);
+    auto outcome = millstress(directory.path, "run scene.toml -o out " + options);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return outcome;
   };
