@@ -16,6 +16,7 @@
 #include "fem/axisymmetric/meridian_mesh.h"
 #include "fem/axisymmetric/meridian_numbering.h"
 #include "fem/values/constants.h"
+#include "fem/values/errors.h"
 
 namespace fem {
 namespace {
@@ -214,8 +215,11 @@ private:
       auto& p = grid_.cell_points.back().back();
       p.weight = inside.JxW(q);
       if (!(p.weight > 0))
-        throw std::invalid_argument("section: the cell at z = " + std::to_string(cell->center()[0]) +
-                                    ", r = " + std::to_string(cell->center()[1]) + " m is inverted");
+        throw MeshUnusable(
+            "the section has an inverted cell near z = " + std::to_string(cell->center()[0]) +
+            ", r = " + std::to_string(cell->center()[1]) +
+            " m: its fillet is too small for the cells beside it; take more cells on its quarter or "
+            "another fillet");
       volume_m3 += 2 * pi * p.r_m * p.weight;
     }
   }

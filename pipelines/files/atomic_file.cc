@@ -40,9 +40,9 @@ bool is_gone(pid_t process) {
   return end != std::string::npos && text.compare(end, 3, ") Z") == 0;
 }
 
+/// Also what a library wrote beside a temporary name, with an ending of its own behind it.
 bool is_left_behind(const std::string& name, const std::string& start) {
-  if (name.size() <= start.size() + suffix.size() || name.compare(0, start.size(), start) != 0 ||
-      name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
+  if (name.compare(0, start.size(), start) != 0 || name.find(suffix, start.size()) == std::string::npos)
     return false;
   const long process = std::strtol(name.c_str() + start.size(), nullptr, 10);
   return process > 0 && is_gone(static_cast<pid_t>(process));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 namespace faults {
 
@@ -99,14 +101,15 @@ std::string DisturbedRuns::failing(const std::string& kind, long at) const {
          (directory_ / "cache").string() + "' FAULTS_KIND=" + kind + " FAULTS_AT=" + std::to_string(at);
 }
 
-long DisturbedRuns::count_operations() const {
+std::string DisturbedRuns::operations() const {
   restore();
   const auto count = directory_ / "operations";
   const auto outcome = run_next(failing("count", 0) + " FAULTS_COUNT='" + count.string() + "'");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto n = long(fs::file_size(count));
+  std::ifstream in(count, std::ios::binary);
+  const std::string letters{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   fs::remove(count);
-  return n;
+  return letters;
 }
 
 bool DisturbedRuns::same(const Files& found, const Files& wanted) const {

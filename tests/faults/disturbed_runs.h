@@ -39,8 +39,9 @@ protected:
   /// The shell's commands that make the disk fail (failing_disk.cc).
   std::string failing(const std::string& kind, long at) const;
 
-  /// How many operations on the disk an undisturbed run takes, from the earlier results on.
-  long count_operations() const;
+  /// The operations on the disk that an undisturbed run takes, from the earlier results on: of each its
+  /// letter (failing_disk.cc).
+  std::string operations() const;
 
   /// The earlier results are whole, or the next ones; a report can be made of them; and the next run ends
   /// with what an undisturbed one has, nothing more and nothing less.

@@ -2,15 +2,17 @@
 /// that changes something below the directories named, and fails from one of them on, or kills the process
 /// there.
 ///
-///     FAULTS_BELOW   absolute directories, separated by colons; nothing elsewhere is counted or touched
-///     FAULTS_KIND    count          nothing fails
-///                    once           operation no. FAULTS_AT fails with ENOSPC, those after it work
-///                    from           operation no. FAULTS_AT and all after it fail, as on a disk that stays
-///                    full short          a write is cut in half, and everything after it fails kill SIGKILL
-///                    before operation no. FAULTS_AT torn           SIGKILL after half of the write that is
-///                    operation no. FAULTS_AT bytes          fails as soon as FAULTS_AT bytes have been
-///                    written in all read_only      every operation fails with EROFS
-///     FAULTS_COUNT   a file that gets one byte for each operation
+/// - FAULTS_BELOW: absolute directories, separated by colons; nothing elsewhere is counted or touched.
+/// - FAULTS_COUNT: a file that gets one letter for each operation: w for a write, r for a removal, else c.
+/// - FAULTS_KIND and FAULTS_AT, the number of an operation from 0:
+///   - count: nothing fails.
+///   - once: that operation fails with ENOSPC, those after it work.
+///   - from: that operation and all after it fail, as on a disk that stays full.
+///   - short: a write is cut in half there, and everything after it fails.
+///   - kill: SIGKILL before that operation.
+///   - torn: SIGKILL after half of the write that it is.
+///   - bytes: writes fail as soon as FAULTS_AT bytes have been written in all.
+///   - read_only: every operation fails with EROFS.
 ///
 /// Operations are: to open for writing, to write, to bring to the disk, to close a stream, to cut, to rename,
 /// to make and remove files and folders. Removing does not fail for want of space, but a kill may come before
@@ -110,7 +112,12 @@ enum class Verdict { works, fails, half };
 Verdict judge(Operation operation, std::size_t size = 0) {
   const auto& all = faults();
   const long number = n_operations++;
-  if (all.count_file >= 0) next<ssize_t(int, const void*, std::size_t)>("write")(all.count_file, ".", 1);
+  if (all.count_file >= 0) {
+    const char* const letter = operation == Operation::write     ? "w"
+                               : operation == Operation::removal ? "r"
+                                                                 : "c";
+    next<ssize_t(int, const void*, std::size_t)>("write")(all.count_file, letter, 1);
+  }
   const bool takes_space = operation != Operation::removal;
   const auto fail = [&] {
     errno = all.kind == Kind::read_only ? EROFS : ENOSPC;
