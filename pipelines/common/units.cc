@@ -161,12 +161,38 @@ NumberAndRest split(const std::string& quantity, const std::string& si_unit) {
   return {number, rest};
 }
 
+/// From a unit as written to an SI unit.
+struct Conversion {
+  Converter converter;
+  double turns_to_radians = 1;
+
+  double operator()(double number) const {
+    return cv_convert_double(converter.get(), number) * turns_to_radians;
+  }
+};
+
+/// Of the texts that were read before: sweeps read a scene thousands of times. Not more than a scene has.
+std::map<std::pair<std::string, std::string>, Conversion>& known_conversions() {
+  static std::map<std::pair<std::string, std::string>, Conversion> known;
+  constexpr std::size_t most = 1000;
+  if (known.size() > most) known.clear();
+  return known;
+}
+
 }  // namespace
 
 double to_si(const std::string& quantity, const std::string& si_unit) {
   const auto [number, unit_text] = split(quantity, si_unit);
   static std::mutex mutex;  // the parser of udunits is not reentrant
   const std::lock_guard<std::mutex> lock(mutex);
+  const auto finite = [&](double value) {
+    if (!std::isfinite(value))
+      throw UnitError("is not finite in " + si_unit + "; write a number such as " + example(si_unit));
+    return value;
+  };
+  auto& known = known_conversions();
+  if (const auto conversion = known.find({unit_text, si_unit}); conversion != known.end())
+    return finite(conversion->second(number));
   ut_system* const system = unit_system();
   const Unit wanted(ut_parse(system, si_unit.c_str(), UT_UTF8));
   if (!wanted) throw std::logic_error("unknown SI unit \"" + si_unit + "\" in the program");
@@ -193,12 +219,10 @@ double to_si(const std::string& quantity, const std::string& si_unit) {
                       example(si_unit));
     turns_to_radians = 2 * 3.14159265358979323846;
   }
-  const Converter converter(ut_get_converter(unit.get(), wanted.get()));
+  Converter converter(ut_get_converter(unit.get(), wanted.get()));
   if (!converter) throw UnitError("cannot be converted to " + si_unit + "; write " + example(si_unit));
-  const double value = cv_convert_double(converter.get(), number) * turns_to_radians;
-  if (!std::isfinite(value))
-    throw UnitError("is not finite in " + si_unit + "; write a number such as " + example(si_unit));
-  return value;
+  Conversion conversion{std::move(converter), turns_to_radians};
+  return finite(known.emplace(std::pair(unit_text, si_unit), std::move(conversion)).first->second(number));
 }
 
 double parse_ratio(const std::string& text) {

@@ -43,12 +43,45 @@ public:
   }
 
   const std::string& key() const { return key_; }
+  bool removes() const { return value_ == "removed"; }
+  /// The numbers of items on the way, to remove the last ones first.
+  std::vector<std::size_t> items() const {
+    std::vector<std::size_t> numbers;
+    for (const auto& part : parts_) numbers.push_back(part.item);
+    return numbers;
+  }
 
   void apply(TomlNode& root) const {
+    if (switches_effect(root)) return switch_effect(root);
     TomlNode* node = &root;
     for (std::size_t i = 0; i + 1 < parts_.size(); ++i) node = &step(*node, i, parts_[i + 1].item > 0);
     TomlNode& target = step(*node, parts_.size() - 1, false);
     target = value();
+  }
+
+  void remove(TomlNode& root) const {
+    TomlNode* node = &root;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const Part& part = parts_[i];
+      const bool is_last = i + 1 == parts_.size();
+      if (part.item > 0) {
+        TomlNode& item = step(*node, i, false);
+        if (is_last) {
+          node->items.erase(node->items.begin() + std::ptrdiff_t(part.item - 1));
+          return;
+        }
+        node = &item;
+        continue;
+      }
+      const auto entry = std::find_if(node->entries.begin(), node->entries.end(),
+                                      [&](const TomlEntry& e) { return e.key == part.name; });
+      if (entry == node->entries.end()) refuse("cannot be removed: the scene has no " + up_to(i));
+      if (is_last) {
+        node->entries.erase(entry);
+        return;
+      }
+      node = &entry->value;
+    }
   }
 
   [[noreturn]] void refuse(const std::string& remedy) const {
@@ -56,6 +89,35 @@ public:
   }
 
 private:
+  /// effects.NAME: one of the list.
+  bool switches_effect(const TomlNode& root) const {
+    return parts_.size() == 2 && parts_[0].name == "effects" && parts_[1].item == 0 && root.find("effects");
+  }
+
+  void switch_effect(TomlNode& root) const {
+    const auto entry = std::find_if(root.entries.begin(), root.entries.end(),
+                                    [](const TomlEntry& e) { return e.key == "effects"; });
+    TomlNode& effects = entry->value;
+    if (effects.kind != TomlNode::Kind::array)
+      refuse("effects is " + effects.as_written + " in the scene; list them there, or set effects whole");
+    const bool on = value_ == "on" || value_ == "true";
+    if (!on && value_ != "off" && value_ != "false") refuse("write on or off");
+    const auto named = std::find_if(effects.items.begin(), effects.items.end(), [&](const TomlNode& item) {
+      return item.kind == TomlNode::Kind::text && item.text == parts_[1].name;
+    });
+    const bool is_on = named != effects.items.end();
+    if (on && !is_on) {
+      TomlNode effect;
+      effect.kind = TomlNode::Kind::text;
+      effect.text = parts_[1].name;
+      effect.as_written = '"' + effect.text + "\" (by --set)";
+      effects.items.push_back(effect);
+    } else if (!on) {
+      if (!is_on) refuse("effects does not have it; check the name");
+      effects.items.erase(named);
+    }
+  }
+
   void split() {
     std::string name;
     const auto end_name = [&] {
@@ -142,11 +204,19 @@ private:
 
 void set_keys(TomlNode& root, const std::vector<std::string>& settings, const std::filesystem::path& file) {
   std::set<std::string> keys;
+  std::vector<Setting> removals;
   for (const auto& text : settings) {
     const Setting setting(text, file);
     if (!keys.insert(setting.key()).second) setting.refuse("sets the key again; set it once");
-    setting.apply(root);
+    if (setting.removes())
+      removals.push_back(setting);
+    else
+      setting.apply(root);
   }
+  // Of one array the last item first: numbers are those of the file.
+  std::stable_sort(removals.begin(), removals.end(),
+                   [](const Setting& a, const Setting& b) { return a.items() > b.items(); });
+  for (const auto& removal : removals) removal.remove(root);
 }
 
 }  // namespace pipelines

@@ -16,6 +16,7 @@
 #include "pipelines/scene/scene_body.h"
 #include "pipelines/scene/scene_stages.h"
 #include "pipelines/scene/scene_table.h"
+#include "pipelines/scene/scene_tree.h"
 
 namespace pipelines {
 namespace {
@@ -43,7 +44,9 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
-TomlNode parse(const std::filesystem::path& file) {
+}  // namespace
+
+TomlNode read_scene_tree(const std::filesystem::path& file) {
   TomlNode root;
   try {
     root = parse_toml(read_text(file));
@@ -56,6 +59,8 @@ TomlNode parse(const std::filesystem::path& file) {
     refuse_file(file, "the scene is empty; begin with a copy of pipelines/scenes/vibratory_mill.toml");
   return root;
 }
+
+namespace {
 
 /// "vibratory_mill", "planetary_mill" ...
 std::string machine_types() {
@@ -71,7 +76,7 @@ void refuse_machine(SceneTable& root, SceneTable& machine, const std::string& ty
   else if (!type.empty())
     machine.refuse("type", "unknown machine; write one of " + machine_types());
   for (const char* key :
-       {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit", "method"})
+       {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit", "method", "sweep"})
     root.know(key);
   for (const auto* kind : body_kinds())
     for (const auto& table : kind->tables()) root.know(table);
@@ -88,7 +93,10 @@ void refuse_machine(SceneTable& root, SceneTable& machine, const std::string& ty
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings) {
-  TomlNode tree = parse(file);
+  return read_scene(file, read_scene_tree(file), settings);
+}
+
+Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::vector<std::string>& settings) {
   set_keys(tree, settings, file);
   SceneFindings findings;
   findings.file = file.string();
@@ -117,6 +125,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.bearings = read_bearings(root);
   scene.accuracy = read_requested_accuracy(root);
   scene.method = read_method(root, scene);
+  root.know("sweep");  // for the command of that name (sweep/sweep_request.h)
   scene.zones = read_zones(root.table_or_empty("zones"));
   read_results(root.table_or_empty("results"), scene);
   root.finish();

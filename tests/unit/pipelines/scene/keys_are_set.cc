@@ -48,12 +48,39 @@ TEST(KeySettings, AddTablesThatTheFileLeavesOut) {
   EXPECT_EQ(root.find("a")->value.find("k")->value.text, "v");
 }
 
+TEST(KeySettings, RemoveKeysAndItemsByTheirNumbersInTheFile) {
+  pipelines::TomlNode root =
+      pipelines::parse_toml("a = 1\nb = \"removed\"\n[[list]]\nx = 1\n[[list]]\nx = 2\n[[list]]\nx = 3\n");
+  pipelines::set_keys(root,
+                      {"list[1]=removed", "list[3].x=4", "list[2]=removed", "a=removed", "b=\"removed\""},
+                      "scene.toml");
+  EXPECT_EQ(root.find("a"), nullptr);
+  EXPECT_EQ(root.find("b")->value.text, "removed");
+  const auto& list = root.find("list")->value.items;
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].find("x")->value.integer, 4);
+}
+
+TEST(KeySettings, SwitchSingleEffects) {
+  const auto scene =
+      pipelines::read_scene(shipped, {"effects.spring_damping=off", "effects.charge_lag = on"});
+  EXPECT_FALSE(scene.has_effect("spring_damping"));
+  EXPECT_TRUE(scene.has_effect("charge_lag"));
+  EXPECT_NE(refusal_of_settings({"effects.spring_dampin=off"}).find("effects does not have it"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_settings({"effects.spring_dampin=on"}).find("spring_dampin"), std::string::npos);
+  EXPECT_NE(refusal_of_settings({"effects.springs=3"}).find("write on or off"), std::string::npos);
+}
+
 TEST(KeySettings, ThatLeadNowhereAreRefused) {
   std::string long_key = "a";
   for (int i = 0; i < 50'000; ++i) long_key += ".a";
   const std::vector<std::pair<Settings, std::string>> cases{
       {{"machine.drive.speed"}, "is no setting"},
       {{"machine.drive.speed= "}, "has no value"},
+      {{"machine.springs[3]=removed"}, "has 2 items"},
+      {{"machine.nothing=removed"}, "has no machine.nothing"},
+      {{"machine.drive.speed.x.y=removed"}, "has no machine.drive.speed.x"},
       {{"=3"}, "is no setting"},
       {{"machine..drive=3"}, "empty name"},
       {{".machine=3"}, "empty name"},
