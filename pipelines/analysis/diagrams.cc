@@ -68,6 +68,8 @@ void refer_to(ElasticLine& line, const std::vector<double>& z_m) {
   }
 }
 
+}  // namespace
+
 std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitResponses& responses,
                                        const meshes::BodyMesh& mesh) {
   const std::size_t n_channels = responses.channels.size();
@@ -88,8 +90,6 @@ std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitRe
   }
   return rings;
 }
-
-}  // namespace
 
 Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& responses,
                           const meshes::BodyMesh& mesh, const meshes::Shaft& geometry, double density_kg_m3,

@@ -65,6 +65,10 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
                           const meshes::BodyMesh& mesh, const meshes::Shaft& geometry, double density_kg_m3,
                           const std::vector<std::string>& references);
 
+/// Of all rings of the responses, which section_diagrams has as well.
+std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitResponses& responses,
+                                       const meshes::BodyMesh& mesh);
+
 /// The ring with the largest torsional stress; null if there is none.
 const TorsionRing* largest_torsion_ring(const Diagrams& diagrams);
 

@@ -91,7 +91,7 @@ int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place) {
   return analysis.scene.shaft()->mesh.cells_at(int(fillet - names.begin()));
 }
 
-std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
+std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool with_submodels) {
   const auto& maximum = analysis.envelope.von_mises;
   auto places =
       largest_by_feature(analysis.responses.nodes, maximum.value_Pa, analysis.mesh.features, analysis.places);
@@ -108,7 +108,7 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis) {
       if (cells < cells_that_converge) place.least_error_Pa = wanting_Pa;
     }
   }
-  ask_submodels(analysis, largest_Pa, places);
+  if (with_submodels) ask_submodels(analysis, largest_Pa, places);
   const auto toes = weld_toes(analysis);
   places.insert(places.end(), toes.begin(), toes.end());
   return places;

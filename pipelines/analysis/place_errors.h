@@ -18,7 +18,8 @@ constexpr int cells_that_converge = 6;
 /// says enough. A fillet with few cells has an error that says so: half of its stress with 2 cells on its
 /// quarter, 15 % with 4, 4 % with more (the largest found on 60 random shafts, `tests/benchmarks/run
 /// promises`, are 31, 10 and 3 %). Below cells_that_converge it keeps that error, however well meshes agree.
-std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis);
+/// @param with_submodels  of tetrahedra: whether submodels tell the errors of places that may lead
+std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool with_submodels = true);
 
 /// Enters what is known of the places into the error budget of the governing stress: its own error as the
 /// entry `discretisation`, and as `other_places` by how much another place with its error exceeds it with its

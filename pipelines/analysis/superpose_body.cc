@@ -108,4 +108,25 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
   return analysis;
 }
 
+BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, BodyLoads loads,
+                               Envelope leading) {
+  analysis.loads = std::move(loads);
+  analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
+  require_closure(analysis.scene.name, analysis.closure);
+  analysis.envelope = std::move(leading);
+  require_finite(analysis.scene.name, analysis.envelope);
+  analysis.peak = headline(analysis);
+  analysis.zones = {};
+  analysis.diagrams.reset();
+  const auto before = std::move(analysis.hot_spots);
+  analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
+  const bool resolved =
+      std::any_of(before.begin(), before.end(), [](const auto& spot) { return spot.resolved != nullptr; });
+  if (resolved)
+    resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
+                      analysis.hot_spots, before);
+  estimate_errors(analysis);
+  return analysis;
+}
+
 }  // namespace pipelines

@@ -21,4 +21,14 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                             BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
                             KnownBefore known = {});
 
+/// An analysis under other loads on the same responses: loads, closure, envelope, peak, hot spots and what
+/// they state of their own errors are new; zones, diagrams and the error for load patches, which need the
+/// stress everywhere, are left out.
+/// @param loads    with the channels of the analysis, in their order
+/// @param leading  what matters of the envelope: of each place that may lead the largest stress, zero or the
+///                 stress at other nodes
+/// @throws LoadsDoNotClose as superpose_body; NotFinite
+BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, BodyLoads loads,
+                               Envelope leading);
+
 }  // namespace pipelines

@@ -48,6 +48,10 @@ void add_springs_command(CLI::App& app, ChosenCommand& chosen);
 /// `millstress extremes`: a vibratory mill's loads over all angles of drive and charge.
 void add_extremes_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress sweep`: many operating points as one table. The directory defaults to
+/// results/<scene's name>_sweep.
+void add_sweep_command(CLI::App& app, ChosenCommand& chosen);
+
 /// `millstress accuracy`: error against seconds on every model, from beam to solid, as table, CSV, HDF5
 /// and chart. The directory defaults to results/<scene's name>; files go into its folder accuracy.
 void add_accuracy_command(CLI::App& app, ChosenCommand& chosen);

@@ -14,6 +14,7 @@
 #include "pipelines/loads/load_files.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/loads/load_statistics.h"
+#include "pipelines/pictures/load_charts.h"
 #include "pipelines/report/summary.h"
 
 namespace pipelines {
@@ -54,8 +55,10 @@ kinetics::LoadHistory loads_of(Scene& scene, StageClock& clock) {
 }
 
 void require_outputs(const LoadsCommandOptions& options) {
-  auto all = output_files("--statistics", options.statistics,
-                          {"statistics.csv", "harmonics.csv", "polar.csv", "spectrum.csv"});
+  auto all = output_files(
+      "--statistics", options.statistics,
+      {"statistics.csv", "harmonics.csv", "polar.csv", "spectrum.csv", "histories.png", "histories.svg",
+       "polar.png", "polar.svg", "harmonics.png", "harmonics.svg", "rainflow.png", "rainflow.svg"});
   if (!options.calculix.empty())
     for (const char* end : {"_amplitudes.inp", "_loads.inp"})
       all.push_back({"--calculix", options.calculix.string() + end});
@@ -86,10 +89,13 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   const auto lives = bearing_lives(bearings, history, {});
   if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, history); });
   if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, history); });
-  if (!options.statistics.empty())
-    clock.run("write", [&] {
-      write_statistics(options.statistics, history, scene.run_up ? 0 : scene.sampling.turns);
-    });
+  std::vector<std::string> charts;
+  if (!options.statistics.empty()) {
+    const int turns = scene.run_up ? 0 : scene.sampling.turns;
+    clock.run("write", [&] { write_statistics(options.statistics, history, turns); });
+    charts = clock.run("charts",
+                       [&] { return write_load_charts(options.statistics, scene.title, history, turns); });
+  }
   if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, history); });
   const RunReport content{scene, history, {}, {}, clock.costs(), lives};
   if (options.json) {
@@ -97,6 +103,7 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   } else {
     print_report(out, content);
     print_effects_of_bodies(out, scene);
+    print_files(out, options.statistics, charts);
   }
 }
 
@@ -107,8 +114,9 @@ void add_loads_command(CLI::App& app, ChosenCommand& chosen) {
   auto* command = add_scene_command(app, "loads", "the load stage alone", *options);
   command->add_option("-o,--output", options->output, "write the load history to this HDF5 file");
   command->add_option("--csv", options->csv, "write the load history to this CSV file");
-  command->add_option("--statistics", options->statistics,
-                      "write extremes, harmonics, polar plots and load spectra to this directory");
+  command->add_option(
+      "--statistics", options->statistics,
+      "write extremes, harmonics, polar plots and load spectra to this directory, as tables and charts");
   command->add_option("--calculix", options->calculix,
                       "write PREFIX_amplitudes.inp and PREFIX_loads.inp for CalculiX");
   command->add_flag("--json", options->json, "print the summary as JSON instead of the table");

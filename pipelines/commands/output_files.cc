@@ -1,5 +1,7 @@
 #include "pipelines/commands/output_files.h"
 
+#include <ostream>
+
 #include "pipelines/common/errors.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/loads/load_files.h"
@@ -42,6 +44,14 @@ void require_own_loads(const OutputFile& output) {
   throw OptionError(output.option + ' ' + output.file.string() +
                     ": is there already, and holds no loads that this program has written; give " +
                     output.option + " a new name, or move it away");
+}
+
+void print_files(std::ostream& out, const std::filesystem::path& directory,
+                 const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  out << "\n  ";
+  for (std::size_t i = 0; i < names.size(); ++i) out << (i > 0 ? ", " : "") << names[i];
+  out << " in " << directory.string() << '\n';
 }
 
 }  // namespace pipelines

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct OutputFile {
 /// given.
 std::vector<OutputFile> output_files(const std::string& option, const std::filesystem::path& directory,
                                      const std::vector<std::string>& names);
+
+/// The last line of a command: which charts it has written, and where. Nothing if there are none.
+void print_files(std::ostream& out, const std::filesystem::path& directory,
+                 const std::vector<std::string>& names);
 
 /// Call it after the scene was read: inputs are known then.
 /// @throws OptionError naming option, file and remedy if a file is there that must not be replaced

@@ -6,6 +6,7 @@
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/loads/machine_masses.h"
+#include "pipelines/pictures/load_charts.h"
 #include "pipelines/report/torsion_report.h"
 
 namespace pipelines {
@@ -26,15 +27,21 @@ Machine machine_with_masses(const Scene& scene) {
 void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene, options.settings);
   require_writable(output_files("-o", options.output,
-                                {"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv"}));
+                                {"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv",
+                                 "campbell.png", "campbell.svg", "modes.png", "modes.svg"}));
   const TorsionReport report = report_torsion(scene, machine_with_masses(scene));
-  if (!options.output.empty()) write_torsion_files(options.output, scene, report);
+  std::vector<std::string> charts;
+  if (!options.output.empty()) {
+    write_torsion_files(options.output, scene, report);
+    charts = write_torsion_charts(options.output, scene, report);
+  }
   if (options.json) {
     out << torsion_json(scene, report);
     return;
   }
   print_torsion(out, scene, report);
   for (const auto& warning : scene.warnings) out << "  warning: " << warning << '\n';
+  print_files(out, options.output, charts);
 }
 
 }  // namespace

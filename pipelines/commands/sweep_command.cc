@@ -1,0 +1,371 @@
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipelines/commands/option_value.h"
+#include "pipelines/commands/output_files.h"
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/common/fem_environment.h"
+#include "pipelines/common/several_ranks.h"
+#include "pipelines/files/replaceable.h"
+#include "pipelines/pictures/chart.h"
+#include "pipelines/responses/response_key.h"
+#include "pipelines/scene/scene_tree.h"
+#include "pipelines/sweep/sweep_files.h"
+#include "pipelines/sweep/sweep_request.h"
+#include "pipelines/sweep/sweep_run.h"
+
+namespace pipelines {
+namespace {
+
+struct SweepCommandOptions : SceneOptions {
+  std::vector<std::string> vary;  ///< none: the scene's
+  std::string design;             ///< empty: the scene's
+  int n_points = 0;               ///< 0: the scene's
+  long seed = -1;                 ///< negative: the scene's
+  std::filesystem::path output;
+  std::string tolerance, time_limit;
+  std::vector<std::string> figures;  ///< to print and draw; none: chosen
+  int n_threads = all_cores;
+  bool loads_only = false, fresh = false, json = false;
+};
+
+SweepRequest requested(const SweepCommandOptions& options, SweepRequest request) {
+  if (!options.vary.empty()) request.vary = options.vary;
+  if (!options.design.empty()) request.design = sweep_design(options.design);
+  if (options.n_points > 0) request.n_points = options.n_points;
+  if (options.seed >= 0) request.seed = std::uint64_t(options.seed);
+  return request;
+}
+
+/// All that a row depends on beside its settings, once a point was read.
+std::string journal_key(const SweepCommandOptions& options, const RequestedAccuracy& accuracy,
+                        int n_threads) {
+  std::string key = program_fingerprint() + '\n';
+  for (const auto& input : noted_inputs()) key += input.file.string() + ' ' + input.hash + '\n';
+  for (const auto& setting : options.settings) key += setting + '\n';
+  return key + fmt::format("{} {} {} {} {}", options.loads_only, accuracy.tolerance, accuracy.time_limit_s,
+                           accuracy.once, n_threads);
+}
+
+void tell_forecast(const SweepForecast& forecast, std::size_t n_known) {
+  std::string text =
+      fmt::format("millstress: {} point{}", forecast.n_points, forecast.n_points == 1 ? "" : "s");
+  if (n_known > 0) text += fmt::format(", {} known from the sweep before", n_known);
+  for (const auto& body : forecast.bodies)
+    text += fmt::format("; {}: {} mesh{}, {} solution{}", body.name, body.n_meshes,
+                        body.n_meshes == 1 ? "" : "es", body.n_solutions, body.n_solutions == 1 ? "" : "s");
+  std::cerr << text << '\n';
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// The figures that are shown: those named, governing stresses, or else the largest forces of the first
+/// point.
+std::vector<std::string> shown_figures(const std::vector<std::string>& named,
+                                       const std::vector<SweepRow>& rows) {
+  std::vector<std::string> governing;
+  std::set<std::string> known;
+  std::vector<SweepFigure> forces;
+  for (const auto& row : rows)
+    for (const auto& figure : row.figures) {
+      if (!known.insert(figure.name).second) continue;
+      if (ends_with(figure.name, ".governing")) governing.push_back(figure.name);
+      if (figure.unit == "N" && ends_with(figure.name, ".max")) forces.push_back(figure);
+    }
+  for (const auto& name : named)
+    if (known.count(name) == 0)
+      throw OptionError("--figure " + name + ": the sweep has no such figure; sweep.csv has their names");
+  if (!named.empty()) return named;
+  if (!governing.empty()) return governing;
+  constexpr std::size_t most_forces = 4;
+  std::stable_sort(forces.begin(), forces.end(),
+                   [](const auto& a, const auto& b) { return a.value > b.value; });
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(most_forces, forces.size()); ++i) names.push_back(forces[i].name);
+  return names;
+}
+
+std::string unit_of(const std::vector<SweepRow>& rows, const std::string& figure) {
+  for (const auto& row : rows)
+    for (const auto& f : row.figures)
+      if (f.name == figure) return f.unit;
+  return "";
+}
+
+/// Stresses in MPa, all else in SI.
+double scale_of(const std::string& unit) {
+  return unit == "Pa" ? 1e-6 : 1;
+}
+std::string shown_unit(const std::string& unit) {
+  return unit == "Pa" ? "MPa" : unit;
+}
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
+void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<SweepRow>& rows,
+                  const std::vector<std::string>& figures) {
+  constexpr std::size_t most_lines = 60;
+  std::vector<std::vector<std::string>> lines(1);
+  lines.front().push_back("point");
+  for (const auto& variation : plan.variations) lines.front().push_back(variation.key);
+  for (const auto& figure : figures) {
+    lines.front().push_back(with_unit(figure, shown_unit(unit_of(rows, figure))));
+    if (!std::isnan(rows.front().figure(figure + ".error"))) lines.front().push_back("+-");
+  }
+  const bool with_errors = lines.front().size() > 1 + plan.variations.size() + figures.size();
+  for (std::size_t p = 0; p < rows.size() && p < most_lines; ++p) {
+    lines.push_back({std::to_string(p + 1)});
+    for (const auto& value : plan.points[p].values) lines.back().push_back(value);
+    if (!rows[p].refused.empty()) {
+      lines.back().push_back("refused: " + rows[p].refused.substr(0, rows[p].refused.find('\n')));
+      continue;
+    }
+    for (const auto& figure : figures) {
+      const double scale = scale_of(unit_of(rows, figure));
+      lines.back().push_back(fmt::format("{:.6g}", scale * rows[p].figure(figure)));
+      if (with_errors)
+        lines.back().push_back(fmt::format("{:.2g}", scale * rows[p].figure(figure + ".error")));
+    }
+  }
+  std::vector<std::size_t> widths;
+  for (const auto& line : lines)
+    for (std::size_t c = 0; c < line.size() && c < lines.front().size(); ++c) {
+      if (c == widths.size()) widths.push_back(0);
+      if (line[c].rfind("refused", 0) != 0) widths[c] = std::max(widths[c], line[c].size());
+    }
+  for (const auto& line : lines) {
+    std::string text = " ";
+    for (std::size_t c = 0; c < line.size(); ++c) text += fmt::format(" {:>{}}", line[c], widths[c]);
+    out << text << '\n';
+  }
+  if (rows.size() > most_lines) out << fmt::format("  ... {} more in sweep.csv\n", rows.size() - most_lines);
+}
+
+/// The point where each figure is largest, and how to look at it.
+void print_extremes(std::ostream& out, const SweepCommandOptions& options, const SweepPlan& plan,
+                    const std::vector<SweepRow>& rows, const std::vector<std::string>& figures) {
+  for (const auto& figure : figures) {
+    std::optional<std::size_t> largest;
+    for (std::size_t p = 0; p < rows.size(); ++p)
+      if (const double value = rows[p].figure(figure); !std::isnan(value))
+        if (!largest || value > rows[*largest].figure(figure)) largest = p;
+    if (!largest) continue;
+    const auto unit = unit_of(rows, figure);
+    out << fmt::format("\n  {} is largest at point {}: {:.6g} {}\n", figure, *largest + 1,
+                       scale_of(unit) * rows[*largest].figure(figure), shown_unit(unit));
+    std::string settings;
+    for (const auto* all : {&options.settings, &plan.points[*largest].settings})
+      for (const auto& setting : *all) settings += " --set \"" + setting + '"';
+    out << "  millstress " << (options.loads_only ? "loads " : "run ") << options.scene.string() << settings
+        << '\n';
+  }
+}
+
+/// A curve per figure over one key: of a grid, for all values of the other keys (up to six curves); of other
+/// designs the points where this key was varied, as marks.
+LineChart line_chart(const std::string& title, const SweepPlan& plan, const std::vector<SweepRow>& rows,
+                     const std::vector<std::string>& figures, std::size_t k, SweepDesign design) {
+  LineChart chart;
+  chart.title = title;
+  const auto& variation = plan.variations[k];
+  chart.x = {with_unit(variation.key, variation.unit), variation.range && variation.range->is_logarithmic};
+  chart.y.title = shown_unit(unit_of(rows, figures.front()));
+  constexpr std::size_t most_curves = 6;
+  for (const auto& figure : figures) {
+    const double scale = scale_of(unit_of(rows, figure));
+    std::map<std::vector<std::string>, std::size_t> curves;  // by the other keys' values
+    for (std::size_t p = 0; p < rows.size(); ++p) {
+      const double x = plan.points[p].numbers[k], y = scale * rows[p].figure(figure);
+      if (std::isnan(x) || std::isnan(y)) continue;
+      std::vector<std::string> others;
+      if (design == SweepDesign::grid)
+        for (std::size_t other = 0; other < plan.variations.size(); ++other)
+          if (other != k) others.push_back(plan.points[p].values[other]);
+      auto curve = curves.find(others);
+      if (curve == curves.end()) {
+        if (chart.curves.size() >= most_curves) continue;
+        std::string name = figure;
+        for (const auto& value : others) name += ", " + value;
+        curve = curves.emplace(others, chart.curves.size()).first;
+        chart.curves.push_back({name, {}, {}, {}, design != SweepDesign::latin_hypercube});
+      }
+      auto& drawn = chart.curves[curve->second];
+      drawn.x.push_back(x);
+      drawn.y.push_back(y);
+      if (const double error = scale * rows[p].figure(figure + ".error"); !std::isnan(error))
+        drawn.error.push_back(error);
+    }
+  }
+  return chart;
+}
+
+HeatMap heat_map(const std::string& title, const SweepPlan& plan, const std::vector<SweepRow>& rows,
+                 const std::string& figure) {
+  HeatMap map;
+  const auto& along = plan.variations[1];
+  const auto& up = plan.variations[0];
+  const auto unit = unit_of(rows, figure);
+  map.title = title + ": " + with_unit(figure, shown_unit(unit));
+  map.x_title = with_unit(along.key, along.unit);
+  map.y_title = with_unit(up.key, up.unit);
+  map.figure_title = with_unit(figure, shown_unit(unit));
+  const auto labels = [](const Variation& variation) {
+    std::vector<std::string> texts;
+    for (const double number : variation.numbers) texts.push_back(fmt::format("{:.4g}", number));
+    return texts.empty() ? variation.values : texts;
+  };
+  map.x_values = labels(along);
+  map.y_values = labels(up);
+  for (const auto& row : rows) map.figures.push_back(scale_of(unit) * row.figure(figure));
+  return map;
+}
+
+/// @return the files that were written
+std::vector<std::string> draw_charts(const std::filesystem::path& directory, const std::string& title,
+                                     const SweepPlan& plan, const std::vector<SweepRow>& rows,
+                                     const std::vector<std::string>& figures, SweepDesign design) {
+  std::vector<std::string> files;
+  const auto draw = [&](const auto& chart, const std::string& name) {
+    if (!write_chart(chart, directory / name)) {
+      std::cerr << "no chart: this machine offers no EGL (package libegl1); sweep.csv has the figures\n";
+      return;
+    }
+    files.push_back(name + ".png");
+    files.push_back(name + ".svg");
+  };
+  if (figures.empty()) return files;
+  const bool is_map = design == SweepDesign::grid && plan.variations.size() == 2 &&
+                      plan.variations[0].values.size() > 1 && plan.variations[1].values.size() > 1;
+  if (is_map)
+    for (std::size_t f = 0; f < std::min<std::size_t>(2, figures.size()); ++f)
+      draw(heat_map(title, plan, rows, figures[f]), f == 0 ? "map" : "map_" + std::to_string(f + 1));
+  std::vector<std::vector<std::string>> by_unit;  // one axis, one unit
+  for (const auto& figure : figures) {
+    const auto own = std::find_if(by_unit.begin(), by_unit.end(), [&](const auto& others) {
+      return unit_of(rows, others.front()) == unit_of(rows, figure);
+    });
+    own == by_unit.end() ? by_unit.push_back({figure}) : own->push_back(figure);
+  }
+  int n_charts = 0;
+  for (std::size_t k = 0; k < plan.variations.size(); ++k) {
+    if (!plan.variations[k].is_numeric()) continue;
+    for (const auto& of_unit : by_unit) {
+      const auto chart = line_chart(title, plan, rows, of_unit, k, design);
+      if (chart.curves.empty()) continue;
+      ++n_charts;
+      draw(chart, n_charts == 1 ? "chart" : "chart_" + std::to_string(n_charts));
+    }
+  }
+  return files;
+}
+
+void sweep(const SweepCommandOptions& options, std::ostream& out) {
+  if (started_on_several_ranks())
+    throw OptionError("sweep: runs on one rank, with --threads; start it without mpirun");
+  const auto tree = read_scene_tree(options.scene);
+  const auto request = requested(options, read_sweep_request(options.scene, tree));
+  const auto plan = plan_sweep(request);
+  const auto directory = options.output.empty()
+                             ? std::filesystem::path("results") / (options.scene.stem().string() + "_sweep")
+                             : options.output;
+  const Scene first = [&] {  // for what all points have alike
+    try {
+      return read_scene(options.scene, tree, options.settings);
+    } catch (const SceneError&) {
+      auto settings = options.settings;
+      const auto& own = plan.points.front().settings;
+      settings.insert(settings.end(), own.begin(), own.end());
+      return read_scene(options.scene, tree, settings);
+    }
+  }();
+  const auto accuracy = with_default(requested_search(options.tolerance, options.time_limit, first.accuracy));
+  StageClock clock(progress_on_stderr(options.verbosity()));
+  const bool loads_only = options.loads_only || first.bodies.empty();
+  SweepRun run({options.scene, tree, options.settings, directory, options.n_threads, loads_only,
+                options.fresh, accuracy},
+               plan.points);
+  require_writable(
+      output_files("-o", directory, {"sweep.csv", "sweep.h5", "journal", "chart.png", "map.png"}));
+  std::optional<FemEnvironment> environment;
+  if (!first.bodies.empty()) environment.emplace(options.n_threads);
+
+  SweepJournal journal(directory / "journal", journal_key(options, accuracy, options.n_threads));
+  auto known = options.fresh ? std::vector<std::optional<SweepRow>>(plan.points.size()) : journal.known(plan);
+  const auto n_known =
+      std::size_t(std::count_if(known.begin(), known.end(), [](const auto& row) { return row.has_value(); }));
+  if (!options.quiet) tell_forecast(run.forecast(), n_known);
+  if (run.has_chosen_effects())
+    std::cerr
+        << "millstress: effects = \"auto\" chooses by the point; a sweep has all of them on at every point\n";
+  journal.begin(plan, known);
+  const auto rows = run.run(clock, std::move(known),
+                            [&](const std::vector<std::size_t>& points, const std::vector<SweepRow>& all) {
+                              for (const auto p : points) journal.append(plan.points[p], all[p]);
+                              journal.flush();
+                            });
+  clock.run("write", [&] {
+    write_sweep_csv(directory / "sweep.csv", plan, rows);
+    write_sweep_h5(directory / "sweep.h5", plan, rows, first.title);
+  });
+  const auto figures = shown_figures(options.figures, rows);
+  const auto charts = clock.run(
+      "charts", [&] { return draw_charts(directory, first.title, plan, rows, figures, request.design); });
+  if (options.json) {
+    out << sweep_json(plan, rows);
+  } else {
+    print_points(out, plan, rows, figures);
+    print_extremes(out, options, plan, rows, figures);
+    const auto n_refused =
+        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return !row.refused.empty(); });
+    if (n_refused > 0)
+      out << fmt::format("\n  {} of {} points were refused: the column says why\n", n_refused, rows.size());
+    out << "\n  sweep.csv, sweep.h5";
+    for (const auto& file : charts) out << ", " << file;
+    out << " in " << directory.string() << '\n';
+  }
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<SweepCommandOptions>();
+  auto* command = add_scene_command(
+      app, "sweep", "many operating points over one mesh and one set of unit responses", *options);
+  command
+      ->add_option(
+          "--vary", options->vary,
+          "\"KEY = A..B UNIT / N [log]\" or \"KEY = V, V, V\"; may be repeated (default: the scene's)")
+      ->allow_extra_args(false);
+  command->add_option("--design", options->design,
+                      "grid, one-at-a-time or latin-hypercube (default: the scene's, or grid)");
+  command->add_option("--points", options->n_points, "of a Latin hypercube")->check(CLI::Range(2, 1'000'000));
+  command->add_option("--seed", options->seed, "of a Latin hypercube")->check(CLI::Range(0L, 1'000'000'000L));
+  command->add_flag("--loads", options->loads_only, "the load stage alone, microseconds a point");
+  command
+      ->add_option("--figure", options->figures,
+                   "to print and draw, a column of sweep.csv; may be repeated (default: governing stresses)")
+      ->allow_extra_args(false);
+  command->add_option("-o,--output", options->output, "result directory (default: results/<scene>_sweep)");
+  command->add_option("--tolerance", options->tolerance,
+                      "of every mesh that is searched, like \"2 %\" (default: the scene's)");
+  command->add_option("--time-limit", options->time_limit,
+                      "of every search, like \"60 s\" (default: the scene's)");
+  command->add_flag("--fresh", options->fresh, "reuse nothing of an earlier sweep");
+  command->add_flag("--json", options->json, "print the rows as JSON instead of the table");
+  add_threads_option(*command, options->n_threads, chosen);
+  command->callback(to_choose(chosen, options, sweep));
+}
+
+}  // namespace pipelines

@@ -1,0 +1,198 @@
+#include "pipelines/pictures/chart.h"
+
+#include <vtkAxis.h>
+#include <vtkChartHistogram2D.h>
+#include <vtkChartLegend.h>
+#include <vtkChartXY.h>
+#include <vtkColorLegend.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPen.h>
+#include <vtkPlot.h>
+#include <vtkPlotArea.h>
+#include <vtkPlotHistogram2D.h>
+#include <vtkPlotPoints.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSVGExporter.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipelines/common/errors.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/pictures/offscreen_window.h"
+#include "pipelines/pictures/picture_parts.h"
+
+namespace pipelines {
+namespace {
+
+constexpr int chart_width = 1200, chart_height = 800, title_size = 22, label_size = 18;
+
+/// After Okabe and Ito: told apart by hue and by lightness.
+constexpr std::array<std::array<unsigned char, 3>, 6> curve_colours{
+    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {110, 110, 110}}};
+
+void style(vtkAxis* axis, const ChartAxis& wanted) {
+  axis->SetTitle(wanted.title);
+  axis->SetLogScale(wanted.is_logarithmic);
+  plain(axis->GetTitleProperties(), label_size);
+  plain(axis->GetLabelProperties(), label_size - 2);
+}
+
+void style(vtkChart* chart, const std::string& title) {
+  chart->SetTitle(title);
+  plain(chart->GetTitleProperties(), title_size);
+}
+
+vtkDoubleArray* add_column(vtkTable* table, const char* name, const std::vector<double>& values) {
+  vtkNew<vtkDoubleArray> column;
+  column->SetName(name);
+  for (const double value : values) column->InsertNextValue(value);
+  table->AddColumn(column);
+  return column;
+}
+
+void write_svg(vtkRenderWindow* window, const std::filesystem::path& svg) {
+  AtomicFile file(svg);
+  vtkNew<vtkSVGExporter> exporter;
+  exporter->SetRenderWindow(window);
+  exporter->SetFileName(file.temporary().c_str());
+  exporter->Write();
+  file.commit();
+}
+
+/// Draws one chart.
+bool draw(vtkChart* chart, const std::filesystem::path& file, int width = chart_width) {
+  const auto window = make_offscreen_window();
+  if (!window) return false;
+  window->SetSize(width, chart_height);
+  window->SetMultiSamples(0);  // else letters have dashes below them
+  vtkNew<vtkContextActor> actor;
+  actor->GetScene()->AddItem(chart);
+  auto* const renderer = add_renderer(window.get(), 0, 0, 1, 1);
+  renderer->AddActor(actor);
+  actor->GetScene()->SetRenderer(renderer);
+  auto png = file, svg = file;
+  write_png(window.get(), png += ".png");
+  write_svg(window.get(), svg += ".svg");
+  return true;
+}
+
+/// The band between y less its error and y plus its error, then the curve.
+void add_curve(vtkChartXY* chart, const ChartCurve& curve, std::size_t i) {
+  const auto& colour = curve_colours[i % curve_colours.size()];
+  vtkNew<vtkTable> table;
+  add_column(table, "x", curve.x);
+  add_column(table, curve.name.c_str(), curve.y);
+  const bool is_line = curve.is_joined && curve.x.size() > 1;
+  if (curve.error.size() == curve.y.size() && is_line) {
+    std::vector<double> low, high;
+    for (std::size_t k = 0; k < curve.y.size(); ++k) {
+      low.push_back(curve.y[k] - curve.error[k]);
+      high.push_back(curve.y[k] + curve.error[k]);
+    }
+    add_column(table, "low", low);
+    add_column(table, "high", high);
+    auto* const band = vtkPlotArea::SafeDownCast(chart->AddPlot(vtkChart::AREA));
+    band->SetInputData(table);
+    band->SetInputArray(0, "x");
+    band->SetInputArray(1, "low");
+    band->SetInputArray(2, "high");
+    band->SetColor(colour[0], colour[1], colour[2], 50);
+    band->SetLabel(curve.name + ", stated error");
+  }
+  auto* const plot = chart->AddPlot(is_line ? vtkChart::LINE : vtkChart::POINTS);
+  plot->SetInputData(table, 0, 1);
+  plot->SetColor(colour[0], colour[1], colour[2], 255);
+  plot->SetWidth(curve.x.size() > 200 ? 1.5F : 2.5F);
+  auto* const points = vtkPlotPoints::SafeDownCast(plot);
+  points->SetMarkerStyle(curve.x.size() > 100 && is_line ? vtkPlotPoints::NONE : vtkPlotPoints::CIRCLE);
+  points->SetMarkerSize(8);
+}
+
+void put_labels(vtkAxis* axis, const std::string& title, const std::vector<std::string>& labels) {
+  style(axis, {title, false});
+  constexpr std::size_t most_labels = 12;
+  const std::size_t step = (labels.size() + most_labels - 1) / most_labels;
+  vtkNew<vtkDoubleArray> places;
+  vtkNew<vtkStringArray> texts;
+  for (std::size_t i = 0; i < labels.size(); i += step) {
+    places->InsertNextValue(double(i) + 0.5);
+    texts->InsertNextValue(labels[i]);
+  }
+  axis->SetCustomTickPositions(places, texts);
+  axis->SetRange(0, double(labels.size()));
+  axis->SetBehavior(vtkAxis::FIXED);
+}
+
+}  // namespace
+
+bool write_chart(const LineChart& chart, const std::filesystem::path& file) {
+  vtkNew<vtkChartXY> xy;
+  style(xy, chart.title);
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) add_curve(xy, chart.curves[i], i);
+  style(xy->GetAxis(vtkAxis::BOTTOM), chart.x);
+  style(xy->GetAxis(vtkAxis::LEFT), chart.y);
+  xy->SetShowLegend(chart.curves.size() > 1 || !chart.curves.front().error.empty());
+  plain(xy->GetLegend()->GetLabelProperties(), label_size - 2);
+  xy->GetLegend()->SetInline(chart.has_equal_scales);
+  if (!chart.has_equal_scales) return draw(xy, file);
+  double most = 0;
+  for (const auto& curve : chart.curves)
+    for (const auto* values : {&curve.x, &curve.y})
+      for (const double value : *values) most = std::max(most, std::abs(value));
+  for (const int side : {vtkAxis::BOTTOM, vtkAxis::LEFT}) {
+    xy->GetAxis(side)->SetBehavior(vtkAxis::FIXED);
+    xy->GetAxis(side)->SetRange(-1.1 * most, 1.1 * most);
+  }
+  return draw(xy, file, chart_height);
+}
+
+bool write_chart(const HeatMap& chart, const std::filesystem::path& file) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const double figure : chart.figures)
+    if (std::isfinite(figure)) {
+      least = std::min(least, figure);
+      most = std::max(most, figure);
+    }
+  if (!(least <= most)) least = most = 0;
+  if (least == most) most = least + std::max(1e-300, std::abs(least));
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(int(chart.x_values.size()), int(chart.y_values.size()), 1);
+  image->SetOrigin(0, 0, 0);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName(chart.figure_title.c_str());
+  for (const double figure : chart.figures) values->InsertNextValue(figure);
+  image->GetPointData()->SetScalars(values);
+  vtkNew<vtkColorTransferFunction> colours;  // of even lightness steps: dark blue, green, yellow
+  const std::array<std::array<double, 3>, 5> stops{{{0.267, 0.005, 0.329},
+                                                    {0.230, 0.322, 0.546},
+                                                    {0.128, 0.567, 0.551},
+                                                    {0.369, 0.789, 0.383},
+                                                    {0.993, 0.906, 0.144}}};
+  for (std::size_t i = 0; i < stops.size(); ++i)
+    colours->AddRGBPoint(least + (most - least) * double(i) / double(stops.size() - 1), stops[i][0],
+                         stops[i][1], stops[i][2]);
+  colours->SetNanColor(0.9, 0.9, 0.9);
+  colours->Build();
+  vtkNew<vtkChartHistogram2D> map;
+  style(map, chart.title);
+  map->SetInputData(image);
+  map->SetTransferFunction(colours);
+  put_labels(map->GetAxis(vtkAxis::BOTTOM), chart.x_title, chart.x_values);
+  put_labels(map->GetAxis(vtkAxis::LEFT), chart.y_title, chart.y_values);
+  style(map->GetAxis(vtkAxis::RIGHT), {chart.figure_title, false});
+  return draw(map, file);
+}
+
+}  // namespace pipelines

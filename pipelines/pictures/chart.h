@@ -1,0 +1,47 @@
+/// Charts of a few curves, or of one figure over two keys, by VTK's charts.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pipelines {
+
+struct ChartAxis {
+  std::string title;
+  bool is_logarithmic = false;
+};
+
+/// One curve; x ascending or not, as it is to be joined.
+struct ChartCurve {
+  std::string name;
+  std::vector<double> x, y;
+  std::vector<double> error;  ///< of y, drawn as a band; empty: none
+  bool is_joined = true;      ///< else marks alone
+};
+
+struct LineChart {
+  std::string title;
+  ChartAxis x, y;
+  std::vector<ChartCurve> curves;
+  bool has_equal_scales =
+      false;  ///< one unit is as long along x as along y, and both axes have zero in the middle
+};
+
+/// A figure at every pair of values.
+struct HeatMap {
+  std::string title;
+  std::string x_title, y_title, figure_title;
+  std::vector<std::string> x_values, y_values;  ///< as text, at equal distances
+  std::vector<double> figures;                  ///< x fastest; NaN: nothing is known there
+};
+
+/// Writes NAME.png and NAME.svg.
+/// @param file  without its extension
+/// @return false if the machine offers no EGL
+/// @throws FileError naming the file if it cannot be written
+bool write_chart(const LineChart& chart, const std::filesystem::path& file);
+bool write_chart(const HeatMap& chart, const std::filesystem::path& file);
+
+}  // namespace pipelines

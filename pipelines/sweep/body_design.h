@@ -1,0 +1,58 @@
+/// A body of a sweep that is meshed and solved, and what its unit responses tell of further points.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/search/scene_run.h"
+#include "pipelines/sweep/leading_stress.h"
+
+namespace pipelines {
+
+/// What is known of the error of a place, as a share of its stress.
+struct PlaceShare {
+  double judged = 0;  ///< by the search that found the mesh
+  double own = 0;     ///< by that mesh alone
+};
+
+class BodyDesign {
+public:
+  /// @param as_read  the body before a search chose its mesh
+  /// @param run      the body's analysis is moved out of it
+  BodyDesign(const BodyScene& as_read, SceneRun& run, std::size_t i_body);
+
+  /// The shares of another design on the same mesh, which a search has found.
+  void take_shares(const BodyDesign& searched) { shares_ = searched.shares_; }
+
+  /// Puts the mesh, harmonics and instants that were found into the scene of another point.
+  void enter(Scene& scene, std::size_t i_body) const;
+
+  const MeshedBody& meshed() const { return meshed_; }
+  const BodyAnalysis& analysis() const { return analysis_; }
+  /// Cheap models have no responses that serve other points: their bodies are run anew.
+  bool serves_other_points() const { return analysis_.method == Method::solid; }
+  /// Whether its unit responses are those of all these loads.
+  bool covers(const BodyLoads& loads) const;
+
+  /// The body under the loads of another point: leading stresses with their errors, no zones.
+  /// @param analysis  a copy of analysis(), used again and again
+  /// @param body      of the point, with the mesh entered
+  /// @param loads     that it covers
+  BodyAnalysis at_point(BodyAnalysis analysis, const BodyScene& body, BodyLoads loads) const;
+
+private:
+  BodyLoads with_all_channels(BodyLoads loads) const;
+
+  BodyScene found_;
+  int added_harmonics_ = 0, instants_per_turn_ = 0;
+  MeshedBody meshed_;
+  BodyAnalysis analysis_;
+  std::map<std::string, std::string> unit_loads_;  ///< as text, by channel
+  std::map<std::string, PlaceShare> shares_;
+  std::shared_ptr<const LeadingStress> leading_;  ///< none of cheap models
+};
+
+}  // namespace pipelines

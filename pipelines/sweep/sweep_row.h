@@ -1,0 +1,40 @@
+/// What a sweep keeps of one point: headline figures by name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kinetics/load_history.h"
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/loads/bearings.h"
+
+namespace pipelines {
+
+struct SweepFigure {
+  std::string name, unit;  ///< as in summary.json: "bodies.shaft.governing", "Pa"
+  double value = 0;
+};
+
+struct SweepRow {
+  std::string refused;  ///< why the point could not be computed; empty: it was
+  std::vector<SweepFigure> figures;
+  std::vector<std::pair<std::string, std::string>> texts;  ///< "bodies.shaft.governing.place" and the like
+
+  /// NaN if there is none.
+  double figure(const std::string& name) const;
+};
+
+/// "loads.<name>.max", ".min", ".mean", ".rms" of every quantity with statistics, and ".first" at the first
+/// instant; natural frequencies of a drive train; bearings' equivalent loads and lives.
+/// @param scene  with the masses that it left to a mesh
+void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHistory& loads,
+                      const std::vector<BearingResult>& bearings);
+
+/// "bodies.<name>": governing stress with its errors, safety, place, instant; peak, hot spot; the largest
+/// stress of every place that may govern; closure.
+/// @param torsion_Pa  largest torsional stress of a shaft, where it has one
+void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional<double> torsion_Pa);
+
+}  // namespace pipelines

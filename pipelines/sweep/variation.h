@@ -1,0 +1,42 @@
+/// A key of a scene that a sweep varies, and the values that it takes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pipelines {
+
+/// From `first` to `last`, in the variation's unit.
+struct ValueRange {
+  double first = 0, last = 0;
+  bool is_logarithmic = false;  ///< equal ratios instead of equal steps; both ends are positive
+};
+
+struct Variation {
+  std::string key;  ///< as in --set: dotted, items of arrays counted from 1
+  std::vector<std::string>
+      values;                   ///< as in --set; "kept": as the scene has it. Empty: a range without number
+  std::vector<double> numbers;  ///< the values, in `unit`; empty: they are no numbers of one unit
+  std::string unit;             ///< as written; empty: none
+  std::optional<ValueRange> range;
+
+  bool is_numeric() const { return range || !numbers.empty(); }
+  /// The text of --set for a number of the variation's unit.
+  std::string text_of(double number) const;
+};
+
+/// The value that leaves a key as the scene has it.
+inline constexpr const char* kept_value = "kept";
+
+/// Reads "KEY = VALUES". VALUES are
+///   A..B UNIT / N      N values at equal steps, both ends included
+///   A..B UNIT / N log  at equal ratios
+///   A..B UNIT          a range that a Latin hypercube draws from
+///   V, V, V UNIT       single values; a unit behind the last number is that of all. Brackets around them may
+///                      stand: [V, V]. A value is what --set takes: a text, a number, on, off, removed; or
+///                      kept
+/// @throws OptionError naming what is wrong and what to write
+Variation parse_variation(const std::string& text);
+
+}  // namespace pipelines

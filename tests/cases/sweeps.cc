@@ -1,0 +1,164 @@
+// Sweeps: every point is what a run by itself says, whatever is shared between points.
+#include "tests/cases/program.h"
+
+#include <fstream>
+#include <sstream>
+
+using namespace cases;
+
+namespace {
+
+/// A row's figures as sweep --json has them.
+nlohmann::json points_of(const fs::path& directory, const std::string& arguments,
+                         std::string* err = nullptr) {
+  const auto outcome = as_a_user(directory, "sweep " + arguments + " --json --threads 2");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  if (err != nullptr) *err = outcome.err;
+  return nlohmann::json::parse(outcome.out)["points"];
+}
+
+double figure(const nlohmann::json& point, const std::string& name) {
+  return point.at("figures").at(name).at("value");
+}
+
+/// The run of a point alone, on the same mesh.
+nlohmann::json alone(const fs::path& directory, const std::string& scene, const nlohmann::json& point) {
+  std::string arguments = "run " + scene + " -o alone";
+  for (const auto& [key, value] : point["keys"].items())
+    if (value != "kept") arguments += " --set '" + key + "=" + value.get<std::string>() + "'";
+  const auto outcome = millstress(directory, arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return summary(directory / "alone");
+}
+
+/// Sums over the channels in another order: rounding of some thirty terms that partly cancel.
+constexpr double same = 1e-10;
+
+void expect_same(const nlohmann::json& point, const nlohmann::json& run, const std::string& body) {
+  const auto& wanted = run["bodies"][body];
+  const auto near = [&](const std::string& name, double value) {
+    EXPECT_NEAR(figure(point, name), value, same * std::abs(value)) << name << point["keys"];
+  };
+  near("bodies." + body + ".governing", wanted["governing"]["value"]);
+  near("bodies." + body + ".peak_von_mises", wanted["peak_von_mises"]["value"]);
+  if (wanted.contains("torsion"))
+    near("bodies." + body + ".torsion.max_shear_stress", wanted["torsion"]["max_shear_stress"]["value"]);
+  near("bodies." + body + ".governing.safety", wanted["governing"]["safety_against_yield"]);
+  EXPECT_EQ(point["texts"]["bodies." + body + ".governing.place"], wanted["governing"]["feature"]);
+  // A single mesh states the same error of itself in both.
+  const double error = wanted["governing"]["error"]["numerical"];
+  EXPECT_NEAR(figure(point, "bodies." + body + ".governing.error"), error, 1e-6 * error);
+  for (const auto& [name, values] : run["loads"].items()) near("loads." + name + ".max", values["max"]);
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TEST(Sweeps, PointsOfAShaftAreRunsByThemselves) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  const auto points =
+      points_of(directory.path,
+                "mill.toml --tolerance none --vary 'machine.drive.speed = 1350..1600 rpm' "
+                "--vary 'machine.charge.mass = 16..20 kg' --design latin-hypercube --points 2");
+  ASSERT_EQ(points.size(), 2u);
+  for (const auto& point : points) expect_same(point, alone(directory.path, "mill.toml", point), "shaft");
+}
+
+// An effect that is off has no channels, so that another set of unit loads would be solved; other sectors are
+// another mesh; the yield strength is no part of either.
+TEST(Sweeps, EffectsMaterialsAndMeshesAreValuesLikeAnyOther) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  for (const char* vary : {"effects.charge_lag = on, off' --vary 'shaft.material.yield_strength = 250 MPa",
+                           "shaft.mesh.sectors = 8, 12"}) {
+    const auto points =
+        points_of(directory.path, std::string("mill.toml --tolerance none -o swept --vary '") + vary + "'");
+    ASSERT_EQ(points.size(), 2u) << vary;
+    for (const auto& point : points) expect_same(point, alone(directory.path, "mill.toml", point), "shaft");
+  }
+}
+
+TEST(Sweeps, ASpringMayBeTakenAway) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  const auto points =
+      points_of(directory.path, "mill.toml --loads --vary 'machine.springs[2] = kept, removed'");
+  ASSERT_EQ(points.size(), 2u);
+  const auto outcome = as_a_user(directory.path, "loads mill.toml --json --set 'machine.springs[2]=removed'");
+  if (outcome.exit_code != 0) {
+    EXPECT_FALSE(points[1].value("refused", "").empty());
+    return;
+  }
+  for (const auto& [name, values] : nlohmann::json::parse(outcome.out)["loads"].items())
+    EXPECT_EQ(figure(points[1], "loads." + name + ".max"), values["max"].get<double>()) << name;
+}
+
+TEST(Sweeps, OneRefusedPointIsToldAndKept) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  const auto points =
+      points_of(directory.path, "mill.toml --loads --vary 'machine.charge.mass = 20 kg, -1 kg, 15 kg'");
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_TRUE(points[0].contains("figures"));
+  EXPECT_NE(points[1]["refused"].get<std::string>().find("machine.charge.mass"), std::string::npos);
+  EXPECT_TRUE(points[2].contains("figures"));
+}
+
+// The last line of the journal is cut as by a kill, another is damaged: both are computed again, the others
+// not.
+TEST(Sweeps, ThatWereInterruptedGoOn) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  const std::string arguments =
+      "mill.toml --loads -o swept --vary 'machine.drive.speed = 1200..1600 rpm / 9'";
+  std::string err;
+  points_of(directory.path, arguments, &err);
+  EXPECT_EQ(err.find("known from"), std::string::npos) << err;
+  const auto table = bytes_of(directory / "swept/sweep.csv");
+  auto journal = bytes_of(directory / "swept/journal");
+  journal.resize(journal.size() - 20);
+  const auto third = journal.find('\n', journal.find('\n') + 1) + 200;
+  journal[third] = journal[third] == '1' ? '2' : '1';
+  write(directory / "swept/journal", journal);
+  fs::remove(directory / "swept/sweep.csv");
+  points_of(directory.path, arguments, &err);
+  EXPECT_NE(err.find("7 known from"), std::string::npos) << err;
+  EXPECT_EQ(bytes_of(directory / "swept/sweep.csv"), table);
+  write(directory / "mill.toml", shaft_alone(coarse()) + "\n# changed\n");
+  points_of(directory.path, arguments, &err);
+  EXPECT_EQ(err.find("known from"), std::string::npos) << err;
+}
+
+TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  for (const auto& [arguments, said] :
+       {std::pair<std::string, std::string>{"", "nothing is varied"},
+        {"--vary 'machine.drive.sped = 1, 2'", "unknown key; known here: eccentricity, speed"},
+        {"--vary 'machine.drive.speed = 1..2 rpm'", "how many values"},
+        {"--vary 'machine.drive.speed = 1, 2 rpm' --design best", "is no design"},
+        {"--vary 'machine.drive.speed = 1200, 1300 rpm' --loads --figure nothing", "has no such figure"},
+        {"--vary 'effects.gravty_charge = off, off'", "effects does not have it"}}) {
+    const auto outcome = as_a_user(directory.path, "sweep mill.toml " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(Sweeps, MayStandInTheScene) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()) +
+                                     "\n[sweep]\nvary = [\"machine.charge.mass = 10..20 kg\"]\n"
+                                     "design = \"latin-hypercube\"\npoints = 5\n");
+  EXPECT_EQ(points_of(directory.path, "mill.toml --loads").size(), 5u);
+  EXPECT_EQ(as_a_user(directory.path, "check mill.toml").exit_code, 0);
+  write(directory / "wrong.toml", shaft_alone(coarse()) + "\n[sweep]\nvary = [\"a = 1..2\"]\npoint = 5\n");
+  const auto outcome = as_a_user(directory.path, "sweep wrong.toml --loads");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("did you mean \"points\""), std::string::npos) << outcome.err;
+}
