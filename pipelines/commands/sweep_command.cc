@@ -13,6 +13,7 @@
 #include "pipelines/commands/option_value.h"
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
+#include "pipelines/common/failure.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/files/replaceable.h"
@@ -271,6 +272,15 @@ std::vector<std::string> draw_charts(const std::filesystem::path& directory, con
   return files;
 }
 
+/// Points whose governing stress is known less well than the tolerance asks.
+std::size_t n_known_worse(const std::vector<SweepRow>& rows, double tolerance) {
+  return std::size_t(std::count_if(rows.begin(), rows.end(), [&](const SweepRow& row) {
+    return std::any_of(row.figures.begin(), row.figures.end(), [&](const SweepFigure& f) {
+      return ends_with(f.name, ".governing") && row.figure(f.name + ".error") > tolerance * f.value;
+    });
+  }));
+}
+
 void sweep(const SweepCommandOptions& options, std::ostream& out) {
   if (started_on_several_ranks())
     throw OptionError("sweep: runs on one rank, with --threads; start it without mpirun");
@@ -302,6 +312,7 @@ void sweep(const SweepCommandOptions& options, std::ostream& out) {
   if (!first.bodies.empty()) environment.emplace(options.n_threads);
 
   SweepJournal journal(directory / "journal", journal_key(options, accuracy, options.n_threads));
+  journal.require_own();
   auto known = options.fresh ? std::vector<std::optional<SweepRow>>(plan.points.size()) : journal.known(plan);
   const auto n_known =
       std::size_t(std::count_if(known.begin(), known.end(), [](const auto& row) { return row.has_value(); }));
@@ -335,6 +346,14 @@ void sweep(const SweepCommandOptions& options, std::ostream& out) {
     for (const auto& file : charts) out << ", " << file;
     out << " in " << directory.string() << '\n';
   }
+  const auto n_worse = loads_only || accuracy.tolerance <= 0 ? 0 : n_known_worse(rows, accuracy.tolerance);
+  if (n_worse == 0) return;
+  const auto text = fmt::format(
+      "{} of {} points are known less well than {:g} %: a mesh that is searched for them "
+      "does better (run them by themselves, or begin the sweep at one of them)",
+      n_worse, rows.size(), 100 * accuracy.tolerance);
+  if (!accuracy.by_default) throw ToleranceNotMet(text + "; the results are kept");
+  std::cerr << "millstress: " << text << '\n';
 }
 
 }  // namespace

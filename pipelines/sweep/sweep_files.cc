@@ -180,6 +180,22 @@ std::string sweep_json(const SweepPlan& plan, const std::vector<SweepRow>& rows)
 SweepJournal::SweepJournal(std::filesystem::path file, std::string key)
     : file_(std::move(file)), key_(text_hash(key)) {}
 
+void SweepJournal::require_own() const {
+  std::error_code none;
+  const auto refuse = [](const std::filesystem::path& file) {
+    throw OptionError("-o: " + file.string() +
+                      " is there, but no sweep has written it; name another directory");
+  };
+  if (!std::filesystem::exists(file_, none)) {
+    for (const char* name : {"sweep.csv", "sweep.h5"})
+      if (const auto file = file_.parent_path() / name; std::filesystem::exists(file, none)) refuse(file);
+    return;
+  }
+  std::ifstream in(file_, std::ios::binary);
+  std::string line;
+  if (!std::getline(in, line) || checked(line).size() != digits_of_hash) refuse(file_);
+}
+
 std::vector<std::optional<SweepRow>> SweepJournal::known(const SweepPlan& plan) const {
   std::vector<std::optional<SweepRow>> rows(plan.points.size());
   std::ifstream in(file_, std::ios::binary);

@@ -30,6 +30,9 @@ public:
   /// @param key  of all that the rows depend on beside their settings
   SweepJournal(std::filesystem::path file, std::string key);
 
+  /// @throws OptionError if a file of that name is there that no sweep has written
+  void require_own() const;
+
   /// Rows of an earlier sweep with the same key, by point; none if there is no such journal.
   std::vector<std::optional<SweepRow>> known(const SweepPlan& plan) const;
   /// Begins the journal anew with the rows that are known.

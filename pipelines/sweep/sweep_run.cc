@@ -57,8 +57,18 @@ void for_each_parallel(std::size_t n, int n_threads, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-bool is_of_effects(const std::string& key) {
-  return key.rfind("effects.", 0) == 0;
+/// The key of a setting, "KEY=VALUE".
+std::string key_of(const std::string& setting) {
+  const auto key = setting.substr(0, setting.find('='));
+  return key.substr(0, key.find_last_not_of(' ') + 1);
+}
+
+bool sets_effects(const std::string& setting) {
+  return key_of(setting) == "effects";
+}
+
+bool switches_effect(const std::string& setting) {
+  return key_of(setting).rfind("effects.", 0) == 0;
 }
 
 /// effects = [...] as the scene has them on.
@@ -170,21 +180,20 @@ private:
   /// Single effects can be switched in a list only, and what the program would choose may change from point
   /// to point.
   void name_effects(const std::vector<SweepPoint>& points) {
-    bool single = false, whole = false;
+    bool single = false;
     for (const auto& point : points)
       for (const auto& setting : point.settings) {
-        single = single || is_of_effects(setting);
-        whole = whole || setting.rfind("effects=", 0) == 0;
+        if (sets_effects(setting)) return;
+        single = single || switches_effect(setting);
       }
-    if (whole) return;
     const Scene scene = read_scene(options_.scene, options_.tree, options_.settings);
     has_chosen_effects_ = scene.effect_choice.open;
-    const TomlEntry* const effects = options_.tree.find("effects");
-    const bool is_list = effects != nullptr && effects->value.kind == TomlNode::Kind::array;
-    const bool is_set = std::any_of(options_.settings.begin(), options_.settings.end(),
-                                    [](const std::string& s) { return s.rfind("effects", 0) == 0; });
-    if (has_chosen_effects_ || (single && !is_list && !is_set))
-      options_.settings.push_back(effects_setting(scene));
+    if (!has_chosen_effects_ && !single) return;
+    auto& settings = options_.settings;
+    settings.erase(std::remove_if(settings.begin(), settings.end(),
+                                  [](const auto& s) { return sets_effects(s) || switches_effect(s); }),
+                   settings.end());
+    settings.push_back(effects_setting(scene));
   }
 
   /// Finds out which points share meshes and solutions.

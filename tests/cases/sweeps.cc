@@ -83,6 +83,24 @@ TEST(Sweeps, EffectsMaterialsAndMeshesAreValuesLikeAnyOther) {
   }
 }
 
+// Whatever the scene or the command line says of effects, single ones can be switched; what the program would
+// choose is all on, since it could choose otherwise at every point.
+TEST(Sweeps, NameTheEffectsOfEveryPoint) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  for (const char* effects : {"", "--set effects=all", "--set 'effects = auto'"}) {
+    std::string err;
+    const auto points =
+        points_of(directory.path,
+                  std::string("mill.toml --loads --vary 'effects.charge_lag = on, off' ") + effects, &err);
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_GT(figure(points[0], "loads.charge_power.max"), 0) << effects;
+    EXPECT_EQ(err.find("chooses by the point") != std::string::npos,
+              std::string(effects).find("auto") != std::string::npos);
+    EXPECT_NE(points[0]["figures"], points[1]["figures"]) << effects;
+  }
+}
+
 TEST(Sweeps, ASpringMayBeTakenAway) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));
@@ -147,6 +165,21 @@ TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
     const auto outcome = as_a_user(directory.path, "sweep mill.toml " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(Sweeps, ReplaceNothingThatIsNotTheirs) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  for (const char* name : {"journal", "sweep.csv"}) {
+    fs::create_directories(directory / "mine");
+    write(directory / "mine" / name, "a diary\n");
+    const auto outcome = as_a_user(
+        directory.path, "sweep mill.toml --loads -o mine --vary 'machine.drive.speed = 1400, 1500 rpm'");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("no sweep has written it"), std::string::npos) << outcome.err;
+    EXPECT_EQ(bytes_of(directory / "mine" / name), "a diary\n");
+    fs::remove_all(directory / "mine");
   }
 }
 
