@@ -2,10 +2,8 @@
 #include <ostream>
 
 #include "pipelines/commands/output_files.h"
+#include "pipelines/commands/scene_machine.h"
 #include "pipelines/commands/scene_options.h"
-#include "pipelines/common/fem_environment.h"
-#include "pipelines/loads/load_stage.h"
-#include "pipelines/loads/machine_masses.h"
 #include "pipelines/report/torsion_report.h"
 
 namespace pipelines {
@@ -16,17 +14,9 @@ struct TorsionCommandOptions : SceneOptions {
   bool json = false;
 };
 
-/// Masses that only a mesh can tell; the meshes are thrown away.
-Machine machine_with_masses(const Scene& scene) {
-  if (scene.masses_from_mesh.empty()) return scene.machine;
-  const FemEnvironment environment(all_cores);
-  return agree_masses(scene, ScratchMeshes(scene).bodies()).machine;
-}
-
 void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene, options.settings);
-  require_writable(output_files("-o", options.output,
-                                {"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv"}));
+  require_writable(output_files("-o", options.output, torsion_files()));
   const TorsionReport report = report_torsion(scene, machine_with_masses(scene));
   if (!options.output.empty()) write_torsion_files(options.output, scene, report);
   if (options.json) {
