@@ -1,4 +1,5 @@
 /// The paper's own tables, errata included (kinetics/README.md, errata 1-6).
+#include <algorithm>
 #include <cmath>
 
 #include "kinetics/constants.h"
@@ -6,6 +7,7 @@
 #include "kinetics/machine_refused.h"
 #include "kinetics/torsion/checks.h"
 #include "kinetics/torsion/dense_algebra.h"
+#include "kinetics/torsion/published_chain.h"
 #include "kinetics/torsion/reduced.h"
 #include "kinetics/wrong_input.h"
 
@@ -15,12 +17,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-/// A chain as the tables hold it: J and C in their order, M and w.
-struct Chain {
-  ArrayXd inertia, stiffness, torque;
-  double frequency = 0;
-};
 
 /// The one frequency of all harmonics [rad/s], and their amplitudes per inertia.
 std::pair<double, ArrayXd> harmonic_torques(const DriveTrain& train) {
@@ -41,9 +37,7 @@ std::pair<double, ArrayXd> harmonic_torques(const DriveTrain& train) {
   return {*frequency_rad_s, torque_Nm};
 }
 
-/// Reduced to the shaft line of one inertia; belts keep their number (erratum 5), torques stay real (erratum
-/// 6).
-Chain reduced_to(const DriveTrain& train, std::size_t inertia) {
+PublishedChain reduced_to(const DriveTrain& train, std::size_t inertia) {
   DriveTrain to_shaft = train;
   to_shaft.reference_shaft = train.inertias.at(inertia).shaft;
   const auto reduced = torsion::reduce(to_shaft);
@@ -51,47 +45,75 @@ Chain reduced_to(const DriveTrain& train, std::size_t inertia) {
   const Index n = reduced.ratio.size();
   if (reduced.n_nodes() != n || reduced.held)
     throw MachineRefused("the published tables hold a free chain without rigid elements; take them out");
-  Chain chain{reduced.inertia, reduced.stiffness, torque_Nm,
-              frequency_rad_s / (2 * pi) / std::abs(reduced.ratio[0])};
+  PublishedChain chain;
+  chain.inertia_kg_m2 = reduced.inertia;
+  chain.stiffness_N_m_rad = reduced.stiffness;
+  chain.torque_Nm = torque_Nm;
+  chain.excitation_rad_s = frequency_rad_s / (2 * pi) / std::abs(reduced.ratio[0]);
+  chain.shaft = to_shaft.reference_shaft;
+  for (const TrainInertia& i : train.inertias) chain.inertia.push_back(i.name);
   for (Index e = 0; e < reduced.n_edges(); ++e) {
     const TrainElement& element = train.elements[e];
     if (reduced.edges[e].first != e || reduced.edges[e].second != e + 1)
       throw MachineRefused(
           "element " + element.name +
           ": the published tables hold a chain; let each element join an inertia with the next");
-    if (element.kind != ElementKind::shaft) chain.stiffness[e] = *element.stiffness_N_m_rad;
+    if (element.kind != ElementKind::shaft) chain.stiffness_N_m_rad[e] = *element.stiffness_N_m_rad;
+    chain.element.push_back(element.name);
   }
   return chain;
 }
 
 /// @param sign  of w^2 J in the forced system, and of a: -1 as Table 7, +1 the slip of Table 4
-PublishedTable solve(const Chain& chain, double sign) {
-  const Index n = chain.inertia.size();
+PublishedTable solved(const PublishedChain& chain, double sign) {
+  const Index n = chain.inertia_kg_m2.size();
   MatrixXd K = MatrixXd::Zero(n, n);
   for (Index e = 0; e + 1 < n; ++e)
-    K.block<2, 2>(e, e) += chain.stiffness[e] * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
-  const MatrixXd J = chain.inertia.matrix().asDiagonal();
+    K.block<2, 2>(e, e) += chain.stiffness_N_m_rad[e] * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+  const MatrixXd J = chain.inertia_kg_m2.matrix().asDiagonal();
   const auto modes = torsion::symmetric_eigenpairs(K, J);
   PublishedTable table;
   table.frequency_rad_s = modes.value.tail(n - 1).reverse().array().sqrt();
   table.mode = modes.vector.rightCols(n - 1).rowwise().reverse().colwise().normalized().array();
-  const MatrixXd dynamic = K + sign * chain.frequency * chain.frequency * J;
-  table.forced_angle_rad = -sign * torsion::solve_with_full_pivoting(dynamic, chain.torque.matrix()).array();
+  const MatrixXd dynamic = K + sign * chain.excitation_rad_s * chain.excitation_rad_s * J;
+  table.forced_angle_rad =
+      -sign * torsion::solve_with_full_pivoting(dynamic, chain.torque_Nm.matrix()).array();
   return table;
 }
 
 }  // namespace
 
+namespace torsion {
+
+PublishedChain chain_of_motor(const DriveTrain& train) {
+  return reduced_to(train, 0);
+}
+
+PublishedChain chain_of_working_shaft(const DriveTrain& train) {
+  PublishedChain chain = reduced_to(train, train.inertias.size() - 1);
+  for (ArrayXd* values : {&chain.inertia_kg_m2, &chain.stiffness_N_m_rad, &chain.torque_Nm})
+    values->reverseInPlace();
+  chain.torque_Nm = 0 - chain.torque_Nm;  // no negative zeros
+  for (auto* names : {&chain.inertia, &chain.element}) std::reverse(names->begin(), names->end());
+  return chain;
+}
+
+PublishedTable table_4_of(const PublishedChain& chain) {
+  return solved(chain, 1);
+}
+
+PublishedTable table_7_of(const PublishedChain& chain) {
+  return solved(chain, -1);
+}
+
+}  // namespace torsion
+
 PublishedTable published_table_4(const DriveTrain& train) {
-  return solve(reduced_to(train, 0), 1);
+  return torsion::table_4_of(torsion::chain_of_motor(train));
 }
 
 PublishedTable published_table_7(const DriveTrain& train) {
-  Chain chain = reduced_to(train, train.inertias.size() - 1);
-  chain.inertia = chain.inertia.reverse().eval();
-  chain.stiffness = chain.stiffness.reverse().eval();
-  chain.torque = -chain.torque.reverse().eval();
-  return solve(chain, -1);
+  return torsion::table_7_of(torsion::chain_of_working_shaft(train));
 }
 
 }  // namespace kinetics

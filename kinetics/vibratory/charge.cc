@@ -15,14 +15,14 @@ double first_moment_kg_m(const VibratoryMill& mill) {
   return mill.charge_mass_kg * mill.charge_offset_m;
 }
 
+}  // namespace
+
 double loss_angle_rad(const VibratoryMill& mill) {
   if (mill.charge_lag.loss_angle_rad) return *mill.charge_lag.loss_angle_rad;
   const double ecc = mill.eccentricity_m, omega = mill.speed_rad_s;
   return std::asin(*mill.charge_lag.grinding_power_W /
                    (mill.charge_mass_kg * ecc * ecc * omega * omega * omega));
 }
-
-}  // namespace
 
 Effect charge_translation(const VibratoryMill& mill) {
   return [mill](const Instants& at) {

@@ -62,6 +62,8 @@ Effect charge_centripetal(const VibratoryMill& mill);
 Effect charge_coriolis(const VibratoryMill& mill);
 Effect charge_relative(const VibratoryMill& mill);
 Effect charge_lag(const VibratoryMill& mill);
+/// eta [rad], given or from the grinding power: sin(eta) = P / (m ecc^2 omega_e^3). Source: ours.
+double loss_angle_rad(const VibratoryMill& mill);
 
 // springs.cc
 Effect springs(const VibratoryMill& mill);            ///< preload and stiffness; needs every preload set

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "kinetics/vibratory/balance.h"
+#include "kinetics/vibratory/kinematics.h"
 
 namespace kinetics::vibratory {
 namespace {
@@ -69,20 +70,47 @@ ArrayXd k_star_N_m(const VibratoryMill& mill, const std::vector<NamedEffect>& ef
   return k;
 }
 
-void write_accelerations(const VibratoryMill& mill, const Instants& at, LoadHistory& history) {
+/// F_d, F_e, F_r, F_k and their components (45)-(50), of the effects that are on. Every component has the
+/// sign that the paper gives it: X_E = -F_d cos(phi) - F_ex + F_rx + F_kx.
+void write_forces(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Instants& at,
+                  LoadHistory& history) {
   const double omega_e = mill.speed_rad_s, omega_r = mill.charge_relative_speed_rad_s;
-  const double a_C = omega_e * omega_e * mill.eccentricity_m;       // (16)
-  const double a_OC = omega_r * omega_r * mill.charge_offset_m;     // (20)
-  const double a_k = 2 * omega_e * omega_r * mill.charge_offset_m;  // (24)
-  const ArrayXd delta = at.phi_rad + std::acos(-1.0) - at.chi_rad;
-  const ArrayXd a_n = -a_C * delta.cos() + a_OC + a_k, a_xi = a_C * delta.sin();
+  const double m_kg = mill.charge_mass_kg, r_m = mill.charge_offset_m;
   auto& q = history.quantities;
-  q.push_back({"chi", "rad", "direction of the charge's centre from C, clockwise: phi + pi - delta, (4)",
-               at.chi_rad});
-  q.push_back({"a_n", "m/s2", "acceleration of the charge's centre, towards C, (25)", a_n});
-  q.push_back({"a_xi", "m/s2", "acceleration of the charge's centre, across CO, (26)", a_xi});
-  q.push_back({"a_O", "m/s2", "acceleration of the charge's centre, magnitude, (27)",
-               (a_n.square() + a_xi.square()).sqrt()});
+  const auto magnitude = [&](const char* name, const char* description, double force_N) {
+    q.push_back({name, "N", description, ArrayXd::Constant(at.size(), force_N)});
+  };
+  const auto components = [&](const std::string& name, const std::string& source_x,
+                              const std::string& source_y, const ArrayXd& x, const ArrayXd& y) {
+    q.push_back({name + "x", "N", "horizontal component of " + name + ", " + source_x, x});
+    q.push_back({name + "y", "N", "vertical component of " + name + ", " + source_y, y});
+  };
+  const ArrayXd along_x = -at.along_chi.row(0).transpose();  // cos(delta - phi)
+  const ArrayXd along_y = -at.along_chi.row(1).transpose();  // sin(delta - phi)
+  if (contains(effects, "debalance_inertia"))
+    magnitude("F_d", "inertia of the debalances, along e(phi), (33)",
+              mill.debalance_mass_kg * omega_e * omega_e * mill.debalance_offset_m);
+  if (contains(effects, "charge_translation")) {
+    const double F_e = m_kg * omega_e * omega_e * mill.eccentricity_m;
+    magnitude("F_e", "transport inertia of the charge, along e(phi), (35)", F_e);
+    components("F_e", "(45)", "(46)", F_e * at.along_phi.row(0).transpose(),
+               -F_e * at.along_phi.row(1).transpose());
+  }
+  if (contains(effects, "charge_relative")) {
+    const double F_r = m_kg * omega_r * omega_r * r_m;
+    magnitude("F_r", "relative inertia of the charge, along e(chi), (37)", F_r);
+    components("F_r", "(47)", "(48)", F_r * along_x, F_r * along_y);
+  }
+  if (contains(effects, "charge_coriolis")) {
+    const double F_k = 2 * m_kg * omega_e * omega_r * r_m;
+    magnitude("F_k", "Coriolis force of the charge, along e(chi), (39)", F_k);
+    components("F_k", "(49)", "(50)", F_k * along_x, F_k * along_y);
+  }
+  const Array2Xd centre_m = published_charge_centre(mill, at);
+  q.push_back({"OD", "m", "arm of the charge's horizontal forces about E, (57); see the errata",
+               centre_m.row(1).transpose()});
+  q.push_back({"DE", "m", "arm of the charge's vertical forces about E, (58); see the errata",
+               centre_m.row(0).transpose()});
 }
 
 }  // namespace
@@ -128,7 +156,8 @@ void published_over(const VibratoryMill& mill, const std::vector<NamedEffect>& e
       history.warnings.push_back("K_star (60) is left out: it divides by the eccentricity, which is zero");
     }
   }
-  write_accelerations(mill, all, history);
+  write_published_kinematics(mill, all, history);
+  write_forces(mill, effects, all, history);
   history.resultants.push_back(std::move(frame));
 }
 

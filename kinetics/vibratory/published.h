@@ -8,8 +8,10 @@
 
 namespace kinetics::vibratory {
 
-/// X_E, Y_E, R_E by (42)-(44); a_n, a_xi, a_O by (25)-(27); with the effect `springs` also the two spring
-/// forces (31) and (59) and K* (60). JE = c_x, LE = l_x, QE and HE = x of the springs, k = sum of ky.
+/// X_E, Y_E, R_E by (42)-(44); the motion of C and O, (1)-(27) (see kinematics.h); OD and DE by (57), (58);
+/// with the effects that they belong to F_d (33), F_e (35), F_r (37), F_k (39), the charge's with their
+/// components (45)-(50); with the effect `springs` also the two spring forces (31) and (59) and K* (60). JE =
+/// c_x, LE = l_x, QE and HE = x of the springs, k = sum of ky.
 ///
 /// K* divides by sin(phi), which passes through zero twice in a turn. Where sin(phi) is zero to round-off,
 /// K_star holds the principal value (K*(phi - h) + K*(phi + h)) / 2, h = 1e-3 rad along the motion: finite,

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "kinetics/vibratory/effect_sums.h"
+#include "kinetics/vibratory/kinematics.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics::vibratory {
@@ -18,17 +19,19 @@ ArrayXd relative(const ArrayXd& a, const ArrayXd& b) {
   return (b > 0).select(a / b.max(1e-300), 0.0);
 }
 
-void write_motion(const VibratoryMill& mill, const Instants& at, bool pitching, LoadHistory& history) {
+void write_motion(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, const Instants& at,
+                  LoadHistory& history) {
   auto& q = history.quantities;
   q.push_back({"chi", "rad", "direction of the charge's centre from C, clockwise: phi + pi - delta, (4)",
                at.chi_rad});
   q.push_back({"theta", "rad", "pitch of the chamber about E', counter-clockwise", at.theta_rad});
   q.push_back({"theta_dot", "rad/s", "rate of the pitch", at.theta_rad_s});
   q.push_back({"theta_ddot", "rad/s2", "acceleration of the pitch", at.theta_rad_s2});
-  if (pitching)
+  if (contains(effects, "pitch"))
     q.push_back({"neglected_pitch_centripetal", "N",
                  "m1 theta'^2 |l|: centripetal force of the pitch, not in B",
                  mill.structure_mass_kg * mill.structure_centre_m.norm() * at.theta_rad_s.square()});
+  write_kinematics(mill, effects, at, history);
 }
 
 void write_reactions(const EffectSums& sums, LoadHistory& history) {
@@ -83,8 +86,10 @@ void write_charge(const VibratoryMill& mill, const EffectSums& sums, LoadHistory
       {"charge_on_wall.fx", "N", "force of the charge on the wall, horizontal", force.row(0).transpose()});
   q.push_back(
       {"charge_on_wall.fy", "N", "force of the charge on the wall, vertical", force.row(1).transpose()});
-  q.push_back({"charge_at.x", "m", "centre of the charge, from E'", at_m.row(0).transpose()});
-  q.push_back({"charge_at.y", "m", "centre of the charge, from E'", at_m.row(1).transpose()});
+  q.push_back(
+      {"charge_at.x", "m", "centre of the charge, from E'; replaces DE (58)", at_m.row(0).transpose()});
+  q.push_back(
+      {"charge_at.y", "m", "centre of the charge, from E'; replaces OD (57)", at_m.row(1).transpose()});
   q.push_back({"charge_power", "W",
                "power that the charge takes from the chamber, -F . velocity; negative where the "
                "prescribed circulation gives",
@@ -143,7 +148,7 @@ void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& ef
                    LoadHistory& history) {
   history.resultants = sums.take_resultants(effects);
   const bool pitching = contains(effects, "pitch");
-  write_motion(mill, sums.motion, pitching, history);
+  write_motion(mill, effects, sums.motion, history);
   write_reactions(sums, history);
   write_springs(mill, effects, sums, history);
   write_charge(mill, sums, history);

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "pipelines/commands/scene_machine.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/report/mill_reports.h"
 
@@ -11,15 +12,17 @@ struct ExtremesCommandOptions : SceneOptions {
 };
 
 void extremes(const ExtremesCommandOptions& options, std::ostream& out) {
-  print_torus_extremes(out, read_scene(options.scene, options.settings), options.json);
+  Scene scene = read_scene(options.scene, options.settings);
+  scene.machine = machine_with_masses(scene);
+  print_extremes(out, scene, options.json);
 }
 
 }  // namespace
 
 void add_extremes_command(CLI::App& app, ChosenCommand& chosen) {
   auto options = std::make_shared<ExtremesCommandOptions>();
-  auto* command = add_scene_command(app, "extremes",
-                                    "a vibratory mill's loads over all angles of drive and charge", *options);
+  auto* command = add_scene_command(
+      app, "extremes", "a mill's loads over all angles: of drive and charge, or of the carrier", *options);
   command->add_flag("--json", options->json, "print JSON instead of the table");
   command->callback(to_choose(chosen, options, extremes));
 }

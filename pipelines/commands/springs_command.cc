@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "pipelines/commands/scene_machine.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/report/mill_reports.h"
 
@@ -11,7 +12,9 @@ struct SpringsCommandOptions : SceneOptions {
 };
 
 void springs(const SpringsCommandOptions& options, std::ostream& out) {
-  print_spring_choice(out, read_scene(options.scene, options.settings), options.json);
+  Scene scene = read_scene(options.scene, options.settings);
+  scene.machine = machine_with_masses(scene);
+  print_spring_choice(out, scene, options.json);
 }
 
 }  // namespace

@@ -2,10 +2,8 @@
 #include <ostream>
 
 #include "pipelines/commands/output_files.h"
+#include "pipelines/commands/scene_machine.h"
 #include "pipelines/commands/scene_options.h"
-#include "pipelines/common/fem_environment.h"
-#include "pipelines/loads/load_stage.h"
-#include "pipelines/loads/machine_masses.h"
 #include "pipelines/pictures/load_charts.h"
 #include "pipelines/report/torsion_report.h"
 
@@ -17,18 +15,11 @@ struct TorsionCommandOptions : SceneOptions {
   bool json = false;
 };
 
-/// Masses that only a mesh can tell; the meshes are thrown away.
-Machine machine_with_masses(const Scene& scene) {
-  if (scene.masses_from_mesh.empty()) return scene.machine;
-  const FemEnvironment environment(all_cores);
-  return agree_masses(scene, ScratchMeshes(scene).bodies()).machine;
-}
-
 void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene, options.settings);
-  require_writable(output_files("-o", options.output,
-                                {"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv",
-                                 "campbell.png", "campbell.svg", "modes.png", "modes.svg"}));
+  auto files = torsion_files();
+  files.insert(files.end(), {"campbell.png", "campbell.svg", "modes.png", "modes.svg"});
+  require_writable(output_files("-o", options.output, files));
   const TorsionReport report = report_torsion(scene, machine_with_masses(scene));
   std::vector<std::string> charts;
   if (!options.output.empty()) {

@@ -9,16 +9,25 @@
 #include "kinetics/spring_choice.h"
 #include "kinetics/torus_extremes.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/report/hodograph_report.h"
 
 namespace pipelines {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const kinetics::VibratoryMill& mill_of(const Scene& scene, const std::string& command) {
+const kinetics::VibratoryMill& mill_with_springs(const Scene& scene) {
   if (const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine)) return *mill;
-  throw StageRefused(scene.machine_type_at + ": " + command +
-                     " needs a scene whose machine.type is \"vibratory_mill\"");
+  throw StageRefused(scene.machine_type_at +
+                     ": springs needs a scene whose machine.type is \"vibratory_mill\"");
+}
+
+/// What `loads` warns of: with the given springs, and of the scene itself.
+std::vector<std::string> warnings_of_loads(const Scene& scene) {
+  auto warnings = load_stage(scene, scene.machine).warnings;
+  warnings.insert(warnings.end(), scene.warnings.begin(), scene.warnings.end());
+  return warnings;
 }
 
 double degrees(double angle_rad) {
@@ -54,24 +63,34 @@ void print_choice(std::ostream& out, const std::string& aim, const kinetics::Spr
 
 void print_spring_choice(std::ostream& out, const Scene& scene, bool json) {
   using kinetics::SpringAim;
+  const auto& mill = mill_with_springs(scene);
   const auto choice = [&](SpringAim aim) {
-    return kinetics::choose_springs(mill_of(scene, "springs"), scene.kinetics_effects(), scene.sampling, aim);
+    return kinetics::choose_springs(mill, scene.kinetics_effects(), scene.sampling, aim);
   };
   const auto rms = choice(SpringAim::rms), peak = choice(SpringAim::peak);
+  const auto warnings = warnings_of_loads(scene);
   if (json) {
-    out << Json{{"rms", json_of(rms)}, {"peak", json_of(peak)}, {"warnings", scene.warnings}}.dump(2) << '\n';
+    out << Json{{"rms", json_of(rms)}, {"peak", json_of(peak)}, {"warnings", warnings}}.dump(2) << '\n';
     return;
   }
   out << '\n' << scene.title << ": the springs that load the frame's bearings least\n";
-  for (const auto& warning : scene.warnings) out << "  warning: " << warning << '\n';
   print_choice(out, "RMS", rms);
   print_choice(out, "peak", peak);
+  for (const auto& warning : warnings) out << "  warning: " << warning << '\n';
 }
 
-void print_torus_extremes(std::ostream& out, const Scene& scene, bool json) {
-  const auto& mill = mill_of(scene, "extremes");
+void print_extremes(std::ostream& out, const Scene& scene, bool json) {
+  if (std::holds_alternative<kinetics::PlanetaryMill>(scene.machine)) {
+    print_hodograph(out, scene, json);
+    return;
+  }
+  const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
+  if (mill == nullptr)
+    throw StageRefused(scene.machine_type_at +
+                       ": extremes needs a scene whose machine.type is \"vibratory_mill\" or "
+                       "\"planetary_mill\"; `loads` lists the extremes of the scene's window");
   const auto window = compute_loads(scene.machine, scene.kinetics_effects(), scene.sampling);
-  const auto extremes = kinetics::torus_extremes(mill, scene.kinetics_effects());
+  const auto extremes = kinetics::torus_extremes(*mill, scene.kinetics_effects());
   Json list;
   if (!json)
     out << fmt::format(

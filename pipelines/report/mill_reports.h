@@ -1,4 +1,4 @@
-/// Two questions to a vibratory mill beside its loads: which springs, and how large at any time.
+/// Questions to a mill beside its loads: which springs, and how large at any angle.
 #pragma once
 
 #include <iosfwd>
@@ -8,13 +8,15 @@
 namespace pipelines {
 
 /// The stiffness of the springs that loads the frame's bearings least, by RMS and by peak, and the resonances
-/// on the way.
+/// on the way; with the warnings of the scene's loads.
 /// @param json  as JSON instead of a table
 /// @throws StageRefused if the scene's machine is no vibratory mill, or as kinetics::choose_springs
 void print_spring_choice(std::ostream& out, const Scene& scene, bool json);
 
-/// Extremes over all pairs of drive and charge angles, beside those of the scene's window.
-/// @throws StageRefused if the scene's machine is no vibratory mill
-void print_torus_extremes(std::ostream& out, const Scene& scene, bool json);
+/// Extremes over all angles, beside those of the scene's window. Of a vibratory mill: over all pairs of drive
+/// and charge angles. Of a planetary mill: the axle's load over the carrier's turn in closed form (its
+/// hodograph), and what follows from the machine's parameters, (1)-(13).
+/// @throws StageRefused if the scene's machine is no mill; as kinetics does
+void print_extremes(std::ostream& out, const Scene& scene, bool json);
 
 }  // namespace pipelines

@@ -9,6 +9,7 @@
 #include "pipelines/files/replaceable.h"
 #include "pipelines/report/manifest.h"
 #include "pipelines/report/run_record.h"
+#include "pipelines/report/torsion_report.h"
 
 namespace pipelines {
 namespace {
@@ -24,7 +25,7 @@ bool is_run_file(const std::string& name) {
 }
 
 bool is_torsion_file(const std::string& name) {
-  return contains({"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv"}, name);
+  return contains(torsion_files(), name);
 }
 
 using SummaryJson = nlohmann::ordered_json;

@@ -6,6 +6,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/common/finite.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/report/published_torsion.h"
 
 namespace pipelines {
 
@@ -41,10 +42,7 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
       run.loads.push_back({torque.inertia, kinetics::torque_table(torque.time_s, torque.torque_Nm)});
     report.transient = kinetics::transient(on, run);
   }
-  if (scene.torsion.published_tables) {
-    report.table_4 = kinetics::published_table_4(on);
-    report.table_7 = kinetics::published_table_7(on);
-  }
+  if (scene.torsion.published_tables) report.published = kinetics::published_tables(on);
   require_finite(report);
   return report;
 }
@@ -72,6 +70,7 @@ void require_finite(const TorsionReport& torsion) {
   for (const auto& t : torsion.torques)
     for (const double value : {t.mean_Nm, t.largest_Nm, t.largest_reduced_Nm, t.largest_shear_Pa})
       require_finite(stage, "the torque of \"" + t.element + "\" [N m] or its stress [Pa]", value);
+  if (torsion.published) require_finite(*torsion.published);
   if (!torsion.transient) return;
   const auto& transient = *torsion.transient;
   check("a torque of the transient [N m]", transient.motion.torque_Nm);

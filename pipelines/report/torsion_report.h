@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/drive_train.h"
+#include "kinetics/published_tables.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {
@@ -27,8 +27,8 @@ struct TorsionReport {
   std::vector<ElementTorque> torques;
   std::vector<kinetics::ResonanceMargin> margins;
   kinetics::CampbellTable campbell;
-  std::optional<kinetics::Transient> transient;              ///< where the scene asks for it
-  std::optional<kinetics::PublishedTable> table_4, table_7;  ///< where the scene asks for them
+  std::optional<kinetics::Transient> transient;        ///< where the scene asks for it
+  std::optional<kinetics::PublishedTables> published;  ///< where the scene asks for them
 };
 
 /// @param machine  the scene's, with the inertias that it leaves to a mesh
@@ -40,9 +40,12 @@ std::string torsion_json(const Scene& scene, const TorsionReport& report);
 
 /// In `directory`: modes.csv (frequencies, shapes, energy shares), forced.csv (amplitude and phase of every
 /// harmonic at every inertia and element), campbell.csv, margins.csv; transient.csv
-/// (torque and angle over time, energies) where there is one.
+/// (torque and angle over time, energies) and the paper's tables (published_torsion.h) where there are any.
 void write_torsion_files(const std::filesystem::path& directory, const Scene& scene,
                          const TorsionReport& report);
+
+/// The names of all files that write_torsion_files may write.
+std::vector<std::string> torsion_files();
 
 /// @throws NotFinite naming the first quantity of it that is not finite
 void require_finite(const TorsionReport& torsion);

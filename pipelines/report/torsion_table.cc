@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "pipelines/files/csv.h"
+#include "pipelines/report/published_torsion.h"
 #include "pipelines/report/torsion_report.h"
 
 namespace pipelines {
@@ -35,14 +36,6 @@ std::string softest(const kinetics::DriveTrain& train, const kinetics::NaturalMo
   const double share = modes.potential_share.col(mode).maxCoeff(&element);
   return share > 0 ? fmt::format("{:.0f} % in {}", 100 * share, train.elements[std::size_t(element)].name)
                    : "rigid rotation";
-}
-
-void print_published(std::ostream& out, const char* name, const kinetics::PublishedTable& table) {
-  out << fmt::format("\n  {} of the paper, to the letter (rad/s, printed there as Hz; rad)\n    ", name);
-  for (const double w : table.frequency_rad_s) out << fmt::format("{:>12.6g}", w);
-  out << "\n    ";
-  for (const double a : table.forced_angle_rad) out << fmt::format("{:>12.7f}", a);
-  out << '\n';
 }
 
 /// kinetic + potential + dissipated - work, against its start, over the largest energy.
@@ -111,8 +104,7 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
     out << fmt::format("    {:<34} meets mode {} at {:.6g} rpm\n", line_name(c.line), c.mode,
                        c.speed_rad_s / rpm);
   if (report.transient) print_transient(out, train, *report.transient);
-  if (report.table_4) print_published(out, "Table 4", *report.table_4);
-  if (report.table_7) print_published(out, "Table 7", *report.table_7);
+  if (report.published) print_published(out, *report.published);
   out << "\n  " << phase_sign << '\n';
   for (const auto& warning : report.forced.warnings) out << "  warning: " << warning << '\n';
 }
@@ -145,9 +137,16 @@ std::string torsion_json(const Scene& scene, const TorsionReport& report) {
   }
   torsion["rigid_acceleration_rad_s2"] = report.forced.rigid_acceleration_rad_s2;
   torsion["phases"] = phase_sign;
+  if (report.published) torsion["published"] = published_json(*report.published);
   json["warnings"] = report.forced.warnings;
   for (const auto& warning : scene.warnings) json["warnings"].push_back(warning);
   return json.dump(2) + "\n";
+}
+
+std::vector<std::string> torsion_files() {
+  std::vector<std::string> names{"modes.csv", "forced.csv", "campbell.csv", "transient.csv", "margins.csv"};
+  names.insert(names.end(), published_files().begin(), published_files().end());
+  return names;
 }
 
 void write_torsion_files(const std::filesystem::path& directory, const Scene& scene,
@@ -213,6 +212,8 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
     columns.push_back(numbers("dissipated", "J", t.dissipated_J));
     write_csv(directory / "transient.csv", columns);
   }
+
+  if (report.published) write_published(directory, *report.published);
 
   std::vector<std::string> excitation;
   std::vector<std::int64_t> mode;

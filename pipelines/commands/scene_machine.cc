@@ -1,0 +1,16 @@
+#include "pipelines/commands/scene_machine.h"
+
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/common/fem_environment.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/loads/machine_masses.h"
+
+namespace pipelines {
+
+Machine machine_with_masses(const Scene& scene) {
+  if (scene.masses_from_mesh.empty()) return scene.machine;
+  const FemEnvironment environment(all_cores);
+  return agree_masses(scene, ScratchMeshes(scene).bodies()).machine;
+}
+
+}  // namespace pipelines
