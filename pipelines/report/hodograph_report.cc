@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <string>
 
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/loads/load_stage.h"
@@ -123,8 +124,8 @@ void print_hodograph(std::ostream& out, const Scene& scene, bool json) {
   }
   out << fmt::format("\n{}: the load on the axle, (X_A, -Y_A), over a turn of the carrier\n\n", scene.title);
   for (const auto& figure : figures)
-    out << fmt::format("  {:<10}{:>14.7g} {:<6} {}\n", figure.name, figure.value, figure.unit,
-                       figure.meaning);
+    out << fmt::format("  {:<10}{:>14.7g} {:<6} {}\n", figure.name, figure.value,
+                       figure.unit == std::string("1") ? "" : figure.unit, figure.meaning);
   if (ellipse)
     print_ellipse(out, *ellipse);
   else
