@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -31,7 +32,7 @@ std::vector<std::pair<std::string, double>> evaluation_seconds(const Scene& scen
   std::vector<std::pair<std::string, double>> seconds;
   const double n_instants = double(scene.sampling.turns) * scene.sampling.instants_per_turn;
   for (const auto& worth : report_effects(scene, 0.01).effects)
-    seconds.push_back({worth.effect.name, worth.seconds_per_instant * n_instants});
+    seconds.push_back({worth.effect.name, std::max(0.0, worth.per_instant.median_s) * n_instants});
   return seconds;
 }
 

@@ -8,6 +8,7 @@
 #include "kinetics/machine_refused.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
+#include "pipelines/scene/effect_groups.h"
 #include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
@@ -89,16 +90,38 @@ std::vector<LoadShare> shares_of(const std::vector<Load>& parts, const LoadHisto
   return shares;
 }
 
-/// The shortest of a few runs: what the machine needs when nothing else disturbs it.
-double seconds_per_instant(const Scene& scene, const std::vector<std::string>& effects) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int repeat = 0; repeat < 5; ++repeat) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto history = compute_loads(scene.machine, effects, scene.sampling);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    best = std::min(best, elapsed.count() / double(history.n_instants()));
+double seconds_of_one_run(const Scene& scene, const std::vector<std::string>& effects) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto history = compute_loads(scene.machine, effects, scene.sampling);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return elapsed.count() / double(history.n_instants());
+}
+
+MeasuredTime measured(std::vector<double> seconds) {
+  std::sort(seconds.begin(), seconds.end());
+  return {seconds[seconds.size() / 2], seconds[1], seconds[seconds.size() - 2]};
+}
+
+/// All effects and all but one in turns, so that what disturbs the machine for a while disturbs all alike;
+/// the first turn, which finds caches and memory cold, does not count.
+void measure_times(const Scene& scene, EffectReport& report) {
+  constexpr int n_turns = 7;
+  const auto names = scene.kinetics_effects();
+  std::vector<double> all;
+  std::vector<std::vector<double>> saved(report.effects.size());
+  for (int turn = -1; turn < n_turns; ++turn) {
+    const double with_all = seconds_of_one_run(scene, names);
+    if (turn >= 0) all.push_back(with_all);
+    for (std::size_t e = 0; e < report.effects.size(); ++e) {
+      const auto& worth = report.effects[e];
+      if (!worth.indispensable.empty()) continue;
+      const double without = seconds_of_one_run(scene, names_without(names, {worth.effect.name}));
+      if (turn >= 0) saved[e].push_back(with_all - without);
+    }
   }
-  return best;
+  report.per_instant = measured(all);
+  for (std::size_t e = 0; e < report.effects.size(); ++e)
+    if (!saved[e].empty()) report.effects[e].per_instant = measured(saved[e]);
 }
 
 /// Effects that build on a given one go with it.
@@ -115,6 +138,36 @@ Trial try_without(const Scene& scene, const std::vector<std::string>& off) {
   } catch (const kinetics::MachineRefused& refused) {
     return {{}, refused.what()};
   }
+}
+
+/// The sum of what several effects bring to the loads.
+std::vector<Load> sum_of_parts(const Scene& scene, const std::vector<std::string>& effects,
+                               const LoadHistory& all) {
+  std::vector<Load> sum;
+  for (const auto& effect : effects)
+    for (auto& part : parts_of(scene, effect, all)) {
+      const auto same =
+          std::find_if(sum.begin(), sum.end(), [&](const Load& l) { return l.name == part.name; });
+      if (same == sum.end())
+        sum.push_back(std::move(part));
+      else
+        same->values += part.values;
+    }
+  return sum;
+}
+
+std::vector<GroupWorth> groups_of(const Scene& scene, const LoadHistory& all) {
+  const auto groups = effect_groups(scene.kinetics_effects());
+  if (!any_sums(groups)) return {};
+  std::vector<GroupWorth> worth;
+  for (const auto& group : groups) {
+    const Trial trial = try_without(scene, group.effects);
+    worth.push_back({group.name, group.effects,
+                     shares_of(sum_of_parts(scene, group.effects, all), all,
+                               trial.refusal.empty() ? &trial.history : nullptr),
+                     trial.refusal});
+  }
+  return worth;
 }
 
 /// For each effect, it and what needs it, where leaving them out changes no load by more than the threshold;
@@ -160,7 +213,6 @@ EffectReport report_effects(const Scene& scene, double threshold, bool timed) {
   const LoadHistory all = compute_loads(scene.machine, names, scene.sampling);
   EffectReport report;
   report.threshold = threshold;
-  if (timed) report.seconds_per_instant = seconds_per_instant(scene, names);
   for (const auto& info : effects_of(scene.machine)) {
     if (!scene.has_effect(info.name)) continue;
     const Trial trial = try_without(scene, {info.name});
@@ -173,11 +225,10 @@ EffectReport report_effects(const Scene& scene, double threshold, bool timed) {
                                                    : LoadChange{std::numeric_limits<double>::quiet_NaN(), ""};
     worth.if_off = worst.share;
     worth.worst_load = worst.load;
-    if (timed && trial.refusal.empty())
-      worth.seconds_per_instant = std::max(
-          0.0, report.seconds_per_instant - seconds_per_instant(scene, names_without(names, {info.name})));
     report.effects.push_back(std::move(worth));
   }
+  report.groups = groups_of(scene, all);
+  if (timed) measure_times(scene, report);
 
   for (const EffectStep& step : steps_below(scene, all, report)) {
     auto off = report.dispensable;

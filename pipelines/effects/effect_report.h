@@ -21,13 +21,29 @@ struct LoadShare {
                        ///< largest magnitude of the load; NaN where the machine cannot be without it
 };
 
+/// Nanoseconds are lost in the noise of a machine that does other things too, so that they have a range.
+struct MeasuredTime {
+  double median_s = 0;
+  double low_s = 0, high_s = 0;  ///< of seven runs without the shortest and the longest
+
+  bool is_seen() const { return low_s > 0; }  ///< more than the runs differ by
+};
+
 struct EffectWorth {
   kinetics::EffectInfo effect;
-  std::vector<LoadShare> shares;   ///< loads it is part of, or that change without it
-  std::string worst_load;          ///< the one that changes most
-  double if_off = 0;               ///< its change; NaN where the machine cannot be without the effect
-  std::string indispensable;       ///< why the machine cannot be without it; empty if it can
-  double seconds_per_instant = 0;  ///< of the load stage: with all effects less without this one, at least 0
+  std::vector<LoadShare> shares;  ///< loads it is part of, or that change without it
+  std::string worst_load;         ///< the one that changes most
+  double if_off = 0;              ///< its change; NaN where the machine cannot be without the effect
+  std::string indispensable;      ///< why the machine cannot be without it; empty if it can
+  MeasuredTime per_instant;       ///< of the load stage: with all effects less without this one
+};
+
+/// What one part of the machine brings to the loads: effects that it makes together (effect_groups.h).
+struct GroupWorth {
+  std::string name;
+  std::vector<std::string> effects;
+  std::vector<LoadShare> shares;  ///< of the sum of their parts
+  std::string indispensable;      ///< why the machine cannot be without all of them; empty if it can
 };
 
 /// Effects that can be left out together, since they need each other, and the largest change of a load then.
@@ -38,12 +54,13 @@ struct EffectStep {
 
 struct EffectReport {
   std::vector<EffectWorth> effects;
+  std::vector<GroupWorth> groups;  ///< empty where no group has two effects
   double threshold = 0.01;
   std::vector<EffectStep> steps;         ///< of `dispensable`, in its order
   std::vector<std::string> dispensable;  ///< can be left out TOGETHER: the change stays below the threshold
   std::string worst_load;                ///< of leaving all of these out
   double if_all_off = 0;                 ///< its change
-  double seconds_per_instant = 0;        ///< with all effects
+  MeasuredTime per_instant;              ///< with all effects
 };
 
 /// Runs the load stage with all effects of the scene, and once more without each. Effects are taken from the

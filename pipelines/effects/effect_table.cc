@@ -16,6 +16,31 @@ Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+std::string nanoseconds(const MeasuredTime& time) {
+  return fmt::format("{:.0f} ns per instant, of seven runs five took {:.0f} to {:.0f}", 1e9 * time.median_s,
+                     1e9 * time.low_s, 1e9 * time.high_s);
+}
+
+Json json_of_time(const MeasuredTime& time) {
+  return {{"median", time.median_s}, {"low", time.low_s}, {"high", time.high_s}};
+}
+
+void print_shares(std::ostream& out, const std::vector<LoadShare>& shares) {
+  out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", "load", "largest share", "RMS share", "change if off");
+  for (const auto& share : shares)
+    out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", share.load, percent(share.largest),
+                       percent(share.rms), percent(share.if_off));
+}
+
+Json json_of_shares(const std::vector<LoadShare>& shares) {
+  Json json;
+  for (const auto& share : shares)
+    json[share.load] = {{"largest_share", number_or_null(share.largest)},
+                        {"rms_share", number_or_null(share.rms)},
+                        {"change_if_off", number_or_null(share.if_off)}};
+  return json;
+}
+
 }  // namespace
 
 std::string percent(double share) {
@@ -26,17 +51,20 @@ void print_effects(std::ostream& out, const Scene& scene, const EffectReport& re
   out << fmt::format("\n{}: the effects and what they are worth\n", scene.title);
   for (const auto& worth : report.effects) {
     out << fmt::format("\n  {}: {} ({})\n", worth.effect.name, worth.effect.description, worth.effect.source);
-    out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", "load", "largest share", "RMS share",
-                       "change if off");
-    for (const auto& share : worth.shares)
-      out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", share.load, percent(share.largest),
-                         percent(share.rms), percent(share.if_off));
+    print_shares(out, worth.shares);
     if (!worth.indispensable.empty())
       out << "    cannot be left out by itself: " << worth.indispensable << '\n';
+    else if (worth.per_instant.is_seen())
+      out << "    " << nanoseconds(worth.per_instant) << '\n';
     else
-      out << fmt::format("    {:.1f} ns per instant\n", 1e9 * worth.seconds_per_instant);
+      out << "    costs less time than repeated runs differ by\n";
   }
-  out << fmt::format("\n  all effects: {:.1f} ns per instant\n", 1e9 * report.seconds_per_instant);
+  for (const auto& group : report.groups) {
+    out << fmt::format("\n  {}, in sum: {}\n", group.name, listed(group.effects));
+    print_shares(out, group.shares);
+    if (!group.indispensable.empty()) out << "    cannot be left out: " << group.indispensable << '\n';
+  }
+  out << "\n  all effects: " << nanoseconds(report.per_instant) << '\n';
   if (report.dispensable.empty())
     out << fmt::format("  below a threshold of {} none can be left out\n", percent(report.threshold));
   else
@@ -53,20 +81,21 @@ std::string effects_json(const Scene& scene, const EffectReport& report) {
   if (!scene.settings.empty()) json["settings"] = scene.settings;
   for (const auto& worth : report.effects) {
     Json entry{{"description", worth.effect.description}, {"source", worth.effect.source}};
-    for (const auto& share : worth.shares)
-      entry["loads"][share.load] = {{"largest_share", number_or_null(share.largest)},
-                                    {"rms_share", number_or_null(share.rms)},
-                                    {"change_if_off", number_or_null(share.if_off)}};
+    if (!worth.shares.empty()) entry["loads"] = json_of_shares(worth.shares);
     entry["change_if_off"] = number_or_null(worth.if_off);
     entry["worst_load"] = worth.worst_load;
     entry["indispensable"] = worth.indispensable;
-    entry["seconds_per_instant"] = worth.seconds_per_instant;
+    entry["seconds_per_instant"] = json_of_time(worth.per_instant);
     json["effects"][worth.effect.name] = std::move(entry);
   }
   json["threshold"] = report.threshold;
   json["dispensable"] = report.dispensable;
   json["change_if_all_off"] = report.if_all_off;
-  json["seconds_per_instant"] = report.seconds_per_instant;
+  for (const auto& group : report.groups)
+    json["groups"][group.name] = {{"effects", group.effects},
+                                  {"loads", json_of_shares(group.shares)},
+                                  {"indispensable", group.indispensable}};
+  json["seconds_per_instant"] = json_of_time(report.per_instant);
   return json.dump(2) + "\n";
 }
 

@@ -210,7 +210,7 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
     machine.refuse(
         "convention",
         "unknown convention; write \"consistent\" (mechanics that closes) or \"published\" (the same, "
-        "and the paper's Tables 4 and 7 to the letter beside it)");
+        "and the paper's Tables 1 to 7 beside it)");
   SceneTable reference = machine.table("reference");
   train.reference_shaft = reference.text("shaft");
   train.reference_speed_rad_s = reference.quantity("speed", "rad/s", positive(1e6));

@@ -103,6 +103,11 @@ void add_effects(HtmlPage& page, const Json& peak) {
     rows.push_back({effect, number(share, 100, "{:.2f} %")});
   page.heading(3, "What the peak is made of");
   page.table({"effect", "share"}, rows);
+  if (!peak.contains("effect_group_share")) return;
+  Rows sums;
+  for (const auto& [group, share] : peak.at("effect_group_share").items())
+    sums.push_back({group, number(share, 100, "{:.2f} %")});
+  page.table({"in sum", "share"}, sums);
 }
 
 void add_zones(HtmlPage& page, const Json& body) {

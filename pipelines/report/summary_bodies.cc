@@ -5,9 +5,11 @@
 #include "pipelines/analysis/energy_errors.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/common/name_lists.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary_values.h"
+#include "pipelines/scene/effect_groups.h"
 
 namespace pipelines::summary {
 namespace {
@@ -78,6 +80,13 @@ Json peak_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& effects = analysis.loads.history.effects;
   for (std::size_t i = 0; i < effects.size(); ++i)
     json["effect_share"][effects[i]] = number(peak.effect_share[i]);
+  if (const auto groups = effect_groups(effects); any_sums(groups))
+    for (const auto& group : groups) {
+      double sum = 0;
+      for (std::size_t i = 0; i < effects.size(); ++i)
+        if (contains(group.effects, effects[i])) sum += peak.effect_share[i];
+      json["effect_group_share"][group.name] = number(sum);
+    }
   return json;
 }
 

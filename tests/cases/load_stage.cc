@@ -240,12 +240,15 @@ TEST(LoadStage, SpringsAndExtremesAnswerForTheWholeTorus) {
   const auto springs = json_of(directory.path, "springs " + scene + " --json");
   const double scale = springs["rms"]["scale"];
   EXPECT_LT(springs["rms"]["reaction_N"].get<double>(), springs["rms"]["reaction_given_N"].get<double>());
-  const auto loads = json_of(directory.path, "loads " + scene + " --json")["loads"];
+  const auto of_loads = json_of(directory.path, "loads " + scene + " --json");
+  const auto& loads = of_loads["loads"];
   EXPECT_NEAR(loads["R_E"]["rms"].get<double>(), springs["rms"]["reaction_given_N"].get<double>(), 1e-6);
   EXPECT_GT(scale, 1);
 
+  // It warns of what `loads` warns of: the charge's power, the drive's torque that reverses.
+  EXPECT_EQ(springs["warnings"], of_loads["warnings"]);
+  EXPECT_EQ(springs["warnings"].size(), 2u);
   // A window shorter than the period: the optimum is that of a part of the motion, and says so.
-  EXPECT_TRUE(springs["warnings"].empty());
   write(directory / "short.toml", edited("vibratory_mill.toml", {{"turns = 20 ", "turns = 3 "}}));
   EXPECT_NE(millstress(directory.path, "springs short.toml").out.find("the motion repeats after 20 turns"),
             std::string::npos);
@@ -253,6 +256,18 @@ TEST(LoadStage, SpringsAndExtremesAnswerForTheWholeTorus) {
   const auto wrong = millstress(directory.path, "springs '" + shipped("planetary_mill.toml").string() + "'");
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("vibratory_mill"), std::string::npos);
+}
+
+// Masses that only the chamber's mesh tells.
+TEST(LoadStage, ExtremesAndSpringsTakeMassesFromTheMesh) {
+  const results_test::Directory directory;
+  write(directory / "open.toml",
+        without("vibratory_mill.toml", "[machine.structure]", "[machine.debalance]"));
+  const double largest = json_of(directory.path, "loads open.toml --json")["loads"]["R_E"]["max"];
+  const auto extremes = json_of(directory.path, "extremes open.toml --json");
+  EXPECT_EQ(extremes["R_E"]["largest_in_window"].get<double>(), largest);
+  const auto springs = json_of(directory.path, "springs open.toml --json");
+  EXPECT_NEAR(springs["peak"]["reaction_given_N"].get<double>(), largest, 0.01 * largest);  // other instants
 }
 
 TEST(LoadStage, EffectsTellWhatCanGo) {

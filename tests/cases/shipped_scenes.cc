@@ -6,7 +6,7 @@ using namespace cases;
 TEST(ShippedScenes, AreValidAndGiveLoads) {
   const results_test::Directory directory;
   int n = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(SOURCE_DIR) / "pipelines/scenes")) {
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_DIR) / "pipelines/scenes")) {
     if (entry.path().extension() != ".toml") continue;
     ++n;
     const std::string scene = "'" + entry.path().string() + "'";

@@ -83,4 +83,11 @@ TEST(VibratoryShaft, AgreesWithStaticsAndTheHandFigures) {
   double sum = 0;
   for (const auto& share : shaft["peak_von_mises"]["effect_share"]) sum += share.get<double>();
   EXPECT_NEAR(sum, 1, 1e-9);
+  // So do those of the groups, and what the charge brings is smaller than its largest term.
+  double of_groups = 0;
+  const auto& groups = shaft["peak_von_mises"]["effect_group_share"];
+  for (const auto& share : groups) of_groups += share.get<double>();
+  EXPECT_NEAR(of_groups, 1, 1e-9);
+  EXPECT_LT(std::abs(groups["inertia of the charge"].get<double>()),
+            std::abs(shaft["peak_von_mises"]["effect_share"]["charge_coriolis"].get<double>()));
 }

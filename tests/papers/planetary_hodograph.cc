@@ -124,6 +124,16 @@ TEST(PlanetaryHodograph, Parameters) {
     EXPECT_NEAR(value("k"), *run.set == 'A' ? 0.4 : 0.1, 1e-15);
     EXPECT_NEAR(value("b"), 1, 1e-15);
   }
+  // Away from c = 1/2 the speeds in (11) differ: the drum's spin in the paper, Omega in what closes (erratum
+  // 3).
+  for (const auto& run : {runs[2], runs[4]}) {
+    const auto p = extremes_of(run.scene(), run.options() + " --set machine.geometry.c=0.7")["parameters"];
+    const auto value = [&](const char* name) { return p[name]["value"].get<double>(); };
+    EXPECT_NEAR(value("omega"), 30 * (0.7 - 1) / 0.7, 1e-12);
+    const double w = run.convention == std::string("consistent") ? 30 : value("omega");
+    EXPECT_NEAR(value("Phi_C_r"), value("m_C") * value("l_AC") * w * w, rounding * value("Phi_C_e"))
+        << run.key();
+  }
 }
 
 // Ends and one point between of figures 4 to 8, each a key given by --set; the paper's claims at the ends.

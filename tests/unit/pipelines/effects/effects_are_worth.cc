@@ -133,3 +133,54 @@ TEST(EffectWorth, OfTheLaboratoryMill) {
   EXPECT_THROW(report_effects(scene, 0), std::invalid_argument);
   EXPECT_THROW(report_effects(scene, NAN), std::invalid_argument);
 }
+
+// Two effects of one part that nearly cancel: the group has their sum, not the sum of their sizes.
+TEST(EffectWorth, GroupsAreSums) {
+  const auto report = report_effects(
+      table_scene({{"charge_coriolis", {-60, 0}}, {"charge_relative", {64, 0}}, {"springs", {16, 0}}}), 0.01,
+      false);
+  EXPECT_NEAR(worth_of(report, "charge_coriolis").shares.at(0).largest, 3, 1e-14);
+  ASSERT_EQ(report.groups.size(), 2u);
+  EXPECT_EQ(report.groups[0].name, "inertia of the charge");
+  EXPECT_EQ(report.groups[0].effects, (std::vector<std::string>{"charge_coriolis", "charge_relative"}));
+  EXPECT_NEAR(report.groups[0].shares.at(0).largest, 4.0 / 20, 1e-14);
+  EXPECT_NEAR(report.groups[0].shares.at(0).rms, 4.0 / 20, 1e-14);
+  EXPECT_NEAR(report.groups[0].shares.at(0).if_off, 4.0 / 20, 1e-14);
+  EXPECT_EQ(report.groups[1].name, "springs");
+  EXPECT_NEAR(report.groups[1].shares.at(0).largest, 16.0 / 20, 1e-14);
+  const auto alone = report_effects(table_scene({{"weight", {100, 0}}, {"wave", {0, 25}}}), 0.01, false);
+  EXPECT_TRUE(alone.groups.empty()) << "they would say nothing that the effects do not";
+}
+
+// In the mill the charge's terms are several times the load of the bearings; what the charge brings is not.
+TEST(EffectWorth, GroupsOfTheLaboratoryMill) {
+  auto scene = laboratory::scene();
+  scene.sampling.instants_per_turn = 24;
+  const auto report = report_effects(scene, 0.01, false);
+  const auto of_bearings = [](const std::vector<pipelines::LoadShare>& shares) {
+    for (const auto& share : shares)
+      if (share.load == "frame_bearings.force") return share.largest;
+    return 0.0;
+  };
+  std::vector<std::string> names;
+  for (const auto& group : report.groups) {
+    names.push_back(group.name);
+    if (group.name != "inertia of the charge") continue;
+    EXPECT_LT(of_bearings(group.shares), 1);
+    EXPECT_GT(of_bearings(group.shares), 0.01);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"weights", "inertia of the charge", "inertia of the chamber",
+                                             "springs", "debalances"}));
+  EXPECT_GT(of_bearings(worth_of(report, "charge_coriolis").shares), 1);
+}
+
+// Seconds are measured with what they differ by.
+TEST(EffectWorth, TimesHaveARange) {
+  auto scene = laboratory::scene();
+  scene.sampling.instants_per_turn = 24;
+  const auto report = report_effects(scene, 0.01);
+  EXPECT_GT(report.per_instant.low_s, 0);
+  EXPECT_LE(report.per_instant.low_s, report.per_instant.median_s);
+  EXPECT_LE(report.per_instant.median_s, report.per_instant.high_s);
+  for (const auto& worth : report.effects) EXPECT_LE(worth.per_instant.low_s, worth.per_instant.high_s);
+}
