@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <ostream>
+#include <string>
+
+#include "pipelines/common/name_lists.h"
+#include "pipelines/scene/effect_groups.h"
 
 namespace pipelines {
 namespace {
@@ -50,6 +54,15 @@ void print_effect_prices(std::ostream& out, const std::string& body, const std::
     out << fmt::format("    {:<30}{:>12.2f}%{:>10}{:>12}{:>14.3g}{:>16.3g}\n", p.effect, 100 * p.share,
                        p.n_channels, p.n_own, p.evaluation_s,
                        p.evaluation_s + p.unit_loads_s + p.superposition_s);
+  std::vector<std::string> names;
+  for (const auto& p : prices) names.push_back(p.effect);
+  if (const auto groups = effect_groups(names); any_sums(groups))
+    for (const auto& group : groups) {
+      double share = 0;
+      for (const auto& p : prices)
+        if (contains(group.effects, p.effect)) share += p.share;
+      out << fmt::format("    {:<30}{:>12.2f}%\n", group.name + ", in sum", 100 * share);
+    }
   out << "    saved if off, at most: its own seconds of the load stage, and the share of solve and "
          "superposition "
          "that the\n    channels have which no other effect feeds\n";

@@ -262,7 +262,8 @@ TEST(LoadStage, SpringsAndExtremesAnswerForTheWholeTorus) {
 TEST(LoadStage, ExtremesAndSpringsTakeMassesFromTheMesh) {
   const results_test::Directory directory;
   write(directory / "open.toml",
-        without("vibratory_mill.toml", "[machine.structure]", "[machine.debalance]"));
+        without("vibratory_mill.toml", "[machine.structure]           # the chamber and what is fixed to it",
+                "[machine.debalance]           # the counterweights on the shaft, both together"));
   const double largest = json_of(directory.path, "loads open.toml --json")["loads"]["R_E"]["max"];
   const auto extremes = json_of(directory.path, "extremes open.toml --json");
   EXPECT_EQ(extremes["R_E"]["largest_in_window"].get<double>(), largest);

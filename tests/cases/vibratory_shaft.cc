@@ -88,6 +88,8 @@ TEST(VibratoryShaft, AgreesWithStaticsAndTheHandFigures) {
   const auto& groups = shaft["peak_von_mises"]["effect_group_share"];
   for (const auto& share : groups) of_groups += share.get<double>();
   EXPECT_NEAR(of_groups, 1, 1e-9);
+  EXPECT_NE(results_test::bytes(directory / "out/report.html").find("inertia of the charge"),
+            std::string::npos);
   EXPECT_LT(std::abs(groups["inertia of the charge"].get<double>()),
             std::abs(shaft["peak_von_mises"]["effect_share"]["charge_coriolis"].get<double>()));
 }

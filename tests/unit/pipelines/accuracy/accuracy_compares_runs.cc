@@ -137,4 +137,13 @@ TEST(EffectPrices, ShareOutSecondsByTheChannelsOfTheirOwn) {
   EXPECT_NE(text.find("effects on the shaft"), std::string::npos) << text;
   const auto line = text.substr(text.find("    pull"));
   EXPECT_NE(line.substr(0, line.find('\n')).find("12.5"), std::string::npos) << text;  // 10 + 2 + 0.5 s
+  EXPECT_EQ(text.find("in sum"), std::string::npos) << "no two effects belong together";
+  study.effects[0].effect = "charge_relative";  // -75 %
+  study.effects[1].effect = "charge_coriolis";  // 25 %
+  std::ostringstream grouped;
+  print_accuracy(grouped, study);
+  const auto sums = grouped.str();
+  ASSERT_NE(sums.find("inertia of the charge, in sum"), std::string::npos) << sums;
+  const auto sum = sums.substr(sums.find("inertia of the charge, in sum"));
+  EXPECT_NE(sum.substr(0, sum.find('\n')).find("-50.00%"), std::string::npos) << sums;
 }
