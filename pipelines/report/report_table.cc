@@ -80,8 +80,7 @@ void print_search(std::ostream& out, const Search& search) {
                        step.n_dofs, step.seconds, step.errors.largest(), step.fineness);
   out << fmt::format("  {}: {}", search.met ? "ended" : "NOT MET", search.ended);
   if (search.tolerance > 0) out << fmt::format("; {:.3g} % was asked", 100 * search.tolerance);
-  if (search.time_was_up())
-    out << fmt::format("; the next step needs about {:.0f} s", search.next_seconds);
+  if (search.time_was_up()) out << fmt::format("; the next step needs about {:.0f} s", search.next_seconds);
   out << '\n';
 }
 
