@@ -13,6 +13,7 @@
 #include "pipelines/commands/option_value.h"
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/common/several_ranks.h"
@@ -121,11 +122,14 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
   std::vector<std::vector<std::string>> lines(1);
   lines.front().push_back("point");
   for (const auto& variation : plan.variations) lines.front().push_back(variation.key);
+  std::vector<bool> has_error;
   for (const auto& figure : figures) {
+    has_error.push_back(std::any_of(rows.begin(), rows.end(), [&](const SweepRow& row) {
+      return !std::isnan(row.figure(figure + ".error"));
+    }));
     lines.front().push_back(with_unit(figure, shown_unit(unit_of(rows, figure))));
-    if (!std::isnan(rows.front().figure(figure + ".error"))) lines.front().push_back("+-");
+    if (has_error.back()) lines.front().push_back("+-");
   }
-  const bool with_errors = lines.front().size() > 1 + plan.variations.size() + figures.size();
   for (std::size_t p = 0; p < rows.size() && p < most_lines; ++p) {
     lines.push_back({std::to_string(p + 1)});
     for (const auto& value : plan.points[p].values) lines.back().push_back(value);
@@ -133,11 +137,11 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
       lines.back().push_back("refused: " + rows[p].refused.substr(0, rows[p].refused.find('\n')));
       continue;
     }
-    for (const auto& figure : figures) {
-      const double scale = scale_of(unit_of(rows, figure));
-      lines.back().push_back(fmt::format("{:.6g}", scale * rows[p].figure(figure)));
-      if (with_errors)
-        lines.back().push_back(fmt::format("{:.2g}", scale * rows[p].figure(figure + ".error")));
+    for (std::size_t f = 0; f < figures.size(); ++f) {
+      const double scale = scale_of(unit_of(rows, figures[f]));
+      lines.back().push_back(fmt::format("{:.6g}", scale * rows[p].figure(figures[f])));
+      if (has_error[f])
+        lines.back().push_back(fmt::format("{:.2g}", scale * rows[p].figure(figures[f] + ".error")));
     }
   }
   std::vector<std::size_t> widths;
@@ -346,6 +350,8 @@ void sweep(const SweepCommandOptions& options, std::ostream& out) {
     for (const auto& file : charts) out << ", " << file;
     out << " in " << directory.string() << '\n';
   }
+  if (std::all_of(rows.begin(), rows.end(), [](const auto& row) { return !row.refused.empty(); }))
+    throw StageRefused("no point could be computed: " + rows.front().refused);
   const auto n_worse = loads_only || accuracy.tolerance <= 0 ? 0 : n_known_worse(rows, accuracy.tolerance);
   if (n_worse == 0) return;
   const auto text = fmt::format(

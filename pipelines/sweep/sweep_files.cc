@@ -206,7 +206,9 @@ std::vector<std::optional<SweepRow>> SweepJournal::known(const SweepPlan& plan) 
     const auto text = checked(line);
     const auto json = Json::parse(text, nullptr, false);
     if (!json.is_object()) continue;
-    by_settings[json.at("settings").get<std::vector<std::string>>()] = row_of(json.at("row"));
+    auto row = row_of(json.at("row"));  // what refused a point may be gone: memory, a file
+    if (row.refused.empty())
+      by_settings[json.at("settings").get<std::vector<std::string>>()] = std::move(row);
   }
   for (std::size_t p = 0; p < rows.size(); ++p)
     if (const auto found = by_settings.find(plan.points[p].settings); found != by_settings.end())

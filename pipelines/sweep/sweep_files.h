@@ -33,7 +33,8 @@ public:
   /// @throws OptionError if a file of that name is there that no sweep has written
   void require_own() const;
 
-  /// Rows of an earlier sweep with the same key, by point; none if there is no such journal.
+  /// Rows of an earlier sweep with the same key, by point, those that were computed; none if there is no such
+  /// journal.
   std::vector<std::optional<SweepRow>> known(const SweepPlan& plan) const;
   /// Begins the journal anew with the rows that are known.
   void begin(const SweepPlan& plan, const std::vector<std::optional<SweepRow>>& known);

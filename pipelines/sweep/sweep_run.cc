@@ -22,7 +22,8 @@ namespace {
 /// Rows that are handed on together: seconds of work on one core.
 constexpr std::size_t points_of_loads_at_once = 2000, points_of_bodies_at_once = 64;
 
-/// What a point's own numbers may be refused for becomes its row; a disk that is full ends the sweep.
+/// What a point's own numbers may be refused for becomes its row; a disk that is full and errors of the
+/// program end the sweep.
 template <typename Work>
 std::string point_refusal(const Work& work) {
   try {
@@ -33,7 +34,9 @@ std::string point_refusal(const Work& work) {
   } catch (const std::filesystem::filesystem_error&) {
     throw;
   } catch (...) {
-    return failure_in_flight().message;
+    auto failure = failure_in_flight();
+    if (failure.message.find("internal error") != std::string::npos) throw;
+    return std::move(failure.message);
   }
 }
 
@@ -153,19 +156,14 @@ public:
   }
 
 private:
-  struct Shape {
-    BodyScene body;       ///< as read
-    std::string refused;  ///< why it cannot be meshed
-  };
   struct Solution {
     std::size_t shape;
-    Scene scene;  ///< as read, of its first point
-    std::string refused;
+    Scene scene;                                             ///< as read, of its first point
     std::vector<std::shared_ptr<const BodyDesign>> designs;  ///< several where effects bring other loads
   };
   struct SweptBody {
     std::string name;
-    std::vector<Shape> shapes;
+    std::vector<BodyScene> shapes;  ///< as read
     std::vector<Solution> solutions;
   };
 
@@ -200,17 +198,17 @@ private:
   void sort_in(std::size_t p, const Scene& scene) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       auto& body = bodies_[b];
-      const auto shape = std::find_if(body.shapes.begin(), body.shapes.end(), [&](const Shape& other) {
-        return have_one_mesh(other.body, scene.bodies[b]);
+      const auto shape = std::find_if(body.shapes.begin(), body.shapes.end(), [&](const BodyScene& other) {
+        return have_one_mesh(other, scene.bodies[b]);
       });
       const auto i_shape = std::size_t(shape - body.shapes.begin());
-      if (shape == body.shapes.end()) body.shapes.push_back({scene.bodies[b], ""});
+      if (shape == body.shapes.end()) body.shapes.push_back(scene.bodies[b]);
       const auto solution =
           std::find_if(body.solutions.begin(), body.solutions.end(), [&](const Solution& other) {
             return other.shape == i_shape && have_one_stiffness(other.scene, scene, b);
           });
       of_point_[p].push_back(std::size_t(solution - body.solutions.begin()));
-      if (solution == body.solutions.end()) body.solutions.push_back({i_shape, scene, "", {}});
+      if (solution == body.solutions.end()) body.solutions.push_back({i_shape, scene, {}});
     }
   }
 
@@ -219,26 +217,22 @@ private:
   void mesh_for_masses(const std::vector<std::size_t>& points) {
     for (const auto p : points) {
       if (!refused_[p].empty()) continue;
-      auto& shape = bodies_.front().shapes[bodies_.front().solutions[of_point_[p].front()].shape];
       auto& mesh = meshes_[of_point_[p]];
-      if (mesh || !shape.refused.empty()) continue;
-      shape.refused = point_refusal([&] { mesh = std::make_shared<const ScratchMeshes>(read(p)); });
+      auto& refused = refused_bodies_[of_point_[p]];
+      if (mesh || !refused.empty()) continue;
+      refused = point_refusal([&] { mesh = std::make_shared<const ScratchMeshes>(read(p)); });
     }
   }
 
   SweepRow loads_row(std::size_t p) const {
     SweepRow row;
     row.refused = refused_[p];
+    if (row.refused.empty() && needs_bodies_) row.refused = refused_bodies_.at(of_point_[p]);
     if (!row.refused.empty()) return row;
     row.refused = point_refusal([&] {
       Scene scene = read(p);
       std::vector<BearingScene> bearings;  // those at a port of a body need the body
-      if (needs_bodies_) {
-        const auto mesh = meshes_.find(of_point_[p]);
-        if (mesh == meshes_.end() || !mesh->second)
-          throw StageRefused("the body that its masses come from cannot be meshed");
-        scene.machine = agree_masses(scene, mesh->second->bodies()).machine;
-      }
+      if (needs_bodies_) scene.machine = agree_masses(scene, meshes_.at(of_point_[p])->bodies()).machine;
       const auto loads = load_stage(scene, scene.machine);
       for (const auto& bearing : scene.bearings)
         if (scene.bodies.empty() || force_of(bearing.load, loads, {})) bearings.push_back(bearing);
@@ -281,20 +275,14 @@ private:
 
   Solution& solution_of(std::size_t p, std::size_t b) { return bodies_[b].solutions[of_point_[p][b]]; }
 
-  /// @return why not; empty: all bodies of the point have one
+  /// Which of a point's bodies is at fault a refusal does not say: it holds for points that combine the same.
+  /// @return why not; empty: all bodies of the point have a design
   std::string design_bodies(std::size_t p, StageClock& clock) {
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      auto& solution = solution_of(p, b);
-      auto& shape = bodies_[b].shapes[solution.shape];
-      if (!shape.refused.empty()) return shape.refused;
-      if (!solution.refused.empty()) return solution.refused;
-      if (!solution.designs.empty()) continue;
-      const auto refused = point_refusal([&] { solve_for(p, clock); });
-      if (refused.empty()) continue;
-      (searched_design(b, solution.shape) ? solution.refused : shape.refused) = refused;
-      return refused;
-    }
-    return {};
+    auto& refused = refused_bodies_[of_point_[p]];
+    bool has_all = true;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) has_all = has_all && !solution_of(p, b).designs.empty();
+    if (refused.empty() && !has_all) refused = point_refusal([&] { solve_for(p, clock); });
+    return refused;
   }
 
   /// The design whose search found a shape's mesh; null if there is none yet.
@@ -303,8 +291,6 @@ private:
       if (solution.shape == i_shape && !solution.designs.empty()) return solution.designs.front().get();
     return nullptr;
   }
-
-  std::filesystem::path folder() { return options_.directory / "bodies" / std::to_string(++n_folders_); }
 
   /// Bodies of a point that no mesh serves are searched; those on a known mesh whose solution or loads are
   /// other ones are solved once on it.
@@ -315,7 +301,7 @@ private:
       on_mesh.push_back(searched_design(b, solution_of(p, b).shape));
     const auto n_unknown = std::count(on_mesh.begin(), on_mesh.end(), nullptr);
     if (n_unknown > 1 || n_unknown == std::ptrdiff_t(bodies_.size())) {
-      auto run = run_scene(as_read, run_options(), clock);
+      auto run = run_scene(as_read, run_options(next_folder()), clock);
       for (std::size_t b = 0; b < bodies_.size(); ++b)
         if (on_mesh[b] == nullptr) on_mesh[b] = keep_design(p, b, as_read, run, nullptr);
     }
@@ -333,7 +319,7 @@ private:
       auto options = options_beside(on_mesh, b);
       if (on_mesh[b]->serves_other_points()) options.accuracy = {0, 0, true, false};
       auto run = run_scene(scene, options, clock);
-      (void)keep_design(p, b, scene, run, on_mesh[b]);
+      (void)keep_design(p, b, as_read, run, on_mesh[b]);
     }
   }
 
@@ -346,17 +332,19 @@ private:
     return design.get();
   }
 
+  std::string next_folder() { return std::to_string(++n_folders_); }
+
   /// Body b alone is run.
   SceneRunOptions options_beside(const std::vector<const BodyDesign*>& others, std::size_t b) {
-    auto options = run_options();
+    auto options = run_options(next_folder());
     options.only = b;
     for (const auto* other : others) options.others.push_back(other ? other->meshed() : MeshedBody());
     return options;
   }
 
-  SceneRunOptions run_options() {
+  SceneRunOptions run_options(const std::string& folder) const {
     SceneRunOptions options;
-    options.directory = folder();
+    options.directory = options_.directory / "bodies" / folder;
     options.n_threads = options_.n_threads;
     options.fresh = options_.fresh;
     options.accuracy = options_.accuracy;
@@ -433,7 +421,7 @@ private:
   /// A body by its cheap model, which is solved for each point.
   void add_cheap(SweepRow& row, Scene scene, std::size_t b, const LoadedScene& loaded, Method method) {
     const std::lock_guard lock(cheap_);
-    auto options = run_options();
+    auto options = run_options("cheap");
     options.only = b;
     options.keep = false;
     options.others = loaded.meshed;
@@ -448,7 +436,9 @@ private:
   std::vector<std::string> refused_;                ///< by point: why it cannot be read
   std::vector<std::vector<std::size_t>> of_point_;  ///< by point and body: its solution
   std::vector<SweptBody> bodies_;
-  std::map<std::vector<std::size_t>, std::shared_ptr<const ScratchMeshes>> meshes_;
+  // By what a point combines, of_point_.
+  std::map<std::vector<std::size_t>, std::shared_ptr<const ScratchMeshes>> meshes_;  ///< for masses
+  std::map<std::vector<std::size_t>, std::string> refused_bodies_;                   ///< why; empty: not
   bool needs_bodies_ = true, has_chosen_effects_ = false;
   int n_folders_ = 0;
   std::mutex cheap_;  ///< cheap models run one at a time: fem's threads are theirs

@@ -1,5 +1,6 @@
 // Sweeps: every point is what a run by itself says, whatever is shared between points.
 #include "tests/cases/program.h"
+#include "tests/cases/small_shaft.h"
 
 #include <fstream>
 #include <sstream>
@@ -125,6 +126,41 @@ TEST(Sweeps, OneRefusedPointIsToldAndKept) {
   EXPECT_TRUE(points[0].contains("figures"));
   EXPECT_NE(points[1]["refused"].get<std::string>().find("machine.charge.mass"), std::string::npos);
   EXPECT_TRUE(points[2].contains("figures"));
+}
+
+// The chamber of the first point cannot be meshed; the shaft, whose mesh the second point shares, is not to
+// blame.
+TEST(Sweeps, OneRefusedMeshIsNoFaultOfOthers) {
+  const results_test::Directory directory;
+  write(directory / "open.toml",
+        without("vibratory_mill.toml", "[machine.structure]           # the chamber and what is fixed to it",
+                "[machine.debalance]           # the counterweights on the shaft, both together"));
+  const auto points =
+      points_of(directory.path, "open.toml --loads --vary 'chamber.mesh.min_scaled_jacobian = 0.9, 0.3'");
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_NE(points[0].value("refused", "").find("Jacobian"), std::string::npos) << points[0];
+  EXPECT_GT(figure(points[1], "loads.R_E.max"), 1000);
+  const auto none = as_a_user(
+      directory.path, "sweep open.toml --loads -o none --vary 'chamber.mesh.min_scaled_jacobian = 0.9'");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("no point could be computed"), std::string::npos) << none.err;
+}
+
+// A column of errors stands behind the figures that have one, and behind no others.
+TEST(Sweeps, PrintErrorsBesideTheirFigures) {
+  const results_test::Directory directory;
+  write(directory / "shaft.toml", small_shaft({{"pull", "middle.fy", "1 kN"}}));
+  const auto outcome = as_a_user(directory.path,
+                                 "sweep shaft.toml -o swept -q --vary 'machine.speed = 600, 700 rpm' "
+                                 "--figure bodies.shaft.governing --figure bodies.shaft.governing.safety");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::string title, first;
+  std::getline(lines, title);
+  std::getline(lines, first);
+  EXPECT_NE(title.find("governing [MPa] +-"), std::string::npos) << title;
+  EXPECT_EQ(title.find("+-"), title.rfind("+-")) << title;
+  EXPECT_EQ(first.find("nan"), std::string::npos) << first;
 }
 
 // The last line of the journal is cut as by a kill, another is damaged: both are computed again, the others
