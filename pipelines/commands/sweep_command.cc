@@ -152,7 +152,8 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
     }
   for (const auto& line : lines) {
     std::string text = " ";
-    for (std::size_t c = 0; c < line.size(); ++c) text += fmt::format(" {:>{}}", line[c], widths[c]);
+    for (std::size_t c = 0; c < line.size(); ++c)
+      text += fmt::format(" {:>{}}", line[c], c < widths.size() ? widths[c] : 0);
     out << text << '\n';
   }
   if (rows.size() > most_lines) out << fmt::format("  ... {} more in sweep.csv\n", rows.size() - most_lines);
