@@ -1,40 +1,74 @@
 #include "fem/mesh/rigid_modes.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "fem/common/dense_algebra.h"
 #include "fem/common/parallel.h"
-#include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/reference_cell.h"
 
 namespace fem {
 
 namespace {
 
-void add_cell(const Grid& grid, const Tabulation& at, std::size_t cell, double weight,
-              NodeIntegrals& integrals) {
-  const auto* nodes = grid.nodes_of(cell);
-  for (int q = 0; q < at.n_points; ++q) {
-    const double volume = weight * jacobian(grid, cell, at, q).determinant() * at.weight[q];
-    const Eigen::Vector3d x = position(grid, cell, at, q);
-    const Eigen::RowVector4d moments = volume * Eigen::RowVector4d(1, x[0], x[1], x[2]);
-    for (int i = 0; i < at.n_shapes; ++i)
-      integrals.row(nodes[i]) += at.value[std::size_t(q) * at.n_shapes + i] * moments;
+/// Integrals over one cell after another, by products of matrices: points of the rule times shape functions.
+class CellMoments {
+public:
+  using Moments = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+
+  explicit CellMoments(const Grid& grid) : grid_(grid), at_(moment_points_in_cell(grid.shape())) {
+    value_ = Eigen::Map<const Eigen::MatrixXd>(at_.value.data(), at_.n_shapes, at_.n_points);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      along_[axis].resize(at_.n_points, at_.n_shapes);
+      for (int q = 0; q < at_.n_points; ++q)
+        for (int i = 0; i < at_.n_shapes; ++i)
+          along_[axis](q, i) = at_.gradient[std::size_t(q) * at_.n_shapes + i][axis];
+    }
   }
-}
+
+  /// Integrals of N_i, N_i x, N_i y, N_i z over the cell, times a weight (n_shapes x 4).
+  Moments of(std::size_t cell, double weight) const {
+    const auto* nodes = grid_.nodes_of(cell);
+    Eigen::Matrix<double, Eigen::Dynamic, 3> x(at_.n_shapes, 3);
+    for (int i = 0; i < at_.n_shapes; ++i)
+      x.row(i) = Eigen::Map<const Eigen::RowVector3d>(grid_.position(nodes[i]));
+    std::array<Eigen::Array<double, Eigen::Dynamic, 3>, 3> tangent;
+    for (std::size_t axis = 0; axis < 3; ++axis) tangent[axis] = (along_[axis] * x).array();
+    const auto& [a, b, c] = tangent;
+    Moments moments(at_.n_points, 4);
+    moments.col(0) = weight * Eigen::Map<const Eigen::ArrayXd>(at_.weight.data(), at_.n_points) *
+                     (a.col(0) * (b.col(1) * c.col(2) - b.col(2) * c.col(1)) +
+                      a.col(1) * (b.col(2) * c.col(0) - b.col(0) * c.col(2)) +
+                      a.col(2) * (b.col(0) * c.col(1) - b.col(1) * c.col(0)));
+    moments.rightCols<3>() = moments.col(0).asDiagonal() * (value_.transpose() * x);
+    return value_ * moments;
+  }
+
+  void add(std::size_t cell, const Moments& moments, NodeIntegrals& integrals) const {
+    const auto* nodes = grid_.nodes_of(cell);
+    for (int i = 0; i < at_.n_shapes; ++i) integrals.row(nodes[i]) += moments.row(i);
+  }
+
+private:
+  const Grid& grid_;
+  Tabulation at_;
+  Eigen::MatrixXd value_;                 // shape functions x points
+  std::array<Eigen::MatrixXd, 3> along_;  // points x derivatives of the shape functions
+};
 
 }  // namespace
 
 NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
                               const PerCell<double>& weight) {
-  const Tabulation at = moment_points_in_cell(grid.shape());
+  const CellMoments moments(grid);
   NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) add_cell(grid, at, cells[c], weight[cells[c]], integrals);
+      for (std::size_t c = begin; c < end; ++c)
+        moments.add(cells[c], moments.of(cells[c], weight[cells[c]]), integrals);
     });
   return integrals;
 }
@@ -44,11 +78,23 @@ NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_i
   for (const int id : volume_ids)
     if (std::find(grid.volume_id.begin(), grid.volume_id.end(), id) == grid.volume_id.end())
       throw std::invalid_argument("the mesh has no cells in the volume group " + std::to_string(id));
-  const Tabulation at = moment_points_in_cell(grid.shape());
-  NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
+  std::vector<std::size_t> cells;
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     if (std::find(volume_ids.begin(), volume_ids.end(), grid.volume_id[c]) != volume_ids.end())
-      add_cell(grid, at, c, weight[c], integrals);
+      cells.push_back(c);
+  const CellMoments moments(grid);
+  NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
+  // Neighbours write to the same nodes: integrated on all threads, added up on one.
+  constexpr std::size_t most_at_once = 1024;
+  std::vector<CellMoments::Moments> of_cells(std::min(most_at_once, cells.size()));
+  for (std::size_t first = 0; first < cells.size(); first += most_at_once) {
+    const auto n = std::min(most_at_once, cells.size() - first);
+    parallel_for(n, 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        of_cells[k] = moments.of(cells[first + k], weight[cells[first + k]]);
+    });
+    for (std::size_t k = 0; k < n; ++k) moments.add(cells[first + k], of_cells[k], integrals);
+  }
   return integrals;
 }
 

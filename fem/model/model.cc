@@ -98,7 +98,7 @@ MassProperties Model::mass_properties(const std::vector<int>& volume_ids) const 
   auto masses =
       fem::mass_properties(impl_->grid, integrate_nodes(impl_->grid, volume_ids, impl_->relative_density()),
                            impl_->body.material.density_kg_m3);
-  masses.volume_m3 = integrate_nodes(impl_->grid, volume_ids).col(0).sum();
+  if (impl_->seen) masses.volume_m3 = integrate_nodes(impl_->grid, volume_ids).col(0).sum();
   return masses;
 }
 
