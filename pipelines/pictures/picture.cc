@@ -172,6 +172,15 @@ double distance(const Vector& a, const Vector& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
+/// How often faces are cut into four to look round: where they are many, each is small in the picture, and
+/// drawing without a graphics card takes its time for each triangle.
+int pieces_of(vtkIdType n_faces, int wanted) {
+  constexpr double most_triangles = 6e5;
+  int pieces = std::clamp(wanted, 0, 5);
+  while (pieces > 1 && 2 * double(n_faces) * std::pow(4, pieces) > most_triangles) --pieces;
+  return pieces;
+}
+
 /// What is ringed, and what the grey means; above the colours.
 /// @return the number of lines
 int add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::string& unit,
@@ -197,8 +206,8 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const auto window = make_offscreen_window();
   if (!window) return false;
 
-  const int pieces = std::clamp(options.subdivisions, 0, 5);
   const auto faces = boundary_faces(vtu, field, options.scale, options.excluded);
+  const int pieces = pieces_of(faces->GetNumberOfCells(), options.subdivisions);
   Drawn drawn{smooth_surface(faces.get(), pieces), curved_edges(faces.get(), 1 << pieces), {}};
   const SurfacePeak peak = peak_of(faces.get(), drawn.surface.get());
   const Vector shown = options.mark ? options.mark->at_m : peak.at;

@@ -22,7 +22,7 @@ struct PictureOptions {
   std::string excluded;  ///< field that is not 0 where the picture's has no converged value: grey there
   std::optional<PictureMark> mark;  ///< ringed and named instead of the field's peak
   bool edges = true;                ///< the edges of the cells, as curved as they are
-  int subdivisions = 3;             ///< each face is drawn as 4^n pieces, 0 to 5: more makes it rounder
+  int subdivisions = 3;             ///< each face is drawn as 4^n pieces, 0 to 5, of many faces fewer
   double detail = 0.35;             ///< width of the detail over the largest extent of the body
 };
 

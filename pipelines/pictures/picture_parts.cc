@@ -112,7 +112,7 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
   image->ShouldRerenderOff();
   AtomicFile file(png);
   vtkNew<vtkPNGWriter> writer;
-  writer->SetCompressionLevel(9);
+  writer->SetCompressionLevel(6);  // 9 takes longer for 5 % fewer bytes
   writer->SetFileName(file.temporary().c_str());
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
