@@ -1,5 +1,6 @@
 #include "kinetics/bearing_life.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -65,6 +66,40 @@ std::optional<RatingLife> rating_life(double dynamic_rating_N, double equivalent
   const double hours = L10 * 1e6 * 2 * pi / (speed_rad_s * 3600);
   if (!std::isfinite(L10) || !std::isfinite(hours)) return std::nullopt;
   return RatingLife{L10, hours};
+}
+
+double life_factor(double reliability) {
+  require_finite("reliability", reliability);
+  if (reliability < 0.9 || reliability > 0.9995)
+    refuse("reliability", reliability, "must lie between 0.9 and 0.9995, where ISO 281 has its factor a1");
+  // 90 % is the catalogues' own: no rounding there.
+  if (reliability == 0.9) return 1;
+  return 0.95 * std::pow(std::log(reliability) / std::log(0.9), 2.0 / 3) + 0.05;
+}
+
+double life_modification_factor(const Lubrication& lubrication, double equivalent_load_N,
+                                RollingElement element) {
+  const auto& [given_kappa, contamination, limit_N] = lubrication;
+  require_finite("viscosity_ratio", given_kappa);
+  if (given_kappa < 0.1)
+    refuse("viscosity_ratio", given_kappa, "must be 0.1 at least: below, ISO 281 gives no life");
+  require_positive("contamination_factor", contamination);
+  if (contamination > 1) refuse("contamination_factor", contamination, "must not exceed 1, which is clean");
+  require_positive("fatigue_load_limit_N", limit_N);
+  require_positive("equivalent_load_N", equivalent_load_N);
+  constexpr double most_kappa = 4, most = 50;
+  const double kappa = std::min(given_kappa, most_kappa);
+  const bool is_ball = element == RollingElement::ball;
+  // Constant of the film, its factor at little, middle and full viscosity, and the powers.
+  const double constant = is_ball ? 2.5671 : 1.5859;
+  const double film = kappa < 0.4
+                          ? (is_ball ? 2.2649 : 1.3993) / std::pow(kappa, 0.054381)
+                          : (is_ball ? 1.9987 : 1.2348) / std::pow(kappa, kappa < 1 ? 0.19087 : 0.071739);
+  const double of_film = is_ball ? std::pow(constant - film, 0.83) : constant - film;
+  const double of_load = std::pow(contamination * limit_N / equivalent_load_N, is_ball ? 1.0 / 3 : 0.4);
+  const double left = 1 - of_film * of_load;
+  if (left <= 0) return most;
+  return std::min(most, 0.1 * std::pow(left, is_ball ? -9.3 : -9.185));
 }
 
 double required_million_revolutions(double hours, double speed_rad_s) {

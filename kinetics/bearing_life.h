@@ -43,6 +43,26 @@ struct RatingLife {
 std::optional<RatingLife> rating_life(double dynamic_rating_N, double equivalent_load_N,
                                       RollingElement element, double speed_rad_s);
 
+/// Life that a share of bearings reaches over what 90 % reach, a1 = 0.95 (ln(1/S) / ln(1/0.9))^(2/3) + 0.05:
+/// the law behind the table of ISO 281:2007 (its Table 12 rounds it to two digits).
+/// @param reliability  S, 0.9 to 0.9995 as in the table
+/// @throws MachineRefused outside
+double life_factor(double reliability);
+
+/// Film, dirt and the load below which nothing fatigues.
+struct Lubrication {
+  double viscosity_ratio = 0;  ///< [kappa] >= 0.1, of the oil to what the film needs; above 4 it counts as 4
+  double contamination_factor = 0;  ///< [e_C] in (0, 1], 1: clean
+  double fatigue_load_limit_N = 0;  ///< [C_u] > 0, by the bearing's catalogue
+};
+
+/// Life modification factor a_ISO of radial bearings, by ISO 281:2007, equations (31) to (36):
+///   a_ISO = 0.1 (1 - g(kappa) (e_C C_u / P)^n)^-m, at most 50.
+/// @param equivalent_load_N  P > 0
+/// @throws MachineRefused if an argument is not finite or out of its range
+double life_modification_factor(const Lubrication& lubrication, double equivalent_load_N,
+                                RollingElement element);
+
 /// Life of a bearing in units of L10 at the rating load: R = exp(-((x - x0) / (theta - x0))^b).
 /// The defaults are those of many catalogues; they give R = 0.9 at x = 0.9933 rather than at 1 because they
 /// are rounded.

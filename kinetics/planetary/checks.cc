@@ -105,8 +105,8 @@ void check_parameters(const PlanetaryMill& mill, const std::vector<std::string>&
   check_charge(mill, effects);
   check_belt(mill.belt);
   if (mill.belt_beyond_geometry && mill.convention == PlanetaryConvention::consistent)
-    refuse("belt_beyond_geometry", 1,
-           "is for the two conventions of the paper; set it to 0, or choose as_plotted or as_published");
+    refuse("belt.beyond_geometry", 1,
+           "is for the two conventions of the paper; set it to false, or choose as_plotted or as_published");
 }
 
 }  // namespace kinetics::planetary

@@ -28,7 +28,7 @@ std::vector<std::string> check_feasibility(const PlanetaryMill& mill) {
                              number(std::abs(g.belt_sine));
     if (consistent || !mill.belt_beyond_geometry)
       throw MachineRefused(none + "; c must be at least k (l_OA at least |r_O - r_A|)" +
-                           (consistent ? "" : ", or set belt_beyond_geometry to reproduce Fig. 8"));
+                           (consistent ? "" : ", or set belt.beyond_geometry to reproduce Fig. 8"));
     findings.push_back(none + "; cos beta is taken as zero");
   }
   if (g.wrap_rad == 0 && std::holds_alternative<EytelweinBelt>(mill.belt))

@@ -4,15 +4,6 @@
 #include <map>
 
 namespace pipelines {
-namespace {
-
-/// Of the largest stress on the surface: a maximum inside well below it is that of the node next to the
-/// surface, and says where nodes lie. An extremum inside (a shaft that spins, the depth below a pressed seat)
-/// is one of the largest.
-constexpr double share_of_an_extremum = 0.9;
-
-}  // namespace
-
 std::vector<PlaceStress> largest_by_feature(const fem::Nodes& nodes, const std::vector<double>& von_mises_Pa,
                                             const std::vector<meshes::Feature>& features,
                                             const NodePlaces& places) {
@@ -43,7 +34,7 @@ std::vector<PlaceStress> largest_by_feature(const fem::Nodes& nodes, const std::
       result.push_back(largest[place]);
       on_surface_Pa = std::max(on_surface_Pa, largest[place].value_Pa);
     }
-  if (found.back() && largest.back().value_Pa >= share_of_an_extremum * on_surface_Pa)
+  if (found.back() && largest.back().value_Pa >= share_of_inside * on_surface_Pa)
     result.push_back(largest.back());
   return result;
 }

@@ -26,6 +26,10 @@ struct PlaceStress {
 };
 
 inline constexpr const char* inside_the_body = "inside";
+/// Of the largest stress on the surface: a maximum inside well below it is that of the node next to the
+/// surface, and says where nodes lie. An extremum inside (a shaft that spins, the depth below a pressed seat)
+/// is one of the largest.
+inline constexpr double share_of_inside = 0.9;
 
 /// The largest value of each feature outside the exclusion distances, errors zero. A node on the seam of two
 /// features belongs to both: else the maximum of a cylinder beside a fillet would be that of the first node

@@ -15,6 +15,7 @@
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/loads/load_statistics.h"
 #include "pipelines/pictures/load_charts.h"
+#include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/report/summary.h"
 
 namespace pipelines {
@@ -103,7 +104,8 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   } else {
     print_report(out, content);
     print_effects_of_bodies(out, scene);
-    print_files(out, options.statistics, charts);
+    if (!options.statistics.empty())
+      print_charts(out, options.statistics, charts, !charts.empty() || make_offscreen_window());
   }
 }
 

@@ -5,6 +5,7 @@
 #include "pipelines/commands/scene_machine.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/pictures/load_charts.h"
+#include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/report/torsion_report.h"
 
 namespace pipelines {
@@ -32,7 +33,8 @@ void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   }
   print_torsion(out, scene, report);
   for (const auto& warning : scene.warnings) out << "  warning: " << warning << '\n';
-  print_files(out, options.output, charts);
+  if (!options.output.empty())
+    print_charts(out, options.output, charts, !charts.empty() || make_offscreen_window());
 }
 
 }  // namespace

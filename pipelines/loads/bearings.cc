@@ -1,6 +1,9 @@
 #include "pipelines/loads/bearings.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "pipelines/common/errors.h"
 #include "pipelines/common/nearest_name.h"
@@ -22,6 +25,32 @@ double speed_of(const BearingScene& bearing, const kinetics::LoadHistory& loads)
   return loads.speed_rad_s.abs().mean();
 }
 
+BearingAnswers answers_of(const BearingScene& bearing, const BearingResult& result) {
+  BearingAnswers answers;
+  const double load_N = result.equivalent_load_N;
+  if (bearing.static_rating_N && result.largest_load_N > 0)
+    answers.static_safety = *bearing.static_rating_N / result.largest_load_N;
+  if (!result.life) return answers;
+  const double share = bearing.reliability.value_or(0.9);
+  const double a1 = kinetics::life_factor(share);
+  const double a_iso = bearing.lubrication
+                           ? kinetics::life_modification_factor(*bearing.lubrication, load_N, bearing.element)
+                           : 1;
+  if (bearing.reliability) answers.a1 = a1;
+  if (bearing.lubrication) answers.a_iso = a_iso;
+  if (answers.a1 || answers.a_iso) answers.modified_life_h = a1 * a_iso * result.life->hours;
+  if (answers.a1 || answers.a_iso || bearing.required_life_s) answers.reliability = share;
+  if (!bearing.required_life_s) return answers;
+  const double hours = *bearing.required_life_s / 3600, exponent = kinetics::life_exponent(bearing.element);
+  const double millions = kinetics::required_million_revolutions(hours, result.speed_rad_s);
+  const kinetics::WeibullLife law{0.02, 4.439, 1.483, exponent};
+  answers.required_life_h = hours;
+  answers.required_rating_N = load_N * std::pow(millions / (a1 * a_iso), 1 / exponent);
+  answers.weibull_rating_N = kinetics::required_rating_N(load_N, millions, share, law);
+  answers.weibull_reliability = kinetics::reliability(load_N, millions, bearing.dynamic_rating_N, law);
+  return answers;
+}
+
 }  // namespace
 
 std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::LoadHistory& loads,
@@ -32,6 +61,28 @@ std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::
     if (fx || fy) return (fx ? *fx : *fy).abs();  // the other one is never fed
   }
   return force_of(load, loads);
+}
+
+std::vector<std::string> answer_lines(const BearingAnswers& answers) {
+  std::vector<std::string> lines;
+  if (answers.modified_life_h) {
+    std::string factors;
+    if (answers.a1) factors += fmt::format("a1 {:.3g}", *answers.a1);
+    if (answers.a_iso) factors += fmt::format("{}a_ISO {:.3g}", factors.empty() ? "" : ", ", *answers.a_iso);
+    lines.push_back(fmt::format("{:.5g} % of them reach {:.5g} h ({}; ISO 281)", 100 * *answers.reliability,
+                                *answers.modified_life_h, factors));
+  }
+  if (answers.required_rating_N) {
+    lines.push_back(fmt::format(
+        "{:.5g} h with {:.5g} % need a dynamic rating of {:.5g} N (ISO 281) or {:.5g} N (Weibull, Shigley)",
+        *answers.required_life_h, 100 * *answers.reliability, *answers.required_rating_N,
+        *answers.weibull_rating_N));
+    lines.push_back(fmt::format("{:.5g} % of them reach {:.5g} h (Weibull, Shigley)",
+                                100 * *answers.weibull_reliability, *answers.required_life_h));
+  }
+  if (answers.static_safety)
+    lines.push_back(fmt::format("static safety {:.3g}, by the largest load", *answers.static_safety));
+  return lines;
 }
 
 std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearings,
@@ -53,6 +104,7 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
     result.speed_rad_s = speed_of(bearing, loads);
     result.life = kinetics::rating_life(bearing.dynamic_rating_N, result.equivalent_load_N, bearing.element,
                                         result.speed_rad_s);
+    result.answers = answers_of(bearing, result);
     results.push_back(std::move(result));
   }
   return results;

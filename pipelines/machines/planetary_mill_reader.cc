@@ -90,6 +90,11 @@ void read_belt(SceneTable belt, PlanetaryMill& mill) {
   }
   mill.belt_beyond_geometry =
       belt.flag_or("beyond_geometry", false, "a machine whose pulleys contain each other has no belt");
+  if (mill.belt_beyond_geometry && mill.convention == PlanetaryConvention::consistent)
+    belt.refuse(
+        "beyond_geometry",
+        "is for the two conventions of the paper, which take cos beta = 0 there; remove it, or choose "
+        "convention = \"as_plotted\" or \"as_published\"");
   belt.finish();
 }
 

@@ -185,6 +185,28 @@ void add_loads(HtmlPage& page, const Json& summary) {
   page.table({"load", "max", "min", "mean", "rms", "unit"}, rows);
 }
 
+/// What the scene asks beyond L10; a table only if it asks.
+void add_bearing_answers(HtmlPage& page, const Json& bearings) {
+  const std::vector<std::pair<const char*, const char*>> keys = {
+      {"reliability", "reliability"},
+      {"a1", "a1 (ISO 281)"},
+      {"a_ISO", "a_ISO (ISO 281)"},
+      {"modified_life", "modified life h (ISO 281)"},
+      {"required_life", "required life h"},
+      {"required_rating", "required rating N (ISO 281)"},
+      {"required_rating_weibull", "required rating N (Weibull)"},
+      {"reliability_weibull", "reliability at the required life (Weibull)"},
+      {"static_safety", "static safety"}};
+  Rows rows;
+  for (const auto& [name, bearing] : bearings.items())
+    for (const auto& [key, title] : keys)
+      if (bearing.contains(key)) {
+        const Json& value = bearing.at(key);
+        rows.push_back({name, title, number(value.is_object() ? value.at("value") : value, 1, "{:.5g}")});
+      }
+  if (!rows.empty()) page.table({"bearing", "asked", ""}, rows);
+}
+
 void add_bearings(HtmlPage& page, const Json& summary) {
   if (!summary.contains("bearings")) return;
   Rows rows;
@@ -195,6 +217,7 @@ void add_bearings(HtmlPage& page, const Json& summary) {
          bearing.at("L10h").is_null() ? "-" : number(bearing.at("L10h").at("value"), 1, "{:.0f}")});
   page.heading(2, "Bearings");
   page.table({"bearing", "equivalent load N", "largest N", "L10h hours"}, rows);
+  add_bearing_answers(page, summary.at("bearings"));
 }
 
 void add_natural_frequencies(HtmlPage& page, const Json& summary) {

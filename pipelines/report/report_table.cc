@@ -196,11 +196,13 @@ void print_bearings(std::ostream& out, const RunReport& report) {
   if (report.bearings.empty()) return;
   out << fmt::format("\n  {:<28}{:>18}{:>14}{:>14}{:>12}\n", "bearing", "equivalent load N", "largest N",
                      "revolutions", "L10h hours");
-  for (const auto& b : report.bearings)
+  for (const auto& b : report.bearings) {
     out << fmt::format("  {:<28}{:>18.5g}{:>14.5g}{:>14}{:>12}\n", b.name, b.equivalent_load_N,
                        b.largest_load_N,
                        b.life ? fmt::format("{:.3g}", 1e6 * b.life->million_revolutions) : "unloaded",
                        b.life ? fmt::format("{:.5g}", b.life->hours) : "-");
+    for (const auto& line : answer_lines(b.answers)) out << "    " << line << '\n';
+  }
 }
 
 }  // namespace

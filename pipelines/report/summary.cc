@@ -51,6 +51,22 @@ Json choice_json(const RunReport& report) {
   return json;
 }
 
+/// What the scene asks of a bearing beyond L10; other keys are not there.
+void add_answers(Json& entry, const BearingAnswers& answers) {
+  const auto add = [&](const char* key, const std::optional<double>& value, const char* unit = nullptr) {
+    if (value) entry[key] = unit != nullptr ? figure(*value, unit) : number(*value);
+  };
+  add("reliability", answers.reliability);
+  add("a1", answers.a1);
+  add("a_ISO", answers.a_iso);
+  add("modified_life", answers.modified_life_h, "h");
+  add("required_life", answers.required_life_h, "h");
+  add("required_rating", answers.required_rating_N, "N");
+  add("required_rating_weibull", answers.weibull_rating_N, "N");
+  add("reliability_weibull", answers.weibull_reliability);
+  add("static_safety", answers.static_safety);
+}
+
 }  // namespace
 
 std::string summary_json(const RunReport& report) {
@@ -105,6 +121,7 @@ std::string summary_json(const RunReport& report) {
                     {"speed", figure(bearing.speed_rad_s, "rad/s")}});
     entry["L10"] = bearing.life ? Json(bearing.life->million_revolutions * 1e6) : Json(nullptr);
     entry["L10h"] = bearing.life ? figure(bearing.life->hours, "h") : Json(nullptr);
+    add_answers(entry, bearing.answers);
   }
   for (const auto& cost : report.costs)
     json["timing"][cost.stage] =

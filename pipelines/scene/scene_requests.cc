@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "pipelines/common/nearest_name.h"
 #include "pipelines/common/units.h"
 #include "pipelines/scene/scene_stages.h"
@@ -39,6 +42,21 @@ ZoneRule read_zones(SceneTable zones) {
   return rule;
 }
 
+namespace {
+
+/// Of a bearing: all three keys, or none.
+std::optional<kinetics::Lubrication> read_lubrication(SceneTable& table) {
+  const std::array<const char*, 3> keys = {"viscosity_ratio", "contamination_factor", "fatigue_load_limit"};
+  for (const char* key : keys) table.know(key);
+  if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); }))
+    return std::nullopt;
+  return kinetics::Lubrication{table.quantity("viscosity_ratio", "1", {0.1, 100}),
+                               table.quantity("contamination_factor", "1", {0, 1, true}),
+                               table.quantity("fatigue_load_limit", "N", positive(1e9))};
+}
+
+}  // namespace
+
 std::vector<BearingScene> read_bearings(SceneTable& root) {
   std::vector<BearingScene> bearings;
   root.know("bearings");
@@ -54,6 +72,13 @@ std::vector<BearingScene> read_bearings(SceneTable& root) {
       bearing.element = kinetics::RollingElement::roller;
     else if (!element.empty() && element != "ball")
       table.refuse("element", "unknown rolling element; write \"ball\" or \"roller\"");
+    for (const char* key : {"reliability", "required_life", "static_rating"}) table.know(key);
+    if (table.has("reliability")) bearing.reliability = table.quantity("reliability", "1", {0.9, 0.9995});
+    if (table.has("required_life"))
+      bearing.required_life_s = table.quantity("required_life", "s", positive(1e12));
+    if (table.has("static_rating"))
+      bearing.static_rating_N = table.quantity("static_rating", "N", positive(1e9));
+    bearing.lubrication = read_lubrication(table);
     table.know("speed");
     if (table.has("speed")) bearing.speed_rad_s = table.quantity("speed", "rad/s", positive(1e6));
     table.finish();

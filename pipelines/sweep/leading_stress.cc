@@ -17,9 +17,6 @@ constexpr double slack = 1 + 1e-9;
 /// Of the places' nodes, those that are walked at once.
 constexpr std::size_t first_of_each_place = 4, at_once = 512;
 
-/// As largest_by_feature, which looks inside from there on.
-constexpr double share_of_inside = 0.9;
-
 const double* unit_at(const fem::UnitResponses& responses, std::int32_t node) {
   return responses.stress_Pa.data() + std::size_t(node) * responses.channels.size() * 6;
 }

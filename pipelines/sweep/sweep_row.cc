@@ -36,6 +36,12 @@ void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHis
     row.figures.push_back({name + ".equivalent_load", "N", bearing.equivalent_load_N});
     row.figures.push_back({name + ".largest_load", "N", bearing.largest_load_N});
     if (bearing.life) row.figures.push_back({name + ".L10h", "h", bearing.life->hours});
+    const auto add = [&](const char* figure, const char* unit, const std::optional<double>& value) {
+      if (value) row.figures.push_back({name + figure, unit, *value});
+    };
+    add(".modified_life", "h", bearing.answers.modified_life_h);
+    add(".required_rating", "N", bearing.answers.required_rating_N);
+    add(".static_safety", "", bearing.answers.static_safety);
   }
 }
 

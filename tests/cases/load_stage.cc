@@ -193,6 +193,40 @@ TEST(LoadStage, BearingsGetALife) {
   EXPECT_NE(wrong.err.find("frame_bearings"), std::string::npos) << wrong.err;
 }
 
+// The answers beyond L10 follow from the figures beside them: a1 = 0.95 (ln 0.95 / ln 0.9)^(2/3) + 0.05, the
+// rating that a life needs by ISO 281, and by Shigley's law what is asked of it and what the bearing gives.
+// What is not asked is not there. Round-off, and nothing else.
+TEST(LoadStage, BearingsAnswerWhatTheSceneAsks) {
+  const results_test::Directory directory;
+  std::string text = edited("vibratory_mill.toml", {{"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}});
+  text =
+      text.substr(0, text.find("# Without [shaft]")) +
+      "[[bearings]]\nname = \"frame\"\nload = \"R_E\"\nshare = \"50 %\"\ndynamic_rating = \"40 kN\"\n"
+      "element = \"ball\"\nreliability = \"95 %\"\nrequired_life = \"30000 h\"\nstatic_rating = \"20 kN\"\n"
+      "viscosity_ratio = 1\ncontamination_factor = \"50 %\"\nfatigue_load_limit = \"900 N\"\n";
+  write(directory / "mill.toml", text);
+  const auto all = json_of(directory.path, "loads mill.toml --json")["bearings"];
+  EXPECT_FALSE(all["main bearings"].contains("reliability"));
+  EXPECT_FALSE(all["main bearings"].contains("static_safety"));
+  const auto& frame = all["frame"];
+  const auto value = [&](const char* key) { return frame[key]["value"].get<double>(); };
+  const double P = value("equivalent_load"), a1 = frame["a1"], a_iso = frame["a_ISO"];
+  EXPECT_NEAR(a1, 0.95 * std::pow(std::log(0.95) / std::log(0.9), 2.0 / 3) + 0.05, 1e-12);
+  EXPECT_NEAR(a_iso, 0.1 * std::pow(1 - std::pow(0.5684, 0.83) * std::cbrt(450 / P), -9.3), 1e-9 * a_iso);
+  EXPECT_NEAR(value("modified_life"), a1 * a_iso * value("L10h"), 1e-9 * value("L10h"));
+  const double millions = 30000 * 3600 * 151.844 / (2 * M_PI) / 1e6;
+  EXPECT_NEAR(value("required_rating"), P * std::cbrt(millions / (a1 * a_iso)), 1e-6 * P);
+  const double reached = 0.02 + 4.439 * std::pow(-std::log(0.95), 1 / 1.483);
+  EXPECT_NEAR(value("required_rating_weibull"), P * std::cbrt(millions / reached), 1e-6 * P);
+  const double x = millions * std::pow(P / 40e3, 3);
+  EXPECT_NEAR(frame["reliability_weibull"].get<double>(), std::exp(-std::pow((x - 0.02) / 4.439, 1.483)),
+              1e-9);
+  EXPECT_NEAR(frame["static_safety"].get<double>(), 20e3 / value("largest_load"), 1e-9);
+  const auto printed = millstress(directory.path, "loads mill.toml");
+  EXPECT_NE(printed.out.find("% of them reach"), std::string::npos) << printed.out;
+  EXPECT_NE(printed.out.find("static safety"), std::string::npos) << printed.out;
+}
+
 // A start in two seconds passes the pitch's resonance and ends where the steady load stage begins.
 TEST(LoadStage, StartUpEndsInSteadyRunning) {
   const results_test::Directory directory;

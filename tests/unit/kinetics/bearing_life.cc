@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -70,6 +72,48 @@ TEST(BearingLife, WithoutLoadThereIsNoLifeToState) {
   EXPECT_TRUE(kinetics::rating_life(50e3, 1e-6, ball, 100));
   EXPECT_EQ(kinetics::required_rating_N(0, 500, 0.9), 0);
   EXPECT_EQ(kinetics::reliability(0, 500, 20e3), 1);
+}
+
+// ISO 281:2007, Table 12, printed in two digits.
+TEST(BearingLife, FactorOfReliabilityIsThatOfTheTable) {
+  const std::vector<std::pair<double, double>> table = {
+      {0.90, 1},      {0.95, 0.64},    {0.96, 0.55},   {0.97, 0.47},   {0.98, 0.37},
+      {0.99, 0.25},   {0.992, 0.22},   {0.994, 0.19},  {0.996, 0.16},  {0.998, 0.12},
+      {0.999, 0.093}, {0.9992, 0.087}, {0.9994, 0.08}, {0.9995, 0.077}};
+  for (const auto& [share, a1] : table) EXPECT_NEAR(kinetics::life_factor(share), a1, 0.005) << share;
+  for (const double beyond : {0.5, 0.8999, 0.99951, 1.0, std::nan("")})
+    EXPECT_THROW(kinetics::life_factor(beyond), std::invalid_argument) << beyond;
+}
+
+// The curves of ISO 281:2007 are given in three pieces that meet at kappa = 0.4 and 1: a wrong digit in one
+// of their constants would leave a step. Their constants have five digits, the powers nine: 1e-2 of the
+// factor.
+TEST(BearingLife, ModificationFactorHasNoSteps) {
+  for (const auto element : {ball, roller})
+    for (const double kappa : {0.4, 1.0})
+      for (const double load_N : {3e3, 1e4, 1e5}) {
+        const double below =
+            kinetics::life_modification_factor({kappa * (1 - 1e-9), 0.5, 1000}, load_N, element);
+        const double above = kinetics::life_modification_factor({kappa, 0.5, 1000}, load_N, element);
+        EXPECT_NEAR(above / below, 1, 1e-2) << kappa << ' ' << load_N;
+      }
+}
+
+// At kappa = 1 the powers of kappa are 1: 2.5671 - 1.9987 = 0.5684 and 1.5859 - 1.2348 = 0.3511 by hand.
+TEST(BearingLife, ModificationFactorAtFullFilm) {
+  EXPECT_NEAR(kinetics::life_modification_factor({1, 0.5, 1000}, 4000, ball),
+              0.1 * std::pow(1 - std::pow(0.5684, 0.83) * 0.5, -9.3), 1e-12);
+  EXPECT_NEAR(kinetics::life_modification_factor({1, 1, 1000}, 1000 * std::pow(2, 2.5), roller),
+              0.1 * std::pow(1 - 0.3511 * 0.5, -9.185), 1e-12);
+  // In dirt, or under loads far above the limit, nine tenths of the life are lost; ISO 281 caps at 50 and 4.
+  EXPECT_NEAR(kinetics::life_modification_factor({1, 1e-12, 1000}, 1e9, ball), 0.1, 1e-6);
+  EXPECT_EQ(kinetics::life_modification_factor({4, 1, 1000}, 100, ball), 50);
+  EXPECT_EQ(kinetics::life_modification_factor({4, 0.3, 1000}, 3000, roller),
+            kinetics::life_modification_factor({9, 0.3, 1000}, 3000, roller));
+  for (const auto& bad : {kinetics::Lubrication{0.09, 0.5, 1e3}, kinetics::Lubrication{1, 0, 1e3},
+                          kinetics::Lubrication{1, 1.1, 1e3}, kinetics::Lubrication{1, 0.5, 0}})
+    EXPECT_THROW(kinetics::life_modification_factor(bad, 1e3, ball), std::invalid_argument);
+  EXPECT_THROW(kinetics::life_modification_factor({1, 0.5, 1e3}, 0, ball), std::invalid_argument);
 }
 
 TEST(BearingLife, ReliabilityAndRatingAreInverse) {

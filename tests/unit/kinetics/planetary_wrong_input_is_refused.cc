@@ -176,7 +176,7 @@ TEST(PlanetaryWrongInput, MachinesThatCannotBeBuilt) {
        },
        {},
        {"geometry.carrier_m = 0.1", "drum_radius_m = 0.1"}},
-      {[](auto& m) { m.belt_beyond_geometry = true; }, {}, {"belt_beyond_geometry", "as_plotted"}},
+      {[](auto& m) { m.belt_beyond_geometry = true; }, {}, {"belt.beyond_geometry", "as_plotted"}},
   });
 }
 
@@ -190,7 +190,7 @@ TEST(PlanetaryWrongInput, ThePapersMachinesAreWarnedOf) {
   ratios(mill) = {0.4, 1.6, 0.5};
   EXPECT_TRUE(warned(mill, "opposite drums overlap"));
   ratios(mill) = {0.4, 1, 0.2};
-  EXPECT_NE(refusal(mill, {}).find("set belt_beyond_geometry"), std::string::npos) << refusal(mill, {});
+  EXPECT_NE(refusal(mill, {}).find("set belt.beyond_geometry"), std::string::npos) << refusal(mill, {});
   mill.belt_beyond_geometry = true;
   EXPECT_TRUE(warned(mill, "cos beta is taken as zero"));
   mill.belt = kinetics::EytelweinBelt{0.3};
