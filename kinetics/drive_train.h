@@ -54,7 +54,8 @@ struct TrainElement {
   double stress_concentration = 1;            ///< K_t on the nominal shear stress, >= 1
 };
 
-/// One harmonic of torque: amplitude cos(w t + phase). Exactly one of frequency and order is given.
+/// One harmonic of torque: amplitude cos(w t - phase), a lag is positive. Exactly one of frequency and order
+/// is given.
 struct TorqueHarmonic {
   double amplitude_Nm = 0;
   std::optional<double> frequency_rad_s;  ///< w, > 0

@@ -59,7 +59,7 @@ Spectral spectral(const DriveTrain& train, const ReducedTrain& reduced) {
       result.lines.push_back(line(harmonic));
       result.lines.back().amplitude_Nm =
           harmonic.amplitude_Nm *
-          std::complex<double>(std::cos(harmonic.phase_rad), std::sin(harmonic.phase_rad));
+          std::complex<double>(std::cos(harmonic.phase_rad), -std::sin(harmonic.phase_rad));
     }
     if (!x.table.torque_Nm.empty())
       result.constant_Nm[inertia] += add_table(x.table.torque_Nm, line(x.table), result.lines);

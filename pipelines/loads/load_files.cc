@@ -117,8 +117,7 @@ void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHisto
   out.attribute("/", "convention", loads.convention);
   out.attribute(
       "/", "phases",
-      "of load tables and line spectra: amplitude cos(n angle - phase), a lag is positive; of a drive "
-      "train's excitations: amplitude cos(w t + phase), a lead is positive");
+      "amplitude cos(n angle - phase), of a drive train's excitations cos(w t - phase): a lag is positive");
   for (const auto& series : all) out.write(series.path, series.values, series.label);
   out.write("/effect_names", loads.effects,
             {"", "effects evaluated by the machine, in the order of summation"});

@@ -16,8 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double two_pi = 2 * M_PI;
 const char* const phase_sign =
-    "phases of a train, in the scene and in forced.csv: amplitude cos(w t + phase), a lead is positive; load "
-    "tables and line spectra have cos(n angle - phase), a lag is positive";
+    "phases, in the scene and in forced.csv as everywhere: amplitude cos(w t - phase), a lag is positive";
 constexpr double rpm = two_pi / 60;
 
 const kinetics::DriveTrain& train_of(const Scene& scene) {
@@ -172,7 +171,7 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
     std::vector<double> amplitude, phase;
     for (const auto& h : report.forced.harmonics) {
       amplitude.push_back(std::abs(entry(h)));
-      phase.push_back(std::arg(entry(h)));
+      phase.push_back(0.0 - std::arg(entry(h)));  // no -0
     }
     forced.push_back({name, unit, amplitude});
     forced.push_back({name + ".phase", "rad", phase});

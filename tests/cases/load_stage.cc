@@ -117,21 +117,21 @@ TEST(LoadStage, DriveTrainGivesTheSpecsFrequenciesAndTorques) {
   EXPECT_NEAR(sum, 1, 1e-9);
 }
 
-// The sign that the scene's comment and the report state: an excitation is amplitude cos(w t + phase), and so
-// is what forced.csv says of every torque.
-TEST(LoadStage, PhasesOfATrainAreLeads) {
+// The sign that the scene's comment and the report state: an excitation is amplitude cos(w t - phase), and so
+// is what forced.csv says of every torque; as in load tables and spectra.
+TEST(LoadStage, PhasesOfATrainAreLags) {
   const results_test::Directory directory;
   write(directory / "train.toml", edited("drive_train.toml", {{"phase = \"0 deg\"", "phase = \"30 deg\""}}));
   ASSERT_EQ(millstress(directory.path, "loads train.toml --csv loads.csv").exit_code, 0);
   const auto report = json_of(directory.path, "torsion train.toml -o t --json")["torsion"];
-  EXPECT_NE(report["phases"].get<std::string>().find("amplitude cos(w t + phase)"), std::string::npos);
+  EXPECT_NE(report["phases"].get<std::string>().find("amplitude cos(w t - phase)"), std::string::npos);
   const auto loads = csv(directory / "loads.csv"), forced = csv(directory / "t/forced.csv");
   ASSERT_EQ(forced.at("frequency").size(), 1u);
   const double w = forced.at("frequency")[0], amplitude = forced.at("belt.torque")[0],
                phase = forced.at("belt.torque.phase")[0], mean = report["elements"]["belt"]["mean_torque_Nm"];
   EXPECT_GT(std::abs(std::sin(phase)), 0.1) << "else the sign would not show";
   for (const std::size_t i : {0, 5, 17})
-    EXPECT_NEAR(loads.at("belt.torque")[i], mean + amplitude * std::cos(w * loads.at("time")[i] + phase),
+    EXPECT_NEAR(loads.at("belt.torque")[i], mean + amplitude * std::cos(w * loads.at("time")[i] - phase),
                 1e-9 * amplitude);
 }
 

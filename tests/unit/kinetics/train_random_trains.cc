@@ -39,7 +39,7 @@ std::complex<double> excitation(const DriveTrain& train, Index i, double w) {
   for (const auto& x : train.excitations)
     for (const auto& h : x.harmonics)
       if (x.inertia == train.inertias[i].name && *h.frequency_rad_s == w)
-        sum += std::polar(std::abs(h.amplitude_Nm), h.phase_rad);
+        sum += std::polar(std::abs(h.amplitude_Nm), -h.phase_rad);
   return sum;
 }
 
