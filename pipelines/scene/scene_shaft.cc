@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
 
 namespace pipelines {
@@ -136,8 +137,10 @@ void check_names(Contour& contour, SceneTable& body, const ContourRules& rules) 
   std::vector<std::string> missing;
   for (const std::string& port : rules.ports) {
     const auto is_meant = [&](const auto& segment) {
-      const auto is = [&](const std::string& name) {  // a misspelt port is reported already
-        return name == port || (!rules.any_port && nearest_name(name, rules.ports) == port);
+      const auto is = [&](const std::string& name) {
+        if (name == port || rules.any_port || name.empty() || contains(rules.ports, name))
+          return name == port;
+        return nearest_name(name, rules.ports) == port;  // a misspelt port is reported already
       };
       return is(segment.bore_port) || (segment.is_port && is(segment.name));
     };
