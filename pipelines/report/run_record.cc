@@ -88,7 +88,7 @@ bool is_rest_whole(const fs::path& directory, const std::vector<std::string>& bo
 std::string run_key(const Scene& scene, const RequestedAccuracy& accuracy, int n_threads, int n_ranks,
                     const std::vector<NotedInput>& inputs) {
   TextList list;
-  list.add(program_fingerprint()).add(scene.file.string());
+  list.add(program_fingerprint()).add(scene.file.filename().string());
   list.add(std::to_string(scene.settings.size()));
   for (const auto& setting : scene.settings) list.add(setting);
   list.add(std::to_string(int(scene.method))).add(shortest(accuracy.tolerance));
