@@ -16,8 +16,8 @@ namespace pipelines {
 
 inline constexpr const char* run_record_name = "run.json";
 
-/// Hash of all that results depend on: the program, the scene's file name (however its folder is written), what
-/// --set gave, the content of every input, method, accuracy, threads, ranks.
+/// Hash of all that results depend on: the program, the scene's file name (however its folder is written),
+/// what --set gave, the content of every input, method, accuracy, threads, ranks.
 /// @param scene      as the options have it
 /// @param n_threads  above 0
 /// @param inputs     all that reading the scene has noted
