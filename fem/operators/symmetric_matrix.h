@@ -10,8 +10,8 @@
 
 namespace fem {
 
-/// Neighbours of every node in the mesh that have a larger number, ascending. Masters stand for the nodes that
-/// hang on them; these have no neighbours.
+/// Neighbours of every node in the mesh that have a larger number, ascending. Masters stand for the nodes
+/// that hang on them; these have no neighbours.
 struct NodeGraph {
   std::vector<std::int64_t> begin;  ///< n_nodes + 1
   std::vector<std::int32_t> neighbour;
@@ -28,6 +28,10 @@ struct SymmetricMatrix {
 
 /// The matrix of a graph, filled with zeros.
 SymmetricMatrix make_matrix(const NodeGraph& graph);
+
+/// The matrix with its nodes in another order, on all threads.
+/// @param order  node p of the result is node order[p] of the matrix; each node once
+SymmetricMatrix permuted(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& order);
 
 /// K X for all columns of X; the same bits for every number of threads.
 Eigen::MatrixXd multiply(const SymmetricMatrix& matrix, const Eigen::MatrixXd& x);

@@ -41,107 +41,19 @@ std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
 
 namespace {
 
-/// A symmetric matrix of 3 x 3 blocks in the order of a factor, lower triangle by columns. CHOLMOD's own way
-/// there transposes the whole matrix twice, on one thread.
-class OrderedMatrix {
-public:
-  /// @param order  position p of the new order is unknown order[p]; the unknowns of a node stay together
-  OrderedMatrix(const SymmetricMatrix& matrix, const SuiteSparse_long* order) {
-    const auto n_nodes = std::size_t(matrix.n / 3);
-    std::vector<std::int64_t> place(n_nodes), node(n_nodes);
-    for (std::size_t p = 0; p < n_nodes; ++p) {
-      for (int d = 0; d < 3; ++d)
-        if (order[3 * p + std::size_t(d)] != order[3 * p] + d || order[3 * p] % 3 != 0)
-          throw std::logic_error("the order of a factor tears the unknowns of a node apart");
-      node[p] = order[3 * p] / 3;
-      place[std::size_t(node[p])] = std::int64_t(p);
-    }
-    find_blocks(matrix, place);
-    ordered_.n = matrix.n;
-    ordered_.column_begin.resize(std::size_t(matrix.n) + 1);
-    ordered_.row.resize(matrix.row.size());
-    ordered_.value.resize(matrix.value.size());
-    std::int64_t begin = 0;
-    for (std::size_t p = 0; p < n_nodes; ++p)
-      for (int c = 0; c < 3; ++c) {
-        ordered_.column_begin[3 * p + std::size_t(c)] = begin;
-        begin += 3 - c + 3 * (begin_[p + 1] - begin_[p]);
-      }
-    ordered_.column_begin.back() = begin;
-    parallel_for(n_nodes, 500, [&](std::size_t first, std::size_t last) {
-      for (std::size_t p = first; p < last; ++p) fill(matrix, p, std::size_t(node[p]));
-    });
+/// The order of the nodes that an order of the unknowns stands for. The three of a node stay neighbours:
+/// their columns have the same rows below them, so each is the only child of the one before it in the
+/// elimination tree, and postordering keeps them together.
+std::vector<std::int32_t> node_order_of(const SuiteSparse_long* order, std::size_t n_unknowns) {
+  std::vector<std::int32_t> nodes;
+  nodes.reserve(n_unknowns / 3);
+  for (std::size_t i = 0; i + 2 < n_unknowns; i += 3) {
+    if (order[i] % 3 != 0 || order[i + 1] != order[i] + 1 || order[i + 2] != order[i] + 2)
+      throw std::logic_error("the order of a factor tears the unknowns of a node apart");
+    nodes.push_back(static_cast<std::int32_t>(order[i] / 3));
   }
-
-  const SymmetricMatrix& matrix() const { return ordered_; }
-
-private:
-  struct Block {
-    std::int64_t place;   // of the row's node in the new order
-    std::int64_t column;  // node whose columns of the given matrix hold it
-    std::int64_t number;  // among the blocks below that node's own
-    bool is_transposed;
-  };
-
-  /// The blocks below the diagonal, by column of the new order, rows ascending.
-  void find_blocks(const SymmetricMatrix& matrix, const std::vector<std::int64_t>& place) {
-    const std::size_t n_nodes = place.size();
-    const auto n_below = [&](std::size_t j) {
-      return (matrix.column_begin[3 * j + 1] - matrix.column_begin[3 * j]) / 3 - 1;
-    };
-    const auto neighbour = [&](std::size_t j, std::int64_t b) {
-      return matrix.row[std::size_t(matrix.column_begin[3 * j] + 3 + 3 * b)] / 3;
-    };
-    begin_.assign(n_nodes + 1, 0);
-    for (std::size_t j = 0; j < n_nodes; ++j)
-      for (std::int64_t b = 0; b < n_below(j); ++b)
-        ++begin_[std::size_t(std::min(place[j], place[std::size_t(neighbour(j, b))])) + 1];
-    for (std::size_t p = 0; p < n_nodes; ++p) begin_[p + 1] += begin_[p];
-    blocks_.resize(std::size_t(begin_.back()));
-    std::vector<std::int64_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t j = 0; j < n_nodes; ++j)
-      for (std::int64_t b = 0; b < n_below(j); ++b) {
-        const auto own = place[j], other = place[std::size_t(neighbour(j, b))];
-        blocks_[std::size_t(next[std::size_t(std::min(own, other))]++)] = {std::max(own, other),
-                                                                           std::int64_t(j), b, other < own};
-      }
-    parallel_for(n_nodes, 500, [&](std::size_t first, std::size_t last) {
-      for (std::size_t p = first; p < last; ++p)
-        std::sort(blocks_.begin() + begin_[p], blocks_.begin() + begin_[p + 1],
-                  [](const Block& a, const Block& b) { return a.place < b.place; });
-    });
-  }
-
-  void fill(const SymmetricMatrix& matrix, std::size_t p, std::size_t node) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      auto to = std::size_t(ordered_.column_begin[3 * p + c]);
-      const auto diagonal = std::size_t(matrix.column_begin[3 * node + c]);
-      for (std::size_t a = c; a < 3; ++a, ++to) {
-        ordered_.row[to] = std::int64_t(3 * p + a);
-        ordered_.value[to] = matrix.value[diagonal + a - c];
-      }
-      for (auto k = begin_[p]; k < begin_[p + 1]; ++k) {
-        const Block& block = blocks_[std::size_t(k)];
-        for (std::size_t a = 0; a < 3; ++a, ++to) {
-          const std::size_t row = block.is_transposed ? c : a, column = block.is_transposed ? a : c;
-          ordered_.row[to] = 3 * block.place + std::int64_t(a);
-          ordered_.value[to] =
-              matrix.value[std::size_t(matrix.column_begin[3 * std::size_t(block.column) + column] + 3 -
-                                       std::int64_t(column) + 3 * block.number) +
-                           row];
-        }
-      }
-    }
-  }
-
-  SymmetricMatrix ordered_;
-  std::vector<std::int64_t> begin_;  // of each column's blocks
-  std::vector<Block> blocks_;
-};
-
-}  // namespace
-
-namespace {
+  return nodes;
+}
 
 /// Writes to each page of new memory, on all threads. A virtual machine hands out a quarter of a gigabyte a
 /// second to one of them: that was two thirds of a factorisation's time.
@@ -211,9 +123,12 @@ CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<st
 CholmodFactor::~CholmodFactor() = default;
 
 void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
-  const OrderedMatrix ordered(matrix, static_cast<const SuiteSparse_long*>(impl_->factor->Perm));
+  // CHOLMOD's own way into this order transposes the matrix twice, on one thread.
+  const SymmetricMatrix ordered = permuted(
+      matrix,
+      node_order_of(static_cast<const SuiteSparse_long*>(impl_->factor->Perm), std::size_t(matrix.n)));
   const SerialOpenMp serial;
-  auto a = Impl::view(ordered.matrix());
+  auto a = Impl::view(ordered);
   if (impl_->factor->xtype == CHOLMOD_PATTERN) {
     cholmod_l_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, impl_->factor, &impl_->common);
     impl_->check("factorise");

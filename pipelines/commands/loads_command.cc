@@ -96,6 +96,7 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
     clock.run("write", [&] { write_statistics(options.statistics, history, turns); });
     charts = clock.run("charts",
                        [&] { return write_load_charts(options.statistics, scene.title, history, turns); });
+    say_if_nothing_draws(charts, !charts.empty() || make_offscreen_window());
   }
   if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, history); });
   const RunReport content{scene, history, {}, {}, clock.costs(), lives};
@@ -104,8 +105,7 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   } else {
     print_report(out, content);
     print_effects_of_bodies(out, scene);
-    if (!options.statistics.empty())
-      print_charts(out, options.statistics, charts, !charts.empty() || make_offscreen_window());
+    print_files(out, options.statistics, charts);
   }
 }
 

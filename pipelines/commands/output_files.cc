@@ -46,13 +46,14 @@ void require_own_loads(const OutputFile& output) {
                     output.option + " a new name, or move it away");
 }
 
-void print_charts(std::ostream& out, const std::filesystem::path& directory,
-                  const std::vector<std::string>& names, bool can_draw) {
-  if (names.empty()) {  // where there is nothing to draw, nothing is missing
-    if (!can_draw)
-      std::cerr << "no charts: this machine offers no EGL (package libegl1); the tables have the figures\n";
-    return;
-  }
+void say_if_nothing_draws(const std::vector<std::string>& charts, bool can_draw) {
+  if (charts.empty() && !can_draw)  // where there is nothing to draw, nothing is missing
+    std::cerr << "no charts: this machine offers no EGL (package libegl1); the tables have the figures\n";
+}
+
+void print_files(std::ostream& out, const std::filesystem::path& directory,
+                 const std::vector<std::string>& names) {
+  if (names.empty()) return;
   out << "\n  ";
   for (std::size_t i = 0; i < names.size(); ++i) out << (i > 0 ? ", " : "") << names[i];
   out << " in " << directory.string() << '\n';

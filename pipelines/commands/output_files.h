@@ -19,10 +19,12 @@ struct OutputFile {
 std::vector<OutputFile> output_files(const std::string& option, const std::filesystem::path& directory,
                                      const std::vector<std::string>& names);
 
-/// The last line of a command: which charts it has written, and where. Without any it says on std::cerr that the
-/// machine cannot draw, where that is so.
-void print_charts(std::ostream& out, const std::filesystem::path& directory,
-                  const std::vector<std::string>& names, bool can_draw);
+/// A line on std::cerr if a command that draws charts has drawn none since the machine cannot.
+void say_if_nothing_draws(const std::vector<std::string>& charts, bool can_draw);
+
+/// The last line of a command: which charts it has written, and where. Nothing if there are none.
+void print_files(std::ostream& out, const std::filesystem::path& directory,
+                 const std::vector<std::string>& names);
 
 /// Call it after the scene was read: inputs are known then.
 /// @throws OptionError naming option, file and remedy if a file is there that must not be replaced

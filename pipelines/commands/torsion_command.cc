@@ -26,6 +26,7 @@ void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   if (!options.output.empty()) {
     write_torsion_files(options.output, scene, report);
     charts = write_torsion_charts(options.output, scene, report);
+    say_if_nothing_draws(charts, !charts.empty() || make_offscreen_window());
   }
   if (options.json) {
     out << torsion_json(scene, report);
@@ -33,8 +34,7 @@ void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   }
   print_torsion(out, scene, report);
   for (const auto& warning : scene.warnings) out << "  warning: " << warning << '\n';
-  if (!options.output.empty())
-    print_charts(out, options.output, charts, !charts.empty() || make_offscreen_window());
+  print_files(out, options.output, charts);
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ BearingAnswers answers_of(const BearingScene& bearing, const BearingResult& resu
   if (!bearing.required_life_s) return answers;
   const double hours = *bearing.required_life_s / 3600, exponent = kinetics::life_exponent(bearing.element);
   const double millions = kinetics::required_million_revolutions(hours, result.speed_rad_s);
-  const kinetics::WeibullLife law{0.02, 4.439, 1.483, exponent};
+  kinetics::WeibullLife law;
+  law.life_exponent = exponent;
   answers.required_life_h = hours;
   answers.required_rating_N = load_N * std::pow(millions / (a1 * a_iso), 1 / exponent);
   answers.weibull_rating_N = kinetics::required_rating_N(load_N, millions, share, law);

@@ -22,8 +22,8 @@ struct PictureOptions {
   std::string excluded;  ///< field that is not 0 where the picture's has no converged value: grey there
   std::optional<PictureMark> mark;  ///< ringed and named instead of the field's peak
   bool edges = true;                ///< the edges of the cells, as curved as they are
-  int subdivisions = 3;             ///< each face is drawn as 4^n pieces, 0 to 5, of many faces fewer
-  double detail = 0.35;             ///< width of the detail over the largest extent of the body
+  int subdivisions = 3;  ///< each face is drawn as 4^n pieces, 0 to 5; as fewer where faces are many
+  double detail = 0.35;  ///< width of the detail over the largest extent of the body
 };
 
 /// Draws the surface of a VTU file coloured by a field at its nodes: the whole body, and below it (long

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <filesystem>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -419,12 +418,6 @@ private:
     return ring == rings.end() ? std::nullopt : std::optional(ring->max_Pa);
   }
 
-  /// What a cheap model leaves of its directory.
-  static void remove_if_empty(const std::vector<std::filesystem::path>& directories) {
-    std::error_code is_not_empty;
-    for (const auto& directory : directories) std::filesystem::remove(directory, is_not_empty);
-  }
-
   /// A body by its cheap model, which is solved for each point.
   void add_cheap(SweepRow& row, Scene scene, std::size_t b, const LoadedScene& loaded, Method method) {
     const std::lock_guard lock(cheap_);
@@ -435,8 +428,6 @@ private:
     scene.method = method;
     StageClock silent;
     const auto run = run_scene(scene, options, silent);
-    remove_if_empty(
-        {options.directory / scene.bodies[b].name, options.directory, options.directory.parent_path()});
     add_body_figures(row, run.analyses.front(), torsion_Pa(scene.bodies[b], run.analyses.front()));
   }
 

@@ -135,6 +135,28 @@ TEST(LoadStage, PhasesOfATrainAreLags) {
                 1e-9 * amplitude);
 }
 
+// The tables are there, with --json too; that the charts are not is said.
+TEST(LoadStage, WithoutEglTheChartsAreMissedAloud) {
+  const results_test::Directory directory;
+  ASSERT_EQ(setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1), 0);
+  const auto torsion =
+      millstress(directory.path, "torsion '" + shipped("drive_train.toml").string() + "' -o t --json");
+  const auto loads =
+      millstress(directory.path, "loads '" + shipped("load_table.toml").string() + "' --statistics s");
+  unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  for (const auto* run : {&torsion, &loads}) {
+    EXPECT_EQ(run->exit_code, 0) << run->err;
+    EXPECT_NE(run->err.find("no charts"), std::string::npos) << run->err;
+  }
+  EXPECT_TRUE(fs::exists(directory / "t/modes.csv"));
+  EXPECT_FALSE(fs::exists(directory / "t/modes.png"));
+  EXPECT_TRUE(fs::exists(directory / "s/statistics.csv"));
+  // Where EGL is, or a machine has nothing to draw, nothing is missing.
+  const auto again =
+      millstress(directory.path, "torsion '" + shipped("drive_train.toml").string() + "' -o u");
+  EXPECT_EQ(again.err.find("no charts"), std::string::npos) << again.err;
+}
+
 // Damping is an effect: what the scene does not name is not in the forced response either.
 TEST(LoadStage, DampingThatIsOffDoesNotDamp) {
   const results_test::Directory directory;

@@ -73,6 +73,16 @@ TEST(Sweeps, PointsOfAShaftAreRunsByThemselves) {
 
 // An effect that is off has no channels, so that another set of unit loads would be solved; other sectors are
 // another mesh; the yield strength is no part of either.
+// A beam writes no mesh, and a sweep no results of its points.
+TEST(Sweeps, OfBeamsLeaveNoEmptyFolder) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", small_shaft({{"pull", "middle.fy", "1 kN"}}, "mm", "600 rpm", ""));
+  points_of(directory.path, "scene.toml -o out --set method=beam --vary 'machine.speed = 600..700 rpm / 3'");
+  ASSERT_TRUE(fs::exists(directory / "out/sweep.csv"));
+  for (const auto& entry : fs::recursive_directory_iterator(directory / "out"))
+    EXPECT_FALSE(entry.is_directory() && fs::is_empty(entry.path())) << entry.path();
+}
+
 TEST(Sweeps, EffectsMaterialsAndMeshesAreValuesLikeAnyOther) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));

@@ -122,6 +122,26 @@ TEST(UnchangedRuns, AnyChangeOfInputsOrOptionsComputesAnew) {
   EXPECT_FALSE(is_unchanged(millstress(directory.path, "run scene.toml -o third"))) << "another directory";
 }
 
+// One scene under another path; and under the same name another scene, whose table alone is another.
+TEST(UnchangedRuns, AScenesFolderMayBeWrittenOtherwise) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", samples(directory.path));
+  const auto run = [&](const std::string& scene) {
+    const auto outcome = millstress(directory.path, "run " + scene + " -o out");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return is_unchanged(outcome);
+  };
+  EXPECT_FALSE(run("scene.toml"));
+  EXPECT_TRUE(run("'" + (directory / "scene.toml").string() + "'"));
+  EXPECT_TRUE(run("./scene.toml"));
+  fs::create_directory(directory / "other");
+  write(directory / "other/scene.toml", samples(directory / "other"));
+  EXPECT_TRUE(run("other/scene.toml"));
+  write(directory / "other/pull.csv",
+        with_edits(results_test::bytes(directory / "other/pull.csv"), {{"180,3", "180,4"}}));
+  EXPECT_FALSE(run("other/scene.toml"));
+}
+
 // The method is the scene's, or that of the command line.
 TEST(UnchangedRuns, AnotherMethodComputesAnew) {
   const results_test::Directory directory;

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
 
 #include "fem/mesh/mesh_reader.h"
 #include "fem/operators/elastic_operator.h"
@@ -91,3 +95,27 @@ TEST(ElasticOperator, DiagonalBlocksAreThoseOfTheMatrix) {
 }
 
 }  // namespace
+
+// Of a matrix whose nodes are in another order, the product with vectors in that order is the product, in
+// that order: the same sums, added up another way.
+TEST(SymmetricMatrix, InAnotherOrderIsTheSame) {
+  const Problem problem(2);
+  const auto n_nodes = problem.grid.n_nodes;
+  std::vector<std::int32_t> order(n_nodes);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  const auto in_order = [&](const Eigen::MatrixXd& x) {
+    Eigen::MatrixXd result(x.rows(), x.cols());
+    for (std::size_t p = 0; p < n_nodes; ++p)
+      result.middleRows<3>(Eigen::Index(3 * p)) = x.middleRows<3>(3 * Eigen::Index(order[p]));
+    return result;
+  };
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(problem.matrix.n, 2);
+  const auto matrix = fem::permuted(problem.matrix, order);
+  const Eigen::MatrixXd expected = in_order(fem::multiply(problem.matrix, x));
+  EXPECT_LT((fem::multiply(matrix, in_order(x)) - expected).cwiseAbs().maxCoeff(),
+            1e-13 * expected.cwiseAbs().maxCoeff());
+  for (std::int64_t j = 0; j < matrix.n; ++j)  // as CHOLMOD wants it: the diagonal first, rows ascending
+    for (auto k = matrix.column_begin[j]; k < matrix.column_begin[j + 1]; ++k)
+      ASSERT_EQ(matrix.row[k] > (k == matrix.column_begin[j] ? j - 1 : matrix.row[k - 1]), true) << j;
+}
