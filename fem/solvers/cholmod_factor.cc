@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -41,18 +42,36 @@ std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
 
 namespace {
 
-/// The order of the nodes that an order of the unknowns stands for. The three of a node stay neighbours:
-/// their columns have the same rows below them, so each is the only child of the one before it in the
-/// elimination tree, and postordering keeps them together.
-std::vector<std::int32_t> node_order_of(const SuiteSparse_long* order, std::size_t n_unknowns) {
-  std::vector<std::int32_t> nodes;
-  nodes.reserve(n_unknowns / 3);
-  for (std::size_t i = 0; i + 2 < n_unknowns; i += 3) {
-    if (order[i] % 3 != 0 || order[i + 1] != order[i] + 1 || order[i + 2] != order[i] + 2)
-      throw std::logic_error("the order of a factor tears the unknowns of a node apart");
-    nodes.push_back(static_cast<std::int32_t>(order[i] / 3));
+/// The matrix' pattern of nodes: their blocks of 3 x 3 as one entry each.
+struct NodePattern {
+  std::vector<SuiteSparse_long> begin, row;
+  cholmod_sparse view() {
+    cholmod_sparse a{};
+    a.nrow = a.ncol = begin.size() - 1;
+    a.nzmax = row.size();
+    a.p = begin.data();
+    a.i = row.data();
+    a.stype = -1;
+    a.itype = CHOLMOD_LONG;
+    a.xtype = CHOLMOD_PATTERN;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = a.packed = 1;
+    return a;
   }
-  return nodes;
+};
+
+NodePattern pattern_of_nodes(const SymmetricMatrix& matrix) {
+  const std::int64_t n_nodes = matrix.n / 3;
+  NodePattern pattern;
+  pattern.begin.assign(1, 0);
+  pattern.begin.reserve(std::size_t(n_nodes) + 1);
+  pattern.row.reserve(matrix.row.size() / 9 + std::size_t(n_nodes));
+  for (std::int64_t j = 0; j < n_nodes; ++j) {
+    for (auto k = matrix.column_begin[3 * j]; k < matrix.column_begin[3 * j + 1]; k += 3)
+      pattern.row.push_back(matrix.row[k] / 3);
+    pattern.begin.push_back(SuiteSparse_long(pattern.row.size()));
+  }
+  return pattern;
 }
 
 /// Writes to each page of new memory, on all threads. A virtual machine hands out a quarter of a gigabyte a
@@ -68,6 +87,7 @@ void touch(double* memory, std::size_t n) {
 
 struct CholmodFactor::Impl {
   double matrix_bytes = 0;
+  std::vector<std::int32_t> node_order;  ///< CHOLMOD's own: postordered
   mutable cholmod_common common{};
   cholmod_factor* factor = nullptr;
 
@@ -77,6 +97,7 @@ struct CholmodFactor::Impl {
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
     common.supernodal = CHOLMOD_SUPERNODAL;
+    for (auto& columns : common.nrelax) columns = (columns + 2) / 3;  // counted in nodes
   }
   ~Impl() {
     cholmod_l_free_factor(&factor, &common);
@@ -106,17 +127,71 @@ struct CholmodFactor::Impl {
   }
 };
 
+namespace {
+
+/// The supernodal factor of a matrix whose nodes have three unknowns each, from that of its pattern of nodes:
+/// their columns have the same rows below them.
+/// @return null if there is no memory, which `common` tells
+cholmod_factor* of_three_unknowns(const cholmod_factor& nodes, cholmod_common& common) {
+  cholmod_factor* factor = cholmod_l_allocate_factor(3 * nodes.n, &common);
+  if (factor == nullptr) return nullptr;
+  factor->is_super = factor->is_ll = 1;
+  factor->ordering = nodes.ordering;
+  factor->nsuper = nodes.nsuper;
+  factor->ssize = 3 * nodes.ssize;
+  factor->maxcsize = 9 * nodes.maxcsize;
+  factor->maxesize = 3 * nodes.maxesize;
+  const auto make = [&](std::size_t n) {
+    return static_cast<SuiteSparse_long*>(cholmod_l_malloc(n, sizeof(SuiteSparse_long), &common));
+  };
+  auto *const super = make(nodes.nsuper + 1), *const pi = make(nodes.nsuper + 1),
+              *const px = make(nodes.nsuper + 1), *const rows = make(factor->ssize);
+  factor->super = super;
+  factor->pi = pi;
+  factor->px = px;
+  factor->s = rows;
+  if (common.status < CHOLMOD_OK) {
+    cholmod_l_free_factor(&factor, &common);
+    return nullptr;
+  }
+  const auto values = [](const void* array) { return static_cast<const SuiteSparse_long*>(array); };
+  px[0] = 0;
+  for (std::size_t k = 0; k <= nodes.nsuper; ++k) {
+    super[k] = 3 * values(nodes.super)[k];
+    pi[k] = 3 * values(nodes.pi)[k];
+    if (k > 0) px[k] = px[k - 1] + (super[k] - super[k - 1]) * (pi[k] - pi[k - 1]);
+  }
+  factor->xsize = std::size_t(px[nodes.nsuper]);
+  auto *const order = static_cast<SuiteSparse_long*>(factor->Perm), *const count =
+                                                                        static_cast<SuiteSparse_long*>(
+                                                                            factor->ColCount);
+  for (std::size_t j = 0; j < nodes.n; ++j)
+    for (int d = 0; d < 3; ++d) {
+      order[3 * j + d] = 3 * values(nodes.Perm)[j] + d;
+      count[3 * j + d] = 3 * values(nodes.ColCount)[j] - d;
+    }
+  for (std::size_t i = 0; i < nodes.ssize; ++i)
+    for (int d = 0; d < 3; ++d) rows[3 * i + d] = 3 * values(nodes.s)[i] + d;
+  return factor;
+}
+
+}  // namespace
+
 CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& node_order)
     : impl_(std::make_unique<Impl>()) {
   static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t), "CHOLMOD with 64-bit indices is expected");
-  std::vector<SuiteSparse_long> order;
-  order.reserve(3 * node_order.size());
-  for (const auto node : node_order)
-    for (int d = 0; d < 3; ++d) order.push_back(3 * SuiteSparse_long(node) + d);
   const SerialOpenMp serial;
-  auto a = Impl::view(matrix);
+  auto& common = impl_->common;
   impl_->matrix_bytes = 16.0 * static_cast<double>(matrix.value.size());
-  impl_->factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &impl_->common);
+  auto pattern = pattern_of_nodes(matrix);
+  auto a = pattern.view();
+  std::vector<SuiteSparse_long> order(node_order.begin(), node_order.end());
+  cholmod_factor* nodes = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &common);
+  impl_->check("analyse");
+  const auto* const in_order = static_cast<const SuiteSparse_long*>(nodes->Perm);
+  impl_->node_order.assign(in_order, in_order + nodes->n);
+  impl_->factor = of_three_unknowns(*nodes, common);
+  cholmod_l_free_factor(&nodes, &common);
   impl_->check("analyse");
 }
 
@@ -124,9 +199,7 @@ CholmodFactor::~CholmodFactor() = default;
 
 void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
   // CHOLMOD's own way into this order transposes the matrix twice, on one thread.
-  const SymmetricMatrix ordered = permuted(
-      matrix,
-      node_order_of(static_cast<const SuiteSparse_long*>(impl_->factor->Perm), std::size_t(matrix.n)));
+  const SymmetricMatrix ordered = permuted(matrix, impl_->node_order);
   const SerialOpenMp serial;
   auto a = Impl::view(ordered);
   if (impl_->factor->xtype == CHOLMOD_PATTERN) {
@@ -205,7 +278,10 @@ double CholmodFactor::gigabytes() const {
 
 FactorSize CholmodFactor::size() const {
   const auto& l = *impl_->factor;
-  return {l.n, double(l.xsize), impl_->common.fl, 1e9 * gigabytes() + impl_->matrix_bytes};
+  const auto* const count = static_cast<const SuiteSparse_long*>(l.ColCount);
+  const double flops = std::accumulate(count, count + l.n, 0.0,
+                                       [](double sum, auto c) { return sum + double(c) * double(c); });
+  return {l.n, double(l.xsize), flops, 1e9 * gigabytes() + impl_->matrix_bytes};
 }
 
 }  // namespace fem

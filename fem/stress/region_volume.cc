@@ -70,6 +70,7 @@ public:
   /// Adds the cell's volume to its nodes'.
   void share_out(std::size_t cell, std::vector<double>& volume_of_node) {
     take(nodes_.cell(cell));
+    find_determinants();
     std::vector<double> own(local_.size(), 0.0);
     double sum = 0;
     for (const auto& piece : pieces_)
@@ -87,6 +88,7 @@ public:
     if (n_in == 0) return 0;
     const double whole = exact();
     if (std::size_t(n_in) == local_.size()) return whole;
+    find_determinants();
     double sum = 0, part = 0;
     for (const auto& piece : pieces_) {
       std::array<double, 4> beyond{};
@@ -109,6 +111,10 @@ private:
     const int* order = vtk_hexahedron_order(nodes_.degree);
     for (std::size_t v = 0; v < cell.size(); ++v)
       local_[nodes_.shape().is_tetrahedron() ? v : std::size_t(order[v])] = std::size_t(cell[v]);
+  }
+
+  /// Of the cell that was taken; cells that the level does not cut do without.
+  void find_determinants() {
     for (std::size_t i = 0; i < local_.size(); ++i) determinant_[i] = determinant(at_nodes_, int(i));
   }
 
