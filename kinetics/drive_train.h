@@ -254,6 +254,8 @@ struct PublishedTable {
   Eigen::ArrayXd frequency_rad_s;   ///< falling, as printed (there as Hz); the rigid mode is left out
   Eigen::ArrayXXd mode;             ///< masses x modes, unit length, in the order of the table
   Eigen::ArrayXd forced_angle_rad;  ///< masses, in the order of the table
+  Eigen::ArrayXd
+      right_sign_angle_rad;  ///< (K - w^2 J)^-1 M: the same in Table 7; in Table 4 without its slip
 };
 
 /// Convention `published`, to the letter, errata included, for a chain that is given from the motor on.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <cstdio>
 
 #include "kinetics/edit_distance.h"
 #include "kinetics/machine_refused.h"
@@ -10,10 +10,9 @@
 namespace kinetics {
 
 std::string number(double value) {
-  std::ostringstream text;
-  text.precision(12);
-  text << value;
-  return text.str();
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", value);
+  return text;
 }
 
 void refuse(const std::string& parameter, double value, const std::string& remedy) {

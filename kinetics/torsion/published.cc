@@ -75,9 +75,12 @@ PublishedTable solved(const PublishedChain& chain, double sign) {
   PublishedTable table;
   table.frequency_rad_s = modes.value.tail(n - 1).reverse().array().sqrt();
   table.mode = modes.vector.rightCols(n - 1).rowwise().reverse().colwise().normalized().array();
-  const MatrixXd dynamic = K + sign * chain.excitation_rad_s * chain.excitation_rad_s * J;
-  table.forced_angle_rad =
-      -sign * torsion::solve_with_full_pivoting(dynamic, chain.torque_Nm.matrix()).array();
+  const auto angle_rad = [&](double sign_of_inertia) -> ArrayXd {
+    const MatrixXd dynamic = K + sign_of_inertia * chain.excitation_rad_s * chain.excitation_rad_s * J;
+    return -sign_of_inertia * torsion::solve_with_full_pivoting(dynamic, chain.torque_Nm.matrix()).array();
+  };
+  table.forced_angle_rad = angle_rad(sign);
+  table.right_sign_angle_rad = angle_rad(-1);
   return table;
 }
 

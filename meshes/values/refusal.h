@@ -1,7 +1,7 @@
 /// Words for refusing a shaft.
 #pragma once
 
-#include <sstream>
+#include <cstdio>
 #include <string>
 
 #include "meshes/values/refused.h"
@@ -9,10 +9,9 @@
 namespace meshes {
 
 inline std::string mm(double length_m) {
-  std::ostringstream text;
-  text.precision(12);
-  text << length_m * 1e3 << " mm";
-  return text.str();
+  char text[40];
+  std::snprintf(text, sizeof text, "%.12g mm", length_m * 1e3);
+  return text;
 }
 
 [[noreturn]] inline void refuse(const std::string& what) {

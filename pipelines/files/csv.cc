@@ -1,8 +1,13 @@
 #include "pipelines/files/csv.h"
 
+#include <algorithm>
 #include <charconv>
+#include <deque>
+#include <fstream>
+#include <future>
 #include <stdexcept>
 
+#include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 
 namespace pipelines {
@@ -15,18 +20,45 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-std::string cell(double value) {
-  return shortest(value);
+void add_cell(std::string& text, double value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof(digits), value).ptr);
 }
-std::string cell(std::int64_t value) {
-  return std::to_string(value);
+void add_cell(std::string& text, std::int64_t value) {
+  text += std::to_string(value);
 }
-std::string cell(const std::string& value) {
-  return quoted(value);
+void add_cell(std::string& text, const std::string& value) {
+  text += quoted(value);
 }
 
 std::size_t n_rows(const CsvColumn& column) {
   return std::visit([](const auto& cells) { return cells.size(); }, column.cells);
+}
+
+std::string titles(const std::vector<CsvColumn>& columns) {
+  std::string text;
+  for (const auto& column : columns) {
+    if (n_rows(column) != n_rows(columns.front()))
+      throw std::invalid_argument("column \"" + column.name + "\" has " + std::to_string(n_rows(column)) +
+                                  " rows, \"" + columns.front().name + "\" has " +
+                                  std::to_string(n_rows(columns.front())));
+    if (&column != &columns.front()) text += ',';
+    text += quoted(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
+  }
+  return text + '\n';
+}
+
+/// Rows from `begin` to `end`, not included.
+std::string rows_text(const std::vector<CsvColumn>& columns, std::size_t begin, std::size_t end) {
+  std::string text;
+  for (std::size_t row = begin; row < end; ++row) {
+    for (const auto& column : columns) {
+      if (&column != &columns.front()) text += ',';
+      std::visit([&](const auto& cells) { add_cell(text, cells[row]); }, column.cells);
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace
@@ -37,28 +69,32 @@ std::string shortest(double value) {
 }
 
 std::string to_csv(const std::vector<CsvColumn>& columns) {
-  std::string text;
-  for (const auto& column : columns) {
-    if (n_rows(column) != n_rows(columns.front()))
-      throw std::invalid_argument("column \"" + column.name + "\" has " + std::to_string(n_rows(column)) +
-                                  " rows, \"" + columns.front().name + "\" has " +
-                                  std::to_string(n_rows(columns.front())));
-    if (&column != &columns.front()) text += ',';
-    text += quoted(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
-  }
-  text += '\n';
-  for (std::size_t row = 0; !columns.empty() && row < n_rows(columns.front()); ++row) {
-    for (const auto& column : columns) {
-      if (&column != &columns.front()) text += ',';
-      text += std::visit([row](const auto& cells) { return cell(cells[row]); }, column.cells);
-    }
-    text += '\n';
-  }
-  return text;
+  std::string text = titles(columns);
+  return columns.empty() ? text : text + rows_text(columns, 0, n_rows(columns.front()));
 }
 
-void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns) {
-  write_text_file(path, to_csv(columns));
+void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns, int n_threads) {
+  constexpr std::size_t rows_at_once = 1000;
+  AtomicFile file(path);
+  std::ofstream out(file.temporary(), std::ios::binary);
+  out << titles(columns);
+  const std::size_t n = columns.empty() ? 0 : n_rows(columns.front());
+  std::deque<std::future<std::string>> parts;  // in the order of the rows
+  const auto write_part = [&] {
+    out << parts.front().get();
+    parts.pop_front();
+  };
+  for (std::size_t begin = 0; begin < n; begin += rows_at_once) {
+    if (parts.size() == std::size_t(std::max(1, n_threads))) write_part();
+    const auto policy = n_threads > 1 ? std::launch::async : std::launch::deferred;
+    parts.push_back(std::async(policy, [&columns, begin, end = std::min(n, begin + rows_at_once)] {
+      return rows_text(columns, begin, end);
+    }));
+  }
+  while (!parts.empty()) write_part();
+  out.close();
+  if (!out) throw FileError(path.string() + ": cannot be written; check the directory and the free space");
+  file.commit();
 }
 
 }  // namespace pipelines

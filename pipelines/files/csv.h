@@ -23,7 +23,8 @@ std::string shortest(double value);
 /// @throws std::invalid_argument naming the column if the columns are not of one length
 std::string to_csv(const std::vector<CsvColumn>& columns);
 
+/// @param n_threads  that format rows; the bytes are the same for any number
 /// @throws as to_csv; std::runtime_error naming the file if it cannot be written
-void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns);
+void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns, int n_threads = 1);
 
 }  // namespace pipelines

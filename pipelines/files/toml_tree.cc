@@ -101,7 +101,8 @@ TomlNode convert(const toml::node& node, const SourceLines& lines) {
     for (const auto& [key, value] : *table)
       result.entries.push_back(
           {std::string(key.str()), to_position(key.source().begin), convert(value, lines)});
-    std::sort(result.entries.begin(), result.entries.end(), [](const TomlEntry& a, const TomlEntry& b) {
+    auto& entries = result.entries.own();
+    std::sort(entries.begin(), entries.end(), [](const TomlEntry& a, const TomlEntry& b) {
       return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
     });
     return result;

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <vector>
+
+#include "pipelines/files/shared_list.h"
 
 namespace pipelines {
 
@@ -15,18 +16,18 @@ struct SourcePosition {
 
 struct TomlEntry;
 
-/// One value. Which member counts is said by `kind`.
+/// One value. Which member counts is said by `kind`. Copies share what is below them until it is changed.
 struct TomlNode {
   enum class Kind { table, array, text, integer, number, boolean, date };
   Kind kind = Kind::table;
   SourcePosition at;
-  std::string as_written;          ///< the first line of its source; empty for tables
-  std::string text;                ///< Kind::text, unquoted
-  double number = 0;               ///< Kind::number and Kind::integer
-  std::int64_t integer = 0;        ///< Kind::integer
-  bool boolean = false;            ///< Kind::boolean
-  std::vector<TomlNode> items;     ///< Kind::array
-  std::vector<TomlEntry> entries;  ///< Kind::table, in the order of the file
+  std::string as_written;         ///< the first line of its source; empty for tables
+  std::string text;               ///< Kind::text, unquoted
+  double number = 0;              ///< Kind::number and Kind::integer
+  std::int64_t integer = 0;       ///< Kind::integer
+  bool boolean = false;           ///< Kind::boolean
+  SharedList<TomlNode> items;     ///< Kind::array
+  SharedList<TomlEntry> entries;  ///< Kind::table, in the order of the file
 
   /// The entry of that key; null if there is none.
   const TomlEntry* find(const std::string& key) const;

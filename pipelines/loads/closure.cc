@@ -121,36 +121,38 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
                                 " channels");
   Closure closure;
   const auto& values = loads.history.values;
+  const auto n_channels = Eigen::Index(mesh_resultants.size());
+  const Eigen::MatrixXd value_sizes = values.abs();
+  Eigen::MatrixXd effect_sizes = Eigen::MatrixXd::Zero(values.rows(), values.cols());
+  for (const auto& effect : loads.history.by_effect) effect_sizes.array() += effect.abs();
+  Eigen::Matrix<double, 6, Eigen::Dynamic> resultants(6, n_channels);
   double force_made_of_N = 0, moment_made_of_Nm = 0;
-  std::array<Eigen::ArrayXd, 6> sums, sizes, sizes_of_effects;
-  for (std::size_t c = 0; c < 6; ++c)
-    sums[c] = sizes[c] = sizes_of_effects[c] = Eigen::ArrayXd::Zero(values.cols());
-  for (std::size_t k = 0; k < mesh_resultants.size(); ++k) {
-    const auto wanted = wanted_resultant(loads.unit_loads[k], regions);
-    const Eigen::ArrayXd a = values.row(Eigen::Index(k)).transpose();
-    const Scale scale = std::visit(ScaleOf{regions}, loads.unit_loads[k].shape);
-    Eigen::ArrayXd of_effects = Eigen::ArrayXd::Zero(values.cols());
-    for (const auto& effect : loads.history.by_effect)
-      of_effects += effect.row(Eigen::Index(k)).abs().transpose();
-    if (a.size() > 0) {
-      force_made_of_N = std::max(force_made_of_N, a.abs().maxCoeff() * scale.force);
-      moment_made_of_Nm = std::max(moment_made_of_Nm, a.abs().maxCoeff() * scale.moment);
+  for (Eigen::Index k = 0; k < n_channels; ++k) {
+    const auto& channel = loads.unit_loads[std::size_t(k)];
+    const auto& on_mesh = mesh_resultants[std::size_t(k)];
+    const auto wanted = wanted_resultant(channel, regions);
+    const Scale scale = std::visit(ScaleOf{regions}, channel.shape);
+    if (values.cols() > 0) {
+      force_made_of_N = std::max(force_made_of_N, value_sizes.row(k).maxCoeff() * scale.force);
+      moment_made_of_Nm = std::max(moment_made_of_Nm, value_sizes.row(k).maxCoeff() * scale.moment);
     }
     for (std::size_t c = 0; c < 6; ++c) {
-      sums[c] += a * mesh_resultants[k][c];
-      sizes[c] += (a * mesh_resultants[k][c]).abs();
-      sizes_of_effects[c] += of_effects * std::abs(mesh_resultants[k][c]);
-      const double error = std::abs(mesh_resultants[k][c] - wanted[c]) / (c < 3 ? scale.force : scale.moment);
+      resultants(Eigen::Index(c), k) = on_mesh[c];
+      const double error = std::abs(on_mesh[c] - wanted[c]) / (c < 3 ? scale.force : scale.moment);
       closure.channel_resultant = std::max(closure.channel_resultant, error);
     }
   }
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> sums = resultants * values.matrix(),
+                                                 sizes = resultants.cwiseAbs() * value_sizes,
+                                                 sizes_of_effects = resultants.cwiseAbs() * effect_sizes;
+  const auto largest = [](const auto& all, std::size_t c) { return all.row(Eigen::Index(c)).maxCoeff(); };
   // The components of one kind share a scale: a component that carries nothing has no size of its own to be
   // judged by.
   double force_size = 0, moment_size = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     if (values.cols() == 0) break;
-    closure.force_scale_N[c] = sizes[c].maxCoeff();
-    closure.moment_scale_Nm[c] = sizes[c + 3].maxCoeff();
+    closure.force_scale_N[c] = largest(sizes, c);
+    closure.moment_scale_Nm[c] = largest(sizes, c + 3);
     force_size = std::max(force_size, closure.force_scale_N[c]);
     moment_size = std::max(moment_size, closure.moment_scale_Nm[c]);
   }
@@ -166,16 +168,16 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
   if (moment_size < round_off * moment_made_of_Nm) moment_size = moment_made_of_Nm;
   for (std::size_t c = 0; c < 3 && values.cols() > 0; ++c) {
     // Effects that cancel each other leave the rounding of what they are by themselves.
-    const auto relative = [](double residual, double own, double common, const Eigen::ArrayXd& of_effects) {
+    const auto relative = [](double residual, double own, double common, double made_of) {
       if (residual == 0) return 0.0;
-      const double error = residual / (own > 1e-6 * common ? own : common), made_of = of_effects.maxCoeff();
+      const double error = residual / (own > 1e-6 * common ? own : common);
       const bool is_rounding = residual <= 64 * std::numeric_limits<double>::epsilon() * made_of;
       return error > Closure::limit && is_rounding ? residual / made_of : error;
     };
-    closure.force[c] =
-        relative(sums[c].abs().maxCoeff(), closure.force_scale_N[c], force_size, sizes_of_effects[c]);
-    closure.moment[c] = relative(sums[c + 3].abs().maxCoeff(), closure.moment_scale_Nm[c], moment_size,
-                                 sizes_of_effects[c + 3]);
+    closure.force[c] = relative(largest(sums.cwiseAbs(), c), closure.force_scale_N[c], force_size,
+                                largest(sizes_of_effects, c));
+    closure.moment[c] = relative(largest(sums.cwiseAbs(), c + 3), closure.moment_scale_Nm[c], moment_size,
+                                 largest(sizes_of_effects, c + 3));
   }
   return closure;
 }

@@ -22,7 +22,7 @@ EffectRules vibratory_mill_rules(kinetics::Convention convention, const SceneTab
   add_own_effects(rules, "vibratory_mill", root);
   const Convention other = is_published ? Convention::consistent : Convention::published;
   for (const auto& name : names_of(kinetics::vibratory_mill_effects(other)))
-    if (!contains(names_of(rules.table), name))
+    if (!has_effect(rules.table, name))
       rules.refused.push_back({name, "unknown under convention \"" +
                                          std::string(is_published ? "published" : "consistent") +
                                          "\", only under the other one; remove it, or change "

@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "pipelines/common/errors.h"
@@ -39,8 +40,14 @@ namespace {
 constexpr int chart_width = 1200, chart_height = 800, title_size = 22, label_size = 18;
 
 /// After Okabe and Ito: told apart by hue and by lightness.
-constexpr std::array<std::array<unsigned char, 3>, 6> curve_colours{
-    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {110, 110, 110}}};
+constexpr std::array<std::array<unsigned char, 3>, 8> curve_colours{{{0, 114, 178},
+                                                                     {213, 94, 0},
+                                                                     {0, 158, 115},
+                                                                     {204, 121, 167},
+                                                                     {86, 180, 233},
+                                                                     {110, 110, 110},
+                                                                     {0, 0, 0},
+                                                                     {230, 159, 0}}};
 
 void style(vtkAxis* axis, const ChartAxis& wanted) {
   axis->SetTitle(wanted.title);
@@ -72,7 +79,9 @@ void write_svg(vtkRenderWindow* window, const std::filesystem::path& svg) {
 }
 
 /// Draws one chart.
-bool draw(vtkChart* chart, const std::filesystem::path& file, int width = chart_width) {
+/// @param fit  what is left to set once the chart is laid out
+bool draw(vtkChart* chart, const std::filesystem::path& file, int width = chart_width,
+          const std::function<void()>& fit = {}) {
   const auto window = make_offscreen_window();
   if (!window) return false;
   window->SetSize(width, chart_height);
@@ -82,6 +91,10 @@ bool draw(vtkChart* chart, const std::filesystem::path& file, int width = chart_
   auto* const renderer = add_renderer(window.get(), 0, 0, 1, 1);
   renderer->AddActor(actor);
   actor->GetScene()->SetRenderer(renderer);
+  if (fit) {
+    window->Render();
+    fit();
+  }
   auto png = file, svg = file;
   write_png(window.get(), png += ".png");
   write_svg(window.get(), svg += ".svg");
@@ -116,8 +129,29 @@ void add_curve(vtkChartXY* chart, const ChartCurve& curve, std::size_t i) {
   plot->SetColor(colour[0], colour[1], colour[2], 255);
   plot->SetWidth(curve.x.size() > 200 ? 1.5F : 2.5F);
   auto* const points = vtkPlotPoints::SafeDownCast(plot);
-  points->SetMarkerStyle(curve.x.size() > 100 && is_line ? vtkPlotPoints::NONE : vtkPlotPoints::CIRCLE);
+  const bool is_plain = is_line && (curve.x.size() > 100 || !curve.has_marks);
+  points->SetMarkerStyle(is_plain ? vtkPlotPoints::NONE : vtkPlotPoints::CIRCLE);
+  if (i >= curve_colours.size() && is_plain) plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
   points->SetMarkerSize(8);
+}
+
+void set_range(vtkAxis* axis, double from, double to) {
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetRange(from, to);
+}
+
+/// Ranges that show the window left of a third of the width, with equal scales.
+void fit_window(vtkChartXY* chart, const ChartWindow& window) {
+  constexpr double share_of_legend = 0.34;
+  auto *const x = chart->GetAxis(vtkAxis::BOTTOM), *const y = chart->GetAxis(vtkAxis::LEFT);
+  const double width_px = x->GetPoint2()[0] - x->GetPoint1()[0];
+  const double height_px = y->GetPoint2()[1] - y->GetPoint1()[1];
+  const double units_per_px = std::max((window.x[1] - window.x[0]) / ((1 - share_of_legend) * width_px),
+                                       (window.y[1] - window.y[0]) / height_px);
+  const double middle_x = (window.x[0] + window.x[1]) / 2, middle_y = (window.y[0] + window.y[1]) / 2;
+  const double least_x = middle_x - 0.5 * (1 - share_of_legend) * width_px * units_per_px;
+  set_range(x, least_x, least_x + width_px * units_per_px);
+  set_range(y, middle_y - 0.5 * height_px * units_per_px, middle_y + 0.5 * height_px * units_per_px);
 }
 
 void put_labels(vtkAxis* axis, const std::string& title, const std::vector<std::string>& labels) {
@@ -145,16 +179,15 @@ bool write_chart(const LineChart& chart, const std::filesystem::path& file) {
   style(xy->GetAxis(vtkAxis::LEFT), chart.y);
   xy->SetShowLegend(chart.curves.size() > 1 || !chart.curves.front().error.empty());
   plain(xy->GetLegend()->GetLabelProperties(), label_size - 2);
-  xy->GetLegend()->SetInline(chart.has_equal_scales);
+  xy->GetLegend()->SetInline(chart.has_equal_scales || chart.window.has_value());
+  if (chart.window) return draw(xy, file, chart_width, [&] { fit_window(xy, *chart.window); });
   if (!chart.has_equal_scales) return draw(xy, file);
   double most = 0;
   for (const auto& curve : chart.curves)
     for (const auto* values : {&curve.x, &curve.y})
       for (const double value : *values) most = std::max(most, std::abs(value));
-  for (const int side : {vtkAxis::BOTTOM, vtkAxis::LEFT}) {
-    xy->GetAxis(side)->SetBehavior(vtkAxis::FIXED);
-    xy->GetAxis(side)->SetRange(-1.1 * most, 1.1 * most);
-  }
+  for (const int side : {vtkAxis::BOTTOM, vtkAxis::LEFT})
+    set_range(xy->GetAxis(side), -1.1 * most, 1.1 * most);
   return draw(xy, file, chart_height);
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct ChartCurve {
   std::vector<double> x, y;
   std::vector<double> error;  ///< of y, drawn as a band; empty: none
   bool is_joined = true;      ///< else marks alone
+  bool has_marks = true;      ///< at the points of a joined curve of up to 100
+};
+
+/// A part of the plane.
+struct ChartWindow {
+  std::array<double, 2> x{}, y{};
 };
 
 struct LineChart {
@@ -27,6 +34,8 @@ struct LineChart {
   std::vector<ChartCurve> curves;
   bool has_equal_scales =
       false;  ///< one unit is as long along x as along y, and both axes have zero in the middle
+  /// Shown whole with equal scales, and more beside it: the legend stands on its right.
+  std::optional<ChartWindow> window{};
 };
 
 /// A figure at every pair of values.

@@ -48,18 +48,26 @@ void print_chain(std::ostream& out, const char* name, const PublishedChain& chai
   }
 }
 
+/// Erratum 3: Table 4 adds w^2 J where it must be taken away.
+bool has_wrong_sign(const PublishedTable& table) {
+  return (table.forced_angle_rad != table.right_sign_angle_rad).any();
+}
+
 void print_results(std::ostream& out, const char* name, const PublishedChain& chain,
                    const PublishedTable& table) {
+  const bool has_other = has_wrong_sign(table);
   out << fmt::format(
       "\n  {}: modes of unit length by frequency (rad/s, printed there as Hz), forced angles (rad)\n    "
       "{:<20}",
       name, "inertia");
   for (const double w : table.frequency_rad_s) out << fmt::format("{:>12.2f}", w);
-  out << fmt::format("{:>14}\n", "forced");
+  out << fmt::format("{:>14}{}\n", "forced", has_other ? "    right sign" : "");
   for (std::size_t i = 0; i < chain.inertia.size(); ++i) {
     out << fmt::format("    {:<20}", chain.inertia[i]);
     for (const double x : table.mode.row(Index(i))) out << fmt::format("{:>12}", decimals_of(x));
-    out << fmt::format("{:>14}\n", decimals_of(table.forced_angle_rad[Index(i)]));
+    out << fmt::format("{:>14}", decimals_of(table.forced_angle_rad[Index(i)]));
+    if (has_other) out << fmt::format("{:>14}", decimals_of(table.right_sign_angle_rad[Index(i)]));
+    out << '\n';
   }
 }
 
@@ -85,6 +93,7 @@ PublishedJson results_json(const PublishedChain& chain, const PublishedTable& ta
   PublishedJson json{{"inertias", chain.inertia}, {"frequency_rad_s", list_of(table.frequency_rad_s)}};
   for (Index k = 0; k < table.mode.cols(); ++k) json["modes"].push_back(list_of(table.mode.col(k)));
   json["forced_angle_rad"] = list_of(table.forced_angle_rad);
+  if (has_wrong_sign(table)) json["right_sign_angle_rad"] = list_of(table.right_sign_angle_rad);
   return json;
 }
 
@@ -146,8 +155,11 @@ const std::vector<std::string>& published_files() {
 
 void write_published(const std::filesystem::path& directory, const PublishedTables& tables) {
   const auto forced = [&](const char* name, const PublishedChain& chain, const PublishedTable& table) {
-    write_csv(directory / name,
-              {{"inertia", "", chain.inertia}, column_of("forced_angle", "rad", table.forced_angle_rad)});
+    std::vector<CsvColumn> columns{{"inertia", "", chain.inertia},
+                                   column_of("forced_angle", "rad", table.forced_angle_rad)};
+    if (has_wrong_sign(table))
+      columns.push_back(column_of("right_sign_angle", "rad", table.right_sign_angle_rad));
+    write_csv(directory / name, columns);
   };
   write_chain(directory / "table_1.csv", tables.given);
   write_chain(directory / "tables_2_3.csv", tables.motor_side);
@@ -166,6 +178,7 @@ void require_finite(const PublishedTables& tables) {
     check(fmt::format("a frequency of {} [rad/s]", name), table->frequency_rad_s);
     check(fmt::format("a mode of {}", name), table->mode);
     check(fmt::format("a forced angle of {} [rad]", name), table->forced_angle_rad);
+    check(fmt::format("a forced angle of {} with the right sign [rad]", name), table->right_sign_angle_rad);
   }
 }
 

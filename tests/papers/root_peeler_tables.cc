@@ -157,6 +157,19 @@ TEST(RootPeelerTables, AChangedTrainIsNotThePapers) {
   EXPECT_FALSE(torsion_json("drive_train.toml").contains("published")) << "not asked for";
 }
 
+// Erratum 3: what Table 4 would read had it taken w^2 J away, as Table 7 does; first and last mass.
+TEST(RootPeelerTables, ForcedAnglesWithTheRightSign) {
+  const auto published = torsion_json(tables_scene)["published"];
+  const auto angle = published["table_4"]["right_sign_angle_rad"].get<Numbers>();
+  EXPECT_NEAR(angle.front(), 0.06872, 0.51e-5);
+  EXPECT_NEAR(angle.back(), 0.06746, 0.51e-5);
+  EXPECT_FALSE(published["table_7"].contains("right_sign_angle_rad")) << "it has the right sign";
+  const results_test::Directory directory;
+  const auto text = torsion_of(directory.path, tables_scene, "-o out");
+  EXPECT_NE(text.find("right sign"), std::string::npos);
+  EXPECT_EQ(csv(directory / "out/table_4_forced.csv").at("right_sign_angle"), angle);
+}
+
 // Errata 4, 7 and 9: the figures of their list, each from one command.
 TEST(RootPeelerTables, ErrataByCommand) {
   const auto halves = [](const std::string& stiffness) {

@@ -1,0 +1,56 @@
+#include <CLI/CLI.hpp>
+
+#include "pipelines/commands/option_value.h"
+#include "pipelines/commands/output_files.h"
+#include "pipelines/commands/scene_machine.h"
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/pictures/free_body_chart.h"
+#include "pipelines/report/free_body_report.h"
+
+namespace pipelines {
+namespace {
+
+struct FreeBodyCommandOptions : SceneOptions {
+  std::string at = "0 deg";
+  std::filesystem::path output;
+  bool json = false;
+};
+
+void show_free_body(const FreeBodyCommandOptions& options, std::ostream& out) {
+  const double angle_rad = option_in_si("--at", options.at, "rad");
+  Scene scene = read_scene(options.scene, options.settings);
+  scene.machine = machine_with_masses(scene);
+  const auto body = free_body(scene);
+  auto files = free_body_files(body);
+  const std::vector<std::string> pictures{"free_body.png", "free_body.svg"};
+  files.insert(files.end(), pictures.begin(), pictures.end());
+  require_writable(output_files("-o", options.output, files));
+  const auto instant = instant_at(body, angle_rad);
+  bool is_drawn = false;
+  if (!options.output.empty()) {
+    write_free_body(options.output, scene, body);
+    is_drawn = draw_free_body(scene, body, instant, options.output / "free_body");
+    say_if_nothing_draws(is_drawn ? pictures : std::vector<std::string>(), is_drawn);
+  }
+  print_free_body(out, scene, body, instant, options.json);
+  if (options.json || options.output.empty()) return;
+  std::vector<std::string> written{"free_body.csv", "free_body.pvd"};
+  if (is_drawn) written.insert(written.end(), pictures.begin(), pictures.end());
+  print_files(out, options.output, written);
+}
+
+}  // namespace
+
+void add_free_body_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<FreeBodyCommandOptions>();
+  auto* command = add_scene_command(
+      app, "free-body", "a vibratory mill's chamber with all forces on it, at an angle and over the turn",
+      *options);
+  command->add_option("--at", options->at, "angle of the drive, clockwise, like \"45 deg\" (default: 0 deg)");
+  command->add_option("-o,--output", options->output,
+                      "directory for the picture, the table and the animation over the turn");
+  command->add_flag("--json", options->json, "print JSON instead of the table");
+  command->callback(to_choose(chosen, options, show_free_body));
+}
+
+}  // namespace pipelines
