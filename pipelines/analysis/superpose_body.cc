@@ -55,11 +55,24 @@ bool has_cells(const fem::UnitResponses& responses) {
          !responses.energy_error.norm_sqrtJ.empty();
 }
 
-double zone_level(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
-  return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
+/// Of the body's envelope and peak.
+Zones zones_of(const BodyAnalysis& analysis, const ZoneRule& rule) {
+  const double yield_Pa = analysis.scene.yield_strength_Pa;
+  return find_zones(analysis.responses.nodes, analysis.envelope.von_mises, analysis.places,
+                    zone_level_Pa(rule, analysis.peak.value_Pa, yield_Pa), yield_Pa);
 }
 
 }  // namespace
+
+double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
+  return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
+}
+
+KnownBefore known_of(BodyAnalysis& before, const BodyLoads& now, bool needs_submodels) {
+  KnownBefore known{{}, std::move(before.hot_spots), needs_submodels};
+  if (have_same_values(before.loads.history, now.history)) known.envelope = std::move(before.envelope);
+  return known;
+}
 
 BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                             BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
@@ -88,9 +101,7 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                                    analysis.mesh.sharp_edges);
     analysis.peak = headline(analysis);
     analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
-    analysis.zones = find_zones(analysis.responses.nodes, analysis.envelope.von_mises, analysis.places,
-                                zone_level(scene.zones, analysis.peak.value_Pa, body.yield_strength_Pa),
-                                body.yield_strength_Pa);
+    analysis.zones = zones_of(analysis, scene.zones);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
   });
   if (known.needs_submodels && !analysis.hot_spots.empty() && has_cells(analysis.responses))
@@ -109,14 +120,14 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
 }
 
 BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, BodyLoads loads,
-                               Envelope leading) {
+                               Envelope leading, const ZoneRule* zones) {
   analysis.loads = std::move(loads);
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
   require_closure(analysis.scene.name, analysis.closure);
   analysis.envelope = std::move(leading);
   require_finite(analysis.scene.name, analysis.envelope);
   analysis.peak = headline(analysis);
-  analysis.zones = {};
+  analysis.zones = zones != nullptr ? zones_of(analysis, *zones) : Zones();
   analysis.diagrams.reset();
   const auto before = std::move(analysis.hot_spots);
   analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);

@@ -15,20 +15,28 @@ struct KnownBefore {
   bool needs_submodels = true;  ///< at weld toes; a search that refines the mesh there does without
 };
 
+/// What stays known under these loads: the envelope where they are the same, to the bit.
+/// @param before  gives away what is known
+KnownBefore known_of(BodyAnalysis& before, const BodyLoads& now, bool needs_submodels);
+
 /// The second half of analyse_body: everything that follows from unit responses.
 /// @throws LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
 BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                             BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
                             KnownBefore known = {});
 
+/// The stress from which on a node belongs to a zone [Pa].
+double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa);
+
 /// An analysis under other loads on the same responses: loads, closure, envelope, peak, hot spots and what
-/// they state of their own errors are new; zones, diagrams and the error for load patches, which need the
-/// stress everywhere, are left out.
+/// they state of their own errors are new; diagrams and the error for load patches, which need the stress
+/// everywhere, are left out.
 /// @param loads    with the channels of the analysis, in their order
 /// @param leading  what matters of the envelope: of each place that may lead the largest stress, zero or the
 ///                 stress at other nodes
+/// @param zones    null: none; else the envelope is whole above their level
 /// @throws LoadsDoNotClose as superpose_body; NotFinite
 BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, BodyLoads loads,
-                               Envelope leading);
+                               Envelope leading, const ZoneRule* zones = nullptr);
 
 }  // namespace pipelines

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "pipelines/analysis/respond.h"
 #include "pipelines/commands/option_value.h"
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
@@ -22,6 +24,7 @@
 #include "pipelines/responses/response_key.h"
 #include "pipelines/scene/scene_tree.h"
 #include "pipelines/sweep/sweep_files.h"
+#include "pipelines/sweep/sweep_journal.h"
 #include "pipelines/sweep/sweep_request.h"
 #include "pipelines/sweep/sweep_run.h"
 
@@ -37,7 +40,7 @@ struct SweepCommandOptions : SceneOptions {
   std::string tolerance, time_limit;
   std::vector<std::string> figures;  ///< to print and draw; none: chosen
   int n_threads = all_cores;
-  bool loads_only = false, fresh = false, json = false;
+  bool loads_only = false, zones = false, fresh = false, json = false;
 };
 
 SweepRequest requested(const SweepCommandOptions& options, SweepRequest request) {
@@ -45,17 +48,18 @@ SweepRequest requested(const SweepCommandOptions& options, SweepRequest request)
   if (!options.design.empty()) request.design = sweep_design(options.design);
   if (options.n_points > 0) request.n_points = options.n_points;
   if (options.seed >= 0) request.seed = std::uint64_t(options.seed);
+  request.zones = (request.zones || options.zones) && !options.loads_only;
   return request;
 }
 
 /// All that a row depends on beside its settings, once a point was read.
-std::string journal_key(const SweepCommandOptions& options, const RequestedAccuracy& accuracy,
+std::string journal_key(const SweepCommandOptions& options, const RequestedAccuracy& accuracy, bool zones,
                         int n_threads) {
   std::string key = program_fingerprint() + '\n';
   for (const auto& input : noted_inputs()) key += input.file.string() + ' ' + input.hash + '\n';
   for (const auto& setting : options.settings) key += setting + '\n';
-  return key + fmt::format("{} {} {} {} {}", options.loads_only, accuracy.tolerance, accuracy.time_limit_s,
-                           accuracy.once, n_threads);
+  return key + fmt::format("{} {} {} {} {} {} {}", options.loads_only, zones, accuracy.tolerance,
+                           accuracy.time_limit_s, accuracy.once, accuracy.by_default, n_threads);
 }
 
 void tell_forecast(const SweepForecast& forecast, std::size_t n_known) {
@@ -72,6 +76,11 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+bool have_one_header(const SweepRow& a, const SweepRow& b) {
+  return std::equal(a.figures.begin(), a.figures.end(), b.figures.begin(), b.figures.end(),
+                    [](const SweepFigure& x, const SweepFigure& y) { return x.name == y.name; });
+}
+
 /// The figures that are shown: those named, governing stresses, or else the largest forces of the first
 /// point.
 std::vector<std::string> shown_figures(const std::vector<std::string>& named,
@@ -79,12 +88,16 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
   std::vector<std::string> governing;
   std::set<std::string> known;
   std::vector<SweepFigure> forces;
-  for (const auto& row : rows)
+  const SweepRow* before = nullptr;
+  for (const auto& row : rows) {
+    if (before != nullptr && have_one_header(*before, row)) continue;
+    before = &row;
     for (const auto& figure : row.figures) {
       if (!known.insert(figure.name).second) continue;
       if (ends_with(figure.name, ".governing")) governing.push_back(figure.name);
       if (figure.unit == "N" && ends_with(figure.name, ".max")) forces.push_back(figure);
     }
+  }
   for (const auto& name : named)
     if (known.count(name) == 0)
       throw OptionError("--figure " + name + ": the sweep has no such figure; sweep.csv has their names");
@@ -177,6 +190,39 @@ void print_extremes(std::ostream& out, const SweepCommandOptions& options, const
     out << "  millstress " << (options.loads_only ? "loads " : "run ") << options.scene.string() << settings
         << '\n';
   }
+}
+
+/// What becomes of each zone over the points.
+void print_zones(std::ostream& out, const std::vector<SweepRow>& rows,
+                 const std::vector<std::vector<int>>& numbers) {
+  struct Followed {
+    std::set<std::string> features;
+    std::size_t n_points = 0, leads = 0;
+    double least_Pa = std::numeric_limits<double>::max(), most_Pa = 0;
+  };
+  std::map<std::pair<std::string, int>, Followed> zones;
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    std::set<std::string> bodies;
+    for (std::size_t z = 0; z < rows[p].zones.size(); ++z) {
+      const auto& zone = rows[p].zones[z];
+      auto& followed = zones[{zone.body, numbers[p][z]}];
+      followed.features.insert(zone.feature);
+      ++followed.n_points;
+      followed.leads += bodies.insert(zone.body).second;  // zones stand by descending peak
+      followed.least_Pa = std::min(followed.least_Pa, zone.peak_Pa);
+      followed.most_Pa = std::max(followed.most_Pa, zone.peak_Pa);
+    }
+  }
+  out << "\n  zones, followed over the points\n";
+  for (const auto& [name, zone] : zones) {
+    if (name.second > int(n_zones_shown)) continue;
+    std::string features;
+    for (const auto& feature : zone.features) features += (features.empty() ? "" : ", ") + feature;
+    out << fmt::format("    {} {}: {}, at {} of {} points, {:.4g} to {:.4g} MPa, leads at {}\n", name.first,
+                       name.second, features, zone.n_points, rows.size(), 1e-6 * zone.least_Pa,
+                       1e-6 * zone.most_Pa, zone.leads);
+  }
+  if (zones.empty()) out << "    none\n";
 }
 
 /// A curve per figure over one key: of a grid, for all values of the other keys (up to six curves); of other
@@ -309,14 +355,15 @@ void sweep(const SweepCommandOptions& options, std::ostream& out) {
   StageClock clock(progress_on_stderr(options.verbosity()));
   const bool loads_only = options.loads_only || first.bodies.empty();
   SweepRun run({options.scene, tree, options.settings, directory, options.n_threads, loads_only,
-                options.fresh, accuracy},
+                options.fresh, request.zones, accuracy},
                plan.points);
-  require_writable(
-      output_files("-o", directory, {"sweep.csv", "sweep.h5", "journal", "chart.png", "map.png"}));
+  require_writable(output_files("-o", directory,
+                                {"sweep.csv", "sweep.h5", "zones.csv", "journal", "chart.png", "map.png"}));
   std::optional<FemEnvironment> environment;
   if (!first.bodies.empty()) environment.emplace(options.n_threads);
 
-  SweepJournal journal(directory / "journal", journal_key(options, accuracy, options.n_threads));
+  SweepJournal journal(directory / "journal",
+                       journal_key(options, accuracy, request.zones, options.n_threads));
   journal.require_own();
   auto known = options.fresh ? std::vector<std::optional<SweepRow>>(plan.points.size()) : journal.known(plan);
   const auto n_known =
@@ -326,13 +373,22 @@ void sweep(const SweepCommandOptions& options, std::ostream& out) {
     std::cerr
         << "millstress: effects = \"auto\" chooses by the point; a sweep has all of them on at every point\n";
   journal.begin(plan, known);
-  const auto rows = run.run(clock, std::move(known),
-                            [&](const std::vector<std::size_t>& points, const std::vector<SweepRow>& all) {
-                              for (const auto p : points) journal.append(plan.points[p], all[p]);
-                              journal.flush();
-                            });
+  auto rows = run.run(clock, std::move(known),
+                      [&](const std::vector<std::size_t>& points, const std::vector<SweepRow>& all) {
+                        for (const auto p : points) journal.append(plan.points[p], all[p]);
+                        journal.flush();
+                      });
+  if (const auto n = run.n_improved_meshes(); n > 0)
+    std::cerr << fmt::format("millstress: {} more mesh{} searched for points that the first knew less well\n",
+                             n, n == 1 ? " was" : "es were");
+  const auto numbers = follow_zones(plan, rows);
+  add_zone_figures(rows, numbers);
   clock.run("write", [&] {
-    write_sweep_csv(directory / "sweep.csv", plan, rows);
+    if (request.zones)
+      write_sweep_zones(directory / "zones.csv", plan, rows, numbers);
+    else
+      std::filesystem::remove(directory / "zones.csv");  // of a sweep before
+    write_sweep_csv(directory / "sweep.csv", plan, rows, threads(options.n_threads));
     write_sweep_h5(directory / "sweep.h5", plan, rows, first.title);
   });
   const auto figures = shown_figures(options.figures, rows);
@@ -343,11 +399,12 @@ void sweep(const SweepCommandOptions& options, std::ostream& out) {
   } else {
     print_points(out, plan, rows, figures);
     print_extremes(out, options, plan, rows, figures);
+    if (request.zones) print_zones(out, rows, numbers);
     const auto n_refused =
         std::count_if(rows.begin(), rows.end(), [](const auto& row) { return !row.refused.empty(); });
     if (n_refused > 0)
       out << fmt::format("\n  {} of {} points were refused: the column says why\n", n_refused, rows.size());
-    out << "\n  sweep.csv, sweep.h5";
+    out << "\n  sweep.csv, sweep.h5" << (request.zones ? ", zones.csv" : "");
     for (const auto& file : charts) out << ", " << file;
     out << " in " << directory.string() << '\n';
   }
@@ -379,6 +436,8 @@ void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_option("--points", options->n_points, "of a Latin hypercube")->check(CLI::Range(2, 1'000'000));
   command->add_option("--seed", options->seed, "of a Latin hypercube")->check(CLI::Range(0L, 1'000'000'000L));
   command->add_flag("--loads", options->loads_only, "the load stage alone, microseconds a point");
+  command->add_flag("--zones", options->zones,
+                    "the stress zones of every point, followed from point to point");
   command
       ->add_option("--figure", options->figures,
                    "to print and draw, a column of sweep.csv; may be repeated (default: governing stresses)")

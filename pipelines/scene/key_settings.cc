@@ -1,7 +1,9 @@
 #include "pipelines/scene/key_settings.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <optional>
 #include <set>
 
 #include "meshes/values/utf8.h"
@@ -67,17 +69,19 @@ public:
       if (part.item > 0) {
         TomlNode& item = step(*node, i, false);
         if (is_last) {
-          node->items.erase(node->items.begin() + std::ptrdiff_t(part.item - 1));
+          auto& items = node->items.own();
+          items.erase(items.begin() + std::ptrdiff_t(part.item - 1));
           return;
         }
         node = &item;
         continue;
       }
-      const auto entry = std::find_if(node->entries.begin(), node->entries.end(),
+      auto& entries = node->entries.own();
+      const auto entry = std::find_if(entries.begin(), entries.end(),
                                       [&](const TomlEntry& e) { return e.key == part.name; });
-      if (entry == node->entries.end()) refuse("cannot be removed: the scene has no " + up_to(i));
+      if (entry == entries.end()) refuse("cannot be removed: the scene has no " + up_to(i));
       if (is_last) {
-        node->entries.erase(entry);
+        entries.erase(entry);
         return;
       }
       node = &entry->value;
@@ -95,26 +99,28 @@ private:
   }
 
   void switch_effect(TomlNode& root) const {
-    const auto entry = std::find_if(root.entries.begin(), root.entries.end(),
-                                    [](const TomlEntry& e) { return e.key == "effects"; });
+    auto& entries = root.entries.own();
+    const auto entry =
+        std::find_if(entries.begin(), entries.end(), [](const TomlEntry& e) { return e.key == "effects"; });
     TomlNode& effects = entry->value;
     if (effects.kind != TomlNode::Kind::array)
       refuse("effects is " + effects.as_written + " in the scene; list them there, or set effects whole");
     const bool on = value_ == "on" || value_ == "true";
     if (!on && value_ != "off" && value_ != "false") refuse("write on or off");
-    const auto named = std::find_if(effects.items.begin(), effects.items.end(), [&](const TomlNode& item) {
+    auto& items = effects.items.own();
+    const auto named = std::find_if(items.begin(), items.end(), [&](const TomlNode& item) {
       return item.kind == TomlNode::Kind::text && item.text == parts_[1].name;
     });
-    const bool is_on = named != effects.items.end();
+    const bool is_on = named != items.end();
     if (on && !is_on) {
       TomlNode effect;
       effect.kind = TomlNode::Kind::text;
       effect.text = parts_[1].name;
       effect.as_written = '"' + effect.text + "\" (by --set)";
-      effects.items.push_back(effect);
+      items.push_back(effect);
     } else if (!on) {
       if (!is_on) refuse("effects does not have it; check the name");
-      effects.items.erase(named);
+      items.erase(named);
     }
   }
 
@@ -163,24 +169,41 @@ private:
         refuse(up_to(i - 1) + " is " + describe(node.kind) + ", not an array");
       if (part.item > node.items.size())
         refuse(up_to(i - 1) + " has " + std::to_string(node.items.size()) + " items, counted from 1");
-      return node.items[part.item - 1];
+      return node.items.own()[part.item - 1];
     }
     if (node.kind != TomlNode::Kind::table)
       refuse(up_to(i - 1) + " is " + describe(node.kind) + " and has no keys; check the key");
-    const auto found = std::find_if(node.entries.begin(), node.entries.end(),
+    auto& entries = node.entries.own();
+    const auto found = std::find_if(entries.begin(), entries.end(),
                                     [&](const TomlEntry& entry) { return entry.key == part.name; });
-    if (found != node.entries.end()) return found->value;
+    if (found != entries.end()) return found->value;
     if (to_array) refuse("the scene has no " + up_to(i) + "; write the array in the scene, or set it whole");
-    node.entries.push_back({part.name, {}, {}});
-    return node.entries.back().value;
+    entries.push_back({part.name, {}, {}});
+    return entries.back().value;
   }
 
-  TomlNode value() const {
+  /// "1450 rpm". Behind a number and a space TOML has digits (of a time), a comment or an end, but no
+  /// letter: such a text need not be given to the parser, whose refusal takes longer than all other settings.
+  bool is_number_with_unit() const {
+    const auto space = value_.find(' ');
+    if (value_.find_first_of("+-0123456789") != 0 || space == std::string::npos) return false;
+    const auto behind = value_.find_first_not_of(' ', space);
+    return std::isalpha(static_cast<unsigned char>(value_[behind])) != 0;
+  }
+
+  /// None where the value is no TOML.
+  std::optional<TomlNode> toml_value() const {
+    if (is_number_with_unit()) return std::nullopt;
     try {
       const auto tree = parse_toml("value = " + value_);
       if (tree.entries.size() == 1) return by_command_line(tree.entries.front().value);
     } catch (const TomlSyntaxError&) {  // a text without quotes
     }
+    return std::nullopt;
+  }
+
+  TomlNode value() const {
+    if (auto node = toml_value()) return std::move(*node);
     TomlNode text;
     text.kind = TomlNode::Kind::text;
     text.text = value_;
@@ -191,8 +214,8 @@ private:
   static TomlNode by_command_line(TomlNode node) {
     node.at = {};
     if (!node.as_written.empty()) node.as_written += " (by --set)";
-    for (auto& item : node.items) item = by_command_line(std::move(item));
-    for (auto& entry : node.entries) entry = {entry.key, {}, by_command_line(std::move(entry.value))};
+    for (auto& item : node.items.own()) item = by_command_line(std::move(item));
+    for (auto& entry : node.entries.own()) entry = {entry.key, {}, by_command_line(std::move(entry.value))};
     return node;
   }
 

@@ -56,13 +56,17 @@ void read_word(SceneTable& root, const EffectRules& rules, Scene& scene) {
 
 }  // namespace
 
+bool has_effect(const std::vector<kinetics::EffectInfo>& table, const std::string& name) {
+  return std::any_of(table.begin(), table.end(), [&](const auto& effect) { return effect.name == name; });
+}
+
 void add_own_effects(EffectRules& rules, const std::string& machine_type, const SceneTable& root) {
   for (const auto* kind : body_kinds()) {
     if (kind->machine_type() != machine_type) continue;
     const std::string table = kind->tables().front();
     const bool has_body = root.has(table), begins_with_vowel = table.find_first_of("aeiou") == 0;
     for (const auto& effect : kind->own_effects()) {
-      if (!contains(names_of(rules.table), effect.name)) rules.table.push_back(effect);
+      if (!has_effect(rules.table, effect.name)) rules.table.push_back(effect);
       if (!has_body)
         rules.refused.push_back(
             {effect.name, std::string("needs ") + (begins_with_vowel ? "an [" : "a [") + table +

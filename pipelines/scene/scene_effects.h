@@ -25,6 +25,7 @@ struct EffectRules {
 
 /// Each name once.
 std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table);
+bool has_effect(const std::vector<kinetics::EffectInfo>& table, const std::string& name);
 
 /// Adds the effects that the bodies of a machine bring; those of a body that the scene lacks are refused,
 /// naming its table.

@@ -16,6 +16,7 @@ struct SceneFindings {
   std::vector<SceneFinding> errors;
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;
+  bool are_noted = true;       ///< defaults and keys; else these two stay empty
   std::set<std::string> keys;  ///< every key that the reader knows here, dotted, items counted from 1
 };
 

@@ -96,10 +96,12 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   return read_scene(file, read_scene_tree(file), settings);
 }
 
-Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::vector<std::string>& settings) {
+Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::vector<std::string>& settings,
+                 const VersionReading& version) {
   set_keys(tree, settings, file);
   SceneFindings findings;
   findings.file = file.string();
+  findings.are_noted = version.has_notes;
   SceneTable root(tree, "", findings);
 
   Scene scene;
@@ -130,7 +132,7 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
   read_results(root.table_or_empty("results"), scene);
   root.finish();
 
-  if (findings.errors.empty()) rehearse(scene, root, machine, bodies);
+  if (findings.errors.empty()) rehearse(scene, root, machine, bodies, version);
   if (!findings.errors.empty()) throw_sorted(std::move(findings.errors));
   scene.defaults = std::move(findings.defaults);
   scene.warnings = std::move(findings.warnings);

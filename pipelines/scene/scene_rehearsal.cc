@@ -50,7 +50,8 @@ void check_shape(const BodyScene& body) {
 
 }  // namespace
 
-void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::vector<SceneTable>& bodies) {
+void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::vector<SceneTable>& bodies,
+              const VersionReading& version) {
   try {
     const MachineKind& kind = kind_of(scene.machine);
     if (!scene.bodies.empty()) kind.refuse_open_balance(scene, machine);
@@ -59,7 +60,8 @@ void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::ve
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) try {
-      check_shape(scene.bodies[i]);
+      const auto& is_accepted = version.has_accepted_shape;
+      if (!is_accepted || !is_accepted(scene.bodies[i])) check_shape(scene.bodies[i]);
     } catch (const meshes::TooManyCells& error) {
       bodies[i].table_or_empty("mesh").refuse(mesh_key(error.control()), error.what());
     } catch (const meshes::GeometryRefused& error) {

@@ -165,21 +165,22 @@ void check_shoulder(Contour& contour, std::size_t i, SceneFindings& findings) {
   const double offset_m = std::abs(offset_of(left) - offset_of(right));
   const double room_m = height_m - offset_m;
   const double rounding_m = 1e-9 * (left.diameter_m + right.diameter_m);
-  const std::string step = "the step from " + mm(left.diameter_m) + " to " + mm(right.diameter_m) + " is " +
-                           mm(height_m) + " high" +
-                           (offset_m > 0 ? ", less " + mm(offset_m) + " of eccentricity" : "");
+  const auto step = [&] {
+    return "the step from " + mm(left.diameter_m) + " to " + mm(right.diameter_m) + " is " + mm(height_m) +
+           " high" + (offset_m > 0 ? ", less " + mm(offset_m) + " of eccentricity" : "");
+  };
   auto& fillet = contour.fillet_tables[i];
   if (offset_m > 0 && room_m <= rounding_m) {
     const bool left_is_off = left.eccentricity_m > right.eccentricity_m;
     contour.segment_tables[left_is_off ? i : i + 1].refuse(
         "eccentricity", "\"" + (left.diameter_m < right.diameter_m ? left : right).name +
-                            "\" would stick out of its neighbour: " + step +
+                            "\" would stick out of its neighbour: " + step() +
                             "; enlarge the step or shrink the eccentricity");
   } else if (fillet && contour.fillets_m[i] > 0 && room_m <= rounding_m) {
     fillet->refuse("fillet", "there is no step to round: both segments have " + mm(left.diameter_m) +
                                  "; remove the fillet or change a diameter");
   } else if (fillet && contour.fillets_m[i] >= room_m - rounding_m) {
-    fillet->refuse("fillet", "is too large: " + step + "; the radius must be less than " + mm(room_m));
+    fillet->refuse("fillet", "is too large: " + step() + "; the radius must be less than " + mm(room_m));
   } else if (!fillet && room_m > rounding_m) {
     findings.warnings.push_back("the shoulder between \"" + left.name + "\" and \"" + right.name +
                                 "\" has no fillet: a sharp corner has no converged peak stress");

@@ -5,6 +5,7 @@
 
 #include "pipelines/scene/scene.h"
 #include "pipelines/scene/scene_table.h"
+#include "pipelines/scene/scene_tree.h"
 
 namespace pipelines {
 
@@ -32,6 +33,7 @@ void read_results(SceneTable results, Scene& scene);
 /// be meshed) is better said now, with a line, than after the first stage: a few instants cost next to
 /// nothing. Masses that only the mesh knows put that off.
 /// @param bodies  the tables of scene.bodies
-void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::vector<SceneTable>& bodies);
+void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::vector<SceneTable>& bodies,
+              const VersionReading& version);
 
 }  // namespace pipelines

@@ -42,7 +42,7 @@ std::string SceneTable::dotted(const std::string& name) const {
 void SceneTable::know(const std::string& name) {
   if (std::find(known_.begin(), known_.end(), name) != known_.end()) return;
   known_.push_back(name);
-  findings_->keys.insert(dotted(name));
+  if (findings_->are_noted) findings_->keys.insert(dotted(name));
 }
 
 bool SceneTable::has(const std::string& name) const {
@@ -90,7 +90,7 @@ void SceneTable::refuse_missing(const std::string& name, const std::string& reme
 
 void SceneTable::record_default(const std::string& name, const std::string& value,
                                 const std::string& reason) {
-  if (is_present_) findings_->defaults.push_back({dotted(name), value, reason});
+  if (is_present_ && findings_->are_noted) findings_->defaults.push_back({dotted(name), value, reason});
 }
 
 double SceneTable::read_quantity(const TomlNode& node, const std::string& name, const std::string& si_unit,

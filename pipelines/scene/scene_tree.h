@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,18 @@ namespace pipelines {
 /// @throws SceneError if there is no such file, or it is no TOML
 TomlNode read_scene_tree(const std::filesystem::path& file);
 
+/// What the reading of one more version of a scene can do without. What is refused, and how, is the same.
+struct VersionReading {
+  /// Whether a body has the shape of one that was accepted before, so that the mesher need not be asked
+  /// again; empty: every shape is checked.
+  std::function<bool(const BodyScene& body)> has_accepted_shape{};
+  bool has_notes = true;  ///< Scene::defaults and Scene::known_keys are filled
+};
+
 /// As read_scene of the file.
 /// @param tree  of read_scene_tree; a copy takes the settings
 /// @throws as read_scene
-Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::vector<std::string>& settings);
+Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::vector<std::string>& settings,
+                 const VersionReading& version = {});
 
 }  // namespace pipelines

@@ -1,6 +1,7 @@
 #include "pipelines/superposition/superposition.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,22 +12,8 @@
 namespace pipelines {
 namespace {
 
-/// Time factors in the kernel's order, padded with the last instant: n_blocks x K x block.
-struct PackedFactors {
-  std::size_t n_channels, n_instants, n_blocks;
-  std::vector<double> values;
-
-  explicit PackedFactors(const ChannelHistory& loads)
-      : n_channels(std::size_t(loads.values.rows())),
-        n_instants(std::size_t(loads.values.cols())),
-        n_blocks((n_instants + kernel::block - 1) / kernel::block),
-        values(n_blocks * n_channels * kernel::block) {
-    for (std::size_t i = 0; i < n_blocks * kernel::block; ++i)
-      for (std::size_t k = 0; k < n_channels; ++k)
-        values[((i / kernel::block) * n_channels + k) * kernel::block + i % kernel::block] =
-            loads.values(Eigen::Index(k), Eigen::Index(std::min(i, n_instants - 1)));
-  }
-};
+/// Residuals of a channel, relative to itself, that count as rounding.
+constexpr double dependent = 1e-14;
 
 /// cos(acos(c) / 3) = cos(2/3 acos(s)) with s = sqrt((1 + c) / 2) is analytic but at s = -1: its Chebyshev
 /// series over s in [0, 1], t = 2 s - 1, falls by six with each term and is 1e-15 exact; in powers of t,
@@ -95,10 +82,6 @@ void check_channels(const ChannelHistory& loads, const fem::UnitResponses& respo
     throw std::invalid_argument("superposition: the load channels are not those of the unit responses");
 }
 
-}  // namespace
-
-namespace {
-
 /// Squares and cubes of stresses beyond these leave the range of numbers.
 constexpr double smallest_Pa = 1e-80, largest_Pa = 1e80;
 
@@ -149,17 +132,64 @@ Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& load
   return combine(unit_stress(responses, node), loads.values, instant);
 }
 
-Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& responses, int n_threads) {
-  check_channels(loads, responses);
+IndependentChannels independent_channels(const Eigen::ArrayXXd& values) {
+  const Eigen::Index n = values.rows(), most = std::min(n, values.cols());
+  IndependentChannels result;
+  if (!values.allFinite()) {  // nothing follows from what is no number
+    result.of_channel.setIdentity(n, n);
+    for (Eigen::Index k = 0; k < n; ++k) result.channels.push_back(k);
+    return result;
+  }
+  const Eigen::ArrayXd sizes = values.matrix().rowwise().norm();
+  const Eigen::ArrayXd scale = (sizes > 0).select(sizes.inverse(), 0.0);
+  const Eigen::MatrixXd instants = (values.colwise() * scale).matrix().transpose();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(instants);
+  const auto& order = qr.colsPermutation().indices();
+  Eigen::Index rank = 0;
+  while (rank < most && std::abs(qr.matrixQR()(rank, rank)) > dependent) ++rank;
+  result.of_channel = Eigen::MatrixXd::Zero(n, rank);
+  const Eigen::MatrixXd rest = qr.matrixQR()
+                                   .topLeftCorner(rank, rank)
+                                   .triangularView<Eigen::Upper>()
+                                   .solve(qr.matrixQR().topRightCorner(rank, n - rank));
+  for (Eigen::Index i = 0; i < rank; ++i) {
+    result.channels.push_back(order[i]);
+    result.of_channel(order[i], i) = 1;
+    for (Eigen::Index k = 0; k < n - rank; ++k)
+      if (sizes[order[rank + k]] > 0)
+        result.of_channel(order[rank + k], i) = rest(i, k) * sizes[order[rank + k]] / sizes[order[i]];
+  }
+  return result;
+}
+
+EnvelopeWalk::EnvelopeWalk(const ChannelHistory& loads) : loads_(&loads) {
   if (const double scale = power_to_unit_size(loads.values.size() > 0 ? loads.values.abs().maxCoeff() : 0.0);
       scale != 1) {
-    ChannelHistory of_unit_size = loads;
-    of_unit_size.values *= scale;
-    for (auto& part : of_unit_size.by_effect) part *= scale;
-    return unscaled(envelope(of_unit_size, responses, n_threads), scale);
+    scale_ = scale;
+    of_unit_size_ = loads;
+    of_unit_size_.values *= scale;
+    for (auto& part : of_unit_size_.by_effect) part *= scale;
   }
+  const auto& values = this->loads().values;
+  independent_ = independent_channels(values);
+  const auto n_instants = std::size_t(values.cols()), n_walked = independent_.channels.size();
+  n_blocks_ = (n_instants + kernel::block - 1) / kernel::block;
+  factors_.resize(n_blocks_ * n_walked * kernel::block);
+  for (std::size_t i = 0; i < n_blocks_ * kernel::block; ++i)
+    for (std::size_t k = 0; k < n_walked; ++k)
+      factors_[((i / kernel::block) * n_walked + k) * kernel::block + i % kernel::block] =
+          values(independent_.channels[k], Eigen::Index(std::min(i, n_instants - 1)));
+}
+
+const ChannelHistory& EnvelopeWalk::loads() const {
+  return scale_ == 1 ? *loads_ : of_unit_size_;
+}
+
+Envelope EnvelopeWalk::of(const fem::UnitResponses& responses, int n_threads) const {
+  const ChannelHistory& loads = this->loads();
+  check_channels(loads, responses);
   const std::size_t n_nodes = responses.nodes.n, n_effects = loads.effects.size();
-  const PackedFactors factors(loads);
+  const std::size_t n_walked = independent_.channels.size();
   Envelope result;
   for (NodalMaximum* maximum : {&result.von_mises, &result.principal}) {
     maximum->value_Pa.assign(n_nodes, 0.0);
@@ -172,10 +202,17 @@ Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& respons
   static const auto lode = lode_polynomial();
   const auto work = [&](std::size_t begin, std::size_t end) {
     std::array<kernel::NodeMaximum, kernel::batch> found;
+    std::vector<double> walked(kernel::batch * n_walked * 6);
     for (std::size_t first = begin; first < end; first += kernel::batch) {
       const std::size_t n = std::min(kernel::batch, end - first);
-      walk(unit_stress(responses, first), n, factors.n_channels, factors.values.data(), factors.n_blocks,
-           lode.data(), found.data());
+      for (std::size_t i = 0; i < n; ++i) {
+        using UnitStress = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+        Eigen::Map<UnitStress>(walked.data() + i * n_walked * 6, Eigen::Index(n_walked), 6).noalias() =
+            independent_.of_channel.transpose() *
+            Eigen::Map<const UnitStress>(unit_stress(responses, first + i), independent_.of_channel.rows(),
+                                         6);
+      }
+      walk(walked.data(), n, n_walked, factors_.data(), n_blocks_, lode.data(), found.data());
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t node = first + i;
         const double* unit = unit_stress(responses, node);
@@ -195,10 +232,26 @@ Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& respons
   // Nodes are independent, so the split between threads cannot change a bit of the result.
   const std::size_t n_workers = std::size_t(std::max(1, n_threads));
   std::vector<std::thread> threads;
-  for (std::size_t w = 0; w < n_workers; ++w)
+  for (std::size_t w = 1; w < n_workers; ++w)
     threads.emplace_back(work, n_nodes * w / n_workers, n_nodes * (w + 1) / n_workers);
+  work(0, n_nodes / n_workers);
   for (auto& thread : threads) thread.join();
-  return result;
+  return scale_ == 1 ? result : unscaled(std::move(result), scale_);
+}
+
+bool have_same_values(const ChannelHistory& a, const ChannelHistory& b) {
+  const auto is_named_alike = [](const Channel& one, const Channel& other) { return one.name == other.name; };
+  const auto is_equal = [](const Eigen::ArrayXXd& one, const Eigen::ArrayXXd& other) {
+    return one.rows() == other.rows() && one.cols() == other.cols() && (one == other).all();
+  };
+  return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                    is_named_alike) &&
+         a.effects == b.effects && is_equal(a.values, b.values) &&
+         std::equal(a.by_effect.begin(), a.by_effect.end(), b.by_effect.begin(), b.by_effect.end(), is_equal);
+}
+
+Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& responses, int n_threads) {
+  return EnvelopeWalk(loads).of(responses, n_threads);
 }
 
 std::vector<double> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,

@@ -41,14 +41,47 @@ struct Envelope {
 Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node,
                  Eigen::Index instant);
 
+/// Whether two histories have one envelope: the same channels and effects with the same values.
+bool have_same_values(const ChannelHistory& a, const ChannelHistory& b);
+
 /// Envelope of von Mises and of the largest principal stress over all instants.
 ///
 /// An effect's share is 3/2 sigma_e : s / sigma_v^2 with s the deviator of the whole stress: it adds up to
 /// one over the effects, is negative for an effect that relieves the place, and is zero where nothing is
-/// stressed. The walk compares all instants to rounding; of equal ones the first counts. What is kept is
-/// computed once more from the stress of that instant.
+/// stressed. The walk compares all instants to rounding, by the channels that are independent; of equal ones
+/// the first counts. What is kept is computed once more from the stress of that instant.
 /// @throws std::invalid_argument if the channels of the two do not agree
 Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& responses, int n_threads);
+
+/// Channels of which all others are sums: a spring's force follows from another's, a part of a seat's
+/// pressure is not there. Found by a rank-revealing QR factorisation with pivoting (Golub and Van Loan,
+/// Matrix Computations, 4th ed., 5.4.2); each channel counts by its own size.
+struct IndependentChannels {
+  std::vector<Eigen::Index> channels;
+  Eigen::MatrixXd of_channel;  ///< K x independent: values = of_channel * values of the independent, to 1e-14
+};
+/// @param values  K x instants
+IndependentChannels independent_channels(const Eigen::ArrayXXd& values);
+
+/// The envelope of several bodies, or parts of one, under the same loads: what belongs to the loads is
+/// prepared once.
+class EnvelopeWalk {
+public:
+  /// @param loads  outlive this
+  explicit EnvelopeWalk(const ChannelHistory& loads);
+  /// As envelope().
+  Envelope of(const fem::UnitResponses& responses, int n_threads) const;
+
+private:
+  const ChannelHistory& loads() const;
+
+  const ChannelHistory* loads_;
+  ChannelHistory of_unit_size_;  ///< where cubes of the stresses would leave the range of numbers
+  double scale_ = 1;
+  IndependentChannels independent_;
+  std::size_t n_blocks_ = 0;
+  std::vector<double> factors_;  ///< of independent channels, as the kernel has them
+};
 
 /// Displacement of every node at one instant, n x 3 [m]; no rigid part in the mass norm.
 std::vector<double> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,

@@ -78,6 +78,19 @@ inline Lanes lode_cosine(Lanes c, const double* term) {
   return even + t * odd;
 }
 
+/// Halves are laid on each other: taking the lanes out one by one costs more than what is decided here.
+inline bool any(Indices mask) {
+  for (std::size_t half = n_lanes / 2; half > 0; half /= 2) {
+    Indices other;
+    for (std::size_t i = 0; i < n_lanes; ++i) other[i] = long(i + half) % long(n_lanes);
+    mask |= __builtin_shuffle(mask, other);
+  }
+  return mask[0] != 0;
+}
+
+/// (2/3)^2, and more than rounding and the polynomial leave: cos(theta) is at most 1.
+constexpr double reach_squared = 4.0 / 9.0 * (1 + 1e-12);
+
 }  // namespace
 
 void walk(const double* unit_stress, std::size_t n_nodes, std::size_t n_channels, const double* factors,
@@ -109,13 +122,17 @@ void walk(const double* unit_stress, std::size_t n_nodes, std::size_t n_channels
           const Lanes dx = s[0][r] - mean, dy = s[1][r] - mean, dz = s[2][r] - mean;
           const Lanes q = 1.5 * (dx * dx + dy * dy + dz * dz) +
                           3.0 * (s[3][r] * s[3][r] + s[4][r] * s[4][r] + s[5][r] * s[5][r]);
+          const long of_group = long(b * (block / group) + g);
+          von_mises[node].take(r, q, of_group);
+          // The principal stress is dear; where mean + 2/3 sigma_v is not above the largest so far, it is
+          // not.
+          const Lanes above = principal[node].value[r] - mean;
+          if (!any((above < 0.0) | (reach_squared * q > above * above))) continue;
           const Lanes root = square_root(q);
           const Lanes third = dx * (dy * dz - s[4][r] * s[4][r]) -
                               s[3][r] * (s[3][r] * dz - s[4][r] * s[5][r]) +
                               s[5][r] * (s[3][r] * s[4][r] - dy * s[5][r]);
           const Lanes cosine = lode_cosine(13.5 * third / (q * root + smallest), lode);
-          const long of_group = long(b * (block / group) + g);
-          von_mises[node].take(r, q, of_group);
           principal[node].take(r, mean + 2.0 / 3.0 * root * cosine, of_group);
         }
       }

@@ -23,8 +23,9 @@ struct NodeMaximum {
 constexpr std::size_t n_lode_terms = 17;
 
 /// For each of up to `batch` nodes: sigma = sum_k S_k a_k over n_blocks blocks of instants; the largest
-/// squared von Mises stress and the largest principal stress, mean + 2/3 sigma_v cos(theta). The nodes of a
-/// batch share each block of factors while it is in the cache.
+/// squared von Mises stress and the largest principal stress, mean + 2/3 sigma_v cos(theta), which is
+/// computed where it can be the largest. The nodes of a batch share each block of factors while it is in the
+/// cache.
 /// @param unit_stress  n_nodes x n_channels x 6 (xx, yy, zz, xy, yz, xz)
 /// @param factors      n_blocks x n_channels x block
 /// @param lode         n_lode_terms, ascending powers of t

@@ -16,8 +16,9 @@ std::string text_of(const fem::UnitLoad& load) {
 
 }  // namespace
 
-BodyDesign::BodyDesign(const BodyScene& as_read, SceneRun& run, std::size_t i_body)
-    : found_(run.scene.bodies[i_body]),
+BodyDesign::BodyDesign(const BodyScene& as_read, SceneRun& run, std::size_t i_body, std::string point)
+    : searched_for_(std::move(point)),
+      found_(run.scene.bodies[i_body]),
       added_harmonics_(found_.pressure_harmonics - as_read.pressure_harmonics),
       instants_per_turn_(run.scene.sampling.instants_per_turn),
       meshed_(std::move(run.loaded.meshed[i_body])) {
@@ -75,11 +76,18 @@ BodyLoads BodyDesign::with_all_channels(BodyLoads loads) const {
   return loads;
 }
 
-BodyAnalysis BodyDesign::at_point(BodyAnalysis analysis, const BodyScene& body, BodyLoads loads) const {
+BodyAnalysis BodyDesign::at_point(BodyAnalysis analysis, const BodyScene& body, BodyLoads loads,
+                                  const ZoneRule* zones) const {
   analysis.scene = body;
   loads = with_all_channels(std::move(loads));
   auto leading = leading_->envelope(loads.history, analysis.responses);
-  analysis = under_other_loads(std::move(analysis), meshed_, std::move(loads), std::move(leading));
+  if (zones != nullptr) {
+    const auto& value_Pa = leading.von_mises.value_Pa;
+    const double peak_Pa = value_Pa[peak_node(value_Pa, analysis.places)];
+    leading_->complete_above(zone_level_Pa(*zones, peak_Pa, body.yield_strength_Pa), loads.history,
+                             analysis.responses, leading);
+  }
+  analysis = under_other_loads(std::move(analysis), meshed_, std::move(loads), std::move(leading), zones);
   // A place keeps the share of error that the search knows, more where this mesh alone is in more doubt of it
   // than at the point of the search: the maximum may have moved to larger cells.
   auto places = places_of_one_mesh(analysis, false);

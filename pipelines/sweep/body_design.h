@@ -22,10 +22,14 @@ class BodyDesign {
 public:
   /// @param as_read  the body before a search chose its mesh
   /// @param run      the body's analysis is moved out of it
-  BodyDesign(const BodyScene& as_read, SceneRun& run, std::size_t i_body);
+  /// @param point    whose run it is, as searched_for() has it
+  BodyDesign(const BodyScene& as_read, SceneRun& run, std::size_t i_body, std::string point);
 
   /// The shares of another design on the same mesh, which a search has found.
-  void take_shares(const BodyDesign& searched) { shares_ = searched.shares_; }
+  void take_shares(const BodyDesign& searched) {
+    shares_ = searched.shares_;
+    searched_for_ = searched.searched_for_;
+  }
 
   /// Puts the mesh, harmonics and instants that were found into the scene of another point.
   void enter(Scene& scene, std::size_t i_body) const;
@@ -37,15 +41,21 @@ public:
   /// Whether its unit responses are those of all these loads.
   bool covers(const BodyLoads& loads) const;
 
-  /// The body under the loads of another point: leading stresses with their errors, no zones.
+  /// Of which point the mesh was searched, as settings: "machine.drive.speed=1200 rpm"; "the scene" as it is.
+  const std::string& searched_for() const { return searched_for_; }
+
+  /// The body under the loads of another point: leading stresses with their errors.
   /// @param analysis  a copy of analysis(), used again and again
   /// @param body      of the point, with the mesh entered
   /// @param loads     that it covers
-  BodyAnalysis at_point(BodyAnalysis analysis, const BodyScene& body, BodyLoads loads) const;
+  /// @param zones     null: none
+  BodyAnalysis at_point(BodyAnalysis analysis, const BodyScene& body, BodyLoads loads,
+                        const ZoneRule* zones) const;
 
 private:
   BodyLoads with_all_channels(BodyLoads loads) const;
 
+  std::string searched_for_;
   BodyScene found_;
   int added_harmonics_ = 0, instants_per_turn_ = 0;
   MeshedBody meshed_;

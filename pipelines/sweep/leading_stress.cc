@@ -25,7 +25,7 @@ const double* unit_at(const fem::UnitResponses& responses, std::int32_t node) {
 class Walker {
 public:
   Walker(const ChannelHistory& loads, const fem::UnitResponses& responses, Envelope& all)
-      : loads_(loads), responses_(responses), all_(all), walked_(responses.nodes.n, 0) {
+      : loads_(loads), walk_(loads), responses_(responses), all_(all), walked_(responses.nodes.n, 0) {
     some_.channels = responses.channels;
   }
 
@@ -41,7 +41,7 @@ public:
       const double* const unit = unit_at(responses_, node);
       some_.stress_Pa.insert(some_.stress_Pa.end(), unit, unit + n_numbers);
     }
-    const Envelope found = pipelines::envelope(loads_, some_, 1);
+    const Envelope found = walk_.of(some_, 1);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto node = std::size_t(nodes[i]);
       walked_[node] = 1;
@@ -59,6 +59,7 @@ public:
 
 private:
   const ChannelHistory& loads_;
+  EnvelopeWalk walk_;
   const fem::UnitResponses& responses_;
   Envelope& all_;
   std::vector<char> walked_;
@@ -99,6 +100,15 @@ private:
   double best_Pa_;
 };
 
+/// In pieces: their unit stresses are copied.
+void walk_all(std::vector<std::int32_t> nodes, Walker& walker) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  for (std::size_t begin = 0; begin < nodes.size(); begin += at_once)
+    walker.walk({nodes.begin() + std::ptrdiff_t(begin),
+                 nodes.begin() + std::ptrdiff_t(std::min(nodes.size(), begin + at_once))});
+}
+
 void search_places(std::vector<PlaceSearch>& searches, const ArrayXd& reach, Walker& walker) {
   std::vector<std::int32_t> wanted;
   const auto distinct = [&] {
@@ -129,7 +139,8 @@ void search_places(std::vector<PlaceSearch>& searches, const ArrayXd& reach, Wal
 LeadingStress::LeadingStress(const BodyAnalysis& known)
     : channels_(known.loads.history.values),
       known_Pa_(Eigen::Map<const ArrayXd>(known.envelope.von_mises.value_Pa.data(),
-                                          Index(known.envelope.von_mises.value_Pa.size()))) {
+                                          Index(known.envelope.von_mises.value_Pa.size()))),
+      excluded_(known.places.excluded) {
   const auto& responses = known.responses;
   const auto& nodes = responses.nodes;
   const auto n_channels = Index(responses.channels.size());
@@ -194,6 +205,31 @@ Envelope LeadingStress::envelope(const ChannelHistory& loads, const fem::UnitRes
   std::vector<PlaceSearch> inside{{inside_, most_Pa, share_of_inside * on_surface_Pa}};
   search_places(inside, most_Pa, walker);
   return all;
+}
+
+void LeadingStress::complete_above(double level_Pa, const ChannelHistory& loads,
+                                   const fem::UnitResponses& responses, Envelope& leading) const {
+  const auto& value_Pa = leading.von_mises.value_Pa;
+  const auto is_known = [&](std::int32_t node) { return value_Pa[std::size_t(node)] > 0; };
+  const ArrayXd most_Pa = reach(loads);
+  Walker walker(loads, responses, leading);
+  std::vector<std::int32_t> wanted;
+  for (Index node = 0; node < most_Pa.size(); ++node)
+    if (!excluded_[std::size_t(node)] && most_Pa[node] >= level_Pa && !is_known(std::int32_t(node)))
+      wanted.push_back(std::int32_t(node));
+  walk_all(std::move(wanted), walker);
+  // A zone ends between a node above the level and one below it: the volume asks for both.
+  std::vector<std::int32_t> beside;
+  for (std::size_t c = 0; c < responses.nodes.n_cells(); ++c) {
+    const auto cell = responses.nodes.cell(c);
+    const bool is_cut = std::any_of(cell.begin(), cell.end(), [&](std::int32_t node) {
+      return !excluded_[std::size_t(node)] && is_known(node) && value_Pa[std::size_t(node)] >= level_Pa;
+    });
+    if (!is_cut) continue;
+    for (const auto node : cell)
+      if (!is_known(node)) beside.push_back(node);
+  }
+  walk_all(std::move(beside), walker);
 }
 
 }  // namespace pipelines

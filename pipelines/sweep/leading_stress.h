@@ -29,15 +29,21 @@ public:
   /// @param loads  with the channels of the responses
   Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& responses) const;
 
+  /// Adds to such an envelope every node that is at or above a level, and all others of their cells: the
+  /// zones above that level (zones.h) are those of a whole envelope, bit for bit.
+  void complete_above(double level_Pa, const ChannelHistory& loads, const fem::UnitResponses& responses,
+                      Envelope& leading) const;
+
 private:
   Eigen::ArrayXd reach(const ChannelHistory& loads) const;
 
   std::vector<std::vector<std::int32_t>> places_;  ///< nodes by feature, those on seams in several
   std::vector<std::int32_t> inside_;
-  Eigen::ArrayXXd channels_;  ///< of the known case, K x instants
-  Eigen::ArrayXd known_Pa_;   ///< its envelope, per node
-  Eigen::MatrixXd unit_Pa_;   ///< von Mises stress of the unit stresses, nodes x K
-  Eigen::ArrayXd weight_;     ///< per channel: the largest of that, to compare channels by
+  Eigen::ArrayXXd channels_;    ///< of the known case, K x instants
+  Eigen::ArrayXd known_Pa_;     ///< its envelope, per node
+  std::vector<char> excluded_;  ///< per node: belongs to no place and no zone
+  Eigen::MatrixXd unit_Pa_;     ///< von Mises stress of the unit stresses, nodes x K
+  Eigen::ArrayXd weight_;       ///< per channel: the largest of that, to compare channels by
 };
 
 }  // namespace pipelines

@@ -23,6 +23,7 @@ struct SweepRequest {
   SweepDesign design = SweepDesign::grid;
   int n_points = 0;        ///< of a Latin hypercube
   std::uint64_t seed = 1;  ///< of a Latin hypercube: another seed draws other points
+  bool zones = false;      ///< the stress zones of every point, too
 };
 
 /// One point.

@@ -39,6 +39,8 @@ SweepRequest read_sweep_request(const std::filesystem::path& file, const TomlNod
   at_key(table, "design", [&] { request.design = sweep_design(design); });
   request.n_points = table.count_or("points", 2, 1'000'000, 0, "a grid has as many as its values make");
   request.seed = std::uint64_t(table.count_or("seed", 0, 1'000'000'000, 1, "any other draws other points"));
+  request.zones =
+      table.flag_or("zones", false, "the largest stress of every place tells most, and costs less");
   table.finish();
   if (!request.vary.empty() && findings.errors.empty())
     at_key(table, "vary", [&] { (void)plan_sweep(request); });

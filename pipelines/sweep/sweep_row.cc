@@ -64,6 +64,7 @@ void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional
   }
   add(".closure.force", "", analysis.closure.worst_force());
   add(".closure.moment", "", analysis.closure.worst_moment());
+  for (auto& zone : swept_zones(analysis)) row.zones.push_back(std::move(zone));
   row.texts.emplace_back(body + ".governing.place", stress.place);
   row.texts.emplace_back(body + ".governing.kind",
                          stress.kind == GoverningStress::Kind::hot_spot ? "hot_spot" : "peak_von_mises");

@@ -9,6 +9,7 @@
 #include "kinetics/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/loads/bearings.h"
+#include "pipelines/sweep/swept_zones.h"
 
 namespace pipelines {
 
@@ -21,6 +22,7 @@ struct SweepRow {
   std::string refused;  ///< why the point could not be computed; empty: it was
   std::vector<SweepFigure> figures;
   std::vector<std::pair<std::string, std::string>> texts;  ///< "bodies.shaft.governing.place" and the like
+  std::vector<SweptZone> zones = {};                       ///< of all bodies, where they are asked for
 
   /// NaN if there is none.
   double figure(const std::string& name) const;
@@ -33,7 +35,7 @@ void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHis
                       const std::vector<BearingResult>& bearings);
 
 /// "bodies.<name>": governing stress with its errors, safety, place, instant; peak, hot spot; the largest
-/// stress of every place that may govern; closure.
+/// stress of every place that may govern; closure; zones where the analysis has them.
 /// @param torsion_Pa  largest torsional stress of a shaft, where it has one
 void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional<double> torsion_Pa);
 

@@ -1,44 +1,20 @@
 /// Runs the points of a sweep. Points that differ in what the machine does share mesh and unit responses:
 /// their load stage is computed and superposed. A body whose shape a point changes is meshed and solved anew,
-/// that body alone; one whose material or springs it changes is solved anew on the mesh it has.
+/// that body alone; one whose material or springs it changes is solved anew on the mesh it has. Where a
+/// tolerance was asked for, points that those meshes know less well get one of their own.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "pipelines/common/stage_clock.h"
-#include "pipelines/files/toml_tree.h"
-#include "pipelines/scene/requested_accuracy.h"
+#include "pipelines/sweep/sweep_options.h"
 #include "pipelines/sweep/sweep_points.h"
 #include "pipelines/sweep/sweep_row.h"
 
 namespace pipelines {
-
-struct SweepOptions {
-  std::filesystem::path scene;
-  TomlNode tree;                      ///< of the scene
-  std::vector<std::string> settings;  ///< of all points: --set
-  std::filesystem::path directory;    ///< meshes and unit responses go into its folder bodies
-  int n_threads = 0;                  ///< 0: all cores
-  bool loads_only = false;
-  bool fresh = false;
-  RequestedAccuracy accuracy{};  ///< of every mesh that is searched
-};
-
-/// What a sweep will take, before it takes it.
-struct SweepForecast {
-  std::size_t n_points = 0;  ///< that can be read
-  struct Body {
-    std::string name;
-    std::size_t n_meshes = 0;     ///< of different shape
-    std::size_t n_solutions = 0;  ///< of different material or springs, those on new meshes included
-  };
-  std::vector<Body> bodies;  ///< none: the load stage alone
-};
 
 /// Told of points that are new, several at once.
 /// @param rows  of all points
@@ -53,6 +29,8 @@ public:
   ~SweepRun();
 
   SweepForecast forecast() const;
+  /// Meshes that run() has searched beside those of the forecast, for points known less well.
+  std::size_t n_improved_meshes() const;
   /// Effects that the program would choose (effects = "auto") are all on in a sweep.
   bool has_chosen_effects() const;
 

@@ -30,7 +30,7 @@ Problem problem(std::size_t n_channels, bool steady) {
   for (Eigen::Index k = 0; k < p.loads.values.rows(); ++k)
     for (Eigen::Index i = 0; i < n_instants; ++i)
       p.loads.values(k, i) =
-          steady ? 1 + double(k) : std::cos(0.05 * double(i) * double(1 + k % 3) + double(k));
+          steady ? 1 + double(k) : std::cos(0.05 * double(i) * double(1 + k) + double(k));
   p.loads.by_effect = {p.loads.values};
   return p;
 }

@@ -128,6 +128,21 @@ TEST(Csv, QuotesWhatNeedsItAndRefusesRaggedColumns) {
             "zone,\"place, nearest\",peak [Pa]\n1,fillet a/b,1.5e+08\n2,\"the \"\"big\"\" end, left\",2\n");
   EXPECT_THROW(to_csv({columns[0], {"x", "m", std::vector<double>{1}}}), std::invalid_argument);
   EXPECT_EQ(to_csv({}), "\n");
+  const Directory at;
+  std::vector<CsvColumn> long_columns = {{"i", "", std::vector<std::int64_t>(5500)},
+                                         {"x", "m", std::vector<double>(5500)}};
+  for (std::size_t i = 0; i < 5500; ++i) {
+    std::get<1>(long_columns[0].cells)[i] = std::int64_t(i);
+    std::get<0>(long_columns[1].cells)[i] = 1 / (1.0 + double(i));
+  }
+  for (const int n_threads : {0, 1, 2, 3, 8}) {
+    write_csv(at / "long.csv", long_columns, n_threads);
+    EXPECT_EQ(bytes(at / "long.csv"), to_csv(long_columns)) << n_threads;
+    write_csv(at / "short.csv", columns, n_threads);
+    EXPECT_EQ(bytes(at / "short.csv"), to_csv(columns));
+    write_csv(at / "none.csv", {}, n_threads);
+    EXPECT_EQ(bytes(at / "none.csv"), "\n");
+  }
 }
 
 void write_example(const std::filesystem::path& path, Hdf5Compression compression = Hdf5Compression::none) {

@@ -48,6 +48,39 @@ TEST(KeySettings, AddTablesThatTheFileLeavesOut) {
   EXPECT_EQ(root.find("a")->value.find("k")->value.text, "v");
 }
 
+// Copies of a tree share what no setting touches: it is the same place in memory, and what is set in one is
+// not seen in another.
+TEST(KeySettings, OfACopyLeaveTheTreeAsItIs) {
+  const auto root = pipelines::parse_toml("[a]\nx = 1\ny = [1, [2, 3]]\n[b]\nz = 1\n[[list]]\nx = 1\n");
+  auto copy = root;
+  pipelines::set_keys(copy, {"a.x=2", "a.y[2][1]=7", "list[1]=removed", "c.d=1"}, "scene.toml");
+  EXPECT_EQ(copy.find("a")->value.find("x")->value.integer, 2);
+  EXPECT_EQ(copy.find("a")->value.find("y")->value.items[1].items[0].integer, 7);
+  EXPECT_TRUE(copy.find("list")->value.items.empty());
+  EXPECT_EQ(root.find("a")->value.find("x")->value.integer, 1);
+  EXPECT_EQ(root.find("a")->value.find("y")->value.items[1].items[0].integer, 2);
+  EXPECT_EQ(root.find("list")->value.items.size(), 1u);
+  EXPECT_EQ(root.find("c"), nullptr);
+  EXPECT_EQ(root.find("b")->value.entries.begin(), copy.find("b")->value.entries.begin());
+}
+
+// What the TOML parser takes is TOML; a number with a unit is a text.
+TEST(KeySettings, AreTomlOrElseTexts) {
+  using Kind = pipelines::TomlNode::Kind;
+  const std::vector<std::pair<std::string, Kind>> values = {
+      {"1450 rpm", Kind::text}, {"-3 mm", Kind::text},         {"+1.5e3   N s/m", Kind::text},
+      {"1450rpm", Kind::text},  {"1 2", Kind::text},           {"1 # rpm", Kind::integer},
+      {"0x1F", Kind::integer},  {"-1/20", Kind::text},         {"1e3", Kind::number},
+      {"inf", Kind::number},    {"1979-05-27", Kind::date},    {"1979-05-27 07:32:00", Kind::date},
+      {"[1, 2] ", Kind::array}, {"1979-05-27 at", Kind::text}, {"1979-05-27T07:32:00Z", Kind::date},
+      {"\"1 mm\"", Kind::text}, {"{ x = 1 }", Kind::table},    {"1_000 mm", Kind::text}};
+  for (const auto& [value, kind] : values) {
+    pipelines::TomlNode root;
+    pipelines::set_keys(root, {"k=" + value}, "scene.toml");
+    EXPECT_EQ(describe(root.find("k")->value.kind), describe(kind)) << value;
+  }
+}
+
 TEST(KeySettings, RemoveKeysAndItemsByTheirNumbersInTheFile) {
   pipelines::TomlNode root =
       pipelines::parse_toml("a = 1\nb = \"removed\"\n[[list]]\nx = 1\n[[list]]\nx = 2\n[[list]]\nx = 3\n");

@@ -63,6 +63,23 @@ TEST(Superposition, EnvelopeIsThatOfBruteForce) {
   }
 }
 
+// What may be taken over is of the same loads to the bit, in all that an envelope is made of.
+TEST(Superposition, HistoriesAreTheSameOrNot) {
+  const auto loads = random_problem(1, 5, 20).loads;
+  const auto is_same = [&](const auto& change) {
+    auto other = loads;
+    change(other);
+    return pipelines::have_same_values(loads, other);
+  };
+  EXPECT_TRUE(is_same([](auto& other) { other.body = "another"; }));
+  EXPECT_FALSE(is_same([](auto& other) { other.values(3, 7) *= 1 + 1e-15; }));
+  EXPECT_FALSE(is_same([](auto& other) { other.by_effect[2](0, 19) += 1e-15; }));
+  EXPECT_FALSE(is_same([](auto& other) { other.by_effect.pop_back(); }));
+  EXPECT_FALSE(is_same([](auto& other) { other.channels[4].name += "s"; }));
+  EXPECT_FALSE(is_same([](auto& other) { other.effects[0] = "other"; }));
+  EXPECT_FALSE(is_same([](auto& other) { other.values = other.values.leftCols(19).eval(); }));
+}
+
 // Compression everywhere: the largest principal stress is negative and must not be lost against padded
 // instants of no load.
 TEST(Superposition, PureCompressionKeepsItsSign) {
@@ -230,3 +247,34 @@ TEST(StressMeasures, LargestPrincipalIsTheLargestEigenvalue) {
 }
 
 }  // namespace
+
+// Channels of sizes from 1e-9 to 1e9, some of them sums of others, one a multiple, one zero: as many are
+// independent as there were to begin with, and all follow from them.
+TEST(IndependentChannels, CarryAllOthers) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (const int n_independent : {1, 4, 12}) {
+    const Eigen::Index n_channels = 2 * n_independent + 2, n_instants = 200;
+    const auto draw = [&] { return normal(random); };
+    const Eigen::MatrixXd basis = Eigen::MatrixXd::NullaryExpr(n_independent, n_instants, draw);
+    Eigen::MatrixXd sums = Eigen::MatrixXd::NullaryExpr(n_channels, n_independent, draw);
+    sums.row(1) = -3 * sums.row(0);
+    sums.row(n_channels / 2).setZero();
+    Eigen::ArrayXXd values = sums * basis;
+    for (Eigen::Index k = 0; k < n_channels; ++k) values.row(k) *= std::pow(10, double(7 * k % 19) - 9);
+    const auto found = pipelines::independent_channels(values);
+    EXPECT_EQ(found.channels.size(), std::size_t(n_independent));
+    Eigen::ArrayXXd of_independent(Eigen::Index(found.channels.size()), n_instants);
+    for (std::size_t i = 0; i < found.channels.size(); ++i)
+      of_independent.row(Eigen::Index(i)) = values.row(found.channels[i]);
+    const Eigen::ArrayXXd again = (found.of_channel * of_independent.matrix()).array();
+    for (Eigen::Index k = 0; k < n_channels; ++k)  // rounding of a dozen terms
+      EXPECT_LE((again.row(k) - values.row(k)).abs().maxCoeff(), 1e-13 * values.row(k).matrix().norm()) << k;
+  }
+}
+
+// A shaft without load, and one instant alone.
+TEST(IndependentChannels, MayBeNoneOrOne) {
+  EXPECT_TRUE(pipelines::independent_channels(Eigen::ArrayXXd::Zero(5, 7)).channels.empty());
+  EXPECT_EQ(pipelines::independent_channels(Eigen::ArrayXXd::Constant(5, 1, 2.5)).channels.size(), 1u);
+}

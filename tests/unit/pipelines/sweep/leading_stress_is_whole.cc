@@ -6,6 +6,7 @@
 
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/search/scene_run.h"
+#include "pipelines/superposition/zones.h"
 #include "pipelines/sweep/leading_stress.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 #include "tests/unit/pipelines/examples/shared_environment.h"
@@ -57,10 +58,31 @@ cells_per_fillet_quarter = 2
 sectors = 8
 )";
 
+/// At half of the peak and at nine tenths.
+void expect_same_zones(const BodyAnalysis& analysis, const LeadingStress& leading,
+                       const ChannelHistory& loads, const Envelope& whole, const Envelope& some) {
+  const auto& nodes = analysis.responses.nodes;
+  const double peak_Pa = whole.von_mises.value_Pa[peak_node(whole.von_mises.value_Pa, analysis.places)];
+  for (const double share : {0.5, 0.9}) {
+    auto completed = some;
+    leading.complete_above(share * peak_Pa, loads, analysis.responses, completed);
+    const auto wanted = find_zones(nodes, whole.von_mises, analysis.places, share * peak_Pa, 1.0),
+               found = find_zones(nodes, completed.von_mises, analysis.places, share * peak_Pa, 1.0);
+    EXPECT_EQ(found.zone_of_node, wanted.zone_of_node);
+    ASSERT_EQ(found.zones.size(), wanted.zones.size());
+    ASSERT_FALSE(found.zones.empty());
+    for (std::size_t z = 0; z < wanted.zones.size(); ++z) {
+      EXPECT_EQ(found.zones[z].peak_Pa, wanted.zones[z].peak_Pa);
+      EXPECT_EQ(found.zones[z].instant, wanted.zones[z].instant);
+      EXPECT_EQ(found.zones[z].volume_m3, wanted.zones[z].volume_m3);
+    }
+  }
+}
+
 }  // namespace
 
 // Load cases like the known one, scaled, with noise, of other instants and of any direction: of each place
-// the same node, stress and instant as in an envelope of all nodes, bit for bit.
+// the same node, stress and instant as in an envelope of all nodes, bit for bit; and the same zones.
 TEST(LeadingStress, IsThatOfAWholeEnvelope) {
   shared::start_fem();
   const results_test::Directory directory;
@@ -96,6 +118,7 @@ TEST(LeadingStress, IsThatOfAWholeEnvelope) {
     };
     const auto whole = envelope(loads, analysis.responses, 1),
                some = leading.envelope(loads, analysis.responses);
+    if (i % 4 == 0) expect_same_zones(analysis, leading, loads, whole, some);
     const auto wanted = places_of(whole), found = places_of(some);
     ASSERT_EQ(found.size(), wanted.size()) << i;
     for (std::size_t p = 0; p < wanted.size(); ++p) {

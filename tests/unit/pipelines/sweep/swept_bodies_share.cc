@@ -76,6 +76,43 @@ TEST(SweptBodies, EveryKeyOfABodyMakesAnother) {
   EXPECT_GT(n_changed, 60);
 }
 
+// Every number of the shipped scenes, a little less and much more: what is read without checking known
+// shapes again and without notes is refused in the same words, or is the same scene.
+TEST(SweptBodies, AreRefusedAsIfTheyWereReadAlone) {
+  int n_refused = 0, n_refused_shapes = 0;
+  for (const char* file :
+       {"vibratory_mill", "planetary_mill", "stub_axle", "root_peeler_shaft", "load_table"}) {
+    const auto path = scenes / (std::string(file) + ".toml");
+    const auto tree = read_scene_tree(path);
+    const auto scene = read_scene(path, tree, {});
+    const auto is_accepted = [&](const BodyScene& body) {
+      return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                         [&](const BodyScene& other) { return have_one_mesh(other, body); });
+    };
+    const auto outcome = [&](const std::vector<std::string>& settings, const VersionReading& version) {
+      try {
+        const auto read = read_scene(path, tree, settings, version);
+        return std::to_string(read.warnings.size()) + " warnings, " + std::to_string(read.effects.size()) +
+               " effects";
+      } catch (const std::exception& error) {
+        return std::string(error.what());
+      }
+    };
+    std::vector<std::pair<std::string, const TomlNode*>> leaves;
+    collect(tree, "", leaves);
+    for (const auto& [key, node] : leaves)
+      for (const auto& value : {a_little_more(*node), std::string("3 mm"), std::string("0.2 m")}) {
+        if (value.empty()) continue;
+        const auto wanted = outcome({key + "=" + value}, {});
+        EXPECT_EQ(outcome({key + "=" + value}, {is_accepted, false}), wanted) << key << '=' << value;
+        n_refused += wanted.find("--set") != std::string::npos || wanted.find(".toml") != std::string::npos;
+        n_refused_shapes += wanted.find("the mesher refuses") != std::string::npos;
+      }
+  }
+  EXPECT_GT(n_refused, 100);
+  EXPECT_GT(n_refused_shapes, 3);
+}
+
 TEST(SweptBodies, OfOtherSpeedAreTheSame) {
   const auto path = scenes / "vibratory_mill.toml";
   const auto tree = read_scene_tree(path);

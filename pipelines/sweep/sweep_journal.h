@@ -1,0 +1,60 @@
+/// The journal of a sweep, from which an interrupted one goes on.
+///
+/// Text, a line each with a checksum of its own, so that a line that a kill has cut, or that is damaged, is
+/// computed again, and no other:
+///   HASH KEY                          the first line: a hash of all that the rows depend on
+///   HASH {"columns": N, "figures": [[NAME, UNIT], ...], "texts": [NAME, ...]}
+///                                     what the rows below have that refer to it by its number
+///   HASH N VALUES [SETTINGS, TEXTS]   a row: the bits of each figure in eleven digits of base 64, without
+///                                     spaces, then lists of the settings and of the texts, and of the zones
+///                                     where there are any
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/sweep/sweep_points.h"
+#include "pipelines/sweep/sweep_row.h"
+
+namespace pipelines {
+
+class SweepJournal {
+public:
+  /// @param key  of all that the rows depend on beside their settings
+  SweepJournal(std::filesystem::path file, std::string key);
+
+  /// @throws OptionError if a file of that name is there that no sweep has written
+  void require_own() const;
+
+  /// Rows of an earlier sweep with the same key, by point; none if there is no such journal, or one of
+  /// another form.
+  std::vector<std::optional<SweepRow>> known(const SweepPlan& plan) const;
+  /// Begins the journal anew with the rows that are known.
+  void begin(const SweepPlan& plan, const std::vector<std::optional<SweepRow>>& known);
+  /// Keeps a row unless it was refused: what refused it may be gone next time (memory, a file).
+  void append(const SweepPoint& point, const SweepRow& row);
+  /// Brings what was appended to the disk.
+  /// @throws FileError if it cannot be written
+  void flush();
+
+private:
+  /// What rows have.
+  struct Columns {
+    std::vector<std::pair<std::string, std::string>> figures;  ///< names and units
+    std::vector<std::string> texts;                            ///< names
+
+    bool are_of(const SweepRow& row) const;
+  };
+
+  /// The number of a row's columns, from 1; notes those that are new.
+  std::size_t number_of_columns(const SweepRow& row);
+
+  std::filesystem::path file_;
+  std::string key_, pending_;
+  std::vector<Columns> columns_;  ///< noted in the file
+};
+
+}  // namespace pipelines
