@@ -388,9 +388,10 @@ private:
     run_.scene.bodies[i].singular.push_back(spot);
     run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
     BodyAnalysis before = std::move(analysis);
-    analysis = superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
-                              run_.loaded.body_loads[i], std::move(before.responses), options_.n_threads,
-                              clock_, {{}, std::move(before.hot_spots), !options_of(i).keep_factor});
+    analysis =
+        superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                       std::move(before.responses), options_.n_threads, clock_,
+                       known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
     analysis.responses_reused = before.responses_reused;
   }
 
@@ -447,7 +448,7 @@ private:
       auto& after = run_.analyses[i];
       after = superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
                              run_.loaded.body_loads[i], std::move(before.responses), options_.n_threads,
-                             clock_, {{}, std::move(before.hot_spots), !options_of(i).keep_factor});
+                             clock_, known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);

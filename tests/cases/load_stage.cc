@@ -327,6 +327,56 @@ TEST(LoadStage, ExtremesAndSpringsTakeMassesFromTheMesh) {
   EXPECT_NEAR(springs["peak"]["reaction_given_N"].get<double>(), largest, 0.01 * largest);  // other instants
 }
 
+// The chamber cut free: its bearing is the one of `loads` at the same instant, files where they were asked
+// for.
+TEST(LoadStage, FreeBodyShowsAllForces) {
+  const results_test::Directory directory;
+  const std::string scene = "'" + shipped("vibratory_mill.toml").string() + "'";
+  const auto body = json_of(directory.path, "free-body " + scene + " --at '90 deg' --json");
+  ASSERT_EQ(millstress(directory.path, "loads " + scene + " --csv loads.csv").exit_code, 0);
+  const auto loads = csv(directory / "loads.csv");
+  const auto& time = loads.at("time");
+  const auto at =
+      std::size_t(std::find(time.begin(), time.end(), body["time_s"].get<double>()) - time.begin());
+  ASSERT_LT(at, time.size());
+  EXPECT_NEAR(body["drive_angle_rad"].get<double>(), M_PI / 2, 1e-9);
+  EXPECT_EQ(body["loads"][0]["name"], "bearing");
+  EXPECT_EQ(body["loads"][0]["force_N"][0].get<double>(), loads.at("B_x")[at]);
+  EXPECT_EQ(body["loads"][0]["force_N"][1].get<double>(), loads.at("B_y")[at]);
+
+  const auto drawn = millstress(directory.path, "free-body " + scene + " --at '90 deg' -o out");
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  for (const char* file :
+       {"free_body.csv", "free_body.pvd", "free_body_000.vtp", "free_body.png", "free_body.svg"})
+    EXPECT_TRUE(fs::exists(directory / ("out/" + std::string(file)))) << file;
+  for (const char* part :
+       {"at 90 deg", "inertia of structure", "spring 2", "weight of charge", "free_body.pvd"})
+    EXPECT_NE(drawn.out.find(part), std::string::npos) << part;
+}
+
+TEST(LoadStage, FreeBodyRefusesWhatItCannotShow) {
+  const results_test::Directory directory;
+  const std::string scene = "'" + shipped("vibratory_mill.toml").string() + "'";
+  write(directory / "taken", "a file");
+  fs::create_directories(directory / "out/free_body_003.vtp");
+  const std::pair<std::string, std::string> wrong[] = {
+      {"'" + shipped("planetary_mill.toml").string() + "'", "vibratory_mill"},
+      {scene + " --at 90", "no unit"},
+      {scene + " --at '90 kg'", "--at"},
+      {scene + " -o taken", "taken"},
+      {scene + " -o out", "free_body_003.vtp"},
+      {scene + " --set machine.convention=published", "consistent"},
+      {scene + " --set machine.run_up.from=0 --set machine.run_up.to='\"100 rad/s\"' --set "
+               "machine.run_up.duration='\"2 s\"'",
+       "run_up"}};
+  for (const auto& [arguments, word] : wrong) {
+    const auto run = millstress(directory.path, "free-body " + arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments << run.out;
+    EXPECT_NE(run.err.find(word), std::string::npos) << arguments << "\n" << run.err;
+  }
+  EXPECT_FALSE(fs::exists(directory / "out/free_body.csv")) << "nothing is begun that cannot be ended";
+}
+
 TEST(LoadStage, EffectsTellWhatCanGo) {
   const results_test::Directory directory;
   const auto json = json_of(

@@ -3,6 +3,7 @@
 #include "tests/cases/small_shaft.h"
 
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -58,6 +59,24 @@ std::string bytes_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+/// The columns of a file without quotes, by title.
+std::map<std::string, std::vector<std::string>> table_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::vector<std::vector<std::string>> lines;
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    lines.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) lines.back().push_back(cell);
+  }
+  std::map<std::string, std::vector<std::string>> table;
+  for (std::size_t c = 0; !lines.empty() && c < lines.front().size(); ++c) {
+    auto& column = table[lines.front()[c]];
+    for (std::size_t i = 1; i < lines.size(); ++i) column.push_back(lines[i].at(c));
+  }
+  return table;
+}
+
 }  // namespace
 
 TEST(Sweeps, PointsOfAShaftAreRunsByThemselves) {
@@ -71,8 +90,6 @@ TEST(Sweeps, PointsOfAShaftAreRunsByThemselves) {
   for (const auto& point : points) expect_same(point, alone(directory.path, "mill.toml", point), "shaft");
 }
 
-// An effect that is off has no channels, so that another set of unit loads would be solved; other sectors are
-// another mesh; the yield strength is no part of either.
 // A beam writes no mesh, and a sweep no results of its points.
 TEST(Sweeps, OfBeamsLeaveNoEmptyFolder) {
   const results_test::Directory directory;
@@ -83,6 +100,8 @@ TEST(Sweeps, OfBeamsLeaveNoEmptyFolder) {
     EXPECT_FALSE(entry.is_directory() && fs::is_empty(entry.path())) << entry.path();
 }
 
+// An effect that is off has no channels, so that another set of unit loads would be solved; other sectors are
+// another mesh; the yield strength is no part of either.
 TEST(Sweeps, EffectsMaterialsAndMeshesAreValuesLikeAnyOther) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));
@@ -173,6 +192,113 @@ TEST(Sweeps, PrintErrorsBesideTheirFigures) {
       std::regex_search(title, std::regex(R"(governing \[MPa\] +\+- +bodies\.shaft\.governing\.safety$)")))
       << title;
   EXPECT_EQ(first.find("nan"), std::string::npos) << first;
+}
+
+// A point's zones are those of its run alone; those that the journal knows follow as before.
+TEST(Sweeps, FollowTheZonesOfTheirPoints) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  const std::string arguments =
+      "mill.toml --tolerance none --zones -o swept --vary 'machine.drive.speed = 1350..1600 rpm / 2'";
+  const auto points = points_of(directory.path, arguments);
+  const auto swept = table_of(directory / "swept/zones.csv");
+  std::size_t row = 0;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    (void)alone(directory.path, "mill.toml", points[p]);
+    const auto wanted = table_of(directory / "alone/shaft/zones.csv");
+    for (std::size_t z = 0; z < wanted.at("feature").size(); ++z, ++row) {
+      ASSERT_LT(row, swept.at("point").size());
+      EXPECT_EQ(swept.at("point")[row], std::to_string(p + 1));
+      for (const char* name : {"feature", "place", "nodes"})
+        EXPECT_EQ(swept.at(name)[row], wanted.at(name)[z]) << name;
+      for (const char* name : {"peak_von_mises [Pa]", "x [m]", "volume [m3]"}) {
+        const double value = std::stod(wanted.at(name)[z]);
+        EXPECT_NEAR(std::stod(swept.at(name)[row]), value, same * std::abs(value)) << name;
+      }
+      const auto figure_name = "bodies.shaft.zones[" + swept.at("zone")[row] + "].peak";
+      EXPECT_EQ(figure(points[p], figure_name), std::stod(swept.at("peak_von_mises [Pa]")[row]));
+    }
+  }
+  EXPECT_EQ(row, swept.at("point").size());
+  EXPECT_GE(row, points.size());
+  const auto table = bytes_of(directory / "swept/zones.csv");
+  auto journal = bytes_of(directory / "swept/journal");
+  journal.resize(journal.size() - 20);
+  write(directory / "swept/journal", journal);
+  std::string err;
+  points_of(directory.path, arguments, &err);
+  EXPECT_NE(err.find("1 known from"), std::string::npos) << err;
+  EXPECT_EQ(bytes_of(directory / "swept/zones.csv"), table);
+  auto without_zones = arguments;
+  without_zones.erase(without_zones.find("--zones"), 7);
+  points_of(directory.path, without_zones);
+  EXPECT_FALSE(fs::exists(directory / "swept/zones.csv"));
+}
+
+// The first point loads the one end of the shaft, whose search refines the fillet there; the second the other
+// end. What it states is then that of a search of its own.
+TEST(Sweeps, SearchAMeshForPointsThatTheFirstKnowsLessWell) {
+  const results_test::Directory directory;
+  write(directory / "shaft.toml", R"(effects = ["left", "right"]
+method = "solid"
+[machine]
+type = "load_table"
+speed = "600 rpm"
+[[machine.constants]]
+effect = "left"
+load = "thin.fy"
+value = "300 N"
+[[machine.constants]]
+effect = "right"
+load = "thick.fy"
+value = "1 N"
+[sampling]
+instants_per_turn = 12
+turns = 1
+[shaft]
+contour = [
+  { port = "thin", diameter = "14 mm", length = "20 mm" },
+  { fillet = "1 mm" },
+  { port = "bearing_1", diameter = "20 mm", length = "14 mm" },
+  { port = "bearing_2", diameter = "22 mm", length = "14 mm" },
+  { fillet = "0.6 mm" },
+  { port = "thick", diameter = "16 mm", length = "20 mm" },
+]
+bearings = ["bearing_1", "bearing_2"]
+torque_support = "bearing_2"
+[shaft.material]
+name = "steel"
+youngs_modulus = "206 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "305 MPa"
+[results]
+snapshots = 0
+pictures = false
+)");
+  const std::string vary = " --vary 'machine.constants[2].value = 1, 900 N'",
+                    searched_for = "bodies.shaft.mesh", governing = "bodies.shaft.governing";
+  std::string err;
+  const auto points = points_of(directory.path, "shaft.toml -o asked --tolerance '3 %'" + vary, &err);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_NE(err.find("1 more mesh was searched"), std::string::npos) << err;
+  for (const auto& point : points) {
+    EXPECT_LE(figure(point, governing + ".error"), 0.03 * figure(point, governing)) << point["keys"];
+    EXPECT_NE(point["texts"][searched_for].get<std::string>().find(
+                  point["keys"]["machine.constants[2].value"].get<std::string>()),
+              std::string::npos)
+        << point["texts"];
+  }
+  const auto alone = millstress(
+      directory.path, "run shaft.toml -o alone --tolerance '3 %' --set 'machine.constants[2].value=900 N'");
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_NEAR(figure(points[1], governing),
+              summary(directory / "alone")["bodies"]["shaft"]["governing"]["value"],
+              same * figure(points[1], governing));
+  // What a sweep that goes on has searched, it does not search again.
+  const auto again = points_of(directory.path, "shaft.toml -o asked --tolerance '3 %'" + vary, &err);
+  EXPECT_EQ(again, points);
+  EXPECT_EQ(err.find("more mesh"), std::string::npos) << err;
 }
 
 // The last line of the journal is cut as by a kill, another is damaged: both are computed again, the others
