@@ -48,6 +48,13 @@ void add_springs_command(CLI::App& app, ChosenCommand& chosen);
 /// `millstress extremes`: a vibratory mill's loads over all angles of drive and charge.
 void add_extremes_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress free-body`: all forces on a vibratory mill's chamber, at an angle and over the turn.
+void add_free_body_command(CLI::App& app, ChosenCommand& chosen);
+
+/// `millstress history`: stress over the cycle at chosen points, after a run. The directory defaults to
+/// results/<scene's name>_history.
+void add_history_command(CLI::App& app, ChosenCommand& chosen);
+
 /// `millstress sweep`: many operating points as one table. The directory defaults to
 /// results/<scene's name>_sweep.
 void add_sweep_command(CLI::App& app, ChosenCommand& chosen);

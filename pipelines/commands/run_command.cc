@@ -15,6 +15,7 @@
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/commands/option_value.h"
+#include "pipelines/commands/run_results.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/fem_environment.h"
@@ -233,6 +234,15 @@ void run(const RunCommandOptions& options, std::ostream& out) {
 }
 
 }  // namespace
+
+void bring_up_to_date(const SceneOptions& scene, const std::filesystem::path& directory, int n_threads) {
+  RunCommandOptions options;
+  static_cast<SceneOptions&>(options) = scene;
+  options.output = directory;
+  options.n_threads = n_threads;
+  std::ostringstream table;  // not shown
+  run(options, table);
+}
 
 void add_run_command(CLI::App& app, ChosenCommand& chosen) {
   auto options = std::make_shared<RunCommandOptions>();

@@ -104,6 +104,10 @@ Json principal_json(const RunReport& report, const BodyAnalysis& analysis) {
   return json;
 }
 
+std::array<double, 3> position_of(const fem::Nodes& nodes, std::size_t node) {
+  return {nodes.xyz_m[3 * node], nodes.xyz_m[3 * node + 1], nodes.xyz_m[3 * node + 2]};
+}
+
 Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
   Json json = Json::array();
   for (const Zone& zone : analysis.zones.zones) {
@@ -192,7 +196,8 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   for (const auto& place : analysis.place_stresses)
     json["places"].push_back(object({{"feature", place.feature},
                                      {"von_mises_Pa", number(place.value_Pa)},
-                                     {"error_Pa", number_or_none(place.error_Pa)}}));
+                                     {"error_Pa", number_or_none(place.error_Pa)},
+                                     {"position_m", place.position_m}}));
   json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
   json["zones"] = zones_json(report, analysis);
   if (!analysis.search.steps.empty()) json["search"] = search_json(analysis.search);
@@ -207,13 +212,18 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
                                              {"bending", number_or_none(analysis.diagrams->bending_mismatch)},
                                              {"torque", number_or_none(analysis.diagrams->torque_mismatch)}});
   }
-  for (const auto& spot : analysis.hot_spots)
+  for (const auto& spot : analysis.hot_spots) {
     json["hot_spots"].push_back(object({{"name", spot.name},
                                         {"von_mises_Pa", number(spot.von_mises_Pa)},
                                         {"error_Pa", number_or_none(error_Pa(analysis, spot))},
                                         {"normal_max_Pa", number(spot.max_normal_Pa)},
                                         {"normal_min_Pa", number(spot.min_normal_Pa)},
                                         {"position_m", spot.toe_m}}));
+    if (spot.resolved != nullptr) continue;
+    for (const auto& part : stress_point(spot).parts)
+      json["hot_spots"].back()["extrapolated_from"].push_back(object(
+          {{"position_m", position_of(analysis.responses.nodes, part.node)}, {"weight", part.weight}}));
+  }
   if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = budget_json(analysis.hot_spot_errors);
   for (const auto& edge : analysis.mesh.sharp_edges)
     json["singular"].push_back(object({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}}));

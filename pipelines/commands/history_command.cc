@@ -1,0 +1,64 @@
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "pipelines/commands/output_files.h"
+#include "pipelines/commands/run_results.h"
+#include "pipelines/commands/scene_options.h"
+#include "pipelines/common/failure.h"
+#include "pipelines/report/stress_histories.h"
+
+namespace pipelines {
+namespace {
+
+struct HistoryCommandOptions : SceneOptions {
+  std::vector<std::string> at;
+  std::filesystem::path output, results;  ///< empty: the default
+  int n_threads = all_cores;
+  bool json = false;
+};
+
+void show_history(const HistoryCommandOptions& options, std::ostream& out) {
+  const Scene scene = read_scene(options.scene, options.settings);
+  const auto directory = options.output.empty()
+                             ? std::filesystem::path(results_directory({}, scene).string() + "_history")
+                             : options.output;
+  require_writable(output_files("-o", directory, {"histories.h5"}));
+  std::optional<ToleranceNotMet> not_met;
+  const auto results = results_directory(options.results, scene);
+  try {
+    bring_up_to_date(options, results, options.n_threads);
+  } catch (const ToleranceNotMet& error) {
+    not_met = error;
+  }
+  const auto histories = read_stress_histories(results, options.at);
+  const auto files = stress_history_files(histories);
+  require_writable(output_files("-o", directory, files));
+  write_stress_histories(directory, histories);
+  print_stress_histories(out, histories, options.json);
+  if (!options.json) print_files(out, directory, files);
+  if (not_met) throw *not_met;
+}
+
+}  // namespace
+
+void add_history_command(CLI::App& app, ChosenCommand& chosen) {
+  auto options = std::make_shared<HistoryCommandOptions>();
+  auto* command = add_scene_command(
+      app, "history", "stress over the cycle at zones, weld toes and chosen points, as tables", *options);
+  command
+      ->add_option("--at", options->at,
+                   "\"zone 1\", the name of a surface, port or weld toe, \"node 12\" or \"12, 0, -3 mm\", of "
+                   "one body as \"shaft/zone 1\"; again and again (default: all zones and weld toes)")
+      ->take_all()
+      ->expected(1);
+  command->add_option("-o,--output", options->output,
+                      "directory for the histories (default: results/<scene>_history)");
+  command->add_option("--results", options->results,
+                      "directory of the run; it is run first unless nothing has changed (default: "
+                      "results/<scene>)");
+  add_threads_option(*command, options->n_threads, chosen);
+  command->add_flag("--json", options->json, "print JSON instead of the table");
+  command->callback(to_choose(chosen, options, show_history));
+}
+
+}  // namespace pipelines

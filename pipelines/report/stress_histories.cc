@@ -1,0 +1,414 @@
+#include "pipelines/report/stress_histories.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <regex>
+#include <set>
+
+#include "pipelines/common/errors.h"
+#include "pipelines/files/atomic_file.h"
+#include "pipelines/files/csv.h"
+#include "pipelines/files/hdf5_file.h"
+#include "pipelines/files/json_file.h"
+#include "pipelines/responses/response_files.h"
+#include "pipelines/superposition/superposition.h"
+
+namespace pipelines {
+namespace {
+
+using Eigen::Index;
+using nlohmann::ordered_json;
+
+/// Between what the run states and what its files give: both are sums of the same terms in another order.
+constexpr double agreement = 1e-9;
+
+/// A body of the run, with what its stress is superposed from.
+struct RunBody {
+  std::string name;
+  const ordered_json& summary;
+  fem::UnitResponses responses;
+  ChannelHistory channels;
+};
+
+std::array<double, 3> position_of(const ordered_json& place) {
+  return place.at("position_m").get<std::array<double, 3>>();
+}
+
+struct NearestNode {
+  std::size_t node = 0;
+  double distance_m = 0;
+};
+
+NearestNode nearest_node(const fem::Nodes& nodes, const std::array<double, 3>& position_m) {
+  const Eigen::Map<const Eigen::Matrix3Xd> all(nodes.xyz_m.data(), 3, Index(nodes.n));
+  Index node = 0;
+  const double squared = (all.colwise() - Eigen::Map<const Eigen::Vector3d>(position_m.data()))
+                             .colwise()
+                             .squaredNorm()
+                             .minCoeff(&node);
+  return {std::size_t(node), std::sqrt(squared)};
+}
+
+/// The node that is at a place of the run, to the digits of its summary.
+std::size_t node_at(const RunBody& body, const std::array<double, 3>& position_m) {
+  const auto nearest = nearest_node(body.responses.nodes, position_m);
+  if (nearest.distance_m > 1e-9)
+    throw FileError(
+        fmt::format("{}/unit_responses.h5: no node is at ({:.6g}, {:.6g}, {:.6g}) m, where the "
+                    "run's summary.json has a place: the file is of another run; run the scene with --fresh",
+                    body.name, position_m[0], position_m[1], position_m[2]));
+  return nearest.node;
+}
+
+HistoryPoint point_at(const RunBody& body, const std::string& name, const ordered_json& place,
+                      const char* stress_key) {
+  HistoryPoint point{body.name,          name, place.value("feature", ""),
+                     position_of(place), {},   place.at(stress_key)};
+  if (place.contains("extrapolated_from"))
+    for (const auto& part : place["extrapolated_from"])
+      point.parts.push_back({node_at(body, position_of(part)), part.at("weight")});
+  else
+    point.parts.push_back({node_at(body, point.position_m), 1});
+  return point;
+}
+
+HistoryPoint point_at_zone(const RunBody& body, std::size_t i) {
+  return point_at(body, fmt::format("zone {}", i + 1), body.summary["zones"][i], "peak_von_mises_Pa");
+}
+
+/// Stress of toes that were solved as submodels is not in the unit responses.
+bool has_parts(const ordered_json& hot_spot) {
+  return hot_spot.contains("extrapolated_from");
+}
+
+ordered_json list_of(const RunBody& body, const char* key) {
+  return body.summary.contains(key) ? body.summary[key] : ordered_json::array();
+}
+
+void add_all(const RunBody& body, StressHistories& histories, std::vector<HistoryPoint>& points) {
+  for (std::size_t i = 0; i < list_of(body, "zones").size(); ++i) points.push_back(point_at_zone(body, i));
+  for (const auto& spot : list_of(body, "hot_spots")) {
+    const std::string name = spot.at("name");
+    if (has_parts(spot))
+      points.push_back(point_at(body, name, spot, "von_mises_Pa"));
+    else
+      histories.left_out.push_back(body.name + "/" + name +
+                                   ": its stress comes from a submodel, whose responses a run does not keep");
+  }
+}
+
+bool has_hot_spot(const RunBody& body, const std::string& name) {
+  const auto spots = list_of(body, "hot_spots");
+  return std::any_of(spots.begin(), spots.end(), [&](const auto& spot) { return spot.at("name") == name; });
+}
+
+std::vector<std::string> names_of(const RunBody& body) {
+  std::vector<std::string> names;
+  if (const auto n = list_of(body, "zones").size(); n > 0) names.push_back(fmt::format("zone 1 to {}", n));
+  for (const auto& spot : list_of(body, "hot_spots"))
+    if (has_parts(spot)) names.push_back(spot.at("name"));
+  for (const auto& place : list_of(body, "places"))
+    if (!has_hot_spot(body, place.at("feature"))) names.push_back(place.at("feature"));
+  names.push_back(fmt::format("node 0 to {}", body.responses.nodes.n - 1));
+  names.emplace_back("x, y, z mm");
+  return names;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Nothing if it is no point of this body.
+std::optional<HistoryPoint> find_point(const RunBody& body, const std::string& what) {
+  static const std::regex zone("zone ([0-9]{1,6})"), node("node ([0-9]{1,10})"),
+      position(R"(\(?\s*([-+0-9.eE]+)\s*,\s*([-+0-9.eE]+)\s*,\s*([-+0-9.eE]+)\s*\)?\s*mm)");
+  std::smatch match;
+  if (std::regex_match(what, match, zone)) {
+    const auto number = std::stoul(match[1]);
+    if (number == 0 || number > list_of(body, "zones").size()) return std::nullopt;
+    return point_at_zone(body, number - 1);
+  }
+  const auto& nodes = body.responses.nodes;
+  const auto at_node = [&](std::size_t i) {
+    const double* x = &nodes.xyz_m[3 * i];
+    return HistoryPoint{body.name, what, "", {x[0], x[1], x[2]}, {{i, 1}}, 0};
+  };
+  if (std::regex_match(what, match, node)) {
+    const auto number = std::stoull(match[1]);
+    return number < nodes.n ? std::optional(at_node(number)) : std::nullopt;
+  }
+  if (std::regex_match(what, match, position)) {
+    std::array<double, 3> wanted_m{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      char* end = nullptr;
+      const std::string text = match[d + 1];
+      wanted_m[d] = 1e-3 * std::strtod(text.c_str(), &end);
+      if (*end != '\0' || !std::isfinite(wanted_m[d])) return std::nullopt;
+    }
+    return at_node(nearest_node(nodes, wanted_m).node);
+  }
+  for (const auto& spot : list_of(body, "hot_spots"))
+    if (spot.at("name") == what)
+      return has_parts(spot) ? std::optional(point_at(body, what, spot, "von_mises_Pa")) : std::nullopt;
+  for (const auto& place : list_of(body, "places"))
+    if (place.at("feature") == what && place.contains("position_m"))
+      return point_at(body, what, place, "von_mises_Pa");
+  return std::nullopt;
+}
+
+/// The points that a text means, in every body that has one.
+std::vector<std::pair<std::size_t, HistoryPoint>> find_points(const std::vector<RunBody>& bodies,
+                                                              const std::string& wanted) {
+  std::vector<std::pair<std::size_t, HistoryPoint>> found;
+  std::string known;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto& body = bodies[b];
+    const std::string prefix = body.name + "/";
+    const bool names_body = wanted.rfind(prefix, 0) == 0;
+    const bool names_other = !names_body && std::any_of(bodies.begin(), bodies.end(), [&](const auto& other) {
+      return wanted.rfind(other.name + "/", 0) == 0;
+    });
+    if (names_other) continue;
+    if (auto point = find_point(body, names_body ? wanted.substr(prefix.size()) : wanted))
+      found.emplace_back(b, std::move(*point));
+    known += fmt::format("; {} has {}", body.name, joined(names_of(body)));
+  }
+  if (found.empty()) throw OptionError("--at " + wanted + ": is no point of the run" + known);
+  return found;
+}
+
+Eigen::ArrayXd column(const Hdf5Reader& file, const std::string& name) {
+  const auto values = file.numbers(name);
+  return Eigen::Map<const Eigen::ArrayXd>(values.data(), Index(values.size()));
+}
+
+ChannelHistory channels_of(const Hdf5Reader& loads, const std::string& body,
+                           const fem::UnitResponses& responses, Index n_instants) {
+  ChannelHistory history;
+  history.body = body;
+  history.values.resize(Index(responses.channels.size()), n_instants);
+  for (std::size_t k = 0; k < responses.channels.size(); ++k) {
+    history.channels.push_back({responses.channels[k], ""});
+    const auto values = column(loads, "/channels/" + body + "/" + responses.channels[k]);
+    if (values.size() != n_instants)
+      throw FileError("loads.h5: the channel " + responses.channels[k] + " of " + body +
+                      " has another number of instants than the time; run the scene with --fresh");
+    history.values.row(Index(k)) = values.transpose();
+  }
+  return history;
+}
+
+StressHistory superpose(const RunBody& body, HistoryPoint point) {
+  const auto n_channels = body.responses.channels.size();
+  Eigen::MatrixXd unit_Pa = Eigen::MatrixXd::Zero(6, Index(n_channels));
+  for (const auto& part : point.parts)
+    unit_Pa += part.weight * Eigen::Map<const Eigen::MatrixXd>(
+                                 &body.responses.stress_Pa[part.node * n_channels * 6], 6, Index(n_channels));
+  StressHistory history{std::move(point), (unit_Pa * body.channels.values.matrix()).array()};
+  const double found_Pa = history.von_mises_Pa().maxCoeff(), stated_Pa = history.point.stated_Pa;
+  if (stated_Pa > 0 && std::abs(found_Pa - stated_Pa) > agreement * stated_Pa)
+    throw FileError(
+        fmt::format("{}, {}: unit responses and loads give {:.9g} MPa where summary.json has {:.9g}: the "
+                    "files are not of one "
+                    "run; run the scene with --fresh",
+                    body.name, history.point.name, found_Pa / 1e6, stated_Pa / 1e6));
+  return history;
+}
+
+std::string group_of(const HistoryPoint& point) {
+  std::string text;
+  for (const unsigned char c : point.name) {
+    if (std::isalnum(c) || c == '.' || c == '-')
+      text += char(c);
+    else if (!text.empty() && text.back() != '_')
+      text += '_';
+  }
+  while (!text.empty() && text.back() == '_') text.pop_back();
+  return text;
+}
+
+/// Of each point, without an extension; names that would be one get numbers.
+std::vector<std::string> file_names(const StressHistories& histories) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const auto& history : histories.points) {
+    const auto name = history.point.body + "_" + group_of(history.point);
+    auto free = name;
+    for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{}_{}", name, n);
+    names.push_back(free);
+  }
+  return names;
+}
+
+Stress stress_of(const Eigen::ArrayXXd& all, Index i) {
+  return {all(0, i), all(1, i), all(2, i), all(3, i), all(4, i), all(5, i)};
+}
+
+std::vector<double> scaled(const Eigen::Ref<const Eigen::ArrayXd>& values, double factor) {
+  const Eigen::ArrayXd result = factor * values;
+  return {result.begin(), result.end()};
+}
+
+void write_point_csv(const std::filesystem::path& file, const StressHistories& histories,
+                     const StressHistory& history) {
+  constexpr double MPa = 1e-6;
+  std::vector<CsvColumn> columns{{"time", "s", scaled(histories.time_s, 1)},
+                                 {"drive_angle", "deg", scaled(histories.drive_angle_rad, 180 / M_PI)}};
+  const char* const components[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
+  for (Index c = 0; c < 6; ++c)
+    columns.push_back({components[c], "MPa", scaled(history.stress_Pa.row(c).transpose(), MPa)});
+  columns.push_back({"von_mises", "MPa", scaled(history.von_mises_Pa(), MPa)});
+  columns.push_back({"signed_von_mises", "MPa", scaled(history.signed_von_mises_Pa(), MPa)});
+  const auto principal_Pa = history.principal_Pa();
+  for (Index c = 0; c < 3; ++c)
+    columns.push_back(
+        {fmt::format("principal_{}", c + 1), "MPa", scaled(principal_Pa.row(c).transpose(), MPa)});
+  write_csv(file, columns);
+}
+
+}  // namespace
+
+Eigen::ArrayXd StressHistory::von_mises_Pa() const {
+  Eigen::ArrayXd result(stress_Pa.cols());
+  for (Index i = 0; i < result.size(); ++i) result[i] = pipelines::von_mises_Pa(stress_of(stress_Pa, i));
+  return result;
+}
+
+Eigen::ArrayXXd StressHistory::principal_Pa() const {
+  Eigen::ArrayXXd result(3, stress_Pa.cols());
+  for (Index i = 0; i < result.cols(); ++i) {
+    const auto s = stress_of(stress_Pa, i);
+    Eigen::Matrix3d tensor;
+    tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+    result.col(i) = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly)
+                        .eigenvalues()
+                        .reverse()
+                        .array();
+  }
+  return result;
+}
+
+Eigen::ArrayXd StressHistory::signed_von_mises_Pa() const {
+  const auto principal = principal_Pa();
+  const Eigen::ArrayXd size_Pa = von_mises_Pa();
+  return (principal.row(0).transpose() + principal.row(2).transpose() < 0).select(-size_Pa, size_Pa);
+}
+
+StressHistories read_stress_histories(const std::filesystem::path& results,
+                                      const std::vector<std::string>& wanted) {
+  const auto summary = read_json_file(results / "summary.json");
+  if (!summary.is_object() || !summary.contains("bodies") || summary["bodies"].empty())
+    throw StageRefused((results / "summary.json").string() + ": the run has no body, and so no stress");
+  StressHistories histories;
+  const Hdf5Reader loads(results / "loads.h5");
+  histories.time_s = column(loads, "/time");
+  histories.drive_angle_rad = column(loads, "/phi");
+  std::vector<RunBody> bodies;
+  for (const auto& [name, json] : summary.at("bodies").items()) {
+    const auto file = results / name / "unit_responses.h5";
+    if (!std::filesystem::exists(file)) {
+      histories.left_out.push_back(
+          name +
+          ": unit_responses.h5 is not there: its model keeps none, or it was removed (run --fresh makes it)");
+      continue;
+    }
+    auto responses = read_unit_responses(file, Hdf5Reader(file).text_attribute("/", "key"));
+    if (!responses) throw FileError(file.string() + ": cannot be read; run the scene with --fresh");
+    auto channels = channels_of(loads, name, *responses, histories.time_s.size());
+    bodies.push_back({name, json, std::move(*responses), std::move(channels)});
+  }
+  if (bodies.empty())
+    throw StageRefused(
+        "the run keeps no unit responses: give it a model with a mesh, such as --method solid");
+  std::vector<HistoryPoint> points;
+  for (const auto& body : bodies) {
+    if (!wanted.empty()) break;
+    points.clear();
+    add_all(body, histories, points);
+    for (auto& point : points) histories.points.push_back(superpose(body, std::move(point)));
+  }
+  for (const auto& what : wanted)
+    for (auto& [b, point] : find_points(bodies, what))
+      histories.points.push_back(superpose(bodies[b], std::move(point)));
+  return histories;
+}
+
+std::vector<std::string> stress_history_files(const StressHistories& histories) {
+  std::vector<std::string> files{"histories.h5"};
+  for (const auto& name : file_names(histories)) files.push_back(name + ".csv");
+  return files;
+}
+
+void write_stress_histories(const std::filesystem::path& directory, const StressHistories& histories) {
+  std::filesystem::create_directories(directory);
+  const auto names = file_names(histories);
+  AtomicFile file(directory / "histories.h5");
+  {
+    Hdf5Writer out(file.temporary());
+    const auto write = [&](const std::string& object, const Eigen::ArrayXd& values, const Hdf5Label& label) {
+      out.write(object, values.data(), {std::size_t(values.size())}, label);
+    };
+    write("/time", histories.time_s, {"s", "of each instant"});
+    write("/drive_angle", histories.drive_angle_rad, {"rad", "of the drive"});
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      const auto& [point, stress_Pa] = histories.points[p];
+      const auto group = "/" + point.body + "/" + names[p].substr(point.body.size() + 1);
+      const std::vector<std::size_t> shape{std::size_t(stress_Pa.cols()), 6};
+      out.write(group + "/stress", stress_Pa.data(), shape,
+                {"Pa", "xx, yy, zz, xy, yz, xz in the body's frame"});
+      write(group + "/von_mises", histories.points[p].von_mises_Pa(), {"Pa", "von Mises stress"});
+      write(group + "/signed_von_mises", histories.points[p].signed_von_mises_Pa(),
+            {"Pa", "von Mises stress with the sign of the principal stress of largest size"});
+      out.attribute(group, "point", point.name);
+      out.attribute(group, "feature", point.feature);
+      for (std::size_t d = 0; d < 3; ++d)
+        out.attribute(group, std::string(1, char('x' + d)) + " [m]", point.position_m[d]);
+    }
+    out.close();
+  }
+  file.commit();
+  for (std::size_t p = 0; p < names.size(); ++p)
+    write_point_csv(directory / (names[p] + ".csv"), histories, histories.points[p]);
+}
+
+void print_stress_histories(std::ostream& out, const StressHistories& histories, bool json) {
+  const auto names = file_names(histories);
+  if (json) {
+    ordered_json all{{"points", ordered_json::array()}, {"left_out", histories.left_out}};
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      const auto& history = histories.points[p];
+      const auto with_sign = history.signed_von_mises_Pa();
+      all["points"].push_back({{"body", history.point.body},
+                               {"point", history.point.name},
+                               {"feature", history.point.feature},
+                               {"position_m", history.point.position_m},
+                               {"file", names[p] + ".csv"},
+                               {"von_mises_max_Pa", history.von_mises_Pa().maxCoeff()},
+                               {"signed_von_mises_min_Pa", with_sign.minCoeff()},
+                               {"signed_von_mises_max_Pa", with_sign.maxCoeff()}});
+    }
+    out << all.dump(2) << '\n';
+    return;
+  }
+  out << fmt::format("\n  {:<12}{:<26}{:<30}{:>14}{:>22}\n", "body", "point", "on", "von Mises MPa",
+                     "with its sign MPa");
+  for (const auto& history : histories.points) {
+    const auto with_sign = history.signed_von_mises_Pa();
+    out << fmt::format(
+        "  {:<12}{:<26}{:<30}{:>14.2f}{:>22}\n", history.point.body, history.point.name,
+        history.point.feature, history.von_mises_Pa().maxCoeff() / 1e6,
+        fmt::format("{:.2f} to {:.2f}", with_sign.minCoeff() / 1e6, with_sign.maxCoeff() / 1e6));
+  }
+  for (const auto& text : histories.left_out) out << "  without: " << text << '\n';
+}
+
+}  // namespace pipelines

@@ -1,0 +1,68 @@
+/// Stress over the cycle at chosen points, from the files of a run: for fatigue tools and spreadsheets.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace pipelines {
+
+/// Where a history is taken: at a node, or where a weld toe's stress is extrapolated from.
+struct HistoryPoint {
+  struct Part {
+    std::size_t node = 0;  ///< as in unit_responses.h5
+    double weight = 1;
+  };
+  std::string body, name;              ///< "zone 1", a surface or weld toe, "node 12", "(1, 2, 3) mm"
+  std::string feature;                 ///< that it lies on, as the run says; empty where it does not
+  std::array<double, 3> position_m{};  ///< in the body's frame; of a toe the toe's own
+  std::vector<Part> parts;
+  double stated_Pa = 0;  ///< the run's largest von Mises stress there; 0 where it states none
+};
+
+struct StressHistory {
+  HistoryPoint point;
+  Eigen::ArrayXXd
+      stress_Pa;  ///< 6 x instants: xx, yy, zz, xy, yz, xz in the body's frame, which turns with it
+
+  /// One number per instant.
+  Eigen::ArrayXd von_mises_Pa() const;
+  /// Von Mises stress with the sign of the principal stress of largest size.
+  Eigen::ArrayXd signed_von_mises_Pa() const;
+  /// 3 x instants, falling.
+  Eigen::ArrayXXd principal_Pa() const;
+};
+
+struct StressHistories {
+  Eigen::ArrayXd time_s, drive_angle_rad;
+  std::vector<StressHistory> points;
+  std::vector<std::string> left_out;  ///< points of the run that have none, with the reason
+};
+
+/// Superposes the unit responses of a run with its channels at some points. Every point whose largest stress
+/// the run states is held against it.
+/// @param results  directory of a whole run
+/// @param wanted   each "WHAT" or "BODY/WHAT", with WHAT "zone 2", the name of a surface, port or weld toe
+///                 (where its stress is largest), "node 1234", or "12.5, 0, -3 mm" for the node nearest to
+///                 it; none: all zones and weld toes
+/// @throws OptionError for what is no point of the run, with those that are; StageRefused if the run has no
+///         body with unit responses; FileError naming the file that is damaged, or of another run
+StressHistories read_stress_histories(const std::filesystem::path& results,
+                                      const std::vector<std::string>& wanted);
+
+/// histories.h5, then a table for each point.
+std::vector<std::string> stress_history_files(const StressHistories& histories);
+
+/// histories.h5 has /time [s], /drive_angle [rad], and for each point the group /<body>/<point> with stress
+/// (instants x 6), von_mises and signed_von_mises [Pa]. <body>_<point>.csv has the same in MPa and degrees,
+/// and the principal stresses.
+/// @throws FileError naming the file if it cannot be written
+void write_stress_histories(const std::filesystem::path& directory, const StressHistories& histories);
+
+/// @param json  as JSON instead of a table
+void print_stress_histories(std::ostream& out, const StressHistories& histories, bool json);
+
+}  // namespace pipelines
