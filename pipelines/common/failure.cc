@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <new>
 
 #include "fem/values/errors.h"
 #include "kinetics/machine_refused.h"
@@ -67,6 +68,11 @@ Failure failed_work() {
     return told(mesh_or_solve_failed, error.what());
   } catch (const FileError& error) {
     return told(mesh_or_solve_failed, error.what());
+  } catch (const std::bad_alloc&) {
+    return told(
+        mesh_or_solve_failed,
+        "more memory was asked for than this process may have: ask for less accuracy (--tolerance), or "
+        "make the mesh coarser");
   } catch (const std::filesystem::filesystem_error& error) {
     return told(mesh_or_solve_failed, error.code().message() + ": " + error.path1().string() +
                                           ": check the free space, or choose another output with -o");

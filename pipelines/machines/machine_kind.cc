@@ -16,9 +16,9 @@ std::optional<kinetics::LoadHistory> MachineKind::rehearse(const Scene& scene) c
     check_without_masses(scene.machine);
     return std::nullopt;
   }
-  // Samples need all their turns; what a mill refuses shows in one.
+  // Samples and harmonics of a table need all their instants; what a mill refuses shows in a few.
   return compute_loads(scene.machine, scene.kinetics_effects(),
-                       {has_samples() ? scene.sampling.turns : 1, 8});
+                       has_samples() ? scene.sampling : kinetics::TimeGrid{1, 8});
 }
 
 std::vector<std::string> MachineKind::added_loads(const Scene&) const {

@@ -1,6 +1,8 @@
 #include "pipelines/report/manifest.h"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "pipelines/common/errors.h"
@@ -21,6 +23,10 @@ struct ListedFile {
   std::uintmax_t bytes = 0;
 };
 
+std::string text_of_manifest(const ManifestJson& json) {
+  return json.dump(2, ' ', false, ManifestJson::error_handler_t::replace) + "\n";
+}
+
 std::string list_checksum(const ManifestJson& files) {
   return text_hash(files.dump(-1, ' ', false, ManifestJson::error_handler_t::replace));
 }
@@ -33,7 +39,10 @@ bool stays_inside(const fs::path& name) {
 
 /// @return false if the manifest cannot be believed
 bool read_list(const fs::path& file, std::vector<ListedFile>& list) {
-  const auto json = read_json_file(file);
+  const ManifestJson json = read_json_file(file);
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text != text_of_manifest(json)) return false;  // spaces that are none any more mean nothing to JSON
   if (!json.is_object() || !json.contains("files") || !json.contains("checksum")) return false;
   const auto& files = json.at("files");
   if (!files.is_object() || json.at("checksum") != list_checksum(files)) return false;
@@ -74,8 +83,7 @@ void write_manifest(const fs::path& directory) {
   const ManifestJson json{{"program", {{"name", "millstress"}, {"version", version}}},
                           {"files", files},
                           {"checksum", list_checksum(files)}};
-  write_text_file(directory / manifest_name,
-                  json.dump(2, ' ', false, ManifestJson::error_handler_t::replace) + "\n");
+  write_text_file(directory / manifest_name, text_of_manifest(json));
 }
 
 ManifestCheck check_manifest(const fs::path& directory) {

@@ -63,6 +63,9 @@ TEST(Failures, OfMeshesAndSolvesAreNoMistakeOfTheScene) {
     EXPECT_EQ(failure.message, "millstress: a cause");
   }
   EXPECT_EQ(failure_of(ToleranceNotMet("a cause")).code, tolerance_not_met);
+  const auto memory = failure_of(std::bad_alloc());
+  EXPECT_EQ(memory.code, mesh_or_solve_failed);
+  EXPECT_NE(memory.message.find("more memory was asked for"), std::string::npos) << memory.message;
 }
 
 TEST(Failures, OfADiskAreNoMistakeOfTheScene) {
@@ -78,7 +81,7 @@ TEST(Failures, OfTheProgramAreNotBlamedOnTheScene) {
   for (const auto& failure :
        {failure_of(std::invalid_argument("sizes differ")), failure_of(std::out_of_range("no such quantity")),
         failure_of(std::logic_error("unknown role")), failure_of(std::runtime_error("a cause")),
-        failure_of(std::bad_alloc()), failure_of(42)}) {
+        failure_of(42)}) {
     EXPECT_EQ(failure.code, mesh_or_solve_failed) << failure.message;
     EXPECT_TRUE(is_internal(failure)) << failure.message;
   }
