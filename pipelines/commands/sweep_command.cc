@@ -62,13 +62,17 @@ std::string journal_key(const SweepCommandOptions& options, const RequestedAccur
                            accuracy.time_limit_s, accuracy.once, accuracy.by_default, n_threads);
 }
 
-void tell_forecast(const SweepForecast& forecast, std::size_t n_known) {
+void tell_forecast(const SweepForecast& forecast, std::size_t n_known, const RequestedAccuracy& accuracy) {
   std::string text =
       fmt::format("millstress: {} point{}", forecast.n_points, forecast.n_points == 1 ? "" : "s");
   if (n_known > 0) text += fmt::format(", {} known from the sweep before", n_known);
   for (const auto& body : forecast.bodies)
     text += fmt::format("; {}: {} mesh{}, {} solution{}", body.name, body.n_meshes,
                         body.n_meshes == 1 ? "" : "es", body.n_solutions, body.n_solutions == 1 ? "" : "s");
+  std::size_t n_meshes = 0;
+  for (const auto& body : forecast.bodies) n_meshes += body.n_meshes;
+  if (n_meshes > 0 && accuracy.time_limit_s > 0)
+    text += fmt::format("; searching takes {:g} s at most", double(n_meshes) * accuracy.time_limit_s);
   std::cerr << text << '\n';
 }
 
@@ -77,8 +81,9 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 bool have_one_header(const SweepRow& a, const SweepRow& b) {
-  return std::equal(a.figures.begin(), a.figures.end(), b.figures.begin(), b.figures.end(),
-                    [](const SweepFigure& x, const SweepFigure& y) { return x.name == y.name; });
+  return a.figures.share_names(b.figures) ||
+         std::equal(a.figures.begin(), a.figures.end(), b.figures.begin(), b.figures.end(),
+                    [](const auto& x, const auto& y) { return x.name == y.name; });
 }
 
 /// The figures that are shown: those named, governing stresses, or else the largest forces of the first
@@ -92,10 +97,11 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
   for (const auto& row : rows) {
     if (before != nullptr && have_one_header(*before, row)) continue;
     before = &row;
-    for (const auto& figure : row.figures) {
+    for (const auto figure : row.figures) {
       if (!known.insert(figure.name).second) continue;
       if (ends_with(figure.name, ".governing")) governing.push_back(figure.name);
-      if (figure.unit == "N" && ends_with(figure.name, ".max")) forces.push_back(figure);
+      if (figure.unit == "N" && ends_with(figure.name, ".max"))
+        forces.push_back({figure.name, figure.unit, figure.value});
     }
   }
   for (const auto& name : named)
@@ -113,7 +119,7 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
 
 std::string unit_of(const std::vector<SweepRow>& rows, const std::string& figure) {
   for (const auto& row : rows)
-    for (const auto& f : row.figures)
+    for (const auto f : row.figures)
       if (f.name == figure) return f.unit;
   return "";
 }
@@ -326,7 +332,7 @@ std::vector<std::string> draw_charts(const std::filesystem::path& directory, con
 /// Points whose governing stress is known less well than the tolerance asks.
 std::size_t n_known_worse(const std::vector<SweepRow>& rows, double tolerance) {
   return std::size_t(std::count_if(rows.begin(), rows.end(), [&](const SweepRow& row) {
-    return std::any_of(row.figures.begin(), row.figures.end(), [&](const SweepFigure& f) {
+    return std::any_of(row.figures.begin(), row.figures.end(), [&](const auto& f) {
       return ends_with(f.name, ".governing") && row.figure(f.name + ".error") > tolerance * f.value;
     });
   }));
@@ -368,7 +374,7 @@ void sweep(const SweepCommandOptions& options, std::ostream& out) {
   auto known = options.fresh ? std::vector<std::optional<SweepRow>>(plan.points.size()) : journal.known(plan);
   const auto n_known =
       std::size_t(std::count_if(known.begin(), known.end(), [](const auto& row) { return row.has_value(); }));
-  if (!options.quiet) tell_forecast(run.forecast(), n_known);
+  if (!options.quiet) tell_forecast(run.forecast(), n_known, accuracy);
   if (run.has_chosen_effects())
     std::cerr
         << "millstress: effects = \"auto\" chooses by the point; a sweep has all of them on at every point\n";

@@ -55,7 +55,9 @@ void rehearse(const Scene& scene, SceneTable& root, SceneTable& machine, std::ve
   try {
     const MachineKind& kind = kind_of(scene.machine);
     if (!scene.bodies.empty()) kind.refuse_open_balance(scene, machine);
-    if (const auto loads = kind.rehearse(scene)) check_bearings(scene, *loads, root);
+    const bool is_left_to_loads = version.loads_follow && !scene.run_up && scene.masses_from_mesh.empty();
+    if (!is_left_to_loads)
+      if (const auto loads = kind.rehearse(scene)) check_bearings(scene, *loads, root);
   } catch (const kinetics::MachineRefused& error) {
     machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
   }

@@ -20,6 +20,9 @@ struct VersionReading {
   /// again; empty: every shape is checked.
   std::function<bool(const BodyScene& body)> has_accepted_shape{};
   bool has_notes = true;  ///< Scene::defaults and Scene::known_keys are filled
+  /// The caller runs the load stage at once and, if that or a bearing's load is refused, reads again without
+  /// this: the reader does not compute loads of its own.
+  bool loads_follow = false;
 };
 
 /// As read_scene of the file.

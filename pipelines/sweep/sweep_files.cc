@@ -29,7 +29,7 @@ std::vector<FigureColumn> figure_columns(const std::vector<SweepRow>& rows) {
   std::map<std::string, std::size_t> at;
   for (std::size_t p = 0; p < rows.size(); ++p)
     for (std::size_t f = 0; f < rows[p].figures.size(); ++f) {
-      const auto& figure = rows[p].figures[f];
+      const auto figure = rows[p].figures[f];
       if (f < columns.size() && columns[f].name == figure.name) {  // most rows have the same figures
         columns[f].values[p] = figure.value;
         continue;
@@ -177,7 +177,7 @@ std::string sweep_json(const SweepPlan& plan, const std::vector<SweepRow>& rows)
     for (std::size_t k = 0; k < plan.variations.size(); ++k)
       point["keys"][plan.variations[k].key] = plan.points[p].values[k];
     if (!rows[p].refused.empty()) point["refused"] = rows[p].refused;
-    for (const auto& f : rows[p].figures) {
+    for (const auto f : rows[p].figures) {
       point["figures"][f.name]["value"] = std::isfinite(f.value) ? Json(f.value) : Json(nullptr);
       point["figures"][f.name]["unit"] = f.unit;
     }

@@ -116,12 +116,14 @@ std::optional<RowLine> row_line(std::string_view text) {
 }  // namespace
 
 bool SweepJournal::Columns::are_of(const SweepRow& row) const {
-  const auto is_figure = [](const auto& column, const SweepFigure& figure) {
+  const auto is_figure = [](const auto& column, const SweepFigures::Item& figure) {
     return column.first == figure.name && column.second == figure.unit;
   };
   const auto is_text = [](const std::string& column, const auto& text) { return column == text.first; };
-  return std::equal(figures.begin(), figures.end(), row.figures.begin(), row.figures.end(), is_figure) &&
-         std::equal(texts.begin(), texts.end(), row.texts.begin(), row.texts.end(), is_text);
+  const bool has_figures =
+      latest.share_names(row.figures) ||
+      std::equal(figures.begin(), figures.end(), row.figures.begin(), row.figures.end(), is_figure);
+  return has_figures && std::equal(texts.begin(), texts.end(), row.texts.begin(), row.texts.end(), is_text);
 }
 
 SweepJournal::SweepJournal(std::filesystem::path file, std::string key)
@@ -157,7 +159,7 @@ std::vector<std::optional<SweepRow>> SweepJournal::known(const SweepPlan& plan) 
     if (text.front() == '{') {
       const auto json = JournalJson::parse(text, nullptr, false);
       if (json.is_object() && json.contains("columns"))
-        columns[json.at("columns")] = {json.at("figures"), json.at("texts")};
+        columns[json.at("columns")] = {json.at("figures"), json.at("texts"), {}};
       continue;
     }
     const auto parts = row_line(text);
@@ -165,14 +167,15 @@ std::vector<std::optional<SweepRow>> SweepJournal::known(const SweepPlan& plan) 
     const auto own = columns.find(parts->columns);
     const auto of_settings = points.find(parts->settings);
     if (own == columns.end() || of_settings == points.end()) continue;
-    const auto& [figures, texts] = own->second;
+    auto& [figures, texts, latest] = own->second;
     if (parts->values.size() != digits_of_value * figures.size() || parts->texts.size() != texts.size())
       continue;
     SweepRow row;
-    row.figures.reserve(figures.size());
+    row.figures = SweepFigures::like(latest);
     for (std::size_t f = 0; f < figures.size(); ++f)
-      row.figures.push_back({figures[f].first, figures[f].second,
-                             value_of_bits(parts->values.substr(digits_of_value * f, digits_of_value))});
+      row.figures.add({figures[f].first}, figures[f].second,
+                      value_of_bits(parts->values.substr(digits_of_value * f, digits_of_value)));
+    if (!latest.share_names(row.figures)) latest = row.figures;
     for (std::size_t t = 0; t < texts.size(); ++t) row.texts.emplace_back(texts[t], parts->texts[t]);
     row.zones = parts->zones;
     for (const auto p : of_settings->second) rows[p] = row;
@@ -192,9 +195,12 @@ void SweepJournal::begin(const SweepPlan& plan, const std::vector<std::optional<
 std::size_t SweepJournal::number_of_columns(const SweepRow& row) {
   const auto same =
       std::find_if(columns_.begin(), columns_.end(), [&](const Columns& c) { return c.are_of(row); });
-  if (same != columns_.end()) return std::size_t(same - columns_.begin()) + 1;
+  if (same != columns_.end()) {
+    if (!same->latest.share_names(row.figures)) same->latest = row.figures;
+    return std::size_t(same - columns_.begin()) + 1;
+  }
   Columns columns;
-  for (const auto& figure : row.figures) columns.figures.emplace_back(figure.name, figure.unit);
+  for (const auto figure : row.figures) columns.figures.emplace_back(figure.name, figure.unit);
   for (const auto& text : row.texts) columns.texts.push_back(text.first);
   columns_.push_back(std::move(columns));
   JournalJson json;
@@ -211,7 +217,7 @@ void SweepJournal::append(const SweepPoint& point, const SweepRow& row) {
   for (const auto& text : row.texts) texts.push_back(text.second);
   std::string line = std::to_string(number_of_columns(row)) + ' ';
   line.reserve(line.size() + digits_of_value * row.figures.size());
-  for (const auto& figure : row.figures) append_bits(line, figure.value);
+  for (const auto figure : row.figures) append_bits(line, figure.value);
   auto lists = JournalJson::array({point.settings, texts});
   if (!row.zones.empty()) {
     lists.push_back(JournalJson::array());

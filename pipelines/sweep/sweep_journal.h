@@ -45,6 +45,7 @@ private:
   struct Columns {
     std::vector<std::pair<std::string, std::string>> figures;  ///< names and units
     std::vector<std::string> texts;                            ///< names
+    SweepFigures latest{};  ///< of a row that had them: most rows share its names
 
     bool are_of(const SweepRow& row) const;
   };

@@ -1,44 +1,35 @@
 #include "pipelines/sweep/sweep_row.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 
-double SweepRow::figure(const std::string& name) const {
-  const auto found =
-      std::find_if(figures.begin(), figures.end(), [&](const SweepFigure& f) { return f.name == name; });
-  return found == figures.end() ? std::numeric_limits<double>::quiet_NaN() : found->value;
-}
-
 void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHistory& loads,
                       const std::vector<BearingResult>& bearings) {
   for (const auto& quantity : loads.quantities) {
     if (!quantity.has_statistics) continue;
     const auto s = statistics(quantity.values);
-    const std::string name = "loads." + quantity.name;
-    row.figures.push_back({name + ".max", quantity.unit, s.max});
-    row.figures.push_back({name + ".min", quantity.unit, s.min});
-    row.figures.push_back({name + ".mean", quantity.unit, s.mean});
-    row.figures.push_back({name + ".rms", quantity.unit, s.rms});
-    row.figures.push_back({name + ".first", quantity.unit, quantity.values[0]});
+    const auto add = [&](const char* what, double value) {
+      row.figures.add({"loads.", quantity.name, what}, quantity.unit, value);
+    };
+    add(".max", s.max);
+    add(".min", s.min);
+    add(".mean", s.mean);
+    add(".rms", s.rms);
+    add(".first", quantity.values[0]);
   }
   int mode = 0;
   for (const double w : kind_of(scene.machine).natural_frequencies_rad_s(scene.machine))
-    row.figures.push_back({"torsion.natural_frequency_" + std::to_string(++mode), "rad/s", w});
+    row.figures.add({"torsion.natural_frequency_", std::to_string(++mode)}, "rad/s", w);
   for (const auto& bearing : bearings) {
-    const std::string name = "bearings." + bearing.name;
-    row.figures.push_back({name + ".equivalent_load", "N", bearing.equivalent_load_N});
-    row.figures.push_back({name + ".largest_load", "N", bearing.largest_load_N});
-    if (bearing.life) row.figures.push_back({name + ".L10h", "h", bearing.life->hours});
     const auto add = [&](const char* figure, const char* unit, const std::optional<double>& value) {
-      if (value) row.figures.push_back({name + figure, unit, *value});
+      if (value) row.figures.add({"bearings.", bearing.name, figure}, unit, *value);
     };
+    add(".equivalent_load", "N", bearing.equivalent_load_N);
+    add(".largest_load", "N", bearing.largest_load_N);
+    if (bearing.life) add(".L10h", "h", bearing.life->hours);
     add(".modified_life", "h", bearing.answers.modified_life_h);
     add(".required_rating", "N", bearing.answers.required_rating_N);
     add(".static_safety", "", bearing.answers.static_safety);
@@ -49,7 +40,7 @@ void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional
   const std::string body = "bodies." + analysis.scene.name;
   const auto stress = governing_stress(analysis);
   const auto add = [&](const std::string& name, const std::string& unit, double value) {
-    row.figures.push_back({body + name, unit, value});
+    row.figures.add({body, name}, unit, value);
   };
   add(".governing", "Pa", stress.value_Pa);
   add(".governing.error", "Pa", stress.errors.numerical_Pa());

@@ -9,23 +9,19 @@
 #include "kinetics/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/loads/bearings.h"
+#include "pipelines/sweep/sweep_figures.h"
 #include "pipelines/sweep/swept_zones.h"
 
 namespace pipelines {
 
-struct SweepFigure {
-  std::string name, unit;  ///< as in summary.json: "bodies.shaft.governing", "Pa"
-  double value = 0;
-};
-
 struct SweepRow {
   std::string refused;  ///< why the point could not be computed; empty: it was
-  std::vector<SweepFigure> figures;
+  SweepFigures figures;
   std::vector<std::pair<std::string, std::string>> texts;  ///< "bodies.shaft.governing.place" and the like
   std::vector<SweptZone> zones = {};                       ///< of all bodies, where they are asked for
 
   /// NaN if there is none.
-  double figure(const std::string& name) const;
+  double figure(const std::string& name) const { return figures.value(name); }
 };
 
 /// "loads.<name>.max", ".min", ".mean", ".rms" of every quantity with statistics, and ".first" at the first

@@ -60,6 +60,7 @@ public:
             options_, [this](std::size_t p) { return read(p); }, names_of(points)) {
     name_effects(points);
     for (const auto& point : points) settings_.push_back(point.settings);
+    names_.resize(std::size_t(n_threads()));
     refused_.resize(settings_.size());
     std::exception_ptr first_failure;
     std::size_t n_read = 0;
@@ -116,8 +117,10 @@ public:
       } else {
         clock.run("points", [&] {
           if (needs_bodies_) mesh_for_masses(points);
-          for_each_parallel(points.size(), n_threads(),
-                            [&](std::size_t, std::size_t i) { rows[points[i]] = loads_row(points[i]); });
+          for_each_parallel(points.size(), n_threads(), [&](std::size_t worker, std::size_t i) {
+            rows[points[i]] = loads_row(points[i], names_[worker]);
+          });
+          std::fill(names_.begin(), names_.end(), names_.front());
         });
       }
       clock.advance(double(end) / double(open.size()), fmt::format("{} of {} points", end, open.size()));
@@ -134,14 +137,15 @@ public:
 private:
   int n_threads() const { return threads(options_.n_threads); }
 
-  Scene read(std::size_t p) const {
+  Scene read(std::size_t p, bool loads_follow = false) const {
     auto settings = options_.settings;
     settings.insert(settings.end(), settings_[p].begin(), settings_[p].end());
     const auto has_accepted_shape = [this](const BodyScene& body) {
       return std::any_of(accepted_.begin(), accepted_.end(),
                          [&](const BodyScene& other) { return have_one_mesh(other, body); });
     };
-    return read_scene(options_.scene, options_.tree, settings, {has_accepted_shape, !options_.loads_only});
+    return read_scene(options_.scene, options_.tree, settings,
+                      {has_accepted_shape, !options_.loads_only, loads_follow});
   }
 
   /// Single effects can be switched in a list only, and what the program would choose may change from point
@@ -173,22 +177,39 @@ private:
     }
   }
 
-  SweepRow loads_row(std::size_t p) const {
+  /// @param names  of the rows before, to share
+  SweepRow loads_row(std::size_t p, SweepFigures& names) const {
     SweepRow row;
     row.refused = refused_[p];
     if (row.refused.empty() && needs_bodies_) row.refused = refused_bodies_.at(bodies_.combination(p));
     if (!row.refused.empty()) return row;
-    row.refused = point_refusal([&] {
-      Scene scene = read(p);
-      std::vector<BearingScene> bearings;  // those at a port of a body need the body
-      if (needs_bodies_)
-        scene.machine = agree_masses(scene, meshes_.at(bodies_.combination(p))->bodies()).machine;
-      const auto loads = load_stage(scene, scene.machine);
-      for (const auto& bearing : scene.bearings)
-        if (scene.bodies.empty() || force_of(bearing.load, loads, {})) bearings.push_back(bearing);
-      add_load_figures(row, scene, loads, bearing_lives(bearings, loads, {}));
-    });
+    // First without the reader's rehearsal of the load stage, which follows at once: what refuses a point is
+    // found by either, but the reader says where in the scene it stands.
+    for (const bool loads_follow : {true, false}) {
+      if (loads_follow && needs_bodies_) continue;
+      row.figures = SweepFigures::like(names);
+      row.refused = point_refusal([&] { add_loads(row, p, loads_follow); });
+      if (row.refused.empty()) break;
+    }
+    if (row.refused.empty())
+      names = SweepFigures::like(row.figures);
+    else
+      row.figures = {};
     return row;
+  }
+
+  void add_loads(SweepRow& row, std::size_t p, bool loads_follow) const {
+    Scene scene = read(p, loads_follow);
+    std::vector<BearingScene> bearings;  // those at a port of a body need the body
+    if (needs_bodies_)
+      scene.machine = agree_masses(scene, meshes_.at(bodies_.combination(p))->bodies()).machine;
+    const auto loads = load_stage(scene, scene.machine);
+    for (const auto& bearing : scene.bearings)
+      if (scene.bodies.empty() || force_of(bearing.load, loads, {}))
+        bearings.push_back(bearing);
+      else if (loads_follow)
+        throw StageRefused("the bearing \"" + bearing.name + "\" has a load that the rehearsal would know");
+    add_load_figures(row, scene, loads, bearing_lives(bearings, loads, {}));
   }
 
   SweepOptions options_;
@@ -199,6 +220,7 @@ private:
   // By what a point's bodies share, SweptBodies::combination.
   std::map<std::vector<std::size_t>, std::shared_ptr<const ScratchMeshes>> meshes_;  ///< for masses
   std::map<std::vector<std::size_t>, std::string> refused_bodies_;                   ///< why; empty: not
+  std::vector<SweepFigures> names_;  ///< of figures, by thread: empty rows
   bool needs_bodies_ = true, has_chosen_effects_ = false;
 };
 

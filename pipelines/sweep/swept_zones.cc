@@ -143,8 +143,10 @@ std::vector<SweptZone> swept_zones(const BodyAnalysis& analysis) {
 }
 
 std::vector<std::vector<int>> follow_zones(const SweepPlan& plan, const std::vector<SweepRow>& rows) {
-  const auto shares = shares_of_keys(plan);
   std::vector<std::vector<int>> numbers(rows.size());
+  if (std::all_of(rows.begin(), rows.end(), [](const SweepRow& row) { return row.zones.empty(); }))
+    return numbers;  // below, each point looks at all before it
+  const auto shares = shares_of_keys(plan);
   std::vector<const SweptZone*> latest;  // by number less 1
   for (std::size_t p = 0; p < rows.size(); ++p) {
     const auto& zones = rows[p].zones;
@@ -173,9 +175,9 @@ void add_zone_figures(std::vector<SweepRow>& rows, const std::vector<std::vector
     for (std::size_t z = 0; z < rows[p].zones.size(); ++z) {
       const auto& zone = rows[p].zones[z];
       const auto name = "bodies." + zone.body + ".zones[" + std::to_string(numbers[p][z]) + "]";
-      rows[p].figures.push_back({name + ".peak", "Pa", zone.peak_Pa});
-      rows[p].figures.push_back({name + ".peak.error", "Pa", zone.error_Pa});
-      rows[p].figures.push_back({name + ".volume", "m3", zone.volume_m3});
+      rows[p].figures.add({name, ".peak"}, "Pa", zone.peak_Pa);
+      rows[p].figures.add({name, ".peak.error"}, "Pa", zone.error_Pa);
+      rows[p].figures.add({name, ".volume"}, "m3", zone.volume_m3);
     }
 }
 

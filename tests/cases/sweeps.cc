@@ -158,6 +158,26 @@ TEST(Sweeps, OneRefusedPointIsToldAndKept) {
   EXPECT_TRUE(points[2].contains("figures"));
 }
 
+// Red if a point of a load stage alone skips what the scene's reader finds by computing loads: which key it
+// is, and loads that are no force.
+TEST(Sweeps, RefuseAPointAsLoadsDoes) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  for (const char* setting : {"machine.springs[2]=removed", "bearings[1].load=no_such"}) {
+    const std::string key(setting, std::string(setting).find('=')), value = setting + key.size() + 1;
+    const auto points =
+        points_of(directory.path, "mill.toml --loads --vary '" + key + " = kept, " + value + "'");
+    const auto alone = as_a_user(directory.path, "loads mill.toml --set '" + std::string(setting) + "'");
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_TRUE(points[0].contains("figures"));
+    EXPECT_EQ(alone.exit_code, 2) << setting;
+    const std::string refused = points[1].value("refused", "");
+    EXPECT_FALSE(refused.empty()) << setting;
+    EXPECT_NE(alone.err.find(refused), std::string::npos) << refused << "\n" << alone.err;
+    EXPECT_FALSE(points[1].contains("figures"));
+  }
+}
+
 // The chamber of the first point cannot be meshed; the shaft, whose mesh the second point shares, is not to
 // blame.
 TEST(Sweeps, OneRefusedMeshIsNoFaultOfOthers) {
@@ -282,6 +302,7 @@ pictures = false
   const auto points = points_of(directory.path, "shaft.toml -o asked --tolerance '3 %'" + vary, &err);
   ASSERT_EQ(points.size(), 2u);
   EXPECT_NE(err.find("1 more mesh was searched"), std::string::npos) << err;
+  EXPECT_EQ(err.find("searching takes"), std::string::npos) << "no limit was asked for: " << err;
   for (const auto& point : points) {
     EXPECT_LE(figure(point, governing + ".error"), 0.03 * figure(point, governing)) << point["keys"];
     EXPECT_NE(point["texts"][searched_for].get<std::string>().find(
