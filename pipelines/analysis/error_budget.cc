@@ -194,8 +194,12 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
   const double value = von_mises_of(unit, factors);
 
   ErrorBudget budget;
-  budget.numerical.push_back({"time_sampling", "channels and stress interpolated between the instants",
-                              time_sampling_error_Pa(unit, values, point.instant)});
+  const auto sampling = time_sampling(unit, values);
+  budget.numerical.push_back({"time_sampling",
+                              sampling.unresolved_Pa == 0
+                                  ? "crest between the instants, which resolve the channels"
+                                  : "crest between the instants, and what they leave unresolved",
+                              sampling.error_Pa()});
   Eigen::ArrayXd without = factors;
   const auto belongs = highest_harmonic(loads.unit_loads);
   for (std::size_t k = 0; k < belongs.size(); ++k)

@@ -81,7 +81,8 @@ std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& resp
 double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXd& factors);
 
 /// What one run can tell about itself:
-///   time_sampling       what stress interpolated between the instants exceeds theirs by (time_sampling.h)
+///   time_sampling       what the crest between the instants exceeds theirs by, and what they leave
+///                       unresolved (time_sampling.h)
 ///   pressure_harmonics  what the highest harmonic of the seat pressures contributes
 ///   discretisation      the largest difference between the recovered stress and that of one cell, over the
 ///                       faces around the point, times discretisation_safety: a single cell may agree by

@@ -1,4 +1,4 @@
-/// What a stress may exceed its value at the instants of the load history, between them.
+/// What a stress may exceed its values at the instants of the load history, between them.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,15 +7,22 @@
 
 namespace pipelines {
 
-/// By how much von Mises exceeds its value at an instant, up to both neighbours. The larger of two estimates:
-/// a parabola through the three values, and the stress of the load channels between the instants. The
-/// parabola alone fails where few instants meet the size of a stress that turns its sign: a load that turns
-/// around a shaft in four instants has the same size at all of them. The channels themselves are smooth; they
-/// are interpolated over the cycle, which is periodic, by its trigonometric polynomial (below 16 instants) or
-/// by polynomials through eight of them.
+/// By how much von Mises over the cycle exceeds the largest of its values at the instants.
+struct TimeSampling {
+  double excess_Pa = 0;      ///< of the stress interpolated; exact where the instants resolve the factors
+  double unresolved_Pa = 0;  ///< what it may be beyond that; 0 where they are resolved
+  double instant = 0;        ///< of the crest: i + share of the step to the next instant
+  double error_Pa() const { return excess_Pa + unresolved_Pa; }
+};
+
+/// A stress whose spectrum is empty from a third of the number of instants on is resolved: its factors are
+/// trigonometric polynomials, and the crest is found exactly. Others have the smaller of two bounds, of their
+/// trigonometric polynomial and of polynomials through eight instants, each with what the instants leave
+/// unresolved (superposition/cycle_extremes.h); below 16 instants, of the first. Harmonics that fall on lower
+/// ones because the instants meet them always at the same places cannot be seen. Of one and two instants
+/// nothing is known: 0.
 /// @param unit    per channel (xx, yy, zz, xy, yz, xz) [Pa]
 /// @param values  channels x instants
-double time_sampling_error_Pa(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXXd& values,
-                              Eigen::Index instant);
+TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXXd& values);
 
 }  // namespace pipelines
