@@ -8,6 +8,7 @@
 #include "pipelines/analysis/submodels.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/finite_stress.h"
+#include "pipelines/superposition/zone_parts.h"
 
 namespace pipelines {
 namespace {
@@ -101,7 +102,9 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                                    analysis.mesh.sharp_edges);
     analysis.peak = headline(analysis);
     analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
-    analysis.zones = zones_of(analysis, scene.zones);
+    analysis.zones = divided(zones_of(analysis, scene.zones), analysis.responses.nodes,
+                             analysis.envelope.von_mises, analysis.places);
+    analysis.zone_causes = causes_of(analysis.zones, analysis.responses, analysis.loads.history);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
   });
   if (known.needs_submodels && !analysis.hot_spots.empty() && has_cells(analysis.responses))
@@ -128,6 +131,7 @@ BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, 
   require_finite(analysis.scene.name, analysis.envelope);
   analysis.peak = headline(analysis);
   analysis.zones = zones != nullptr ? zones_of(analysis, *zones) : Zones();
+  analysis.zone_causes.clear();
   analysis.diagrams.reset();
   const auto before = std::move(analysis.hot_spots);
   analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);

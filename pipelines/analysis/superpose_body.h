@@ -30,7 +30,7 @@ double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa);
 
 /// An analysis under other loads on the same responses: loads, closure, envelope, peak, hot spots and what
 /// they state of their own errors are new; diagrams and the error for load patches, which need the stress
-/// everywhere, are left out.
+/// everywhere, the causes of zones and their parts are left out.
 /// @param loads    with the channels of the analysis, in their order
 /// @param leading  what matters of the envelope: of each place that may lead the largest stress, zero or the
 ///                 stress at other nodes

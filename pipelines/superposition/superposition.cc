@@ -73,15 +73,6 @@ void find_shares(const double* unit, const ChannelHistory& loads, const Stress& 
   }
 }
 
-void check_channels(const ChannelHistory& loads, const fem::UnitResponses& responses) {
-  bool same = loads.channels.size() == responses.channels.size() &&
-              loads.values.rows() == Eigen::Index(loads.channels.size());
-  for (std::size_t k = 0; same && k < loads.channels.size(); ++k)
-    same = loads.channels[k].name == responses.channels[k];
-  if (!same)
-    throw std::invalid_argument("superposition: the load channels are not those of the unit responses");
-}
-
 /// Squares and cubes of stresses beyond these leave the range of numbers.
 constexpr double smallest_Pa = 1e-80, largest_Pa = 1e80;
 
@@ -132,6 +123,28 @@ Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& load
   return combine(unit_stress(responses, node), loads.values, instant);
 }
 
+void check_channels(const ChannelHistory& loads, const fem::UnitResponses& responses) {
+  bool same = loads.channels.size() == responses.channels.size() &&
+              loads.values.rows() == Eigen::Index(loads.channels.size());
+  for (std::size_t k = 0; same && k < loads.channels.size(); ++k)
+    same = loads.channels[k].name == responses.channels[k];
+  if (!same)
+    throw std::invalid_argument("superposition: the load channels are not those of the unit responses");
+}
+
+std::vector<double> blocked_factors(const Eigen::ArrayXXd& values,
+                                    const std::vector<Eigen::Index>& channels) {
+  static_assert(factors_block == kernel::block);
+  const auto n_instants = std::size_t(values.cols()), n_walked = channels.size();
+  const std::size_t n_blocks = (n_instants + kernel::block - 1) / kernel::block;
+  std::vector<double> factors(n_blocks * n_walked * kernel::block);
+  for (std::size_t i = 0; i < n_blocks * kernel::block; ++i)
+    for (std::size_t k = 0; k < n_walked; ++k)
+      factors[((i / kernel::block) * n_walked + k) * kernel::block + i % kernel::block] =
+          values(channels[k], Eigen::Index(std::min(i, n_instants - 1)));
+  return factors;
+}
+
 IndependentChannels independent_channels(const Eigen::ArrayXXd& values) {
   const Eigen::Index n = values.rows(), most = std::min(n, values.cols());
   IndependentChannels result;
@@ -172,13 +185,8 @@ EnvelopeWalk::EnvelopeWalk(const ChannelHistory& loads) : loads_(&loads) {
   }
   const auto& values = this->loads().values;
   independent_ = independent_channels(values);
-  const auto n_instants = std::size_t(values.cols()), n_walked = independent_.channels.size();
-  n_blocks_ = (n_instants + kernel::block - 1) / kernel::block;
-  factors_.resize(n_blocks_ * n_walked * kernel::block);
-  for (std::size_t i = 0; i < n_blocks_ * kernel::block; ++i)
-    for (std::size_t k = 0; k < n_walked; ++k)
-      factors_[((i / kernel::block) * n_walked + k) * kernel::block + i % kernel::block] =
-          values(independent_.channels[k], Eigen::Index(std::min(i, n_instants - 1)));
+  n_blocks_ = (std::size_t(values.cols()) + kernel::block - 1) / kernel::block;
+  factors_ = blocked_factors(values, independent_.channels);
 }
 
 const ChannelHistory& EnvelopeWalk::loads() const {

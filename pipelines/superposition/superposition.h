@@ -63,6 +63,15 @@ struct IndependentChannels {
 /// @param values  K x instants
 IndependentChannels independent_channels(const Eigen::ArrayXXd& values);
 
+/// Instants that the walks handle at once.
+inline constexpr std::size_t factors_block = 16;
+/// The values of some channels as the walks through the instants take them: blocks x channels x
+/// factors_block, the last block filled up with the last instant.
+std::vector<double> blocked_factors(const Eigen::ArrayXXd& values, const std::vector<Eigen::Index>& channels);
+
+/// @throws std::invalid_argument if the channels of the two do not agree
+void check_channels(const ChannelHistory& loads, const fem::UnitResponses& responses);
+
 /// The envelope of several bodies, or parts of one, under the same loads: what belongs to the loads is
 /// prepared once.
 class EnvelopeWalk {

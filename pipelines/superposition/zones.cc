@@ -4,35 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 
 #include "fem/stress/region_volume.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/superposition/disjoint_sets.h"
 
 namespace pipelines {
 namespace {
-
-/// Sets of nodes that grow together (union by smaller index, so that the result does not depend on the order
-/// of cells).
-class DisjointSets {
-public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t(0));
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::size_t> parent_;
-};
 
 /// A node shared by several features is named after the most specific one.
 int precedence(meshes::Feature::Kind kind) {
@@ -179,6 +158,12 @@ std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places
   return peak;
 }
 
+std::string feature_at(const fem::Nodes& nodes, const NodePlaces& places, std::size_t node) {
+  const std::int32_t feature =
+      places.feature[node] >= 0 ? places.feature[node] : nearest_feature(nodes, places, node);
+  return feature >= 0 ? places.feature_names[std::size_t(feature)] : std::string();
+}
+
 Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places,
                  double level_Pa, double yield_strength_Pa) {
   Zones result;
@@ -227,9 +212,7 @@ Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const No
     zone.stress_Pa = envelope.stress_Pa[node];
     zone.safety = yield_strength_Pa / zone.peak_Pa;
     zone.place = places.place[node];
-    const std::int32_t feature =
-        places.feature[node] >= 0 ? places.feature[node] : nearest_feature(nodes, places, node);
-    if (feature >= 0) zone.feature = places.feature_names[std::size_t(feature)];
+    zone.feature = feature_at(nodes, places, node);
     result.zones.push_back(zone);
     rank[root] = std::int32_t(result.zones.size());
   }

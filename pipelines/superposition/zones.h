@@ -29,8 +29,25 @@ struct NodePlaces {
 NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Feature>& features,
                         const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges);
 
+/// The feature that a node lies on, or of an interior one the nearest; empty if the body has none.
+std::string feature_at(const fem::Nodes& nodes, const NodePlaces& places, std::size_t node);
+
 /// From a point to the nearest of the edge's pieces.
 double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& edge);
+
+/// A connected region within a zone where the envelope is above a higher level (zone_parts.h).
+struct ZonePart {
+  std::string number;        ///< "1.2" in zone 1, "1.2.1" in that; siblings by descending peak
+  double level_Pa = 0;       ///< nodes of the part are at or above it
+  double share_of_peak = 0;  ///< the level, of the body's peak
+  std::size_t peak_node = 0;
+  double peak_Pa = 0;
+  std::array<double, 3> peak_m{};
+  std::int32_t instant = 0;  ///< of the peak
+  std::size_t n_nodes = 0;
+  std::string feature;            ///< the nearest feature or port
+  Place place = Place::interior;  ///< of the peak
+};
 
 /// One zone.
 struct Zone {
@@ -45,6 +62,7 @@ struct Zone {
   std::size_t n_nodes = 0;
   std::string feature;            ///< the nearest feature or port
   Place place = Place::interior;  ///< of the peak
+  std::vector<ZonePart> parts;    ///< every part before those within it; none until zones are divided
 };
 
 /// How many of a body's zones the terminal shows, with errors.

@@ -1,0 +1,68 @@
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/report/results.h"
+#include "pipelines/report/summary_values.h"
+#include "pipelines/report/zone_text.h"
+#include "pipelines/scene/effect_groups.h"
+
+namespace pipelines::summary {
+namespace {
+
+/// Groups only where one of them has several effects, as of the peak.
+Json shares_json(const ChannelHistory& loads, const StressShares& shares) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < loads.effects.size(); ++i)
+    json["effects"][loads.effects[i]] = number(shares.effects[i]);
+  if (any_sums(effect_groups(loads.effects)))
+    for (const auto& group : group_shares(loads.effects, shares.effects))
+      json["groups"][group.name] = number(group.share);
+  for (std::size_t i = 0; i < loads.channels.size(); ++i)
+    json["channels"][loads.channels[i].name] = number(shares.channels[i]);
+  return json;
+}
+
+Json moment_json(const RunReport& report, Eigen::Index instant) {
+  const auto moment = moment_of(report.scene, report.loads, instant);
+  return object({{"turn", moment.turn}, {"drive_angle_rad", moment.angle_rad}});
+}
+
+/// The amplitude has shares where there is one.
+Json causes_json(const RunReport& report, const ChannelHistory& loads, const ZoneCauses& causes) {
+  Json amplitude = object({{"value_Pa", number(causes.cycle.amplitude_Pa)}});
+  if (!causes.amplitude.effects.empty()) {
+    amplitude["from"] = moment_json(report, causes.cycle.from);
+    amplitude["to"] = moment_json(report, causes.cycle.to);
+    amplitude.update(shares_json(loads, causes.amplitude));
+  }
+  return object({{"peak", shares_json(loads, causes.peak)}, {"amplitude", amplitude}});
+}
+
+Json part_json(const RunReport& report, const ZonePart& part) {
+  Json json = object({{"zone", part.number},
+                      {"level_Pa", number(part.level_Pa)},
+                      {"peak_von_mises_Pa", number(part.peak_Pa)},
+                      {"nodes", part.n_nodes}});
+  json.update(place_and_moment(report, part.peak_m, part.feature, part.place, part.instant));
+  return json;
+}
+
+}  // namespace
+
+Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
+  Json json = Json::array();
+  for (const Zone& zone : analysis.zones.zones) {
+    const auto error = error_Pa(analysis, zone);
+    Json entry = object({{"peak_von_mises_Pa", number(zone.peak_Pa)},
+                         {"error_Pa", error ? number_or_none(*error) : Json(nullptr)},
+                         {"safety_against_yield", number_or_none(zone.safety)},
+                         {"volume_m3", number(zone.volume_m3)},
+                         {"nodes", zone.n_nodes}});
+    entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
+    if (json.size() < analysis.zone_causes.size())
+      entry["causes"] = causes_json(report, analysis.loads.history, analysis.zone_causes[json.size()]);
+    for (const auto& part : zone.parts) entry["parts"].push_back(part_json(report, part));
+    json.push_back(entry);
+  }
+  return json;
+}
+
+}  // namespace pipelines::summary

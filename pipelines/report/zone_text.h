@@ -1,0 +1,33 @@
+/// What brings a zone, in words: for the table on the terminal and the page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/analysis/body_analysis.h"
+
+namespace pipelines {
+
+struct NamedShare {
+  std::string name;
+  double share = 0;
+};
+
+/// Shares of effects in sum over their groups (effect_groups.h), in the order of the groups.
+/// @param shares  one per effect
+std::vector<NamedShare> group_shares(const std::vector<std::string>& effects,
+                                     const std::vector<double>& shares);
+
+/// "belt 83 %, drive 17 %": the largest three by size, without those below one percent; "others" has what
+/// is left, where that is not below it. Empty without shares.
+std::string largest_shares(std::vector<NamedShare> shares);
+
+/// "by belt 83 %, drive 17 %; amplitude 41.9 MPa by belt 100 %", by groups. Empty where there is one group
+/// only, or nothing known of the zone.
+/// @param zone  index
+std::string causes_text(const BodyAnalysis& analysis, std::size_t zone);
+
+/// "2 parts at 70 % of the peak, 3 at 90 %". Empty where the zone stays one piece.
+std::string parts_text(const Zone& zone);
+
+}  // namespace pipelines

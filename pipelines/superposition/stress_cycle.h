@@ -1,0 +1,43 @@
+/// The cycle of a stress history that fatigue counts first: the two instants whose stresses differ most.
+///
+/// The equivalent amplitude is half of the von Mises stress of that difference (the range of ASME VIII
+/// division 2, 5.5.3: component by component, then von Mises). It does not depend on axes, nor on a sign that
+/// is given to von Mises stress: alternating torsion counts whole, where a sign by principal stress flips
+/// with rounding.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "pipelines/superposition/superposition.h"
+
+namespace pipelines {
+
+struct StressCycle {
+  Eigen::Index from = 0, to = 0;  ///< instants, from < to; equal where the stress never changes
+  Stress half_range_Pa{};         ///< (s(to) - s(from)) / 2, by component
+  Stress mean_Pa{};               ///< (s(to) + s(from)) / 2
+  double amplitude_Pa = 0;        ///< von Mises stress of half_range_Pa
+  double signed_mean_Pa = 0;      ///< signed_von_mises_Pa of mean_Pa
+};
+
+/// Von Mises stress with a sign: v where the sum of the three normal stresses is not negative, -v where it is
+/// -v or less (compression along one axis or more), in between v + 2 times the sum. So pure shear is
+/// positive, and little compression beside it earns little: a mean that is not known to close cracks opens
+/// them.
+double signed_von_mises_Pa(const Stress& stress);
+
+/// The exact largest cycle: no pair of instants differs more. Of equal ones that which is found first from
+/// the instant of the largest von Mises stress.
+/// @param stress_Pa  6 x instants (xx, yy, zz, xy, yz, xz), at least one instant
+StressCycle largest_cycle(const Eigen::ArrayXXd& stress_Pa);
+
+/// The cycle between two given instants.
+StressCycle cycle_between(const Stress& from, const Stress& to, Eigen::Index first, Eigen::Index second);
+
+/// The stress seen along the largest cycle: 3/2 s(t) : r / sigma_v(r) with r the cycle's deviatoric range, so
+/// that the values at both ends differ by twice the amplitude. This is the series that rainflow counts; for
+/// proportional stress it is von Mises stress with its sign.
+/// @return one value per instant [Pa]; zeros where nothing changes
+Eigen::ArrayXd along_cycle_Pa(const Eigen::ArrayXXd& stress_Pa, const StressCycle& cycle);
+
+}  // namespace pipelines

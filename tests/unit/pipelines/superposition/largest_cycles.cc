@@ -1,0 +1,190 @@
+/// The largest stress cycle of a point and of many nodes: brute force over all pairs of instants, closed
+/// forms, and what must not depend on axes.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "pipelines/superposition/nodal_cycles.h"
+
+namespace {
+
+using Eigen::ArrayXXd;
+using Eigen::Index;
+using pipelines::Stress;
+
+Stress stress_at_instant(const ArrayXXd& history, Index i) {
+  return {history(0, i), history(1, i), history(2, i), history(3, i), history(4, i), history(5, i)};
+}
+
+double half_difference(const ArrayXXd& history, Index i, Index j) {
+  Stress half{};
+  for (Index c = 0; c < 6; ++c) half[std::size_t(c)] = (history(c, i) - history(c, j)) / 2;
+  return pipelines::von_mises_Pa(half);
+}
+
+double by_all_pairs(const ArrayXXd& history) {
+  double most = 0;
+  for (Index i = 0; i < history.cols(); ++i)
+    for (Index j = 0; j < i; ++j) most = std::max(most, half_difference(history, i, j));
+  return most;
+}
+
+/// A few harmonics in each component, with a mean.
+ArrayXXd random_course(std::mt19937& random, Index n) {
+  std::normal_distribution<double> normal;
+  ArrayXXd history(6, n);
+  for (Index c = 0; c < 6; ++c) {
+    const double mean = normal(random);
+    history.row(c) = mean;
+    for (int order = 1; order < 5; ++order) {
+      const double size = normal(random), phase = normal(random);
+      for (Index i = 0; i < n; ++i)
+        history(c, i) += size * std::cos(2 * M_PI * order * double(i) / double(n) + phase);
+    }
+  }
+  return 1e6 * history;
+}
+
+TEST(LargestCycle, IsThatOfAllPairs) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    const auto history = random_course(random, 1 + trial);
+    const auto cycle = pipelines::largest_cycle(history);
+    EXPECT_NEAR(cycle.amplitude_Pa, by_all_pairs(history), 1e-11 * cycle.amplitude_Pa) << trial;
+    EXPECT_LE(cycle.from, cycle.to);
+    EXPECT_NEAR(half_difference(history, cycle.from, cycle.to), cycle.amplitude_Pa,
+                1e-12 * cycle.amplitude_Pa);
+    // The range along the cycle is its own; no other instant leaves it by more than rounding.
+    const auto along = pipelines::along_cycle_Pa(history, cycle);
+    EXPECT_NEAR(along[cycle.to] - along[cycle.from], 2 * cycle.amplitude_Pa, 1e-11 * cycle.amplitude_Pa);
+    EXPECT_LE(along.maxCoeff() - along.minCoeff(), 2 * cycle.amplitude_Pa * (1 + 1e-11));
+  }
+}
+
+// sigma = S cos t: amplitude S, mean 0. tau = T cos t: sqrt(3) T, whatever its sign does to a principal
+// stress.
+TEST(LargestCycle, OfReversedTensionAndTorsionIsTheirVonMisesStress) {
+  for (const Index row : {0, 3}) {
+    ArrayXXd history = ArrayXXd::Zero(6, 48);
+    for (Index i = 0; i < 48; ++i) history(row, i) = 80e6 * std::cos(2 * M_PI * double(i) / 48);
+    const auto cycle = pipelines::largest_cycle(history);
+    EXPECT_NEAR(cycle.amplitude_Pa, (row == 0 ? 1 : std::sqrt(3.0)) * 80e6, 1);
+    EXPECT_NEAR(cycle.signed_mean_Pa, 0, 1);
+    EXPECT_EQ(cycle.to - cycle.from, 24);
+  }
+}
+
+// Bending S cos t with torsion T sin t: distances in an ellipse of half axes S and sqrt(3) T.
+TEST(LargestCycle, OfBendingAndTorsionAQuarterApartIsTheLargerHalfAxis) {
+  ArrayXXd history = ArrayXXd::Zero(6, 360);
+  for (Index i = 0; i < 360; ++i) {
+    history(2, i) = 100e6 * std::cos(M_PI * double(i) / 180) + 30e6;
+    history(4, i) = 70e6 * std::sin(M_PI * double(i) / 180);
+  }
+  const auto cycle = pipelines::largest_cycle(history);
+  EXPECT_NEAR(cycle.amplitude_Pa, std::sqrt(3.0) * 70e6, 1);
+  EXPECT_NEAR(cycle.signed_mean_Pa, 30e6, 1);
+}
+
+TEST(LargestCycle, MeansHaveTheSignOfTheirPressure) {
+  EXPECT_DOUBLE_EQ(pipelines::signed_von_mises_Pa({-50e6, 0, 0, 0, 0, 0}), -50e6);
+  EXPECT_DOUBLE_EQ(pipelines::signed_von_mises_Pa({50e6, 0, 0, 0, 0, 0}), 50e6);
+  // Torsion beside a pressure of a tenth: no reward for the whole of it.
+  const Stress pressed{-3.4e6, 0, 0, 20e6, 0, 0};
+  EXPECT_NEAR(pipelines::signed_von_mises_Pa(pressed), pipelines::von_mises_Pa(pressed) - 6.8e6, 1);
+  EXPECT_DOUBLE_EQ(pipelines::signed_von_mises_Pa({-50e6, -50e6, 0, 0, 0, 0}), -50e6);
+  for (const double tau : {-20e6, 20e6})  // pure shear, with rounding in its normal stresses
+    EXPECT_NEAR(pipelines::signed_von_mises_Pa({-1e-3, 1e-3, -1e-3, tau, 0, 0}), std::sqrt(3.0) * 20e6, 1);
+}
+
+TEST(LargestCycle, DoesNotDependOnAxes) {
+  std::mt19937 random(11);
+  const auto history = random_course(random, 90);
+  const Eigen::Matrix3d q = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.2).normalized().toRotationMatrix();
+  ArrayXXd turned(6, history.cols());
+  for (Index i = 0; i < history.cols(); ++i) {
+    const auto s = stress_at_instant(history, i);
+    Eigen::Matrix3d tensor;
+    tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+    const Eigen::Matrix3d t = q * tensor * q.transpose();
+    turned.col(i) << t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(0, 2);
+  }
+  const auto cycle = pipelines::largest_cycle(history), other = pipelines::largest_cycle(turned);
+  EXPECT_NEAR(cycle.amplitude_Pa, other.amplitude_Pa, 1e-12 * cycle.amplitude_Pa);
+  EXPECT_NEAR(cycle.signed_mean_Pa, other.signed_mean_Pa, 1e-11 * cycle.amplitude_Pa);
+}
+
+struct Nodal {
+  pipelines::ChannelHistory loads;
+  fem::UnitResponses responses;
+  std::vector<std::size_t> nodes;
+};
+
+/// @param n_harmonics  one: all channels are in phase or opposite, so stress is proportional
+Nodal nodal_problem(std::size_t n_nodes, Index n_channels, Index n_instants, bool proportional) {
+  Nodal p;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (Index k = 0; k < n_channels; ++k) {
+    p.loads.channels.push_back({"port.c" + std::to_string(k), "N"});
+    p.responses.channels.push_back(p.loads.channels.back().name);
+  }
+  p.responses.nodes.n = n_nodes;
+  for (std::size_t i = 0; i < n_nodes * std::size_t(n_channels) * 6; ++i)
+    p.responses.stress_Pa.push_back(1e6 * normal(random));
+  p.loads.effects = {"all"};
+  p.loads.values.resize(n_channels, n_instants);
+  for (Index k = 0; k < n_channels; ++k) {
+    const double size = normal(random), phase = proportional ? 0 : normal(random);
+    for (Index i = 0; i < n_instants; ++i)
+      p.loads.values(k, i) = size * std::cos(2 * M_PI * double(i) / double(n_instants) + phase);
+  }
+  p.loads.by_effect = {p.loads.values};
+  for (std::size_t i = 0; i < n_nodes; i += 2) p.nodes.push_back(i);
+  return p;
+}
+
+pipelines::NodalCycles walked(const Nodal& p, int n_threads) {
+  const auto envelope = pipelines::envelope(p.loads, p.responses, 1);
+  return pipelines::nodal_cycles(p.loads, p.responses, envelope.von_mises, p.nodes, n_threads);
+}
+
+// In one harmonic the path is an ellipse; of a proportional one the walks find the ends themselves.
+TEST(NodalCycles, AreExactOfProportionalStressAndNeverTooLarge) {
+  for (const bool proportional : {true, false}) {
+    const auto p = nodal_problem(301, 7, 101, proportional);
+    const auto found = walked(p, 1);
+    ASSERT_EQ(found.cycles.size(), p.nodes.size());
+    for (std::size_t i = 0; i < p.nodes.size(); ++i) {
+      const auto history = pipelines::stress_history_Pa(p.responses, p.loads, p.nodes[i]);
+      const double exact = by_all_pairs(history);
+      EXPECT_LE(found.cycles[i].amplitude_Pa, exact * (1 + 1e-11));
+      // Two walks start at the largest stress of the ellipse about zero: its larger axis.
+      EXPECT_GE(found.cycles[i].amplitude_Pa, exact * (proportional ? 1 - 1e-11 : 0.995));
+      EXPECT_NEAR(half_difference(history, found.cycles[i].from, found.cycles[i].to),
+                  found.cycles[i].amplitude_Pa, 1e-11 * exact);
+    }
+  }
+}
+
+TEST(NodalCycles, AreTheSameOnAnyNumberOfThreads) {
+  const auto p = nodal_problem(500, 9, 77, false);
+  const auto one = walked(p, 1), three = walked(p, 3);
+  for (std::size_t i = 0; i < p.nodes.size(); ++i) {
+    EXPECT_EQ(one.cycles[i].amplitude_Pa, three.cycles[i].amplitude_Pa);
+    EXPECT_EQ(one.cycles[i].from, three.cycles[i].from);
+  }
+}
+
+TEST(NodalCycles, OfStressThatDoesNotChangeAreZero) {
+  auto p = nodal_problem(10, 3, 40, false);
+  p.loads.values.colwise() = p.loads.values.col(5).eval();
+  p.loads.by_effect = {p.loads.values};
+  for (const auto& cycle : walked(p, 1).cycles) EXPECT_EQ(cycle.amplitude_Pa, 0);
+  p.responses.channels[1] = "another";
+  EXPECT_THROW(walked(p, 1), std::invalid_argument);
+}
+
+}  // namespace
