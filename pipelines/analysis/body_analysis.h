@@ -16,6 +16,7 @@
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/analysis/search_record.h"
 #include "pipelines/analysis/vibration.h"
+#include "pipelines/analysis/zone_causes.h"
 #include "pipelines/common/stage_clock.h"
 #include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/body_mesh.h"
@@ -56,6 +57,7 @@ struct DroppedBounds {
 };
 
 class AtomicFile;
+struct BodyFatigue;
 
 struct BodyAnalysis {
   BodyScene scene;
@@ -72,6 +74,7 @@ struct BodyAnalysis {
   NodePlaces places;
   Envelope envelope;
   Zones zones;
+  std::vector<ZoneCauses> zone_causes;      ///< of the first zones, in their order
   Peak peak;                                ///< largest von Mises stress outside the exclusion distances
   std::size_t principal_node = 0;           ///< largest principal stress, likewise
   std::vector<HotSpotStress> hot_spots;     ///< descending
@@ -80,7 +83,8 @@ struct BodyAnalysis {
   std::vector<PlaceStress> place_stresses;  ///< what is known of every place that may govern, with its error
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
   std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
-  std::optional<DroppedBounds> dropped;  ///< where effects = "auto" has dropped any
+  std::shared_ptr<const BodyFatigue> fatigue;  ///< where the scene asks for it
+  std::optional<DroppedBounds> dropped;        ///< where effects = "auto" has dropped any
   /// The mesh file of a solid until write_body_results gives it its name; it goes with the last copy.
   std::shared_ptr<AtomicFile> mesh_file;
 

@@ -15,6 +15,7 @@
 #include "meshes/keyed_shaft/keyway.h"
 #include "meshes/shaft/shaft_geometry.h"
 #include "pipelines/scene/body_options.h"
+#include "pipelines/scene/fatigue_scene.h"
 #include "pipelines/scene/pressure_pattern.h"
 
 namespace pipelines {
@@ -61,8 +62,9 @@ struct BodyScene {
       2;  ///< of the polynomials in a cell (fem::Body); 2 in every scene, accuracy studies take 1 and 3 too
   /// Cells cut into eight after meshing, cycle after cycle (fem::Body): a search chooses them.
   std::vector<std::vector<std::int32_t>> refinements;
-  int natural_frequencies = 0;  ///< how many to compute and compare with the loads; 0: none
-  std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
+  std::optional<FatigueScene> fatigue;  ///< where the scene asks for it
+  int natural_frequencies = 0;          ///< how many to compute and compare with the loads; 0: none
+  std::string difference_port;          ///< carries what the load stage's masses and the mesh's differ by
 
   /// Places where a search found that stress grows without bound: kept out of the peak like sharp edges.
   std::vector<meshes::SharpEdge> singular;

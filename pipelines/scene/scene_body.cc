@@ -2,6 +2,7 @@
 
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/scene_body_parts.h"
+#include "pipelines/scene/scene_fatigue.h"
 
 namespace pipelines {
 namespace {
@@ -78,6 +79,10 @@ BodyScene read_body(SceneTable& table, const BodyKind& kind, const Scene& scene,
   read_material(table.table("material"), body);
   read_solver(table, body);
   read_natural_frequencies(table, body);
+  body.fatigue =
+      read_fatigue(table, body.yield_strength_Pa, std::holds_alternative<ChamberShape>(body.shape));
+  if (body.fatigue && scene.run_up)
+    table.refuse("fatigue", "is judged for steady running; remove it, or the run-up");
   table.finish();
   return body;
 }

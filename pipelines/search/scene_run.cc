@@ -6,10 +6,12 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <set>
 #include <utility>
 
 #include "fem/beam/beam_responses.h"
+#include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/body_vibration.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/place_errors.h"
@@ -69,6 +71,7 @@ public:
     if (is_search() && !options_.only &&
         (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
       agree_at_last();
+    for (auto& analysis : run_.analyses) add_fatigue(analysis);
     for (const auto& warning : warnings_) run_.loaded.loads.warnings.push_back(warning);
     return std::move(run_);
   }
@@ -190,6 +193,18 @@ private:
     run_.loaded.meshed[i].model.reset();
   }
 
+  /// Fatigue, where the scene asks for it: of the final stresses.
+  void add_fatigue(BodyAnalysis& analysis) {
+    if (!analysis.scene.fatigue) return;
+    clock_.run("fatigue", [&] {
+      const auto& grid = run_.scene.sampling;
+      const auto& time_s = run_.loaded.loads.time_s;
+      const double step_s = time_s.size() > 1 ? time_s[1] - time_s[0] : 0;
+      analysis.fatigue = std::make_shared<const BodyFatigue>(judge_fatigue(
+          analysis, {step_s * double(time_s.size()), double(grid.turns)}, threads(options_.n_threads)));
+    });
+  }
+
   SearchStep record(std::size_t i, const GoverningStress& stress, const BodyAnalysis& analysis,
                     double seconds) const {
     return {fineness_text(run_.scene.bodies[i]),
@@ -235,11 +250,15 @@ private:
     if (!options_.second_model) return std::nullopt;
     return clock_.run("second model", [&]() -> std::optional<SecondModel> {
       std::optional<SecondModel> model;
-      const auto refusal = refusal_of([&] {
-        model = axisymmetric_second_model(run_.scene.bodies[i], run_.loaded.meshed[i],
-                                          run_.loaded.body_loads[i], tolerance(), options_.n_threads);
-      });
-      return refusal.empty() ? std::move(model) : std::nullopt;  // the solid has to do without
+      try {
+        const auto refusal = refusal_of([&] {
+          model = axisymmetric_second_model(run_.scene.bodies[i], run_.loaded.meshed[i],
+                                            run_.loaded.body_loads[i], tolerance(), options_.n_threads);
+        });
+        if (refusal.empty()) return model;
+      } catch (const std::bad_alloc&) {  // a strict tolerance asks for fine sections
+      }
+      return std::nullopt;  // the solid has to do without
     });
   }
 
@@ -408,13 +427,18 @@ private:
     }
     const Scene previous = std::exchange(run_.scene, std::move(next));
     exchange_mesh(i, std::move(finer));
-    try {
-      analysis = analyse(i);
-    } catch (const fem::DoesNotFit& error) {
-      search.ended = std::string("a finer mesh could not be solved: ") + error.what();
+    const auto without_finer_mesh = [&](const std::string& why) {
+      search.ended = "a finer mesh could not be solved: " + why;
       run_.scene = previous;
       exchange_mesh(i, mesh(i));
       return false;
+    };
+    try {
+      analysis = analyse(i);
+    } catch (const fem::DoesNotFit& error) {
+      return without_finer_mesh(error.what());
+    } catch (const std::bad_alloc&) {  // what is taken beside the solver's own
+      return without_finer_mesh("it does not fit into memory");
     }
     const bool same_loads = previous.sampling.instants_per_turn == run_.scene.sampling.instants_per_turn &&
                             previous.bodies[i].pressure_harmonics == run_.scene.bodies[i].pressure_harmonics;

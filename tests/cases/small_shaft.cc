@@ -2,15 +2,22 @@
 
 namespace cases {
 
+std::vector<SmallLoad> fixed_in_space(const std::string& effect, const std::string& port,
+                                      const std::string& force) {
+  return {{effect, port + ".fx", force, 1}, {effect, port + ".fy", force, 1, "90 deg"}};
+}
+
 std::string small_shaft(const std::vector<SmallLoad>& loads, const std::string& unit,
                         const std::string& speed, const std::string& keys) {
   std::string effects, entries;
   for (const auto& load : loads) {
-    effects += (effects.empty() ? "\"" : ", \"") + load.effect + "\"";
+    const auto name = "\"" + load.effect + "\"";
+    if (effects.find(name) == std::string::npos) effects += (effects.empty() ? "" : ", ") + name;
     entries += load.order == 0 ? "[[machine.constants]]\n" : "[[machine.harmonics]]\n";
     entries += "effect = \"" + load.effect + "\"\nload = \"" + load.load + "\"\n";
     entries += (load.order == 0 ? "value" : "amplitude") + (" = \"" + load.size) + "\"\n";
     if (load.order > 0) entries += "order = " + std::to_string(load.order) + "\n";
+    if (!load.phase.empty()) entries += "phase = \"" + load.phase + "\"\n";
   }
   const auto segment = [&](const std::string& what, const std::string& length) {
     return "  { " + what + ", diameter = \"10 " + unit + "\", length = \"" + length + " " + unit + "\" },\n";

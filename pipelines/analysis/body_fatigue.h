@@ -1,0 +1,79 @@
+/// Fatigue of a body's surface: amplitude and mean of the stress over the cycle, what the material endures
+/// there, and the life that follows, place by place.
+///
+/// Rules and sources: pipelines/fatigue/README.md. Stress is the local one (notches are in the mesh), so the
+/// endurance limit of the smooth specimen is met by support factor, roughness, treatment and mean stress
+/// alone (FKM, local stresses).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/superposition/nodal_cycles.h"
+
+namespace pipelines {
+
+/// What a scene's loads repeat.
+struct LoadPeriod {
+  double duration_s = 0;
+  double turns = 0;  ///< of the drive
+};
+
+/// The other rules beside FKM's: safety against endurance without j_D and reliability.
+struct SecondOpinions {
+  double goodman = 0, gerber = 0, soderberg = 0;  ///< with FKM's endurance limit at zero mean
+  double findley = 0;                             ///< critical plane; infinite without stress
+};
+
+/// The place of a surface (fillet, seat, ...) that fatigue uses up most.
+struct FatiguePlace {
+  std::string feature;
+  Place surface = Place::free_surface;
+  std::size_t node = 0;
+  std::array<double, 3> position_m{};
+  StressCycle cycle;             ///< exact: no pair of instants differs more
+  double gradient_per_m = 0;     ///< related stress gradient of the amplitude
+  double support = 1;            ///< n_sigma that it brings
+  double endurance_Pa = 0;       ///< sigma_AK: amplitude endured at this mean, reliability in it, j_D not
+  double safety = 0;             ///< sigma_AK / amplitude; infinite where nothing changes
+  double utilisation = 0;        ///< j_D / safety: 1 is what is allowed
+  double damage_per_turn = 0;    ///< of the drive, at the design limit sigma_AK / j_D; 0: endures
+  std::optional<double> life_s;  ///< none: endures
+  std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses over j_D
+  std::size_t n_counted = 0;          ///< rainflow cycles in a period
+  SecondOpinions others;
+  std::vector<double> effect_share;  ///< of the amplitude, in the order of ChannelHistory::effects; sums to 1
+  double error_share = 0;            ///< numerical error of the stress at the place; infinite: not known
+};
+
+/// A weld toe by its structural hot-spot stress over the cycle.
+struct WeldFatigue {
+  std::string name;
+  std::array<double, 3> toe_m{};
+  double class_Pa = 0, thickness_m = 0;
+  double range_Pa = 0;        ///< largest of the counted cycles
+  double angle_rad = 0;       ///< of the governing direction from the toe's normal, at most 60 degrees
+  bool is_principal = false;  ///< a principal direction of the range; else the toe's normal
+  std::size_t n_counted = 0;  ///< rainflow cycles in a period
+  double damage_per_turn = 0;
+  std::optional<double> life_s;       ///< none: endures
+  std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
+  double error_share = 0;             ///< numerical error of the stress; infinite: not known
+};
+
+struct BodyFatigue {
+  NodalCycles cycles;                    ///< of all nodes of the surface
+  std::vector<double> utilisation_at;    ///< of these nodes, without support by the gradient
+  std::vector<FatiguePlace> places;      ///< by falling utilisation
+  std::vector<WeldFatigue> welds;        ///< by rising life, then by falling range
+  std::vector<std::string> assumptions;  ///< sentences: rules, factors and defaults
+};
+
+/// @param analysis  with envelope, places and loads; its scene asks for fatigue
+/// @param period    of the loads
+BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period, int n_threads);
+
+}  // namespace pipelines

@@ -1,0 +1,250 @@
+#include "pipelines/report/fatigue_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ostream>
+
+#include "pipelines/analysis/error_text.h"
+#include "pipelines/files/csv.h"
+#include "pipelines/report/zone_text.h"
+
+namespace pipelines {
+namespace {
+
+constexpr std::size_t n_places_shown = 6;
+constexpr double seconds_per_hour = 3600;
+
+/// Safety of a place with amplitude or without: infinite ones say so.
+std::string safety_text(double safety) {
+  return std::isfinite(safety) ? fixed(safety, 2) : "-";
+}
+
+/// Life goes with the slope-th power of stress: what the stress's error makes of it, "4000 to 9000".
+std::string life_range(const FatiguePlace& place, double slope) {
+  if (!place.life_s) return "endures";
+  const double hours = *place.life_s / seconds_per_hour;
+  if (!(place.error_share < 1)) return fmt::format("{:.2g} h, not known well", hours);
+  return fmt::format("{:.2g} h ({:.2g} to {:.2g})", hours, hours * std::pow(1 + place.error_share, -slope),
+                     hours * std::pow(1 - place.error_share, -slope));
+}
+
+const GroupConstants& group_of(const BodyAnalysis& analysis) {
+  return constants_of(analysis.scene.fatigue->material.group);
+}
+
+template <typename Get>
+CsvColumn numbers(const char* name, const char* unit, const std::vector<FatiguePlace>& places, Get&& get) {
+  std::vector<double> cells;
+  for (const auto& place : places) cells.push_back(get(place));
+  return {name, unit, std::move(cells)};
+}
+
+template <typename Get>
+CsvColumn texts(const char* name, const char* unit, const std::vector<FatiguePlace>& places, Get&& get) {
+  std::vector<std::string> cells;
+  for (const auto& place : places) cells.push_back(get(place));
+  return {name, unit, std::move(cells)};
+}
+
+/// Empty where there is none: a place that endures has no life.
+std::string cell(double value) {
+  return std::isfinite(value) ? shortest(value) : std::string();
+}
+
+void print_welds(std::ostream& out, const BodyFatigue& fatigue) {
+  if (fatigue.welds.empty()) return;
+  out << fmt::format("\n  {:<40}{:>11}{:>12}{:>10}{:>9}  {}\n", "fatigue of weld toes", "range MPa",
+                     "thickness", "angle deg", "FAT", "life");
+  for (std::size_t i = 0; i < std::min(n_places_shown, fatigue.welds.size()); ++i) {
+    const auto& weld = fatigue.welds[i];
+    out << fmt::format("  {:<40}{:>11}{:>9.1f} mm{:>10.0f}{:>9.0f}  {}\n", weld.name,
+                       fixed(weld.range_Pa / 1e6, 1), 1e3 * weld.thickness_m, weld.angle_rad * 180 / M_PI,
+                       weld.class_Pa / 1e6, life_text(weld.life_s));
+  }
+}
+
+summary::Json welds_json(const BodyFatigue& fatigue) {
+  auto json = summary::Json::array();
+  for (const auto& weld : fatigue.welds)
+    json.push_back(summary::object(
+        {{"name", weld.name},
+         {"position_m", weld.toe_m},
+         {"class_Pa", summary::number(weld.class_Pa)},
+         {"thickness_m", summary::number(weld.thickness_m)},
+         {"range_Pa", summary::number(weld.range_Pa)},
+         {"angle_rad", summary::number(weld.angle_rad)},
+         {"principal", weld.is_principal},
+         {"counted_cycles", weld.n_counted},
+         {"damage_per_turn", summary::number(weld.damage_per_turn)},
+         {"life_h", weld.life_s ? summary::number(*weld.life_s / seconds_per_hour) : summary::Json(nullptr)},
+         {"life_safety", weld.life_safety ? summary::number(*weld.life_safety) : summary::Json(nullptr)},
+         {"stress_error", summary::number_or_none(weld.error_share)}}));
+  return json;
+}
+
+}  // namespace
+
+std::string life_text(const std::optional<double>& life_s) {
+  return life_s ? fmt::format("{:.2g} h", *life_s / seconds_per_hour) : "endures";
+}
+
+void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  if (!analysis.fatigue) return;
+  const auto& fatigue = *analysis.fatigue;
+  out << fmt::format("\n  {:<30}{:>13}{:>10}{:>12}{:>9}{:>13}  {}\n", "fatigue of the surface",
+                     "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation",
+                     "life at the design limit");
+  for (std::size_t i = 0; i < std::min(n_places_shown, fatigue.places.size()); ++i) {
+    const auto& place = fatigue.places[i];
+    out << fmt::format("  {:<30}{:>13}{:>10}{:>12}{:>9}{:>12.1f}%  {}\n", place.feature,
+                       fixed(place.cycle.amplitude_Pa / 1e6, 1), fixed(place.cycle.signed_mean_Pa / 1e6, 1),
+                       fixed(place.endurance_Pa / 1e6, 1), safety_text(place.safety), 100 * place.utilisation,
+                       life_range(place, group_of(analysis).slope_normal));
+  }
+  if (fatigue.places.empty()) return;
+  const auto& first = fatigue.places.front();
+  const auto at = [&](Eigen::Index instant) {
+    const auto moment = moment_of(report.scene, report.loads, instant);
+    return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / M_PI);
+  };
+  if (first.cycle.amplitude_Pa > 0)
+    out << fmt::format(
+        "    {}: from {} to {}; by {}; n_sigma {:.3f} at {:.3g}/mm; stress known to {}\n", first.feature,
+        at(first.cycle.from), at(first.cycle.to),
+        largest_shares(group_shares(analysis.loads.history.effects, first.effect_share)), first.support,
+        first.gradient_per_m * 1e-3,
+        std::isfinite(first.error_share) ? fmt::format("{:.1f} %", 100 * first.error_share) : "nothing");
+  if (first.life_safety)
+    out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
+                       *first.life_safety);
+  out << fmt::format(
+      "    safety by other rules, same limit: Findley {}, Goodman {}, Gerber {}, Soderberg {}\n",
+      safety_text(first.others.findley), safety_text(first.others.goodman), safety_text(first.others.gerber),
+      safety_text(first.others.soderberg));
+  print_welds(out, fatigue);
+  for (const auto& line : fatigue.assumptions) out << "    " << line << '\n';
+}
+
+summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis) {
+  using summary::figure;
+  using summary::number;
+  using summary::number_or_none;
+  using summary::object;
+  const auto& fatigue = *analysis.fatigue;
+  const auto& effects = analysis.loads.history.effects;
+  summary::Json json;
+  json["assumptions"] = fatigue.assumptions;
+  json["safety_factor"] = figure(analysis.scene.fatigue->safety, "1");
+  json["places"] = summary::Json::array();
+  for (const auto& place : fatigue.places) {
+    const auto moment = [&](Eigen::Index instant) {
+      const auto m = moment_of(report.scene, report.loads, instant);
+      return object({{"turn", m.turn}, {"drive_angle_rad", m.angle_rad}});
+    };
+    const auto life = place.life_s.value_or(std::numeric_limits<double>::infinity());
+    summary::Json shares = summary::Json::object();
+    for (std::size_t e = 0; e < effects.size(); ++e) shares[effects[e]] = number(place.effect_share[e]);
+    json["places"].push_back(object(
+        {{"feature", place.feature},
+         {"place", to_string(place.surface)},
+         {"position_m", place.position_m},
+         {"amplitude_Pa", number(place.cycle.amplitude_Pa)},
+         {"mean_Pa", number(place.cycle.signed_mean_Pa)},
+         {"half_range_Pa", place.cycle.half_range_Pa},
+         {"mean_tensor_Pa", place.cycle.mean_Pa},
+         {"from", moment(place.cycle.from)},
+         {"to", moment(place.cycle.to)},
+         {"related_gradient_1_m", number(place.gradient_per_m)},
+         {"support_factor", number(place.support)},
+         {"endurance_Pa", number(place.endurance_Pa)},
+         {"safety_against_endurance", number_or_none(place.safety)},
+         {"utilisation", number(place.utilisation)},
+         {"counted_cycles", place.n_counted},
+         {"damage_per_turn", number(place.damage_per_turn)},
+         {"damage_per_hour", number(place.life_s ? seconds_per_hour / *place.life_s : 0)},
+         {"life_turns", number_or_none(place.life_s ? 1 / place.damage_per_turn : life)},
+         {"life_h", number_or_none(life / seconds_per_hour)},
+         {"life_safety", number_or_none(place.life_safety.value_or(std::numeric_limits<double>::infinity()))},
+         {"safety_by", object({{"findley", number_or_none(place.others.findley)},
+                               {"goodman", number_or_none(place.others.goodman)},
+                               {"gerber", number_or_none(place.others.gerber)},
+                               {"soderberg", number_or_none(place.others.soderberg)}})},
+         {"stress_error", number_or_none(place.error_share)},
+         {"effect_share_of_amplitude", shares}}));
+  }
+  if (!fatigue.welds.empty()) json["welds"] = welds_json(fatigue);
+  return json;
+}
+
+void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& analysis) {
+  std::vector<std::string> names, lives;
+  std::vector<double> range, thickness, angle, fat, damage;
+  std::array<std::vector<double>, 3> toe;
+  for (const auto& weld : analysis.fatigue->welds) {
+    names.push_back(weld.name);
+    range.push_back(weld.range_Pa);
+    thickness.push_back(weld.thickness_m);
+    angle.push_back(weld.angle_rad);
+    fat.push_back(weld.class_Pa);
+    damage.push_back(weld.damage_per_turn);
+    lives.push_back(weld.life_s ? shortest(*weld.life_s / seconds_per_hour) : std::string());
+    for (std::size_t d = 0; d < 3; ++d) toe[d].push_back(weld.toe_m[d]);
+  }
+  write_csv(file, {{"toe", "", names},
+                   {"range", "Pa", range},
+                   {"thickness", "m", thickness},
+                   {"angle", "rad", angle},
+                   {"class", "Pa", fat},
+                   {"damage_per_turn", "", damage},
+                   {"life", "h", lives},
+                   {"x", "m", toe[0]},
+                   {"y", "m", toe[1]},
+                   {"z", "m", toe[2]}});
+}
+
+void write_fatigue(const std::filesystem::path& file, const Scene& scene, const kinetics::LoadHistory& loads,
+                   const BodyAnalysis& analysis) {
+  const auto& places = analysis.fatigue->places;
+  std::vector<CsvColumn> columns;
+  columns.push_back(texts("feature", "", places, [](const auto& p) { return p.feature; }));
+  columns.push_back(texts("place", "", places, [](const auto& p) { return to_string(p.surface); }));
+  columns.push_back(numbers("amplitude", "Pa", places, [](const auto& p) { return p.cycle.amplitude_Pa; }));
+  columns.push_back(numbers("mean", "Pa", places, [](const auto& p) { return p.cycle.signed_mean_Pa; }));
+  columns.push_back(numbers("endurance", "Pa", places, [](const auto& p) { return p.endurance_Pa; }));
+  columns.push_back(
+      texts("safety_against_endurance", "", places, [](const auto& p) { return cell(p.safety); }));
+  columns.push_back(numbers("utilisation", "", places, [](const auto& p) { return p.utilisation; }));
+  columns.push_back(numbers("damage_per_turn", "", places, [](const auto& p) { return p.damage_per_turn; }));
+  columns.push_back(texts("life", "h", places, [](const auto& p) {
+    return p.life_s ? shortest(*p.life_s / seconds_per_hour) : std::string();
+  }));
+  columns.push_back(texts("stress_error", "", places, [](const auto& p) { return cell(p.error_share); }));
+  columns.push_back(numbers("support_factor", "", places, [](const auto& p) { return p.support; }));
+  columns.push_back(
+      numbers("related_gradient", "1/m", places, [](const auto& p) { return p.gradient_per_m; }));
+  columns.push_back(
+      texts("safety_findley", "", places, [](const auto& p) { return cell(p.others.findley); }));
+  columns.push_back(
+      texts("safety_goodman", "", places, [](const auto& p) { return cell(p.others.goodman); }));
+  columns.push_back(texts("safety_gerber", "", places, [](const auto& p) { return cell(p.others.gerber); }));
+  columns.push_back(
+      texts("safety_soderberg", "", places, [](const auto& p) { return cell(p.others.soderberg); }));
+  for (std::size_t c = 0; c < 3; ++c) {
+    const char* const names[] = {"x", "y", "z"};
+    columns.push_back(numbers(names[c], "m", places, [&](const auto& p) { return p.position_m[c]; }));
+  }
+  const auto angle = [&](Eigen::Index instant) {
+    const auto moment = moment_of(scene, loads, instant);
+    return 2 * M_PI * (moment.turn - 1) + moment.angle_rad;
+  };
+  columns.push_back(
+      numbers("drive_angle_from", "rad", places, [&](const auto& p) { return angle(p.cycle.from); }));
+  columns.push_back(
+      numbers("drive_angle_to", "rad", places, [&](const auto& p) { return angle(p.cycle.to); }));
+  write_csv(file, columns);
+}
+
+}  // namespace pipelines

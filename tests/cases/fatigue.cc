@@ -1,0 +1,186 @@
+// Fatigue as `millstress run` states it: closed forms of rotating bending and torsion, what other rules say,
+// the share of each effect, and what is refused.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/cases/small_shaft.h"
+
+using namespace cases;
+
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string steel_that_counts =
+    "[shaft.fatigue]\ntensile_strength = \"600 MPa\"\nroughness = \"1 um\"\n";
+
+/// @param keys  of [shaft.fatigue] beside the strength
+Json fatigue_of(const fs::path& directory, const std::vector<SmallLoad>& loads, const std::string& keys = "",
+                std::string* out = nullptr) {
+  // Pressures without even harmonics, whose part under a seat does not reverse with the force.
+  const auto json =
+      run_small(directory,
+                "method = \"solid\"\n" + small_shaft(loads, "mm", "600 rpm", "pressure_harmonics = 0") +
+                    steel_that_counts + keys,
+                out);
+  return json.is_null() ? Json() : json["bodies"]["shaft"];
+}
+
+}  // namespace
+
+// A force fixed in space bends the shaft to and fro: mean zero, amplitude the peak. FKM by hand, with
+// R_m = 600 MPa: sigma_W = 0.45 R_m, K_R = 1 at 1 um, M = 0.35e-3 R_m - 0.1.
+TEST(Fatigue, OfRotatingBendingHasThePeakAsAmplitude) {
+  const results_test::Directory directory;
+  std::string out;
+  // By the shaft's own mass: under a seat the even part of the pressure would not reverse.
+  const auto shaft = fatigue_of(
+      directory.path, {{"pull", "volume.ax", "800 m/s2", 1}, {"pull", "volume.ay", "800 m/s2", 1, "90 deg"}},
+      "", &out);
+  const auto& place = shaft["fatigue"]["places"][0];
+  const double amplitude = place["amplitude_Pa"], peak = shaft["peak_von_mises"]["value"];
+  EXPECT_NEAR(amplitude, peak, 1e-9 * peak);
+  EXPECT_NEAR(place["mean_Pa"].get<double>(), 0, 1e-9 * peak);
+  const double gradient = place["related_gradient_1_m"];
+  EXPECT_NEAR(gradient, 2 / 0.01, 0.05 * 2 / 0.01) << "of a bar in bending: 2 / d";
+  const double exponent = 0.5 + 600. / 2700.;
+  const double support = 1 + std::sqrt(gradient * 1e-3) * std::pow(10, -exponent);
+  EXPECT_NEAR(place["support_factor"].get<double>(), support, 1e-12);
+  const double endurance = 0.45 * 600e6 * support;
+  EXPECT_NEAR(place["endurance_Pa"].get<double>(), endurance, 1e-9 * endurance);
+  EXPECT_NEAR(place["utilisation"].get<double>(), 1.5 * amplitude / endurance, 1e-12);
+  EXPECT_EQ(place["damage_per_turn"].get<double>(), 0) << "far below the limit";
+  EXPECT_TRUE(place["life_h"].is_null());
+  EXPECT_NEAR(place["safety_by"]["goodman"].get<double>(), endurance / amplitude,
+              1e-9 * endurance / amplitude);
+  EXPECT_NEAR(place["effect_share_of_amplitude"]["pull"].get<double>(), 1, 1e-12);
+  EXPECT_NE(out.find("endures"), std::string::npos) << out;
+  EXPECT_TRUE(fs::exists(directory / "out/shaft/fatigue.csv"));
+}
+
+TEST(Fatigue, OfALoadThatTurnsWithTheShaftHasNoAmplitude) {
+  const results_test::Directory directory;
+  const auto shaft = fatigue_of(directory.path, {{"pull", "middle.fy", "100 N", 0}});
+  const double peak = shaft["peak_von_mises"]["value"];
+  for (const auto& place : shaft["fatigue"]["places"]) {
+    EXPECT_NEAR(place["amplitude_Pa"].get<double>(), 0, 1e-12 * peak);
+    EXPECT_EQ(place["utilisation"].get<double>(), 0);
+    EXPECT_TRUE(place["life_h"].is_null());
+  }
+}
+
+// Above the limit: N = N_D (sigma_D / sigma_a)^5 turns with sigma_D the endurance over the safety factor, one
+// cycle a turn; twice the force has a life 32 times shorter, and its amplitude twice.
+TEST(Fatigue, LifeFollowsTheSlope) {
+  const results_test::Directory directory;
+  const auto of = [&](const char* force) {
+    const auto shaft =
+        fatigue_of(directory.path, fixed_in_space("pull", "middle", force), "wanted_life = \"2 h\"\n");
+    return shaft["fatigue"]["places"][0];
+  };
+  const auto once = of("700 N"), twice = of("1400 N");
+  ASSERT_GT(once["damage_per_turn"].get<double>(), 0) << once;
+  EXPECT_EQ(once["counted_cycles"], 1);
+  const double limit = once["endurance_Pa"].get<double>() / 1.5, amplitude = once["amplitude_Pa"];
+  const double turns = 1e6 * std::pow(limit / amplitude, 5);
+  EXPECT_NEAR(once["life_turns"].get<double>(), turns, 1e-9 * turns);
+  EXPECT_NEAR(once["life_h"].get<double>(), turns / 36000, 1e-9 * turns / 36000) << "600 turns a minute";
+  EXPECT_NEAR(twice["life_h"].get<double>() * 32, once["life_h"].get<double>(),
+              1e-8 * once["life_h"].get<double>());
+  const double wanted_turns = 2 * 36000;
+  EXPECT_NEAR(once["life_safety"].get<double>(), std::pow(turns / wanted_turns, 0.2), 1e-9);
+}
+
+// Bending amplitude with steady torsion: the mean is that of the torsion, positive, and lowers the limit by
+// M.
+TEST(Fatigue, ASteadyTorqueIsAMeanStress) {
+  const results_test::Directory directory;
+  auto loads = fixed_in_space("pull", "middle", "100 N");
+  loads.push_back({"twist", "middle.torque", "10 N m"});
+  const auto shaft = fatigue_of(directory.path, loads);
+  // Beside the port where the torque enters it is whole.
+  const auto& places = shaft["fatigue"]["places"];
+  const auto found =
+      std::find_if(places.begin(), places.end(), [](const auto& p) { return p["feature"] == "right"; });
+  ASSERT_NE(found, places.end());
+  const auto& place = *found;
+  const double amplitude = place["amplitude_Pa"], mean = place["mean_Pa"];
+  EXPECT_NEAR(mean, std::sqrt(3.0) * 16 * 10 / (M_PI * 1e-6), 0.05 * mean) << "16 T / (pi d^3)";
+  const double m = 0.35e-3 * 600 - 0.1, x = mean / amplitude;
+  const double factor = x <= 1   ? 1 / (1 + m * x)
+                        : x <= 3 ? (1 + m / 3) / (1 + m) / (1 + m * x / 3)
+                                 : (1 + m / 3) / ((1 + m) * (1 + m));
+  EXPECT_NEAR(place["endurance_Pa"].get<double>(),
+              0.45 * 600e6 * place["support_factor"].get<double>() * factor, 1);
+  EXPECT_NEAR(place["effect_share_of_amplitude"]["pull"].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(place["effect_share_of_amplitude"]["twist"].get<double>(), 0, 1e-9);
+}
+
+TEST(Fatigue, IsJudgedWhereItIsAskedForOnly) {
+  const results_test::Directory directory;
+  std::string out;
+  const auto json = run_small(
+      directory.path,
+      "method = \"solid\"\n" + small_shaft({{"pull", "middle.fy", "100 N"}}, "mm", "600 rpm", ""), &out);
+  EXPECT_FALSE(json["bodies"]["shaft"].contains("fatigue"));
+  EXPECT_FALSE(json["timing"].contains("fatigue"));
+  EXPECT_FALSE(fs::exists(directory / "out/shaft/fatigue.csv"));
+}
+
+TEST(Fatigue, RefusesWhatItCannotJudge) {
+  const results_test::Directory directory;
+  const auto refusal = [&](const std::string& keys) {
+    write(directory / "scene.toml",
+          small_shaft({{"pull", "middle.fy", "100 N"}}, "mm", "600 rpm", "") + keys);
+    const auto run = millstress(directory.path, "run scene.toml -o out");
+    EXPECT_EQ(run.exit_code, 2) << keys << run.out;
+    return run.err;
+  };
+  const std::string table = "[shaft.fatigue]\n";
+  EXPECT_NE(refusal(table).find("shaft.fatigue.tensile_strength"), std::string::npos);
+  EXPECT_NE(refusal(table + "tensile_strength = \"200 MPa\"\n").find("yield_strength"), std::string::npos);
+  EXPECT_NE(refusal(steel_that_counts + "group = \"wood\"\n").find("is no material group"),
+            std::string::npos);
+  EXPECT_NE(refusal(steel_that_counts + "consequences = \"none\"\n").find("severe"), std::string::npos);
+  EXPECT_NE(refusal(steel_that_counts + "safety_factor = 2\ninspected = true\n").find("remove one"),
+            std::string::npos);
+  EXPECT_NE(refusal("[shaft.fatigue]\ntensile_strength = \"2 GPa\"\ngroup = \"wrought aluminium\"\n")
+                .find("the group's rules refuse it"),
+            std::string::npos);
+  EXPECT_NE(refusal(steel_that_counts + "casting_tested = true\n").find("no casting"), std::string::npos);
+  EXPECT_NE(refusal(steel_that_counts + "roughnes = \"1 um\"\n").find("roughness"), std::string::npos);
+  EXPECT_FALSE(fs::exists(directory / "out"));
+}
+
+// A chamber's toes: the range of the governing direction is not below that across the toe, which the run
+// states of the same history; life is the period over the damage; a toe that is not there is refused.
+TEST(Fatigue, WeldToesHaveAtLeastTheRangeAcrossThem) {
+  const results_test::Directory directory;
+  const auto chamber = chamber_alone({{"  \"gravity_shaft\", \"shaft_inertia\",", "  #"},
+                                      {"instants_per_turn = 120", "instants_per_turn = 24"},
+                                      {"cells_through_wall = 2", "cells_through_wall = 1"},
+                                      {"snapshots = 24", "snapshots = 0"},
+                                      {"pictures = true", "pictures = false"}});
+  const std::string table = "[chamber.fatigue]\ntensile_strength = \"510 MPa\"\n";
+  const auto json = run_small(directory.path, chamber + table);
+  const auto& body = json["bodies"]["chamber"];
+  const auto &spots = body["hot_spots"], &welds = body["fatigue"]["welds"];
+  ASSERT_GE(welds.size(), 2u);
+  ASSERT_EQ(welds.size(), spots.size());
+  for (const auto& weld : welds)
+    for (const auto& spot : spots) {
+      if (weld["name"] != spot["name"]) continue;
+      const double across = spot["normal_max_Pa"].get<double>() - spot["normal_min_Pa"].get<double>();
+      const double range = weld["range_Pa"];
+      EXPECT_GE(range, across * (1 - 1e-9)) << weld;
+      EXPECT_LE(std::abs(weld["angle_rad"].get<double>()), M_PI / 3 + 1e-9);
+      EXPECT_EQ(weld["class_Pa"].get<double>(), 90e6);
+      EXPECT_EQ(weld["damage_per_turn"].get<double>() > 0, !weld["life_h"].is_null());
+    }
+  EXPECT_TRUE(fs::exists(directory / "out/chamber/weld_fatigue.csv"));
+  write(directory / "scene.toml",
+        chamber + table + "[[chamber.fatigue.welds.toes]]\nname = \"nowhere\"\nclass = \"100 MPa\"\n");
+  const auto refused = millstress(directory.path, "run scene.toml -o out");
+  EXPECT_EQ(refused.exit_code, 2) << refused.out;
+  EXPECT_NE(refused.err.find("is no weld toe of this body"), std::string::npos) << refused.err;
+}
