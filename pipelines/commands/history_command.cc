@@ -10,10 +10,9 @@
 namespace pipelines {
 namespace {
 
-struct HistoryCommandOptions : SceneOptions {
+struct HistoryCommandOptions : WantedRun {
   std::vector<std::string> at;
   std::filesystem::path output, results;  ///< empty: the default
-  int n_threads = all_cores;
   bool json = false;
 };
 
@@ -26,7 +25,7 @@ void show_history(const HistoryCommandOptions& options, std::ostream& out) {
   std::optional<ToleranceNotMet> not_met;
   const auto results = results_directory(options.results, scene);
   try {
-    bring_up_to_date(options, results, options.n_threads);
+    bring_up_to_date(options, results);
   } catch (const ToleranceNotMet& error) {
     not_met = error;
   }
@@ -56,7 +55,7 @@ void add_history_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_option("--results", options->results,
                       "directory of the run; it is run first unless nothing has changed (default: "
                       "results/<scene>)");
-  add_threads_option(*command, options->n_threads, chosen);
+  add_run_options(*command, *options, chosen);
   command->add_flag("--json", options->json, "print JSON instead of the table");
   command->callback(to_choose(chosen, options, show_history));
 }

@@ -39,10 +39,8 @@
 namespace pipelines {
 namespace {
 
-struct RunCommandOptions : SceneOptions {
-  std::filesystem::path output;               ///< directory; empty: the default
-  std::string tolerance, time_limit, method;  ///< empty: the scene's
-  int n_threads = all_cores;
+struct RunCommandOptions : WantedRun {
+  std::filesystem::path output;  ///< directory; empty: the default
   bool fresh = false;
   bool json = false;
 };
@@ -235,11 +233,20 @@ void run(const RunCommandOptions& options, std::ostream& out) {
 
 }  // namespace
 
-void bring_up_to_date(const SceneOptions& scene, const std::filesystem::path& directory, int n_threads) {
+void add_run_options(CLI::App& command, WantedRun& options, ChosenCommand& chosen) {
+  add_threads_option(command, options.n_threads, chosen);
+  command.add_option("--tolerance", options.tolerance,
+                     "refine until the stress is known this well, like \"2 %\" (default: the scene's)");
+  command.add_option("--time-limit", options.time_limit,
+                     "stop refining in time, like \"60 s\" (default: the scene's)");
+  command.add_option("--method", options.method,
+                     "model of every body: auto, beam, axisymmetric or solid (default: the scene's)");
+}
+
+void bring_up_to_date(const WantedRun& wanted, const std::filesystem::path& directory) {
   RunCommandOptions options;
-  static_cast<SceneOptions&>(options) = scene;
+  static_cast<WantedRun&>(options) = wanted;
   options.output = directory;
-  options.n_threads = n_threads;
   std::ostringstream table;  // not shown
   run(options, table);
 }
@@ -249,13 +256,7 @@ void add_run_command(CLI::App& app, ChosenCommand& chosen) {
   auto* command =
       add_scene_command(app, "run", "everything: loads, mesh, stresses, zones, results", *options);
   add_results_option(*command, options->output);
-  add_threads_option(*command, options->n_threads, chosen);
-  command->add_option("--tolerance", options->tolerance,
-                      "refine until the stress is known this well, like \"2 %\" (default: the scene's)");
-  command->add_option("--time-limit", options->time_limit,
-                      "stop refining in time, like \"60 s\" (default: the scene's)");
-  command->add_option("--method", options->method,
-                      "model of every body: auto, beam, axisymmetric or solid (default: the scene's)");
+  add_run_options(*command, *options, chosen);
   command->add_flag("--fresh", options->fresh,
                     "reuse nothing of an earlier run, and compute even if nothing has changed");
   command->add_flag("--json", options->json, "print summary.json instead of the table");

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fem/values/cell_shares.h"
+#include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/files/vtk_files.h"
 #include "pipelines/report/results.h"
@@ -93,6 +94,22 @@ std::vector<double> hot_spot_values(const BodyAnalysis& analysis) {
   return values;
 }
 
+/// On the surface; NaN inside, where fatigue is not judged.
+void add_fatigue(Fields& fields, const BodyAnalysis& analysis) {
+  const auto& fatigue = *analysis.fatigue;
+  const std::size_t n = analysis.responses.nodes.n;
+  std::vector<double> amplitude(n, not_converged), mean(n, not_converged), utilisation(n, not_converged);
+  for (std::size_t i = 0; i < fatigue.cycles.nodes.size(); ++i) {
+    const auto node = fatigue.cycles.nodes[i];
+    amplitude[node] = fatigue.cycles.cycles[i].amplitude_Pa;
+    mean[node] = fatigue.cycles.cycles[i].signed_mean_Pa;
+    utilisation[node] = fatigue.utilisation_at[i];
+  }
+  fields.add_result("stress amplitude [Pa]", std::move(amplitude));
+  fields.add_result("mean stress [Pa]", std::move(mean));
+  fields.add_result("fatigue utilisation without support by gradient", std::move(utilisation));
+}
+
 FieldData governing_data(const BodyAnalysis& analysis) {
   const auto stress = governing_stress(analysis);
   FieldData data;
@@ -130,6 +147,7 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
   fields.add_result("stress at largest principal stress [Pa]", flatten(envelope.principal.stress_Pa), 6,
                     names_of_components);
   fields.add_result("effect share", envelope.effect_share, int(effects.size()), effects);
+  if (analysis.fatigue) add_fatigue(fields, analysis);
   if (!analysis.hot_spots.empty()) fields.add(hot_spot_field, hot_spot_values(analysis));
   const std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},
                                  {"turn of maximum", turn},

@@ -14,6 +14,7 @@
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/html_page.h"
 #include "pipelines/files/json_file.h"
+#include "pipelines/report/zone_text.h"
 
 namespace pipelines {
 namespace {
@@ -110,6 +111,34 @@ void add_effects(HtmlPage& page, const Json& peak) {
   page.table({"in sum", "share"}, sums);
 }
 
+/// Of "causes.peak" or "causes.amplitude".
+std::string brought_by(const Json& causes) {
+  std::vector<NamedShare> shares;
+  if (causes.contains("effects"))
+    for (const auto& [name, share] : causes.at(causes.contains("groups") ? "groups" : "effects").items())
+      shares.push_back({name, share.get<double>()});
+  return largest_shares(std::move(shares));
+}
+
+void add_zone_causes(HtmlPage& page, const Json& zones) {
+  Rows rows;
+  for (const auto& zone : zones) {
+    if (!zone.contains("causes")) continue;
+    const auto& amplitude = zone.at("causes").at("amplitude");
+    rows.push_back({fmt::format("{}", rows.size() + 1), MPa(zone.at("peak_von_mises_Pa")),
+                    brought_by(zone.at("causes").at("peak")), MPa(amplitude.at("value_Pa")),
+                    brought_by(amplitude)});
+  }
+  page.table({"", "peak MPa", "brought by", "amplitude MPa", "brought by"}, rows);
+  Rows parts;
+  for (const auto& zone : zones)
+    if (zone.contains("parts"))
+      for (const auto& part : zone.at("parts"))
+        parts.push_back({part.at("zone").get<std::string>(), MPa(part.at("level_Pa")),
+                         MPa(part.at("peak_von_mises_Pa")), where(part), moment(part)});
+  page.table({"part", "above MPa", "peak MPa", "where", "when"}, parts);
+}
+
 void add_zones(HtmlPage& page, const Json& body) {
   Rows rows;
   for (const auto& zone : body.at("zones"))
@@ -119,6 +148,7 @@ void add_zones(HtmlPage& page, const Json& body) {
                     zone.at("place").get<std::string>()});
   page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
   page.table({"", "peak MPa", "error MPa", "safety", "volume mm3", "where", "when", "surface"}, rows);
+  add_zone_causes(page, body.at("zones"));
 }
 
 void add_search(HtmlPage& page, const Json& body) {

@@ -7,8 +7,10 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary.h"
+#include "pipelines/report/zone_text.h"
 #include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
@@ -128,6 +130,8 @@ void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis&
                        fixed(zones[i].peak_Pa / 1e6, 1), error ? fixed(*error / 1e6, 1) : "-",
                        fixed(zones[i].safety, 2), zones[i].volume_m3 * 1e9,
                        "  " + when(report, zones[i].instant), to_string(zones[i].place));
+    for (const auto& text : {causes_text(analysis, i), parts_text(zones[i])})
+      if (!text.empty()) out << "       " << text << '\n';
   }
   if (zones.size() > n_zones_shown)
     out << fmt::format("       and {} more in zones.csv\n", zones.size() - n_zones_shown);
@@ -175,6 +179,7 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
   print_zones(out, report, analysis);
   if (analysis.vibration) print_vibration(out, *analysis.vibration);
   print_hot_spots(out, report, analysis);
+  print_fatigue(out, report, analysis);
   if (!analysis.diagrams) return;
   out << fmt::format("\n  {:<28}{:>16}{:>16}\n", "seat", "deflection mm", "slope mrad");
   for (const auto& seat : analysis.diagrams->seats)

@@ -10,6 +10,7 @@
 #include "pipelines/files/csv.h"
 #include "pipelines/loads/load_files.h"
 #include "pipelines/report/envelope_files.h"
+#include "pipelines/report/fatigue_report.h"
 
 namespace pipelines {
 namespace {
@@ -55,6 +56,40 @@ void write_zones(const path& file, const Scene& scene, const kinetics::LoadHisto
   for (std::size_t c = 0; c < 6; ++c)
     columns.push_back(
         column("sigma_" + tensor_components[c], "Pa", zones, [&](const Zone& z) { return z.stress_Pa[c]; }));
+  write_csv(file, columns);
+}
+
+/// Every zone with its parts below it, at the levels that they are above.
+void write_zone_tree(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
+                     const BodyAnalysis& analysis) {
+  std::vector<ZonePart> rows;
+  for (const auto& zone : analysis.zones.zones) {
+    ZonePart whole;
+    whole.number = std::to_string(&zone - analysis.zones.zones.data() + 1);
+    whole.level_Pa = analysis.zones.level_Pa;
+    whole.peak_Pa = zone.peak_Pa;
+    whole.peak_m = zone.peak_m;
+    whole.instant = zone.instant;
+    whole.n_nodes = zone.n_nodes;
+    whole.feature = zone.feature;
+    whole.place = zone.place;
+    rows.push_back(std::move(whole));
+    rows.insert(rows.end(), zone.parts.begin(), zone.parts.end());
+  }
+  std::vector<CsvColumn> columns;
+  columns.push_back(column("zone", "", rows, [](const ZonePart& p) { return p.number; }));
+  columns.push_back(column("level", "Pa", rows, [](const ZonePart& p) { return p.level_Pa; }));
+  columns.push_back(column("feature", "", rows, [](const ZonePart& p) { return p.feature; }));
+  columns.push_back(column("place", "", rows, [](const ZonePart& p) { return to_string(p.place); }));
+  columns.push_back(column("peak_von_mises", "Pa", rows, [](const ZonePart& p) { return p.peak_Pa; }));
+  columns.push_back(
+      column("turn", "", rows, [&](const ZonePart& p) { return moment_of(scene, loads, p.instant).turn; }));
+  columns.push_back(column("drive_angle", "rad", rows,
+                           [&](const ZonePart& p) { return moment_of(scene, loads, p.instant).angle_rad; }));
+  for (std::size_t c = 0; c < 3; ++c)
+    columns.push_back(
+        column(std::string(1, "xyz"[c]), "m", rows, [&](const ZonePart& p) { return p.peak_m[c]; }));
+  columns.push_back(column("nodes", "", rows, [](const ZonePart& p) { return std::int64_t(p.n_nodes); }));
   write_csv(file, columns);
 }
 
@@ -193,7 +228,11 @@ void write_body_results(const path& directory, const Scene& scene, const kinetic
   write_envelope_files(directory, scene, loads, analysis, n_pieces);
   write_cycle_files(directory, scene, loads, analysis);
   write_zones(directory / "zones.csv", scene, loads, analysis);
+  write_zone_tree(directory / "zone_tree.csv", scene, loads, analysis);
   if (!analysis.hot_spots.empty()) write_hot_spots(directory / "hot_spots.csv", scene, loads, analysis);
+  if (analysis.fatigue && !analysis.fatigue->welds.empty())
+    write_weld_fatigue(directory / "weld_fatigue.csv", analysis);
+  if (analysis.fatigue) write_fatigue(directory / "fatigue.csv", scene, loads, analysis);
   if (!analysis.diagrams) return;
   write_diagrams(directory / "diagrams.csv", analysis);
   write_torsion(directory, loads, analysis);

@@ -315,10 +315,12 @@ StressHistories read_stress_histories(const std::filesystem::path& results,
   std::vector<RunBody> bodies;
   for (const auto& [name, json] : summary.at("bodies").items()) {
     const auto file = results / name / "unit_responses.h5";
+    if (json.value("method", "solid") == "beam") {  // the file may be there, of a run before
+      histories.left_out.push_back(name + ": a beam keeps no unit responses; --method solid does");
+      continue;
+    }
     if (!std::filesystem::exists(file)) {
-      histories.left_out.push_back(
-          name +
-          ": unit_responses.h5 is not there: its model keeps none, or it was removed (run --fresh makes it)");
+      histories.left_out.push_back(name + ": unit_responses.h5 was removed; run --fresh makes it");
       continue;
     }
     auto responses = read_unit_responses(file, Hdf5Reader(file).text_attribute("/", "key"));
@@ -326,9 +328,11 @@ StressHistories read_stress_histories(const std::filesystem::path& results,
     auto channels = channels_of(loads, name, *responses, histories.time_s.size());
     bodies.push_back({name, json, std::move(*responses), std::move(channels)});
   }
-  if (bodies.empty())
-    throw StageRefused(
-        "the run keeps no unit responses: give it a model with a mesh, such as --method solid");
+  if (bodies.empty()) {
+    std::string reasons;
+    for (const auto& reason : histories.left_out) reasons += (reasons.empty() ? "" : "; ") + reason;
+    throw StageRefused("no body has a stress history: " + reasons);
+  }
   std::vector<HistoryPoint> points;
   for (const auto& body : bodies) {
     if (!wanted.empty()) break;
@@ -399,13 +403,19 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
     out << all.dump(2) << '\n';
     return;
   }
-  out << fmt::format("\n  {:<12}{:<26}{:<30}{:>14}{:>22}\n", "body", "point", "on", "von Mises MPa",
-                     "with its sign MPa");
+  std::array<std::size_t, 3> widths{4, 5, 2};  // of body, point and feature
+  for (const auto& [point, stress_Pa] : histories.points) {
+    const std::array<std::size_t, 3> sizes{point.body.size(), point.name.size(), point.feature.size()};
+    for (std::size_t c = 0; c < 3; ++c) widths[c] = std::max(widths[c], sizes[c]);
+  }
+  const auto [body, name, feature] = widths;
+  out << fmt::format("\n  {:<{}}  {:<{}}  {:<{}}  {:>13}  {:>20}\n", "body", body, "point", name, "on",
+                     feature, "von Mises MPa", "with its sign MPa");
   for (const auto& history : histories.points) {
     const auto with_sign = history.signed_von_mises_Pa();
     out << fmt::format(
-        "  {:<12}{:<26}{:<30}{:>14.2f}{:>22}\n", history.point.body, history.point.name,
-        history.point.feature, history.von_mises_Pa().maxCoeff() / 1e6,
+        "  {:<{}}  {:<{}}  {:<{}}  {:>13.2f}  {:>20}\n", history.point.body, body, history.point.name, name,
+        history.point.feature, feature, history.von_mises_Pa().maxCoeff() / 1e6,
         fmt::format("{:.2f} to {:.2f}", with_sign.minCoeff() / 1e6, with_sign.maxCoeff() / 1e6));
   }
   for (const auto& text : histories.left_out) out << "  without: " << text << '\n';

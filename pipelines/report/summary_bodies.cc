@@ -5,14 +5,14 @@
 #include "pipelines/analysis/energy_errors.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary_values.h"
+#include "pipelines/report/zone_text.h"
 #include "pipelines/scene/effect_groups.h"
 
 namespace pipelines::summary {
-namespace {
 
 Json place_and_moment(const RunReport& report, const std::array<double, 3>& position,
                       const std::string& feature, Place place, std::int32_t instant) {
@@ -23,6 +23,8 @@ Json place_and_moment(const RunReport& report, const std::array<double, 3>& posi
                  {"turn", moment.turn},
                  {"drive_angle_rad", moment.angle_rad}});
 }
+
+namespace {
 
 /// "total" of all sources, "numerical" of those that a finer run would mend, "model" of the others.
 Json budget_json(const ErrorBudget& budget) {
@@ -80,13 +82,9 @@ Json peak_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& effects = analysis.loads.history.effects;
   for (std::size_t i = 0; i < effects.size(); ++i)
     json["effect_share"][effects[i]] = number(peak.effect_share[i]);
-  if (const auto groups = effect_groups(effects); any_sums(groups))
-    for (const auto& group : groups) {
-      double sum = 0;
-      for (std::size_t i = 0; i < effects.size(); ++i)
-        if (contains(group.effects, effects[i])) sum += peak.effect_share[i];
-      json["effect_group_share"][group.name] = number(sum);
-    }
+  if (any_sums(effect_groups(effects)))
+    for (const auto& group : group_shares(effects, peak.effect_share))
+      json["effect_group_share"][group.name] = number(group.share);
   return json;
 }
 
@@ -106,21 +104,6 @@ Json principal_json(const RunReport& report, const BodyAnalysis& analysis) {
 
 std::array<double, 3> position_of(const fem::Nodes& nodes, std::size_t node) {
   return {nodes.xyz_m[3 * node], nodes.xyz_m[3 * node + 1], nodes.xyz_m[3 * node + 2]};
-}
-
-Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
-  Json json = Json::array();
-  for (const Zone& zone : analysis.zones.zones) {
-    const auto error = error_Pa(analysis, zone);
-    Json entry = object({{"peak_von_mises_Pa", number(zone.peak_Pa)},
-                         {"error_Pa", error ? number_or_none(*error) : Json(nullptr)},
-                         {"safety_against_yield", number_or_none(zone.safety)},
-                         {"volume_m3", number(zone.volume_m3)},
-                         {"nodes", zone.n_nodes}});
-    entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
-    json.push_back(entry);
-  }
-  return json;
 }
 
 Json torsion_json(const BodyAnalysis& analysis) {
@@ -225,6 +208,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
           {{"position_m", position_of(analysis.responses.nodes, part.node)}, {"weight", part.weight}}));
   }
   if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = budget_json(analysis.hot_spot_errors);
+  if (analysis.fatigue) json["fatigue"] = fatigue_json(report, analysis);
   for (const auto& edge : analysis.mesh.sharp_edges)
     json["singular"].push_back(object({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}}));
   for (const auto& figure : report.masses)

@@ -41,6 +41,13 @@ inline Json figure(double value, const std::string& unit) {
   return object({{"value", number(value)}, {"unit", unit}});
 }
 
+/// "feature", "place", "position_m", "turn", "drive_angle_rad".
+Json place_and_moment(const RunReport& report, const std::array<double, 3>& position,
+                      const std::string& feature, Place place, std::int32_t instant);
+
+/// bodies.<body>.zones, with the causes of the first zones, and the parts.
+Json zones_json(const RunReport& report, const BodyAnalysis& analysis);
+
 /// What bodies.<body> has.
 Json body_json(const RunReport& report, const BodyAnalysis& analysis);
 

@@ -17,9 +17,14 @@ Json history(const fs::path& directory, const std::string& arguments) {
   return run.exit_code == 0 ? Json::parse(run.out) : Json();
 }
 
+/// As a solid: cheap models keep no unit responses.
+std::string solid_shaft(const std::vector<SmallLoad>& loads) {
+  return "method = \"solid\"\n" + small_shaft(loads, "mm", "600 rpm", "");
+}
+
 /// A constant force in space, in the middle of a shaft that turns.
 std::string bent_shaft() {
-  return small_shaft({{"pull", "middle.fy", "100 N"}}, "mm", "600 rpm", "");
+  return solid_shaft(fixed_in_space("pull", "middle", "100 N"));
 }
 
 std::string refusal(const fs::path& directory, const std::string& arguments) {
@@ -48,7 +53,9 @@ TEST(Histories, AForceFixedInSpaceIsRotatingBending) {
   for (std::size_t i = 0; i < 24; ++i) {
     EXPECT_NEAR(table.at("drive_angle")[i], 15. * double(i), 1e-9);
     EXPECT_NEAR(table.at("time")[i], 0.1 * double(i) / 24, 1e-12);
-    EXPECT_NEAR(zz[i], -zz[(i + 12) % 24], 1e-9 * amplitude);
+    // Half the circumference carries the pressure: its even part does not turn back, and dies out from the
+    // seat.
+    EXPECT_NEAR(zz[i], -zz[(i + 12) % 24], 1e-5 * amplitude);
     const auto of = [&](const char* name) { return table.at(name)[i]; };
     const double von_mises =
         std::sqrt((std::pow(of("xx") - of("yy"), 2) + std::pow(of("yy") - of("zz"), 2) +
@@ -71,8 +78,7 @@ TEST(Histories, AForceFixedInSpaceIsRotatingBending) {
 TEST(Histories, ZonesHaveTheTensorOfTheRun) {
   const results_test::Directory directory;
   write(directory / "scene.toml",
-        small_shaft({{"pull", "middle.fy", "100 N"}, {"twist", "middle.torque", "3 N m", 2}}, "mm", "600 rpm",
-                    ""));
+        solid_shaft({{"pull", "middle.fy", "100 N"}, {"twist", "middle.torque", "3 N m", 2}}));
   const auto json = history(directory.path, "-o h");
   const auto zones = csv(directory / "results/scene/shaft/zones.csv");
   const auto n_zones = zones.at("zone").size();
@@ -124,7 +130,8 @@ TEST(Histories, RefuseWhatIsNoPointAndFilesOfAnotherRun) {
 
   // Loads of another run in the directory: the run sees it, and is run again.
   const auto own = results_test::bytes(directory / "results/scene/loads.h5");
-  write(directory / "other.toml", with_edits(bent_shaft(), {{"100 N", "90 N"}}));
+  write(directory / "other.toml", with_edits(bent_shaft(), {{"load = \"middle.fx\"\namplitude = \"100 N\"",
+                                                             "load = \"middle.fx\"\namplitude = \"90 N\""}}));
   ASSERT_EQ(millstress(directory.path, "run other.toml -o other").exit_code, 0);
   fs::copy_file(directory / "other/loads.h5", directory / "results/scene/loads.h5",
                 fs::copy_options::overwrite_existing);
@@ -136,12 +143,30 @@ TEST(Histories, RefuseWhatIsNoPointAndFilesOfAnotherRun) {
       1);
 }
 
+// Red if what a solid left in the directory is taken for the responses of the beam that came after it, or if
+// another run replaces one with options of its own.
+TEST(Histories, AreOfTheRunThatIsAskedFor) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", bent_shaft());
+  ASSERT_EQ(millstress(directory.path, "run scene.toml --tolerance none --method solid").exit_code, 0);
+  const auto own = results_test::bytes(directory / "results/scene/summary.json");
+  const auto kept = millstress(directory.path, "history scene.toml -o h --tolerance none --method solid");
+  EXPECT_EQ(kept.exit_code, 0) << kept.err;
+  EXPECT_EQ(results_test::bytes(directory / "results/scene/summary.json"), own) << "not run again";
+  EXPECT_TRUE(fs::exists(directory / "results/scene/shaft/unit_responses.h5"));
+  const auto text = refusal(directory.path, "scene.toml -o none --tolerance none --method beam");
+  EXPECT_NE(text.find("shaft: a beam keeps no unit responses; --method solid does"), std::string::npos)
+      << text;
+  EXPECT_FALSE(fs::exists(directory / "none"));
+}
+
 // The toes' stress is extrapolated from two nodes; the run's range across the toe is that of its tensor.
 TEST(Histories, WeldToesHaveTheExtrapolatedStress) {
   const results_test::Directory directory;
-  write(directory / "scene.toml", chamber_alone({}));
-  const auto run =
-      millstress(directory.path, "history scene.toml --json -o h --set tolerance='\"40 %\"'");
+  write(directory / "scene.toml", chamber_alone({{"instants_per_turn = 120", "instants_per_turn = 24"},
+                                                 {"snapshots = 24", "snapshots = 0"},
+                                                 {"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}}));
+  const auto run = millstress(directory.path, "history scene.toml --json -o h --tolerance '40 %'");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto json = Json::parse(run.out);
   const auto spots = summary(directory / "results/scene")["bodies"]["chamber"]["hot_spots"];

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/cases/program.h"
+#include "tests/cases/small_shaft.h"
 
 using namespace cases;
 
@@ -389,4 +390,20 @@ TEST(LoadStage, EffectsTellWhatCanGo) {
                        "effects '" + shipped("planetary_mill.toml").string() + "' --threshold '5 kg'")
                 .exit_code,
             2);
+}
+
+// Red if the reader tries a table at fewer instants than the scene has: harmonics between would be refused.
+TEST(LoadStage, ATableMayHaveHarmonicsUpToHalfTheInstants) {
+  const results_test::Directory directory;
+  const auto with_order = [&](int order) {
+    write(directory / "scene.toml", small_shaft({{"pull", "middle.fy", "100 N", order}}));
+    return millstress(directory.path, "loads scene.toml --json");
+  };
+  for (const int order : {4, 11}) {
+    const auto outcome = with_order(order);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  const auto refused = with_order(12);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("has 24 instants per turn"), std::string::npos) << refused.err;
 }

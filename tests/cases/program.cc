@@ -69,7 +69,8 @@ std::string on_its_own_mesh(const fs::path& directory, const std::string& argume
   const auto asks = [](const std::string& text, const std::string& what) {
     return text.find(what) != std::string::npos;
   };
-  if (command != "run" || asks(arguments, "--tolerance") || asks(arguments, "--time-limit")) return arguments;
+  const bool solves = command == "run" || command == "history";
+  if (!solves || asks(arguments, "--tolerance") || asks(arguments, "--time-limit")) return arguments;
   const auto file = scene[0] == '/' ? fs::path(scene) : directory / scene;
   if (fs::is_regular_file(file)) {
     const auto text = '\n' + results_test::bytes(file);
@@ -89,7 +90,8 @@ std::string two_ranks() {
 
 std::string shell_command(const Start& start) {
   auto arguments = start.arguments;
-  const bool solves = arguments.rfind("run ", 0) == 0 || arguments.rfind("accuracy ", 0) == 0;
+  const auto begins_with = [&](const char* command) { return arguments.rfind(command, 0) == 0; };
+  const bool solves = begins_with("run ") || begins_with("history ") || begins_with("accuracy ");
   if (solves && arguments.find("--threads") == std::string::npos) arguments += " --threads 1";
   const auto file = [&](const std::string& name) { return "'" + (start.directory / name).string() + "'"; };
   return "cd '" + start.directory.string() + "' && " + start.before + " && XDG_CACHE_HOME=" + file("cache") +

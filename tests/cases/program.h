@@ -50,7 +50,7 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Arguments of `run` with `--tolerance none` where neither they nor the scene ask for a tolerance or a time:
+/// Arguments of `run` or `history` with `--tolerance none` where neither they nor the scene ask for a tolerance or a time:
 /// what is tested is what becomes of one mesh.
 std::string on_its_own_mesh(const fs::path& directory, const std::string& arguments);
 
