@@ -25,6 +25,7 @@
 #include "pipelines/loads/load_files.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/pictures/picture.h"
+#include "pipelines/report/duty_report.h"
 #include "pipelines/report/envelope_files.h"
 #include "pipelines/report/html_report.h"
 #include "pipelines/report/results.h"
@@ -34,6 +35,7 @@
 #include "pipelines/report/torsion_report.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/requested_method.h"
+#include "pipelines/search/duty_run.h"
 #include "pipelines/search/scene_run.h"
 
 namespace pipelines {
@@ -174,7 +176,11 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   const FemEnvironment environment(options.n_threads);
   StagedResults staged(request.directory, body_names(scene));
   warn_of_earlier(staged);
-  auto run = run_scene(scene, {request.directory, options.n_threads, options.fresh, true, accuracy}, clock);
+  SceneRunOptions run_options{request.directory, options.n_threads, options.fresh, true, accuracy};
+  run_options.duty = !scene.duty.empty();
+  auto run = run_scene(scene, run_options, clock);
+  std::optional<DutyResult> duty;
+  if (run_options.duty) duty = run_duty(scene, run, options.n_threads, clock);
   warn_of_damage(run);
   learn_from(run);
   if (accuracy.by_default) warn_of_default(run);
@@ -197,10 +203,12 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
     record.warnings.push_back(fault);
   }
   clock.run("write", [&] { write_load_results(staged.folder(), loads, channels); });
+  if (duty) clock.run("write", [&] { write_duty(staged.folder() / "duty.csv", *duty); });
   const Scene reported = with_machine(run.scene, run.loaded.masses.machine);
   const auto torsion = torsion_of(reported, reported.machine, staged.folder(), clock);
   finish_run(request, staged,
-             {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings},
+             {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings,
+              duty ? &*duty : nullptr},
              torsion, std::move(record));
   if (!run.met() && !accuracy.by_default)
     throw ToleranceNotMet("the tolerance is not met; the results are kept");

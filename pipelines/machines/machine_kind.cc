@@ -33,6 +33,19 @@ bool MachineKind::has_samples() const {
   return false;
 }
 
+std::optional<kinetics::LoadHistory> MachineKind::start_up(const Scene&, const Machine&) const {
+  return std::nullopt;
+}
+
+std::string MachineKind::why_no_run_up_of_given_duration() const {
+  return "this machine's start is not computed over time; leave it out: the stress then goes from nothing to "
+         "that of running";
+}
+
+double MachineKind::drive_speed_rad_s(const Machine&) const {
+  return 0;
+}
+
 std::vector<kinetics::ResamplingError> MachineKind::resampling_errors(const Machine&,
                                                                       const kinetics::TimeGrid&) const {
   return {};

@@ -93,6 +93,15 @@ public:
     if (!scene.run_up) return MachineKind::loads(scene, machine);
     return kinetics::compute_run_up(scene.vibratory_mill(), scene.kinetics_effects(), *scene.run_up);
   }
+  std::optional<kinetics::LoadHistory> start_up(const Scene& scene, const Machine& machine) const override {
+    if (!scene.run_up) return std::nullopt;
+    return kinetics::compute_run_up(std::get<kinetics::VibratoryMill>(machine), scene.kinetics_effects(),
+                                    *scene.run_up);
+  }
+  std::string why_no_run_up_of_given_duration() const override { return ""; }
+  double drive_speed_rad_s(const Machine& machine) const override {
+    return std::get<kinetics::VibratoryMill>(machine).speed_rad_s;
+  }
   std::vector<kinetics::Spring> springs(const Machine& machine) const override {
     return std::get<kinetics::VibratoryMill>(machine).springs;
   }

@@ -186,6 +186,43 @@ std::string solved_by(const Json& body) {
          solver.at("reason").get<std::string>() + ")";
 }
 
+constexpr std::size_t n_rows_of_fatigue = 12;
+
+/// A quantity that may be missing: "-".
+std::string or_dash(const Json& value, double scale, const char* format) {
+  return value.is_null() ? "-" : number(value, scale, format);
+}
+
+void add_welds(HtmlPage& page, const Json& welds) {
+  Rows rows;
+  for (const auto& weld : welds) {
+    if (rows.size() == n_rows_of_fatigue) break;
+    rows.push_back({weld.at("name").get<std::string>(), number(weld.at("range_Pa"), 1e-6, "{:.1f}"),
+                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), or_dash(weld.at("life_h"), 1, "{:.3g}")});
+  }
+  page.table({"weld toe", "range MPa", "FAT MPa", "life h"}, rows);
+}
+
+/// Places and weld toes by falling use, where the scene asks for fatigue.
+void add_fatigue(HtmlPage& page, const Json& body) {
+  if (!body.contains("fatigue")) return;
+  const Json& fatigue = body.at("fatigue");
+  Rows rows;
+  for (const auto& place : fatigue.at("places")) {
+    if (rows.size() == n_rows_of_fatigue) break;
+    rows.push_back(
+        {place.at("feature").get<std::string>(), number(place.at("amplitude_Pa"), 1e-6, "{:.1f}"),
+         number(place.at("mean_Pa"), 1e-6, "{:.1f}"), number(place.at("endurance_Pa"), 1e-6, "{:.1f}"),
+         or_dash(place.at("safety_against_endurance"), 1, "{:.2f}"),
+         number(place.at("utilisation"), 100, "{:.0f}"), or_dash(place.at("life_h"), 1, "{:.3g}")});
+  }
+  page.heading(3, "Fatigue");
+  page.table({"place", "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation %", "life h"},
+             rows);
+  if (fatigue.contains("welds")) add_welds(page, fatigue.at("welds"));
+  for (const auto& line : fatigue.at("assumptions")) page.paragraph(line.get<std::string>());
+}
+
 void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
               const Json& body) {
   page.heading(2, "The " + name);
@@ -203,6 +240,7 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   add_search(page, body);
   add_effects(page, peak);
   add_seats(page, body);
+  add_fatigue(page, body);
 }
 
 void add_loads(HtmlPage& page, const Json& summary) {
@@ -248,6 +286,42 @@ void add_bearings(HtmlPage& page, const Json& summary) {
   page.heading(2, "Bearings");
   page.table({"bearing", "equivalent load N", "largest N", "L10h hours"}, rows);
   add_bearing_answers(page, summary.at("bearings"));
+}
+
+void add_duty_places(HtmlPage& page, const std::string& body, const Json& places) {
+  Rows rows;
+  for (const auto& place : places) {
+    if (rows.size() == n_rows_of_fatigue) break;
+    rows.push_back({place.at("feature").get<std::string>(),
+                    place.at("weld_toe").get<bool>() ? "weld toe" : "",
+                    number(place.at("damage_per_hour"), 1, "{:.3g}"),
+                    or_dash(place.at("life_h"), 1, "{:.3g}"), or_dash(place.at("life_safety"), 1, "{:.2f}")});
+  }
+  page.heading(3, body + ": life over all blocks");
+  page.table({"place", "", "damage per hour", "life h in operation", "safety against the wanted life"}, rows);
+}
+
+void add_duty(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("duty")) return;
+  const Json& duty = summary.at("duty");
+  page.heading(2, "Operating blocks");
+  Rows rows;
+  for (const auto& [name, block] : duty.at("blocks").items())
+    for (const auto& [body, stress] : block.at("bodies").items())
+      rows.push_back({name, number(block.at("share"), 100, "{:.4g}"),
+                      number(block.at("starts_per_day"), 1, "{:.4g}"), body,
+                      number(stress.at("von_mises").at("value"), 1e-6, "{:.1f}"),
+                      or_dash(stress.at("safety"), 1, "{:.2f}"), stress.at("feature").get<std::string>()});
+  page.table({"block", "share %", "starts per day", "body", "largest von Mises MPa", "safety", "at"}, rows);
+  if (duty.contains("places"))
+    for (const auto& [body, places] : duty.at("places").items()) add_duty_places(page, body, places);
+  if (!duty.contains("bearings")) return;
+  Rows bearings;
+  for (const auto& [name, bearing] : duty.at("bearings").items())
+    bearings.push_back(
+        {name, number(bearing.at("equivalent_load").at("value")),
+         bearing.at("L10h").is_null() ? "-" : number(bearing.at("L10h").at("value"), 1, "{:.0f}")});
+  page.table({"bearing over all blocks", "equivalent load N", "L10h hours"}, bearings);
 }
 
 void add_natural_frequencies(HtmlPage& page, const Json& summary) {
@@ -302,6 +376,7 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
     for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);
   add_loads(page, summary);
   add_bearings(page, summary);
+  add_duty(page, summary);
   add_natural_frequencies(page, summary);
   add_accuracy(page, accuracy);
   if (summary.contains("timing")) add_timing(page, summary);

@@ -7,6 +7,7 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/report/duty_report.h"
 #include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary.h"
@@ -223,6 +224,7 @@ void print_report(std::ostream& out, const RunReport& report) {
   print_effect_choice(out, report.scene, report.bodies);
   print_resampling(out, report);
   print_bearings(out, report);
+  if (report.duty != nullptr) print_duty(out, *report.duty);
   double total = 0;
   out << fmt::format("\n  {:<28}{:>12}\n", "stage", "seconds");
   for (const auto& cost : report.costs) {

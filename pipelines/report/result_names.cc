@@ -20,8 +20,9 @@ const std::string summary_name = "summary.json";
 const std::string torsion_folder = "torsion";
 
 bool is_run_file(const std::string& name) {
-  return contains({summary_name, "report.html", "loads.h5", "loads.csv", manifest_name, run_record_name},
-                  name);
+  return contains(
+      {summary_name, "report.html", "loads.h5", "loads.csv", "duty.csv", manifest_name, run_record_name},
+      name);
 }
 
 bool is_torsion_file(const std::string& name) {

@@ -9,6 +9,7 @@
 #include "pipelines/common/statistics.h"
 #include "pipelines/common/version.h"
 #include "pipelines/files/content_hash.h"
+#include "pipelines/report/duty_report.h"
 #include "pipelines/report/summary_values.h"
 #include "pipelines/scene/machine_kind.h"
 
@@ -123,6 +124,7 @@ std::string summary_json(const RunReport& report) {
     entry["L10h"] = bearing.life ? figure(bearing.life->hours, "h") : Json(nullptr);
     add_answers(entry, bearing.answers);
   }
+  if (report.duty != nullptr) json["duty"] = duty_json(*report.duty);
   for (const auto& cost : report.costs)
     json["timing"][cost.stage] =
         object({{"seconds", cost.seconds}, {"peak_memory_gigabytes", cost.peak_gigabytes}});

@@ -14,6 +14,8 @@
 
 namespace pipelines {
 
+struct DutyResult;
+
 /// What a run has come to; no bodies for the load stage alone.
 struct RunReport {
   const Scene& scene;
@@ -22,6 +24,7 @@ struct RunReport {
   const std::vector<MassFigure>& masses;  ///< of the load stage beside those of the meshes
   const std::vector<StageCost>& costs;
   std::vector<BearingResult> bearings = {};
+  const DutyResult* duty = nullptr;  ///< null: the scene has no operating blocks
 };
 
 /// The text of summary.json. Everything but `timing` is the same from run to run.

@@ -33,6 +33,7 @@ public:
   Setting(const std::string& text, const std::filesystem::path& file) : file_(file.string()) {
     const auto equals = text.find('=');
     key_ = trimmed(text.substr(0, equals));
+    shown_key_ = "--set " + key_;
     if (equals == std::string::npos || key_.empty()) refuse("is no setting; " + std::string(example));
     const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
     if (std::any_of(text.begin(), text.end(), is_control))
@@ -41,7 +42,18 @@ public:
     value_ = trimmed(text.substr(equals + 1));
     if (value_.empty()) refuse("has no value; " + std::string(example));
     split();
-    if (parts_.size() > most_parts) refuse("has a key of more than " + std::to_string(most_parts) + " parts");
+  }
+
+  /// @param shown_key  of the value, for errors
+  Setting(std::string key, TomlNode value, std::string shown_key, const std::filesystem::path& file)
+      : file_(file.string()),
+        key_(std::move(key)),
+        shown_key_(std::move(shown_key)),
+        node_(std::move(value)) {
+    value_ = node_->kind == TomlNode::Kind::text      ? node_->text
+             : node_->kind == TomlNode::Kind::boolean ? (node_->boolean ? "true" : "false")
+                                                      : node_->as_written;
+    split();
   }
 
   const std::string& key() const { return key_; }
@@ -89,7 +101,8 @@ public:
   }
 
   [[noreturn]] void refuse(const std::string& remedy) const {
-    throw SceneError({{file_, 0, 0, "--set " + key_, value_, remedy}});
+    const auto at = node_ ? node_->at : SourcePosition();
+    throw SceneError({{file_, at.line, at.column, shown_key_, value_, remedy}});
   }
 
 private:
@@ -151,6 +164,7 @@ private:
       }
     }
     if (!name.empty()) end_name();
+    if (parts_.size() > most_parts) refuse("has a key of more than " + std::to_string(most_parts) + " parts");
   }
 
   /// The key up to a part.
@@ -203,6 +217,7 @@ private:
   }
 
   TomlNode value() const {
+    if (node_) return *node_;
     if (auto node = toml_value()) return std::move(*node);
     TomlNode text;
     text.kind = TomlNode::Kind::text;
@@ -219,27 +234,52 @@ private:
     return node;
   }
 
-  std::string file_, key_, value_;
+  std::string file_, key_, shown_key_, value_;
+  std::optional<TomlNode> node_;  ///< of the scene; none: value_ is the command line's
   std::vector<Part> parts_;
 };
 
-}  // namespace
+/// The values below a table, each with its whole key.
+void collect(const TomlNode& table, const std::string& prefix, const std::string& shown_prefix,
+             const std::filesystem::path& file, std::vector<Setting>& settings) {
+  for (const auto& entry : table.entries) {
+    const auto key = prefix.empty() ? entry.key : prefix + "." + entry.key;
+    if (entry.value.kind == TomlNode::Kind::table)
+      collect(entry.value, key, shown_prefix, file, settings);
+    else
+      settings.emplace_back(key, entry.value, shown_prefix + "." + key, file);
+  }
+}
 
-void set_keys(TomlNode& root, const std::vector<std::string>& settings, const std::filesystem::path& file) {
+/// Of one array the last item is removed first: numbers are those of the file.
+void apply_all(const std::vector<Setting>& settings, TomlNode& root) {
   std::set<std::string> keys;
   std::vector<Setting> removals;
-  for (const auto& text : settings) {
-    const Setting setting(text, file);
+  for (const auto& setting : settings) {
     if (!keys.insert(setting.key()).second) setting.refuse("sets the key again; set it once");
     if (setting.removes())
       removals.push_back(setting);
     else
       setting.apply(root);
   }
-  // Of one array the last item first: numbers are those of the file.
   std::stable_sort(removals.begin(), removals.end(),
                    [](const Setting& a, const Setting& b) { return a.items() > b.items(); });
   for (const auto& removal : removals) removal.remove(root);
+}
+
+}  // namespace
+
+void set_keys(TomlNode& root, const std::vector<std::string>& settings, const std::filesystem::path& file) {
+  std::vector<Setting> all;
+  for (const auto& text : settings) all.emplace_back(text, file);
+  apply_all(all, root);
+}
+
+void set_entries(TomlNode& root, const TomlNode& table, const std::string& key,
+                 const std::filesystem::path& file) {
+  std::vector<Setting> all;
+  collect(table, "", key, file, all);
+  apply_all(all, root);
 }
 
 }  // namespace pipelines

@@ -21,4 +21,13 @@ namespace pipelines {
 ///   where what is removed or switched off is not there
 void set_keys(TomlNode& root, const std::vector<std::string>& settings, const std::filesystem::path& file);
 
+/// Values that a table of the scene gives to other keys of it ([[duty]]): each entry by its key, which may
+/// lead through tables (set.machine.drive.speed) or be quoted as for set_keys
+/// ("machine.springs[2].stiffness"). Values keep their place in the file. The texts "removed", and "on" or
+/// "off" of an effect, mean what they mean there.
+/// @param key  of the table, for errors: "duty[2].set"
+/// @throws SceneError as set_keys, at the value's place
+void set_entries(TomlNode& root, const TomlNode& table, const std::string& key,
+                 const std::filesystem::path& file);
+
 }  // namespace pipelines

@@ -62,6 +62,13 @@ public:
   /// Over the scene's period, or its run-up.
   /// @param machine  the scene's, with the masses that it leaves to a mesh
   virtual kinetics::LoadHistory loads(const Scene& scene, const Machine& machine) const;
+  /// Over one start from rest to the scene's running; empty: the machine has no transient there.
+  /// @param machine  the scene's, with the masses that it leaves to a mesh
+  virtual std::optional<kinetics::LoadHistory> start_up(const Scene& scene, const Machine& machine) const;
+  /// Why a scene cannot say how long a start takes; empty: it can, and start_up follows Scene::run_up.
+  virtual std::string why_no_run_up_of_given_duration() const;
+  /// Of the drive in steady running [rad/s]; 0 where it is not known.
+  virtual double drive_speed_rad_s(const Machine& machine) const;
   /// Whether the user brings the loads as samples: they need all their turns, none is too small to count, and
   /// quantities beside the resultants are loads too.
   virtual bool has_samples() const;

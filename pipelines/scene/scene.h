@@ -11,6 +11,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/scene/bearing_scene.h"
 #include "pipelines/scene/body_scene.h"
+#include "pipelines/scene/duty_scene.h"
 #include "pipelines/scene/machine.h"
 #include "pipelines/scene/method.h"
 #include "pipelines/scene/requested_accuracy.h"
@@ -96,6 +97,7 @@ struct Scene {
   std::optional<kinetics::RunUp> run_up;  ///< of a vibratory mill, instead of steady running
   bool drum_axes = false;  ///< of a planetary mill: the trunnions' load also in axes that turn with the drum
   std::vector<BearingScene> bearings;
+  std::vector<DutyBlock> duty;        ///< none: the scene's own running alone, for ever
   Method method = Method::automatic;  ///< the model of every body
   RequestedAccuracy accuracy;         ///< how well the stresses are to be known, and in what time
   ZoneRule zones;

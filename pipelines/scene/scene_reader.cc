@@ -14,6 +14,7 @@
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene.h"
 #include "pipelines/scene/scene_body.h"
+#include "pipelines/scene/scene_duty.h"
 #include "pipelines/scene/scene_stages.h"
 #include "pipelines/scene/scene_table.h"
 #include "pipelines/scene/scene_tree.h"
@@ -75,8 +76,8 @@ void refuse_machine(SceneTable& root, SceneTable& machine, const std::string& ty
     machine.refuse_missing("type", "is missing; add it: one of " + machine_types());
   else if (!type.empty())
     machine.refuse("type", "unknown machine; write one of " + machine_types());
-  for (const char* key :
-       {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit", "method", "sweep"})
+  for (const char* key : {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit",
+                          "method", "sweep", "duty"})
     root.know(key);
   for (const auto* kind : body_kinds())
     for (const auto& table : kind->tables()) root.know(table);
@@ -130,6 +131,10 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
   root.know("sweep");  // for the command of that name (sweep/sweep_request.h)
   scene.zones = read_zones(root.table_or_empty("zones"));
   read_results(root.table_or_empty("results"), scene);
+  if (findings.errors.empty())
+    read_duty(root, tree, scene, findings);
+  else
+    root.know("duty");
   root.finish();
 
   if (findings.errors.empty()) rehearse(scene, root, machine, bodies, version);

@@ -27,6 +27,7 @@
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/report/body_files.h"
 #include "pipelines/scene/why_not.h"
+#include "pipelines/search/duty_loads.h"
 #include "pipelines/search/local_refinement.h"
 #include "pipelines/search/peak_growth.h"
 #include "pipelines/search/place_history.h"
@@ -48,8 +49,9 @@ double seconds_since(Clock::time_point start) {
 class SceneRunner {
 public:
   SceneRunner(const Scene& scene, const SceneRunOptions& options, StageClock& clock)
-      : options_(options), clock_(clock), start_(Clock::now()) {
+      : options_(options), clock_(clock), start_(Clock::now()), as_read_(scene) {
     run_.scene = scene;
+    if (options_.duty) require_bodies_of_blocks(scene);
     for (const auto& body : scene.bodies) files_.emplace_back(options.directory / body.name);
   }
 
@@ -147,6 +149,7 @@ private:
 
   void load(std::vector<MeshedBody> meshed) {
     run_.loaded = load_bodies(run_.scene, std::move(meshed), clock_);
+    if (options_.duty) add_channels_of_blocks(as_read_, run_.scene, run_.loaded, clock_);
   }
 
   RunOptions options_of(std::size_t i) const {
@@ -485,6 +488,7 @@ private:
   SceneRunOptions options_;
   StageClock& clock_;
   Clock::time_point start_;
+  Scene as_read_;
   SceneRun run_;
   std::vector<BodyFiles> files_;
   std::vector<Method> methods_;  // by body

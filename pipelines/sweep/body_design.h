@@ -6,7 +6,9 @@
 #include <string>
 
 #include "pipelines/analysis/body_analysis.h"
+#include "pipelines/analysis/served_loads.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/search/found_body.h"
 #include "pipelines/search/scene_run.h"
 #include "pipelines/sweep/leading_stress.h"
 
@@ -32,14 +34,14 @@ public:
   }
 
   /// Puts the mesh, harmonics and instants that were found into the scene of another point.
-  void enter(Scene& scene, std::size_t i_body) const;
+  void enter(Scene& scene, std::size_t i_body) const { found_.enter(scene, i_body); }
 
   const MeshedBody& meshed() const { return meshed_; }
   const BodyAnalysis& analysis() const { return analysis_; }
   /// Cheap models have no responses that serve other points: their bodies are run anew.
   bool serves_other_points() const { return analysis_.method == Method::solid; }
   /// Whether its unit responses are those of all these loads.
-  bool covers(const BodyLoads& loads) const;
+  bool covers(const BodyLoads& loads) const { return served_->missing(loads).empty(); }
 
   /// Of which point the mesh was searched, as settings: "machine.drive.speed=1200 rpm"; "the scene" as it is.
   const std::string& searched_for() const { return searched_for_; }
@@ -53,14 +55,11 @@ public:
                         const ZoneRule* zones) const;
 
 private:
-  BodyLoads with_all_channels(BodyLoads loads) const;
-
   std::string searched_for_;
-  BodyScene found_;
-  int added_harmonics_ = 0, instants_per_turn_ = 0;
+  FoundBody found_;
   MeshedBody meshed_;
   BodyAnalysis analysis_;
-  std::map<std::string, std::string> unit_loads_;  ///< as text, by channel
+  std::optional<ServedLoads> served_;
   std::map<std::string, PlaceShare> shares_;
   std::shared_ptr<const LeadingStress> leading_;  ///< none of cheap models
 };

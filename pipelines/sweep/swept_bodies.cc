@@ -7,9 +7,9 @@
 
 #include "pipelines/analysis/respond.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/loads/same_body.h"
 #include "pipelines/scene/scene_tree.h"
 #include "pipelines/sweep/point_work.h"
-#include "pipelines/sweep/same_body.h"
 
 namespace pipelines {
 namespace {

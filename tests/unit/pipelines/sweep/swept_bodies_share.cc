@@ -3,8 +3,8 @@
 
 #include <regex>
 
+#include "pipelines/loads/same_body.h"
 #include "pipelines/scene/scene_tree.h"
-#include "pipelines/sweep/same_body.h"
 
 using namespace pipelines;
 

@@ -1,4 +1,4 @@
-#include "pipelines/sweep/same_body.h"
+#include "pipelines/loads/same_body.h"
 
 #include <algorithm>
 #include <tuple>

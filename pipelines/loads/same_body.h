@@ -1,4 +1,4 @@
-/// Whether two points of a sweep may share what was computed of a body.
+/// Whether two versions of a scene may share what was computed of a body.
 #pragma once
 
 #include "pipelines/scene/scene.h"

@@ -1,0 +1,55 @@
+/// Damage of a body over operating blocks and starts, summed by Palmgren and Miner.
+///
+/// All stresses come from one set of unit responses. A second of operation holds the share of each block, and
+/// in it share / period repetitions of the block's cycle and its starts. Cycles of all blocks are counted
+/// (rainflow) and go into one S-N curve together: a block above the knee lowers the limit for the others.
+///
+/// A start is the sequence from rest through its transient into running, counted as one repetition: what it
+/// adds to the cycle of running is its damage. So the one large cycle from rest to running and back is in it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/analysis/body_fatigue.h"
+
+namespace pipelines {
+
+/// One block on one body.
+struct BlockOnBody {
+  const ChannelHistory* running = nullptr;  ///< over a period, channels of the unit responses
+  const NodalMaximum* von_mises = nullptr;  ///< its envelope
+  LoadPeriod period;
+  double share = 0;                          ///< of the time in operation, (0, 1]
+  const ChannelHistory* starting = nullptr;  ///< over one start; null: none, or at once
+  double starts_per_s = 0;                   ///< of operation
+};
+
+/// What a block does to a place.
+struct BlockDamage {
+  double amplitude_Pa = 0;        ///< of the largest cycle; at weld toes half of the largest range
+  double damage_per_s = 0;        ///< of operation, by running
+  double starts_per_s = 0;        ///< damage, not number
+  double start_amplitude_Pa = 0;  ///< of the largest cycle of a start; 0: the block has none
+  double sum_per_s() const { return damage_per_s + starts_per_s; }
+};
+
+struct DutyPlace {
+  std::string feature;  ///< or weld toe
+  std::array<double, 3> position_m{};
+  bool is_weld = false;
+  std::vector<BlockDamage> blocks;    ///< in the order of the scene
+  double damage_per_s = 0;            ///< of operation, all together
+  std::optional<double> life_s;       ///< in operation; none: endures
+  std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
+  double error_share = 0;             ///< numerical error of the stress; infinite: not known
+};
+
+/// Every feature's worst node, and every weld toe; by falling damage, then by falling amplitude. The node is
+/// the one with most damage of those that some block uses up most; damage elsewhere on the feature is at most
+/// the sum of what each block does at its own worst node.
+/// @param analysis  whose scene asks for fatigue
+std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks);
+
+}  // namespace pipelines

@@ -1,0 +1,52 @@
+#include "pipelines/analysis/fatigue_rules.h"
+
+#include <algorithm>
+
+namespace pipelines {
+
+CyclicStress scalar(const StressCycle& cycle) {
+  return {cycle.amplitude_Pa, cycle.signed_mean_Pa};
+}
+
+FatigueRules::FatigueRules(const FatigueScene& scene)
+    : scene_(scene),
+      factor_(reliability_factor_of_97_5(scene.reliability) *
+              (scene.endurance_Pa ? *scene.endurance_Pa / reversed_strength_Pa(scene.material) : 1.0)) {}
+
+EnduranceLimit FatigueRules::limit(double gradient_per_m, const CyclicStress& stress) const {
+  SurfaceState surface;
+  surface.roughness_m = scene_.roughness_m;
+  surface.treatment_factor = scene_.treatment;
+  auto limit =
+      endurance_limit(scene_.material, StressKind::normal, gradient_per_m, surface, stress, scene_.safety);
+  limit.reversed_Pa *= factor_;
+  limit.amplitude_Pa *= factor_;
+  limit.utilisation /= factor_;
+  return limit;
+}
+
+std::vector<StressBlock> FatigueRules::counted(const Eigen::ArrayXd& along_Pa, const StressCycle& largest,
+                                               const EnduranceLimit& limit) const {
+  const auto cycles = kinetics::rainflow_repeating(along_Pa);
+  double most = 0;
+  for (const auto& cycle : cycles) most = std::max(most, cycle.range);
+  std::vector<StressBlock> blocks;
+  for (const auto& cycle : cycles) {
+    const double mean = cycle.range == most ? largest.signed_mean_Pa : cycle.mean;
+    const double amplitude_Pa =
+        equivalent_reversed_amplitude_Pa({cycle.range / 2, mean}, limit.mean_stress_sensitivity);
+    blocks.push_back({amplitude_Pa / limit.reversed_Pa, cycle.count});
+  }
+  return blocks;
+}
+
+SnCurve FatigueRules::design_curve(const std::vector<StressBlock>& blocks) const {
+  SnCurve curve{1 / scene_.safety, group().knee_cycles, group().slope_normal, group().second_slope_normal};
+  const bool above = std::any_of(blocks.begin(), blocks.end(), [&](const auto& block) {
+    return block.amplitude_Pa > curve.knee_amplitude_Pa;
+  });
+  if (above && !curve.second_slope) curve.second_slope = curve.slope;
+  return curve;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,38 @@
+/// The weld toes of a body as fatigue sees them: hot-spot stress for any loads, and the rules of each.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/fatigue/weld_fatigue.h"
+
+namespace pipelines {
+
+/// At failure under ranges of unlike size (IIW 4.3.1).
+constexpr double damage_sum_of_spectra = 0.5;
+
+struct WeldPlace {
+  std::string name;
+  std::array<double, 3> toe_m{};
+  Eigen::Matrix<double, 6, Eigen::Dynamic> unit_Pa;  ///< hot-spot stress of each unit load
+  Eigen::Vector3d surface_normal, across_toe;
+  WeldDetail detail;
+  double error_share = 0;  ///< numerical error of the stress; infinite: not known
+
+  /// Under loads with the channels of the unit responses.
+  ToeStress stress(const Eigen::ArrayXXd& factors) const {
+    return toe_stress(unit_Pa * factors.matrix(), surface_normal, across_toe);
+  }
+};
+
+/// Of all toes, in the order of BodyAnalysis::hot_spots.
+/// @throws StageRefused if the scene names a toe that the body does not have
+std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis);
+
+/// What is known of a stress's error at a place of the body, as a share; infinite: nothing.
+double error_share_of(const BodyAnalysis& analysis, const std::string& feature);
+
+}  // namespace pipelines

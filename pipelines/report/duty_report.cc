@@ -1,0 +1,187 @@
+#include "pipelines/report/duty_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <ostream>
+
+#include "pipelines/analysis/error_text.h"
+#include "pipelines/files/csv.h"
+#include "pipelines/report/fatigue_report.h"
+
+namespace pipelines {
+namespace {
+
+constexpr std::size_t n_duty_places_shown = 4;
+constexpr double hour_s = 3600, day_h = 24;
+
+void print_blocks(std::ostream& out, const DutyResult& duty) {
+  out << fmt::format("\n  {:<24}{:>8}{:>12}  {}\n", "operating block", "share", "starts/day",
+                     "largest von Mises stress");
+  for (const auto& block : duty.blocks) {
+    std::string stresses;
+    for (const auto& stress : block.stresses)
+      stresses += fmt::format("{}{} {} MPa (safety {}) at {}", stresses.empty() ? "" : "; ", stress.body,
+                              fixed(stress.value_Pa / 1e6, 1), fixed(stress.safety, 2), stress.feature);
+    out << fmt::format("  {:<24}{:>6.4g} %{:>12}  {}\n", block.name, 100 * block.share,
+                       block.starts_per_day > 0
+                           ? fmt::format("{:.4g}{}", block.starts_per_day, block.has_transient ? "" : " *")
+                           : "-",
+                       stresses);
+  }
+  const bool at_once = std::any_of(duty.blocks.begin(), duty.blocks.end(), [](const auto& block) {
+    return block.starts_per_day > 0 && !block.has_transient;
+  });
+  if (at_once) out << "    * from rest to running at once: no transient is in it\n";
+  if (duty.in_operation < 1 - 1e-9)
+    out << fmt::format("    in operation {:.4g} % of the time; lives are hours in operation\n",
+                       100 * duty.in_operation);
+}
+
+/// "coarse 80 %, starts of fine 15 %": the shares of the damage, the largest first.
+std::string causes_of(const DutyResult& duty, const DutyPlace& place) {
+  if (!(place.damage_per_s > 0)) return "no damage";
+  std::vector<std::pair<double, std::string>> causes;
+  for (std::size_t b = 0; b < place.blocks.size(); ++b) {
+    causes.emplace_back(place.blocks[b].damage_per_s, duty.blocks[b].name);
+    causes.emplace_back(place.blocks[b].starts_per_s, "starts of " + duty.blocks[b].name);
+  }
+  std::stable_sort(causes.begin(), causes.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, causes.size()); ++i)
+    if (const double share = causes[i].first / place.damage_per_s; share >= 0.005)
+      text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", causes[i].second, 100 * share);
+  return text;
+}
+
+void print_places(std::ostream& out, const DutyResult& duty) {
+  for (const auto& [body, places] : duty.places) {
+    out << fmt::format("\n  {:<40}{:>13}{:>14}  {}\n", body + " over all blocks", "amplitude MPa", "life",
+                       "damage by");
+    const auto n = std::min(n_duty_places_shown, places.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      double amplitude_Pa = 0;
+      for (const auto& block : places[i].blocks)
+        amplitude_Pa = std::max({amplitude_Pa, block.amplitude_Pa, block.start_amplitude_Pa});
+      out << fmt::format("  {:<40}{:>13.1f}{:>14}  {}\n",
+                         places[i].feature + (places[i].is_weld ? " (weld toe)" : ""), amplitude_Pa / 1e6,
+                         life_text(places[i].life_s), causes_of(duty, places[i]));
+      if (places[i].life_safety)
+        out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
+                           *places[i].life_safety);
+    }
+  }
+}
+
+void print_bearings(std::ostream& out, const DutyResult& duty) {
+  if (duty.bearings.empty()) return;
+  out << fmt::format("\n  {:<40}{:>18}{:>12}{:>16}\n", "bearings over all blocks", "equivalent load N",
+                     "L10h hours", "modified hours");
+  const auto hours = [](const std::optional<double>& life) {
+    return life ? fmt::format("{:.5g}", *life) : std::string("-");
+  };
+  for (const auto& bearing : duty.bearings)
+    out << fmt::format("  {:<40}{:>18.5g}{:>12}{:>16}\n", bearing.name, bearing.equivalent_load_N,
+                       hours(bearing.life_h), hours(bearing.modified_life_h));
+}
+
+double or_infinite(const std::optional<double>& value) {
+  return value.value_or(std::numeric_limits<double>::infinity());
+}
+
+summary::Json place_json(const DutyResult& duty, const DutyPlace& place) {
+  using summary::number;
+  using summary::number_or_none;
+  using summary::object;
+  summary::Json by_block = summary::Json::object();
+  for (std::size_t b = 0; b < place.blocks.size(); ++b)
+    by_block[duty.blocks[b].name] =
+        object({{"amplitude_Pa", number(place.blocks[b].amplitude_Pa)},
+                {"damage_per_hour", number(place.blocks[b].damage_per_s * hour_s)},
+                {"start_amplitude_Pa", number(place.blocks[b].start_amplitude_Pa)},
+                {"starts_damage_per_hour", number(place.blocks[b].starts_per_s * hour_s)}});
+  return object(
+      {{"feature", place.feature},
+       {"weld_toe", place.is_weld},
+       {"position_m", place.position_m},
+       {"damage_per_hour", number(place.damage_per_s * hour_s)},
+       {"life_h", number_or_none(or_infinite(place.life_s) / hour_s)},
+       {"life_days", number_or_none(or_infinite(place.life_s) / hour_s / day_h / duty.in_operation)},
+       {"life_safety", number_or_none(or_infinite(place.life_safety))},
+       {"stress_error", number_or_none(place.error_share)},
+       {"by_block", by_block}});
+}
+
+}  // namespace
+
+void print_duty(std::ostream& out, const DutyResult& duty) {
+  print_blocks(out, duty);
+  print_places(out, duty);
+  print_bearings(out, duty);
+}
+
+summary::Json duty_json(const DutyResult& duty) {
+  using summary::figure;
+  using summary::number;
+  using summary::number_or_none;
+  using summary::object;
+  summary::Json json;
+  json["in_operation"] = number(duty.in_operation);
+  for (const auto& block : duty.blocks) {
+    auto& entry = json["blocks"][block.name];
+    entry = object({{"share", number(block.share)},
+                    {"starts_per_day", number(block.starts_per_day)},
+                    {"start_transient", block.has_transient}});
+    for (const auto& stress : block.stresses)
+      entry["bodies"][stress.body] = object({{"von_mises", figure(stress.value_Pa, "Pa")},
+                                             {"feature", stress.feature},
+                                             {"safety", number_or_none(stress.safety)}});
+    for (const auto& bearing : block.bearings)
+      entry["bearings"][bearing.name] =
+          object({{"equivalent_load", figure(bearing.equivalent_load_N, "N")},
+                  {"L10h", bearing.life ? figure(bearing.life->hours, "h") : summary::Json(nullptr)}});
+  }
+  for (const auto& [body, places] : duty.places)
+    for (const auto& place : places) json["places"][body].push_back(place_json(duty, place));
+  for (const auto& bearing : duty.bearings)
+    json["bearings"][bearing.name] =
+        object({{"equivalent_load", figure(bearing.equivalent_load_N, "N")},
+                {"L10h", bearing.life_h ? figure(*bearing.life_h, "h") : summary::Json(nullptr)},
+                {"modified_life",
+                 bearing.modified_life_h ? figure(*bearing.modified_life_h, "h") : summary::Json(nullptr)}});
+  return json;
+}
+
+void write_duty(const std::filesystem::path& file, const DutyResult& duty) {
+  std::vector<std::string> bodies, features, kinds, lives;
+  std::vector<double> damage;
+  std::array<std::vector<double>, 3> position;
+  std::vector<std::vector<double>> running(duty.blocks.size()), starts(duty.blocks.size());
+  for (const auto& [body, places] : duty.places)
+    for (const auto& place : places) {
+      bodies.push_back(body);
+      features.push_back(place.feature);
+      kinds.push_back(place.is_weld ? "weld toe" : "surface");
+      damage.push_back(place.damage_per_s * hour_s);
+      lives.push_back(place.life_s ? shortest(*place.life_s / hour_s) : std::string());
+      for (std::size_t d = 0; d < 3; ++d) position[d].push_back(place.position_m[d]);
+      for (std::size_t b = 0; b < duty.blocks.size(); ++b) {
+        running[b].push_back(place.blocks[b].damage_per_s * hour_s);
+        starts[b].push_back(place.blocks[b].starts_per_s * hour_s);
+      }
+    }
+  std::vector<CsvColumn> columns{{"body", "", bodies},    {"feature", "", features},
+                                 {"kind", "", kinds},     {"damage_per_hour", "1/h", damage},
+                                 {"life", "h", lives},    {"x", "m", position[0]},
+                                 {"y", "m", position[1]}, {"z", "m", position[2]}};
+  for (std::size_t b = 0; b < duty.blocks.size(); ++b) {
+    columns.push_back({duty.blocks[b].name + ".running", "1/h", running[b]});
+    if (duty.blocks[b].starts_per_day > 0)
+      columns.push_back({duty.blocks[b].name + ".starts", "1/h", starts[b]});
+  }
+  write_csv(file, columns);
+}
+
+}  // namespace pipelines

@@ -1,0 +1,147 @@
+#include "pipelines/search/duty_loads.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinetics/run_up.h"
+#include "pipelines/common/errors.h"
+#include "pipelines/loads/same_body.h"
+#include "pipelines/scene/machine_kind.h"
+#include "pipelines/search/found_body.h"
+
+namespace pipelines {
+namespace {
+
+/// Steps of a run-up in a turn at full speed (kinetics/run_up.h), and the instants that are kept of it: as
+/// many as tell peaks to 1 %, cos(pi / 20) = 0.988.
+constexpr double steps_per_turn = 400, least_instants_per_turn = 20;
+constexpr double most_instants = 20'000;
+
+Scene scene_of_block(const DutyBlock& block, const Scene& as_read, const Scene& found) {
+  Scene scene = *block.scene;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    FoundBody(as_read.bodies[b], found, b).enter(scene, b);
+  if (!scene.effect_choice.offered.empty()) {  // effects = "auto": as the scene's own running has them
+    scene.effects = found.effects;
+    scene.effect_choice = found.effect_choice;
+  }
+  return scene;
+}
+
+/// @throws StageRefused naming the block where the work refuses
+template <typename Work>
+auto in_block(const DutyBlock& block, const Work& work) {
+  try {
+    return work();
+  } catch (const SceneError& error) {
+    throw StageRefused(block.origin + ": block \"" + block.name + "\": " + error.what());
+  } catch (const LoadsDoNotClose& error) {
+    throw StageRefused(block.origin + ": block \"" + block.name + "\": " + error.what());
+  } catch (const std::invalid_argument& error) {  // StageRefused, kinetics::MachineRefused
+    throw StageRefused(block.origin + ": block \"" + block.name + "\": " + error.what());
+  }
+}
+
+/// From rest to the block's speed.
+kinetics::RunUp run_up_of(double duration_s, double speed_rad_s) {
+  auto run = kinetics::ramp(0, speed_rad_s, duration_s);
+  const double turns_s = duration_s * speed_rad_s / (2 * M_PI);
+  const double per_instant = std::max(4.0, std::ceil(steps_per_turn * turns_s / most_instants));
+  if (per_instant > steps_per_turn / least_instants_per_turn)
+    throw StageRefused(fmt::format(
+        "its start takes as long as {:.0f} turns at full speed; at most {:.0f} are followed: give a shorter "
+        "duration",
+        turns_s, most_instants / least_instants_per_turn));
+  run.steps_per_instant = int(per_instant);
+  return run;
+}
+
+std::vector<BodyLoads> loads_of_start(const DutyBlock& block, Scene scene, const MassAgreement& masses,
+                                      const std::vector<MeshedBody>& meshed) {
+  if (!block.start) return {};
+  const auto& kind = kind_of(scene.machine);
+  if (block.start->duration_s)
+    scene.run_up = run_up_of(*block.start->duration_s, std::abs(kind.drive_speed_rad_s(masses.machine)));
+  const auto history = kind.start_up(scene, masses.machine);
+  if (!history) return {};
+  std::vector<BodyLoads> result;
+  for (std::size_t b = 0; b < meshed.size(); ++b) {
+    result.push_back(
+        distribute_body(scene, scene.bodies[b], *history, loaded_body(scene.bodies[b], meshed[b]), masses));
+    require_closed_loads(result.back(), meshed[b].regions);
+  }
+  return result;
+}
+
+/// To two turns at full speed, which have all channels of the whole.
+void shorten_start(DutyBlock& block) {
+  const double speed_rad_s = std::abs(kind_of(block.scene->machine).drive_speed_rad_s(block.scene->machine));
+  if (block.start && block.start->duration_s && speed_rad_s > 0)
+    block.start->duration_s = std::min(*block.start->duration_s, 4 * M_PI / speed_rad_s);
+}
+
+/// Channels with their unit loads that `own` lacks, with zero factors.
+void add_channels(const BodyLoads& other, BodyLoads& own) {
+  auto& history = own.history;
+  for (std::size_t k = 0; k < other.history.channels.size(); ++k) {
+    const auto& channel = other.history.channels[k];
+    const bool is_there = std::any_of(history.channels.begin(), history.channels.end(),
+                                      [&](const Channel& c) { return c.name == channel.name; });
+    if (is_there) continue;
+    history.channels.push_back(channel);
+    own.unit_loads.push_back(other.unit_loads[k]);
+    const auto n = Eigen::Index(history.channels.size());
+    const auto append_zeros = [n](Eigen::ArrayXXd& values) {
+      values.conservativeResize(n, Eigen::NoChange);
+      values.row(n - 1).setZero();
+    };
+    append_zeros(history.values);
+    for (auto& part : history.by_effect) append_zeros(part);
+  }
+}
+
+}  // namespace
+
+void require_bodies_of_blocks(const Scene& scene) {
+  for (const auto& block : scene.duty) {
+    bool same = block.scene->bodies.size() == scene.bodies.size();
+    for (std::size_t b = 0; same && b < scene.bodies.size(); ++b)
+      same = have_one_mesh(scene.bodies[b], block.scene->bodies[b]) &&
+             have_one_stiffness(scene, *block.scene, b);
+    if (!same)
+      throw StageRefused(block.origin + ": block \"" + block.name +
+                         "\" changes the shape, mesh, material or elastic feet of a body; blocks are "
+                         "operating points of one body: change keys of the machine or of effects only");
+  }
+}
+
+BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Scene& found,
+                          const std::vector<MeshedBody>& meshed, StageClock& clock) {
+  return in_block(block, [&] {
+    const auto scene = scene_of_block(block, as_read, found);
+    BlockLoads result;
+    auto loaded = load_bodies(scene, meshed, clock);
+    result.loads = std::move(loaded.loads);
+    result.running = std::move(loaded.body_loads);
+    result.bearings = std::move(loaded.bearings);
+    result.starting =
+        clock.run("loads", [&] { return loads_of_start(block, scene, loaded.masses, loaded.meshed); });
+    return result;
+  });
+}
+
+void add_channels_of_blocks(const Scene& as_read, const Scene& found, LoadedScene& loaded,
+                            StageClock& clock) {
+  for (auto block : found.duty) {
+    shorten_start(block);
+    const auto other = loads_of_block(block, as_read, found, loaded.meshed, clock);
+    for (std::size_t b = 0; b < loaded.body_loads.size(); ++b) {
+      add_channels(other.running[b], loaded.body_loads[b]);
+      if (!other.starting.empty()) add_channels(other.starting[b], loaded.body_loads[b]);
+    }
+  }
+}
+
+}  // namespace pipelines

@@ -1,0 +1,36 @@
+/// Loads of a scene's operating blocks on the bodies that the scene itself is solved for.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pipelines/common/stage_clock.h"
+#include "pipelines/loads/load_stage.h"
+#include "pipelines/scene/scene.h"
+
+namespace pipelines {
+
+/// One block on all bodies.
+struct BlockLoads {
+  kinetics::LoadHistory loads;          ///< of a period in steady running
+  std::vector<BodyLoads> running;       ///< in the order of Scene::bodies
+  std::vector<BodyLoads> starting;      ///< over one start; none: the block has none, or no transient in it
+  std::vector<BearingResult> bearings;  ///< in the order of Scene::bearings
+};
+
+/// Refuses blocks that change a body: its mesh and unit responses serve all of them.
+/// @throws StageRefused naming the block
+void require_bodies_of_blocks(const Scene& scene);
+
+/// @param as_read  the scene before a search chose meshes, harmonics and instants
+/// @param found    after it
+/// @param meshed   its bodies
+/// @throws as load_bodies, with the block's name; StageRefused if a start has too many turns
+BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Scene& found,
+                          const std::vector<MeshedBody>& meshed, StageClock& clock);
+
+/// Gives the scene's own loads the channels that only blocks have, with zero factors, so that their unit
+/// responses are solved too.
+void add_channels_of_blocks(const Scene& as_read, const Scene& found, LoadedScene& loaded, StageClock& clock);
+
+}  // namespace pipelines

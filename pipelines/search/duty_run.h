@@ -1,0 +1,14 @@
+/// The operating blocks of a scene on the bodies that a run has solved: one superposition for each block.
+#pragma once
+
+#include "pipelines/analysis/duty_result.h"
+#include "pipelines/search/scene_run.h"
+
+namespace pipelines {
+
+/// @param as_read  the scene that was run
+/// @param run      whose unit responses have the channels of the blocks (SceneRunOptions::duty)
+/// @throws StageRefused naming the block that does not fit
+DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, StageClock& clock);
+
+}  // namespace pipelines
