@@ -80,6 +80,11 @@ public:
   DutyPlace worst_of(const std::string& feature, const std::vector<std::size_t>& nodes) const {
     std::set<std::size_t> candidates;
     for (const auto& places : places_) candidates.insert(places.worst_of(nodes).node);
+    for (const auto& block : blocks_)
+      if (block.start_von_mises != nullptr)
+        candidates.insert(*std::max_element(nodes.begin(), nodes.end(), [&](std::size_t a, std::size_t b) {
+          return block.start_von_mises->value_Pa[a] < block.start_von_mises->value_Pa[b];
+        }));
     std::optional<DutyPlace> worst;
     for (const auto node : candidates) {
       auto place = at(node);

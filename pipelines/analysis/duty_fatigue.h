@@ -21,9 +21,10 @@ struct BlockOnBody {
   const ChannelHistory* running = nullptr;  ///< over a period, channels of the unit responses
   const NodalMaximum* von_mises = nullptr;  ///< its envelope
   LoadPeriod period;
-  double share = 0;                          ///< of the time in operation, (0, 1]
-  const ChannelHistory* starting = nullptr;  ///< over one start; null: none, or at once
-  double starts_per_s = 0;                   ///< of operation
+  double share = 0;                               ///< of the time in operation, (0, 1]
+  const ChannelHistory* starting = nullptr;       ///< over one start; null: none, or at once
+  double starts_per_s = 0;                        ///< of operation
+  const NodalMaximum* start_von_mises = nullptr;  ///< largest in a start, about; null: the block has none
 };
 
 /// What a block does to a place.
@@ -47,8 +48,8 @@ struct DutyPlace {
 };
 
 /// Every feature's worst node, and every weld toe; by falling damage, then by falling amplitude. The node is
-/// the one with most damage of those that some block uses up most; damage elsewhere on the feature is at most
-/// the sum of what each block does at its own worst node.
+/// the one with most damage of those that some block uses up most, or stresses most in a start; damage
+/// elsewhere on the feature is about at most the sum of what each block does at its own worst node.
 /// @param analysis  whose scene asks for fatigue
 std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks);
 

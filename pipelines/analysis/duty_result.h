@@ -10,9 +10,10 @@
 
 namespace pipelines {
 
-/// Largest von Mises stress of a body in a block, outside the exclusion distances.
+/// Largest von Mises stress of a body in a block: outside the exclusion distances, or at a weld toe.
 struct BlockStress {
   std::string body, feature;
+  bool is_hot_spot = false;  ///< structural stress of a weld toe
   double value_Pa = 0;
   double safety = 0;  ///< yield strength over it
 };

@@ -17,15 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-void check_toe_names(const BodyAnalysis& analysis) {
-  std::vector<std::string> names;
-  for (const auto& spot : analysis.hot_spots) names.push_back(spot.name);
-  for (const auto& [name, toe] : analysis.scene.fatigue->toes_by_name)
-    if (!contains(names, name))
-      throw StageRefused(analysis.scene.name + ".fatigue.welds.toes: \"" + name +
-                         "\" is no weld toe of this body; write one of " + listed(names));
-}
-
 }  // namespace
 
 double error_share_of(const BodyAnalysis& analysis, const std::string& feature) {
@@ -34,8 +25,17 @@ double error_share_of(const BodyAnalysis& analysis, const std::string& feature) 
   return std::numeric_limits<double>::infinity();
 }
 
+void require_toes(const BodyScene& body, const meshes::BodyMesh& mesh) {
+  if (!body.fatigue) return;
+  std::vector<std::string> names;
+  for (const auto& spot : mesh.hot_spots) names.push_back(spot.name);
+  for (const auto& [name, toe] : body.fatigue->toes_by_name)
+    if (!contains(names, name))
+      throw StageRefused(toe.origin + ": \"" + name + "\" is no weld toe of this body; write one of " +
+                         listed(names));
+}
+
 std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis) {
-  check_toe_names(analysis);
   if (analysis.hot_spots.empty()) return {};
   const auto& scene = analysis.scene.fatigue.value();
   const SurfaceSlopes surface(analysis.responses.nodes);

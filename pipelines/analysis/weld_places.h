@@ -28,8 +28,10 @@ struct WeldPlace {
   }
 };
 
+/// @throws StageRefused if the scene's fatigue names a toe that the body does not have
+void require_toes(const BodyScene& body, const meshes::BodyMesh& mesh);
+
 /// Of all toes, in the order of BodyAnalysis::hot_spots.
-/// @throws StageRefused if the scene names a toe that the body does not have
 std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis);
 
 /// What is known of a stress's error at a place of the body, as a share; infinite: nothing.

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <ostream>
 #include <sstream>
@@ -9,6 +10,7 @@
 
 #include "meshes/shaft/shaft_checks.h"
 #include "pipelines/accuracy/cost_forecast.h"
+#include "pipelines/analysis/weld_places.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/fem_environment.h"
 #include "pipelines/effects/body_effect_report.h"
@@ -19,6 +21,8 @@
 #include "pipelines/report/torsion_report.h"
 #include "pipelines/scene/body_effects.h"
 #include "pipelines/scene/machine_kind.h"
+#include "pipelines/search/duty_loads.h"
+#include "pipelines/superposition/factor_spectrum.h"
 
 namespace pipelines {
 namespace {
@@ -48,6 +52,35 @@ void print_scene(std::ostream& out, const Scene& scene) {
   for (const auto& warning : scene.warnings) out << "warning: " << warning << '\n';
 }
 
+/// How many instants know the crests of every channel, by the spectra of the factors.
+void print_instants(std::ostream& out, const Scene& scene, const ChannelHistory& loads) {
+  constexpr double share = 1e-3;
+  if (!can_be_transformed(loads.values.cols())) return;
+  const auto needed = instants_needed(loads, share);
+  const double turns = double(loads.values.cols()) / scene.sampling.instants_per_turn;
+  if (needed.channel.empty()) return;
+  out << fmt::format(
+      "  every channel is known to {:g} % between {:.0f} instants a turn; there are {} ({} {}, orders up to "
+      "{:.3g} a turn{})\n",
+      100 * share, std::ceil(needed.n_instants / turns), scene.sampling.instants_per_turn, needed.channel,
+      "asks for most", double(needed.highest) / turns,
+      needed.is_resolved ? "" : " and beyond: these instants do not resolve it");
+}
+
+/// Operating blocks with the loads that each brings; what a run would refuse is refused.
+void print_blocks(std::ostream& out, const Scene& scene, const std::vector<MeshedBody>& meshed) {
+  StageClock silent;
+  for (const auto& block : scene.duty) {
+    const auto loads = loads_of_block(with_short_start(block), scene, scene, meshed, silent);
+    out << fmt::format("\nblock {}: {:.4g} % of the time", block.name, 100 * block.share);
+    if (block.start)
+      out << fmt::format(", {:.4g} starts a day{}", block.start->per_day,
+                         loads.starting.empty() ? " from rest to running at once" : " with their run-up");
+    out << '\n';
+    print_load_warnings(out, loads.loads);
+  }
+}
+
 /// Mesh, masses, ports, cost and channels of one body.
 void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                 const MassAgreement& masses, const BodyLoads& loads) {
@@ -74,6 +107,7 @@ void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, co
       {channels.size(), std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn),
        springs_of(scene), &loads});
   print_effect_sizes(out, loads, meshed.regions);
+  print_instants(out, scene, loads.history);
   out << fmt::format("  {} channels\n", channels.size());
   for (const auto& channel : channels)
     out << fmt::format("    {}/{} [{}]\n", body.name, channel.name, channel.unit);
@@ -109,10 +143,12 @@ void tell_what_takes_long(const Scene& scene) {
 /// The mesh is a second's work and the only honest answer to what will be solved; it is made aside and thrown
 /// away.
 void check_bodies(std::ostream& out, Scene scene) {
+  require_bodies_of_blocks(scene);
   tell_what_takes_long(scene);
   const FemEnvironment environment(all_cores);
   const ScratchMeshes meshes(scene);
   const auto& meshed = meshes.bodies();
+  for (std::size_t i = 0; i < meshed.size(); ++i) require_toes(scene.bodies[i], meshed[i].mesh);
   const auto masses = agree_masses(scene, meshed);
   const double limit = negligible_share(scene.accuracy.tolerance);
   scene = with_effects_chosen(std::move(scene), meshed, limit);
@@ -123,6 +159,7 @@ void check_bodies(std::ostream& out, Scene scene) {
   try_torsion(scene, masses.machine);
   for (std::size_t i = 0; i < meshed.size(); ++i)
     print_body(out, scene, scene.bodies[i], meshed[i], masses, loaded.body_loads[i]);
+  print_blocks(out, scene, meshed);
 }
 
 /// Throws what a run would throw before it solves.

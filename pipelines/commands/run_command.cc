@@ -35,6 +35,7 @@
 #include "pipelines/report/torsion_report.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/requested_method.h"
+#include "pipelines/search/duty_loads.h"
 #include "pipelines/search/duty_run.h"
 #include "pipelines/search/scene_run.h"
 
@@ -172,6 +173,7 @@ void warn_of_damage(SceneRun& run) {
 
 void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   const auto& options = request.options;
+  require_bodies_of_blocks(scene);
   const auto accuracy = with_default(request.accuracy);
   const FemEnvironment environment(options.n_threads);
   StagedResults staged(request.directory, body_names(scene));

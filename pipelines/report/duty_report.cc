@@ -18,12 +18,13 @@ constexpr double hour_s = 3600, day_h = 24;
 
 void print_blocks(std::ostream& out, const DutyResult& duty) {
   out << fmt::format("\n  {:<24}{:>8}{:>12}  {}\n", "operating block", "share", "starts/day",
-                     "largest von Mises stress");
+                     "largest stress");
   for (const auto& block : duty.blocks) {
     std::string stresses;
     for (const auto& stress : block.stresses)
       stresses += fmt::format("{}{} {} MPa (safety {}) at {}", stresses.empty() ? "" : "; ", stress.body,
-                              fixed(stress.value_Pa / 1e6, 1), fixed(stress.safety, 2), stress.feature);
+                              fixed(stress.value_Pa / 1e6, 1), fixed(stress.safety, 2),
+                              stress.feature + (stress.is_hot_spot ? " (weld toe)" : ""));
     out << fmt::format("  {:<24}{:>6.4g} %{:>12}  {}\n", block.name, 100 * block.share,
                        block.starts_per_day > 0
                            ? fmt::format("{:.4g}{}", block.starts_per_day, block.has_transient ? "" : " *")
@@ -137,6 +138,7 @@ summary::Json duty_json(const DutyResult& duty) {
     for (const auto& stress : block.stresses)
       entry["bodies"][stress.body] = object({{"von_mises", figure(stress.value_Pa, "Pa")},
                                              {"feature", stress.feature},
+                                             {"weld_toe", stress.is_hot_spot},
                                              {"safety", number_or_none(stress.safety)}});
     for (const auto& bearing : block.bearings)
       entry["bearings"][bearing.name] =

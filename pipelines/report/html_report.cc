@@ -312,7 +312,7 @@ void add_duty(HtmlPage& page, const Json& summary) {
                       number(block.at("starts_per_day"), 1, "{:.4g}"), body,
                       number(stress.at("von_mises").at("value"), 1e-6, "{:.1f}"),
                       or_dash(stress.at("safety"), 1, "{:.2f}"), stress.at("feature").get<std::string>()});
-  page.table({"block", "share %", "starts per day", "body", "largest von Mises MPa", "safety", "at"}, rows);
+  page.table({"block", "share %", "starts per day", "body", "largest stress MPa", "safety", "at"}, rows);
   if (duty.contains("places"))
     for (const auto& [body, places] : duty.at("places").items()) add_duty_places(page, body, places);
   if (!duty.contains("bearings")) return;

@@ -13,6 +13,7 @@ namespace pipelines {
 struct WeldToeScene {
   double class_Pa = 90e6;        ///< FAT: range with 95 % survival at 2e6 cycles
   double partial_factor = 1.35;  ///< gamma_M on the class
+  std::string origin{};          ///< "file:line:column: key" of an entry for a single toe
 };
 
 struct FatigueScene {

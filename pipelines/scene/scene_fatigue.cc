@@ -99,6 +99,7 @@ void read_toes(SceneTable& table, FatigueScene& fatigue) {
       WeldToeScene toe = fatigue.toes;
       const auto name = entry.text("name");
       read_toe(entry, toe);
+      toe.origin = entry.origin();
       if (!name.empty() && !fatigue.toes_by_name.emplace(name, toe).second)
         entry.refuse("name", "has an entry already; give each weld toe one");
       entry.finish();

@@ -75,13 +75,6 @@ std::vector<BodyLoads> loads_of_start(const DutyBlock& block, Scene scene, const
   return result;
 }
 
-/// To two turns at full speed, which have all channels of the whole.
-void shorten_start(DutyBlock& block) {
-  const double speed_rad_s = std::abs(kind_of(block.scene->machine).drive_speed_rad_s(block.scene->machine));
-  if (block.start && block.start->duration_s && speed_rad_s > 0)
-    block.start->duration_s = std::min(*block.start->duration_s, 4 * M_PI / speed_rad_s);
-}
-
 /// Channels with their unit loads that `own` lacks, with zero factors.
 void add_channels(const BodyLoads& other, BodyLoads& own) {
   auto& history = own.history;
@@ -117,6 +110,13 @@ void require_bodies_of_blocks(const Scene& scene) {
   }
 }
 
+DutyBlock with_short_start(DutyBlock block) {
+  const double speed_rad_s = std::abs(kind_of(block.scene->machine).drive_speed_rad_s(block.scene->machine));
+  if (block.start && block.start->duration_s && speed_rad_s > 0)
+    block.start->duration_s = std::min(*block.start->duration_s, 4 * M_PI / speed_rad_s);
+  return block;
+}
+
 BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Scene& found,
                           const std::vector<MeshedBody>& meshed, StageClock& clock) {
   return in_block(block, [&] {
@@ -134,9 +134,8 @@ BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Sc
 
 void add_channels_of_blocks(const Scene& as_read, const Scene& found, LoadedScene& loaded,
                             StageClock& clock) {
-  for (auto block : found.duty) {
-    shorten_start(block);
-    const auto other = loads_of_block(block, as_read, found, loaded.meshed, clock);
+  for (const auto& block : found.duty) {
+    const auto other = loads_of_block(with_short_start(block), as_read, found, loaded.meshed, clock);
     for (std::size_t b = 0; b < loaded.body_loads.size(); ++b) {
       add_channels(other.running[b], loaded.body_loads[b]);
       if (!other.starting.empty()) add_channels(other.starting[b], loaded.body_loads[b]);

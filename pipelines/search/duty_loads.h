@@ -29,6 +29,9 @@ void require_bodies_of_blocks(const Scene& scene);
 BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Scene& found,
                           const std::vector<MeshedBody>& meshed, StageClock& clock);
 
+/// The block with a start of at most two turns at full speed, which has all channels of the whole.
+DutyBlock with_short_start(DutyBlock block);
+
 /// Gives the scene's own loads the channels that only blocks have, with zero factors, so that their unit
 /// responses are solved too.
 void add_channels_of_blocks(const Scene& as_read, const Scene& found, LoadedScene& loaded, StageClock& clock);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipelines/analysis/hot_spots.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/served_loads.h"
 #include "pipelines/common/errors.h"
@@ -16,8 +17,23 @@ constexpr double day_s = 86400;
 struct ServedBlock {
   BodyLoads running;
   std::optional<BodyLoads> starting;
-  NodalMaximum von_mises;
+  NodalMaximum von_mises, start_von_mises;  ///< in starts: of some of the instants
 };
+
+/// About so many instants of a start tell where it stresses most.
+constexpr Eigen::Index instants_looked_at = 720;
+
+ChannelHistory thinned(const ChannelHistory& history) {
+  const auto n = history.values.cols(), step = std::max<Eigen::Index>(1, n / instants_looked_at);
+  const Eigen::Index kept = (n + step - 1) / step;
+  const auto of = [&](const Eigen::ArrayXXd& values) -> Eigen::ArrayXXd {
+    return values(Eigen::all, Eigen::seqN(0, kept, step));
+  };
+  ChannelHistory result = history;
+  result.values = of(history.values);
+  for (auto& part : result.by_effect) part = of(part);
+  return result;
+}
 
 ServedBlock serve(const DutyBlock& block, const BodyAnalysis& analysis, BlockLoads& loads, std::size_t b,
                   int n_threads) {
@@ -32,14 +48,21 @@ ServedBlock serve(const DutyBlock& block, const BodyAnalysis& analysis, BlockLoa
   result.running = fitted(std::move(loads.running[b]));
   if (!loads.starting.empty()) result.starting = fitted(std::move(loads.starting[b]));
   result.von_mises = envelope(result.running.history, analysis.responses, threads(n_threads)).von_mises;
+  if (result.starting)
+    result.start_von_mises =
+        envelope(thinned(result.starting->history), analysis.responses, threads(n_threads)).von_mises;
   return result;
 }
 
-BlockStress stress_of(const BodyAnalysis& analysis, const NodalMaximum& von_mises) {
-  const auto node = peak_node(von_mises.value_Pa, analysis.places);
-  BlockStress stress{analysis.scene.name, "", von_mises.value_Pa[node], 0};
+BlockStress stress_of(const BodyAnalysis& analysis, const ServedBlock& block) {
+  const auto& largest_Pa = block.von_mises.value_Pa;
+  const auto node = peak_node(largest_Pa, analysis.places);
+  BlockStress stress{analysis.scene.name, "", false, largest_Pa[node], 0};
   if (const auto feature = analysis.places.feature[node]; feature >= 0)
     stress.feature = analysis.places.feature_names[std::size_t(feature)];
+  const auto spots = hot_spot_stresses(analysis.mesh.hot_spots, analysis.responses, block.running.history);
+  if (!spots.empty() && spots.front().von_mises_Pa > stress.value_Pa)
+    stress = {analysis.scene.name, spots.front().name, true, spots.front().von_mises_Pa, 0};
   stress.safety = analysis.scene.yield_strength_Pa / stress.value_Pa;
   return stress;
 }
@@ -70,7 +93,7 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
     clock.run("blocks", [&] {
       for (std::size_t k = 0; k < loads.size(); ++k) {
         served.push_back(serve(run.scene.duty[k], analysis, loads[k], b, n_threads));
-        result.blocks[k].stresses.push_back(stress_of(analysis, served.back().von_mises));
+        result.blocks[k].stresses.push_back(stress_of(analysis, served.back()));
       }
     });
     if (!analysis.scene.fatigue) continue;
@@ -80,7 +103,10 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
                         period_of(loads[k].loads, *run.scene.duty[k].scene),
                         result.blocks[k].share / result.in_operation,
                         served[k].starting ? &served[k].starting->history : nullptr,
-                        result.blocks[k].starts_per_day / (day_s * result.in_operation)});
+                        result.blocks[k].starts_per_day / (day_s * result.in_operation),
+                        !run.scene.duty[k].start ? nullptr
+                        : served[k].starting     ? &served[k].start_von_mises
+                                                 : &served[k].von_mises});
     result.places[analysis.scene.name] = clock.run("fatigue", [&] { return judge_duty(analysis, blocks); });
   }
   result.bearings = bearings_over_blocks(result.blocks, run.scene.bearings);

@@ -10,6 +10,7 @@
 #include "pipelines/common/name_lists.h"
 #include "pipelines/search/local_refinement.h"
 #include "pipelines/search/solid_refinement.h"
+#include "pipelines/superposition/factor_spectrum.h"
 
 namespace pipelines {
 namespace {
@@ -233,14 +234,36 @@ BodyScene guided_by(const SecondModel& model, const BodyScene& body) {
   return result;
 }
 
-OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const ErrorBudget& errors) {
+namespace {
+
+/// Factors on the number of instants; a multiple of twelve has short transforms.
+constexpr double least_more_instants = 1.5, most_more_instants = 8;
+constexpr double instants_of_a_kind = 12;
+
+/// @param share  of the largest stress that crests may be missed by, > 0
+int more_instants_per_turn(int before, const ChannelHistory& loads, double share) {
+  double more = 2;
+  if (can_be_transformed(loads.values.cols()))
+    more = instants_needed(loads, share).n_instants / double(loads.values.cols());
+  more = std::clamp(more, least_more_instants, most_more_instants);
+  return int(instants_of_a_kind * std::ceil(more * before / instants_of_a_kind));
+}
+
+}  // namespace
+
+OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const GoverningStress& stress,
+                                              const ChannelHistory& loads) {
+  const auto& errors = stress.errors;
   BodyScene& body = scene.bodies[index];
   const double mesh = errors.of("discretisation") + errors.of("geometry") + errors.of("other_places");
   const double harmonics = errors.of("pressure_harmonics"), sampling = errors.of("time_sampling");
   const double largest = std::max({mesh, harmonics, sampling});
   OtherRefinement result;
   if (sampling > mended_along * largest) {
-    scene.sampling.instants_per_turn *= 2;
+    constexpr double least_share = 1e-4;
+    const double others_share = std::max(mesh, harmonics) / stress.value_Pa;
+    scene.sampling.instants_per_turn = more_instants_per_turn(
+        scene.sampling.instants_per_turn, loads, std::max(least_share, mended_along * others_share));
     result.possible = true;
   }
   if (harmonics > mended_along * largest && body.pressure_harmonics < most_pressure_harmonics) {

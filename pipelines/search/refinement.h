@@ -38,12 +38,15 @@ BodyScene coarsest(const BodyScene& body);
 BodyScene guided_by(const SecondModel& model, const BodyScene& body);
 
 /// More instants and more pressure harmonics where these dominate the governing stress's error budget, or
-/// reach a third of its largest entry.
+/// reach a third of its largest entry. As many instants as the spectra of the factors ask for to bring the
+/// entry down to that third, between 1.5 and 8 times those of before.
+/// @param loads  of the body, over the present instants
 struct OtherRefinement {
   bool possible = false;     ///< something of the two became finer
   bool mesh_matters = true;  ///< the mesh dominates
 };
-OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const ErrorBudget& errors);
+OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const GoverningStress& stress,
+                                              const ChannelHistory& loads);
 
 /// Makes the mesh finer where the place that holds the error back feels it most: `part` of a shaft's mesh (on
 /// those fillets only whose stress with its error could be the largest); weld toes of a chamber, half as

@@ -18,6 +18,7 @@
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/submodels.h"
 #include "pipelines/analysis/superpose_body.h"
+#include "pipelines/analysis/weld_places.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
@@ -51,7 +52,6 @@ public:
   SceneRunner(const Scene& scene, const SceneRunOptions& options, StageClock& clock)
       : options_(options), clock_(clock), start_(Clock::now()), as_read_(scene) {
     run_.scene = scene;
-    if (options_.duty) require_bodies_of_blocks(scene);
     for (const auto& body : scene.bodies) files_.emplace_back(options.directory / body.name);
   }
 
@@ -60,6 +60,7 @@ public:
     for (std::size_t i = 0; i < n_bodies(); ++i) {
       methods_.push_back(is_wanted(i) ? first_method(i) : Method::solid);
       meshed.push_back(is_wanted(i) ? first_meshed(i) : options_.others.at(i));
+      require_toes(run_.scene.bodies[i], meshed.back().mesh);
     }
     if (run_.scene.effect_choice.open)
       run_.scene = clock_.run(
@@ -348,7 +349,8 @@ private:
     state.step_start = Clock::now();
     const double seconds_before = state.search.steps.back().seconds;
     Scene next = run_.scene;
-    const auto other = refine_sampling_and_harmonics(next, i, governing_stress(analysis).errors);
+    const auto other =
+        refine_sampling_and_harmonics(next, i, governing_stress(analysis), analysis.loads.history);
     if (other.possible && !other.mesh_matters) {
       state.step.reset();
       return take(std::move(next), i, run_.loaded.meshed[i], state, analysis, seconds_before);

@@ -1,0 +1,171 @@
+// [[duty]] as `millstress run` states it: damage, lives and bearing lives add up by shares, starts are cycles
+// from rest, and blocks that change a body are refused.
+#include <cmath>
+
+#include "tests/cases/small_shaft.h"
+
+using namespace cases;
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// S-N slope of steel, one cycle a turn at 600 rpm.
+constexpr double slope = 5, turns_per_hour = 36000;
+
+const std::string fatigue = "[shaft.fatigue]\ntensile_strength = \"600 MPa\"\nroughness = \"1 um\"\n";
+const std::string bearing =
+    "[[bearings]]\nname = \"left\"\nload = \"bearing_1\"\ndynamic_rating = \"5 kN\"\nelement = \"ball\"\n";
+
+/// A force that stands still in space, on the shaft that is solved once on its own mesh.
+std::string turning_shaft(const std::string& force, const std::string& keys) {
+  return "method = \"solid\"\n" +
+         small_shaft(fixed_in_space("pull", "middle", force), "mm", "600 rpm", "pressure_harmonics = 0") +
+         keys;
+}
+
+std::string block(const std::string& name, const std::string& share, const std::string& keys = "") {
+  return "[[duty]]\nname = \"" + name + "\"\nshare = \"" + share + "\"\n" + keys;
+}
+
+/// The block's force instead of the scene's.
+std::string force(const std::string& size) {
+  return "set.\"machine.harmonics[1].amplitude\" = \"" + size +
+         "\"\nset.\"machine.harmonics[2].amplitude\" = \"" + size + "\"\n";
+}
+
+Json first_place(const Json& json) {
+  return json["duty"]["places"]["shaft"][0];
+}
+
+Json run(const fs::path& directory, const std::string& scene) {
+  return run_small(directory, scene);
+}
+
+}  // namespace
+
+// Two blocks and standstill: each block does the damage that its force does alone, for its share of the
+// operation. Lives alone are from runs without blocks.
+TEST(OperatingBlocks, DamageAddsByShares) {
+  const results_test::Directory directory;
+  const auto alone = [&](const char* size) {
+    return run(directory.path, turning_shaft(size, fatigue + bearing));
+  };
+  const auto light = alone("700 N"), heavy = alone("1400 N");
+  const auto both = run(directory.path, turning_shaft("700 N", fatigue + bearing + block("light", "50 %") +
+                                                                   block("heavy", "25 %", force("1400 N"))));
+  const auto life = [](const Json& json) {
+    return json["bodies"]["shaft"]["fatigue"]["places"][0]["life_h"].get<double>();
+  };
+  const double q_light = 2. / 3, q_heavy = 1. / 3;
+  const double expected = 1 / (q_light / life(light) + q_heavy / life(heavy));
+  const auto place = first_place(both);
+  // The block's loads are the same numbers in another order: round-off of the stress, to the fifth power.
+  EXPECT_NEAR(place["life_h"].get<double>(), expected, 1e-9 * expected);
+  EXPECT_NEAR(place["life_days"].get<double>(), expected / 24 / 0.75, 1e-9 * expected);
+  EXPECT_NEAR(place["by_block"]["heavy"]["damage_per_hour"].get<double>() * life(heavy), q_heavy, 1e-9);
+  EXPECT_EQ(place["by_block"]["light"]["starts_damage_per_hour"].get<double>(), 0);
+  // The scene's own results do not know of the blocks.
+  EXPECT_EQ(both["bodies"]["shaft"]["fatigue"], light["bodies"]["shaft"]["fatigue"]);
+
+  const auto hours = [](const Json& json) { return json["bearings"]["left"]["L10h"]["value"].get<double>(); };
+  const double bearing_h = 1 / (q_light / hours(light) + q_heavy / hours(heavy));
+  EXPECT_NEAR(both["duty"]["bearings"]["left"]["L10h"]["value"].get<double>(), bearing_h, 1e-9 * bearing_h);
+  const double equivalent = std::cbrt(q_light * std::pow(350, 3) + q_heavy * std::pow(700, 3));
+  EXPECT_NEAR(both["duty"]["bearings"]["left"]["equivalent_load"]["value"].get<double>(), equivalent,
+              1e-6 * equivalent)
+      << "half of the force, to what the mesh's ends leave";
+  EXPECT_TRUE(fs::exists(directory / "out/duty.csv"));
+}
+
+// 100 N are below the limit and endure alone. Beside a block above it, Miner's elementary rule counts them by
+// the same slope: N = N_D (limit / amplitude)^5.
+TEST(OperatingBlocks, ABlockBelowTheLimitCountsBesideOneAboveIt) {
+  const results_test::Directory directory;
+  const auto light = run(directory.path, turning_shaft("100 N", fatigue + block("light", "100 %")));
+  EXPECT_TRUE(first_place(light)["life_h"].is_null());
+  EXPECT_EQ(first_place(light)["damage_per_hour"].get<double>(), 0);
+  const auto both = run(directory.path, turning_shaft("100 N", fatigue + block("light", "50 %") +
+                                                                   block("heavy", "50 %", force("1400 N"))));
+  const auto own = both["bodies"]["shaft"]["fatigue"]["places"][0];
+  const double limit = own["endurance_Pa"].get<double>() / 1.5, amplitude = own["amplitude_Pa"];
+  const double expected = 0.5 * turns_per_hour / (1e6 * std::pow(limit / amplitude, slope));
+  EXPECT_NEAR(first_place(both)["by_block"]["light"]["damage_per_hour"].get<double>(), expected,
+              1e-8 * expected)
+      << "places of equal use may differ by round-off of their limits";
+}
+
+// A force that turns with the shaft changes nothing while it runs. Each start brings one cycle from nothing
+// to its stress: amplitude and mean are half of it, and M lowers the limit to 1 / (1 + M) at R = 0.
+TEST(OperatingBlocks, StartsAreCyclesFromRest) {
+  const results_test::Directory directory;
+  const auto json =
+      run(directory.path,
+          "method = \"solid\"\n" +
+              small_shaft({{"pull", "middle.fy", "3 kN", 0}}, "mm", "600 rpm", "pressure_harmonics = 0") +
+              fatigue + block("running", "100 %", "start = { per_day = 48 }\n"));
+  const auto place = first_place(json);
+  const auto& starts = place["by_block"]["running"];
+  EXPECT_EQ(json["bodies"]["shaft"]["fatigue"]["places"][0]["damage_per_turn"].get<double>(), 0);
+  EXPECT_EQ(starts["damage_per_hour"].get<double>(), 0);
+  const double peak = json["bodies"]["shaft"]["peak_von_mises"]["value"];
+  const double amplitude = starts["start_amplitude_Pa"];
+  EXPECT_NEAR(amplitude, peak / 2, 1e-9 * peak);
+  const double m = 0.35e-3 * 600 - 0.1, limit = 0.45 * 600e6 / 1.5;
+  ASSERT_GT(amplitude * (1 + m), limit) << "the test wants damage";
+  const double cycles = 1e6 * std::pow(limit / (amplitude * (1 + m)), slope);
+  EXPECT_NEAR(place["life_days"].get<double>(), cycles / 48, 1e-9 * cycles);
+  EXPECT_FALSE(json["duty"]["blocks"]["running"]["start_transient"].get<bool>());
+}
+
+// A vibratory mill's run-up is followed over time: it closes at every instant, brings its own channels, and
+// its largest cycle, from rest to running, is at least that of running. A slow run-up is quasi-static: the
+// largest cycle is that of the union of rest and running, which the same start "at once" has, up to what
+// weights at rest add.
+TEST(OperatingBlocks, AVibratoryMillsRunUpIsFollowed) {
+  const results_test::Directory directory;
+  const auto start_of = [&](const std::string& start) {
+    auto scene = shaft_alone({{"snapshots = 24", "snapshots = 0"},
+                              {"pictures = true", "pictures = false"},
+                              {"title =", "method = \"beam\"\ntitle ="}});
+    scene += "\n[shaft.fatigue]\ntensile_strength = \"900 MPa\"\n";
+    scene += block("milling", "100 %", "start = { per_day = 1" + start + " }\n");
+    const auto json = run(directory.path, scene);
+    EXPECT_EQ(json["duty"]["blocks"]["milling"]["start_transient"].get<bool>(), !start.empty());
+    return first_place(json)["by_block"]["milling"];
+  };
+  const auto followed = start_of(", duration = \"4 s\""), at_once = start_of("");
+  const double running = followed["amplitude_Pa"], most = followed["start_amplitude_Pa"];
+  EXPECT_GT(most, running);
+  EXPECT_NEAR(most, at_once["start_amplitude_Pa"].get<double>(), 0.1 * most);
+}
+
+TEST(OperatingBlocks, AreComputedWhereTheyAreAskedForOnly) {
+  const results_test::Directory directory;
+  const auto json = run(directory.path, turning_shaft("100 N", fatigue));
+  EXPECT_FALSE(json.contains("duty"));
+  EXPECT_FALSE(json["timing"].contains("blocks"));
+  EXPECT_FALSE(fs::exists(directory / "out/duty.csv"));
+}
+
+TEST(OperatingBlocks, KeepTheBody) {
+  const results_test::Directory directory;
+  const auto refusal = [&](const std::string& command, const std::string& set) {
+    write(directory / "scene.toml",
+          turning_shaft("100 N", fatigue + block("other", "50 %", "set." + set + "\n")));
+    const auto outcome =
+        millstress(directory.path, command + " scene.toml" + (command == "run" ? " -o out" : ""));
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    return outcome.err;
+  };
+  for (const std::string command : {"run", "check"}) {
+    EXPECT_NE(
+        refusal(command, "\"shaft.contour[2].diameter\" = \"11 mm\"").find("block \"other\" changes the"),
+        std::string::npos);
+    EXPECT_NE(refusal(command, "shaft.material.youngs_modulus = \"70 GPa\"").find("changes the"),
+              std::string::npos);
+  }
+  EXPECT_NE(refusal("run", "machine.speeed = \"600 rpm\"").find("(in the duty block \"other\")"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(directory / "out"));
+}
