@@ -143,7 +143,7 @@ void tell_what_takes_long(const Scene& scene) {
 /// The mesh is a second's work and the only honest answer to what will be solved; it is made aside and thrown
 /// away.
 void check_bodies(std::ostream& out, Scene scene) {
-  require_bodies_of_blocks(scene);
+  require_blocks(scene);
   tell_what_takes_long(scene);
   const FemEnvironment environment(all_cores);
   const ScratchMeshes meshes(scene);

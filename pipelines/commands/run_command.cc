@@ -173,7 +173,7 @@ void warn_of_damage(SceneRun& run) {
 
 void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   const auto& options = request.options;
-  require_bodies_of_blocks(scene);
+  require_blocks(scene);
   const auto accuracy = with_default(request.accuracy);
   const FemEnvironment environment(options.n_threads);
   StagedResults staged(request.directory, body_names(scene));

@@ -341,7 +341,7 @@ std::size_t n_known_worse(const std::vector<SweepRow>& rows, double tolerance) {
 void sweep(const SweepCommandOptions& options, std::ostream& out) {
   if (started_on_several_ranks())
     throw OptionError("sweep: runs on one rank, with --threads; start it without mpirun");
-  const auto tree = read_scene_tree(options.scene);
+  const auto tree = without_duty(read_scene_tree(options.scene));
   const auto request = requested(options, read_sweep_request(options.scene, tree));
   const auto plan = plan_sweep(request);
   const auto directory = options.output.empty()

@@ -36,11 +36,7 @@ std::optional<DutyStart> read_start(SceneTable& table, const Scene& scene) {
 /// The scene's tree with a block's keys; nothing where one is refused.
 std::optional<TomlNode> tree_of_block(const TomlNode& tree, std::size_t block, const std::string& key,
                                       SceneTable& table, SceneFindings& findings) {
-  TomlNode version = tree;
-  auto& entries = version.entries.own();
-  entries.erase(std::remove_if(entries.begin(), entries.end(),
-                               [](const TomlEntry& e) { return e.key == "duty" || e.key == "sweep"; }),
-                entries.end());
+  TomlNode version = without_duty(tree);
   table.know("set");
   if (!table.has("set")) return version;
   for (const auto& name : table.table("set").names())
@@ -75,6 +71,15 @@ std::shared_ptr<const Scene> scene_of_block(const TomlNode& version, const Scene
 }
 
 }  // namespace
+
+TomlNode without_duty(TomlNode tree) {
+  if (tree.find("duty") == nullptr) return tree;
+  auto& entries = tree.entries.own();
+  entries.erase(
+      std::remove_if(entries.begin(), entries.end(), [](const TomlEntry& e) { return e.key == "duty"; }),
+      entries.end());
+  return tree;
+}
 
 void read_duty(SceneTable& root, const TomlNode& tree, Scene& scene, SceneFindings& findings) {
   root.know("duty");

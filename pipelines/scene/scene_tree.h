@@ -14,6 +14,9 @@ namespace pipelines {
 /// @throws SceneError if there is no such file, or it is no TOML
 TomlNode read_scene_tree(const std::filesystem::path& file);
 
+/// The tree without its operating blocks, where nothing follows from them.
+TomlNode without_duty(TomlNode tree);
+
 /// What the reading of one more version of a scene can do without. What is refused, and how, is the same.
 struct VersionReading {
   /// Whether a body has the shape of one that was accepted before, so that the mesher need not be asked

@@ -97,7 +97,7 @@ void add_channels(const BodyLoads& other, BodyLoads& own) {
 
 }  // namespace
 
-void require_bodies_of_blocks(const Scene& scene) {
+void require_blocks(const Scene& scene) {
   for (const auto& block : scene.duty) {
     bool same = block.scene->bodies.size() == scene.bodies.size();
     for (std::size_t b = 0; same && b < scene.bodies.size(); ++b)
@@ -107,6 +107,11 @@ void require_bodies_of_blocks(const Scene& scene) {
       throw StageRefused(block.origin + ": block \"" + block.name +
                          "\" changes the shape, mesh, material or elastic feet of a body; blocks are "
                          "operating points of one body: change keys of the machine or of effects only");
+    if (block.start && block.start->duration_s)
+      in_block(block, [&] {
+        const auto& machine = block.scene->machine;
+        return run_up_of(*block.start->duration_s, std::abs(kind_of(machine).drive_speed_rad_s(machine)));
+      });
   }
 }
 

@@ -18,9 +18,10 @@ struct BlockLoads {
   std::vector<BearingResult> bearings;  ///< in the order of Scene::bearings
 };
 
-/// Refuses blocks that change a body: its mesh and unit responses serve all of them.
+/// Refuses blocks that change a body, whose mesh and unit responses serve all of them, and starts too long to
+/// be followed.
 /// @throws StageRefused naming the block
-void require_bodies_of_blocks(const Scene& scene);
+void require_blocks(const Scene& scene);
 
 /// @param as_read  the scene before a search chose meshes, harmonics and instants
 /// @param found    after it

@@ -240,11 +240,13 @@ namespace {
 constexpr double least_more_instants = 1.5, most_more_instants = 8;
 constexpr double instants_of_a_kind = 12;
 
-/// @param share  of the largest stress that crests may be missed by, > 0
-int more_instants_per_turn(int before, const ChannelHistory& loads, double share) {
-  double more = 2;
+/// What a crest is missed by falls with the square of the number of instants; the spectra may tell of less.
+/// @param share     of the largest stress that crests may be missed by, > 0
+/// @param sampling  share that they are missed by now
+int more_instants_per_turn(int before, const ChannelHistory& loads, double share, double sampling) {
+  double more = std::sqrt(sampling / share);
   if (can_be_transformed(loads.values.cols()))
-    more = instants_needed(loads, share).n_instants / double(loads.values.cols());
+    more = std::min(more, instants_needed(loads, share).n_instants / double(loads.values.cols()));
   more = std::clamp(more, least_more_instants, most_more_instants);
   return int(instants_of_a_kind * std::ceil(more * before / instants_of_a_kind));
 }
@@ -263,7 +265,8 @@ OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, c
     constexpr double least_share = 1e-4;
     const double others_share = std::max(mesh, harmonics) / stress.value_Pa;
     scene.sampling.instants_per_turn = more_instants_per_turn(
-        scene.sampling.instants_per_turn, loads, std::max(least_share, mended_along * others_share));
+        scene.sampling.instants_per_turn, loads, std::max(least_share, mended_along * others_share),
+        sampling / stress.value_Pa);
     result.possible = true;
   }
   if (harmonics > mended_along * largest && body.pressure_harmonics < most_pressure_harmonics) {

@@ -38,8 +38,8 @@ BodyScene coarsest(const BodyScene& body);
 BodyScene guided_by(const SecondModel& model, const BodyScene& body);
 
 /// More instants and more pressure harmonics where these dominate the governing stress's error budget, or
-/// reach a third of its largest entry. As many instants as the spectra of the factors ask for to bring the
-/// entry down to that third, between 1.5 and 8 times those of before.
+/// reach a third of its largest entry. As many instants as bring the entry down to that third, by its order
+/// or by the spectra of the factors, between 1.5 and 8 times those of before.
 /// @param loads  of the body, over the present instants
 struct OtherRefinement {
   bool possible = false;     ///< something of the two became finer

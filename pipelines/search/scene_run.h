@@ -21,7 +21,7 @@ struct SceneRunOptions {
   bool keep = true;                 ///< unit responses, for the next run
   RequestedAccuracy accuracy{};
   bool duty = false;  ///< unit responses also for the channels of operating blocks, whose bodies are the
-                      ///< scene's (require_bodies_of_blocks)
+                      ///< scene's (require_blocks)
   bool second_model = true;           ///< harmonics around the axis beside the solid, where they apply
   std::optional<std::size_t> only{};  ///< this body alone is meshed and solved...
   std::vector<MeshedBody> others{};   ///< ...beside these meshes, in the order of Scene::bodies
