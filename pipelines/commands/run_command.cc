@@ -151,7 +151,9 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.
-void warn_of_default(SceneRun& run) {
+/// @return the warnings
+std::vector<std::string> warn_of_default(SceneRun& run) {
+  std::vector<std::string> warnings;
   for (const auto& analysis : run.analyses) {
     if (analysis.search.met) continue;
     const auto stress = governing_stress(analysis);
@@ -160,7 +162,15 @@ void warn_of_default(SceneRun& run) {
         "--time-limit or --tolerance for another",
         analysis.scene.name, stress.value_Pa / 1e6, 100 * stress.relative_error(), analysis.search.ended);
     warn(run.loaded.loads, text);
+    warnings.push_back("millstress: " + text);
   }
+  return warnings;
+}
+
+/// Whether the same run asked for again shall find these results. What was asked for and missed is tried
+/// again; the default is not: its minute ends a search wherever the machine's load has it end.
+bool is_kept(const SceneRun& run, const RequestedAccuracy& accuracy) {
+  return !run.tells_of_damage() && (accuracy.by_default || (run.met() && !run.time_was_up()));
 }
 
 /// Damaged files of an earlier run, each once: the last solve of every body has met those that matter.
@@ -185,10 +195,10 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   if (run_options.duty) duty = run_duty(scene, run, options.n_threads, clock);
   warn_of_damage(run);
   learn_from(run);
-  if (accuracy.by_default) warn_of_default(run);
+  const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();
   const auto& loads = run.loaded.loads;
   const auto channels = run.loaded.channels();
-  RunRecord record{run.met() && run.is_repeatable() ? request.key : "", run.kept_under, {}, ""};
+  RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings, ""};
   for (const auto& analysis : run.analyses) {
     const auto place = staged.folder() / analysis.scene.name;
     const int n_ranks = fem::n_ranks(MPI_COMM_WORLD);

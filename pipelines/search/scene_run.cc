@@ -510,9 +510,12 @@ bool SceneRun::met() const {
   return std::all_of(analyses.begin(), analyses.end(), [](const auto& a) { return a.search.met; });
 }
 
-bool SceneRun::is_repeatable() const {
-  return std::all_of(analyses.begin(), analyses.end(),
-                     [](const auto& a) { return !a.search.time_was_up() && a.warnings.empty(); });
+bool SceneRun::time_was_up() const {
+  return std::any_of(analyses.begin(), analyses.end(), [](const auto& a) { return a.search.time_was_up(); });
+}
+
+bool SceneRun::tells_of_damage() const {
+  return std::any_of(analyses.begin(), analyses.end(), [](const auto& a) { return !a.warnings.empty(); });
 }
 
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock) {

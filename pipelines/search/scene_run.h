@@ -44,9 +44,10 @@ struct SceneRun {
   /// False if a tolerance was asked for and is not reached.
   bool met() const;
 
-  /// Whether another run of the same would end alike: it was not the time that ended a search, and no damaged
-  /// file of an earlier run, mended since, is told of in the results.
-  bool is_repeatable() const;
+  /// Whether the time ended a search: another run may come further.
+  bool time_was_up() const;
+  /// Whether the results tell of a damaged file of an earlier run, which has been mended since.
+  bool tells_of_damage() const;
 };
 
 /// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the

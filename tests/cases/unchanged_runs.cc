@@ -222,3 +222,18 @@ TEST(UnchangedRuns, WhatMissedItsToleranceIsTriedAgain) {
     EXPECT_FALSE(is_unchanged(ended)) << "more time may be had";
   }
 }
+
+// Nobody asked for the default's 5 %: that it is missed is told again, and nothing is computed again.
+TEST(UnchangedRuns, WhatMissesTheDefaultIsKeptWithItsWarning) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", beam());
+  const auto first = as_a_user(directory.path, "run scene.toml -o out --method beam");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  ASSERT_NE(first.err.find("the default is 5 % within 60 s"), std::string::npos)
+      << "the test wants a beam that is known less well: " << first.err;
+  const auto again = as_a_user(directory.path, "run scene.toml -o out --method beam");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(is_unchanged(again));
+  EXPECT_NE(again.err.find("the default is 5 % within 60 s"), std::string::npos) << again.err;
+  EXPECT_EQ(again.out, first.out);
+}
