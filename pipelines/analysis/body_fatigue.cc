@@ -140,6 +140,15 @@ std::vector<WeldFatigue> judge_welds(const BodyAnalysis& analysis, const LoadPer
 
 }  // namespace
 
+namespace {
+
+/// DIN 743 is for shafts of rolled and forged steel.
+bool is_steel(const GroupConstants& group) {
+  return !group.is_cast && group.group != MaterialGroup::wrought_aluminium;
+}
+
+}  // namespace
+
 BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period, int n_threads) {
   const FatigueRules rules(analysis.scene.fatigue.value());
   const auto& nodes = analysis.responses.nodes;
@@ -155,6 +164,12 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
     fatigue.places.push_back(place_of(feature, search.worst_of(list), analysis, rules, period));
   std::stable_sort(fatigue.places.begin(), fatigue.places.end(),
                    [](const auto& a, const auto& b) { return a.utilisation > b.utilisation; });
+  if (is_steel(rules.group()))
+    fatigue.nominal = din_743_of_fillets(analysis, [&](const std::string& fillet) {
+      const auto place = std::find_if(fatigue.places.begin(), fatigue.places.end(),
+                                      [&](const auto& p) { return p.feature == fillet; });
+      return place == fatigue.places.end() ? -1 : place->cycle.amplitude_Pa;
+    });
   fatigue.welds = judge_welds(analysis, period);
   fatigue.assumptions = assumptions_of(rules, analysis);
   return fatigue;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
+#include "pipelines/analysis/nominal_fatigue.h"
 #include "pipelines/superposition/nodal_cycles.h"
 
 namespace pipelines {
@@ -68,6 +69,7 @@ struct BodyFatigue {
   NodalCycles cycles;                    ///< of all nodes of the surface
   std::vector<double> utilisation_at;    ///< of these nodes, without support by the gradient
   std::vector<FatiguePlace> places;      ///< by falling utilisation
+  std::vector<NominalFatigue> nominal;   ///< fillets of steel shafts by DIN 743, least safety first
   std::vector<WeldFatigue> welds;        ///< by rising life, then by falling range
   std::vector<std::string> assumptions;  ///< sentences: rules, factors and defaults
 };

@@ -27,6 +27,7 @@
 #include "pipelines/pictures/picture.h"
 #include "pipelines/report/duty_report.h"
 #include "pipelines/report/envelope_files.h"
+#include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/html_report.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/run_record.h"
@@ -48,6 +49,16 @@ struct RunCommandOptions : WantedRun {
   bool json = false;
 };
 
+/// The weld toes that last least, with their lives; none where the scene does not ask for fatigue.
+std::vector<PictureMark> lives_of_toes(const BodyAnalysis& analysis) {
+  constexpr std::size_t most = 4;
+  std::vector<PictureMark> notes;
+  if (!analysis.fatigue) return notes;
+  for (const auto& weld : analysis.fatigue->welds)
+    if (weld.life_s && notes.size() < most) notes.push_back({weld.toe_m, life_text(weld.life_s)});
+  return notes;
+}
+
 /// The envelope as a picture that marks the governing stress; a machine that cannot draw gets a line instead.
 /// @param envelope  the .vtu
 /// @return the line; empty if it is drawn
@@ -59,6 +70,8 @@ std::string draw(const std::filesystem::path& envelope, const std::filesystem::p
   options.excluded = excluded_field;
   options.mark = PictureMark{stress.position_m, fmt::format("{} {} MPa\n{}", stress.name(),
                                                             fixed(stress.value_Pa / 1e6, 1), stress.place)};
+  options.notes = lives_of_toes(analysis);
+  options.notes_are = "lives of weld toes";
   return write_picture(envelope, pictured_field(analysis),
                        title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle",
                        "MPa", directory / "envelope.png", options)

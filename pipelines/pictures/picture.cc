@@ -181,6 +181,17 @@ int pieces_of(vtkIdType n_faces, int wanted) {
   return pieces;
 }
 
+/// Words beside a place, in front of all.
+void add_note(vtkRenderer* renderer, const PictureMark& note, int font_size) {
+  auto* text = add_text(renderer, note.text, font_size, 0, 0);
+  auto* place = text->GetPositionCoordinate();
+  place->SetCoordinateSystemToWorld();
+  place->SetValue(note.at_m[0], note.at_m[1], note.at_m[2]);
+  text->GetTextProperty()->SetBold(true);
+  text->GetTextProperty()->SetBackgroundColor(1, 1, 1);
+  text->GetTextProperty()->SetBackgroundOpacity(0.7);
+}
+
 /// What is ringed, and what the grey means; above the colours.
 /// @return the number of lines
 int add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::string& unit,
@@ -193,6 +204,7 @@ int add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::str
                 1e3 * at[2]);
   std::string words = (options.mark ? options.mark->text : maximum) + text;
   if (options.mark && distance(at, peak.at) > single_precision) words += "\nin colour: " + maximum;
+  if (!options.notes.empty()) words += "\nboxes: " + options.notes_are;
   if (some_excluded) words += "\ngrey: beside a sharp edge";
   const int n_lines = 1 + int(std::count(words.begin(), words.end(), '\n'));
   add_text(legend, words, font_size, 0.12, 0.92 - line_height * n_lines);
@@ -238,6 +250,8 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   add_drawn(whole, drawn, table, false);
   add_drawn(detail, drawn, table, options.edges);
   whole->AddActor(ring_at(shown, font_size));
+  for (const auto& note : options.notes)
+    for (auto* renderer : {whole, detail}) add_note(renderer, note, font_size * 4 / 5);
   all.half_width *= 1.06;
   all.half_height *= 1.1;
   look(whole, view, all, width_over_height(layout.whole, options), 4 * all.half_depth);

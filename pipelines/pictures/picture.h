@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pipelines {
 
@@ -21,6 +22,8 @@ struct PictureOptions {
       range;             ///< of the colours, in the unit shown; else from 0 (or below) to the peak
   std::string excluded;  ///< field that is not 0 where the picture's has no converged value: grey there
   std::optional<PictureMark> mark;  ///< ringed and named instead of the field's peak
+  std::vector<PictureMark> notes;   ///< written beside their places, whether these are seen or hidden
+  std::string notes_are;            ///< what they say, for the legend
   bool edges = true;                ///< the edges of the cells, as curved as they are
   int subdivisions = 3;  ///< each face is drawn as 4^n pieces, 0 to 5; as fewer where faces are many
   double detail = 0.35;  ///< width of the detail over the largest extent of the body

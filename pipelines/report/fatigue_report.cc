@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 #include "pipelines/analysis/error_text.h"
@@ -124,8 +125,48 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
       "    safety by other rules, same limit: Findley {}, Goodman {}, Gerber {}, Soderberg {}\n",
       safety_text(first.others.findley), safety_text(first.others.goodman), safety_text(first.others.gerber),
       safety_text(first.others.soderberg));
+  if (!fatigue.nominal.empty()) {
+    const auto& least = fatigue.nominal.front();
+    out << fmt::format(
+        "    DIN 743 from nominal stresses, least safe of {} fillets: {}, safety {} (1.2 is asked; bending "
+        "{} "
+        "MPa x {:.2f}, torsion {} MPa x {:.2f})\n",
+        fatigue.nominal.size(), least.fillet, safety_text(least.safety.fatigue),
+        fixed(least.load.amplitude_Pa.bending / 1e6, 1), least.shape_factor.bending,
+        fixed(least.load.amplitude_Pa.torsion / 1e6, 1), least.shape_factor.torsion);
+  }
   print_welds(out, fatigue);
   for (const auto& line : fatigue.assumptions) out << "    " << line << '\n';
+}
+
+void print_shortest_lives(std::ostream& out, const std::vector<BodyAnalysis>& bodies) {
+  struct Entry {
+    std::string place;
+    double life_s, use;  ///< use: of what is allowed; 0 at toes, which have a life or none
+  };
+  constexpr double never = std::numeric_limits<double>::infinity();
+  constexpr std::size_t most = 5;
+  std::vector<Entry> entries;
+  std::size_t n_judged = 0;
+  for (const auto& analysis : bodies) {
+    if (!analysis.fatigue) continue;
+    ++n_judged;
+    const auto& name = analysis.scene.name;
+    for (const auto& place : analysis.fatigue->places)
+      entries.push_back({name + ", " + place.feature, place.life_s.value_or(never), place.utilisation});
+    for (const auto& weld : analysis.fatigue->welds)
+      entries.push_back({name + ", " + weld.name + " (weld toe)", weld.life_s.value_or(never), 0});
+  }
+  if (n_judged < 2) return;
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.life_s != b.life_s ? a.life_s < b.life_s : a.use > b.use;
+  });
+  out << fmt::format("\n  {:<56}{}\n", "fatigue of all bodies, shortest life first", "life");
+  for (std::size_t i = 0; i < std::min(most, entries.size()); ++i)
+    out << fmt::format("  {:<56}{}\n", entries[i].place,
+                       entries[i].life_s < never
+                           ? life_text(entries[i].life_s)
+                           : fmt::format("endures, {:.0f} % used", 100 * entries[i].use));
 }
 
 summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis) {
@@ -174,6 +215,21 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
                                {"soderberg", number_or_none(place.others.soderberg)}})},
          {"stress_error", number_or_none(place.error_share)},
          {"effect_share_of_amplitude", shares}}));
+  }
+  for (const auto& nominal : fatigue.nominal) {
+    const auto triple = [](const DinTriple& t) {
+      return object(
+          {{"tension", number(t.tension)}, {"bending", number(t.bending)}, {"torsion", number(t.torsion)}});
+    };
+    json["din_743"].push_back(object({{"feature", nominal.fillet},
+                                      {"z_m", nominal.z_m},
+                                      {"diameter_m", nominal.diameter_m},
+                                      {"amplitude_Pa", triple(nominal.load.amplitude_Pa)},
+                                      {"mean_Pa", triple(nominal.load.mean_Pa)},
+                                      {"shape_factor", triple(nominal.shape_factor)},
+                                      {"notch_effect", triple(nominal.safety.notch_effect)},
+                                      {"safety_against_fatigue", number_or_none(nominal.safety.fatigue)},
+                                      {"safety_against_yielding", number_or_none(nominal.safety.yielding)}}));
   }
   if (!fatigue.welds.empty()) json["welds"] = welds_json(fatigue);
   return json;

@@ -13,6 +13,9 @@ namespace pipelines {
 /// The first places, with what brings the amplitude, and the rules; nothing where the scene does not ask.
 void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis);
 
+/// The places and weld toes of all bodies that last least, where several bodies are judged.
+void print_shortest_lives(std::ostream& out, const std::vector<BodyAnalysis>& bodies);
+
 /// What bodies.<body>.fatigue has.
 summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis);
 

@@ -116,6 +116,31 @@ TEST(Fatigue, ASteadyTorqueIsAMeanStress) {
   EXPECT_NEAR(place["effect_share_of_amplitude"]["twist"].get<double>(), 0, 1e-9);
 }
 
+// The shipped shaft: nominal bending of its fillets by hand, M / (pi d^3 / 32) of the section beside them,
+// and DIN 743 near FKM's safety: two guidelines, one local stress. They differ by factors for size, support
+// and mean of some per cent each; a notch counted twice or not at all would be a factor of two.
+TEST(Fatigue, OfFilletsHasASecondOpinionByDin743) {
+  const results_test::Directory directory;
+  const auto run =
+      millstress(directory.path, "run " + shipped("shaft.toml").string() +
+                                     " --method axisymmetric --set results.pictures=false -o out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto fatigue = summary(directory / "out")["bodies"]["shaft"]["fatigue"];
+  const auto& din = fatigue["din_743"];
+  ASSERT_EQ(din.size(), 3u);
+  for (const auto& place : fatigue["places"]) {
+    if (place["feature"] != din[0]["feature"]) continue;
+    const double fkm = place["safety_against_endurance"], own = din[0]["safety_against_fatigue"];
+    EXPECT_NEAR(own, fkm, 0.25 * fkm);
+    const auto& nominal = din[0]["amplitude_Pa"];
+    const auto& shape = din[0]["shape_factor"];
+    const double local = shape["bending"].get<double>() * nominal["bending"].get<double>();
+    const double amplitude = place["amplitude_Pa"];
+    EXPECT_NEAR(local, amplitude, 1e-9 * amplitude) << "bending alone alternates there";
+  }
+  EXPECT_NE(run.out.find("DIN 743 from nominal stresses"), std::string::npos) << run.out;
+}
+
 TEST(Fatigue, IsJudgedWhereItIsAskedForOnly) {
   const results_test::Directory directory;
   std::string out;

@@ -76,6 +76,9 @@ TEST(OperatingBlocks, DamageAddsByShares) {
               1e-6 * equivalent)
       << "half of the force, to what the mesh's ends leave";
   EXPECT_TRUE(fs::exists(directory / "out/duty.csv"));
+  const auto page = text_of(directory / "out/report.html");
+  EXPECT_NE(page.find("Operating blocks"), std::string::npos);
+  EXPECT_NE(page.find("shaft: life over all blocks"), std::string::npos);
 }
 
 // 100 N are below the limit and endure alone. Beside a block above it, Miner's elementary rule counts them by

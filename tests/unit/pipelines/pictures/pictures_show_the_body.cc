@@ -99,6 +99,28 @@ TEST(Picture, LooksAtThePlaceThatIsMarked) {
   EXPECT_EQ(picture.share(0, 0.48, 0.5, 0.93, red), 0);
 }
 
+// Notes stand in white boxes beside their places, in both parts of the picture.
+TEST(Picture, WritesNotesBesideTheirPlaces) {
+  const Directory at;
+  write_bar(at / "bar.vtu");
+  PictureOptions options;
+  options.scale = 1e-6;
+  const auto draw = [&](const char* name) {
+    return write_picture(at / "bar.vtu", "stress [Pa]", "A bar", "MPa", at / name, options);
+  };
+  ASSERT_TRUE(draw("plain.png"));
+  options.notes = {{{0.1, 0, 0.85}, "8.3 h"}};
+  options.notes_are = "lives";
+  ASSERT_TRUE(draw("noted.png"));
+  const Pixels plain(at / "plain.png"), noted(at / "noted.png");
+  const auto bright = [](int r, int g, int b) { return r > 150 && g > 150 && b > 150; };
+  const auto gain = [&](double left, double right) {  // in the upper half, where the whole body is
+    return noted.share(left, 0.48, right, 0.93, bright) - plain.share(left, 0.48, right, 0.93, bright);
+  };
+  EXPECT_GT(gain(0.6, 1), 1e-4) << "z = 0.85 of the bar from the left";
+  EXPECT_EQ(gain(0, 0.5), 0);
+}
+
 TEST(Picture, TellsWhatIsMissing) {
   const Directory at;
   write_bar(at / "bar.vtu");

@@ -1,0 +1,39 @@
+/// Fatigue of a shaft's fillets by DIN 743, from nominal stresses of its sections: a second opinion.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipelines/analysis/body_analysis.h"
+#include "pipelines/fatigue/din_743.h"
+
+namespace pipelines {
+
+/// A fillet by DIN 743. Nominal stresses are those of the thinner section next to it, about its own axis.
+struct NominalFatigue {
+  std::string fillet;     ///< the feature, "fillet A/B"
+  double z_m = 0;         ///< of the section
+  double diameter_m = 0;  ///< of the section
+  DinLoad load;           ///< over the cycle: bending in the direction in which it changes most
+  DinTriple shape_factor;
+  DinSafety safety;  ///< DIN asks for 1.2
+};
+
+/// Of the shape factor by published fits (fem/beam/fillet_factors.h) that which makes the local stress
+/// amplitude the program's own: the fits share it out among tension, bending and torsion.
+/// @param local_Pa    amplitude of von Mises stress in the fillet, >= 0
+/// @param nominal_Pa  amplitudes
+DinTriple own_shape_factor(const DinTriple& published, const DinTriple& nominal_Pa, double local_Pa);
+
+/// Related gradient of a shoulder: 2.3 (1 + phi) / r in tension and bending, 1.15 / r in torsion, with
+/// phi = 1 / (4 sqrt(t / r) + 2), t = (D - d) / 2, where d/D > 0.67, else 0. Source: DIN 743-2, table 2.
+/// @param small_m, large_m  diameters
+DinTriple din_shoulder_gradient_1_m(double small_m, double large_m, double fillet_m);
+
+/// Every fillet between solid segments of a parametric shaft, least safety first; none of other bodies.
+/// @param local_amplitude_Pa  of a fillet, by feature; negative: not known
+std::vector<NominalFatigue> din_743_of_fillets(
+    const BodyAnalysis& analysis, const std::function<double(const std::string&)>& local_amplitude_Pa);
+
+}  // namespace pipelines
