@@ -249,6 +249,26 @@ DriveTrain with_effects(const DriveTrain& train, const std::vector<std::string>&
 LoadHistory compute_loads(const DriveTrain& train, const std::vector<std::string>& effects,
                           const TimeGrid& grid);
 
+/// Name of the effect that all loads of a transient on one inertia are: "transient_torque_on_<inertia>".
+std::string transient_torque_effect(const std::string& inertia);
+
+/// Name of the effect that the initial angles and speeds of a transient are.
+inline constexpr const char* initial_motion_effect = "initial_motion";
+
+/// Loads over a transient, in the roles and quantities of compute_loads: a start from standstill, a blocked
+/// disc. Instants are those that the run stores. The train is linear and so is the time stepping: each
+/// excitation (where the run has them), the loads on each inertia together, and the initial values run alone;
+/// they are the contributions, and what acts on one inertia adds up to J phi'' at every instant. Damping is
+/// that of the named effects.
+///
+/// phi_rad, speed_rad_s and acceleration_rad_s2 are the true ones of the first inertia on the reference
+/// shaft. <inertia>.angle is the true angle less mean_speed_rad_s times time, so that their sum, by which
+/// forces are turned into a shaft's axes, is the integral of the true speed as in a steady state. There is no
+/// rigid_acceleration: speeds and accelerations hold it.
+/// @throws MachineRefused as transient, and for an effect unknown or named twice
+LoadHistory compute_transient_loads(const DriveTrain& train, const std::vector<std::string>& effects,
+                                    const TransientRun& run);
+
 /// What Tables 4 and 7 of the paper print.
 struct PublishedTable {
   Eigen::ArrayXd frequency_rad_s;   ///< falling, as printed (there as Hz); the rigid mode is left out

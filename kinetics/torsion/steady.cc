@@ -1,5 +1,6 @@
 #include "kinetics/torsion/steady.h"
 
+#include <cmath>
 #include <complex>
 
 #include "kinetics/torsion/dense_algebra.h"
@@ -68,8 +69,11 @@ HarmonicState in_modes(const ReducedTrain& r, const Spectrum& spectrum, double z
 MeanState mean_state(const ReducedTrain& r, const ArrayXd& load) {
   MeanState state;
   const double drag = r.damping.sum();
-  if (!r.held && drag > 0) state.speed_rad_s = load.sum() / drag;
-  if (!r.held && drag == 0) state.acceleration_rad_s2 = load.sum() / r.inertia.sum();
+  // Torques that balance but for rounding accelerate nothing.
+  const double sum = load.sum(), rounding = 1e-15 * double(load.size()) * load.abs().sum();
+  const double unbalanced = std::abs(sum) > rounding ? sum : 0;
+  if (!r.held && drag > 0) state.speed_rad_s = unbalanced / drag;
+  if (!r.held && drag == 0) state.acceleration_rad_s2 = unbalanced / r.inertia.sum();
   ArrayXd left = load - r.inertia * state.acceleration_rad_s2 - r.damping * state.speed_rad_s;
   const auto steps = walk(r.n_nodes(), r.edges, r.held.value_or(0));
   state.torque = ArrayXd::Zero(r.n_edges());

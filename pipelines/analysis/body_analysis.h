@@ -58,6 +58,7 @@ struct DroppedBounds {
 
 class AtomicFile;
 struct BodyFatigue;
+struct StartUpStress;
 
 struct BodyAnalysis {
   BodyScene scene;
@@ -83,8 +84,9 @@ struct BodyAnalysis {
   std::vector<PlaceStress> place_stresses;  ///< what is known of every place that may govern, with its error
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
   std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
-  std::shared_ptr<const BodyFatigue> fatigue;  ///< where the scene asks for it
-  std::optional<DroppedBounds> dropped;        ///< where effects = "auto" has dropped any
+  std::shared_ptr<const BodyFatigue> fatigue;     ///< where the scene asks for it
+  std::shared_ptr<const StartUpStress> start_up;  ///< where the scene asks for a start
+  std::optional<DroppedBounds> dropped;           ///< where effects = "auto" has dropped any
   /// The mesh file of a solid until write_body_results gives it its name; it goes with the last copy.
   std::shared_ptr<AtomicFile> mesh_file;
 

@@ -70,16 +70,21 @@ void refer_to(ElasticLine& line, const std::vector<double>& z_m) {
 
 }  // namespace
 
+Array2Xd ring_shear_Pa(const ChannelHistory& loads, const fem::UnitResponses& responses, std::size_t ring) {
+  const std::size_t n_channels = responses.channels.size();
+  ArrayXXd unit(2, Index(n_channels));
+  for (std::size_t k = 0; k < n_channels; ++k)
+    for (std::size_t c = 0; c < 2; ++c)
+      unit(Index(c), Index(k)) = responses.ring_shear_Pa[ring * n_channels + k][c];
+  return over_the_cycle(unit, loads);
+}
+
 std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitResponses& responses,
                                        const meshes::BodyMesh& mesh) {
-  const std::size_t n_channels = responses.channels.size();
   std::vector<TorsionRing> rings;
   for (std::size_t r = 0; r < responses.rings.size(); ++r) {
-    ArrayXXd unit(2, Index(n_channels));
-    for (std::size_t k = 0; k < n_channels; ++k)
-      for (std::size_t c = 0; c < 2; ++c)
-        unit(Index(c), Index(k)) = responses.ring_shear_Pa[r * n_channels + k][c];
-    const ArrayXd shear = over_the_cycle(unit, loads.history).matrix().colwise().stableNorm().transpose();
+    const ArrayXd shear =
+        ring_shear_Pa(loads.history, responses, r).matrix().colwise().stableNorm().transpose();
     TorsionRing ring;
     ring.z_m = responses.rings[r].z_m;
     ring.radius_m = responses.rings[r].radius_m;

@@ -65,7 +65,12 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
                           const meshes::BodyMesh& mesh, const meshes::Shaft& geometry, double density_kg_m3,
                           const std::vector<std::string>& references);
 
-/// Of all rings of the responses, which section_diagrams has as well.
+/// Mean torsional shear on a ring over the instants: rows sigma_r_theta and sigma_theta_z [Pa].
+/// @param ring  index into responses.rings
+Eigen::Array2Xd ring_shear_Pa(const ChannelHistory& loads, const fem::UnitResponses& responses,
+                              std::size_t ring);
+
+/// Of all rings of the responses, in their order, which section_diagrams has as well.
 std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitResponses& responses,
                                        const meshes::BodyMesh& mesh);
 

@@ -46,6 +46,10 @@ std::vector<RegionMass> BodyKind::regions(const MeshedBody& meshed) const {
   return {{"", {}, meshed.masses}};
 }
 
+std::vector<ElementPort> BodyKind::element_ports(const BodyScene&) const {
+  return {};
+}
+
 void BodyKind::require_supports(const BodyScene&, const BodyLoads&, const std::vector<RegionMass>&) const {}
 
 std::string BodyKind::missing_support(const BodyScene&, const Closure&) const {

@@ -204,6 +204,14 @@ public:
     return distribute_train_shaft(history, kinetics::mean_speed_rad_s(train, options.inertia), loaded,
                                   options, scene.effects, masses.attached.at(body.name).structure);
   }
+  std::vector<ElementPort> element_ports(const BodyScene& body) const override {
+    const auto& shaft = train_options(body);
+    std::vector<ElementPort> ports;
+    for (const auto& torque : shaft.torques)
+      ports.push_back({torque.role.substr(0, torque.role.size() - ("_on_" + shaft.inertia).size()),
+                       torque.port, torque.role});
+    return ports;
+  }
   void report(const Scene& scene, const BodyScene& body, const BodyLoads&,
               kinetics::LoadHistory& history) const override {
     const auto& forces = train_options(body).forces;

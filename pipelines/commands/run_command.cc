@@ -159,8 +159,8 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   warn_of_earlier(staged);
   clock.run("write", [&] { write_load_results(staged.folder(), loads, {}); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
-  finish_run(request, staged, {scene, loads, {}, {}, clock.costs(), lives}, torsion,
-             {request.key, {}, {}, ""});
+  finish_run(request, staged, {scene, loads, {}, {}, clock.costs(), lives, torsion ? &*torsion : nullptr},
+             torsion, {request.key, {}, {}, ""});
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.
@@ -233,7 +233,7 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   const auto torsion = torsion_of(reported, reported.machine, staged.folder(), clock);
   finish_run(request, staged,
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings,
-              duty ? &*duty : nullptr},
+              duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
              torsion, std::move(record));
   if (!run.met() && !accuracy.by_default)
     throw ToleranceNotMet("the tolerance is not met; the results are kept");

@@ -2,6 +2,7 @@
 #include "pipelines/machines/drive_train_reader.h"
 #include "pipelines/machines/kinds.h"
 #include "pipelines/scene/body_effects.h"
+#include "pipelines/scene/effect_names.h"
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene_body.h"
 #include "pipelines/scene/scene_effects.h"
@@ -32,6 +33,17 @@ void check_from_mesh(SceneTable& machine, const Scene& scene) {
   }
 }
 
+/// A start accelerates the shaft whatever the steady torques do.
+void check_start_up_effects(SceneTable& root, const Scene& scene) {
+  if (!scene.torsion.transient || scene.body("shaft") == nullptr ||
+      scene.has_effect(effect_name::shaft_inertia))
+    return;
+  root.refuse(
+      "effects",
+      "lacks \"shaft_inertia\": [machine.transient] accelerates the shaft, and nothing but the shaft's "
+      "inertia balances that; add \"shaft_inertia\", or remove [machine.transient]");
+}
+
 class DriveTrainKind : public MachineKind {
 public:
   std::string type() const override { return "drive_train"; }
@@ -44,11 +56,14 @@ public:
     scene.machine = train;
     bodies = read_bodies(root, scene, findings);
     if (findings.errors.empty()) check_from_mesh(machine, scene);
+    if (findings.errors.empty() && scene.body("shaft") != nullptr)
+      check_start_up_instants(machine, scene.torsion);
     if (!findings.errors.empty()) return;
     try {
       EffectRules rules{effect_table(train, scene.bodies)};
       add_own_effects(rules, type(), root);
       read_effects(root, rules, scene, findings);
+      if (findings.errors.empty()) check_start_up_effects(root, scene);
     } catch (const kinetics::MachineRefused& error) {
       machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
     }
@@ -59,6 +74,11 @@ public:
   }
   std::vector<kinetics::EffectInfo> effects(const Machine& machine) const override {
     return kinetics::drive_train_effects(train_in(machine));
+  }
+  std::optional<kinetics::LoadHistory> start_up(const Scene& scene, const Machine& machine) const override {
+    if (!scene.torsion.transient) return std::nullopt;
+    return kinetics::compute_transient_loads(train_in(machine), scene.kinetics_effects(),
+                                             transient_run(scene.torsion));
   }
   bool is_headline(const std::string& quantity) const override {
     return ends_with(quantity, ".torque") || ends_with(quantity, ".shear_stress");

@@ -240,4 +240,25 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
   return train;
 }
 
+void check_start_up_instants(SceneTable& machine, const TorsionScene& torsion) {
+  if (!torsion.transient) return;
+  const auto& run = *torsion.transient;
+  const long n_instants = run.n_steps / run.store_every + 1;
+  if (n_instants <= most_start_up_instants) return;
+  const long enough = (run.n_steps + most_start_up_instants - 2) / (most_start_up_instants - 1);
+  SceneTable table = machine.table("transient");
+  table.refuse(
+      table.has("store_every") ? "store_every" : "step",
+      "stores " + std::to_string(n_instants) + " instants, and [shaft] takes its loads at each; at most " +
+          std::to_string(most_start_up_instants) + " fit; write store_every = " + std::to_string(enough) +
+          ", take a longer step or a shorter duration, or remove [shaft]");
+}
+
+kinetics::TransientRun transient_run(const TorsionScene& torsion) {
+  auto run = torsion.transient.value();
+  for (const auto& torque : torsion.torques)
+    run.loads.push_back({torque.inertia, kinetics::torque_table(torque.time_s, torque.torque_Nm)});
+  return run;
+}
+
 }  // namespace pipelines

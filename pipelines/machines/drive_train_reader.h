@@ -14,4 +14,16 @@ namespace pipelines {
 kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion,
                                       std::vector<std::string>& masses_from_mesh);
 
+/// Stored instants of a transient whose loads a body takes, at most: its channels, effect by effect, then
+/// take a few hundred megabytes.
+inline constexpr long most_start_up_instants = 50'000;
+
+/// Refuses a transient with more of them.
+/// @param machine  the table that was read
+void check_start_up_instants(SceneTable& machine, const TorsionScene& torsion);
+
+/// The transient that the scene asks for, with its torques.
+/// @param torsion  with a transient
+kinetics::TransientRun transient_run(const TorsionScene& torsion);
+
 }  // namespace pipelines

@@ -14,6 +14,7 @@
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/html_page.h"
 #include "pipelines/files/json_file.h"
+#include "pipelines/report/torsion_html.h"
 #include "pipelines/report/zone_text.h"
 
 namespace pipelines {
@@ -239,6 +240,7 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
              governing.at("value").get<double>());
   add_search(page, body);
   add_effects(page, peak);
+  add_shaft_torsion(page, body);
   add_seats(page, body);
   add_fatigue(page, body);
 }
@@ -378,6 +380,7 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
   add_bearings(page, summary);
   add_duty(page, summary);
   add_natural_frequencies(page, summary);
+  add_resonance_margins(page, summary);
   add_accuracy(page, accuracy);
   if (summary.contains("timing")) add_timing(page, summary);
   return page.text();

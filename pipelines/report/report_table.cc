@@ -10,6 +10,7 @@
 #include "pipelines/report/duty_report.h"
 #include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/results.h"
+#include "pipelines/report/shaft_torsion_report.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/report/zone_text.h"
 #include "pipelines/scene/machine_kind.h"
@@ -181,6 +182,8 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
   if (analysis.vibration) print_vibration(out, *analysis.vibration);
   print_hot_spots(out, report, analysis);
   print_fatigue(out, report, analysis);
+  print_element_torsion(out, report, analysis);
+  print_start_up(out, analysis);
   if (!analysis.diagrams) return;
   out << fmt::format("\n  {:<28}{:>16}{:>16}\n", "seat", "deflection mm", "slope mrad");
   for (const auto& seat : analysis.diagrams->seats)

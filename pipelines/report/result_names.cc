@@ -73,7 +73,7 @@ void refuse_link(const fs::path& folder) {
 
 bool is_body_file(const std::string& name) {
   static const std::regex given(
-      R"(mesh\.msh|unit_responses\.h5|iteration_gave_up\.txt|(zones|zone_tree|hot_spots|fatigue|weld_fatigue|diagrams|torsion|torsion_cycle)\.csv|)"
+      R"(mesh\.msh|unit_responses\.h5|iteration_gave_up\.txt|(zones|zone_tree|hot_spots|fatigue|weld_fatigue|diagrams|torsion|torsion_cycle|element_torques|start_up)\.csv|)"
       R"(envelope(\.vtu|\.pvtu|\.png|_\d+\.vtu)|cycle\.pvd|cycle_\d+\.vtu)");
   return std::regex_match(name, given);
 }

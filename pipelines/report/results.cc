@@ -11,6 +11,7 @@
 #include "pipelines/loads/load_files.h"
 #include "pipelines/report/envelope_files.h"
 #include "pipelines/report/fatigue_report.h"
+#include "pipelines/report/shaft_torsion_report.h"
 
 namespace pipelines {
 namespace {
@@ -233,7 +234,9 @@ void write_body_results(const path& directory, const Scene& scene, const kinetic
   if (analysis.fatigue && !analysis.fatigue->welds.empty())
     write_weld_fatigue(directory / "weld_fatigue.csv", analysis);
   if (analysis.fatigue) write_fatigue(directory / "fatigue.csv", scene, loads, analysis);
+  if (analysis.start_up) write_start_up(directory / "start_up.csv", analysis);
   if (!analysis.diagrams) return;
+  write_element_torsion(directory / "element_torques.csv", loads, analysis);
   write_diagrams(directory / "diagrams.csv", analysis);
   write_torsion(directory, loads, analysis);
 }

@@ -17,9 +17,10 @@ void write_load_results(const std::filesystem::path& directory, const kinetics::
                         const BodyChannels& bodies);
 
 /// In `directory`: mesh.msh of a solid that run_scene has left waiting, to be called once then; envelope.vtu,
-/// cycle.pvd with cycle_*.vtu, zones.csv, zone_tree.csv; hot_spots.csv for a body with weld toes; diagrams.csv, torsion.csv,
-/// torsion_cycle.csv for a parametric shaft or drum. Snapshots of an earlier run that this one does not write
-/// are removed, so that the folder shows one run.
+/// cycle.pvd with cycle_*.vtu, zones.csv, zone_tree.csv; hot_spots.csv for a body with weld toes;
+/// diagrams.csv, torsion.csv, torsion_cycle.csv for a parametric shaft or drum; element_torques.csv,
+/// start_up.csv for a shaft of a drive train (shaft_torsion_report.h). Snapshots of an earlier run that this
+/// one does not write are removed, so that the folder shows one run.
 /// @param n_pieces  of the envelope, one for each MPI rank: with several of them envelope.pvtu and
 /// envelope_<rank>.vtu stand for envelope.vtu
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,

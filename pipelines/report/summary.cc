@@ -11,6 +11,7 @@
 #include "pipelines/files/content_hash.h"
 #include "pipelines/report/duty_report.h"
 #include "pipelines/report/summary_values.h"
+#include "pipelines/report/torsion_json.h"
 #include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
@@ -101,6 +102,10 @@ std::string summary_json(const RunReport& report) {
   const Machine& machine = report.scene.machine;
   for (const double w : kind_of(machine).natural_frequencies_rad_s(machine))
     json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
+  if (report.torsion != nullptr) {
+    json["torsion"]["elements"] = train_elements_json(*report.torsion);
+    json["torsion"]["margins"] = margins_json(*report.torsion);
+  }
   for (const auto& analysis : report.bodies) {
     json["bodies"][analysis.scene.name] = body_json(report, analysis);
     const Closure& closure = analysis.closure;

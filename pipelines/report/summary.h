@@ -15,6 +15,7 @@
 namespace pipelines {
 
 struct DutyResult;
+struct TorsionReport;
 
 /// What a run has come to; no bodies for the load stage alone.
 struct RunReport {
@@ -25,6 +26,7 @@ struct RunReport {
   const std::vector<StageCost>& costs;
   std::vector<BearingResult> bearings = {};
   const DutyResult* duty = nullptr;  ///< null: the scene has no operating blocks
+  const TorsionReport* torsion = nullptr;  ///< of a drive train
 };
 
 /// The text of summary.json. Everything but `timing` is the same from run to run.

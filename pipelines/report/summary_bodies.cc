@@ -8,6 +8,7 @@
 #include "pipelines/common/statistics.h"
 #include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/results.h"
+#include "pipelines/report/shaft_torsion_report.h"
 #include "pipelines/report/summary_values.h"
 #include "pipelines/report/zone_text.h"
 #include "pipelines/scene/effect_groups.h"
@@ -187,6 +188,8 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   if (analysis.vibration) add_vibration(*analysis.vibration, json);
   if (analysis.diagrams) {
     json["torsion"] = torsion_json(analysis);
+    if (auto elements = element_torsion_json(report, analysis); !elements.is_null())
+      json["torsion"]["elements"] = std::move(elements);
     for (const auto& seat : analysis.diagrams->seats)
       json["seats"][seat.port] = object({{"z_m", seat.z_m},
                                          {"max_deflection_m", seat.max_deflection_m},
@@ -209,6 +212,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   }
   if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = budget_json(analysis.hot_spot_errors);
   if (analysis.fatigue) json["fatigue"] = fatigue_json(report, analysis);
+  if (analysis.start_up) json["start_up"] = start_up_json(analysis);
   for (const auto& edge : analysis.mesh.sharp_edges)
     json["singular"].push_back(object({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}}));
   for (const auto& figure : report.masses)

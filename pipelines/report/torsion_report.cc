@@ -6,6 +6,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/common/finite.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/machines/drive_train_reader.h"
 #include "pipelines/report/published_torsion.h"
 
 namespace pipelines {
@@ -37,10 +38,7 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
                               on.elements[e].diameter_m > 0 ? largest(".shear_stress") : 0});
   }
   if (scene.torsion.transient) {
-    auto run = *scene.torsion.transient;
-    for (const auto& torque : scene.torsion.torques)
-      run.loads.push_back({torque.inertia, kinetics::torque_table(torque.time_s, torque.torque_Nm)});
-    report.transient = kinetics::transient(on, run);
+    report.transient = kinetics::transient(on, transient_run(scene.torsion));
   }
   if (scene.torsion.published_tables) report.published = kinetics::published_tables(on);
   require_finite(report);

@@ -6,7 +6,7 @@
 
 #include "pipelines/files/csv.h"
 #include "pipelines/report/published_torsion.h"
-#include "pipelines/report/torsion_report.h"
+#include "pipelines/report/torsion_json.h"
 
 namespace pipelines {
 namespace {
@@ -108,6 +108,29 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
   for (const auto& warning : report.forced.warnings) out << "  warning: " << warning << '\n';
 }
 
+Json train_elements_json(const TorsionReport& report) {
+  Json json = Json::object();
+  for (const auto& t : report.torques)
+    json[t.element] = {{"mean_torque_Nm", t.mean_Nm},
+                       {"largest_torque_Nm", t.largest_Nm},
+                       {"largest_reduced_torque_Nm", t.largest_reduced_Nm},
+                       {"largest_shear_stress_Pa", t.largest_shear_Pa}};
+  return json;
+}
+
+Json margins_json(const TorsionReport& report) {
+  Json json = Json::array();
+  for (const auto& m : report.margins)
+    json.push_back(
+        {{"excitation", line_name(m.line)},
+         {"frequency_rad_s", m.line.frequency_rad_s},
+         {"mode", m.mode},
+         {"natural_frequency_rad_s", m.natural_frequency_rad_s},
+         {"margin", m.margin},
+         {"amplification", std::isfinite(m.amplification) ? Json(m.amplification) : Json(nullptr)}});
+  return json;
+}
+
 std::string torsion_json(const Scene& scene, const TorsionReport& report) {
   Json json;
   json["scene"] = scene.file.filename().string();
@@ -115,19 +138,8 @@ std::string torsion_json(const Scene& scene, const TorsionReport& report) {
   Json& torsion = json["torsion"];
   for (const double w : report.modes.frequency_rad_s)
     torsion["natural_frequencies"].push_back({{"value", w}, {"unit", "rad/s"}});
-  for (const auto& t : report.torques)
-    torsion["elements"][t.element] = {{"mean_torque_Nm", t.mean_Nm},
-                                      {"largest_torque_Nm", t.largest_Nm},
-                                      {"largest_reduced_torque_Nm", t.largest_reduced_Nm},
-                                      {"largest_shear_stress_Pa", t.largest_shear_Pa}};
-  for (const auto& m : report.margins)
-    torsion["margins"].push_back(
-        {{"excitation", line_name(m.line)},
-         {"frequency_rad_s", m.line.frequency_rad_s},
-         {"mode", m.mode},
-         {"natural_frequency_rad_s", m.natural_frequency_rad_s},
-         {"margin", m.margin},
-         {"amplification", std::isfinite(m.amplification) ? Json(m.amplification) : Json(nullptr)}});
+  torsion["elements"] = train_elements_json(report);
+  if (!report.margins.empty()) torsion["margins"] = margins_json(report);
   if (report.transient) {
     torsion["transient"]["energy_balance"] = energy_miss(*report.transient);
     for (std::size_t e = 0; e < train_of(scene).elements.size(); ++e)

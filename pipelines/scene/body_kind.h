@@ -22,6 +22,12 @@ struct MassAgreement;
 struct MeshedBody;
 struct RegionMass;
 
+/// Where the torque of an element of the machine enters a body, and the role of that torque in load
+/// histories.
+struct ElementPort {
+  std::string element, port, role;
+};
+
 class BodyKind {
 public:
   virtual ~BodyKind() = default;
@@ -83,6 +89,8 @@ public:
   virtual BodyLoads distribute(const Scene& scene, const BodyScene& body,
                                const kinetics::LoadHistory& history, const LoadedBody& loaded,
                                const MassAgreement& masses) const = 0;
+  /// The elements of a drive train that join the body to the others; none of other machines.
+  virtual std::vector<ElementPort> element_ports(const BodyScene& body) const;
   /// Refuses loads that remain in directions in which the scene could name a support and does not. Most
   /// kinds get their reactions from their machine.
   /// @throws StageRefused naming the body's table, each key that is missing, the force or moment that it has

@@ -62,8 +62,10 @@ public:
   /// Over the scene's period, or its run-up.
   /// @param machine  the scene's, with the masses that it leaves to a mesh
   virtual kinetics::LoadHistory loads(const Scene& scene, const Machine& machine) const;
-  /// Over one start from rest to the scene's running; empty: the machine has no transient there.
+  /// Over one start from rest to the scene's running; empty: the machine, or the scene, has no
+  /// transient there.
   /// @param machine  the scene's, with the masses that it leaves to a mesh
+  /// @throws kinetics::MachineRefused
   virtual std::optional<kinetics::LoadHistory> start_up(const Scene& scene, const Machine& machine) const;
   /// Why a scene cannot say how long a start takes; empty: it can, and start_up follows Scene::run_up.
   virtual std::string why_no_run_up_of_given_duration() const;

@@ -16,6 +16,7 @@
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
+#include "pipelines/analysis/start_up_stress.h"
 #include "pipelines/analysis/submodels.h"
 #include "pipelines/analysis/superpose_body.h"
 #include "pipelines/analysis/weld_places.h"
@@ -75,6 +76,7 @@ public:
         (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
       agree_at_last();
     for (auto& analysis : run_.analyses) add_fatigue(analysis);
+    for (auto& analysis : run_.analyses) add_start_up(analysis);
     for (const auto& warning : warnings_) run_.loaded.loads.warnings.push_back(warning);
     return std::move(run_);
   }
@@ -151,6 +153,7 @@ private:
   void load(std::vector<MeshedBody> meshed) {
     run_.loaded = load_bodies(run_.scene, std::move(meshed), clock_);
     if (options_.duty) add_channels_of_blocks(as_read_, run_.scene, run_.loaded, clock_);
+    run_.start_up = load_start_up(run_.scene, run_.loaded, clock_);
   }
 
   RunOptions options_of(std::size_t i) const {
@@ -206,6 +209,17 @@ private:
       const double step_s = time_s.size() > 1 ? time_s[1] - time_s[0] : 0;
       analysis.fatigue = std::make_shared<const BodyFatigue>(judge_fatigue(
           analysis, {step_s * double(time_s.size()), double(grid.turns)}, threads(options_.n_threads)));
+    });
+  }
+
+  /// The start, where the scene asks for it, on the final responses.
+  void add_start_up(BodyAnalysis& analysis) {
+    if (!run_.start_up) return;
+    std::size_t i = 0;
+    while (run_.scene.bodies[i].name != analysis.scene.name) ++i;
+    clock_.run("start-up", [&] {
+      analysis.start_up = std::make_shared<const StartUpStress>(
+          start_up_stress(analysis, *run_.start_up, i, run_.loaded.loads, threads(options_.n_threads)));
     });
   }
 

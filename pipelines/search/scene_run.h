@@ -4,12 +4,14 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/loads/start_up_loads.h"
 #include "pipelines/scene/requested_accuracy.h"
 
 namespace pipelines {
@@ -31,6 +33,7 @@ struct SceneRun {
   Scene scene;  ///< with the meshes, instants and harmonics that were chosen
   LoadedScene loaded;
   std::vector<BodyAnalysis> analyses;             ///< in the order of Scene::bodies, or of the only body
+  std::shared_ptr<const StartUp> start_up;        ///< loads of a start that the scene asks for; else null
   std::map<std::string, std::string> kept_under;  ///< of bodies with kept unit responses: hash of their key
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.

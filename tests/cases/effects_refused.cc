@@ -44,13 +44,15 @@ TEST(EffectsRefused, AVaryingTorqueWithoutTheShaftsInertia) {
 // Constant torques need it where they do not balance each other, which the loads on the mesh tell.
 TEST(EffectsRefused, ConstantTorquesThatNothingBalances) {
   const results_test::Directory directory;
+  // Steady running alone: a start would need the inertia whatever the torques.
   const auto text = refusal(
       directory.path,
-      edited("root_peeler_shaft.toml",
-             coarse_peeler + Edits{{"harmonics = [{ amplitude = \"3.744 N m\", frequency = \"50 Hz\" }]",
-                                    "constant = \"3 N m\""},
-                                   {"harmonics = [{ amplitude = \"-9.6 N m\", frequency = \"50 Hz\" }]",
-                                    "constant = \"-6 N m\""}}),
+      with_edits(
+          without("root_peeler_shaft.toml", "[machine.transient]", "[sampling]"),
+          coarse_peeler + Edits{{"constant = \"3.744 N m\"", "constant = \"3 N m\""},
+                                {"constant = \"-9.984 N m\"", "constant = \"-6 N m\""},
+                                {"harmonics = [{ amplitude = \"3.744 N m\", frequency = \"50 Hz\" }]", ""},
+                                {"harmonics = [{ amplitude = \"-9.6 N m\", frequency = \"50 Hz\" }]", ""}}),
       {"check", "run", "loads"});
   EXPECT_EQ(text.rfind("scene.toml:6:11: effects = [", 0), 0u) << text;
   EXPECT_NE(

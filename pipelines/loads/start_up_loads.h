@@ -1,0 +1,35 @@
+/// A machine's start from standstill, beside its steady running: its loads on the bodies, to be superposed on
+/// the unit responses of the steady run.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kinetics/load_history.h"
+#include "pipelines/common/stage_clock.h"
+#include "pipelines/loads/load_stage.h"
+
+namespace pipelines {
+
+struct StartUp {
+  kinetics::LoadHistory loads;    ///< time_s from standstill on
+  std::vector<BodyLoads> bodies;  ///< in the order of Scene::bodies, with the channels of the steady loads
+};
+
+/// Loads of a body over any history of its machine: a start, a block of duty.
+/// @param history  with the roles and quantities of the load stage
+/// @throws LoadsDoNotClose unless they close at every instant; NotFinite
+BodyLoads loads_over(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
+                     const MeshedBody& meshed, const MassAgreement& masses);
+
+/// Gives two load histories of one body the same channels in the same order: those of the first, then what
+/// only the second has. What a history does not have is zero there.
+void join_channels(BodyLoads& first, BodyLoads& second);
+
+/// The start that the scene asks for; null where it asks for none.
+/// @param loaded  the steady loads of the bodies; they get the channels that only the start has, as zeros, so
+///                that one set of unit responses serves both
+/// @throws kinetics::MachineRefused, and as loads_over
+std::shared_ptr<const StartUp> load_start_up(const Scene& scene, LoadedScene& loaded, StageClock& clock);
+
+}  // namespace pipelines
