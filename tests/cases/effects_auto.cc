@@ -180,8 +180,8 @@ TEST(EffectsAuto, CheckAndLoadsDropTheSame) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto begin = outcome.out.find("  off by effects");
     if (begin == std::string::npos) return command + " says nothing: " + outcome.out;
-    return outcome.out.substr(
-        begin, outcome.out.find_last_not_of('\n', outcome.out.find("\n\n", begin)) + 1 - begin);
+    const auto end = std::min(outcome.out.find("\n\n", begin), outcome.out.find("\nwarning", begin));
+    return outcome.out.substr(begin, outcome.out.find_last_not_of('\n', end) + 1 - begin);
   };
   const std::vector<std::pair<std::string, Edits>> scenes{
       {"root_peeler_shaft.toml", {{"cells_per_fillet_quarter = 4", "cells_per_fillet_quarter = 2"}}},

@@ -83,8 +83,14 @@ TEST(StartUp, PartsAddUpToTheChannels) {
   Eigen::ArrayXXd rest = loads.history.values;
   for (const auto& part : loads.history.by_effect) rest -= part;
   EXPECT_LT(bodies::largest(rest), 1e-9 * bodies::largest(loads.history.values));
-  for (const char* effect : {"transient_torque_on_rotor", "transient_torque_on_disc"})
-    EXPECT_GT(bodies::largest(bodies::part(loads, effect, "pulley_seat.torque")), 5) << effect;
+  // The roots' 9.984 N m mostly slow the disc itself: the shaft brings what accelerates motor and pulleys,
+  // their share of all inertia. The torque rises within sixty periods, and shakes the shaft by 1 / (w 0.76 s)
+  // = 0.3 %.
+  const double beyond = (1.302315e-3 + 3.86275e-4) / (0.375 * 0.375) + 2.460168e-2, J_2 = 7.2e-5 + 0.2099853;
+  const double wanted = 9.984 * beyond / (beyond + J_2);
+  EXPECT_NEAR(bodies::largest(bodies::part(loads, "transient_torque_on_disc", "pulley_seat.torque")), wanted,
+              0.005 * wanted);
+  EXPECT_GT(bodies::largest(bodies::part(loads, "transient_torque_on_rotor", "pulley_seat.torque")), 30);
   EXPECT_EQ(bodies::largest(bodies::part(loads, "motor_torque", "pulley_seat.torque")), 0)
       << "excitations = false";
 }
