@@ -59,9 +59,11 @@ double StartUpFigure::factor() const {
   return steady > 0 ? std::abs(largest) / steady : 0;
 }
 
-StartUpStress start_up_stress(const BodyAnalysis& analysis, const StartUp& start, std::size_t index,
+StartUpStress start_up_stress(const BodyAnalysis& analysis, const StartUp& start,
                               const kinetics::LoadHistory& steady, int n_threads) {
-  const auto& loads = start.bodies[index];
+  const auto& loads = *std::find_if(start.bodies.begin(), start.bodies.end(), [&](const auto& body) {
+    return body.history.body == analysis.scene.name;
+  });
   StartUpStress result;
   result.time_s = start.loads.time_s;
   result.drive_angle_rad = start.loads.phi_rad;

@@ -51,9 +51,8 @@ struct StartUpStress {
 };
 
 /// @param analysis  of the steady run
-/// @param index     of the body in the scene
 /// @param steady    load stage of the steady run
-StartUpStress start_up_stress(const BodyAnalysis& analysis, const StartUp& start, std::size_t index,
+StartUpStress start_up_stress(const BodyAnalysis& analysis, const StartUp& start,
                               const kinetics::LoadHistory& steady, int n_threads);
 
 }  // namespace pipelines

@@ -57,7 +57,7 @@ public:
     bodies = read_bodies(root, scene, findings);
     if (findings.errors.empty()) check_from_mesh(machine, scene);
     if (findings.errors.empty() && scene.body("shaft") != nullptr)
-      check_start_up_instants(machine, scene.torsion);
+      check_start_up_instants(machine, train, scene.torsion);
     if (!findings.errors.empty()) return;
     try {
       EffectRules rules{effect_table(train, scene.bodies)};

@@ -240,18 +240,24 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
   return train;
 }
 
-void check_start_up_instants(SceneTable& machine, const TorsionScene& torsion) {
+void check_start_up_instants(SceneTable& machine, const kinetics::DriveTrain& train,
+                             const TorsionScene& torsion) {
   if (!torsion.transient) return;
+  constexpr long most_instants = 50'000, most_numbers = 40'000'000;
   const auto& run = *torsion.transient;
+  const std::size_t n_parts = (run.with_excitations ? train.excitations.size() : 0) + torsion.torques.size();
+  // Force and torque, 3 numbers, on both inertias of an element, in total and by part.
+  const long per_instant = std::max(1L, long(train.elements.size() * 2 * 3 * (n_parts + 1)));
+  const long most = std::clamp(most_numbers / per_instant, 2L, most_instants);
   const long n_instants = run.n_steps / run.store_every + 1;
-  if (n_instants <= most_start_up_instants) return;
-  const long enough = (run.n_steps + most_start_up_instants - 2) / (most_start_up_instants - 1);
+  if (n_instants <= most) return;
+  const long enough = (run.n_steps + most - 2) / (most - 1);
   SceneTable table = machine.table("transient");
-  table.refuse(
-      table.has("store_every") ? "store_every" : "step",
-      "stores " + std::to_string(n_instants) + " instants, and [shaft] takes its loads at each; at most " +
-          std::to_string(most_start_up_instants) + " fit; write store_every = " + std::to_string(enough) +
-          ", take a longer step or a shorter duration, or remove [shaft]");
+  table.refuse(table.has("store_every") ? "store_every" : "step",
+               "stores " + std::to_string(n_instants) +
+                   " instants, and [shaft] takes its loads at each; at most " + std::to_string(most) +
+                   " fit; write store_every = " + std::to_string(enough) +
+                   ", take a longer step or a shorter duration, or remove [shaft]");
 }
 
 kinetics::TransientRun transient_run(const TorsionScene& torsion) {

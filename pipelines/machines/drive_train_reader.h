@@ -14,13 +14,11 @@ namespace pipelines {
 kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion,
                                       std::vector<std::string>& masses_from_mesh);
 
-/// Stored instants of a transient whose loads a body takes, at most: its channels, effect by effect, then
-/// take a few hundred megabytes.
-inline constexpr long most_start_up_instants = 50'000;
-
-/// Refuses a transient with more of them.
+/// Refuses a transient with more stored instants than a body's loads have room for: 50 000, fewer for trains
+/// of many elements and torques (each element's torque is kept by effect: a few hundred megabytes).
 /// @param machine  the table that was read
-void check_start_up_instants(SceneTable& machine, const TorsionScene& torsion);
+void check_start_up_instants(SceneTable& machine, const kinetics::DriveTrain& train,
+                             const TorsionScene& torsion);
 
 /// The transient that the scene asks for, with its torques.
 /// @param torsion  with a transient

@@ -215,11 +215,9 @@ private:
   /// The start, where the scene asks for it, on the final responses.
   void add_start_up(BodyAnalysis& analysis) {
     if (!run_.start_up) return;
-    std::size_t i = 0;
-    while (run_.scene.bodies[i].name != analysis.scene.name) ++i;
     clock_.run("start-up", [&] {
       analysis.start_up = std::make_shared<const StartUpStress>(
-          start_up_stress(analysis, *run_.start_up, i, run_.loaded.loads, threads(options_.n_threads)));
+          start_up_stress(analysis, *run_.start_up, run_.loaded.loads, threads(options_.n_threads)));
     });
   }
 
