@@ -28,7 +28,7 @@ std::vector<GivenForce> BodyKind::given_forces(const BodyScene&) const {
   return {};
 }
 
-void BodyKind::add_needs(const Machine&, std::vector<kinetics::EffectInfo>&) const {}
+void BodyKind::add_needs(const Scene&, std::vector<kinetics::EffectInfo>&) const {}
 
 bool BodyKind::shares_masses() const {
   return false;

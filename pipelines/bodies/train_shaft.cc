@@ -155,15 +155,18 @@ public:
   std::vector<GivenForce> given_forces(const BodyScene& body) const override {
     return train_options(body).forces;
   }
-  /// What the balance T_34 - T_45 - D phi' = J phi'' of a train's shaft needs.
-  void add_needs(const Machine& machine, std::vector<kinetics::EffectInfo>& table) const override {
+  /// What the balance T_34 - T_45 - D phi' = J phi'' of a train's shaft needs; a start accelerates it
+  /// whatever the torques of steady running do.
+  void add_needs(const Scene& scene, std::vector<kinetics::EffectInfo>& table) const override {
+    const bool starts = scene.torsion.transient.has_value();
     const kinetics::EffectNeed inertia{
         effect_name::shaft_inertia,
-        "its torque accelerates the shaft, and nothing but the shaft's inertia balances that",
+        std::string(starts ? "[machine.transient]" : "its torque") +
+            " accelerates the shaft, and nothing but the shaft's inertia balances that",
         "coupling 6, T_34 - T_45 - D_4 phi_4' = J_4 phi_4''"};
-    for (const auto& excitation : std::get<kinetics::DriveTrain>(machine).excitations)
+    for (const auto& excitation : std::get<kinetics::DriveTrain>(scene.machine).excitations)
       for (auto& info : table)
-        if (info.name == excitation.name && varies(excitation)) info.needs.push_back(inertia);
+        if (info.name == excitation.name && (starts || varies(excitation))) info.needs.push_back(inertia);
   }
   bool shares_masses() const override { return true; }
   std::optional<std::string> usual_difference_port(const BodyScene& body) const override {

@@ -2,7 +2,6 @@
 #include "pipelines/machines/drive_train_reader.h"
 #include "pipelines/machines/kinds.h"
 #include "pipelines/scene/body_effects.h"
-#include "pipelines/scene/effect_names.h"
 #include "pipelines/scene/plausibility.h"
 #include "pipelines/scene/scene_body.h"
 #include "pipelines/scene/scene_effects.h"
@@ -33,17 +32,6 @@ void check_from_mesh(SceneTable& machine, const Scene& scene) {
   }
 }
 
-/// A start accelerates the shaft whatever the steady torques do.
-void check_start_up_effects(SceneTable& root, const Scene& scene) {
-  if (!scene.torsion.transient || scene.body("shaft") == nullptr ||
-      scene.has_effect(effect_name::shaft_inertia))
-    return;
-  root.refuse(
-      "effects",
-      "lacks \"shaft_inertia\": [machine.transient] accelerates the shaft, and nothing but the shaft's "
-      "inertia balances that; add \"shaft_inertia\", or remove [machine.transient]");
-}
-
 class DriveTrainKind : public MachineKind {
 public:
   std::string type() const override { return "drive_train"; }
@@ -60,10 +48,9 @@ public:
       check_start_up_instants(machine, train, scene.torsion);
     if (!findings.errors.empty()) return;
     try {
-      EffectRules rules{effect_table(train, scene.bodies)};
+      EffectRules rules{effect_table(scene)};
       add_own_effects(rules, type(), root);
       read_effects(root, rules, scene, findings);
-      if (findings.errors.empty()) check_start_up_effects(root, scene);
     } catch (const kinetics::MachineRefused& error) {
       machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
     }

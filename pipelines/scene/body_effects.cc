@@ -13,17 +13,13 @@ std::vector<EffectInfo> body_effect_table(const BodyScene& body) {
   return kind_of(body).effects(body);
 }
 
-std::vector<EffectInfo> effect_table(const Machine& machine, const std::vector<BodyScene>& bodies) {
-  std::vector<EffectInfo> table = effects_of(machine);
-  for (const auto& body : bodies) {
-    kind_of(body).add_needs(machine, table);
+std::vector<EffectInfo> effect_table(const Scene& scene) {
+  std::vector<EffectInfo> table = effects_of(scene.machine);
+  for (const auto& body : scene.bodies) {
+    kind_of(body).add_needs(scene, table);
     for (auto& info : body_effect_table(body)) table.push_back(std::move(info));
   }
   return table;
-}
-
-std::vector<EffectInfo> effect_table(const Scene& scene) {
-  return effect_table(scene.machine, scene.bodies);
 }
 
 }  // namespace pipelines

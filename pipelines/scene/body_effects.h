@@ -16,10 +16,10 @@ struct Scene;
 /// All that a body adds.
 std::vector<kinetics::EffectInfo> body_effect_table(const BodyScene& body);
 
-/// Every effect that a machine and its bodies know, each with what it needs there. A machine's effect may
-/// need one of a body's: where a shaft of a drive train is a body, a torque that varies accelerates it, and
-/// `shaft_inertia` is what balances that.
-std::vector<kinetics::EffectInfo> effect_table(const Machine& machine, const std::vector<BodyScene>& bodies);
+/// Every effect that a scene's machine and its bodies know, each with what it needs there. A machine's effect
+/// may need one of a body's: where a shaft of a drive train is a body, a torque that varies accelerates it,
+/// as a start does, and `shaft_inertia` is what balances that.
+/// @param scene  with machine and bodies read
 std::vector<kinetics::EffectInfo> effect_table(const Scene& scene);
 
 }  // namespace pipelines

@@ -63,8 +63,9 @@ public:
   /// Forces beside the machine's loads, among the effects by their names.
   virtual std::vector<GivenForce> given_forces(const BodyScene& body) const;
   /// Tells effects of the machine which of the body's they need.
+  /// @param scene  with its machine read
   /// @param table  of the machine's effects, and of the bodies' before this one
-  virtual void add_needs(const Machine& machine, std::vector<kinetics::EffectInfo>& table) const;
+  virtual void add_needs(const Scene& scene, std::vector<kinetics::EffectInfo>& table) const;
 
   // ---- Masses ----
 

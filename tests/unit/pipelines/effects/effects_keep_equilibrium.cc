@@ -115,7 +115,7 @@ TEST(EffectEquilibrium, ConstantTorquesThatDoNotBalanceAreRefused) {
 
 // What no table knows is found by the body's equilibrium: without the inertia both torques have to go.
 TEST(EffectEquilibrium, ClosedSetsAreFoundByTheLoads) {
-  const Loaded all(edited::scene("root_peeler_shaft", constant_torques));
+  const Loaded all(edited::scene("root_peeler_shaft", constant_torques + without_start()));
   const auto closed = [](const Loaded& given, const Names& off) {
     const auto set = closed_set(given.scene, given.meshed, given.masses, off);
     return set ? set->off : Names{"none"};
@@ -128,8 +128,11 @@ TEST(EffectEquilibrium, ClosedSetsAreFoundByTheLoads) {
        "[[machine.excitations]]\nname = \"idle\"\ninertia = \"disc\"\nconstant = \"0 N m\"\n\n"
        "[[machine.excitations]]\nname = \"motor_torque\""},
       {"  \"motor_torque\", ", "  \"idle\", \"motor_torque\", "}};
-  const Loaded more(edited::scene("root_peeler_shaft", constant_torques + idle));
+  const Loaded more(edited::scene("root_peeler_shaft", constant_torques + idle + without_start()));
   EXPECT_EQ(closed(more, {"shaft_inertia"}), (Names{"motor_torque", "peeling_torque", "shaft_inertia"}));
+  // A start accelerates the shaft whatever these torques do, and it goes with none of them.
+  const Loaded starting(edited::scene("root_peeler_shaft", constant_torques + idle));
+  EXPECT_EQ(closed(starting, {"shaft_inertia"}), Names{"none"});
 }
 
 // The mistake that was seen: the inertia's share of the loads is 1e-5, and it was dropped.
