@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipelines/loads/start_up_loads.h"
 #include "pipelines/responses/response_key.h"
 
 namespace pipelines {
@@ -27,24 +28,12 @@ std::string ServedLoads::missing(const BodyLoads& loads) const {
 }
 
 BodyLoads ServedLoads::with_all_channels(BodyLoads loads) const {
-  auto& history = loads.history;
+  const auto& history = loads.history;
   const bool same = history.channels.size() == channels_.size() &&
                     std::equal(channels_.begin(), channels_.end(), history.channels.begin(),
                                [](const Channel& a, const Channel& b) { return a.name == b.name; });
   if (same) return loads;
-  const auto widened = [&](const Eigen::ArrayXXd& values) {
-    Eigen::ArrayXXd wide = Eigen::ArrayXXd::Zero(Eigen::Index(channels_.size()), values.cols());
-    for (std::size_t k = 0; k < history.channels.size(); ++k) {
-      const auto row = std::find_if(channels_.begin(), channels_.end(),
-                                    [&](const Channel& c) { return c.name == history.channels[k].name; });
-      wide.row(row - channels_.begin()) = values.row(Eigen::Index(k));
-    }
-    return wide;
-  };
-  history.values = widened(history.values);
-  for (auto& part : history.by_effect) part = widened(part);
-  history.channels = channels_;
-  loads.unit_loads = unit_loads_;
+  take_channels(loads, channels_, unit_loads_);
   return loads;
 }
 

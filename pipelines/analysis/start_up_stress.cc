@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pipelines/analysis/shaft_torsion.h"
+#include "pipelines/analysis/weld_places.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/finite_stress.h"
 
@@ -13,13 +14,6 @@ namespace {
 
 using Eigen::ArrayXd;
 using Eigen::Index;
-
-/// What the steady run knows of a place; infinite where it has not looked.
-double known_error_share(const BodyAnalysis& analysis, const std::string& feature) {
-  for (const auto& place : analysis.place_stresses)
-    if (place.feature == feature) return place.value_Pa > 0 ? place.error_Pa / place.value_Pa : 0;
-  return std::numeric_limits<double>::infinity();
-}
 
 void add_peak(const BodyAnalysis& analysis, const BodyLoads& loads, int n_threads, StartUpStress& result) {
   const auto envelope = pipelines::envelope(loads.history, analysis.responses, n_threads);
@@ -32,7 +26,7 @@ void add_peak(const BodyAnalysis& analysis, const BodyLoads& loads, int n_thread
   result.place = analysis.places.place[node];
   std::copy_n(&analysis.responses.nodes.xyz_m[3 * node], 3, result.position_m.begin());
   result.safety = analysis.scene.yield_strength_Pa / result.von_mises.largest;
-  result.error_share = known_error_share(analysis, result.feature);
+  result.error_share = error_share_of(analysis, result.feature);
   result.effects = loads.history.effects;
   const auto shares = envelope.effect_share.begin() + std::ptrdiff_t(node * result.effects.size());
   result.effect_share.assign(shares, shares + std::ptrdiff_t(result.effects.size()));

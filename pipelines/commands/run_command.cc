@@ -159,8 +159,9 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   warn_of_earlier(staged);
   clock.run("write", [&] { write_load_results(staged.folder(), loads, {}); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
-  finish_run(request, staged, {scene, loads, {}, {}, clock.costs(), lives, torsion ? &*torsion : nullptr},
-             torsion, {request.key, {}, {}, ""});
+  finish_run(request, staged,
+             {scene, loads, {}, {}, clock.costs(), lives, nullptr, torsion ? &*torsion : nullptr}, torsion,
+             {request.key, {}, {}, ""});
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.

@@ -34,15 +34,6 @@ ArrayXXd rows_of(const ArrayXXd& values, const std::vector<std::optional<std::si
   return rows;
 }
 
-void take_channels(BodyLoads& loads, const std::vector<Channel>& channels,
-                   const std::vector<fem::UnitLoad>& unit_loads) {
-  const auto places = places_in(loads.history.channels, channels);
-  loads.history.values = rows_of(loads.history.values, places);
-  for (auto& part : loads.history.by_effect) part = rows_of(part, places);
-  loads.history.channels = channels;
-  loads.unit_loads = unit_loads;
-}
-
 }  // namespace
 
 BodyLoads loads_over(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
@@ -51,6 +42,15 @@ BodyLoads loads_over(const Scene& scene, const BodyScene& body, const kinetics::
   require_finite(loads);
   require_closed_loads(loads, meshed.regions);
   return loads;
+}
+
+void take_channels(BodyLoads& loads, const std::vector<Channel>& channels,
+                   const std::vector<fem::UnitLoad>& unit_loads) {
+  const auto places = places_in(loads.history.channels, channels);
+  loads.history.values = rows_of(loads.history.values, places);
+  for (auto& part : loads.history.by_effect) part = rows_of(part, places);
+  loads.history.channels = channels;
+  loads.unit_loads = unit_loads;
 }
 
 void join_channels(BodyLoads& first, BodyLoads& second) {

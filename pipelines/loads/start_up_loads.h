@@ -22,6 +22,11 @@ struct StartUp {
 BodyLoads loads_over(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                      const MeshedBody& meshed, const MassAgreement& masses);
 
+/// The loads with these channels, in this order; those that it does not have are zero.
+/// @param unit_loads  of the channels, in their order
+void take_channels(BodyLoads& loads, const std::vector<Channel>& channels,
+                   const std::vector<fem::UnitLoad>& unit_loads);
+
 /// Gives two load histories of one body the same channels in the same order: those of the first, then what
 /// only the second has. What a history does not have is zero there.
 void join_channels(BodyLoads& first, BodyLoads& second);

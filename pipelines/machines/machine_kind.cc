@@ -29,10 +29,6 @@ kinetics::LoadHistory MachineKind::loads(const Scene& scene, const Machine& mach
   return compute_loads(machine, scene.kinetics_effects(), scene.sampling);
 }
 
-std::optional<kinetics::LoadHistory> MachineKind::start_up(const Scene&, const Machine&) const {
-  return std::nullopt;
-}
-
 bool MachineKind::has_samples() const {
   return false;
 }

@@ -8,6 +8,7 @@
 #include "kinetics/run_up.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/same_body.h"
+#include "pipelines/loads/start_up_loads.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/search/found_body.h"
 
@@ -75,26 +76,6 @@ std::vector<BodyLoads> loads_of_start(const DutyBlock& block, Scene scene, const
   return result;
 }
 
-/// Channels with their unit loads that `own` lacks, with zero factors.
-void add_channels(const BodyLoads& other, BodyLoads& own) {
-  auto& history = own.history;
-  for (std::size_t k = 0; k < other.history.channels.size(); ++k) {
-    const auto& channel = other.history.channels[k];
-    const bool is_there = std::any_of(history.channels.begin(), history.channels.end(),
-                                      [&](const Channel& c) { return c.name == channel.name; });
-    if (is_there) continue;
-    history.channels.push_back(channel);
-    own.unit_loads.push_back(other.unit_loads[k]);
-    const auto n = Eigen::Index(history.channels.size());
-    const auto append_zeros = [n](Eigen::ArrayXXd& values) {
-      values.conservativeResize(n, Eigen::NoChange);
-      values.row(n - 1).setZero();
-    };
-    append_zeros(history.values);
-    for (auto& part : history.by_effect) append_zeros(part);
-  }
-}
-
 }  // namespace
 
 void require_blocks(const Scene& scene) {
@@ -140,10 +121,10 @@ BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Sc
 void add_channels_of_blocks(const Scene& as_read, const Scene& found, LoadedScene& loaded,
                             StageClock& clock) {
   for (const auto& block : found.duty) {
-    const auto other = loads_of_block(with_short_start(block), as_read, found, loaded.meshed, clock);
+    auto other = loads_of_block(with_short_start(block), as_read, found, loaded.meshed, clock);
     for (std::size_t b = 0; b < loaded.body_loads.size(); ++b) {
-      add_channels(other.running[b], loaded.body_loads[b]);
-      if (!other.starting.empty()) add_channels(other.starting[b], loaded.body_loads[b]);
+      join_channels(loaded.body_loads[b], other.running[b]);
+      if (!other.starting.empty()) join_channels(loaded.body_loads[b], other.starting[b]);
     }
   }
 }

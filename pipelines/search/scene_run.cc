@@ -10,10 +10,8 @@
 #include <set>
 #include <utility>
 
-#include "fem/beam/beam_responses.h"
 #include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/body_vibration.h"
-#include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/start_up_stress.h"
@@ -23,18 +21,16 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
-#include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_bounds.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/report/body_files.h"
-#include "pipelines/scene/why_not.h"
 #include "pipelines/search/duty_loads.h"
+#include "pipelines/search/first_model.h"
 #include "pipelines/search/local_refinement.h"
 #include "pipelines/search/peak_growth.h"
 #include "pipelines/search/place_history.h"
 #include "pipelines/search/refinement.h"
-#include "pipelines/search/second_model.h"
 #include "pipelines/search/singular_edge.h"
 
 namespace pipelines {
@@ -59,7 +55,8 @@ public:
   SceneRun run() {
     std::vector<MeshedBody> meshed;
     for (std::size_t i = 0; i < n_bodies(); ++i) {
-      methods_.push_back(is_wanted(i) ? first_method(i) : Method::solid);
+      methods_.push_back(is_wanted(i) ? first_method(run_.scene, i, options_.accuracy.tolerance)
+                                      : Method::solid);
       meshed.push_back(is_wanted(i) ? first_meshed(i) : options_.others.at(i));
       require_toes(run_.scene.bodies[i], meshed.back().mesh);
     }
@@ -100,21 +97,6 @@ private:
   /// A model that needs no cells of the whole body.
   bool is_without_mesh(std::size_t i) const {
     return methods_[i] == Method::axisymmetric || methods_[i] == Method::beam;
-  }
-
-  /// The model that is tried first: the one asked for; else the cheapest whose own error is within the
-  /// tolerance.
-  Method first_method(std::size_t i) const {
-    const auto& body = run_.scene.bodies[i];
-    if (run_.scene.method != Method::automatic) return run_.scene.method;
-    const bool is_asked = options_.accuracy.tolerance > 0 && body.natural_frequencies == 0;
-    if (!is_asked || !why_not_axisymmetric(body).empty()) return Method::solid;
-    const auto described = describe_revolved(body);
-    const auto beam = beam_shaft(body, described.mesh);
-    const double eccentric = beam ? fem::eccentricity_error(*beam) : 0;
-    if (beam && why_not_beam(body).empty() && 3 * fem::beam_model_error(*beam) <= options_.accuracy.tolerance)
-      return Method::beam;
-    return eccentric < options_.accuracy.tolerance ? Method::axisymmetric : Method::solid;
   }
 
   MeshedBody first_meshed(std::size_t i) {
@@ -168,23 +150,11 @@ private:
     if (methods_[i] == Method::beam) {
       auto analysis = analyse_beam(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
                                    run_.loaded.body_loads[i], options_of(i), clock_);
-      if (tolerance() > 0) judge_beam(i, analysis);
+      if (tolerance() > 0) analysis.search = search_of_beam(run_.scene, i, analysis, tolerance());
       return analysis;
     }
     return analyse_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
                         options_of(i), clock_);
-  }
-
-  /// A beam is as good as it is: one step, which meets the tolerance or not.
-  void judge_beam(std::size_t i, BodyAnalysis& analysis) const {
-    const auto stress = governing_stress(analysis);
-    auto& search = analysis.search;
-    search.quantity = stress.name();
-    search.tolerance = tolerance();
-    search.steps = {record(i, stress, analysis, analysis.solve_s)};
-    search.steps.back().fineness = "beam";
-    search.met = stress.errors.reducible_Pa() <= tolerance() * stress.value_Pa;
-    search.ended = search.met ? "the tolerance is met" : "a beam has no mesh to refine; take method \"auto\"";
   }
 
   void finish(std::size_t i, BodyAnalysis& analysis) {
@@ -221,21 +191,6 @@ private:
     });
   }
 
-  SearchStep record(std::size_t i, const GoverningStress& stress, const BodyAnalysis& analysis,
-                    double seconds) const {
-    return {fineness_text(run_.scene.bodies[i]),
-            "",
-            stress.place,
-            run_.scene.sampling.instants_per_turn,
-            run_.scene.bodies[i].pressure_harmonics,
-            analysis.responses.n_dofs,
-            stress.value_Pa,
-            stress.errors,
-            analysis.envelope.principal.value_Pa[analysis.principal_node],
-            seconds,
-            peak_memory_gigabytes()};
-  }
-
   /// The first of a search's meshes that the mesher takes; the scene's own mesh is refused as in a plain run.
   MeshedBody first_mesh(std::size_t i) {
     auto candidates = first_meshes(run_.scene.bodies[i]);
@@ -264,17 +219,9 @@ private:
 
   std::optional<SecondModel> second_model(std::size_t i) {
     if (!options_.second_model) return std::nullopt;
-    return clock_.run("second model", [&]() -> std::optional<SecondModel> {
-      std::optional<SecondModel> model;
-      try {
-        const auto refusal = refusal_of([&] {
-          model = axisymmetric_second_model(run_.scene.bodies[i], run_.loaded.meshed[i],
-                                            run_.loaded.body_loads[i], tolerance(), options_.n_threads);
-        });
-        if (refusal.empty()) return model;
-      } catch (const std::bad_alloc&) {  // a strict tolerance asks for fine sections
-      }
-      return std::nullopt;  // the solid has to do without
+    return clock_.run("second model", [&] {
+      return second_model_of(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                             tolerance(), options_.n_threads);
     });
   }
 
@@ -332,7 +279,7 @@ private:
                           : "changes of the stress with the mesh, or cells around");
     const auto stress = governing_stress(analysis);
     state.search.quantity = stress.name();
-    state.search.steps.push_back(record(i, stress, analysis, seconds_since(state.step_start)));
+    state.search.steps.push_back(step_of(run_.scene, i, stress, analysis, seconds_since(state.step_start)));
     state.search.steps.back().refined = state.step ? to_string(state.step->part) : "";
     state.search.met = state.search.tolerance == 0 || stress.relative_error() <= state.search.tolerance;
   }
