@@ -14,6 +14,9 @@ namespace {
 using Eigen::ArrayXXd;
 using Eigen::Index;
 
+/// Starts have many instants.
+constexpr double slack_of_long_series = 1e-6;
+
 /// One repetition of a start: its transient, or rest, and then a period of running.
 /// @param running, starting  a column per instant; starting may be empty
 ArrayXXd start_sequence(const ArrayXXd& running, const ArrayXXd& starting) {
@@ -163,7 +166,7 @@ private:
                                   ? stress_history_Pa(analysis_.responses, *block.starting, node.node)
                                   : ArrayXXd();
     const ArrayXXd sequence = start_sequence(running, starting);
-    const auto cycle = largest_cycle(sequence);
+    const auto cycle = largest_cycle(sequence, slack_of_long_series);
     if (!(cycle.amplitude_Pa > 0)) return;
     own.start_amplitude_Pa = cycle.amplitude_Pa;
     const auto limit = rules_.limit(node.gradient_per_m, scalar(cycle));

@@ -15,6 +15,8 @@ Stress as_stress(const Eigen::Matrix<double, 6, 1>& components) {
   return stress;
 }
 
+constexpr double slack_of_search = 1e-6;
+
 }  // namespace
 
 std::map<std::string, std::vector<std::size_t>> nodes_by_feature(const BodyAnalysis& analysis) {
@@ -53,10 +55,10 @@ FatigueNode FatiguePlaces::worst_of(const std::vector<std::size_t>& nodes) const
   FatigueNode worst;
   for (const auto& [bound_Pa, node] : by_bound) {
     if (most_per_Pa_ * bound_Pa <= worst.utilisation) break;
-    auto candidate = at(node);
+    auto candidate = at(node, slack_of_search);
     if (candidate.utilisation > worst.utilisation) worst = std::move(candidate);
   }
-  return worst;
+  return nodes.empty() ? worst : at(worst.node);
 }
 
 /// Half of the difference of two stresses has at most the larger von Mises stress of both, and at most the
@@ -69,10 +71,10 @@ double FatiguePlaces::most_amplitude_Pa(std::size_t node) const {
   return std::min(of_channels_Pa, largest_Pa_[node]);
 }
 
-FatigueNode FatiguePlaces::at(std::size_t node) const {
+FatigueNode FatiguePlaces::at(std::size_t node, double slack) const {
   FatigueNode result;
   result.node = node;
-  result.cycle = largest_cycle(stress_history_Pa(analysis_.responses, loads_, node));
+  result.cycle = largest_cycle(stress_history_Pa(analysis_.responses, loads_, node), slack);
   if (analysis_.method != Method::beam && result.cycle.amplitude_Pa > 0) {
     const Eigen::VectorXd half =
         0.5 * (loads_.values.col(result.cycle.to) - loads_.values.col(result.cycle.from)).matrix();

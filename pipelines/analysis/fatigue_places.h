@@ -31,11 +31,12 @@ public:
   FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& slopes, const ChannelHistory& loads,
                 const std::vector<double>& largest_Pa, const FatigueRules& rules);
 
-  /// The most used one of these nodes: they are looked at by falling bound of their amplitude, until no other
-  /// can reach what is found.
+  /// The most used one of these nodes, to a millionth of its amplitude: they are looked at by falling bound
+  /// of it, until no other can reach what is found.
   FatigueNode worst_of(const std::vector<std::size_t>& nodes) const;
 
-  FatigueNode at(std::size_t node) const;
+  /// @param slack  of the largest cycle (stress_cycle.h)
+  FatigueNode at(std::size_t node, double slack = 0) const;
 
 private:
   double most_amplitude_Pa(std::size_t node) const;

@@ -128,12 +128,11 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
   if (!fatigue.nominal.empty()) {
     const auto& least = fatigue.nominal.front();
     out << fmt::format(
-        "    DIN 743 from nominal stresses, least safe of {} fillets: {}, safety {} (1.2 is asked; bending "
-        "{} "
-        "MPa x {:.2f}, torsion {} MPa x {:.2f})\n",
+        "    DIN 743 from nominal stresses, least safe of {} fillets: {}, safety {} (1.2 is asked; "
+        "bending {:.1f} MPa x {:.2f}, torsion {:.1f} MPa x {:.2f})\n",
         fatigue.nominal.size(), least.fillet, safety_text(least.safety.fatigue),
-        fixed(least.load.amplitude_Pa.bending / 1e6, 1), least.shape_factor.bending,
-        fixed(least.load.amplitude_Pa.torsion / 1e6, 1), least.shape_factor.torsion);
+        least.load.amplitude_Pa.bending / 1e6, least.shape_factor.bending,
+        least.load.amplitude_Pa.torsion / 1e6, least.shape_factor.torsion);
   }
   print_welds(out, fatigue);
   for (const auto& line : fatigue.assumptions) out << "    " << line << '\n';

@@ -53,14 +53,14 @@ constexpr double alike = 1 + 1e-12;
 
 /// A pair that beats the known one has a sum of distances from any centre that is larger: from the middle of
 /// the known pair few points are so far out.
-Pair exact_pair(const Deviators& x, Pair best) {
+Pair exact_pair(const Deviators& x, Pair best, double slack) {
   const Eigen::Matrix<double, 5, 1> centre = 0.5 * (x.col(best.first) + x.col(best.second));
   const ArrayXd radius = (x.colwise() - centre).colwise().norm().transpose().array();
   std::vector<Index> order(std::size_t(x.cols()));
   std::iota(order.begin(), order.end(), Index(0));
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return radius[a] > radius[b]; });
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const double wanted = std::sqrt(best.squared * alike);
+    const double wanted = (1 + slack) * std::sqrt(best.squared * alike);
     if (2 * radius[order[i]] <= wanted) break;
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       if (radius[order[i]] + radius[order[j]] <= wanted) break;
@@ -92,12 +92,12 @@ StressCycle cycle_between(const Stress& from, const Stress& to, Index first, Ind
   return cycle;
 }
 
-StressCycle largest_cycle(const ArrayXXd& stress_Pa) {
+StressCycle largest_cycle(const ArrayXXd& stress_Pa, double slack) {
   const double size = stress_Pa.abs().maxCoeff();
   const Deviators x = deviator_coordinates(size > 0 ? ArrayXXd(stress_Pa / size) : stress_Pa);
   Index start = 0;
   x.colwise().squaredNorm().maxCoeff(&start);
-  const Pair pair = exact_pair(x, pair_by_hops(x, start));
+  const Pair pair = exact_pair(x, pair_by_hops(x, start), slack);
   const auto at = [&](Index instant) {
     Stress s{};
     for (std::size_t c = 0; c < 6; ++c) s[c] = stress_Pa(Index(c), instant);

@@ -26,10 +26,13 @@ struct StressCycle {
 /// them.
 double signed_von_mises_Pa(const Stress& stress);
 
-/// The exact largest cycle: no pair of instants differs more. Of equal ones that which is found first from
-/// the instant of the largest von Mises stress.
+/// The largest cycle: no pair of instants differs more, but for the slack. Of equal ones that which is found
+/// first from the instant of the largest von Mises stress.
 /// @param stress_Pa  6 x instants (xx, yy, zz, xy, yz, xz), at least one instant
-StressCycle largest_cycle(const Eigen::ArrayXXd& stress_Pa);
+/// @param slack      share by which another pair may differ more. Zero looks at all pairs where instants lie
+/// on
+///                   a circle, as in rotating bending; a millionth at next to none
+StressCycle largest_cycle(const Eigen::ArrayXXd& stress_Pa, double slack = 0);
 
 /// The cycle between two given instants.
 StressCycle cycle_between(const Stress& from, const Stress& to, Eigen::Index first, Eigen::Index second);
