@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/superposition/deviatoric_coordinates.h"
+
 namespace pipelines {
 namespace {
 
@@ -212,11 +214,9 @@ double fourth_difference(const Course& course, Index first) {
 
 Eigen::Array<double, 5, Eigen::Dynamic> deviatoric_coordinates(
     const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress) {
-  const double root = std::sqrt(3.0);
   Eigen::Array<double, 5, Eigen::Dynamic> coordinates(5, stress.cols());
-  coordinates.row(0) = (root / 2 * (stress.row(0) - stress.row(1))).array();
-  coordinates.row(1) = ((stress.row(0) + stress.row(1) - 2 * stress.row(2)) / 2).array();
-  coordinates.bottomRows(3) = (root * stress.bottomRows(3)).array();
+  for (Eigen::Index i = 0; i < stress.cols(); ++i)
+    find_deviatoric_coordinates(stress.col(i).data(), coordinates.col(i).data());
   return coordinates;
 }
 

@@ -7,8 +7,7 @@
 
 namespace pipelines {
 
-/// Five coordinates of a stress, by whose 2-norm von Mises is given: rows sqrt(3)/2 (xx - yy),
-/// (xx + yy - 2 zz) / 2, sqrt(3) xy, sqrt(3) yz, sqrt(3) xz.
+/// A row for each of the five coordinates of deviatoric_coordinates.h.
 /// @param stress  (xx, yy, zz, xy, yz, xz) x anything
 Eigen::Array<double, 5, Eigen::Dynamic> deviatoric_coordinates(
     const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress);

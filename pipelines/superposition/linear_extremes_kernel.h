@@ -2,7 +2,7 @@
 /// instruction sets; the best one that the machine has is called.
 #pragma once
 
-#include <cstddef>
+#include "pipelines/superposition/superposition_kernel.h"
 
 namespace pipelines::kernel {
 
@@ -13,14 +13,13 @@ struct LinearExtremes {
 };
 
 /// Forms handled at once: they share each block of factors while it is in the cache.
-constexpr std::size_t forms_at_once = 4;
+constexpr std::size_t forms_at_once = 8;
 
-/// f_i(t) = sum_k w_ik a_k(t) over n_blocks blocks of `block` instants (superposition_kernel.h).
-/// @param weights  n_forms x n_channels, n_forms a multiple of forms_at_once
-/// @param factors  n_blocks x n_channels x block
-/// @param found    n_forms, to be written
-using LinearWalk = void(const double* weights, std::size_t n_forms, std::size_t n_channels,
-                        const double* factors, std::size_t n_blocks, LinearExtremes* found);
+/// f_i(t) = sum_k w_ki a_k(t) over all instants.
+/// @param weights  n_channels x forms_at_once
+/// @param room     forms_at_once x n_blocks x block, to be overwritten
+/// @param found    forms_at_once, to be written
+using LinearWalk = void(const double* weights, const Factors& factors, double* room, LinearExtremes* found);
 
 /// The variant for this machine.
 LinearWalk& linear_walk_for_this_machine();

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <thread>
 
+#include "pipelines/common/parallel.h"
 #include "pipelines/superposition/linear_extremes_kernel.h"
+#include "pipelines/superposition/walked_factors.h"
 
 namespace pipelines {
 namespace {
 
 using Eigen::Index;
 using UnitRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
-
-constexpr std::size_t nodes_at_once = 64;
-static_assert(nodes_at_once % kernel::forms_at_once == 0);
 
 Eigen::Map<const UnitRows> unit_stresses(const fem::UnitResponses& responses, std::size_t node) {
   const std::size_t n_channels = responses.channels.size();
@@ -31,53 +29,64 @@ Eigen::Matrix<double, 6, 1> direction_of(const Stress& stress) {
   return size > 0 ? Eigen::Matrix<double, 6, 1>(direction / size) : direction;
 }
 
-/// Walks some nodes at once.
+/// Nodes that a thread takes at once.
+constexpr std::size_t nodes_at_once = 64 * kernel::forms_at_once;
+
+/// Walks some nodes at once, a linear form each.
 class CycleWalk {
 public:
-  CycleWalk(const ChannelHistory& loads, const fem::UnitResponses& responses)
-      : loads_(loads), responses_(responses), independent_(independent_channels(loads.values)) {
-    factors_ = blocked_factors(loads.values, independent_.channels);
-    if (!independent_.channels.empty())
-      n_blocks_ = factors_.size() / (independent_.channels.size() * factors_block);
-  }
+  CycleWalk(const ChannelHistory& loads, const fem::UnitResponses& responses, const WalkedFactors& factors)
+      : loads_(loads),
+        responses_(responses),
+        factors_(factors),
+        of_channel_(loads.values.rows()),
+        of_walked_(factors.n_channels()),
+        weights_(factors.n_channels() * kernel::forms_at_once),
+        room_(kernel::forms_at_once * factors.n_instants()) {}
 
-  void walk(const std::size_t* nodes, std::size_t n, const NodalMaximum& von_mises,
-            StressCycle* cycles) const {
-    std::array<Stress, nodes_at_once> along;
-    for (std::size_t i = 0; i < n; ++i) along[i] = von_mises.stress_Pa[nodes[i]];
-    for (int round = 0; round < 2; ++round) {
-      const auto found = extremes_along(nodes, n, along);
-      for (std::size_t i = 0; i < n; ++i) {
-        const Index from = found[i].smallest_instant, to = found[i].largest_instant;
-        cycles[i] = cycle_between(stress_at(responses_, loads_, nodes[i], from),
-                                  stress_at(responses_, loads_, nodes[i], to), from, to);
-        along[i] = cycles[i].half_range_Pa;
-      }
+  /// @param n  at most kernel::forms_at_once
+  void walk(const std::size_t* nodes, std::size_t n, const NodalMaximum& von_mises, StressCycle* cycles) {
+    for (std::size_t i = 0; i < n; ++i) weigh(i, nodes[i], von_mises.stress_Pa[nodes[i]]);
+    find_extremes();
+    for (std::size_t i = 0; i < n; ++i) weigh(i, nodes[i], change_at(nodes[i], found_[i]));
+    find_extremes();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Index from = found_[i].smallest_instant, to = found_[i].largest_instant;
+      cycles[i] = cycle_between(stress_at(responses_, loads_, nodes[i], from),
+                                stress_at(responses_, loads_, nodes[i], to), from, to);
     }
   }
 
 private:
-  std::array<kernel::LinearExtremes, nodes_at_once> extremes_along(
-      const std::size_t* nodes, std::size_t n, const std::array<Stress, nodes_at_once>& along) const {
-    const auto n_walked = Index(independent_.channels.size());
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights =
-        decltype(weights)::Zero(Index(nodes_at_once), n_walked);
-    for (std::size_t i = 0; i < n; ++i)
-      weights.row(Index(i)).noalias() =
-          (unit_stresses(responses_, nodes[i]) * direction_of(along[i])).transpose() *
-          independent_.of_channel;
-    std::array<kernel::LinearExtremes, nodes_at_once> found{};
-    if (n_walked > 0)
-      kernel::linear_walk_for_this_machine()(weights.data(), nodes_at_once, std::size_t(n_walked),
-                                             factors_.data(), n_blocks_, found.data());
-    return found;
+  /// The form of a node is its stress along a direction.
+  void weigh(std::size_t form, std::size_t node, const Stress& along) {
+    of_channel_.noalias() = unit_stresses(responses_, node) * direction_of(along);
+    factors_.gather(of_channel_.data(), 1, of_walked_.data());
+    for (std::size_t k = 0; k < of_walked_.size(); ++k)
+      weights_[k * kernel::forms_at_once + form] = of_walked_[k];
+  }
+
+  void find_extremes() {
+    kernel::linear_walk_for_this_machine()(weights_.data(), factors_.for_kernel(), room_.data(),
+                                           found_.data());
+  }
+
+  /// Of the stress from the smallest value to the largest one.
+  Stress change_at(std::size_t node, const kernel::LinearExtremes& extremes) const {
+    const Eigen::Matrix<double, 6, 1> change =
+        unit_stresses(responses_, node).transpose() *
+        (loads_.values.col(extremes.largest_instant) - loads_.values.col(extremes.smallest_instant)).matrix();
+    Stress stress;
+    std::copy_n(change.data(), 6, stress.begin());
+    return stress;
   }
 
   const ChannelHistory& loads_;
   const fem::UnitResponses& responses_;
-  IndependentChannels independent_;
-  std::vector<double> factors_;
-  std::size_t n_blocks_ = 0;
+  const WalkedFactors& factors_;
+  Eigen::VectorXd of_channel_;
+  std::vector<double> of_walked_, weights_, room_;
+  std::array<kernel::LinearExtremes, kernel::forms_at_once> found_{};
 };
 
 }  // namespace
@@ -92,21 +101,15 @@ std::vector<std::size_t> surface_nodes(const fem::Nodes& nodes) {
 NodalCycles nodal_cycles(const ChannelHistory& loads, const fem::UnitResponses& responses,
                          const NodalMaximum& von_mises, std::vector<std::size_t> nodes, int n_threads) {
   check_channels(loads, responses);
-  const CycleWalk walk(loads, responses);
+  const WalkedFactors factors(loads.values);
   NodalCycles result{std::move(nodes), {}};
-  const std::size_t n_nodes = result.nodes.size();
-  result.cycles.resize(n_nodes);
-  const auto work = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += nodes_at_once)
-      walk.walk(&result.nodes[first], std::min(nodes_at_once, end - first), von_mises, &result.cycles[first]);
-  };
-  // Nodes are independent, so the split between threads cannot change a bit of the result.
-  const std::size_t n_workers = std::size_t(std::max(1, n_threads));
-  std::vector<std::thread> threads;
-  for (std::size_t w = 1; w < n_workers; ++w)
-    threads.emplace_back(work, n_nodes * w / n_workers, n_nodes * (w + 1) / n_workers);
-  work(0, n_nodes / n_workers);
-  for (auto& thread : threads) thread.join();
+  result.cycles.resize(result.nodes.size());
+  for_each_range(result.nodes.size(), nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
+    CycleWalk walk(loads, responses, factors);
+    for (std::size_t first = begin; first < end; first += kernel::forms_at_once)
+      walk.walk(&result.nodes[first], std::min(kernel::forms_at_once, end - first), von_mises,
+                &result.cycles[first]);
+  });
   return result;
 }
 

@@ -1,19 +1,17 @@
 #include "pipelines/superposition/superposition.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
-#include <thread>
 
-#include "pipelines/superposition/superposition_kernel.h"
+#include "pipelines/common/parallel.h"
+#include "pipelines/superposition/deviatoric_coordinates.h"
+#include "pipelines/superposition/walked_factors.h"
 
 namespace pipelines {
 namespace {
-
-/// Residuals of a channel, relative to itself, that count as rounding.
-constexpr double dependent = 1e-14;
 
 /// cos(acos(c) / 3) = cos(2/3 acos(s)) with s = sqrt((1 + c) / 2) is analytic but at s = -1: its Chebyshev
 /// series over s in [0, 1], t = 2 s - 1, falls by six with each term and is 1e-15 exact; in powers of t,
@@ -41,36 +39,66 @@ std::array<double, kernel::n_lode_terms> lode_polynomial() {
   return powers;
 }
 
+const std::array<double, kernel::n_lode_terms>& lode_terms() {
+  static const auto terms = lode_polynomial();
+  return terms;
+}
+
 /// The unit stresses of a node, K x 6.
 const double* unit_stress(const fem::UnitResponses& responses, std::size_t node) {
   return responses.stress_Pa.data() + node * responses.channels.size() * 6;
 }
 
 Stress combine(const double* unit, const Eigen::ArrayXXd& factors, Eigen::Index instant) {
-  Stress s{};
+  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
   for (Eigen::Index k = 0; k < factors.rows(); ++k)
-    for (std::size_t c = 0; c < 6; ++c) s[c] += factors(k, instant) * unit[6 * std::size_t(k) + c];
+    sum += factors(k, instant) * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(unit + 6 * k);
+  Stress s;
+  std::copy_n(sum.data(), 6, s.begin());
   return s;
 }
 
 /// Shares of the effects in the von Mises stress of a node at one instant.
-void find_shares(const double* unit, const ChannelHistory& loads, const Stress& stress, Eigen::Index instant,
-                 double* shares) {
+/// @param sigma_v  of `stress`
+/// @param along    room for a number per channel: 3/2 of its unit stress times the deviator over sigma_v^2
+void find_shares(const double* unit, const ChannelHistory& loads, const Stress& stress, double sigma_v,
+                 Eigen::Index instant, Eigen::VectorXd& along, double* shares) {
   const std::size_t n_effects = loads.effects.size();
-  const double sigma_v = von_mises_Pa(stress);
-  const double mean = (stress[0] + stress[1] + stress[2]) / 3;
-  const Stress deviator{stress[0] - mean, stress[1] - mean, stress[2] - mean,
-                        stress[3],        stress[4],        stress[5]};
-  for (std::size_t e = 0; e < n_effects; ++e) {
-    if (sigma_v == 0) {
-      shares[e] = 0;
-      continue;
-    }
-    const Stress part = combine(unit, loads.by_effect[e], instant);
-    double product = 0;
-    for (std::size_t c = 0; c < 6; ++c) product += (c < 3 ? 1 : 2) * part[c] * deviator[c];
-    shares[e] = 1.5 * product / (sigma_v * sigma_v);
+  if (sigma_v == 0) {
+    std::fill_n(shares, n_effects, 0.0);
+    return;
   }
+  const double mean = (stress[0] + stress[1] + stress[2]) / 3, scale = 1.5 / (sigma_v * sigma_v);
+  Eigen::Matrix<double, 6, 1> deviator;
+  for (Eigen::Index c = 0; c < 6; ++c)
+    deviator[c] = scale * (c < 3 ? stress[std::size_t(c)] - mean : 2 * stress[std::size_t(c)]);
+  for (Eigen::Index k = 0; k < along.size(); ++k)
+    along[k] = deviator.dot(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(unit + 6 * k));
+  for (std::size_t e = 0; e < n_effects; ++e) shares[e] = loads.by_effect[e].col(instant).matrix().dot(along);
+}
+
+/// cos(acos(c) / 3), -1 <= c <= 1: the series of lode_polynomial.
+double lode_cosine(double c) {
+  const auto& term = lode_terms();
+  const double t = 2 * std::sqrt(0.5 + 0.5 * c) - 1, square = t * t;
+  double even = term[kernel::n_lode_terms - 1], odd = term[kernel::n_lode_terms - 2];
+  for (std::size_t k = kernel::n_lode_terms - 3; k > 1; k -= 2) {
+    even = even * square + term[k];
+    odd = odd * square + term[k - 1];
+  }
+  return even * square + term[0] + t * odd;
+}
+
+/// Largest principal stress by the Lode angle, mean + 2/3 sigma_v cos(theta), where that is as exact as QR
+/// iteration: the angle loses digits towards two equal largest principal stresses, cos(3 theta) = -1.
+std::optional<double> principal_by_angle(const Stress& s) {
+  const double mean = (s[0] + s[1] + s[2]) / 3, sigma_v = von_mises_Pa(s), scale = 1 / sigma_v;
+  const double dx = scale * (s[0] - mean), dy = scale * (s[1] - mean), dz = scale * (s[2] - mean);
+  const double xy = scale * s[3], yz = scale * s[4], xz = scale * s[5];
+  const double cosine =
+      13.5 * (dx * (dy * dz - yz * yz) - xy * (xy * dz - yz * xz) + xz * (xy * yz - dy * xz));
+  if (!(cosine > -0.5)) return {};
+  return mean + 2.0 / 3.0 * sigma_v * lode_cosine(std::min(cosine, 1.0));
 }
 
 /// Squares and cubes of stresses beyond these leave the range of numbers.
@@ -93,6 +121,13 @@ Stress scaled(Stress s, double factor) {
   return s;
 }
 
+void keep(NodalMaximum& maximum, std::size_t node, Eigen::Index instant, const Stress& stress,
+          double value_Pa) {
+  maximum.instant[node] = std::int32_t(instant);
+  maximum.stress_Pa[node] = stress;
+  maximum.value_Pa[node] = value_Pa;
+}
+
 /// The envelope of loads times `scale`, brought back.
 Envelope unscaled(Envelope envelope, double scale) {
   for (NodalMaximum* maximum : {&envelope.von_mises, &envelope.principal}) {
@@ -101,6 +136,42 @@ Envelope unscaled(Envelope envelope, double scale) {
   }
   return envelope;
 }
+
+/// Nodes that a thread takes at once.
+constexpr std::size_t nodes_at_once = 64 * kernel::batch;
+
+/// Walks the nodes of a batch.
+class BatchWalk {
+public:
+  BatchWalk(const WalkedFactors& factors, const fem::UnitResponses& responses)
+      : factors_(factors),
+        kernel_factors_(factors.for_kernel()),
+        responses_(responses),
+        coordinates_(kernel::batch * factors.n_channels() * kernel::n_coordinates),
+        room_(kernel::room_of_walk(kernel_factors_)) {}
+
+  const std::array<kernel::NodeMaximum, kernel::batch>& of(std::size_t first, std::size_t n_nodes) {
+    double* coordinates = coordinates_.data();
+    for (std::size_t i = 0; i < n_nodes; ++i) {
+      factors_.gather(unit_stress(responses_, first + i), 6, coordinates);
+      for (std::size_t k = 0; k < factors_.n_channels(); ++k, coordinates += kernel::n_coordinates) {
+        const double mean = (coordinates[0] + coordinates[1] + coordinates[2]) / 3;
+        find_deviatoric_coordinates(coordinates, coordinates);
+        coordinates[5] = mean;
+      }
+    }
+    kernel::walk_for_this_machine()(coordinates_.data(), n_nodes, kernel_factors_, lode_terms().data(),
+                                    room_.data(), found_.data());
+    return found_;
+  }
+
+private:
+  const WalkedFactors& factors_;
+  const kernel::Factors kernel_factors_;
+  const fem::UnitResponses& responses_;
+  std::vector<double> coordinates_, room_;
+  std::array<kernel::NodeMaximum, kernel::batch> found_;
+};
 
 }  // namespace
 
@@ -113,6 +184,7 @@ double von_mises_Pa(const Stress& s) {
 double largest_principal_Pa(const Stress& s) {
   if (const double scale = power_to_unit_size(s); scale != 1)
     return largest_principal_Pa(scaled(s, scale)) / scale;
+  if (const auto value = principal_by_angle(s)) return *value;
   Eigen::Matrix3d tensor;
   tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues()[2];
@@ -132,49 +204,6 @@ void check_channels(const ChannelHistory& loads, const fem::UnitResponses& respo
     throw std::invalid_argument("superposition: the load channels are not those of the unit responses");
 }
 
-std::vector<double> blocked_factors(const Eigen::ArrayXXd& values,
-                                    const std::vector<Eigen::Index>& channels) {
-  static_assert(factors_block == kernel::block);
-  const auto n_instants = std::size_t(values.cols()), n_walked = channels.size();
-  const std::size_t n_blocks = (n_instants + kernel::block - 1) / kernel::block;
-  std::vector<double> factors(n_blocks * n_walked * kernel::block);
-  for (std::size_t i = 0; i < n_blocks * kernel::block; ++i)
-    for (std::size_t k = 0; k < n_walked; ++k)
-      factors[((i / kernel::block) * n_walked + k) * kernel::block + i % kernel::block] =
-          values(channels[k], Eigen::Index(std::min(i, n_instants - 1)));
-  return factors;
-}
-
-IndependentChannels independent_channels(const Eigen::ArrayXXd& values) {
-  const Eigen::Index n = values.rows(), most = std::min(n, values.cols());
-  IndependentChannels result;
-  if (!values.allFinite()) {  // nothing follows from what is no number
-    result.of_channel.setIdentity(n, n);
-    for (Eigen::Index k = 0; k < n; ++k) result.channels.push_back(k);
-    return result;
-  }
-  const Eigen::ArrayXd sizes = values.matrix().rowwise().norm();
-  const Eigen::ArrayXd scale = (sizes > 0).select(sizes.inverse(), 0.0);
-  const Eigen::MatrixXd instants = (values.colwise() * scale).matrix().transpose();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(instants);
-  const auto& order = qr.colsPermutation().indices();
-  Eigen::Index rank = 0;
-  while (rank < most && std::abs(qr.matrixQR()(rank, rank)) > dependent) ++rank;
-  result.of_channel = Eigen::MatrixXd::Zero(n, rank);
-  const Eigen::MatrixXd rest = qr.matrixQR()
-                                   .topLeftCorner(rank, rank)
-                                   .triangularView<Eigen::Upper>()
-                                   .solve(qr.matrixQR().topRightCorner(rank, n - rank));
-  for (Eigen::Index i = 0; i < rank; ++i) {
-    result.channels.push_back(order[i]);
-    result.of_channel(order[i], i) = 1;
-    for (Eigen::Index k = 0; k < n - rank; ++k)
-      if (sizes[order[rank + k]] > 0)
-        result.of_channel(order[rank + k], i) = rest(i, k) * sizes[order[rank + k]] / sizes[order[i]];
-  }
-  return result;
-}
-
 EnvelopeWalk::EnvelopeWalk(const ChannelHistory& loads) : loads_(&loads) {
   if (const double scale = power_to_unit_size(loads.values.size() > 0 ? loads.values.abs().maxCoeff() : 0.0);
       scale != 1) {
@@ -183,10 +212,7 @@ EnvelopeWalk::EnvelopeWalk(const ChannelHistory& loads) : loads_(&loads) {
     of_unit_size_.values *= scale;
     for (auto& part : of_unit_size_.by_effect) part *= scale;
   }
-  const auto& values = this->loads().values;
-  independent_ = independent_channels(values);
-  n_blocks_ = (std::size_t(values.cols()) + kernel::block - 1) / kernel::block;
-  factors_ = blocked_factors(values, independent_.channels);
+  factors_ = std::make_shared<const WalkedFactors>(this->loads().values);
 }
 
 const ChannelHistory& EnvelopeWalk::loads() const {
@@ -197,7 +223,6 @@ Envelope EnvelopeWalk::of(const fem::UnitResponses& responses, int n_threads) co
   const ChannelHistory& loads = this->loads();
   check_channels(loads, responses);
   const std::size_t n_nodes = responses.nodes.n, n_effects = loads.effects.size();
-  const std::size_t n_walked = independent_.channels.size();
   Envelope result;
   for (NodalMaximum* maximum : {&result.von_mises, &result.principal}) {
     maximum->value_Pa.assign(n_nodes, 0.0);
@@ -206,44 +231,25 @@ Envelope EnvelopeWalk::of(const fem::UnitResponses& responses, int n_threads) co
   }
   result.effect_share.assign(n_nodes * n_effects, 0.0);
 
-  kernel::Walk& walk = kernel::walk_for_this_machine();
-  static const auto lode = lode_polynomial();
-  const auto work = [&](std::size_t begin, std::size_t end) {
-    std::array<kernel::NodeMaximum, kernel::batch> found;
-    std::vector<double> walked(kernel::batch * n_walked * 6);
+  for_each_range(n_nodes, nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
+    BatchWalk walk(*factors_, responses);
+    Eigen::VectorXd along(loads.values.rows());
     for (std::size_t first = begin; first < end; first += kernel::batch) {
       const std::size_t n = std::min(kernel::batch, end - first);
-      for (std::size_t i = 0; i < n; ++i) {
-        using UnitStress = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
-        Eigen::Map<UnitStress>(walked.data() + i * n_walked * 6, Eigen::Index(n_walked), 6).noalias() =
-            independent_.of_channel.transpose() *
-            Eigen::Map<const UnitStress>(unit_stress(responses, first + i), independent_.of_channel.rows(),
-                                         6);
-      }
-      walk(walked.data(), n, n_walked, factors_.data(), n_blocks_, lode.data(), found.data());
+      const auto& found = walk.of(first, n);
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t node = first + i;
         const double* unit = unit_stress(responses, node);
-        const auto keep = [&](NodalMaximum& maximum, Eigen::Index instant, auto&& measure) {
-          const Stress stress = combine(unit, loads.values, instant);
-          maximum.instant[node] = std::int32_t(instant);
-          maximum.stress_Pa[node] = stress;
-          maximum.value_Pa[node] = measure(stress);
-        };
-        keep(result.von_mises, found[i].von_mises_instant, von_mises_Pa);
-        keep(result.principal, found[i].principal_instant, largest_principal_Pa);
-        find_shares(unit, loads, result.von_mises.stress_Pa[node], found[i].von_mises_instant,
+        const Eigen::Index of_mises = found[i].von_mises_instant, of_principal = found[i].principal_instant;
+        const Stress stress = combine(unit, loads.values, of_mises);
+        keep(result.von_mises, node, of_mises, stress, von_mises_Pa(stress));
+        const Stress other = of_principal == of_mises ? stress : combine(unit, loads.values, of_principal);
+        keep(result.principal, node, of_principal, other, largest_principal_Pa(other));
+        find_shares(unit, loads, stress, result.von_mises.value_Pa[node], of_mises, along,
                     result.effect_share.data() + node * n_effects);
       }
     }
-  };
-  // Nodes are independent, so the split between threads cannot change a bit of the result.
-  const std::size_t n_workers = std::size_t(std::max(1, n_threads));
-  std::vector<std::thread> threads;
-  for (std::size_t w = 1; w < n_workers; ++w)
-    threads.emplace_back(work, n_nodes * w / n_workers, n_nodes * (w + 1) / n_workers);
-  work(0, n_nodes / n_workers);
-  for (auto& thread : threads) thread.join();
+  });
   return scale_ == 1 ? result : unscaled(std::move(result), scale_);
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "fem/values/unit_responses.h"
@@ -18,9 +19,9 @@ using Stress = std::array<double, 6>;
 /// sigma_v = sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + yz^2 + xz^2)) [Pa]
 double von_mises_Pa(const Stress& stress);
 
-/// Largest principal stress [Pa], tension positive; by QR iteration, to rounding of the largest. (Of the
-/// closed form, Smith 1961, two equal principal stresses leave half of the digits; the walk through the
-/// instants compares by it.)
+/// Largest principal stress [Pa], tension positive, to rounding of the largest: by the closed form (Smith
+/// 1961) where it is exact, else by QR iteration. (Of the closed form, two equal largest principal stresses
+/// leave half of the digits; the walk through the instants compares by it.)
 double largest_principal_Pa(const Stress& stress);
 
 /// Per node the maximum over the cycle, when it occurs, and the whole tensor at that instant.
@@ -44,7 +45,8 @@ Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& load
 /// Whether two histories have one envelope: the same channels and effects with the same values.
 bool have_same_values(const ChannelHistory& a, const ChannelHistory& b);
 
-/// Envelope of von Mises and of the largest principal stress over all instants.
+/// Envelope of von Mises and of the largest principal stress over all instants. Beyond the responses and the
+/// result it takes memory of a few times the loads, however many nodes there are.
 ///
 /// An effect's share is 3/2 sigma_e : s / sigma_v^2 with s the deviator of the whole stress: it adds up to
 /// one over the effects, is negative for an effect that relieves the place, and is zero where nothing is
@@ -53,24 +55,10 @@ bool have_same_values(const ChannelHistory& a, const ChannelHistory& b);
 /// @throws std::invalid_argument if the channels of the two do not agree
 Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& responses, int n_threads);
 
-/// Channels of which all others are sums: a spring's force follows from another's, a part of a seat's
-/// pressure is not there. Found by a rank-revealing QR factorisation with pivoting (Golub and Van Loan,
-/// Matrix Computations, 4th ed., 5.4.2); each channel counts by its own size.
-struct IndependentChannels {
-  std::vector<Eigen::Index> channels;
-  Eigen::MatrixXd of_channel;  ///< K x independent: values = of_channel * values of the independent, to 1e-14
-};
-/// @param values  K x instants
-IndependentChannels independent_channels(const Eigen::ArrayXXd& values);
-
-/// Instants that the walks handle at once.
-inline constexpr std::size_t factors_block = 16;
-/// The values of some channels as the walks through the instants take them: blocks x channels x
-/// factors_block, the last block filled up with the last instant.
-std::vector<double> blocked_factors(const Eigen::ArrayXXd& values, const std::vector<Eigen::Index>& channels);
-
 /// @throws std::invalid_argument if the channels of the two do not agree
 void check_channels(const ChannelHistory& loads, const fem::UnitResponses& responses);
+
+class WalkedFactors;
 
 /// The envelope of several bodies, or parts of one, under the same loads: what belongs to the loads is
 /// prepared once.
@@ -87,9 +75,7 @@ private:
   const ChannelHistory* loads_;
   ChannelHistory of_unit_size_;  ///< where cubes of the stresses would leave the range of numbers
   double scale_ = 1;
-  IndependentChannels independent_;
-  std::size_t n_blocks_ = 0;
-  std::vector<double> factors_;  ///< of independent channels, as the kernel has them
+  std::shared_ptr<const WalkedFactors> factors_;
 };
 
 /// Displacement of every node at one instant, n x 3 [m]; no rigid part in the mass norm.

@@ -6,11 +6,29 @@
 
 namespace pipelines::kernel {
 
-/// Instants handled at once; time factors are padded with the last instant to a multiple of it.
-constexpr std::size_t block = 16;
+/// Instants handled at once; time factors are padded with the last instant to a multiple of it. Three
+/// registers of AVX-512, with which 720 and 2400 instants leave nothing over.
+constexpr std::size_t block = 24;
+
+/// Blocks whose bounds are handled at once; bounds are padded to a multiple of it.
+constexpr std::size_t blocks_at_once = 16;
 
 /// Nodes handled at once.
-constexpr std::size_t batch = 16;
+constexpr std::size_t batch = 8;
+
+/// Coordinates of a stress: five of its deviator, by whose 2-norm von Mises stress is given
+/// (deviatoric_coordinates of cycle_extremes.h), and the mean of its normal stresses.
+constexpr std::size_t n_coordinates = 6;
+
+/// Time factors of the channels.
+struct Factors {
+  std::size_t n_channels = 0, n_blocks = 0;
+  std::size_t n_bounds = 0;        ///< n_blocks rounded up to a multiple of blocks_at_once
+  const double* values = nullptr;  ///< n_blocks x n_channels x block
+  /// Over a block a channel's factor lies within `middle` - `reach` and `middle` + `reach`.
+  /// n_channels x (n_bounds / blocks_at_once) x (middle, reach) x blocks_at_once
+  const double* bounds = nullptr;
+};
 
 /// What a node keeps of its walk through the instants: the first instant of each maximum.
 struct NodeMaximum {
@@ -22,16 +40,22 @@ struct NodeMaximum {
 /// Terms of the polynomial for the Lode angle's cosine, cos(acos(c) / 3), in t = 2 sqrt((1 + c) / 2) - 1.
 constexpr std::size_t n_lode_terms = 17;
 
-/// For each of up to `batch` nodes: sigma = sum_k S_k a_k over n_blocks blocks of instants; the largest
-/// squared von Mises stress and the largest principal stress, mean + 2/3 sigma_v cos(theta), which is
-/// computed where it can be the largest. The nodes of a batch share each block of factors while it is in the
-/// cache.
-/// @param unit_stress  n_nodes x n_channels x 6 (xx, yy, zz, xy, yz, xz)
-/// @param factors      n_blocks x n_channels x block
+/// Numbers that a walk needs room for.
+std::size_t room_of_walk(const Factors& factors);
+
+/// For each of up to `batch` nodes: sigma = sum_k S_k a_k over all instants; the largest squared von Mises
+/// stress and the largest principal stress, mean + 2/3 sigma_v cos(theta). All instants take five
+/// multiply-adds per channel and the five squares. Of each block the largest squares are kept; the block that
+/// has the largest is superposed once more, with the mean stress, and so are blocks where a bound of the mean
+/// and 2/3 of the largest von Mises stress reach the largest principal stress so far. The angle is computed
+/// in blocks that have a larger one by the characteristic polynomial. The nodes of a batch share each block
+/// of factors while it is in the cache.
+/// @param unit_stress  n_nodes x n_channels x n_coordinates
 /// @param lode         n_lode_terms, ascending powers of t
+/// @param room         room_of_walk(factors), to be overwritten
 /// @param maximum      n_nodes, to be written
-using Walk = void(const double* unit_stress, std::size_t n_nodes, std::size_t n_channels,
-                  const double* factors, std::size_t n_blocks, const double* lode, NodeMaximum* maximum);
+using Walk = void(const double* unit_stress, std::size_t n_nodes, const Factors& factors, const double* lode,
+                  double* room, NodeMaximum* maximum);
 
 /// The variant for this machine, chosen once.
 Walk& walk_for_this_machine();

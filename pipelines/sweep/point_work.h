@@ -1,14 +1,8 @@
-/// Work on many points: what ends one of them and what ends the sweep; several threads.
+/// Work on many points: what ends one of them and what ends the sweep.
 #pragma once
 
-#include <atomic>
-#include <cstddef>
-#include <exception>
 #include <filesystem>
-#include <mutex>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
@@ -32,26 +26,6 @@ std::string point_refusal(const Work& work) {
     if (failure.message.find("internal error") != std::string::npos) throw;
     return std::move(failure.message);
   }
-}
-
-/// Calls work(worker, i) for all i below n on several threads.
-template <typename Work>
-void for_each_parallel(std::size_t n, int n_threads, const Work& work) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex failing;
-  const auto run = [&](std::size_t worker) {
-    try {
-      for (std::size_t i = next++; i < n; i = next++) work(worker, i);
-    } catch (...) {
-      const std::lock_guard lock(failing);
-      if (!failure) failure = std::current_exception();
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int t = 0; t < n_threads; ++t) threads.emplace_back(run, std::size_t(t));
-  for (auto& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace pipelines

@@ -8,6 +8,7 @@
 
 #include "pipelines/analysis/respond.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/common/parallel.h"
 #include "pipelines/loads/same_body.h"
 #include "pipelines/scene/scene_tree.h"
 #include "pipelines/sweep/point_work.h"

@@ -1,12 +1,15 @@
-// Superposition over the cycle: what a node takes at an instant, and that a stress which does not change, as
-// in a shaft that turns with its load, takes no more; what fatigue's cycles add to it.
+// Superposition over the cycle: what a node takes at an instant, beside the multiply-adds that one core does
+// at most; that a stress which does not change, as in a shaft that turns with its load, takes no more; what
+// fatigue's cycles add to it; the memory that both take.
 #include "pipelines/superposition/superposition.h"
 
 #include <cmath>
 #include <numeric>
 
 #include "pipelines/superposition/nodal_cycles.h"
+#include "pipelines/superposition/superposition_kernel.h"
 #include "tests/benchmarks/measure.h"
+#include "tests/benchmarks/multiply_add_limit.h"
 
 namespace {
 
@@ -15,52 +18,96 @@ struct Problem {
   fem::UnitResponses responses;
 };
 
-constexpr std::size_t n_nodes = 4096;
+/// Time factors of the channels: orders of the drive, two channels each, over one turn; up to ten instants
+/// for a period, more than a run's sampling allows; one value.
+enum class Course { orders, rough, steady };
 
-Problem problem(std::size_t n_channels, bool steady, Eigen::Index n_instants = 2400) {
+double factor(Course course, Eigen::Index channel, double instant, double n_instants) {
+  const double phase = double(channel);
+  if (course == Course::steady) return 1 + phase;
+  if (course == Course::rough) return std::cos(0.05 * instant * (1 + phase) + phase);
+  return std::cos(2 * M_PI * instant / n_instants * double(1 + channel / 2) + phase);
+}
+
+Problem problem(std::size_t n_nodes, std::size_t n_channels, Eigen::Index n_instants, Course course) {
   Problem p;
   for (std::size_t k = 0; k < n_channels; ++k) {
     p.loads.channels.push_back({"port.c" + std::to_string(k), "N"});
     p.responses.channels.push_back(p.loads.channels.back().name);
   }
   p.responses.nodes.n = n_nodes;
-  for (std::size_t i = 0; i < n_nodes * n_channels * 6; ++i)
-    p.responses.stress_Pa.push_back(std::cos(1.7 * double(i)));
+  p.responses.stress_Pa.resize(n_nodes * n_channels * 6);
+  for (std::size_t i = 0; i < p.responses.stress_Pa.size(); ++i)
+    p.responses.stress_Pa[i] = std::cos(1.7 * double(i));
   p.loads.effects = {"all"};
   p.loads.values.resize(Eigen::Index(n_channels), n_instants);
   for (Eigen::Index k = 0; k < p.loads.values.rows(); ++k)
     for (Eigen::Index i = 0; i < n_instants; ++i)
-      p.loads.values(k, i) = steady ? 1 + double(k) : std::cos(0.05 * double(i) * double(1 + k) + double(k));
+      p.loads.values(k, i) = factor(course, k, double(i), double(n_instants));
   p.loads.by_effect = {p.loads.values};
   return p;
 }
 
-/// @param state  channels; whether the stress is steady
+/// Floating-point operations per second that one core does at most, by the instructions of the walk.
+double most_flops() {
+  namespace kernel = pipelines::kernel;
+  namespace limit = benchmarks::limit;
+  auto* multiply_adds = &limit::generic::multiply_adds;
+#if defined(__x86_64__)
+  if (&kernel::walk_for_this_machine() == &kernel::avx2::walk) multiply_adds = &limit::avx2::multiply_adds;
+  if (&kernel::walk_for_this_machine() == &kernel::avx512::walk)
+    multiply_adds = &limit::avx512::multiply_adds;
+#endif
+  double sum = 0, n_flops = 0;
+  const double taken_s = measure::smallest_s([&] {
+    n_flops = multiply_adds(1000000, sum);
+    return sum;
+  });
+  return n_flops / taken_s;
+}
+
+/// Multiply-adds of five coordinates of stress for each channel, node and instant.
+double flops_of_envelope(const Problem& p) {
+  return 2.0 * 5 * double(p.loads.values.size()) * double(p.responses.nodes.n);
+}
+
+/// @param state  channels, instants, course
 void superposition(benchmark::State& state) {
-  const auto superpose = [](const Problem& p) { return [&p] { return envelope(p.loads, p.responses, 1); }; };
-  const auto n_channels = std::size_t(state.range(0));
-  const auto p = problem(n_channels, state.range(1) != 0), changing = problem(n_channels, false);
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(superpose(p)());
-  state.counters["ns_per_instant"] =
-      1e9 * measure::smallest_s(superpose(p)) / double(n_nodes) / double(p.loads.values.cols());
-  state.counters["of_changing"] =
-      measure::smallest_s(superpose(p)) / measure::smallest_s(superpose(changing));
+  const std::size_t n_nodes = 4096;
+  const auto p = problem(n_nodes, std::size_t(state.range(0)), state.range(1), Course(state.range(2)));
+  const auto superpose = [&p] { return envelope(p.loads, p.responses, 1); };
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(superpose());
+  const double limit_flops = most_flops(), taken_s = measure::smallest_s(superpose);
+  state.counters["ns_per_instant"] = 1e9 * taken_s / double(n_nodes) / double(p.loads.values.cols());
+  state.counters["gigaflops_limit"] = 1e-9 * std::max(limit_flops, most_flops());
+  if (Course(state.range(2)) != Course::steady)
+    state.counters["of_limit"] = flops_of_envelope(p) / taken_s / (1e9 * state.counters["gigaflops_limit"]);
 }
 
 /// Fatigue's walks through the instants beside the envelope's.
-/// @param state  channels
+/// @param state  nodes, channels, instants
 void largest_cycles(benchmark::State& state) {
-  const auto p = problem(std::size_t(state.range(0)), false, 720);
-  std::vector<std::size_t> nodes(n_nodes);
+  const auto p =
+      problem(std::size_t(state.range(0)), std::size_t(state.range(1)), state.range(2), Course::orders);
+  std::vector<std::size_t> nodes(p.responses.nodes.n);
   std::iota(nodes.begin(), nodes.end(), std::size_t(0));
   const auto found = envelope(p.loads, p.responses, 1);
   const auto cycles = [&] { return nodal_cycles(p.loads, p.responses, found.von_mises, nodes, 1); };
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(cycles());
-  const double alone_s = measure::smallest_s([&] { return envelope(p.loads, p.responses, 1); });
-  state.counters["with_envelope_of_envelope"] = 1 + measure::smallest_s(cycles) / alone_s;
+  const int n_calls = p.responses.nodes.n > 10000 ? 5 : 15;
+  const double alone_s = measure::smallest_s([&] { return envelope(p.loads, p.responses, 1); }, n_calls);
+  state.counters["envelope_s"] = alone_s;
+  state.counters["with_envelope_of_envelope"] = 1 + measure::smallest_s(cycles, n_calls) / alone_s;
+  state.counters["of_limit"] = flops_of_envelope(p) / alone_s / most_flops();
 }
 
 }  // namespace
 
-BENCHMARK(largest_cycles)->ArgName("channels")->Arg(12)->Arg(31);
-BENCHMARK(superposition)->ArgNames({"channels", "steady"})->ArgsProduct({{10, 31}, {0, 1}});
+BENCHMARK(largest_cycles)
+    ->ArgNames({"nodes", "channels", "instants"})
+    ->Args({4096, 12, 720})
+    ->Args({4096, 31, 720})
+    ->Args({200000, 12, 720});
+BENCHMARK(superposition)
+    ->ArgNames({"channels", "instants", "course"})
+    ->ArgsProduct({{12, 31}, {720, 2400}, {0, 1, 2}});

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "pipelines/superposition/superposition.h"
-#include "pipelines/superposition/superposition_kernel.h"
+#include "pipelines/superposition/walked_factors.h"
 
 namespace {
 
@@ -143,17 +143,21 @@ TEST(Superposition, InstructionSetsAgree) {
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) walks.push_back(&kernel::avx2::walk);
 #endif
   if (&kernel::walk_for_this_machine() != walks.back()) walks.push_back(&kernel::walk_for_this_machine());
-  const std::size_t n_nodes = 13, n_channels = 5, n_blocks = 7;
+  const std::size_t n_nodes = kernel::batch - 1;
+  const Eigen::Index n_channels = 5, n_instants = 7 * kernel::block - 3;
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
-  std::vector<double> unit(n_nodes * n_channels * 6), factors(n_blocks * n_channels * kernel::block);
-  for (auto* values : {&unit, &factors})
-    for (double& value : *values) value = normal(random);
+  const auto draw = [&] { return normal(random); };
+  std::vector<double> unit(n_nodes * std::size_t(n_channels) * kernel::n_coordinates);
+  for (double& value : unit) value = draw();
+  const pipelines::WalkedFactors walked(Eigen::ArrayXXd::NullaryExpr(n_channels, n_instants, draw));
+  const auto factors = walked.for_kernel();
   std::array<double, kernel::n_lode_terms> lode{0.9, 0.1};  // any will do
+  std::vector<double> room(kernel::room_of_walk(factors));
   std::vector<kernel::NodeMaximum> first(n_nodes), other(n_nodes);
-  walks.front()(unit.data(), n_nodes, n_channels, factors.data(), n_blocks, lode.data(), first.data());
+  walks.front()(unit.data(), n_nodes, factors, lode.data(), room.data(), first.data());
   for (auto* walk : walks) {
-    walk(unit.data(), n_nodes, n_channels, factors.data(), n_blocks, lode.data(), other.data());
+    walk(unit.data(), n_nodes, factors, lode.data(), room.data(), other.data());
     for (std::size_t node = 0; node < n_nodes; ++node) {
       EXPECT_NEAR(other[node].von_mises_squared, first[node].von_mises_squared,
                   1e-13 * first[node].von_mises_squared);
