@@ -60,7 +60,9 @@ public:
 private:
   /// The form of a node is its stress along a direction.
   void weigh(std::size_t form, std::size_t node, const Stress& along) {
-    of_channel_.noalias() = unit_stresses(responses_, node) * direction_of(along);
+    const Eigen::Matrix<double, 6, 1> direction = direction_of(along);
+    const auto unit = unit_stresses(responses_, node);
+    for (Index k = 0; k < of_channel_.size(); ++k) of_channel_[k] = unit.row(k).dot(direction);
     factors_.gather(of_channel_.data(), 1, of_walked_.data());
     for (std::size_t k = 0; k < of_walked_.size(); ++k)
       weights_[k * kernel::forms_at_once + form] = of_walked_[k];

@@ -3,13 +3,15 @@
 // fatigue's cycles add to it; the memory that both take.
 #include "pipelines/superposition/superposition.h"
 
+#include <benchmark/benchmark.h>
+
 #include <cmath>
 #include <numeric>
 
 #include "pipelines/superposition/nodal_cycles.h"
 #include "pipelines/superposition/superposition_kernel.h"
-#include "tests/benchmarks/measure.h"
 #include "tests/benchmarks/multiply_add_limit.h"
+#include "tests/benchmarks/process.h"
 
 namespace {
 
@@ -48,6 +50,12 @@ Problem problem(std::size_t n_nodes, std::size_t n_channels, Eigen::Index n_inst
   return p;
 }
 
+/// Of one thread, so that other work on the machine disturbs little.
+template <class Call>
+double smallest_s(const Call& call, int n_calls) {
+  return measure::smallest_cpu_s([&] { benchmark::DoNotOptimize(call()); }, n_calls);
+}
+
 /// Floating-point operations per second that one core does at most, by the instructions of the walk.
 double most_flops() {
   namespace kernel = pipelines::kernel;
@@ -59,10 +67,7 @@ double most_flops() {
     multiply_adds = &limit::avx512::multiply_adds;
 #endif
   double sum = 0, n_flops = 0;
-  const double taken_s = measure::smallest_s([&] {
-    n_flops = multiply_adds(1000000, sum);
-    return sum;
-  });
+  const double taken_s = smallest_s([&] { return n_flops = multiply_adds(1000000, sum); }, 15);
   return n_flops / taken_s;
 }
 
@@ -74,14 +79,27 @@ double flops_of_envelope(const Problem& p) {
 /// @param state  channels, instants, course
 void superposition(benchmark::State& state) {
   const std::size_t n_nodes = 4096;
-  const auto p = problem(n_nodes, std::size_t(state.range(0)), state.range(1), Course(state.range(2)));
+  const auto course = Course(state.range(2));
+  const auto p = problem(n_nodes, std::size_t(state.range(0)), state.range(1), course);
   const auto superpose = [&p] { return envelope(p.loads, p.responses, 1); };
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(superpose());
-  const double limit_flops = most_flops(), taken_s = measure::smallest_s(superpose);
+  const double taken_s = smallest_s(superpose, 50);
   state.counters["ns_per_instant"] = 1e9 * taken_s / double(n_nodes) / double(p.loads.values.cols());
-  state.counters["gigaflops_limit"] = 1e-9 * std::max(limit_flops, most_flops());
-  if (Course(state.range(2)) != Course::steady)
-    state.counters["of_limit"] = flops_of_envelope(p) / taken_s / (1e9 * state.counters["gigaflops_limit"]);
+  if (course != Course::steady) state.counters["of_limit"] = flops_of_envelope(p) / taken_s / most_flops();
+}
+
+/// By what the largest memory of a call exceeds that before it, and the results that it leaves.
+template <class Call>
+void report_memory(benchmark::State& state, const Call& call) {
+  measure::reset_peak();
+  const double before = measure::memory_bytes("VmRSS:");
+  const std::size_t result_bytes = call();
+  state.counters["MiB_peak"] = (measure::memory_bytes("VmHWM:") - before) / 1048576;
+  state.counters["MiB_of_results"] = double(result_bytes) / 1048576;
+}
+
+std::size_t bytes_of(const pipelines::NodalMaximum& maximum) {
+  return maximum.value_Pa.size() * (sizeof(double) + sizeof(std::int32_t) + sizeof(pipelines::Stress));
 }
 
 /// Fatigue's walks through the instants beside the envelope's.
@@ -91,13 +109,21 @@ void largest_cycles(benchmark::State& state) {
       problem(std::size_t(state.range(0)), std::size_t(state.range(1)), state.range(2), Course::orders);
   std::vector<std::size_t> nodes(p.responses.nodes.n);
   std::iota(nodes.begin(), nodes.end(), std::size_t(0));
-  const auto found = envelope(p.loads, p.responses, 1);
+  const auto superpose = [&] { return envelope(p.loads, p.responses, 1); };
+  report_memory(state, [&] {
+    const auto found = superpose();
+    const auto cycles = nodal_cycles(p.loads, p.responses, found.von_mises, nodes, 1);
+    return bytes_of(found.von_mises) + bytes_of(found.principal) +
+           found.effect_share.size() * sizeof(double) +
+           cycles.nodes.size() * (sizeof(std::size_t) + sizeof(pipelines::StressCycle));
+  });
+  const auto found = superpose();
   const auto cycles = [&] { return nodal_cycles(p.loads, p.responses, found.von_mises, nodes, 1); };
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(cycles());
-  const int n_calls = p.responses.nodes.n > 10000 ? 5 : 15;
-  const double alone_s = measure::smallest_s([&] { return envelope(p.loads, p.responses, 1); }, n_calls);
+  const int n_calls = p.responses.nodes.n > 10000 ? 5 : 50;
+  const double alone_s = smallest_s(superpose, n_calls);
   state.counters["envelope_s"] = alone_s;
-  state.counters["with_envelope_of_envelope"] = 1 + measure::smallest_s(cycles, n_calls) / alone_s;
+  state.counters["with_envelope_of_envelope"] = 1 + smallest_s(cycles, n_calls) / alone_s;
   state.counters["of_limit"] = flops_of_envelope(p) / alone_s / most_flops();
 }
 

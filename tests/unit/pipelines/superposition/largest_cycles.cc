@@ -6,7 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "pipelines/superposition/linear_extremes_kernel.h"
 #include "pipelines/superposition/nodal_cycles.h"
+#include "pipelines/superposition/walked_factors.h"
 
 namespace {
 
@@ -207,6 +209,47 @@ TEST(NodalCycles, OfStressThatDoesNotChangeAreZero) {
   for (const auto& cycle : walked(p, 1).cycles) EXPECT_EQ(cycle.amplitude_Pa, 0);
   p.responses.channels[1] = "another";
   EXPECT_THROW(walked(p, 1), std::invalid_argument);
+}
+
+// All instruction sets that this machine can run, against a matrix product.
+TEST(LinearExtremes, AreThoseOfAllInstants) {
+  namespace kernel = pipelines::kernel;
+  std::vector<kernel::LinearWalk*> walks{&kernel::generic::linear_walk};
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    walks.push_back(&kernel::avx2::linear_walk);
+#endif
+  if (&kernel::linear_walk_for_this_machine() != walks.back())
+    walks.push_back(&kernel::linear_walk_for_this_machine());
+  std::mt19937 random(13);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(random); };
+  constexpr auto n_forms = Index(kernel::forms_at_once);
+  const Eigen::MatrixXd values = Eigen::MatrixXd::NullaryExpr(7, 5 * kernel::block + 1, draw),
+                        weights = Eigen::MatrixXd::NullaryExpr(n_forms, 7, draw);
+  const pipelines::WalkedFactors factors(values.array());
+  ASSERT_EQ(factors.n_channels(), 7u);
+  std::vector<double> room(kernel::forms_at_once * factors.n_instants()), walked(7 * kernel::forms_at_once),
+      one(7);
+  for (Index form = 0; form < n_forms; ++form) {  // the walk has the channels in an order of its own
+    const Eigen::VectorXd of_form = weights.row(form);
+    factors.gather(of_form.data(), 1, one.data());
+    for (std::size_t k = 0; k < 7; ++k) walked[k * kernel::forms_at_once + std::size_t(form)] = one[k];
+  }
+  const Eigen::MatrixXd all = weights * values;
+  for (auto* walk : walks) {
+    std::array<kernel::LinearExtremes, kernel::forms_at_once> found;
+    walk(walked.data(), factors.for_kernel(), room.data(), found.data());
+    for (Index form = 0; form < n_forms; ++form) {
+      Index largest = 0, smallest = 0;
+      const auto& of_form = found[std::size_t(form)];
+      EXPECT_NEAR(of_form.largest, all.row(form).maxCoeff(&largest),
+                  1e-13);  // sums of seven terms of about 1
+      EXPECT_NEAR(of_form.smallest, all.row(form).minCoeff(&smallest), 1e-13);
+      EXPECT_EQ(of_form.largest_instant, largest);
+      EXPECT_EQ(of_form.smallest_instant, smallest);
+    }
+  }
 }
 
 }  // namespace
