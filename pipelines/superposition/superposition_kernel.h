@@ -17,7 +17,7 @@ constexpr std::size_t blocks_at_once = 16;
 constexpr std::size_t batch = 8;
 
 /// Coordinates of a stress: five of its deviator, by whose 2-norm von Mises stress is given
-/// (deviatoric_coordinates of cycle_extremes.h), and the mean of its normal stresses.
+/// (deviatoric_coordinates.h), and the mean of its normal stresses.
 constexpr std::size_t n_coordinates = 6;
 
 /// Time factors of the channels.
