@@ -10,6 +10,7 @@
 #include "pipelines/analysis/fatigue_rules.h"
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/analysis/weld_places.h"
+#include "pipelines/common/parallel.h"
 #include "pipelines/fatigue/critical_plane.h"
 #include "pipelines/superposition/stress_shares.h"
 
@@ -160,8 +161,12 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
   const SurfaceSlopes slopes(nodes);
   const FatiguePlaces search(analysis, slopes, analysis.loads.history, analysis.envelope.von_mises.value_Pa,
                              rules);
-  for (const auto& [feature, list] : nodes_by_feature(analysis))
-    fatigue.places.push_back(place_of(feature, search.worst_of(list), analysis, rules, period));
+  const auto features = nodes_by_feature(analysis);
+  fatigue.places.resize(features.size());
+  for_each_parallel(features.size(), n_threads, [&](std::size_t, std::size_t i) {
+    const auto& [feature, own] = features[i];
+    fatigue.places[i] = place_of(feature, search.worst_of(own), analysis, rules, period);
+  });
   std::stable_sort(fatigue.places.begin(), fatigue.places.end(),
                    [](const auto& a, const auto& b) { return a.utilisation > b.utilisation; });
   if (is_steel(rules.group()))

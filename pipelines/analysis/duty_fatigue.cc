@@ -6,6 +6,7 @@
 
 #include "pipelines/analysis/fatigue_places.h"
 #include "pipelines/analysis/weld_places.h"
+#include "pipelines/common/parallel.h"
 #include "pipelines/superposition/nodal_cycles.h"
 
 namespace pipelines {
@@ -184,11 +185,14 @@ private:
 
 }  // namespace
 
-std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks) {
+std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks,
+                                  int n_threads) {
   const DutyJudge judge(analysis, blocks);
-  std::vector<DutyPlace> result;
-  for (const auto& [feature, nodes] : nodes_by_feature(analysis))
-    result.push_back(judge.worst_of(feature, nodes));
+  const auto features = nodes_by_feature(analysis);
+  std::vector<DutyPlace> result(features.size());
+  for_each_parallel(features.size(), n_threads, [&](std::size_t, std::size_t i) {
+    result[i] = judge.worst_of(features[i].first, features[i].second);
+  });
   for (const auto& weld : weld_places(analysis)) result.push_back(judge.weld(weld));
   std::stable_sort(result.begin(), result.end(), [](const DutyPlace& a, const DutyPlace& b) {
     return a.damage_per_s != b.damage_per_s

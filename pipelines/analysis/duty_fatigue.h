@@ -51,6 +51,7 @@ struct DutyPlace {
 /// the one with most damage of those that some block uses up most, or stresses most in a start; damage
 /// elsewhere on the feature is about at most the sum of what each block does at its own worst node.
 /// @param analysis  whose scene asks for fatigue
-std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks);
+std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks,
+                                  int n_threads);
 
 }  // namespace pipelines

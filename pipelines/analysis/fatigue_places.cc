@@ -1,6 +1,7 @@
 #include "pipelines/analysis/fatigue_places.h"
 
 #include <algorithm>
+#include <map>
 
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/superposition/nodal_cycles.h"
@@ -19,7 +20,7 @@ constexpr double slack_of_search = 1e-6;
 
 }  // namespace
 
-std::map<std::string, std::vector<std::size_t>> nodes_by_feature(const BodyAnalysis& analysis) {
+std::vector<NodesOfFeature> nodes_by_feature(const BodyAnalysis& analysis) {
   const auto& nodes = analysis.responses.nodes;
   std::map<int, std::string> name_of;
   for (const auto& feature : analysis.mesh.features) name_of[feature.boundary_id] = feature.name;
@@ -32,7 +33,7 @@ std::map<std::string, std::vector<std::size_t>> nodes_by_feature(const BodyAnaly
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
-  return result;
+  return {result.begin(), result.end()};
 }
 
 FatiguePlaces::FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& slopes,

@@ -1,8 +1,8 @@
 /// The nodes that fatigue uses up most, by feature of the surface.
 #pragma once
 
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
@@ -11,8 +11,10 @@
 
 namespace pipelines {
 
-/// The nodes of each feature outside the exclusion distances; one on a seam belongs to both.
-std::map<std::string, std::vector<std::size_t>> nodes_by_feature(const BodyAnalysis& analysis);
+using NodesOfFeature = std::pair<std::string, std::vector<std::size_t>>;
+
+/// The nodes of each feature outside the exclusion distances; one on a seam belongs to both. By name.
+std::vector<NodesOfFeature> nodes_by_feature(const BodyAnalysis& analysis);
 
 /// A node under one history of loads.
 struct FatigueNode {

@@ -107,7 +107,8 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
                         !run.scene.duty[k].start ? nullptr
                         : served[k].starting     ? &served[k].start_von_mises
                                                  : &served[k].von_mises});
-    result.places[analysis.scene.name] = clock.run("fatigue", [&] { return judge_duty(analysis, blocks); });
+    result.places[analysis.scene.name] =
+        clock.run("fatigue", [&] { return judge_duty(analysis, blocks, threads(n_threads)); });
   }
   result.bearings = bearings_over_blocks(result.blocks, run.scene.bearings);
   return result;
