@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace pipelines {
@@ -56,8 +55,10 @@ constexpr double alike = 1 + 1e-12;
 Pair exact_pair(const Deviators& x, Pair best, double slack) {
   const Eigen::Matrix<double, 5, 1> centre = 0.5 * (x.col(best.first) + x.col(best.second));
   const ArrayXd radius = (x.colwise() - centre).colwise().norm().transpose().array();
-  std::vector<Index> order(std::size_t(x.cols()));
-  std::iota(order.begin(), order.end(), Index(0));
+  const double least = (1 + slack) * std::sqrt(best.squared * alike) - radius.maxCoeff();
+  std::vector<Index> order;  // of those that may have a partner
+  for (Index i = 0; i < x.cols(); ++i)
+    if (radius[i] > least) order.push_back(i);
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return radius[a] > radius[b]; });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double wanted = (1 + slack) * std::sqrt(best.squared * alike);
