@@ -77,8 +77,11 @@ public:
         blocks_(blocks),
         rules_(*analysis.scene.fatigue),
         slopes_(analysis.responses.nodes) {
-    for (const auto& block : blocks)
+    damage_about_.assign(analysis.responses.nodes.n, 0);
+    for (const auto& block : blocks) {
       places_.emplace_back(analysis, slopes_, *block.running, block.von_mises->value_Pa, rules_);
+      add_damage_about(block);
+    }
   }
 
   DutyPlace worst_of(const std::string& feature, const std::vector<std::size_t>& nodes) const {
@@ -89,6 +92,9 @@ public:
         candidates.insert(*std::max_element(nodes.begin(), nodes.end(), [&](std::size_t a, std::size_t b) {
           return block.start_von_mises->value_Pa[a] < block.start_von_mises->value_Pa[b];
         }));
+    candidates.insert(*std::max_element(nodes.begin(), nodes.end(), [&](std::size_t a, std::size_t b) {
+      return damage_about_[a] < damage_about_[b];
+    }));
     std::optional<DutyPlace> worst;
     for (const auto node : candidates) {
       auto place = at(node);
@@ -133,6 +139,15 @@ public:
   }
 
 private:
+  /// One cycle a period, the same slope everywhere: in proportion to damage where nodes are alike.
+  void add_damage_about(const BlockOnBody& block) {
+    const auto& cycles = *block.cycles;
+    for (std::size_t i = 0; i < cycles.nodes.size(); ++i)
+      damage_about_[cycles.nodes[i]] +=
+          block.share / block.period.duration_s *
+          std::pow(rules_.limit(0, scalar(cycles.cycles[i])).utilisation, rules_.group().slope_normal);
+  }
+
   /// @return half of the largest range
   static double take_ranges(const std::vector<kinetics::LoadCycle>& cycles, double per_s,
                             std::vector<StressBlock>& blocks) {
@@ -181,6 +196,7 @@ private:
   FatigueRules rules_;
   SurfaceSlopes slopes_;
   std::vector<FatiguePlaces> places_;  ///< by block
+  std::vector<double> damage_about_;   ///< by node; see add_damage_about
 };
 
 }  // namespace

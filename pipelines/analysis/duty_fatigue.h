@@ -20,6 +20,7 @@ namespace pipelines {
 struct BlockOnBody {
   const ChannelHistory* running = nullptr;  ///< over a period, channels of the unit responses
   const NodalMaximum* von_mises = nullptr;  ///< its envelope
+  const NodalCycles* cycles = nullptr;      ///< of the surface, in it
   LoadPeriod period;
   double share = 0;                               ///< of the time in operation, (0, 1]
   const ChannelHistory* starting = nullptr;       ///< over one start; null: none, or at once
@@ -48,8 +49,9 @@ struct DutyPlace {
 };
 
 /// Every feature's worst node, and every weld toe; by falling damage, then by falling amplitude. The node is
-/// the one with most damage of those that some block uses up most, or stresses most in a start; damage
-/// elsewhere on the feature is about at most the sum of what each block does at its own worst node.
+/// the one with most damage of those that some block uses up most, that a start stresses most, or whose
+/// largest cycles of all blocks, each counted once a period without support by the gradient, do most damage
+/// together.
 /// @param analysis  whose scene asks for fatigue
 std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks,
                                   int n_threads);

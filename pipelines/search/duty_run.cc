@@ -17,6 +17,7 @@ constexpr double day_s = 86400;
 struct ServedBlock {
   BodyLoads running;
   std::optional<BodyLoads> starting;
+  NodalCycles cycles;
   NodalMaximum von_mises, start_von_mises;  ///< in starts: of some of the instants
 };
 
@@ -48,6 +49,9 @@ ServedBlock serve(const DutyBlock& block, const BodyAnalysis& analysis, BlockLoa
   result.running = fitted(std::move(loads.running[b]));
   if (!loads.starting.empty()) result.starting = fitted(std::move(loads.starting[b]));
   result.von_mises = envelope(result.running.history, analysis.responses, threads(n_threads)).von_mises;
+  if (analysis.scene.fatigue)
+    result.cycles = nodal_cycles(result.running.history, analysis.responses, result.von_mises,
+                                 surface_nodes(analysis.responses.nodes), threads(n_threads));
   if (result.starting)
     result.start_von_mises =
         envelope(thinned(result.starting->history), analysis.responses, threads(n_threads)).von_mises;
@@ -99,7 +103,7 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
     if (!analysis.scene.fatigue) continue;
     std::vector<BlockOnBody> blocks;
     for (std::size_t k = 0; k < loads.size(); ++k)
-      blocks.push_back({&served[k].running.history, &served[k].von_mises,
+      blocks.push_back({&served[k].running.history, &served[k].von_mises, &served[k].cycles,
                         period_of(loads[k].loads, *run.scene.duty[k].scene),
                         result.blocks[k].share / result.in_operation,
                         served[k].starting ? &served[k].starting->history : nullptr,

@@ -1,0 +1,127 @@
+/// Damage over operating blocks against a sum by hand at every node: the places that are shown are the worst
+/// ones, also where blocks peak at different nodes. Turns red: a block that brings no candidates, shares that
+/// are not divided by periods, one S-N curve for each block.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "pipelines/analysis/duty_fatigue.h"
+#include "tests/unit/pipelines/examples/row_of_cells.h"
+
+namespace {
+
+using namespace pipelines;
+
+constexpr std::size_t n_channels = 3, n_blocks = 3;
+constexpr Eigen::Index n_instants = 24;
+/// FKM by hand: steel of 600 MPa, polished, reversed, safety 1.5; no support by the gradient.
+constexpr double limit_Pa = 0.45 * 600e6 / 1.5, slope = 5, knee_cycles = 1e6;
+
+struct Block {
+  ChannelHistory loads;
+  NodalMaximum von_mises;
+  NodalCycles cycles;
+  std::array<double, n_channels> amplitude{};
+  double share = 0, period_s = 0;
+};
+
+struct Example {
+  BodyAnalysis body;
+  std::vector<Block> blocks;
+
+  explicit Example(std::mt19937& random) {
+    std::uniform_real_distribution<double> any(0, 1);
+    const examples::Row row(12);
+    body.method = Method::beam;  // without gradients
+    body.mesh.features = row.features;
+    body.places = row.places();
+    body.responses.nodes = row.nodes;
+    body.scene.fatigue.emplace();
+    body.scene.fatigue->material.tensile_strength_Pa = 600e6;
+    body.scene.fatigue->material.yield_strength_Pa = 300e6;
+    body.scene.fatigue->roughness_m = 1e-6;
+    // Each channel stresses one place most, more or less around it.
+    std::array<double, n_channels> at{}, width{};
+    std::array<Stress, n_channels> tensor{};
+    for (std::size_t k = 0; k < n_channels; ++k) {
+      body.responses.channels.push_back("c" + std::to_string(k));
+      at[k] = 24 * any(random);
+      width[k] = 1 + 8 * any(random);
+      for (auto& component : tensor[k]) component = any(random) - 0.5;
+    }
+    for (std::size_t i = 0; i < row.nodes.n; ++i)
+      for (std::size_t k = 0; k < n_channels; ++k) {
+        const double away = (row.nodes.xyz_m[3 * i + 2] - at[k]) / width[k];
+        for (const double component : tensor[k])
+          body.responses.stress_Pa.push_back(component * std::exp(-away * away));
+      }
+    for (std::size_t b = 0; b < n_blocks; ++b) blocks.push_back(block(random, b));
+  }
+
+  std::vector<BlockOnBody> on_body() const {
+    std::vector<BlockOnBody> result;
+    for (const auto& block : blocks)
+      result.push_back({&block.loads, &block.von_mises, &block.cycles, {block.period_s, 1}, block.share});
+    return result;
+  }
+
+  /// All channels are in phase: one cycle a period, whose amplitude is the von Mises stress of the sum.
+  double damage_per_s(std::size_t node) const {
+    double damage = 0;
+    for (const auto& block : blocks) {
+      Stress sum{};
+      for (std::size_t k = 0; k < n_channels; ++k)
+        for (std::size_t c = 0; c < 6; ++c)
+          sum[c] += block.amplitude[k] * body.responses.stress_Pa[(node * n_channels + k) * 6 + c];
+      damage += block.share / block.period_s * std::pow(von_mises_Pa(sum) / limit_Pa, slope) / knee_cycles;
+    }
+    return damage;
+  }
+
+private:
+  Block block(std::mt19937& random, std::size_t b) {
+    std::uniform_real_distribution<double> any(0, 1);
+    Block result;
+    result.share = 1. / n_blocks;
+    result.period_s = 0.01 + 0.1 * any(random);
+    result.loads.effects = {"all"};
+    result.loads.values.resize(Eigen::Index(n_channels), n_instants);
+    for (std::size_t k = 0; k < n_channels; ++k) {
+      result.loads.channels.push_back({body.responses.channels[k], "N"});
+      result.amplitude[k] = (k == b ? 1e9 : 2e8 * any(random));
+      for (Eigen::Index i = 0; i < n_instants; ++i)
+        result.loads.values(Eigen::Index(k), i) =
+            result.amplitude[k] * std::cos(2 * M_PI * double(i) / double(n_instants));
+    }
+    result.loads.by_effect = {result.loads.values};
+    result.von_mises = envelope(result.loads, body.responses, 1).von_mises;
+    result.cycles =
+        nodal_cycles(result.loads, body.responses, result.von_mises, surface_nodes(body.responses.nodes), 1);
+    return result;
+  }
+};
+
+TEST(DamageOverBlocks, IsThatOfTheWorstNode) {
+  std::mt19937 random(17);
+  double least = 1;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Example example(random);
+    const auto places = judge_duty(example.body, example.on_body(), 1);
+    double most = 0;
+    for (const auto node : surface_nodes(example.body.responses.nodes))
+      most = std::max(most, example.damage_per_s(node));
+    ASSERT_GT(most, 0);
+    // Where nothing is above the limit nothing is damaged; there the sum by hand, with one slope, is no
+    // reference.
+    double largest_Pa = 0;
+    for (const auto& block : example.blocks)
+      for (const auto& cycle : block.cycles.cycles) largest_Pa = std::max(largest_Pa, cycle.amplitude_Pa);
+    if (largest_Pa < limit_Pa) continue;
+    EXPECT_LE(places.front().damage_per_s, most * (1 + 1e-9)) << trial;
+    least = std::min(least, places.front().damage_per_s / most);
+  }
+  EXPECT_GT(least, 1 - 1e-9) << "of the worst node's damage";
+}
+
+}  // namespace
