@@ -206,7 +206,10 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   run_options.duty = !scene.duty.empty();
   auto run = run_scene(scene, run_options, clock);
   std::optional<DutyResult> duty;
-  if (run_options.duty) duty = run_duty(scene, run, options.n_threads, clock);
+  if (run_options.duty) {
+    duty = run_duty(scene, run, options.n_threads, clock);
+    for (const auto& sentence : blocks_beyond_the_scene(*duty, run)) warn(run.loaded.loads, sentence);
+  }
   warn_of_damage(run);
   learn_from(run);
   const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();

@@ -1,7 +1,10 @@
 #include "pipelines/search/duty_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
+#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/hot_spots.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/served_loads.h"
@@ -116,6 +119,22 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
   }
   result.bearings = bearings_over_blocks(result.blocks, run.scene.bearings);
   return result;
+}
+
+std::vector<std::string> blocks_beyond_the_scene(const DutyResult& duty, const SceneRun& run) {
+  constexpr double rounding = 1e-6;
+  std::vector<std::string> sentences;
+  for (const auto& block : duty.blocks)
+    for (std::size_t b = 0; b < block.stresses.size(); ++b) {
+      const auto& stress = block.stresses[b];
+      const double own_Pa = governing_stress(run.analyses[b]).value_Pa;
+      if (stress.value_Pa > (1 + rounding) * own_Pa)
+        sentences.push_back(fmt::format(
+            "block \"{}\" stresses the {} more than the scene's own running, {:.4g} MPa instead of {:.4g}: "
+            "zones, pictures and errors are of the latter; give the scene the block's keys to see them",
+            block.name, stress.body, stress.value_Pa / 1e6, own_Pa / 1e6));
+    }
+  return sentences;
 }
 
 }  // namespace pipelines

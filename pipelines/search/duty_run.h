@@ -11,4 +11,7 @@ namespace pipelines {
 /// @throws StageRefused naming the block that does not fit
 DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, StageClock& clock);
 
+/// Sentences on blocks that stress a body more than the scene's own running, which all other results are of.
+std::vector<std::string> blocks_beyond_the_scene(const DutyResult& duty, const SceneRun& run);
+
 }  // namespace pipelines

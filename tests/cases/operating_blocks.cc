@@ -67,6 +67,9 @@ TEST(OperatingBlocks, DamageAddsByShares) {
   EXPECT_NEAR(place["life_days"].get<double>(), expected / 24 / 0.75, 1e-9 * expected);
   EXPECT_NEAR(place["by_block"]["heavy"]["damage_per_hour"].get<double>() * life(heavy), q_heavy, 1e-9);
   EXPECT_EQ(place["by_block"]["light"]["starts_damage_per_hour"].get<double>(), 0);
+  ASSERT_EQ(both["warnings"].size(), 1u) << both["warnings"];
+  EXPECT_NE(both["warnings"][0].get<std::string>().find("\"heavy\" stresses the shaft more than the scene's"),
+            std::string::npos);
   // The scene's own results do not know of the blocks.
   EXPECT_EQ(both["bodies"]["shaft"]["fatigue"], light["bodies"]["shaft"]["fatigue"]);
 
