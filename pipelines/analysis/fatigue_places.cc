@@ -57,7 +57,7 @@ FatigueNode FatiguePlaces::worst_of(const std::vector<std::size_t>& nodes) const
   for (const auto& [bound_Pa, node] : by_bound) {
     if (most_per_Pa_ * bound_Pa <= worst.utilisation) break;
     auto candidate = at(node, slack_of_search);
-    if (candidate.utilisation > worst.utilisation) worst = std::move(candidate);
+    if (candidate.utilisation > worst.utilisation) worst = candidate;
   }
   return nodes.empty() ? worst : at(worst.node);
 }

@@ -12,6 +12,7 @@
 
 #include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/body_vibration.h"
+#include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/start_up_stress.h"
