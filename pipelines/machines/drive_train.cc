@@ -67,6 +67,9 @@ public:
     return kinetics::compute_transient_loads(train_in(machine), scene.kinetics_effects(),
                                              transient_run(scene.torsion));
   }
+  std::string why_no_run_up_of_given_duration() const override {
+    return "a train's start is [machine.transient], which says how long it takes; leave it out";
+  }
   bool is_headline(const std::string& quantity) const override {
     return ends_with(quantity, ".torque") || ends_with(quantity, ".shear_stress");
   }
