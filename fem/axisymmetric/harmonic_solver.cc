@@ -36,7 +36,7 @@ HarmonicSolver::HarmonicSolver(const MeridianGrid& grid, const HarmonicPattern& 
       material_(material),
       pattern_(&pattern),
       matrix_(make_matrix(pattern.graph)),
-      factor_(matrix_, pattern.order) {}
+      factor_(pattern.graph, pattern.order) {}
 
 std::vector<char> HarmonicSolver::held_unknowns(int m) const {
   const auto& z = grid_->z_m;

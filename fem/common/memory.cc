@@ -14,6 +14,8 @@
 #include <limits>
 #include <string>
 
+#include "fem/common/large_memory.h"
+
 namespace fem {
 namespace {
 
@@ -78,7 +80,12 @@ double free_memory() {
   return std::min(machine, smallest_over_limits(left));
 }
 
+void make_room(double bytes) {
+  if (bytes > free_memory()) release_free_memory();
+}
+
 void release_free_memory() {
+  large_memory::release_kept();
 #ifdef MILLSTRESS_JEMALLOC
   static const std::string purge = "arena." + std::to_string(MALLCTL_ARENAS_ALL) + ".purge";
   mallctl(purge.c_str(), nullptr, nullptr, nullptr, 0);

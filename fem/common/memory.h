@@ -7,9 +7,12 @@ namespace fem {
 /// or by those of the control groups (version 2) that it is in.
 double physical_memory();
 
-/// What is left of it for this process [bytes]: files that the system keeps in mind give way. All of it where
-/// the system does not tell.
+/// What is left of it for this process [bytes], without what it keeps for later itself: files that the system
+/// keeps in mind give way. All of it where the system does not tell.
 double free_memory();
+
+/// Gives free memory back to the system if otherwise so much would not be left.
+void make_room(double bytes);
 
 /// Gives memory that is free, but kept for later, back to the system: before something large.
 void release_free_memory();

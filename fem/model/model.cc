@@ -1,6 +1,7 @@
 #include "fem/model/model.h"
 
 #include <cmath>
+#include <future>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -182,7 +183,7 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
                const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
-               SolverReport& report, MPI_Comm communicator, std::shared_ptr<const FactorisedBody>* kept) {
+               SolverReport& report, MPI_Comm communicator, DirectSolveOptions direct) {
   const bool alone = n_ranks(communicator) == 1;
   choice.coarse_level = report.coarse_level;
   const auto iterate = [&] {
@@ -198,11 +199,11 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     });
     return std::move(*solution);
   }
-  const auto is_dear = [&](const FactorSize& factor) {
+  direct.is_too_expensive = [&](const FactorSize& factor) {
     return is_too_expensive(factor, report, std::size_t(loads.force.cols()));
   };
   try {
-    if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, is_dear, kept))
+    if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, std::move(direct)))
       return std::move(*solution);
   } catch (const DoesNotFit&) {
     if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) throw;
@@ -243,6 +244,20 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   for (const auto& load : loads) responses.channels.push_back(load.channel);
 
   report(0, "loads");
+  const ElasticSupports springs(grid, impl_->body.elastic_supports);
+  responses.solver =
+      choose_solver(grid, impl_->materials, loads.size() + std::size_t(springs.unit_forces().cols()), choice,
+                    memory_of_ranks(impl_->communicator));
+  if (!clamped.empty()) {
+    responses.solver.used = Solver::direct;
+    responses.solver.by_analysis = false;
+    responses.solver.reason = "the body is clamped";
+  }
+  DirectSolveOptions direct;
+  direct.kept = choice.keep_factor ? &impl_->factor : nullptr;
+  if (responses.solver.used == Solver::direct &&
+      (n_ranks(impl_->communicator) == 1 || grid.hanging.n() > 0))  // on one thread, beside the loads
+    direct.plan = std::async(std::launch::async, [&] { return PlannedFactor(grid, impl_->cells); });
   Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads,
                                        impl_->relative_density());
   const Eigen::MatrixXd applied = resultants(grid, force, Eigen::Vector3d::Zero());
@@ -251,7 +266,6 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     for (int c = 0; c < 6; ++c) responses.resultants[k][c] = applied(c, k);
 
   {
-    const ElasticSupports springs(grid, impl_->body.elastic_supports);
     force.conservativeResize(Eigen::NoChange, n_loads + springs.unit_forces().cols());
     force.rightCols(springs.unit_forces().cols()) = springs.unit_forces();
     const Eigen::RowVectorXd scale = to_unit_size(force);
@@ -259,16 +273,8 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const RigidBalance rigid(grid, impl_->integrals);
     BalancedLoads balanced = balance(rigid, clamped, std::move(force));
     move_to_masters(grid.hanging, balanced.force);
-    responses.solver = choose_solver(grid, impl_->materials, static_cast<std::size_t>(balanced.force.cols()),
-                                     choice, memory_of_ranks(impl_->communicator));
-    if (!clamped.empty()) {
-      responses.solver.used = Solver::direct;
-      responses.solver.by_analysis = false;
-      responses.solver.reason = "the body is clamped";
-    }
-    Solution solution =
-        solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,
-              responses.solver, impl_->communicator, choice.keep_factor ? &impl_->factor : nullptr);
+    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,
+                              responses.solver, impl_->communicator, std::move(direct));
     responses.residual = responses.solver.relative_residual = solution.residual;
     responses.support_reaction = solution.support_reaction;
     responses.solver.rounding = solution.rounding;
@@ -338,12 +344,15 @@ std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& resp
   move_to_masters(grid.hanging, loads.force);
   Eigen::MatrixXd dual;
   if (impl_->factor)
-    dual = impl_->factor->solve(std::move(loads.force));
-  else
+    dual = impl_->factor->solve(loads.force);
+  else {
+    DirectSolveOptions direct;
+    direct.kept = &impl_->factor;
     dual = solve_directly(
                grid, impl_->cells, impl_->colours, impl_->materials, loads, [](double, const std::string&) {},
-               {}, &impl_->factor)
+               std::move(direct))
                ->displacement;
+  }
   set_hanging_unknowns(grid.hanging, dual);
   if (loads.clamped.empty()) rigid.remove_motion(dual);
   const Eigen::MatrixXd errors =

@@ -26,13 +26,13 @@ VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
   const auto order = order_nodes(graph_);
   if (!clamped_.empty()) {
     clamp(clamped_, matrix_);
-    factor_.emplace(matrix_, order);
+    factor_.emplace(graph_, order);
     factor_->factorise(matrix_);
     return;
   }
   SymmetricMatrix held = matrix_;
   supports_.emplace(choose_supports(grid), held);
-  factor_.emplace(held, order);
+  factor_.emplace(graph_, order);
   factor_->factorise(held);
   const Eigen::Map<const Eigen::Matrix3Xd> nodes(grid.xyz_m.data(), 3, grid.n_nodes);
   rigid_ = rigid_modes(grid, nodes.rowwise().mean());

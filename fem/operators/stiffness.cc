@@ -90,27 +90,32 @@ void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes
 }
 
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
-                        const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix) {
+                        const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix,
+                        const std::vector<std::int32_t>& place) {
+  const auto placed = [&](std::int32_t node) { return place.empty() ? node : place[std::size_t(node)]; };
   const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
   const CellCouplings couplings(grid);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
       CellGradients gradients;
       Eigen::MatrixXd scaled, products;
+      std::vector<std::int32_t> nodes;
       for (std::size_t c = begin; c < end; ++c) {
+        const auto cell = std::size_t(cells[c]);
         compute_gradients(grid, cells[c], at, gradients);
         scale_gradients(gradients, scaled);
-        couplings.couple(std::size_t(cells[c]), 3, scaled);
-        add_cell_stiffness(scaled, couplings.nodes(std::size_t(cells[c])), elastic[cells[c]], graph, products,
-                           matrix);
+        couplings.couple(cell, 3, scaled);
+        nodes.assign(couplings.nodes(cell), couplings.nodes(cell) + couplings.n_nodes(cell));
+        for (auto& node : nodes) node = placed(node);
+        add_cell_stiffness(scaled, nodes.data(), elastic[cells[c]], graph, products, matrix);
       }
     });
   // What hangs has equations of its own that say nothing; their size is that of the others.
   const auto& hanging = grid.hanging;
   for (std::size_t i = 0; i < hanging.n(); ++i) {
-    const auto master = 3 * std::int64_t(hanging.master[hanging.begin[i]]);
+    const auto master = 3 * std::int64_t(placed(hanging.master[hanging.begin[i]]));
     const double size = matrix.value[std::size_t(matrix.column_begin[std::size_t(master)])];
-    add_diagonal_block(matrix, hanging.node[i], size * Eigen::Matrix3d::Identity());
+    add_diagonal_block(matrix, placed(hanging.node[i]), size * Eigen::Matrix3d::Identity());
   }
 }
 

@@ -24,8 +24,10 @@ void refuse_impossible(const Material& material);
 /// Adds all cells' stiffness with (k+1)^3 Gauss points: colour after colour, so that the sums do not depend
 /// on threads. Hanging nodes are resolved: their rows and columns keep a diagonal only.
 /// @param matrix  made from the graph, zero on entry
+/// @param place   of each node among those of graph and matrix; empty: they are numbered like the mesh
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
-                        const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix);
+                        const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix,
+                        const std::vector<std::int32_t>& place = {});
 
 /// Adds one cell's stiffness to the matrix.
 /// @param scaled  gradients of the cell's shape functions times sqrt(JxW): three rows per node, one column

@@ -36,26 +36,57 @@ NodeGraph make_node_graph(const Grid& grid, const CellsOfNodes& cells) {
   return graph;
 }
 
+std::vector<std::int32_t> places_in(const std::vector<std::int32_t>& order) {
+  std::vector<std::int32_t> place(order.size());
+  for (std::size_t p = 0; p < order.size(); ++p) place[std::size_t(order[p])] = std::int32_t(p);
+  return place;
+}
+
+NodeGraph permuted(const NodeGraph& graph, const std::vector<std::int32_t>& order) {
+  const auto place = places_in(order);
+  const std::size_t n_nodes = order.size();
+  const auto for_each_edge = [&](const auto& take) {
+    for (std::size_t j = 0; j < n_nodes; ++j)
+      for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) {
+        const auto own = place[j], other = place[std::size_t(graph.neighbour[std::size_t(k)])];
+        take(std::size_t(std::min(own, other)), std::max(own, other));
+      }
+  };
+  NodeGraph result;
+  result.begin.assign(n_nodes + 1, 0);
+  for_each_edge([&](std::size_t smaller, std::int32_t) { ++result.begin[smaller + 1]; });
+  for (std::size_t p = 0; p < n_nodes; ++p) result.begin[p + 1] += result.begin[p];
+  result.neighbour.resize(graph.neighbour.size());
+  std::vector<std::int64_t> next(result.begin.begin(), result.begin.end() - 1);
+  for_each_edge([&](std::size_t smaller, std::int32_t larger) {
+    result.neighbour[std::size_t(next[smaller]++)] = larger;
+  });
+  parallel_for(n_nodes, 500, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      std::sort(result.neighbour.begin() + result.begin[p], result.neighbour.begin() + result.begin[p + 1]);
+  });
+  return result;
+}
+
 SymmetricMatrix make_matrix(const NodeGraph& graph) {
   SymmetricMatrix matrix;
   const std::size_t n_nodes = graph.n_nodes();
   matrix.n = static_cast<std::int64_t>(3 * n_nodes);
-  matrix.column_begin.assign(1, 0);
-  matrix.column_begin.reserve(matrix.n + 1);
-  for (std::size_t j = 0; j < n_nodes; ++j)
-    for (int c = 0; c < 3; ++c)
-      matrix.column_begin.push_back(matrix.column_begin.back() + 3 - c +
-                                    3 * (graph.begin[j + 1] - graph.begin[j]));
+  matrix.column_begin.resize(3 * n_nodes + 1);
+  matrix.column_begin.back() = 9 * graph.begin.back() + 6 * static_cast<std::int64_t>(n_nodes);
   matrix.row.resize(matrix.column_begin.back());
-  matrix.value.assign(matrix.column_begin.back(), 0.0);
+  matrix.value.resize(matrix.column_begin.back());
   parallel_for(n_nodes, 1000, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j)
+    for (std::size_t j = begin; j < end; ++j) {
+      auto at = 9 * graph.begin[j] + 6 * static_cast<std::int64_t>(j);
       for (int c = 0; c < 3; ++c) {
-        auto* row = matrix.row.data() + matrix.column_begin[3 * j + c];
-        for (int a = c; a < 3; ++a) *row++ = static_cast<std::int64_t>(3 * j + a);
+        matrix.column_begin[3 * j + c] = at;
+        for (int a = c; a < 3; ++a) matrix.row[at++] = static_cast<std::int64_t>(3 * j + a);
         for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k)
-          for (int a = 0; a < 3; ++a) *row++ = 3 * std::int64_t(graph.neighbour[k]) + a;
+          for (int a = 0; a < 3; ++a) matrix.row[at++] = 3 * std::int64_t(graph.neighbour[k]) + a;
       }
+      std::fill(matrix.value.begin() + matrix.column_begin[3 * j], matrix.value.begin() + at, 0.0);
+    }
   });
   return matrix;
 }
@@ -110,9 +141,7 @@ MovedBlocks move_blocks(const SymmetricMatrix& matrix, const std::vector<std::in
 
 SymmetricMatrix permuted(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& order) {
   const std::size_t n_nodes = order.size();
-  std::vector<std::int32_t> place(n_nodes);
-  for (std::size_t p = 0; p < n_nodes; ++p) place[std::size_t(order[p])] = std::int32_t(p);
-  const MovedBlocks moved = move_blocks(matrix, place);
+  const MovedBlocks moved = move_blocks(matrix, places_in(order));
   NodeGraph graph;
   graph.begin = moved.begin;
   graph.neighbour.reserve(moved.block.size());

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fem/common/large_memory.h"
 #include "fem/mesh/grid.h"
 
 namespace fem {
@@ -19,14 +20,23 @@ struct NodeGraph {
 };
 NodeGraph make_node_graph(const Grid& grid, const CellsOfNodes& cells);
 
+/// Where each node comes to stand in an order of nodes.
+/// @param order  a node for each position
+std::vector<std::int32_t> places_in(const std::vector<std::int32_t>& order);
+
+/// The graph with its nodes in another order, on all threads.
+/// @param order  node p of the result is node order[p] of the graph; each node once
+NodeGraph permuted(const NodeGraph& graph, const std::vector<std::int32_t>& order);
+
 /// Column 3 j + c holds the rows 3 j + c .. 3 j + 2, then three rows for every larger neighbour of node j.
 struct SymmetricMatrix {
   std::int64_t n = 0;
-  std::vector<std::int64_t> column_begin, row;
-  std::vector<double> value;
+  std::vector<std::int64_t> column_begin;
+  LargeVector<std::int64_t> row;
+  LargeVector<double> value;
 };
 
-/// The matrix of a graph, filled with zeros.
+/// The matrix of a graph, filled with zeros, on all threads.
 SymmetricMatrix make_matrix(const NodeGraph& graph);
 
 /// The matrix with its nodes in another order, on all threads.

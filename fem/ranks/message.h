@@ -22,8 +22,8 @@ public:
     put(&value, sizeof value);
     return *this;
   }
-  template <typename T>
-  Message& operator<<(const std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  Message& operator<<(const std::vector<T, Allocator>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
     *this << values.size();
     put(values.data(), values.size() * sizeof(T));
@@ -43,8 +43,8 @@ public:
     get(&value, sizeof value);
     return *this;
   }
-  template <typename T>
-  Message& operator>>(std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  Message& operator>>(std::vector<T, Allocator>& values) {
     std::size_t n = 0;
     *this >> n;
     values.resize(n);

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "fem/common/large_memory.h"
 #include "fem/common/parallel.h"
 #include "fem/values/errors.h"
 
@@ -60,25 +62,24 @@ struct NodePattern {
   }
 };
 
-NodePattern pattern_of_nodes(const SymmetricMatrix& matrix) {
-  const std::int64_t n_nodes = matrix.n / 3;
+NodePattern pattern_of_nodes(const NodeGraph& graph) {
   NodePattern pattern;
-  pattern.begin.assign(1, 0);
-  pattern.begin.reserve(std::size_t(n_nodes) + 1);
-  pattern.row.reserve(matrix.row.size() / 9 + std::size_t(n_nodes));
-  for (std::int64_t j = 0; j < n_nodes; ++j) {
-    for (auto k = matrix.column_begin[3 * j]; k < matrix.column_begin[3 * j + 1]; k += 3)
-      pattern.row.push_back(matrix.row[k] / 3);
+  pattern.begin.reserve(graph.n_nodes() + 1);
+  pattern.row.reserve(graph.n_nodes() + graph.neighbour.size());
+  for (std::size_t j = 0; j < graph.n_nodes(); ++j) {
     pattern.begin.push_back(SuiteSparse_long(pattern.row.size()));
+    pattern.row.push_back(SuiteSparse_long(j));
+    for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) pattern.row.push_back(graph.neighbour[k]);
   }
+  pattern.begin.push_back(SuiteSparse_long(pattern.row.size()));
   return pattern;
 }
 
-/// Writes to each page of new memory, on all threads. A virtual machine hands out a quarter of a gigabyte a
-/// second to one of them: that was two thirds of a factorisation's time.
-void touch(double* memory, std::size_t n) {
+/// Writes to each page of new memory, on all threads. A virtual machine hands out half a gigabyte a second to
+/// one of them: that was two thirds of a factorisation's time.
+void touch(LargeVector<double>& memory) {
   constexpr std::size_t page = 4096 / sizeof(double);
-  parallel_for(n / page, 4096, [&](std::size_t begin, std::size_t end) {
+  parallel_for(memory.size() / page, 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) memory[page * k] = 0;
   });
 }
@@ -90,6 +91,7 @@ struct CholmodFactor::Impl {
   std::vector<std::int32_t> node_order;  ///< CHOLMOD's own: postordered
   mutable cholmod_common common{};
   cholmod_factor* factor = nullptr;
+  LargeVector<double> entries;  ///< the factor's: not CHOLMOD's to free
 
   Impl() {
     cholmod_l_start(&common);
@@ -100,6 +102,7 @@ struct CholmodFactor::Impl {
     for (auto& columns : common.nrelax) columns = (columns + 2) / 3;  // counted in nodes
   }
   ~Impl() {
+    if (factor != nullptr) factor->x = nullptr;
     cholmod_l_free_factor(&factor, &common);
     cholmod_l_finish(&common);
   }
@@ -177,13 +180,13 @@ cholmod_factor* of_three_unknowns(const cholmod_factor& nodes, cholmod_common& c
 
 }  // namespace
 
-CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& node_order)
+CholmodFactor::CholmodFactor(const NodeGraph& graph, const std::vector<std::int32_t>& node_order)
     : impl_(std::make_unique<Impl>()) {
   static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t), "CHOLMOD with 64-bit indices is expected");
   const SerialOpenMp serial;
   auto& common = impl_->common;
-  impl_->matrix_bytes = 16.0 * static_cast<double>(matrix.value.size());
-  auto pattern = pattern_of_nodes(matrix);
+  impl_->matrix_bytes = 16.0 * (9.0 * double(graph.neighbour.size()) + 6.0 * double(graph.n_nodes()));
+  auto pattern = pattern_of_nodes(graph);
   auto a = pattern.view();
   std::vector<SuiteSparse_long> order(node_order.begin(), node_order.end());
   cholmod_factor* nodes = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &common);
@@ -197,20 +200,40 @@ CholmodFactor::CholmodFactor(const SymmetricMatrix& matrix, const std::vector<st
 
 CholmodFactor::~CholmodFactor() = default;
 
+const std::vector<std::int32_t>& CholmodFactor::node_order() const {
+  return impl_->node_order;
+}
+
+void CholmodFactor::take_memory() {
+  auto& factor = *impl_->factor;
+  if (factor.xtype != CHOLMOD_PATTERN) return;
+  try {
+    impl_->entries.resize(factor.xsize);
+  } catch (const std::bad_alloc&) {
+    impl_->common.status = CHOLMOD_OUT_OF_MEMORY;
+  }
+  impl_->check("factorise");
+  touch(impl_->entries);
+  factor.x = impl_->entries.data();
+  factor.xtype = CHOLMOD_REAL;
+  factor.dtype = CHOLMOD_DOUBLE;
+  factor.minor = factor.n;
+}
+
 void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
   // CHOLMOD's own way into this order transposes the matrix twice, on one thread.
-  const SymmetricMatrix ordered = permuted(matrix, impl_->node_order);
+  factorise_in_order(permuted(matrix, impl_->node_order));
+}
+
+void CholmodFactor::factorise_in_order(const SymmetricMatrix& matrix) {
   const SerialOpenMp serial;
-  auto a = Impl::view(ordered);
-  if (impl_->factor->xtype == CHOLMOD_PATTERN) {
-    cholmod_l_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, impl_->factor, &impl_->common);
-    impl_->check("factorise");
-    touch(static_cast<double*>(impl_->factor->x), impl_->factor->xsize);
-  }
+  auto a = Impl::view(matrix);
+  auto& factor = *impl_->factor;
+  take_memory();
   double no_shift[2] = {0, 0};
-  cholmod_l_super_numeric(&a, nullptr, no_shift, impl_->factor, &impl_->common);
+  cholmod_l_super_numeric(&a, nullptr, no_shift, &factor, &impl_->common);
   impl_->check("factorise");
-  if (impl_->common.status == CHOLMOD_NOT_POSDEF || impl_->factor->minor < impl_->factor->n)
+  if (impl_->common.status == CHOLMOD_NOT_POSDEF || factor.minor < factor.n)
     throw SolveFailed(
         "the stiffness is not positive definite: the mesh may fall into parts that do not touch, or has "
         "degenerate "
@@ -220,8 +243,10 @@ void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
 namespace {
 
 /// Some columns of a solution, on the calling thread with a work space of its own: it reads the factor alone.
+/// @param system  CHOLMOD_A, or CHOLMOD_LDLt: rows in the factor's order
 /// @return empty, or what went wrong
-std::string solve_columns(cholmod_factor* factor, Eigen::Ref<const Eigen::MatrixXd> right_hand_sides,
+std::string solve_columns(int system, cholmod_factor* factor,
+                          Eigen::Ref<const Eigen::MatrixXd> right_hand_sides,
                           Eigen::Ref<Eigen::MatrixXd> solution) {
   const SerialOpenMp serial;
   cholmod_common common{};
@@ -235,7 +260,7 @@ std::string solve_columns(cholmod_factor* factor, Eigen::Ref<const Eigen::Matrix
   b.x = const_cast<double*>(right_hand_sides.data());
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
-  const bool solved = cholmod_l_solve2(CHOLMOD_A, factor, &b, nullptr, &x, nullptr, &y, &e, &common) != 0;
+  const bool solved = cholmod_l_solve2(system, factor, &b, nullptr, &x, nullptr, &y, &e, &common) != 0;
   std::string failure;
   if (solved)
     solution =
@@ -249,9 +274,7 @@ std::string solve_columns(cholmod_factor* factor, Eigen::Ref<const Eigen::Matrix
   return failure;
 }
 
-}  // namespace
-
-Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
+Eigen::MatrixXd solve_in_blocks(int system, cholmod_factor* factor, const Eigen::MatrixXd& right_hand_sides) {
   const SerialBlas serial;
   constexpr Eigen::Index most_columns = 16;  // whatever the threads: the sums stay the same
   const auto n = right_hand_sides.cols();
@@ -261,13 +284,23 @@ Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) co
   parallel_for(n_blocks, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Eigen::Index first = most_columns * Eigen::Index(k), columns = std::min(most_columns, n - first);
-      failures[k] = solve_columns(impl_->factor, right_hand_sides.middleCols(first, columns),
+      failures[k] = solve_columns(system, factor, right_hand_sides.middleCols(first, columns),
                                   solution.middleCols(first, columns));
     }
   });
   for (const auto& failure : failures)
     if (!failure.empty()) throw SolveFailed(failure);
   return solution;
+}
+
+}  // namespace
+
+Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  return solve_in_blocks(CHOLMOD_A, impl_->factor, right_hand_sides);
+}
+
+Eigen::MatrixXd CholmodFactor::solve_in_order(const Eigen::MatrixXd& right_hand_sides) const {
+  return solve_in_blocks(CHOLMOD_LDLt, impl_->factor, right_hand_sides);
 }
 
 double CholmodFactor::gigabytes() const {

@@ -17,18 +17,37 @@ std::vector<std::int32_t> order_nodes(const NodeGraph& graph);
 
 class CholmodFactor {
 public:
-  /// Finds the shape of the factor. The matrix has to outlive factorise() only.
+  /// Finds the shape of the factor.
+  /// @param graph       of the nodes
+  /// @param node_order  by order_nodes
   /// @throws SolveFailed if memory does not suffice
-  CholmodFactor(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& node_order);
+  CholmodFactor(const NodeGraph& graph, const std::vector<std::int32_t>& node_order);
   ~CholmodFactor();
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 
+  /// The factor's own order of the nodes, from the one given: each node after those that it is eliminated
+  /// after.
+  const std::vector<std::int32_t>& node_order() const;
+
+  /// Takes the memory of the entries; factorising does it otherwise. The largest array first: it then grows
+  /// from that of the mesh before (large_memory.h).
+  /// @throws SolveFailed if memory does not suffice
+  void take_memory();
+
+  /// @param matrix  of the graph
   /// @throws SolveFailed if the matrix is not positive definite or memory does not suffice
   void factorise(const SymmetricMatrix& matrix);
 
+  /// @param matrix  of the graph with its nodes in node_order(): nothing is copied
+  /// @throws SolveFailed as factorise
+  void factorise_in_order(const SymmetricMatrix& matrix);
+
   /// All columns, in blocks that bound the memory.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
+
+  /// The same with rows of nodes in node_order().
+  Eigen::MatrixXd solve_in_order(const Eigen::MatrixXd& right_hand_sides) const;
 
   double gigabytes() const;
 

@@ -17,7 +17,7 @@ CoarseSolver::CoarseSolver(const Grid& coarse, const NodeGraph& graph,
   auto node_order = std::async(std::launch::async, order_nodes, std::cref(graph));
   auto matrix = assemble();
   supports_ = std::make_unique<Supports>(choose_supports(coarse), matrix);
-  factor_ = std::make_unique<CholmodFactor>(matrix, node_order.get());
+  factor_ = std::make_unique<CholmodFactor>(graph, node_order.get());
   factor_->factorise(matrix);
   without_rigid_ = WithoutModes(rigid_modes(coarse, Eigen::Vector3d::Zero()));
 }

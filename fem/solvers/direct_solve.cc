@@ -1,8 +1,6 @@
 #include "fem/solvers/direct_solve.h"
 
 #include <algorithm>
-#include <functional>
-#include <future>
 #include <optional>
 #include <sstream>
 
@@ -18,8 +16,8 @@
 namespace fem {
 
 namespace {
-/// Of one unknown under one load: four columns of the solver, displacement and stress.
-constexpr double bytes_per_response = 56;
+/// Of one unknown under one load: five columns of the solver, displacement and stress.
+constexpr double bytes_per_response = 64;
 /// Beyond it displacements are not worth handing on.
 constexpr double most_rounding = 0.01;
 }  // namespace
@@ -47,76 +45,130 @@ void refuse_rounding(const Grid& grid, double share) {
   throw SolveFailed(message.str());
 }
 
-FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells) {
-  const NodeGraph graph = make_node_graph(grid, cells);
-  return CholmodFactor(make_matrix(graph), order_nodes(graph)).size();
+PlannedFactor::PlannedFactor(const Grid& grid, const CellsOfNodes& cells) {
+  const NodeGraph of_mesh = make_node_graph(grid, cells);
+  factor = std::make_unique<CholmodFactor>(of_mesh, order_nodes(of_mesh));
+  graph = permuted(of_mesh, factor->node_order());
+  place = places_in(factor->node_order());
 }
 
-Eigen::MatrixXd FactorisedBody::solve(Eigen::MatrixXd force) const {
-  for (const auto unknown : held_) force.row(unknown).setZero();
-  return factor_->solve(force);
+FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells) {
+  const NodeGraph graph = make_node_graph(grid, cells);
+  return CholmodFactor(graph, order_nodes(graph)).size();
+}
+
+namespace {
+
+/// Unknowns of the mesh in the order of elimination, ascending there.
+std::vector<std::int64_t> in_order(const std::vector<std::int64_t>& unknowns,
+                                   const std::vector<std::int32_t>& place) {
+  std::vector<std::int64_t> result;
+  for (const auto unknown : unknowns)
+    result.push_back(3 * std::int64_t(place[std::size_t(unknown / 3)]) + unknown % 3);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// Calls take(row of the mesh, row in the order of elimination) for the three rows of each node and each
+/// column.
+template <class Take>
+void for_each_row(const std::vector<std::int32_t>& place, Eigen::Index n_columns, const Take& take) {
+  parallel_for(std::size_t(n_columns), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (std::size_t i = 0; i < place.size(); ++i)
+        for (int d = 0; d < 3; ++d)
+          take(3 * Eigen::Index(i) + d, 3 * Eigen::Index(place[i]) + d, Eigen::Index(k));
+  });
+}
+
+Eigen::MatrixXd rows_in_order(const Eigen::MatrixXd& rows, const std::vector<std::int32_t>& place) {
+  Eigen::MatrixXd result(rows.rows(), rows.cols());
+  for_each_row(place, rows.cols(),
+               [&](auto of_mesh, auto row, auto k) { result(row, k) = rows(of_mesh, k); });
+  return result;
+}
+
+Eigen::MatrixXd rows_of_mesh(const Eigen::MatrixXd& rows, const std::vector<std::int32_t>& place) {
+  Eigen::MatrixXd result(rows.rows(), rows.cols());
+  for_each_row(place, rows.cols(),
+               [&](auto of_mesh, auto row, auto k) { result(of_mesh, k) = rows(row, k); });
+  return result;
+}
+
+void clear_rows(const std::vector<std::int64_t>& unknowns, Eigen::MatrixXd& vectors) {
+  for (const auto unknown : unknowns) vectors.row(unknown).setZero();
+}
+
+}  // namespace
+
+Eigen::MatrixXd FactorisedBody::solve(const Eigen::MatrixXd& force) const {
+  Eigen::MatrixXd ordered = rows_in_order(force, place_);
+  clear_rows(held_, ordered);
+  return rows_of_mesh(factor_->solve_in_order(ordered), place_);
 }
 
 std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
                                        const std::vector<std::vector<std::int32_t>>& colours,
                                        const CellMaterials& materials, const BalancedLoads& loads,
-                                       const StepReport& progress,
-                                       const std::function<bool(const FactorSize&)>& is_too_expensive,
-                                       std::shared_ptr<const FactorisedBody>* kept) {
-  progress(0.05, "assemble");
-  const NodeGraph graph = make_node_graph(grid, cells);
-  auto order =
-      std::async(std::launch::async, order_nodes, std::cref(graph));  // one thread, while others assemble
-  SymmetricMatrix matrix = make_matrix(graph);
-  assemble_stiffness(grid, colours, graph, materials.elastic(), matrix);
-  std::optional<Supports> supports;
-  if (loads.clamped.empty())
-    supports.emplace(choose_supports(grid), matrix);
-  else
-    clamp(loads.clamped, matrix);
+                                       const StepReport& progress, DirectSolveOptions options) {
+  progress(0.05, "order");
+  PlannedFactor plan = options.plan.valid() ? options.plan.get() : PlannedFactor(grid, cells);
+  CholmodFactor& factor = *plan.factor;
+  if (options.is_too_expensive && options.is_too_expensive(factor.size())) return std::nullopt;
+  const double beside = bytes_per_response * static_cast<double>(loads.force.size()),
+               needed = factor.size().bytes + beside;
+  make_room(needed);
+  refuse_large_factor(needed, grid.n_unknowns(), free_memory());
 
-  progress(0.1, "order");
-  auto own_factor = std::make_unique<CholmodFactor>(matrix, order.get());
-  CholmodFactor& factor = *own_factor;
-  if (is_too_expensive && is_too_expensive(factor.size())) return std::nullopt;
-  // CHOLMOD turns the matrix into its own order; displacements, stress and what becomes of them follow.
-  const double more = 16.0 * static_cast<double>(matrix.value.size()) +
-                      bytes_per_response * static_cast<double>(loads.force.size());
-  release_free_memory();  // of meshing, of the mesh before
-  refuse_large_factor(1e9 * factor.gigabytes() + more, static_cast<std::size_t>(matrix.n), free_memory());
+  // From here on all rows are in the order of elimination.
+  progress(0.15, "assemble");
+  factor.take_memory();
+  SymmetricMatrix matrix = make_matrix(plan.graph);
+  assemble_stiffness(grid, colours, plan.graph, materials.elastic(), matrix, plan.place);
+  const auto clamped = in_order(loads.clamped, plan.place);
+  std::optional<Supports> supports;
+  if (clamped.empty()) {
+    const auto chosen = choose_supports(grid);
+    supports.emplace(in_order({chosen.begin(), chosen.end()}, plan.place), matrix);
+  } else {
+    clamp(clamped, matrix);
+  }
+  const auto& held = supports ? supports->unknowns() : clamped;
+
   progress(0.25, "factorise");
   std::optional<SerialBlas> serial;
   if (factor.size().flops < flops_worth_threads) serial.emplace();
-  factor.factorise(matrix);
+  factor.factorise_in_order(matrix);
   Solution solution;
   solution.factor_gigabytes = factor.gigabytes();
   solution.factor = factor.size();
   solution.bytes = solution.factor.bytes;
 
   progress(0.75, "solve");
-  Eigen::MatrixXd free_force = loads.force;
-  if (supports) supports->clear(free_force);
-  for (const auto unknown : loads.clamped) free_force.row(unknown).setZero();
-  solution.displacement = factor.solve(free_force);
-  Eigen::MatrixXd rest = free_force - multiply(matrix, solution.displacement);
+  const Eigen::MatrixXd force = rows_in_order(loads.force, plan.place);
+  Eigen::MatrixXd free_force = force;
+  clear_rows(held, free_force);
+  Eigen::MatrixXd displacement = factor.solve_in_order(free_force);
+  Eigen::MatrixXd rest = free_force - multiply(matrix, displacement);
   solution.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
   if (solution.residual > acceptable_residual) {
-    const Eigen::MatrixXd correction = factor.solve(rest);
-    solution.rounding = rounding(rest, correction, solution.displacement, loads);
+    const Eigen::MatrixXd correction = factor.solve_in_order(rest);
+    solution.rounding = rounding(rest, correction, displacement, loads);
     refuse_rounding(grid, solution.rounding);
-    solution.displacement += correction;
-    rest = free_force - multiply(matrix, solution.displacement);
+    displacement += correction;
+    rest = free_force - multiply(matrix, displacement);
     solution.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
   }
   if (supports)
-    solution.support_reaction = supports->reactions(solution.displacement, loads.force)
+    solution.support_reaction = supports->reactions(displacement, force)
                                     .colwise()
                                     .lpNorm<Eigen::Infinity>()
                                     .cwiseQuotient(loads.largest_entry)
                                     .maxCoeff();
-  if (kept != nullptr)
-    *kept = std::make_shared<const FactorisedBody>(std::move(own_factor),
-                                                   supports ? supports->unknowns() : loads.clamped);
+  solution.displacement = rows_of_mesh(displacement, plan.place);
+  if (options.kept != nullptr)
+    *options.kept =
+        std::make_shared<const FactorisedBody>(std::move(plan.factor), std::move(plan.place), held);
   return solution;
 }
 

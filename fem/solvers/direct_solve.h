@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,33 +15,49 @@
 
 namespace fem {
 
+/// The unknowns of a body in the order of elimination, and the shape of its factor: known from the mesh
+/// alone, found on one thread.
+struct PlannedFactor {
+  PlannedFactor(const Grid& grid, const CellsOfNodes& cells);
+
+  std::unique_ptr<CholmodFactor> factor;
+  NodeGraph graph;                  ///< of the nodes in the factor's order
+  std::vector<std::int32_t> place;  ///< of each of the grid's nodes in that order
+};
+
 /// The factor of a body's stiffness with its supports or clamps, for further loads.
 class FactorisedBody {
 public:
-  /// @param held  unknowns of supports and clamps
-  FactorisedBody(std::unique_ptr<const CholmodFactor> factor, std::vector<std::int64_t> held)
-      : factor_(std::move(factor)), held_(std::move(held)) {}
+  /// @param place  of each node in the factor's order
+  /// @param held   unknowns of supports and clamps, in that order
+  FactorisedBody(std::unique_ptr<const CholmodFactor> factor, std::vector<std::int32_t> place,
+                 std::vector<std::int64_t> held)
+      : factor_(std::move(factor)), place_(std::move(place)), held_(std::move(held)) {}
 
   /// Displacements of loads without resultants, with some rigid motion.
-  Eigen::MatrixXd solve(Eigen::MatrixXd force) const;
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& force) const;
 
 private:
   std::unique_ptr<const CholmodFactor> factor_;
+  std::vector<std::int32_t> place_;
   std::vector<std::int64_t> held_;
 };
 
 /// Of the stiffness, without computing it.
 FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells);
 
-/// @param is_too_expensive asked once the matrix is analysed: if so, nothing is solved and nothing returned
+struct DirectSolveOptions {
+  std::future<PlannedFactor> plan{};  ///< if it was begun before
+  /// Asked once the factor is planned: if so, nothing is solved and nothing returned.
+  std::function<bool(const FactorSize&)> is_too_expensive{};
+  std::shared_ptr<const FactorisedBody>* kept = nullptr;  ///< if given, holds the factor afterwards
+};
+
 /// @throws SolveFailed as CholmodFactor, or if rounding reaches more than 1 % of displacements
-/// @param kept  if given, holds the factor afterwards
 std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
                                        const std::vector<std::vector<std::int32_t>>& colours,
                                        const CellMaterials& materials, const BalancedLoads& loads,
-                                       const StepReport& progress,
-                                       const std::function<bool(const FactorSize&)>& is_too_expensive = {},
-                                       std::shared_ptr<const FactorisedBody>* kept = nullptr);
+                                       const StepReport& progress, DirectSolveOptions options = {});
 
 /// The largest share of a load case's displacement that the correction is; of those cases that need one.
 double rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& correction,

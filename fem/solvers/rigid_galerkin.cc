@@ -179,7 +179,7 @@ std::unique_ptr<CholmodFactor> factorise_held(const BlockMatrix<double>& stiffne
           if (stays || (j == std::int32_t(i) && a == c)) matrix.value[place] = stiffness.at(k)[3 * c + a];
       }
     }
-  auto factor = std::make_unique<CholmodFactor>(matrix, order_nodes(graph));
+  auto factor = std::make_unique<CholmodFactor>(graph, order_nodes(graph));
   factor->factorise(matrix);
   return factor;
 }

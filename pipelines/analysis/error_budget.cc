@@ -185,6 +185,24 @@ double locking_share(const fem::UnitResponses& responses, const fem::Material& m
 
 }  // namespace
 
+std::optional<ErrorEntry> discretisation_estimate(const StressPoint& point,
+                                                  const fem::UnitResponses& responses,
+                                                  const ChannelHistory& history,
+                                                  const fem::Material& material,
+                                                  const std::vector<char>& left_out) {
+  const Eigen::ArrayXd factors = history.values.col(point.instant);
+  if (point.resolved)
+    return ErrorEntry{"discretisation", submodel_method,
+                      point.resolved->error_share * von_mises_of(point.resolved->unit_Pa, factors), 1};
+  if (responses.nodes.n_cells() == 0) return std::nullopt;
+  if (responses.nodes.shape().is_tetrahedron())
+    return tetrahedra_estimate(point, responses, material, {factors.begin(), factors.end()});
+  if (responses.energy_error.norm_sqrtJ.empty()) return std::nullopt;
+  return ErrorEntry{
+      "discretisation", "recovered stress against single cells around, times a safety factor of 3",
+      discretisation_safety * discretisation_error(point, responses, material, factors, left_out)};
+}
+
 ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& responses,
                           const BodyLoads& loads, const fem::Material& material, double geometry_share,
                           const std::vector<char>& left_out) {
@@ -206,15 +224,8 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
     if (belongs[k]) without[Eigen::Index(k)] = 0;
   budget.numerical.push_back({"pressure_harmonics", "what the highest harmonic contributes",
                               std::abs(von_mises_of(unit, without) - value)});
-  if (point.resolved)
-    budget.numerical.push_back({"discretisation", submodel_method, point.resolved->error_share * value, 1});
-  else if (responses.nodes.n_cells() > 0 && responses.nodes.shape().is_tetrahedron())
-    budget.numerical.push_back(
-        tetrahedra_estimate(point, responses, material, {factors.begin(), factors.end()}));
-  else if (responses.nodes.n_cells() > 0 && !responses.energy_error.norm_sqrtJ.empty())
-    budget.numerical.push_back(
-        {"discretisation", "recovered stress against single cells around, times a safety factor of 3",
-         discretisation_safety * discretisation_error(point, responses, material, factors, left_out)});
+  if (auto entry = discretisation_estimate(point, responses, loads.history, material, left_out))
+    budget.numerical.push_back(std::move(*entry));
   if (const double share = locking_share(responses, material); share > 0)
     budget.model.push_back(
         {"locking", "displacement cells of an almost incompressible material, fitted", share * value});

@@ -23,9 +23,9 @@ double for_want_of_cells(int cells) {
 }
 
 double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
-  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material, 0,
-                       analysis.places.excluded)
-      .of("discretisation");
+  const auto entry = discretisation_estimate(point, analysis.responses, analysis.loads.history,
+                                             analysis.scene.material, analysis.places.excluded);
+  return entry ? entry->value_Pa : 0;
 }
 
 /// Of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is looked at by

@@ -116,7 +116,7 @@ void factorise(const Work& work) {
   for (int turn = 0; turn < 3; ++turn) {
     bare.time([&] { theirs = solve_with_bare_cholmod(matrix, force); });
     solution.time([&] {
-      fem::CholmodFactor factor(matrix, fem::order_nodes(graph));
+      fem::CholmodFactor factor(graph, fem::order_nodes(graph));
       factor.factorise(matrix);
       ours = factor.solve(force);
     });

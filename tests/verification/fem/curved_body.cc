@@ -99,7 +99,7 @@ fem::RowMajor solve(const fem::Grid& grid) {
   Eigen::MatrixXd rest = load(grid) - fem::multiply(matrix, u);
   for (const auto i : held) rest(i, 0) = 0;
   fem::clamp(held, matrix);
-  fem::CholmodFactor factor(matrix, fem::order_nodes(graph));
+  fem::CholmodFactor factor(graph, fem::order_nodes(graph));
   factor.factorise(matrix);
   u += factor.solve(rest);
   return Eigen::Map<const fem::RowMajor>(u.data(), grid.n_nodes, 3);

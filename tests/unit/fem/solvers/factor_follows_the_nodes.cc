@@ -45,7 +45,7 @@ TEST(CholmodFactor, SolvesAsADenseFactor) {
     const auto n_nodes = std::int32_t(1 + random() % 60);
     const auto graph = random_graph(n_nodes, trial % 4 * 0.1, random);  // some fall into pieces
     const auto matrix = positive_definite(graph, random);
-    fem::CholmodFactor factor(matrix, fem::order_nodes(graph));
+    fem::CholmodFactor factor(graph, fem::order_nodes(graph));
     factor.factorise(matrix);
     const Eigen::MatrixXd force = Eigen::MatrixXd::Random(matrix.n, 1 + trial);
     const Eigen::MatrixXd reference = dense(matrix).llt().solve(force);
@@ -59,7 +59,7 @@ TEST(CholmodFactor, OfADenseMatrixHasItsSize) {
   std::mt19937 random(4);
   for (const std::int32_t n_nodes : {1, 2, 7, 20}) {
     const auto graph = random_graph(n_nodes, 1, random);
-    const auto size = fem::CholmodFactor(fem::make_matrix(graph), fem::order_nodes(graph)).size();
+    const auto size = fem::CholmodFactor(graph, fem::order_nodes(graph)).size();
     const double n = 3 * n_nodes;
     EXPECT_EQ(size.n_dofs, std::size_t(n));
     EXPECT_EQ(size.entries, n * n);
