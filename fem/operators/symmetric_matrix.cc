@@ -68,6 +68,35 @@ NodeGraph permuted(const NodeGraph& graph, const std::vector<std::int32_t>& orde
   return result;
 }
 
+namespace {
+
+/// Calls take(row of the mesh, row in the other order, column) for the three rows of each node.
+template <class Take>
+void for_each_row(const std::vector<std::int32_t>& place, Eigen::Index n_columns, const Take& take) {
+  parallel_for(std::size_t(n_columns), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (std::size_t i = 0; i < place.size(); ++i)
+        for (int d = 0; d < 3; ++d)
+          take(3 * Eigen::Index(i) + d, 3 * Eigen::Index(place[i]) + d, Eigen::Index(k));
+  });
+}
+
+}  // namespace
+
+Eigen::MatrixXd rows_in_order(const Eigen::MatrixXd& rows, const std::vector<std::int32_t>& place) {
+  Eigen::MatrixXd result(rows.rows(), rows.cols());
+  for_each_row(place, rows.cols(),
+               [&](auto of_mesh, auto row, auto k) { result(row, k) = rows(of_mesh, k); });
+  return result;
+}
+
+Eigen::MatrixXd rows_of_mesh(const Eigen::MatrixXd& rows, const std::vector<std::int32_t>& place) {
+  Eigen::MatrixXd result(rows.rows(), rows.cols());
+  for_each_row(place, rows.cols(),
+               [&](auto of_mesh, auto row, auto k) { result(of_mesh, k) = rows(row, k); });
+  return result;
+}
+
 SymmetricMatrix make_matrix(const NodeGraph& graph) {
   SymmetricMatrix matrix;
   const std::size_t n_nodes = graph.n_nodes();

@@ -39,6 +39,11 @@ struct SymmetricMatrix {
 /// The matrix of a graph, filled with zeros, on all threads.
 SymmetricMatrix make_matrix(const NodeGraph& graph);
 
+/// Three rows per node in another order of nodes, and back, on all threads.
+/// @param place  of each node in that order
+Eigen::MatrixXd rows_in_order(const Eigen::MatrixXd& rows, const std::vector<std::int32_t>& place);
+Eigen::MatrixXd rows_of_mesh(const Eigen::MatrixXd& rows, const std::vector<std::int32_t>& place);
+
 /// The matrix with its nodes in another order, on all threads.
 /// @param order  node p of the result is node order[p] of the matrix; each node once
 SymmetricMatrix permuted(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& order);

@@ -242,65 +242,60 @@ void CholmodFactor::factorise_in_order(const SymmetricMatrix& matrix) {
 
 namespace {
 
-/// Some columns of a solution, on the calling thread with a work space of its own: it reads the factor alone.
-/// @param system  CHOLMOD_A, or CHOLMOD_LDLt: rows in the factor's order
+/// Solves for some columns in place, on the calling thread with a work space of its own: it reads the factor
+/// alone.
+/// @param columns  rows in the factor's order
 /// @return empty, or what went wrong
-std::string solve_columns(int system, cholmod_factor* factor,
-                          Eigen::Ref<const Eigen::MatrixXd> right_hand_sides,
-                          Eigen::Ref<Eigen::MatrixXd> solution) {
+std::string solve_columns(cholmod_factor* factor, Eigen::Ref<Eigen::MatrixXd> columns) {
   const SerialOpenMp serial;
   cholmod_common common{};
   cholmod_l_start(&common);
   common.print = 0;
-  cholmod_dense b{}, *x = nullptr, *y = nullptr, *e = nullptr;
-  b.nrow = std::size_t(right_hand_sides.rows());
-  b.d = std::size_t(right_hand_sides.outerStride());
-  b.ncol = std::size_t(right_hand_sides.cols());
-  b.nzmax = b.d * b.ncol;
-  b.x = const_cast<double*>(right_hand_sides.data());
-  b.xtype = CHOLMOD_REAL;
-  b.dtype = CHOLMOD_DOUBLE;
-  const bool solved = cholmod_l_solve2(system, factor, &b, nullptr, &x, nullptr, &y, &e, &common) != 0;
+  cholmod_dense x{};
+  x.nrow = std::size_t(columns.rows());
+  x.d = std::size_t(columns.outerStride());
+  x.ncol = std::size_t(columns.cols());
+  x.nzmax = x.d * x.ncol;
+  x.x = columns.data();
+  x.xtype = CHOLMOD_REAL;
+  x.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense* work = cholmod_l_allocate_dense(x.ncol, factor->maxesize, x.ncol, CHOLMOD_REAL, &common);
+  const bool solved = work != nullptr && cholmod_l_super_lsolve(factor, &x, work, &common) != 0 &&
+                      cholmod_l_super_ltsolve(factor, &x, work, &common) != 0;
   std::string failure;
-  if (solved)
-    solution =
-        Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), solution.rows(), solution.cols());
-  else
+  if (!solved)
     failure = common.status == CHOLMOD_OUT_OF_MEMORY
                   ? "not enough memory to solve with the stiffness: use a coarser mesh"
                   : "CHOLMOD could not solve (status " + std::to_string(common.status) + ")";
-  for (auto* dense : {&x, &y, &e}) cholmod_l_free_dense(dense, &common);
+  cholmod_l_free_dense(&work, &common);
   cholmod_l_finish(&common);
   return failure;
 }
 
-Eigen::MatrixXd solve_in_blocks(int system, cholmod_factor* factor, const Eigen::MatrixXd& right_hand_sides) {
+}  // namespace
+
+void CholmodFactor::solve_in_order(Eigen::MatrixXd& columns) const {
   const SerialBlas serial;
   constexpr Eigen::Index most_columns = 16;  // whatever the threads: the sums stay the same
-  const auto n = right_hand_sides.cols();
+  const auto n = columns.cols();
   const auto n_blocks = std::size_t((n + most_columns - 1) / most_columns);
-  Eigen::MatrixXd solution(right_hand_sides.rows(), n);
   std::vector<std::string> failures(n_blocks);
   parallel_for(n_blocks, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const Eigen::Index first = most_columns * Eigen::Index(k), columns = std::min(most_columns, n - first);
-      failures[k] = solve_columns(system, factor, right_hand_sides.middleCols(first, columns),
-                                  solution.middleCols(first, columns));
+      const Eigen::Index first = most_columns * Eigen::Index(k);
+      failures[k] =
+          solve_columns(impl_->factor, columns.middleCols(first, std::min(most_columns, n - first)));
     }
   });
   for (const auto& failure : failures)
     if (!failure.empty()) throw SolveFailed(failure);
-  return solution;
 }
-
-}  // namespace
 
 Eigen::MatrixXd CholmodFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  return solve_in_blocks(CHOLMOD_A, impl_->factor, right_hand_sides);
-}
-
-Eigen::MatrixXd CholmodFactor::solve_in_order(const Eigen::MatrixXd& right_hand_sides) const {
-  return solve_in_blocks(CHOLMOD_LDLt, impl_->factor, right_hand_sides);
+  const auto place = places_in(impl_->node_order);
+  Eigen::MatrixXd columns = rows_in_order(right_hand_sides, place);
+  solve_in_order(columns);
+  return rows_of_mesh(columns, place);
 }
 
 double CholmodFactor::gigabytes() const {

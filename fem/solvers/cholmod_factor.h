@@ -43,11 +43,11 @@ public:
   /// @throws SolveFailed as factorise
   void factorise_in_order(const SymmetricMatrix& matrix);
 
-  /// All columns, in blocks that bound the memory.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
 
-  /// The same with rows of nodes in node_order().
-  Eigen::MatrixXd solve_in_order(const Eigen::MatrixXd& right_hand_sides) const;
+  /// The same in place, with rows of nodes in node_order().
+  /// @param columns  right-hand sides on entry, solutions on exit
+  void solve_in_order(Eigen::MatrixXd& columns) const;
 
   double gigabytes() const;
 

@@ -69,32 +69,6 @@ std::vector<std::int64_t> in_order(const std::vector<std::int64_t>& unknowns,
   return result;
 }
 
-/// Calls take(row of the mesh, row in the order of elimination) for the three rows of each node and each
-/// column.
-template <class Take>
-void for_each_row(const std::vector<std::int32_t>& place, Eigen::Index n_columns, const Take& take) {
-  parallel_for(std::size_t(n_columns), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      for (std::size_t i = 0; i < place.size(); ++i)
-        for (int d = 0; d < 3; ++d)
-          take(3 * Eigen::Index(i) + d, 3 * Eigen::Index(place[i]) + d, Eigen::Index(k));
-  });
-}
-
-Eigen::MatrixXd rows_in_order(const Eigen::MatrixXd& rows, const std::vector<std::int32_t>& place) {
-  Eigen::MatrixXd result(rows.rows(), rows.cols());
-  for_each_row(place, rows.cols(),
-               [&](auto of_mesh, auto row, auto k) { result(row, k) = rows(of_mesh, k); });
-  return result;
-}
-
-Eigen::MatrixXd rows_of_mesh(const Eigen::MatrixXd& rows, const std::vector<std::int32_t>& place) {
-  Eigen::MatrixXd result(rows.rows(), rows.cols());
-  for_each_row(place, rows.cols(),
-               [&](auto of_mesh, auto row, auto k) { result(of_mesh, k) = rows(row, k); });
-  return result;
-}
-
 void clear_rows(const std::vector<std::int64_t>& unknowns, Eigen::MatrixXd& vectors) {
   for (const auto unknown : unknowns) vectors.row(unknown).setZero();
 }
@@ -104,7 +78,8 @@ void clear_rows(const std::vector<std::int64_t>& unknowns, Eigen::MatrixXd& vect
 Eigen::MatrixXd FactorisedBody::solve(const Eigen::MatrixXd& force) const {
   Eigen::MatrixXd ordered = rows_in_order(force, place_);
   clear_rows(held_, ordered);
-  return rows_of_mesh(factor_->solve_in_order(ordered), place_);
+  factor_->solve_in_order(ordered);
+  return rows_of_mesh(ordered, place_);
 }
 
 std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
@@ -145,14 +120,17 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
   solution.bytes = solution.factor.bytes;
 
   progress(0.75, "solve");
-  const Eigen::MatrixXd force = rows_in_order(loads.force, plan.place);
-  Eigen::MatrixXd free_force = force;
+  Eigen::MatrixXd free_force = rows_in_order(loads.force, plan.place);
+  Eigen::MatrixXd held_force(Eigen::Index(held.size()), free_force.cols());
+  for (std::size_t i = 0; i < held.size(); ++i) held_force.row(Eigen::Index(i)) = free_force.row(held[i]);
   clear_rows(held, free_force);
-  Eigen::MatrixXd displacement = factor.solve_in_order(free_force);
+  Eigen::MatrixXd displacement = free_force;
+  factor.solve_in_order(displacement);
   Eigen::MatrixXd rest = free_force - multiply(matrix, displacement);
   solution.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
   if (solution.residual > acceptable_residual) {
-    const Eigen::MatrixXd correction = factor.solve_in_order(rest);
+    Eigen::MatrixXd correction = rest;
+    factor.solve_in_order(correction);
     solution.rounding = rounding(rest, correction, displacement, loads);
     refuse_rounding(grid, solution.rounding);
     displacement += correction;
@@ -160,7 +138,7 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
     solution.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
   }
   if (supports)
-    solution.support_reaction = supports->reactions(displacement, force)
+    solution.support_reaction = (supports->images(displacement) - held_force)
                                     .colwise()
                                     .lpNorm<Eigen::Infinity>()
                                     .cwiseQuotient(loads.largest_entry)
