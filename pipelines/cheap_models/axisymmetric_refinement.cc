@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "fem/axisymmetric/axisymmetric_responses.h"
+#include "pipelines/analysis/respond.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/common/errors.h"
@@ -130,7 +131,7 @@ double AxisymmetricStep::peak_error_Pa() const {
 
 AxisymmetricRefinement::AxisymmetricRefinement(const BodyScene& body, const MeshedBody& meshed,
                                                const BodyLoads& loads, int n_threads)
-    : meshed_(&meshed), loads_(&loads), n_threads_(n_threads), section_([&] {
+    : meshed_(&meshed), loads_(&loads), n_threads_(threads(n_threads)), section_([&] {
         if (const auto why = why_not_axisymmetric(body); !why.empty())
           throw StageRefused("the " + body.name + " " + why + ": no axisymmetric model");
         return meridian_body(with_coarse_blocks(body), meshed.mesh);
