@@ -1,4 +1,6 @@
 /// Which variant of the inner loops this machine runs.
+#include <algorithm>
+
 #include "pipelines/superposition/linear_extremes_kernel.h"
 #include "pipelines/superposition/superposition_kernel.h"
 
@@ -32,7 +34,9 @@ LinearWalk& linear_walk_for_this_machine() {
 
 std::size_t room_of_walk(const Factors& factors) {
   constexpr std::size_t most_lanes = 8;
-  return batch * factors.n_blocks * most_lanes + factors.n_bounds;
+  const Knots& knots = factors.knots;
+  return std::max(batch * factors.n_blocks * most_lanes + factors.n_bounds,
+                  3 * knots.n_blocks * block + 2 * knots.n_deviations);
 }
 
 }  // namespace pipelines::kernel

@@ -36,6 +36,12 @@ inline Lanes smaller(Lanes a, Lanes b) {
   return a < b ? a : b;
 }
 
+inline Lanes square_root(Lanes x) {
+  Lanes root;
+  for (std::size_t i = 0; i < n_lanes; ++i) root[i] = __builtin_sqrt(x[i]);
+  return root;
+}
+
 /// The largest of the lanes; halves are laid on each other.
 inline double largest_of(Lanes lanes) {
   for (std::size_t half = n_lanes / 2; half > 0; half /= 2) {
@@ -56,6 +62,18 @@ inline bool any(Indices mask) {
   return __builtin_ia32_movmskpd256(Lanes(mask)) != 0;
 #else
   return (mask[0] | mask[1]) != 0;
+#endif
+}
+
+/// A bit for each lane in which a comparison holds, the lowest for the first lane.
+inline unsigned bits_of(Indices mask) {
+#if defined(__AVX512F__)
+  using Bits = long long __attribute__((vector_size(64)));
+  return __builtin_ia32_cvtq2mask512(Bits(mask));
+#elif defined(__AVX__)
+  return unsigned(__builtin_ia32_movmskpd256(Lanes(mask)));
+#else
+  return unsigned(mask[0] & 1) | unsigned(mask[1] & 2);
 #endif
 }
 

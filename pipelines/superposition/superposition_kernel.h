@@ -20,6 +20,25 @@ constexpr std::size_t batch = 8;
 /// (deviatoric_coordinates.h), and the mean of its normal stresses.
 constexpr std::size_t n_coordinates = 6;
 
+/// Instants of a span: it begins at a knot and ends before the next one.
+constexpr std::size_t span = 8;
+
+/// Knots that share deviations.
+constexpr std::size_t knots_at_once = 8;
+
+/// Time factors that are smooth enough to tell by some instants, the knots, where others matter. Knots are
+/// the first instant of each span, and the last instant. Within a span a factor differs from a straight line
+/// between the knots at its ends by the deviation at most. A norm of the stress is convex, and so is its
+/// largest principal stress: over a span each is at most the larger one of the two knots, and that of the
+/// deviations.
+struct Knots {
+  std::size_t n_spans = 0;         ///< one less than the knots; 0: the factors are too rough
+  std::size_t n_blocks = 0;        ///< of knots, padded with the last one
+  std::size_t n_deviations = 0;    ///< knots over knots_at_once, rounded up to a multiple of knots_at_once
+  const double* values = nullptr;  ///< n_blocks x n_channels x block
+  const double* deviations = nullptr;  ///< n_channels x n_deviations: of the spans beside these knots
+};
+
 /// Time factors of the channels.
 struct Factors {
   std::size_t n_channels = 0, n_blocks = 0;
@@ -28,6 +47,7 @@ struct Factors {
   /// Over a block a channel's factor lies within `middle` - `reach` and `middle` + `reach`.
   /// n_channels x (n_bounds / blocks_at_once) x (middle, reach) x blocks_at_once
   const double* bounds = nullptr;
+  Knots knots;
 };
 
 /// What a node keeps of its walk through the instants: the first instant of each maximum.

@@ -13,6 +13,14 @@ constexpr double dependent = 1e-14;
 /// More than the rounding of a sum over the channels, relative to their largest values.
 constexpr double rounding_of_sums = 1e-13;
 
+/// With fewer the knots save nothing.
+constexpr std::size_t fewest_blocks_for_knots = 3;
+
+/// Deviations from straight lines between the knots, relative to the channels' sizes: of so many on the
+/// average, times the root of their number, all instants are walked as fast. Deviations add up, stresses
+/// as their squares.
+constexpr double roughest = 0.3;
+
 }  // namespace
 
 IndependentChannels independent_channels(const Eigen::ArrayXXd& values) {
@@ -49,21 +57,24 @@ IndependentChannels independent_channels(const Eigen::ArrayXXd& values) {
 
 WalkedFactors::WalkedFactors(const Eigen::ArrayXXd& values) : independent_(independent_channels(values)) {
   using kernel::block, kernel::blocks_at_once;
-  const std::size_t n_walked = n_channels(), n_given = std::size_t(values.cols());
-  n_blocks_ = (n_given + block - 1) / block;
+  const Eigen::ArrayXXd walked = values(independent_.channels, Eigen::all);
+  const bool is_steady = walked.cols() > 0 && (walked == walked.col(0).replicate(1, walked.cols())).all();
+  n_given_ = is_steady ? 1 : std::size_t(values.cols());
+  n_blocks_ = (n_given_ + block - 1) / block;
   n_bounds_ = (n_blocks_ + blocks_at_once - 1) / blocks_at_once * blocks_at_once;
-  values_.resize(n_blocks_ * n_walked * block);
-  bounds_.assign(n_walked * n_bounds_ * 2, 0.0);
-  for (std::size_t k = 0; k < n_walked; ++k) {
-    const Eigen::ArrayXd row = values.row(independent_.channels[k]);
-    const double largest = row.abs().maxCoeff();
+  values_.resize(n_blocks_ * n_channels() * block);
+  bounds_.assign(n_channels() * n_bounds_ * 2, 0.0);
+  for (std::size_t k = 0; k < n_channels(); ++k) {
+    const Eigen::ArrayXd row = walked.row(Eigen::Index(k));
+    sizes_.push_back(row.abs().maxCoeff());
     for (std::size_t b = 0; b < n_blocks_; ++b) {
-      double* of_block = &values_[(b * n_walked + k) * block];
+      double* of_block = &values_[(b * n_channels() + k) * block];
       for (std::size_t i = 0; i < block; ++i)
-        of_block[i] = row[Eigen::Index(std::min(b * block + i, n_given - 1))];
-      bound(k, b, largest);
+        of_block[i] = row[Eigen::Index(std::min(b * block + i, n_given_ - 1))];
+      bound(k, b, sizes_.back());
     }
   }
+  find_knots();
 }
 
 void WalkedFactors::bound(std::size_t channel, std::size_t b, double largest) {
@@ -76,8 +87,56 @@ void WalkedFactors::bound(std::size_t channel, std::size_t b, double largest) {
   bounds[blocks_at_once] = 0.5 * (*high - *low) + rounding_of_sums * largest;
 }
 
+double WalkedFactors::value(std::size_t channel, std::size_t instant) const {
+  return values_[(instant / kernel::block * n_channels() + channel) * kernel::block +
+                 instant % kernel::block];
+}
+
+void WalkedFactors::find_deviations(std::size_t channel) {
+  using kernel::span;
+  double* of_knots = &deviations_[channel * knots_.n_deviations];
+  for (std::size_t begin = 0; begin < n_given_; begin += span) {
+    const std::size_t end = std::min(begin + span, n_given_ - 1);
+    const double first = value(channel, begin), last = value(channel, end);
+    double deviation = rounding_of_sums * sizes_[channel];
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const double share = double(i - begin) / double(end - begin);
+      deviation = std::max(deviation, std::abs(value(channel, i) - first - share * (last - first)) +
+                                          rounding_of_sums * sizes_[channel]);
+    }
+    for (const std::size_t knot : {begin / span, begin / span + 1}) {
+      double& of_knot = of_knots[knot / kernel::knots_at_once];
+      of_knot = std::max(of_knot, deviation);
+    }
+  }
+}
+
+void WalkedFactors::find_knots() {
+  using kernel::block, kernel::knots_at_once, kernel::span;
+  if (n_blocks_ < fewest_blocks_for_knots || n_channels() == 0) return;
+  const std::size_t n_spans = (n_given_ + span - 1) / span, n_groups = n_spans / knots_at_once + 1;
+  knots_ = {n_spans, n_spans / block + 1, (n_groups + knots_at_once - 1) / knots_at_once * knots_at_once,
+            nullptr, nullptr};
+  knot_values_.resize(knots_.n_blocks * n_channels() * block);
+  deviations_.assign(n_channels() * knots_.n_deviations, 0.0);
+  double roughness = 0;
+  for (std::size_t k = 0; k < n_channels(); ++k) {
+    for (std::size_t i = 0; i < knots_.n_blocks * block; ++i)
+      knot_values_[(i / block * n_channels() + k) * block + i % block] =
+          value(k, std::min(i * span, n_given_ - 1));
+    find_deviations(k);
+    for (std::size_t d = 0; d < n_groups; ++d)
+      roughness += deviations_[k * knots_.n_deviations + d] / sizes_[k];
+  }
+  roughness /= std::sqrt(double(n_channels())) * double(n_groups);
+  if (!(roughness <= roughest)) knots_ = {};
+}
+
 kernel::Factors WalkedFactors::for_kernel() const {
-  return {n_channels(), n_blocks_, n_bounds_, values_.data(), bounds_.data()};
+  auto knots = knots_;
+  knots.values = knot_values_.data();
+  knots.deviations = deviations_.data();
+  return {n_channels(), n_blocks_, n_bounds_, values_.data(), bounds_.data(), knots};
 }
 
 void WalkedFactors::gather(const double* of_channel, std::size_t width, double* walked) const {

@@ -38,10 +38,16 @@ public:
 
 private:
   void bound(std::size_t channel, std::size_t b, double largest);
+  void find_knots();
+  void find_deviations(std::size_t channel);
+  double value(std::size_t channel, std::size_t instant) const;
 
   IndependentChannels independent_;
+  std::size_t n_given_ = 0;  ///< instants that are walked: one of a steady history
   std::size_t n_blocks_ = 0, n_bounds_ = 0;
-  std::vector<double> values_, bounds_;  ///< as kernel::Factors
+  std::vector<double> values_, bounds_, sizes_;  ///< as kernel::Factors; largest of each channel
+  kernel::Knots knots_;                          ///< its sizes
+  std::vector<double> knot_values_, deviations_;
 };
 
 }  // namespace pipelines

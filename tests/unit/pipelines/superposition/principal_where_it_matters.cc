@@ -1,5 +1,6 @@
-/// The walk computes the largest principal stress in few blocks of instants. Stresses of which a bound could
-/// leave out the wrong ones, against a loop over all instants.
+/// The walk computes the largest principal stress in few blocks of instants, and superposes few instants at
+/// all where the factors are smooth. Stresses of which a bound could leave out the wrong ones, against a loop
+/// over all instants.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <random>
 
 #include "pipelines/superposition/superposition.h"
+#include "pipelines/superposition/walked_factors.h"
 
 namespace {
 
@@ -37,14 +39,14 @@ Walked walked_problem(std::size_t n_nodes, Eigen::ArrayXXd values,
 }
 
 /// The value is that of a loop over all instants, and so is the instant: no earlier one has as much.
-void expect_principal_of_all_instants(const Walked& p) {
-  const auto found = pipelines::envelope(p.loads, p.responses, 1).principal;
+void expect_maximum_of_all_instants(const Walked& p, const pipelines::NodalMaximum& found,
+                                    double (*measure)(const Stress&)) {
   for (std::size_t node = 0; node < p.responses.nodes.n; ++node) {
     double largest = -1e300, size = 0;
     std::vector<double> at;
     for (Index i = 0; i < p.loads.values.cols(); ++i) {
       const auto stress = pipelines::stress_at(p.responses, p.loads, node, i);
-      at.push_back(pipelines::largest_principal_Pa(stress));
+      at.push_back(measure(stress));
       largest = std::max(largest, at.back());
       for (const double component : stress) size = std::max(size, std::abs(component));
     }
@@ -52,6 +54,19 @@ void expect_principal_of_all_instants(const Walked& p) {
     EXPECT_NEAR(found.value_Pa[node], largest, 2e-13 * size) << node;
     for (std::int32_t i = 0; i < found.instant[node]; ++i) EXPECT_LT(at[std::size_t(i)], largest) << node;
   }
+}
+
+void expect_principal_of_all_instants(const Walked& p) {
+  const auto found = pipelines::envelope(p.loads, p.responses, 1);
+  expect_maximum_of_all_instants(p, found.principal, pipelines::largest_principal_Pa);
+}
+
+/// Both maxima, of factors that are smooth enough to leave out instants.
+void expect_maxima_of_smooth_factors(const Walked& p) {
+  EXPECT_GT(pipelines::WalkedFactors(p.loads.values).for_kernel().knots.n_spans, 0u);
+  const auto found = pipelines::envelope(p.loads, p.responses, 1);
+  expect_maximum_of_all_instants(p, found.principal, pipelines::largest_principal_Pa);
+  expect_maximum_of_all_instants(p, found.von_mises, pipelines::von_mises_Pa);
 }
 
 /// Harmonics of the cycle with random phases, two channels of each order.
@@ -144,7 +159,7 @@ TEST(PrincipalWhereItMatters, OfTwoEqualPrincipalStresses) {
         1, values, [&] { return entry++ % 2 == 0 ? Stress{1, 0, 0, 0, 0, 0} : Stress{1, 1, 1, 0, 0, 0}; });
     const auto envelope = pipelines::envelope(p.loads, p.responses, 1);
     EXPECT_EQ(envelope.von_mises.instant[0], 0);
-    EXPECT_EQ(envelope.principal.instant[0], 48) << h;  // the first of a block
+    EXPECT_EQ(envelope.principal.instant[0], 48) << h;      // the first of a block
     EXPECT_NEAR(envelope.principal.value_Pa[0], h, 1e-14);  // rounding of numbers up to 7
   }
 }
@@ -174,4 +189,85 @@ TEST(PrincipalWhereItMatters, OfEqualInstantsTheFirst) {
   EXPECT_EQ(envelope.principal.instant[1], 0);
   EXPECT_EQ(envelope.von_mises.instant[1], 0);
   EXPECT_EQ(envelope.principal.value_Pa[1], 0);
+}
+
+// Orders up to the third and up to the fifteenth; the last span has eight instants, one, or two.
+TEST(InstantsThatMatter, OfSmoothFactors) {
+  std::mt19937 random(31);
+  for (const double pressure : {0.0, 3.0, 1e3})
+    for (const Index n_channels : {1, 6, 12, 31})
+      for (const Index n_instants : {720, 721, 722}) {
+        SCOPED_TRACE(testing::Message() << pressure << ", " << n_channels << " channels, " << n_instants);
+        expect_maxima_of_smooth_factors(
+            walked_problem(6, harmonics(n_channels, n_instants, random), random_stress(random, pressure, 1)));
+      }
+}
+
+// A blow at one instant of factors that are smooth everywhere else: at a knot, anywhere in a span, beside
+// knots that share their deviations with others, at the ends. Tension is the maximum, which pressure is not.
+TEST(InstantsThatMatter, OfABlowWithinASpan) {
+  std::mt19937 random(37);
+  const Index n_instants = 720;
+  for (const Index blow : {0, 1, 8, 12, 23, 63, 64, 65, 67, 71, 300, 711, 712, 713, 718, 719})
+    for (const double size : {-30.0, 30.0}) {
+      SCOPED_TRACE(testing::Message() << size << " at " << blow);
+      auto values = harmonics(7, n_instants, random);
+      values.row(6).setZero();
+      values(6, blow) = size;
+      std::size_t entry = 0;
+      const auto p = walked_problem(3, values, [&, draw = random_stress(random, 1, 1)] {
+        return entry++ % 7 < 6 ? draw() : Stress{1, 0.2, 0, 0, 0, 0};
+      });
+      expect_maxima_of_smooth_factors(p);
+      const auto found = pipelines::envelope(p.loads, p.responses, 1);
+      for (std::size_t node = 0; node < 3; ++node) {
+        EXPECT_EQ(found.von_mises.instant[node], blow);
+        if (size > 0) {
+          EXPECT_EQ(found.principal.instant[node], blow);
+        }
+      }
+    }
+}
+
+// Crests between two knots, higher than at all knots of another channel's higher plateau: of von Mises stress
+// by shear, of principal stress by tension beside pressure.
+TEST(InstantsThatMatter, OfACrestBetweenKnots) {
+  const Index n_instants = 480;
+  for (const Index crest : {4, 100, 203, 476}) {
+    Eigen::ArrayXXd values(2, n_instants);
+    for (Index i = 0; i < n_instants; ++i) {
+      const double distance = double(i - crest) / 8;
+      values.col(i) << std::exp(-distance * distance), 0.9 * (std::abs(i - crest) > 60 ? 1 : 0);
+    }
+    for (const Stress& unit : {Stress{0, 0, 0, 1, 0, 0}, Stress{1, -1, -1, 0, 0, 0}}) {
+      const auto p = walked_problem(1, values, [&] { return unit; });
+      expect_maxima_of_smooth_factors(p);
+      EXPECT_EQ(pipelines::envelope(p.loads, p.responses, 1).von_mises.instant[0], crest);
+    }
+  }
+}
+
+// Of equal instants the first counts, whether it is a knot or not and wherever the walk begins.
+TEST(InstantsThatMatter, OfEqualInstantsTheFirstOfSmoothFactors) {
+  const Index n_instants = 960;
+  for (const Index period : {240, 60})
+    for (const Index first : {0, 3, 8, 17}) {
+      Eigen::ArrayXXd values(1, n_instants);
+      for (Index i = 0; i < n_instants; ++i)  // the same bits in each period
+        values(0, i) = std::cos(2 * M_PI * double((i - first + period) % period) / double(period));
+      const auto p = walked_problem(1, values, [] { return Stress{3, 1, 0, 0.5, 0, 0}; });
+      expect_maxima_of_smooth_factors(p);
+      const auto found = pipelines::envelope(p.loads, p.responses, 1);
+      EXPECT_EQ(found.principal.instant[0], first);
+    }
+}
+
+// A history that changes at its last instant alone is not steady.
+TEST(InstantsThatMatter, OfALastInstantUnlikeAllOthers) {
+  Eigen::ArrayXXd values = Eigen::ArrayXXd::Ones(1, 200);
+  values(0, 199) = 2;
+  const auto p = walked_problem(1, values, [] { return Stress{3, 1, 0, 0.5, 0, 0}; });
+  const auto found = pipelines::envelope(p.loads, p.responses, 1);
+  EXPECT_EQ(found.von_mises.instant[0], 199);
+  EXPECT_EQ(found.principal.instant[0], 199);
 }

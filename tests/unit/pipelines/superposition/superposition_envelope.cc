@@ -135,24 +135,31 @@ TEST(Superposition, OfSteadyStressTheFirstInstantCounts) {
   EXPECT_EQ(envelope.principal.instant[0], 0);
 }
 
-// All that this machine can run; they differ by the order of rounding alone.
-TEST(Superposition, InstructionSetsAgree) {
+/// All variants of the walk that this machine can run.
+std::vector<pipelines::kernel::Walk*> walks_of_this_machine() {
   namespace kernel = pipelines::kernel;
   std::vector<kernel::Walk*> walks{&kernel::generic::walk};
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) walks.push_back(&kernel::avx2::walk);
 #endif
   if (&kernel::walk_for_this_machine() != walks.back()) walks.push_back(&kernel::walk_for_this_machine());
+  return walks;
+}
+
+/// They differ by the order of rounding alone.
+void expect_that_instruction_sets_agree(const Eigen::ArrayXXd& values, bool is_smooth) {
+  namespace kernel = pipelines::kernel;
+  const auto walks = walks_of_this_machine();
   const std::size_t n_nodes = kernel::batch - 1;
-  const Eigen::Index n_channels = 5, n_instants = 7 * kernel::block - 3;
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
-  const auto draw = [&] { return normal(random); };
-  std::vector<double> unit(n_nodes * std::size_t(n_channels) * kernel::n_coordinates);
-  for (double& value : unit) value = draw();
-  const pipelines::WalkedFactors walked(Eigen::ArrayXXd::NullaryExpr(n_channels, n_instants, draw));
+  std::vector<double> unit(n_nodes * std::size_t(values.rows()) * kernel::n_coordinates);
+  for (double& value : unit) value = normal(random);
+  const pipelines::WalkedFactors walked(values);
   const auto factors = walked.for_kernel();
-  std::array<double, kernel::n_lode_terms> lode{0.9, 0.1};  // any will do
+  EXPECT_EQ(factors.knots.n_spans > 0, is_smooth);
+  // Grows with the cosine, as the true one does; otherwise any will do.
+  std::array<double, kernel::n_lode_terms> lode{0.75, 0.25};
   std::vector<double> room(kernel::room_of_walk(factors));
   std::vector<kernel::NodeMaximum> first(n_nodes), other(n_nodes);
   walks.front()(unit.data(), n_nodes, factors, lode.data(), room.data(), first.data());
@@ -166,6 +173,15 @@ TEST(Superposition, InstructionSetsAgree) {
       EXPECT_EQ(other[node].principal_instant, first[node].principal_instant);
     }
   }
+}
+
+TEST(Superposition, InstructionSetsAgree) {
+  std::mt19937 random(13);
+  std::normal_distribution<double> normal;
+  const Eigen::Index n_channels = 5, n_instants = 7 * pipelines::kernel::block - 3;
+  expect_that_instruction_sets_agree(
+      Eigen::ArrayXXd::NullaryExpr(n_channels, n_instants, [&] { return normal(random); }), false);
+  expect_that_instruction_sets_agree(random_problem(1, n_channels, n_instants).loads.values, true);
 }
 
 TEST(Superposition, EffectSharesAddUpToOne) {
