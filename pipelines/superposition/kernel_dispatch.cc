@@ -39,4 +39,9 @@ std::size_t room_of_walk(const Factors& factors) {
                   3 * knots.n_blocks * block + 2 * knots.n_deviations);
 }
 
+std::size_t room_of_linear_walk(const Factors& factors) {
+  return std::max(forms_at_once * factors.n_blocks * block,
+                  forms_at_once * factors.knots.n_blocks * block + factors.knots.n_deviations);
+}
+
 }  // namespace pipelines::kernel

@@ -6,15 +6,10 @@
 namespace pipelines::kernel::KERNEL_VARIANT {
 namespace {
 
-// Registers of knots and of a span's instants for six coordinates: eighteen sums fit the 32 registers of
-// AVX-512, twelve the sixteen of AVX2.
-constexpr std::size_t n_of_knots = n_lanes == 8 ? 3 : 2, n_of_span = n_lanes == 8 ? 1 : 2;
-static_assert(block % (n_of_knots * n_lanes) == 0 && span % (n_of_span * n_lanes) == 0);
-static_assert(block % span == 0 && knots_at_once % n_lanes == 0);
-
-inline Lanes positive(Lanes x) {
-  return x > 0.0 ? x : Lanes{};
-}
+// Registers of knots for six coordinates: eighteen sums fit the 32 registers of AVX-512, twelve the sixteen
+// of AVX2.
+constexpr std::size_t n_of_knots = n_lanes == 8 ? 3 : 2;
+static_assert(block % (n_of_knots * n_lanes) == 0);
 
 /// What von Mises stress and the largest principal stress exceed those of the knots by.
 struct Deviations {
@@ -93,17 +88,11 @@ public:
   void look_into_span(std::size_t number) {
     for (std::size_t i = 0; i < span; i += n_of_span * n_lanes) {
       const std::size_t first = number * span + i;
-      const Stresses<6, n_of_span> stresses(
-          unit_, factors_.values + first / block * factors_.n_channels * block + first % block,
-          factors_.n_channels);
+      const Stresses<6, n_of_span> stresses(unit_, factors_at(factors_, first), factors_.n_channels);
       look_into(stresses, first, lode_, principal);
-      double squares[n_of_span * n_lanes];
-      Lanes most = {};
-      for (std::size_t r = 0; r < n_of_span; ++r) {
-        store(squares + r * n_lanes, stresses.square(r));
-        most = larger(stresses.square(r), most);
-      }
-      square.take<n_of_span>(largest_of(most), squares, first);
+      Lanes squares[n_of_span];
+      for (std::size_t r = 0; r < n_of_span; ++r) squares[r] = stresses.square(r);
+      square.take(squares, first);
     }
   }
 
@@ -124,22 +113,15 @@ NodeMaximum walk_knots(const double* unit, const Factors& factors, const double*
   const double size = __builtin_sqrt(at.largest_square);
   maxima.principal.value = at.principal_so_far(lode);
   maxima.principal.value -= tolerance * (size + __builtin_fabs(maxima.principal.value));
-  std::size_t next = 0;  // span that may still be looked into
-  for (std::size_t i = 0; i <= knots.n_spans; i += n_lanes) {
-    const std::size_t d = i / knots_at_once;
-    const Lanes square = load(at.squares + i);
+  const auto matter = [&](std::size_t knot) {
+    const std::size_t d = knot / knots_at_once;
+    const Lanes square = load(at.squares + knot);
     const double rest = __builtin_sqrt(maxima.square.value) - deviations.von_mises[d];
     const Lanes least = Lanes{} + (rest > 0 ? rest * rest * (1 - tolerance) : 0.0);
-    const Indices matters =
-        (square >= least) | may_reach(Lanes{} + (maxima.principal.value - deviations.principal[d]), square,
-                                      load(at.thirds + i), load(at.means + i));
-    for (unsigned bits = bits_of(matters); bits != 0; bits &= bits - 1) {
-      const std::size_t knot = i + std::size_t(__builtin_ctz(bits));
-      for (std::size_t s = knot > next ? knot - 1 : next; s <= knot && s < knots.n_spans; ++s)
-        maxima.look_into_span(s);
-      next = knot + 1;
-    }
-  }
+    return (square >= least) | may_reach(Lanes{} + (maxima.principal.value - deviations.principal[d]), square,
+                                         load(at.thirds + knot), load(at.means + knot));
+  };
+  for_each_span(knots, matter, [&](std::size_t number) { maxima.look_into_span(number); });
   return {maxima.square.value, maxima.principal.value, maxima.square.instant, maxima.principal.instant};
 }
 

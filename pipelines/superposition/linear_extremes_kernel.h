@@ -17,9 +17,12 @@ constexpr std::size_t forms_at_once = 8;
 
 /// f_i(t) = sum_k w_ki a_k(t) over all instants.
 /// @param weights  n_channels x forms_at_once
-/// @param room     forms_at_once x n_blocks x block, to be overwritten
+/// @param room     room_of_linear_walk(factors), to be overwritten
 /// @param found    forms_at_once, to be written
 using LinearWalk = void(const double* weights, const Factors& factors, double* room, LinearExtremes* found);
+
+/// Numbers that a walk needs room for.
+std::size_t room_of_linear_walk(const Factors& factors);
 
 /// The variant for this machine.
 LinearWalk& linear_walk_for_this_machine();

@@ -42,7 +42,7 @@ public:
         of_channel_(loads.values.rows()),
         of_walked_(factors.n_channels()),
         weights_(factors.n_channels() * kernel::forms_at_once),
-        room_(kernel::forms_at_once * factors.n_instants()) {}
+        room_(kernel::room_of_linear_walk(factors.for_kernel())) {}
 
   /// @param n  at most kernel::forms_at_once
   void walk(const std::size_t* nodes, std::size_t n, const NodalMaximum& von_mises, StressCycle* cycles) {

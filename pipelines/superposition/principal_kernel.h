@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pipelines/superposition/lanes.h"
-#include "pipelines/superposition/superposition_kernel.h"
+#include "pipelines/superposition/spans_kernel.h"
 
 namespace pipelines::kernel::KERNEL_VARIANT {
 
@@ -87,22 +87,6 @@ inline Indices may_reach(Lanes value, Lanes q, Lanes third, Lanes mean) {
   return (y < 0.0) | (y_squared <= q * (1 + tolerance)) | (cubic <= third);
 }
 
-/// The largest of some values, and the first instant that has it, in whatever order they come.
-struct Largest {
-  double value = -__builtin_huge_val();
-  long instant = 0;
-
-  /// @param most   the largest of the values
-  /// @param first  the first one's instant
-  template <std::size_t n>
-  void take(double most, const double* values, std::size_t first) {
-    if (!(most >= value)) return;
-    const long at = long(first) + first_equal<n>(values, n * n_lanes, most);
-    if (most > value || at < instant) instant = at;
-    value = most;
-  }
-};
-
 /// Looks for a larger principal stress in a group of instants. The angle is computed where one may be.
 /// @param first  the group's first instant
 template <std::size_t n>
@@ -117,14 +101,9 @@ template <std::size_t n>
     candidates |= may_reach(Lanes{} + principal.value, q[r], third[r], stresses.mean(r));
   }
   if (!any(candidates)) return;
-  double found[n * n_lanes];
-  Lanes most;
-  for (std::size_t r = 0; r < n; ++r) {
-    const Lanes stress = largest_principal(q[r], third[r], stresses.mean(r), lode);
-    store(found + r * n_lanes, stress);
-    most = r == 0 ? stress : larger(stress, most);
-  }
-  principal.take<n>(largest_of(most), found, first);
+  Lanes found[n];
+  for (std::size_t r = 0; r < n; ++r) found[r] = largest_principal(q[r], third[r], stresses.mean(r), lode);
+  principal.take(found, first);
 }
 
 }  // namespace pipelines::kernel::KERNEL_VARIANT
