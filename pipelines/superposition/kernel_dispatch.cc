@@ -36,7 +36,7 @@ std::size_t room_of_walk(const Factors& factors) {
   constexpr std::size_t most_lanes = 8;
   const Knots& knots = factors.knots;
   return std::max(batch * factors.n_blocks * most_lanes + factors.n_bounds,
-                  3 * knots.n_blocks * block + 2 * knots.n_deviations);
+                  3 * knots.n_blocks * block + 2 * knots.n_deviations + 2 * factors.n_channels);
 }
 
 std::size_t room_of_linear_walk(const Factors& factors) {

@@ -18,19 +18,23 @@ struct Deviations {
 
   Deviations(const double* unit, const Factors& factors, double* room)
       : von_mises(room), principal(room + factors.knots.n_deviations) {
-    for (std::size_t d = 0; d < factors.knots.n_deviations; d += n_lanes) {
-      store(von_mises + d, Lanes{});
-      store(principal + d, Lanes{});
-    }
-    const double* deviations = factors.knots.deviations;
+    const std::size_t n = factors.knots.n_deviations;
+    double* sizes = principal + n;
     for (std::size_t k = 0; k < factors.n_channels; ++k, unit += n_coordinates) {
       double square = 0;
       for (std::size_t c = 0; c < 5; ++c) square += unit[c] * unit[c];
-      const double size = __builtin_sqrt(square), of_principal = __builtin_fabs(unit[5]) + 2.0 / 3.0 * size;
-      for (std::size_t d = 0; d < factors.knots.n_deviations; d += n_lanes, deviations += n_lanes) {
-        store(von_mises + d, load(von_mises + d) + size * load(deviations));
-        store(principal + d, load(principal + d) + of_principal * load(deviations));
+      sizes[2 * k] = __builtin_sqrt(square);
+      sizes[2 * k + 1] = __builtin_fabs(unit[5]) + 2.0 / 3.0 * sizes[2 * k];
+    }
+    for (std::size_t d = 0; d < n; d += n_lanes) {
+      Lanes of_von_mises = {}, of_principal = {};
+      for (std::size_t k = 0; k < factors.n_channels; ++k) {
+        const Lanes deviation = load(factors.knots.deviations + k * n + d);
+        of_von_mises += sizes[2 * k] * deviation;
+        of_principal += sizes[2 * k + 1] * deviation;
       }
+      store(von_mises + d, of_von_mises);
+      store(principal + d, of_principal);
     }
   }
 };
@@ -68,11 +72,9 @@ struct AtKnots {
     const auto estimate = [&](std::size_t i) {
       return load(means + i) + of_square * load(squares + i) + of_third * load(thirds + i);
     };
-    Lanes most = estimate(0);
-    for (std::size_t i = n_lanes; i < n; i += n_lanes) most = larger(estimate(i), most);
-    const Lanes largest = Lanes{} + largest_of(most);
-    std::size_t at = 0;
-    while (at + n_lanes < n && !any(estimate(at) == largest)) at += n_lanes;
+    LargestOfLanes largest;
+    for (std::size_t i = 0; i < n; i += n_lanes) largest.take(estimate(i), i);
+    const std::size_t at = std::size_t(largest.of_all().instant) / n_lanes * n_lanes;
     return largest_of(largest_principal(load(squares + at), load(thirds + at), load(means + at), lode));
   }
 };
@@ -80,7 +82,8 @@ struct AtKnots {
 /// The maxima of a node over spans of instants.
 class Maxima {
 public:
-  Largest square, principal;
+  LargestOfLanes square;
+  Largest principal;
 
   Maxima(const double* unit, const Factors& factors, const double* lode)
       : unit_(unit), factors_(factors), lode_(lode) {}
@@ -90,9 +93,8 @@ public:
       const std::size_t first = number * span + i;
       const Stresses<6, n_of_span> stresses(unit_, factors_at(factors_, first), factors_.n_channels);
       look_into(stresses, first, lode_, principal);
-      Lanes squares[n_of_span];
-      for (std::size_t r = 0; r < n_of_span; ++r) squares[r] = stresses.square(r);
-      square.take(squares, first);
+#pragma GCC unroll 2
+      for (std::size_t r = 0; r < n_of_span; ++r) square.take(stresses.square(r), first + r * n_lanes);
     }
   }
 
@@ -105,24 +107,25 @@ private:
 }  // namespace
 
 NodeMaximum walk_knots(const double* unit, const Factors& factors, const double* lode, double* room) {
-  const Knots& knots = factors.knots;
-  const Deviations deviations(unit, factors, room);
-  const AtKnots at(unit, factors, room + 2 * knots.n_deviations);
+  const AtKnots at(unit, factors, room);
+  const Deviations deviations(unit, factors, room + 3 * at.n);
+  const double size = __builtin_sqrt(at.largest_square), so_far = at.principal_so_far(lode);
+  for (std::size_t d = 0; d < factors.knots.n_deviations; d += n_lanes) {
+    const Lanes rest = larger(size - load(deviations.von_mises + d), Lanes{});
+    store(deviations.von_mises + d, rest * rest * (1 - tolerance));
+  }
   Maxima maxima(unit, factors, lode);
-  maxima.square.value = at.largest_square * (1 - tolerance);
-  const double size = __builtin_sqrt(at.largest_square);
-  maxima.principal.value = at.principal_so_far(lode);
-  maxima.principal.value -= tolerance * (size + __builtin_fabs(maxima.principal.value));
+  maxima.principal.value = so_far - tolerance * (size + __builtin_fabs(so_far));
   const auto matter = [&](std::size_t knot) {
     const std::size_t d = knot / knots_at_once;
-    const Lanes square = load(at.squares + knot);
-    const double rest = __builtin_sqrt(maxima.square.value) - deviations.von_mises[d];
-    const Lanes least = Lanes{} + (rest > 0 ? rest * rest * (1 - tolerance) : 0.0);
-    return (square >= least) | may_reach(Lanes{} + (maxima.principal.value - deviations.principal[d]), square,
-                                         load(at.thirds + knot), load(at.means + knot));
+    const Lanes square = load(at.squares + knot),
+                value = Lanes{} + (maxima.principal.value - deviations.principal[d]);
+    return at_least(square, Lanes{} + deviations.von_mises[d]) |
+           may_reach(value, square, load(at.thirds + knot), load(at.means + knot));
   };
-  for_each_span(knots, matter, [&](std::size_t number) { maxima.look_into_span(number); });
-  return {maxima.square.value, maxima.principal.value, maxima.square.instant, maxima.principal.instant};
+  for_each_span(factors.knots, matter, [&](std::size_t number) { maxima.look_into_span(number); });
+  const Largest square = maxima.square.of_all();
+  return {square.value, maxima.principal.value, square.instant, maxima.principal.instant};
 }
 
 }  // namespace pipelines::kernel::KERNEL_VARIANT

@@ -65,15 +65,15 @@ inline bool any(Indices mask) {
 #endif
 }
 
-/// A bit for each lane in which a comparison holds, the lowest for the first lane.
-inline unsigned bits_of(Indices mask) {
+/// A bit for each lane where a is at least b, the lowest for the first lane.
+inline unsigned at_least(Lanes a, Lanes b) {
 #if defined(__AVX512F__)
-  using Bits = long long __attribute__((vector_size(64)));
-  return __builtin_ia32_cvtq2mask512(Bits(mask));
+  constexpr int greater_or_equal = 29, rounding_of_now = 4;
+  return __builtin_ia32_cmppd512_mask(a, b, greater_or_equal, 0xff, rounding_of_now);
 #elif defined(__AVX__)
-  return unsigned(__builtin_ia32_movmskpd256(Lanes(mask)));
+  return unsigned(__builtin_ia32_movmskpd256(Lanes(a >= b)));
 #else
-  return unsigned(mask[0] & 1) | unsigned(mask[1] & 2);
+  return (a[0] >= b[0] ? 1u : 0u) | (a[1] >= b[1] ? 2u : 0u);
 #endif
 }
 

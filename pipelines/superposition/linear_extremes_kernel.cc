@@ -74,54 +74,81 @@ void walk_all_instants(const double* weights, const Factors& factors, double* ro
   }
 }
 
-/// By how much a form exceeds the values at its knots.
+/// How far a form may lie from straight lines between its knots, as the factors' deviations.
 /// @param weight      the form's first weight
 /// @param deviations  knots.n_deviations, to be written
 void find_deviations(const double* weight, const Factors& factors, double* deviations) {
-  for (std::size_t d = 0; d < factors.knots.n_deviations; d += n_lanes) {
+  const std::size_t n = factors.knots.n_deviations;
+  for (std::size_t d = 0; d < n; d += n_lanes) {
     Lanes sum = {};
     for (std::size_t k = 0; k < factors.n_channels; ++k)
-      sum += __builtin_fabs(weight[k * forms_at_once]) *
-             load(factors.knots.deviations + k * factors.knots.n_deviations + d);
+      sum += __builtin_fabs(weight[k * forms_at_once]) * load(factors.knots.deviations + k * n + d);
     store(deviations + d, sum);
   }
 }
 
-/// Looks into the spans where a form may have its extremes.
-/// @param weight      the form's first weight
-/// @param values      at the knots
-/// @param deviations  as find_deviations()
-LinearExtremes extremes_near_knots(const double* weight, const Factors& factors, const Range& range,
-                                   const double* values, const double* deviations) {
-  const double most = largest_of(range.largest), least = smallest_of(range.smallest);
-  Largest largest, negative;
-  const auto matter = [&](std::size_t knot) {
-    const Lanes value = load(values + knot), deviation = Lanes{} + deviations[knot / knots_at_once];
-    return (value + deviation >= Lanes{} + most) | (value - deviation <= Lanes{} + least);
-  };
-  for_each_span(factors.knots, matter, [&](std::size_t number) {
-    for (std::size_t i = 0; i < span; i += n_of_span * n_lanes) {
-      const double* a = factors_at(factors, number * span + i);
-      Lanes sum[n_of_span] = {}, opposite[n_of_span];
-      for (std::size_t k = 0; k < factors.n_channels; ++k, a += block)
-        for (std::size_t r = 0; r < n_of_span; ++r)
-          sum[r] += weight[k * forms_at_once] * load(a + r * n_lanes);
-      for (std::size_t r = 0; r < n_of_span; ++r) opposite[r] = -sum[r];
-      largest.take(sum, number * span + i);
-      negative.take(opposite, number * span + i);
-    }
-  });
-  return {largest.value, -negative.value, largest.instant, negative.instant};
-}
+/// The extremes of a form from its values at the knots.
+class NearKnots {
+public:
+  LargestOfLanes largest, negative;
 
-void walk_knots(const double* weights, const Factors& factors, double* room, LinearExtremes* found) {
+  /// @param weight      the form's first weight
+  /// @param values      at the knots
+  /// @param deviations  as find_deviations()
+  NearKnots(const double* weight, const Factors& factors, const Range& range, const double* values,
+            const double* deviations)
+      : weight_(weight),
+        factors_(factors),
+        values_(values),
+        deviations_(deviations),
+        rounding_(deviations[factors.knots.n_deviations - 1]),
+        most_(largest_of(range.largest) - rounding_),
+        least_(smallest_of(range.smallest) + rounding_) {}
+
+  void look() {
+    for (std::size_t i = 0; i < factors_.knots.n_spans; i += n_lanes)
+      for (unsigned bits = spans_that_matter(i); bits != 0; bits &= bits - 1)
+        if (const std::size_t number = i + std::size_t(__builtin_ctz(bits)); number < factors_.knots.n_spans)
+          look_into_span(number);
+  }
+
+private:
+  /// Between values a and b a form deviates from the line by 4 t (1 - t) of its deviation at most, 0 <= t <=
+  /// 1: it is above the larger one by deviation - |b - a| / 4 at most, where that is positive.
+  unsigned spans_that_matter(std::size_t i) const {
+    const Lanes a = load(values_ + i), b = load(values_ + i + 1), most = larger(a, b), least = smaller(a, b);
+    const Lanes more = larger(deviations_[i / knots_at_once] - 0.25 * (most - least), Lanes{});
+    return at_least(most + more, Lanes{} + most_) | at_least(Lanes{} + least_, least - more);
+  }
+
+  void look_into_span(std::size_t number) {
+    for (std::size_t i = 0; i < span; i += n_lanes) {
+      const double* a = factors_at(factors_, number * span + i);
+      Lanes sum = {};
+      for (std::size_t k = 0; k < factors_.n_channels; ++k, a += block)
+        sum += weight_[k * forms_at_once] * load(a);
+      largest.take(sum, number * span + i);
+      negative.take(-sum, number * span + i);
+    }
+  }
+
+  const double* weight_;
+  const Factors& factors_;
+  const double *values_, *deviations_;
+  double rounding_, most_, least_;
+};
+
+void walk_spans(const double* weights, const Factors& factors, double* room, LinearExtremes* found) {
   const std::size_t n = factors.knots.n_blocks * block;
   Range ranges[forms_at_once];
   superpose(weights, factors.knots.values, factors.n_channels, factors.knots.n_blocks, room, ranges);
   double* deviations = room + forms_at_once * n;
   for (std::size_t i = 0; i < forms_at_once; ++i) {
     find_deviations(weights + i, factors, deviations);
-    found[i] = extremes_near_knots(weights + i, factors, ranges[i], room + i * n, deviations);
+    NearKnots form(weights + i, factors, ranges[i], room + i * n, deviations);
+    form.look();
+    const Largest largest = form.largest.of_all(), negative = form.negative.of_all();
+    found[i] = {largest.value, -negative.value, largest.instant, negative.instant};
   }
 }
 
@@ -129,7 +156,7 @@ void walk_knots(const double* weights, const Factors& factors, double* room, Lin
 
 void linear_walk(const double* weights, const Factors& factors, double* room, LinearExtremes* found) {
   if (factors.knots.n_spans == 0) return walk_all_instants(weights, factors, room, found);
-  walk_knots(weights, factors, room, found);
+  walk_spans(weights, factors, room, found);
 }
 
 }  // namespace pipelines::kernel::KERNEL_VARIANT

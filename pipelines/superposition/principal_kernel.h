@@ -49,9 +49,6 @@ struct Stresses {
   }
 };
 
-/// Keeps the quotient of an unstressed place from being 0/0; far below the cube of any stress that counts.
-constexpr double smallest = 1e-280;
-
 /// cos(acos(c) / 3) for c in [-1, 1]; rounding may have left the interval.
 inline Lanes lode_cosine(Lanes c, const double* term) {
   c = c > -1.0 ? c : Lanes{} - 1.0;
@@ -81,10 +78,11 @@ constexpr double tolerance = 1e-12;
 /// Whether a largest principal stress may be `value` or more. With y = 3/2 (value - mean) it is where
 /// y < sigma_v / 2, or 4 y^3 - 3 sigma_v^2 y < 27/2 det, since sigma_v cos(theta) is the largest root of that
 /// cubic.
-inline Indices may_reach(Lanes value, Lanes q, Lanes third, Lanes mean) {
+/// @return a bit for each lane
+inline unsigned may_reach(Lanes value, Lanes q, Lanes third, Lanes mean) {
   const Lanes y = 1.5 * (value - mean), y_squared = 4.0 * (y * y);
   const Lanes cubic = y * (y_squared * (1 - tolerance) - q * (3 * (1 + tolerance)));
-  return (y < 0.0) | (y_squared <= q * (1 + tolerance)) | (cubic <= third);
+  return at_least(Lanes{}, y) | at_least(q * (1 + tolerance), y_squared) | at_least(third, cubic);
 }
 
 /// Looks for a larger principal stress in a group of instants. The angle is computed where one may be.
@@ -93,14 +91,14 @@ template <std::size_t n>
 [[gnu::always_inline]] inline void look_into(const Stresses<6, n>& stresses, std::size_t first,
                                              const double* lode, Largest& principal) {
   Lanes q[n], third[n];
-  Indices candidates = {};
+  unsigned candidates = 0;
 #pragma GCC unroll 3
   for (std::size_t r = 0; r < n; ++r) {
     q[r] = stresses.square(r);
     third[r] = stresses.third_invariant(r);
     candidates |= may_reach(Lanes{} + principal.value, q[r], third[r], stresses.mean(r));
   }
-  if (!any(candidates)) return;
+  if (candidates == 0) return;
   Lanes found[n];
   for (std::size_t r = 0; r < n; ++r) found[r] = largest_principal(q[r], third[r], stresses.mean(r), lode);
   principal.take(found, first);

@@ -27,16 +27,19 @@ constexpr std::size_t span = 8;
 constexpr std::size_t knots_at_once = 8;
 
 /// Time factors that are smooth enough to tell by some instants, the knots, where others matter. Knots are
-/// the first instant of each span, and the last instant. Within a span a factor differs from a straight line
-/// between the knots at its ends by the deviation at most. A norm of the stress is convex, and so is its
+/// the first instant of each span, and the last instant. A norm of the stress is convex, and so is its
 /// largest principal stress: over a span each is at most the larger one of the two knots, and that of the
 /// deviations.
 struct Knots {
   std::size_t n_spans = 0;         ///< one less than the knots; 0: the factors are too rough
   std::size_t n_blocks = 0;        ///< of knots, padded with the last one
-  std::size_t n_deviations = 0;    ///< knots over knots_at_once, rounded up to a multiple of knots_at_once
+  std::size_t n_deviations = 0;    ///< a multiple of knots_at_once
   const double* values = nullptr;  ///< n_blocks x n_channels x block
-  const double* deviations = nullptr;  ///< n_channels x n_deviations: of the spans beside these knots
+  /// At the share t of a span a factor differs from the straight line between the knots at its ends by
+  /// 4 t (1 - t) times the deviation at most: one for knots_at_once knots and the spans beside them. The last
+  /// one is what sums of this factor are wrong by, for rounding; it is part of the others.
+  /// n_channels x n_deviations
+  const double* deviations = nullptr;
 };
 
 /// Time factors of the channels.

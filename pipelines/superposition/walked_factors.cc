@@ -95,28 +95,28 @@ double WalkedFactors::value(std::size_t channel, std::size_t instant) const {
 void WalkedFactors::find_deviations(std::size_t channel) {
   using kernel::span;
   double* of_knots = &deviations_[channel * knots_.n_deviations];
+  const double rounding = rounding_of_sums * sizes_[channel];
   for (std::size_t begin = 0; begin < n_given_; begin += span) {
     const std::size_t end = std::min(begin + span, n_given_ - 1);
-    const double first = value(channel, begin), last = value(channel, end);
-    double deviation = rounding_of_sums * sizes_[channel];
+    const double first = value(channel, begin), change = value(channel, end) - first;
+    double deviation = 0;
     for (std::size_t i = begin + 1; i < end; ++i) {
-      const double share = double(i - begin) / double(end - begin);
-      deviation = std::max(deviation, std::abs(value(channel, i) - first - share * (last - first)) +
-                                          rounding_of_sums * sizes_[channel]);
+      const double t = double(i - begin) / double(end - begin);
+      deviation = std::max(deviation, std::abs(value(channel, i) - first - t * change) / (4 * t * (1 - t)));
     }
     for (const std::size_t knot : {begin / span, begin / span + 1}) {
       double& of_knot = of_knots[knot / kernel::knots_at_once];
-      of_knot = std::max(of_knot, deviation);
+      of_knot = std::max(of_knot, deviation + rounding);
     }
   }
+  of_knots[knots_.n_deviations - 1] = rounding;
 }
 
 void WalkedFactors::find_knots() {
   using kernel::block, kernel::knots_at_once, kernel::span;
   if (n_blocks_ < fewest_blocks_for_knots || n_channels() == 0) return;
   const std::size_t n_spans = (n_given_ + span - 1) / span, n_groups = n_spans / knots_at_once + 1;
-  knots_ = {n_spans, n_spans / block + 1, (n_groups + knots_at_once - 1) / knots_at_once * knots_at_once,
-            nullptr, nullptr};
+  knots_ = {n_spans, n_spans / block + 1, (n_groups / knots_at_once + 1) * knots_at_once, nullptr, nullptr};
   knot_values_.resize(knots_.n_blocks * n_channels() * block);
   deviations_.assign(n_channels() * knots_.n_deviations, 0.0);
   double roughness = 0;

@@ -229,8 +229,8 @@ TEST(LinearExtremes, AreThoseOfAllInstants) {
                         weights = Eigen::MatrixXd::NullaryExpr(n_forms, 7, draw);
   const pipelines::WalkedFactors factors(values.array());
   ASSERT_EQ(factors.n_channels(), 7u);
-  std::vector<double> room(kernel::forms_at_once * factors.n_instants()), walked(7 * kernel::forms_at_once),
-      one(7);
+  std::vector<double> room(kernel::room_of_linear_walk(factors.for_kernel())),
+      walked(7 * kernel::forms_at_once), one(7);
   for (Index form = 0; form < n_forms; ++form) {  // the walk has the channels in an order of its own
     const Eigen::VectorXd of_form = weights.row(form);
     factors.gather(of_form.data(), 1, one.data());

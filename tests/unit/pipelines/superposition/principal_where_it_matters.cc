@@ -237,7 +237,7 @@ TEST(InstantsThatMatter, OfACrestBetweenKnots) {
     Eigen::ArrayXXd values(2, n_instants);
     for (Index i = 0; i < n_instants; ++i) {
       const double distance = double(i - crest) / 8;
-      values.col(i) << std::exp(-distance * distance), 0.9 * (std::abs(i - crest) > 60 ? 1 : 0);
+      values.col(i) << std::exp(-distance * distance), 0.9 * std::min(1.0, std::abs(double(i - crest)) / 80);
     }
     for (const Stress& unit : {Stress{0, 0, 0, 1, 0, 0}, Stress{1, -1, -1, 0, 0, 0}}) {
       const auto p = walked_problem(1, values, [&] { return unit; });
