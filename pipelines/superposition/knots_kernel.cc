@@ -69,11 +69,12 @@ struct AtKnots {
   double principal_so_far(const double* lode) const {
     const double size = __builtin_sqrt(largest_square), of_square = 0.5 / (size + smallest),
                  of_third = 1.0 / 6.0 / (largest_square + smallest);
-    const auto estimate = [&](std::size_t i) {
-      return load(means + i) + of_square * load(squares + i) + of_third * load(thirds + i);
-    };
     LargestOfLanes largest;
-    for (std::size_t i = 0; i < n; i += n_lanes) largest.take(estimate(i), i);
+    for (std::size_t i = 0; i < n; i += n_lanes) {
+      const Lanes estimate[] = {load(means + i) + of_square * load(squares + i) +
+                                of_third * load(thirds + i)};
+      largest.take(estimate, i);
+    }
     const std::size_t at = std::size_t(largest.of_all().instant) / n_lanes * n_lanes;
     return largest_of(largest_principal(load(squares + at), load(thirds + at), load(means + at), lode));
   }
@@ -89,13 +90,13 @@ public:
       : unit_(unit), factors_(factors), lode_(lode) {}
 
   void look_into_span(std::size_t number) {
-    for (std::size_t i = 0; i < span; i += n_of_span * n_lanes) {
-      const std::size_t first = number * span + i;
-      const Stresses<6, n_of_span> stresses(unit_, factors_at(factors_, first), factors_.n_channels);
-      look_into(stresses, first, lode_, principal);
-#pragma GCC unroll 2
-      for (std::size_t r = 0; r < n_of_span; ++r) square.take(stresses.square(r), first + r * n_lanes);
-    }
+    const std::size_t first = number * span;
+    const Stresses<6, n_of_span> stresses(unit_, factors_at(factors_, first), factors_.n_channels);
+    look_into(stresses, first, lode_, principal);
+    Lanes squares[n_of_span];
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < n_of_span; ++r) squares[r] = stresses.square(r);
+    square.take(squares, first);
   }
 
 private:
@@ -123,7 +124,14 @@ NodeMaximum walk_knots(const double* unit, const Factors& factors, const double*
     return at_least(square, Lanes{} + deviations.von_mises[d]) |
            may_reach(value, square, load(at.thirds + knot), load(at.means + knot));
   };
-  for_each_span(factors.knots, matter, [&](std::size_t number) { maxima.look_into_span(number); });
+  const std::size_t n_spans = factors.knots.n_spans;
+  for (unsigned long first = 0, knots = word_of(matter, 0, n_spans + 1), next; first < n_spans; first += 64) {
+    next = first + 64 <= n_spans ? word_of(matter, first + 64, n_spans + 1) : 0;
+    unsigned long spans = knots | knots >> 1 | next << 63;
+    if (n_spans - first < 64) spans &= (1ul << (n_spans - first)) - 1;
+    for (; spans != 0; spans &= spans - 1) maxima.look_into_span(first + std::size_t(__builtin_ctzl(spans)));
+    knots = next;
+  }
   const Largest square = maxima.square.of_all();
   return {square.value, maxima.principal.value, square.instant, maxima.principal.instant};
 }

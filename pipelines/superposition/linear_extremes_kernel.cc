@@ -106,10 +106,17 @@ public:
         least_(smallest_of(range.smallest) + rounding_) {}
 
   void look() {
-    for (std::size_t i = 0; i < factors_.knots.n_spans; i += n_lanes)
-      for (unsigned bits = spans_that_matter(i); bits != 0; bits &= bits - 1)
-        if (const std::size_t number = i + std::size_t(__builtin_ctz(bits)); number < factors_.knots.n_spans)
-          look_into_span(number);
+    const std::size_t n_spans = factors_.knots.n_spans;
+    const auto matter = [this](std::size_t i) { return spans_that_matter(i); };
+    for (std::size_t first = 0; first < n_spans; first += 64)
+      for (unsigned long spans = word_of(matter, first, n_spans); spans != 0;) {
+        // Two side by side, so that one does not wait for sums; an odd one twice.
+        const std::size_t one = first + std::size_t(__builtin_ctzl(spans));
+        spans &= spans - 1;
+        const std::size_t other = spans != 0 ? first + std::size_t(__builtin_ctzl(spans)) : one;
+        spans &= spans - 1;
+        look_into_spans(one, other);
+      }
   }
 
 private:
@@ -121,15 +128,24 @@ private:
     return at_least(most + more, Lanes{} + most_) | at_least(Lanes{} + least_, least - more);
   }
 
-  void look_into_span(std::size_t number) {
-    for (std::size_t i = 0; i < span; i += n_lanes) {
-      const double* a = factors_at(factors_, number * span + i);
-      Lanes sum = {};
-      for (std::size_t k = 0; k < factors_.n_channels; ++k, a += block)
-        sum += weight_[k * forms_at_once] * load(a);
-      largest.take(sum, number * span + i);
-      negative.take(-sum, number * span + i);
-    }
+  void look_into_spans(std::size_t one, std::size_t other) {
+    const double *a = factors_at(factors_, one * span), *b = factors_at(factors_, other * span);
+    Lanes of_one[n_of_span] = {}, of_other[n_of_span] = {};
+    for (std::size_t k = 0; k < factors_.n_channels; ++k, a += block, b += block)
+#pragma GCC unroll 4
+      for (std::size_t r = 0; r < n_of_span; ++r) {
+        of_one[r] += weight_[k * forms_at_once] * load(a + r * n_lanes);
+        of_other[r] += weight_[k * forms_at_once] * load(b + r * n_lanes);
+      }
+    take(of_one, one * span);
+    take(of_other, other * span);
+  }
+
+  void take(Lanes (&values)[n_of_span], std::size_t first) {
+    largest.take(values, first);
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < n_of_span; ++r) values[r] = -values[r];
+    negative.take(values, first);
   }
 
   const double* weight_;

@@ -18,11 +18,11 @@ struct Stresses {
   [[gnu::always_inline]] Stresses(const double* unit, const double* a, std::size_t n_channels) : s{} {
     for (std::size_t k = 0; k < n_channels; ++k, a += block, unit += n_coordinates) {
       Lanes factor[n];
-#pragma GCC unroll 3
+#pragma GCC unroll 4
       for (std::size_t r = 0; r < n; ++r) factor[r] = load(a + r * n_lanes);
 #pragma GCC unroll 6
       for (std::size_t c = 0; c < n_of_it; ++c)
-#pragma GCC unroll 3
+#pragma GCC unroll 4
         for (std::size_t r = 0; r < n; ++r) s[c][r] += unit[c] * factor[r];
     }
   }
@@ -92,7 +92,7 @@ template <std::size_t n>
                                              const double* lode, Largest& principal) {
   Lanes q[n], third[n];
   unsigned candidates = 0;
-#pragma GCC unroll 3
+#pragma GCC unroll 4
   for (std::size_t r = 0; r < n; ++r) {
     q[r] = stresses.square(r);
     third[r] = stresses.third_invariant(r);

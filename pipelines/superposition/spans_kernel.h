@@ -6,9 +6,9 @@
 
 namespace pipelines::kernel::KERNEL_VARIANT {
 
-/// Registers in which a span is superposed.
-constexpr std::size_t n_of_span = n_lanes == 8 ? 1 : 2;
-static_assert(span % (n_of_span * n_lanes) == 0 && block % span == 0 && knots_at_once % n_lanes == 0);
+/// Registers of a span.
+constexpr std::size_t n_of_span = span / n_lanes;
+static_assert(span % n_lanes == 0 && block % span == 0 && knots_at_once % n_lanes == 0);
 
 /// Keeps the quotient of what is zero from being 0/0; far below the cube of any stress that counts.
 constexpr double smallest = 1e-280;
@@ -44,9 +44,13 @@ public:
   }
 
   /// @param first  the first value's instant
-  [[gnu::always_inline]] void take(Lanes values, std::size_t first) {
-    instants_ = values > values_ ? lane_ + long(first) : instants_;
-    values_ = larger(values, values_);
+  template <std::size_t n>
+  [[gnu::always_inline]] void take(const Lanes (&values)[n], std::size_t first) {
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < n; ++r) {
+      instants_ = values[r] > values_ ? lane_ + long(first + r * n_lanes) : instants_;
+      values_ = larger(values[r], values_);
+    }
   }
 
   Largest of_all() const {
@@ -66,18 +70,16 @@ inline const double* factors_at(const Factors& factors, std::size_t instant) {
   return factors.values + instant / block * factors.n_channels * block + instant % block;
 }
 
-/// The spans beside knots that matter, in ascending order.
-/// @param matter  of the number of a knot: which of n_lanes knots from it on matter, a bit each
-/// @param look    takes the number of a span
-template <typename Matter, typename Look>
-[[gnu::always_inline]] inline void for_each_span(const Knots& knots, const Matter& matter, const Look& look) {
-  std::size_t next = 0;  // the first one that may still come
-  for (std::size_t i = 0; i <= knots.n_spans; i += n_lanes)
-    for (unsigned bits = matter(i); bits != 0; bits &= bits - 1) {
-      const std::size_t knot = i + std::size_t(__builtin_ctz(bits));
-      for (std::size_t s = knot > next ? knot - 1 : next; s <= knot && s < knots.n_spans; ++s) look(s);
-      next = knot + 1;
-    }
+/// Bits of as many lanes as a word has. What follows from them branches once for each, not for each register.
+/// @param of_lanes  of a number: the bits of n_lanes lanes from it on
+/// @param n         only lanes below it count
+template <typename OfLanes>
+[[gnu::always_inline]] inline unsigned long word_of(const OfLanes& of_lanes, std::size_t first,
+                                                    std::size_t n) {
+  unsigned long word = 0;
+  const std::size_t n_of_word = n - first < 64 ? n - first : 64;
+  for (std::size_t i = 0; i < n_of_word; i += n_lanes) word |= (unsigned long)(of_lanes(first + i)) << i;
+  return n_of_word < 64 ? word & ((1ul << n_of_word) - 1) : word;
 }
 
 }  // namespace pipelines::kernel::KERNEL_VARIANT
