@@ -40,8 +40,8 @@ std::size_t room_of_walk(const Factors& factors) {
 }
 
 std::size_t room_of_linear_walk(const Factors& factors) {
-  return std::max(forms_at_once * factors.n_blocks * block,
-                  forms_at_once * factors.knots.n_blocks * block + factors.knots.n_deviations);
+  const Knots& knots = factors.knots;
+  return forms_at_once * std::max(factors.n_blocks * block, knots.n_blocks * block + knots.n_deviations);
 }
 
 }  // namespace pipelines::kernel

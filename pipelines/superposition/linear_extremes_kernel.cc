@@ -74,16 +74,20 @@ void walk_all_instants(const double* weights, const Factors& factors, double* ro
   }
 }
 
-/// How far a form may lie from straight lines between its knots, as the factors' deviations.
-/// @param weight      the form's first weight
-/// @param deviations  knots.n_deviations, to be written
-void find_deviations(const double* weight, const Factors& factors, double* deviations) {
+/// How far the forms may lie from straight lines between their knots, as the factors' deviations.
+/// @param deviations  forms_at_once x knots.n_deviations, to be written
+void find_deviations(const double* weights, const Factors& factors, double* deviations) {
   const std::size_t n = factors.knots.n_deviations;
   for (std::size_t d = 0; d < n; d += n_lanes) {
-    Lanes sum = {};
-    for (std::size_t k = 0; k < factors.n_channels; ++k)
-      sum += __builtin_fabs(weight[k * forms_at_once]) * load(factors.knots.deviations + k * n + d);
-    store(deviations + d, sum);
+    Lanes sums[forms_at_once] = {};
+    for (std::size_t k = 0; k < factors.n_channels; ++k) {
+      const Lanes deviation = load(factors.knots.deviations + k * n + d);
+#pragma GCC unroll 8
+      for (std::size_t i = 0; i < forms_at_once; ++i)
+        sums[i] += __builtin_fabs(weights[k * forms_at_once + i]) * deviation;
+    }
+#pragma GCC unroll 8
+    for (std::size_t i = 0; i < forms_at_once; ++i) store(deviations + i * n + d, sums[i]);
   }
 }
 
@@ -94,7 +98,7 @@ public:
 
   /// @param weight      the form's first weight
   /// @param values      at the knots
-  /// @param deviations  as find_deviations()
+  /// @param deviations  of the form
   NearKnots(const double* weight, const Factors& factors, const Range& range, const double* values,
             const double* deviations)
       : weight_(weight),
@@ -159,9 +163,10 @@ void walk_spans(const double* weights, const Factors& factors, double* room, Lin
   Range ranges[forms_at_once];
   superpose(weights, factors.knots.values, factors.n_channels, factors.knots.n_blocks, room, ranges);
   double* deviations = room + forms_at_once * n;
+  find_deviations(weights, factors, deviations);
   for (std::size_t i = 0; i < forms_at_once; ++i) {
-    find_deviations(weights + i, factors, deviations);
-    NearKnots form(weights + i, factors, ranges[i], room + i * n, deviations);
+    NearKnots form(weights + i, factors, ranges[i], room + i * n,
+                   deviations + i * factors.knots.n_deviations);
     form.look();
     const Largest largest = form.largest.of_all(), negative = form.negative.of_all();
     found[i] = {largest.value, -negative.value, largest.instant, negative.instant};
