@@ -85,12 +85,14 @@ class Maxima {
 public:
   LargestOfLanes square;
   Largest principal;
+  std::size_t n_spans = 0;  ///< that were looked into
 
   Maxima(const double* unit, const Factors& factors, const double* lode)
       : unit_(unit), factors_(factors), lode_(lode) {}
 
   void look_into_span(std::size_t number) {
     const std::size_t first = number * span;
+    ++n_spans;
     const Stresses<6, n_of_span> stresses(unit_, factors_at(factors_, first), factors_.n_channels);
     look_into(stresses, first, lode_, principal);
     Lanes squares[n_of_span];
@@ -133,7 +135,12 @@ NodeMaximum walk_knots(const double* unit, const Factors& factors, const double*
     knots = next;
   }
   const Largest square = maxima.square.of_all();
-  return {square.value, maxima.principal.value, square.instant, maxima.principal.instant};
+  return {square.value,
+          maxima.principal.value,
+          square.instant,
+          maxima.principal.instant,
+          0,
+          n_spans + 1 + maxima.n_spans * (span - 1)};
 }
 
 }  // namespace pipelines::kernel::KERNEL_VARIANT

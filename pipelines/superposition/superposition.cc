@@ -7,42 +7,12 @@
 #include <stdexcept>
 
 #include "pipelines/common/parallel.h"
-#include "pipelines/superposition/deviatoric_coordinates.h"
+#include "pipelines/superposition/batch_walk.h"
+#include "pipelines/superposition/lode_cosine.h"
 #include "pipelines/superposition/walked_factors.h"
 
 namespace pipelines {
 namespace {
-
-/// cos(acos(c) / 3) = cos(2/3 acos(s)) with s = sqrt((1 + c) / 2) is analytic but at s = -1: its Chebyshev
-/// series over s in [0, 1], t = 2 s - 1, falls by six with each term and is 1e-15 exact; in powers of t,
-/// whose coefficients fall as well, nothing cancels.
-std::array<double, kernel::n_lode_terms> lode_polynomial() {
-  constexpr std::size_t n = kernel::n_lode_terms, n_points = 64;
-  std::array<double, n> powers{}, before{}, chebyshev{};  // of T_(k-1) and of T_k
-  chebyshev[0] = 1;
-  for (std::size_t k = 0; k < n; ++k) {
-    double coefficient = 0;
-    for (std::size_t j = 0; j < n_points; ++j) {
-      const double angle = M_PI * (double(j) + 0.5) / double(n_points);
-      coefficient +=
-          std::cos(2.0 / 3.0 * std::acos(0.5 + 0.5 * std::cos(angle))) * std::cos(double(k) * angle);
-    }
-    coefficient *= (k == 0 ? 1.0 : 2.0) / double(n_points);
-    std::array<double, n> next{};  // T_(k+1) = 2 t T_k - T_(k-1), T_1 = t
-    for (std::size_t i = 0; i < n; ++i) {
-      powers[i] += coefficient * chebyshev[i];
-      next[i] = (i > 0 ? (k == 0 ? 1.0 : 2.0) * chebyshev[i - 1] : 0.0) - before[i];
-    }
-    before = chebyshev;
-    chebyshev = next;
-  }
-  return powers;
-}
-
-const std::array<double, kernel::n_lode_terms>& lode_terms() {
-  static const auto terms = lode_polynomial();
-  return terms;
-}
 
 /// The unit stresses of a node, K x 6.
 const double* unit_stress(const fem::UnitResponses& responses, std::size_t node) {
@@ -75,18 +45,6 @@ void find_shares(const double* unit, const ChannelHistory& loads, const Stress& 
   for (Eigen::Index k = 0; k < along.size(); ++k)
     along[k] = deviator.dot(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(unit + 6 * k));
   for (std::size_t e = 0; e < n_effects; ++e) shares[e] = loads.by_effect[e].col(instant).matrix().dot(along);
-}
-
-/// cos(acos(c) / 3), -1 <= c <= 1: the series of lode_polynomial.
-double lode_cosine(double c) {
-  const auto& term = lode_terms();
-  const double t = 2 * std::sqrt(0.5 + 0.5 * c) - 1, square = t * t;
-  double even = term[kernel::n_lode_terms - 1], odd = term[kernel::n_lode_terms - 2];
-  for (std::size_t k = kernel::n_lode_terms - 3; k > 1; k -= 2) {
-    even = even * square + term[k];
-    odd = odd * square + term[k - 1];
-  }
-  return even * square + term[0] + t * odd;
 }
 
 /// Largest principal stress by the Lode angle, mean + 2/3 sigma_v cos(theta), where that is as exact as QR
@@ -139,39 +97,6 @@ Envelope unscaled(Envelope envelope, double scale) {
 
 /// Nodes that a thread takes at once.
 constexpr std::size_t nodes_at_once = 64 * kernel::batch;
-
-/// Walks the nodes of a batch.
-class BatchWalk {
-public:
-  BatchWalk(const WalkedFactors& factors, const fem::UnitResponses& responses)
-      : factors_(factors),
-        kernel_factors_(factors.for_kernel()),
-        responses_(responses),
-        coordinates_(kernel::batch * factors.n_channels() * kernel::n_coordinates),
-        room_(kernel::room_of_walk(kernel_factors_)) {}
-
-  const std::array<kernel::NodeMaximum, kernel::batch>& of(std::size_t first, std::size_t n_nodes) {
-    double* coordinates = coordinates_.data();
-    for (std::size_t i = 0; i < n_nodes; ++i) {
-      factors_.gather(unit_stress(responses_, first + i), 6, coordinates);
-      for (std::size_t k = 0; k < factors_.n_channels(); ++k, coordinates += kernel::n_coordinates) {
-        const double mean = (coordinates[0] + coordinates[1] + coordinates[2]) / 3;
-        find_deviatoric_coordinates(coordinates, coordinates);
-        coordinates[5] = mean;
-      }
-    }
-    kernel::walk_for_this_machine()(coordinates_.data(), n_nodes, kernel_factors_, lode_terms().data(),
-                                    room_.data(), found_.data());
-    return found_;
-  }
-
-private:
-  const WalkedFactors& factors_;
-  const kernel::Factors kernel_factors_;
-  const fem::UnitResponses& responses_;
-  std::vector<double> coordinates_, room_;
-  std::array<kernel::NodeMaximum, kernel::batch> found_;
-};
 
 }  // namespace
 

@@ -84,13 +84,20 @@ NodeMaximum find_maximum(const Node& node, const Factors& factors, const double*
     }
   }
   bound_means(node.unit, factors, bounds);
+  std::size_t n_blocks = 1;  // that were superposed again
   for (std::size_t b = 0; b < factors.n_blocks; ++b)
-    if (b != peak && any(load(node.peaks + b * n_lanes) >= Lanes{} + threshold(principal.value, bounds[b])))
+    if (b != peak && any(load(node.peaks + b * n_lanes) >= Lanes{} + threshold(principal.value, bounds[b]))) {
       for (std::size_t g = 0; g < block; g += group)
         look_into(stresses(b, g), b * block + g, lode, principal);
+      ++n_blocks;
+    }
   const double largest = largest_of(most);
-  return {largest, principal.value, long(peak * block) + first_equal<n_registers>(squares, block, largest),
-          principal.instant};
+  return {largest,
+          principal.value,
+          long(peak * block) + first_equal<n_registers>(squares, block, largest),
+          principal.instant,
+          factors.n_blocks * block,
+          n_blocks * block};
 }
 
 void walk_all_instants(const double* unit_stress, std::size_t n_nodes, const Factors& factors,

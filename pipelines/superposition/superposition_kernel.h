@@ -58,6 +58,9 @@ struct NodeMaximum {
   double von_mises_squared = 0;
   double principal = 0;
   long von_mises_instant = 0, principal_instant = 0;
+  /// Instants that were superposed, with five coordinates and with six. Of a span that is looked into its
+  /// knot is counted once, and nothing that fills the knots' last block.
+  std::size_t n_with_five = 0, n_with_six = 0;
 };
 
 /// Terms of the polynomial for the Lode angle's cosine, cos(acos(c) / 3), in t = 2 sqrt((1 + c) / 2) - 1.
@@ -67,12 +70,17 @@ constexpr std::size_t n_lode_terms = 17;
 std::size_t room_of_walk(const Factors& factors);
 
 /// For each of up to `batch` nodes: sigma = sum_k S_k a_k over all instants; the largest squared von Mises
-/// stress and the largest principal stress, mean + 2/3 sigma_v cos(theta). All instants take five
-/// multiply-adds per channel and the five squares. Of each block the largest squares are kept; the block that
-/// has the largest is superposed once more, with the mean stress, and so are blocks where a bound of the mean
-/// and 2/3 of the largest von Mises stress reach the largest principal stress so far. The angle is computed
-/// in blocks that have a larger one by the characteristic polynomial. The nodes of a batch share each block
-/// of factors while it is in the cache.
+/// stress and the largest principal stress, mean + 2/3 sigma_v cos(theta).
+///
+/// Where the factors have knots, the stress is superposed at these, and then in spans beside knots at which a
+/// measure of stress and its deviation reach what the knots have as the largest. Whether the principal stress
+/// does is told by the characteristic polynomial; the angle is computed where it is larger.
+///
+/// Of rougher factors all instants take five multiply-adds per channel and the five squares. Of each block
+/// the largest squares are kept; the block that has the largest is superposed once more, with the mean
+/// stress, and so are blocks where a bound of the mean and 2/3 of the largest von Mises stress reach the
+/// largest principal stress so far. The nodes of a batch share each block of factors while it is in the
+/// cache.
 /// @param unit_stress  n_nodes x n_channels x n_coordinates
 /// @param lode         n_lode_terms, ascending powers of t
 /// @param room         room_of_walk(factors), to be overwritten

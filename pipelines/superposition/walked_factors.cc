@@ -16,10 +16,11 @@ constexpr double rounding_of_sums = 1e-13;
 /// With fewer the knots save nothing.
 constexpr std::size_t fewest_blocks_for_knots = 3;
 
-/// Deviations from straight lines between the knots, relative to the channels' sizes: of so many on the
-/// average, times the root of their number, all instants are walked as fast. Deviations add up, stresses
-/// as their squares.
-constexpr double roughest = 0.3;
+/// Deviations from straight lines between the knots, relative to the channels' sizes: with so many on the
+/// average, times the root of the number of channels, all instants are walked as fast. Deviations add up,
+/// stresses as their squares. Measured on channels cos(w i (1 + k) + k), whose w was raised until the knots
+/// cost as much as they save: 1.5 with 12 channels, 2.3 with 31.
+constexpr double roughest = 1.5;
 
 }  // namespace
 

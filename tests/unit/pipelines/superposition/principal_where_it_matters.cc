@@ -56,9 +56,43 @@ void expect_maximum_of_all_instants(const Walked& p, const pipelines::NodalMaxim
   }
 }
 
-void expect_principal_of_all_instants(const Walked& p) {
+/// The same stresses, with channels that change their sign at random and bring none: of such factors all
+/// instants are walked.
+Walked with_idle_noise(const Walked& p) {
+  std::mt19937 random(41);
+  const Index n_channels = p.loads.values.rows();
+  Walked noisy;
+  noisy.responses.nodes.n = p.responses.nodes.n;
+  noisy.loads.effects = p.loads.effects;
+  noisy.loads.values.resize(2 * n_channels, p.loads.values.cols());
+  noisy.loads.values << p.loads.values, Eigen::ArrayXXd::NullaryExpr(n_channels, p.loads.values.cols(), [&] {
+    return random() % 2 == 0 ? 1.0 : -1.0;
+  });
+  noisy.loads.by_effect = {noisy.loads.values};
+  for (Index k = 0; k < 2 * n_channels; ++k) {
+    noisy.loads.channels.push_back({"port.c" + std::to_string(k), "N"});
+    noisy.responses.channels.push_back(noisy.loads.channels.back().name);
+  }
+  const auto width = std::size_t(6 * n_channels);
+  for (std::size_t node = 0; node < p.responses.nodes.n; ++node) {
+    const auto begin = p.responses.stress_Pa.begin() + std::ptrdiff_t(node * width);
+    noisy.responses.stress_Pa.insert(noisy.responses.stress_Pa.end(), begin, begin + std::ptrdiff_t(width));
+    noisy.responses.stress_Pa.insert(noisy.responses.stress_Pa.end(), width, 0.0);
+  }
+  return noisy;
+}
+
+void expect_principal(const Walked& p) {
   const auto found = pipelines::envelope(p.loads, p.responses, 1);
   expect_maximum_of_all_instants(p, found.principal, pipelines::largest_principal_Pa);
+}
+
+/// Whether the walk leaves out instants or only the principal stress.
+void expect_principal_of_all_instants(const Walked& p) {
+  expect_principal(p);
+  const auto noisy = with_idle_noise(p);
+  EXPECT_EQ(pipelines::WalkedFactors(noisy.loads.values).for_kernel().knots.n_spans, 0u);
+  expect_principal(noisy);
 }
 
 /// Both maxima, of factors that are smooth enough to leave out instants.
