@@ -211,8 +211,8 @@ TEST(NodalCycles, OfStressThatDoesNotChangeAreZero) {
   EXPECT_THROW(walked(p, 1), std::invalid_argument);
 }
 
-// All instruction sets that this machine can run, against a matrix product.
-TEST(LinearExtremes, AreThoseOfAllInstants) {
+/// All variants of the linear walk that this machine can run.
+std::vector<pipelines::kernel::LinearWalk*> linear_walks_of_this_machine() {
   namespace kernel = pipelines::kernel;
   std::vector<kernel::LinearWalk*> walks{&kernel::generic::linear_walk};
 #if defined(__x86_64__)
@@ -221,14 +221,20 @@ TEST(LinearExtremes, AreThoseOfAllInstants) {
 #endif
   if (&kernel::linear_walk_for_this_machine() != walks.back())
     walks.push_back(&kernel::linear_walk_for_this_machine());
+  return walks;
+}
+
+/// Against a matrix product.
+/// @param values  of seven channels
+void expect_extremes_of_all_instants(const Eigen::MatrixXd& values, bool is_smooth) {
+  namespace kernel = pipelines::kernel;
   std::mt19937 random(13);
   std::normal_distribution<double> normal;
-  const auto draw = [&] { return normal(random); };
   constexpr auto n_forms = Index(kernel::forms_at_once);
-  const Eigen::MatrixXd values = Eigen::MatrixXd::NullaryExpr(7, 5 * kernel::block + 1, draw),
-                        weights = Eigen::MatrixXd::NullaryExpr(n_forms, 7, draw);
+  const Eigen::MatrixXd weights = Eigen::MatrixXd::NullaryExpr(n_forms, 7, [&] { return normal(random); });
   const pipelines::WalkedFactors factors(values.array());
   ASSERT_EQ(factors.n_channels(), 7u);
+  EXPECT_EQ(factors.for_kernel().knots.n_spans > 0, is_smooth);
   std::vector<double> room(kernel::room_of_linear_walk(factors.for_kernel())),
       walked(7 * kernel::forms_at_once), one(7);
   for (Index form = 0; form < n_forms; ++form) {  // the walk has the channels in an order of its own
@@ -237,19 +243,45 @@ TEST(LinearExtremes, AreThoseOfAllInstants) {
     for (std::size_t k = 0; k < 7; ++k) walked[k * kernel::forms_at_once + std::size_t(form)] = one[k];
   }
   const Eigen::MatrixXd all = weights * values;
-  for (auto* walk : walks) {
+  const double rounding = 2e-14 * values.cwiseAbs().maxCoeff() * 7;  // sums of seven terms
+  for (auto* walk : linear_walks_of_this_machine()) {
     std::array<kernel::LinearExtremes, kernel::forms_at_once> found;
     walk(walked.data(), factors.for_kernel(), room.data(), found.data());
     for (Index form = 0; form < n_forms; ++form) {
       Index largest = 0, smallest = 0;
       const auto& of_form = found[std::size_t(form)];
-      EXPECT_NEAR(of_form.largest, all.row(form).maxCoeff(&largest),
-                  1e-13);  // sums of seven terms of about 1
-      EXPECT_NEAR(of_form.smallest, all.row(form).minCoeff(&smallest), 1e-13);
+      EXPECT_NEAR(of_form.largest, all.row(form).maxCoeff(&largest), rounding);
+      EXPECT_NEAR(of_form.smallest, all.row(form).minCoeff(&smallest), rounding);
       EXPECT_EQ(of_form.largest_instant, largest);
       EXPECT_EQ(of_form.smallest_instant, smallest);
     }
   }
+}
+
+TEST(LinearExtremes, AreThoseOfAllInstants) {
+  std::mt19937 random(17);
+  std::normal_distribution<double> normal;
+  expect_extremes_of_all_instants(
+      Eigen::MatrixXd::NullaryExpr(7, 5 * pipelines::kernel::block + 1, [&] { return normal(random); }),
+      false);
+}
+
+// Harmonics, the last span of one to eight instants; with a blow at a knot, within a span and at the end.
+TEST(LinearExtremes, OfSmoothFactorsAreThoseOfAllInstants) {
+  std::mt19937 random(19);
+  std::uniform_real_distribution<double> phase(0, 2 * M_PI);
+  for (Index n_instants = 713; n_instants <= 720; ++n_instants)
+    for (const Index blow : {Index(-1), Index(0), Index(64), Index(67), n_instants - 2, n_instants - 1}) {
+      SCOPED_TRACE(testing::Message() << n_instants << ", " << blow);
+      Eigen::MatrixXd values(7, n_instants);
+      for (Index k = 0; k < 7; ++k) {
+        const double begin = phase(random);
+        for (Index i = 0; i < n_instants; ++i)
+          values(k, i) = std::cos(2 * M_PI * double(1 + k / 2) * double(i) / double(n_instants) + begin) +
+                         (k == 6 && i == blow ? 20 : 0);
+      }
+      expect_extremes_of_all_instants(values, true);
+    }
 }
 
 }  // namespace
