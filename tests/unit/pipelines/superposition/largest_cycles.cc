@@ -225,25 +225,28 @@ std::vector<pipelines::kernel::LinearWalk*> linear_walks_of_this_machine() {
 }
 
 /// Against a matrix product.
-/// @param values  of seven channels
+/// @param values  of independent channels
 void expect_extremes_of_all_instants(const Eigen::MatrixXd& values, bool is_smooth) {
   namespace kernel = pipelines::kernel;
   std::mt19937 random(13);
   std::normal_distribution<double> normal;
   constexpr auto n_forms = Index(kernel::forms_at_once);
-  const Eigen::MatrixXd weights = Eigen::MatrixXd::NullaryExpr(n_forms, 7, [&] { return normal(random); });
+  const Eigen::MatrixXd weights =
+      Eigen::MatrixXd::NullaryExpr(n_forms, values.rows(), [&] { return normal(random); });
   const pipelines::WalkedFactors factors(values.array());
-  ASSERT_EQ(factors.n_channels(), 7u);
+  const std::size_t n_channels = factors.n_channels();
+  ASSERT_EQ(n_channels, std::size_t(values.rows()));
   EXPECT_EQ(factors.for_kernel().knots.n_spans > 0, is_smooth);
   std::vector<double> room(kernel::room_of_linear_walk(factors.for_kernel())),
-      walked(7 * kernel::forms_at_once), one(7);
+      walked(n_channels * kernel::forms_at_once), one(n_channels);
   for (Index form = 0; form < n_forms; ++form) {  // the walk has the channels in an order of its own
     const Eigen::VectorXd of_form = weights.row(form);
     factors.gather(of_form.data(), 1, one.data());
-    for (std::size_t k = 0; k < 7; ++k) walked[k * kernel::forms_at_once + std::size_t(form)] = one[k];
+    for (std::size_t k = 0; k < n_channels; ++k)
+      walked[k * kernel::forms_at_once + std::size_t(form)] = one[k];
   }
   const Eigen::MatrixXd all = weights * values;
-  const double rounding = 2e-14 * values.cwiseAbs().maxCoeff() * 7;  // sums of seven terms
+  const double rounding = 1e-13 * values.cwiseAbs().maxCoeff();  // sums of seven terms at most
   for (auto* walk : linear_walks_of_this_machine()) {
     std::array<kernel::LinearExtremes, kernel::forms_at_once> found;
     walk(walked.data(), factors.for_kernel(), room.data(), found.data());
@@ -264,6 +267,26 @@ TEST(LinearExtremes, AreThoseOfAllInstants) {
   expect_extremes_of_all_instants(
       Eigen::MatrixXd::NullaryExpr(7, 5 * pipelines::kernel::block + 1, [&] { return normal(random); }),
       false);
+}
+
+// A parabola within one span, between knots at 0 and u, whose crest at three quarters is as high above u as
+// the bound lets it be, E (1 - u / (4 E))^2; elsewhere a peak at a knot a little lower, and a valley.
+TEST(LinearExtremes, OfACrestAsHighAsItsBound) {
+  for (const double u : {2.0, -2.0}) {
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(1, 720);
+    for (Index i = 0; i <= 160; ++i) {
+      values(0, 400 + i) = 2.2 * (1 - std::abs(double(i) / 80 - 1));  // straight between the knots
+      if (i <= 80) values(0, 600 + i) = std::abs(double(i) / 40 - 1) - 1;
+      if (i <= 8) {
+        const double t = double(u > 0 ? i : 8 - i) / 8;
+        values(0, 200 + i) = 4 * t * (1 - t) + std::abs(u) * t;
+      } else {
+        (u > 0 ? values(0, 200 + i) : values(0, 208 - i)) = 2 - 2 * double(i - 8) / 152;
+      }
+    }
+    expect_extremes_of_all_instants(values, true);
+    expect_extremes_of_all_instants(-values, true);
+  }
 }
 
 // Harmonics, the last span of one to eight instants; with a blow at a knot, within a span and at the end.

@@ -264,10 +264,11 @@ TEST(InstantsThatMatter, OfABlowWithinASpan) {
 }
 
 // Crests between two knots, higher than at all knots of another channel's higher plateau: of von Mises stress
-// by shear, of principal stress by tension beside pressure.
+// by shear, of principal stress by tension beside pressure. Before knot 64 too, where another word of knots
+// begins.
 TEST(InstantsThatMatter, OfACrestBetweenKnots) {
-  const Index n_instants = 480;
-  for (const Index crest : {4, 100, 203, 476}) {
+  const Index n_instants = 720;
+  for (const Index crest : {4, 100, 203, 510, 511, 513, 716}) {
     Eigen::ArrayXXd values(2, n_instants);
     for (Index i = 0; i < n_instants; ++i) {
       const double distance = double(i - crest) / 8;
@@ -278,6 +279,25 @@ TEST(InstantsThatMatter, OfACrestBetweenKnots) {
       expect_maxima_of_smooth_factors(p);
       EXPECT_EQ(pipelines::envelope(p.loads, p.responses, 1).von_mises.instant[0], crest);
     }
+  }
+}
+
+// Straight lines between the knots but in one span, whose crest is below another place's knots without the
+// deviation, and far from the line's other end: only the knot after the span can tell of it, the first one of
+// those that share their deviations.
+TEST(InstantsThatMatter, OfACrestThatTheNextKnotTells) {
+  const Index n_instants = 720, other = 320;
+  for (const Index knot : {64, 192, 512}) {
+    Eigen::ArrayXXd values = Eigen::ArrayXXd::Zero(2, n_instants);
+    for (Index i = 0; i < n_instants; ++i) {
+      const double before = std::max(0.0, 1 - double(knot - i) / 8), after = 1 - double(i - knot) / 160;
+      const double elsewhere = 1.05 - std::abs(double(i - other)) / 64;
+      values(0, i) = std::max({i < knot ? before : after, elsewhere, 0.0});
+    }
+    values(1, knot - 1) = 0.2;  // 0.875 without it
+    const auto p = walked_problem(1, values, [] { return Stress{1, 0, 0, 0, 0, 0}; });
+    expect_maxima_of_smooth_factors(p);
+    EXPECT_EQ(pipelines::envelope(p.loads, p.responses, 1).principal.instant[0], knot - 1);
   }
 }
 
