@@ -55,8 +55,10 @@ public:
 
   Largest of_all() const {
     Largest largest{largest_of(values_), __LONG_MAX__};
-    for (std::size_t i = 0; i < n_lanes; ++i)
-      if (values_[i] == largest.value && instants_[i] < largest.instant) largest.instant = instants_[i];
+    long instants[n_lanes];
+    __builtin_memcpy(instants, &instants_, sizeof instants);
+    for (unsigned bits = at_least(values_, Lanes{} + largest.value); bits != 0; bits &= bits - 1)
+      if (const long at = instants[__builtin_ctz(bits)]; at < largest.instant) largest.instant = at;
     return largest;
   }
 
