@@ -14,6 +14,9 @@ static_assert(forms_at_once % n_forms == 0 && block % (n_groups * n_lanes) == 0)
 constexpr std::size_t at_once = 3;
 static_assert(block % (at_once * n_lanes) == 0);
 
+/// Spans that are superposed side by side, so that one sum does not wait for another.
+constexpr std::size_t n_beside = n_lanes == 8 ? 4 : n_lanes == 4 ? 2 : 1;
+
 /// Of each lane the extremes so far.
 struct Range {
   Lanes largest = Lanes{} - __builtin_huge_val(), smallest = Lanes{} + __builtin_huge_val();
@@ -114,12 +117,12 @@ public:
     const auto matter = [this](std::size_t i) { return spans_that_matter(i); };
     for (std::size_t first = 0; first < n_spans; first += 64)
       for (unsigned long spans = word_of(matter, first, n_spans); spans != 0;) {
-        // Two side by side, so that one does not wait for sums; an odd one twice.
-        const std::size_t one = first + std::size_t(__builtin_ctzl(spans));
-        spans &= spans - 1;
-        const std::size_t other = spans != 0 ? first + std::size_t(__builtin_ctzl(spans)) : one;
-        spans &= spans - 1;
-        look_into_spans(one, other);
+        std::size_t numbers[n_beside];  // with too few, the last one again
+        for (std::size_t j = 0; j < n_beside; ++j) {
+          numbers[j] = j == 0 || spans != 0 ? first + std::size_t(__builtin_ctzl(spans)) : numbers[j - 1];
+          spans &= spans - 1;
+        }
+        look_into_spans(numbers);
       }
   }
 
@@ -132,17 +135,18 @@ private:
     return at_least(most + more, Lanes{} + most_) | at_least(Lanes{} + least_, least - more);
   }
 
-  void look_into_spans(std::size_t one, std::size_t other) {
-    const double *a = factors_at(factors_, one * span), *b = factors_at(factors_, other * span);
-    Lanes of_one[n_of_span] = {}, of_other[n_of_span] = {};
-    for (std::size_t k = 0; k < factors_.n_channels; ++k, a += block, b += block)
+  void look_into_spans(const std::size_t (&numbers)[n_beside]) {
+    const double* a[n_beside];
+    for (std::size_t j = 0; j < n_beside; ++j) a[j] = factors_at(factors_, numbers[j] * span);
+    Lanes sums[n_beside][n_of_span] = {};
+    for (std::size_t k = 0; k < factors_.n_channels; ++k)
 #pragma GCC unroll 4
-      for (std::size_t r = 0; r < n_of_span; ++r) {
-        of_one[r] += weight_[k * forms_at_once] * load(a + r * n_lanes);
-        of_other[r] += weight_[k * forms_at_once] * load(b + r * n_lanes);
-      }
-    take(of_one, one * span);
-    take(of_other, other * span);
+      for (std::size_t j = 0; j < n_beside; ++j)
+#pragma GCC unroll 4
+        for (std::size_t r = 0; r < n_of_span; ++r)
+          sums[j][r] += weight_[k * forms_at_once] * load(a[j] + k * block + r * n_lanes);
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < n_beside; ++j) take(sums[j], numbers[j] * span);
   }
 
   void take(Lanes (&values)[n_of_span], std::size_t first) {

@@ -20,11 +20,10 @@ Eigen::Map<const UnitRows> unit_stresses(const fem::UnitResponses& responses, st
 
 /// What a tensor is multiplied with, component by component, for its product with the deviator of another;
 /// of size one, so that products of small stresses stay numbers.
-Eigen::Matrix<double, 6, 1> direction_of(const Stress& stress) {
-  const double mean = (stress[0] + stress[1] + stress[2]) / 3;
+Eigen::Matrix<double, 6, 1> direction_of(const Stress& s) {
+  const double mean = (s[0] + s[1] + s[2]) / 3;
   Eigen::Matrix<double, 6, 1> direction;
-  for (Index c = 0; c < 6; ++c)
-    direction[c] = c < 3 ? stress[std::size_t(c)] - mean : 2 * stress[std::size_t(c)];
+  direction << s[0] - mean, s[1] - mean, s[2] - mean, 2 * s[3], 2 * s[4], 2 * s[5];
   const double size = direction.lpNorm<Eigen::Infinity>();
   return size > 0 ? Eigen::Matrix<double, 6, 1>(direction / size) : direction;
 }
@@ -75,9 +74,11 @@ private:
 
   /// Of the stress from the smallest value to the largest one.
   Stress change_at(std::size_t node, const kernel::LinearExtremes& extremes) const {
-    const Eigen::Matrix<double, 6, 1> change =
-        unit_stresses(responses_, node).transpose() *
-        (loads_.values.col(extremes.largest_instant) - loads_.values.col(extremes.smallest_instant)).matrix();
+    const auto unit = unit_stresses(responses_, node);
+    Eigen::Matrix<double, 6, 1> change = Eigen::Matrix<double, 6, 1>::Zero();
+    for (Index k = 0; k < unit.rows(); ++k)
+      change += (loads_.values(k, extremes.largest_instant) - loads_.values(k, extremes.smallest_instant)) *
+                unit.row(k).transpose();
     Stress stress;
     std::copy_n(change.data(), 6, stress.begin());
     return stress;
