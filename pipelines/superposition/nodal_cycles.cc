@@ -38,8 +38,6 @@ public:
       : loads_(loads),
         responses_(responses),
         factors_(factors),
-        of_channel_(loads.values.rows()),
-        of_walked_(factors.n_channels()),
         weights_(factors.n_channels() * kernel::forms_at_once),
         room_(kernel::room_of_linear_walk(factors.for_kernel())) {}
 
@@ -61,10 +59,8 @@ private:
   void weigh(std::size_t form, std::size_t node, const Stress& along) {
     const Eigen::Matrix<double, 6, 1> direction = direction_of(along);
     const auto unit = unit_stresses(responses_, node);
-    for (Index k = 0; k < of_channel_.size(); ++k) of_channel_[k] = unit.row(k).dot(direction);
-    factors_.gather(of_channel_.data(), 1, of_walked_.data());
-    for (std::size_t k = 0; k < of_walked_.size(); ++k)
-      weights_[k * kernel::forms_at_once + form] = of_walked_[k];
+    factors_.gather_numbers([&](Index k) { return unit.row(k).dot(direction); }, &weights_[form],
+                            kernel::forms_at_once);
   }
 
   void find_extremes() {
@@ -87,8 +83,7 @@ private:
   const ChannelHistory& loads_;
   const fem::UnitResponses& responses_;
   const WalkedFactors& factors_;
-  Eigen::VectorXd of_channel_;
-  std::vector<double> of_walked_, weights_, room_;
+  std::vector<double> weights_, room_;
   std::array<kernel::LinearExtremes, kernel::forms_at_once> found_{};
 };
 

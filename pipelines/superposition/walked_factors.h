@@ -36,6 +36,19 @@ public:
   /// @param walked      n_channels() rows of `width` numbers, to be written
   void gather(const double* of_channel, std::size_t width, double* walked) const;
 
+  /// The same of one number per channel.
+  /// @param of_channel  of a channel's row
+  /// @param walked      n_channels() numbers, each `stride` after the one before, to be written
+  template <typename OfChannel>
+  void gather_numbers(const OfChannel& of_channel, double* walked, std::size_t stride) const {
+    for (std::size_t i = 0; i < n_channels(); ++i) walked[i * stride] = of_channel(independent_.channels[i]);
+    for (const auto k : independent_.others) {
+      const double other = of_channel(k);
+      for (std::size_t i = 0; i < n_channels(); ++i)
+        walked[i * stride] += independent_.of_channel(k, Eigen::Index(i)) * other;
+    }
+  }
+
 private:
   void bound(std::size_t channel, std::size_t b, double largest);
   void find_knots();
