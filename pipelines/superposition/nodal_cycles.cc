@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "pipelines/common/parallel.h"
 #include "pipelines/superposition/linear_extremes_kernel.h"
@@ -21,11 +22,14 @@ Eigen::Map<const UnitRows> unit_stresses(const fem::UnitResponses& responses, st
 /// What a tensor is multiplied with, component by component, for its product with the deviator of another;
 /// of size one, so that products of small stresses stay numbers.
 Eigen::Matrix<double, 6, 1> direction_of(const Stress& s) {
-  const double mean = (s[0] + s[1] + s[2]) / 3;
+  const double mean = (s[0] + s[1] + s[2]) / 3, dx = s[0] - mean, dy = s[1] - mean, dz = s[2] - mean;
+  const double normal = std::max({std::abs(dx), std::abs(dy), std::abs(dz)});
+  const double shear = std::max({std::abs(s[3]), std::abs(s[4]), std::abs(s[5])});
+  const double size = std::max(normal, 2 * shear), divisor = size > 0 ? size : 1;
   Eigen::Matrix<double, 6, 1> direction;
-  direction << s[0] - mean, s[1] - mean, s[2] - mean, 2 * s[3], 2 * s[4], 2 * s[5];
-  const double size = direction.lpNorm<Eigen::Infinity>();
-  return size > 0 ? Eigen::Matrix<double, 6, 1>(direction / size) : direction;
+  direction << dx / divisor, dy / divisor, dz / divisor, 2 * s[3] / divisor, 2 * s[4] / divisor,
+      2 * s[5] / divisor;
+  return direction;
 }
 
 /// Nodes that a thread takes at once.
