@@ -12,24 +12,19 @@ constexpr std::size_t n_of_knots = n_lanes == 8 ? 3 : 2;
 static_assert(block % (n_of_knots * n_lanes) == 0);
 
 /// What von Mises stress and the largest principal stress exceed those of the knots by.
-struct Deviations {
+class Deviations {
+public:
   double* von_mises;
   double* principal;
 
   Deviations(const double* unit, const Factors& factors, double* room)
-      : von_mises(room), principal(room + factors.knots.n_deviations) {
-    const std::size_t n = factors.knots.n_deviations;
-    double* sizes = principal + n;
-    for (std::size_t k = 0; k < factors.n_channels; ++k, unit += n_coordinates) {
-      double square = 0;
-      for (std::size_t c = 0; c < 5; ++c) square += unit[c] * unit[c];
-      sizes[2 * k] = __builtin_sqrt(square);
-      sizes[2 * k + 1] = __builtin_fabs(unit[5]) + 2.0 / 3.0 * sizes[2 * k];
-    }
-    for (std::size_t d = 0; d < n; d += n_lanes) {
+      : von_mises(room), principal(room + factors.knots.n_deviations), n_(factors.knots.n_deviations) {
+    double* sizes = principal + n_;
+    find_sizes(unit, factors.n_channels, sizes);
+    for (std::size_t d = 0; d < n_; d += n_lanes) {
       Lanes of_von_mises = {}, of_principal = {};
       for (std::size_t k = 0; k < factors.n_channels; ++k) {
-        const Lanes deviation = load(factors.knots.deviations + k * n + d);
+        const Lanes deviation = load(factors.knots.deviations + k * n_ + d);
         of_von_mises += sizes[2 * k] * deviation;
         of_principal += sizes[2 * k + 1] * deviation;
       }
@@ -37,6 +32,27 @@ struct Deviations {
       store(principal + d, of_principal);
     }
   }
+
+  /// Squared von Mises stress from which on a knot's spans may have `largest`, instead of the deviations.
+  void squares_that_reach(double largest) const {
+    for (std::size_t d = 0; d < n_; d += n_lanes) {
+      const Lanes rest = larger(largest - load(von_mises + d), Lanes{});
+      store(von_mises + d, rest * rest * (1 - tolerance));
+    }
+  }
+
+private:
+  /// Of each channel's unit stress: von Mises, and a bound of the largest principal stress with either sign.
+  static void find_sizes(const double* unit, std::size_t n_channels, double* sizes) {
+    for (std::size_t k = 0; k < n_channels; ++k, unit += n_coordinates) {
+      double square = 0;
+      for (std::size_t c = 0; c < 5; ++c) square += unit[c] * unit[c];
+      sizes[2 * k] = __builtin_sqrt(square);
+      sizes[2 * k + 1] = __builtin_fabs(unit[5]) + 2.0 / 3.0 * sizes[2 * k];
+    }
+  }
+
+  std::size_t n_;
 };
 
 /// Squared von Mises stress, third invariant and mean stress at the knots of a node.
@@ -64,9 +80,9 @@ struct AtKnots {
     largest_square = largest_of(most);
   }
 
-  /// A lower bound of the largest principal stress: that of the knots where mean + sigma_v / 2 + sigma_v
-  /// cos(3 theta) / 6, below it by a tenth of sigma_v at most, seems largest.
-  double principal_so_far(const double* lode) const {
+  /// The largest principal stress of some knots: those where mean + sigma_v / 2 + sigma_v cos(3 theta) / 6,
+  /// below it by a tenth of sigma_v at most, seems largest.
+  Largest principal_so_far(const double* lode, const Knots& knots) const {
     const double size = __builtin_sqrt(largest_square), of_square = 0.5 / (size + smallest),
                  of_third = 1.0 / 6.0 / (largest_square + smallest);
     LargestOfLanes largest;
@@ -76,7 +92,12 @@ struct AtKnots {
       largest.take(estimate, i);
     }
     const std::size_t at = std::size_t(largest.of_all().instant) / n_lanes * n_lanes;
-    return largest_of(largest_principal(load(squares + at), load(thirds + at), load(means + at), lode));
+    const Lanes found[] = {largest_principal(load(squares + at), load(thirds + at), load(means + at), lode)};
+    Largest principal;
+    principal.take(found, at);
+    const std::size_t instant = std::size_t(principal.instant) * span;
+    principal.instant = long(instant < knots.last ? instant : knots.last);
+    return principal;
   }
 };
 
@@ -87,8 +108,10 @@ public:
   Largest principal;
   std::size_t n_spans = 0;  ///< that were looked into
 
-  Maxima(const double* unit, const Factors& factors, const double* lode)
-      : unit_(unit), factors_(factors), lode_(lode) {}
+  /// @param so_far  principal stress of a knot. Should it come out smaller within its span, by rounding, the
+  ///                knot stays.
+  Maxima(const double* unit, const Factors& factors, const double* lode, const Largest& so_far)
+      : principal(so_far), unit_(unit), factors_(factors), lode_(lode) {}
 
   void look_into_span(std::size_t number) {
     const std::size_t first = number * span;
@@ -112,13 +135,11 @@ private:
 NodeMaximum walk_knots(const double* unit, const Factors& factors, const double* lode, double* room) {
   const AtKnots at(unit, factors, room);
   const Deviations deviations(unit, factors, room + 3 * at.n);
-  const double size = __builtin_sqrt(at.largest_square), so_far = at.principal_so_far(lode);
-  for (std::size_t d = 0; d < factors.knots.n_deviations; d += n_lanes) {
-    const Lanes rest = larger(size - load(deviations.von_mises + d), Lanes{});
-    store(deviations.von_mises + d, rest * rest * (1 - tolerance));
-  }
-  Maxima maxima(unit, factors, lode);
-  maxima.principal.value = so_far - tolerance * (size + __builtin_fabs(so_far));
+  const double size = __builtin_sqrt(at.largest_square);
+  deviations.squares_that_reach(size);
+  Largest so_far = at.principal_so_far(lode, factors.knots);
+  so_far.value -= tolerance * (size + __builtin_fabs(so_far.value));
+  Maxima maxima(unit, factors, lode, so_far);
   const auto matter = [&](std::size_t knot) {
     const std::size_t d = knot / knots_at_once;
     const Lanes square = load(at.squares + knot),
@@ -126,21 +147,10 @@ NodeMaximum walk_knots(const double* unit, const Factors& factors, const double*
     return at_least(square, Lanes{} + deviations.von_mises[d]) |
            may_reach(value, square, load(at.thirds + knot), load(at.means + knot));
   };
-  const std::size_t n_spans = factors.knots.n_spans;
-  for (unsigned long first = 0, knots = word_of(matter, 0, n_spans + 1), next; first < n_spans; first += 64) {
-    next = first + 64 <= n_spans ? word_of(matter, first + 64, n_spans + 1) : 0;
-    unsigned long spans = knots | knots >> 1 | next << 63;
-    if (n_spans - first < 64) spans &= (1ul << (n_spans - first)) - 1;
-    for (; spans != 0; spans &= spans - 1) maxima.look_into_span(first + std::size_t(__builtin_ctzl(spans)));
-    knots = next;
-  }
+  for_each_span(factors.knots, matter, [&](std::size_t number) { maxima.look_into_span(number); });
   const Largest square = maxima.square.of_all();
-  return {square.value,
-          maxima.principal.value,
-          square.instant,
-          maxima.principal.instant,
-          0,
-          n_spans + 1 + maxima.n_spans * (span - 1)};
+  const std::size_t n_with_six = factors.knots.n_spans + 1 + maxima.n_spans * (span - 1);
+  return {square.value, maxima.principal.value, square.instant, maxima.principal.instant, 0, n_with_six};
 }
 
 }  // namespace pipelines::kernel::KERNEL_VARIANT

@@ -84,4 +84,20 @@ template <typename OfLanes>
   return n_of_word < 64 ? word & ((1ul << n_of_word) - 1) : word;
 }
 
+/// The spans beside knots that matter, in ascending order.
+/// @param matter  of the number of a knot: a bit for each of n_lanes knots from it on
+/// @param look    takes the number of a span
+template <typename Matter, typename Look>
+[[gnu::always_inline]] inline void for_each_span(const Knots& knots, const Matter& matter, const Look& look) {
+  const std::size_t n_knots = knots.n_spans + 1;
+  unsigned long next = word_of(matter, 0, n_knots);
+  for (std::size_t first = 0; first < knots.n_spans; first += 64) {
+    const unsigned long here = next;
+    next = first + 64 < n_knots ? word_of(matter, first + 64, n_knots) : 0;
+    unsigned long spans = here | here >> 1 | next << 63;
+    if (knots.n_spans - first < 64) spans &= (1ul << (knots.n_spans - first)) - 1;
+    for (; spans != 0; spans &= spans - 1) look(first + std::size_t(__builtin_ctzl(spans)));
+  }
+}
+
 }  // namespace pipelines::kernel::KERNEL_VARIANT

@@ -32,6 +32,7 @@ constexpr std::size_t knots_at_once = 8;
 /// deviations.
 struct Knots {
   std::size_t n_spans = 0;         ///< one less than the knots; 0: the factors are too rough
+  std::size_t last = 0;            ///< instant, of the last knot
   std::size_t n_blocks = 0;        ///< of knots, padded with the last one
   std::size_t n_deviations = 0;    ///< a multiple of knots_at_once
   const double* values = nullptr;  ///< n_blocks x n_channels x block

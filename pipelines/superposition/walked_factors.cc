@@ -117,14 +117,15 @@ void WalkedFactors::find_knots() {
   using kernel::block, kernel::knots_at_once, kernel::span;
   if (n_blocks_ < fewest_blocks_for_knots || n_channels() == 0) return;
   const std::size_t n_spans = (n_given_ + span - 1) / span, n_groups = n_spans / knots_at_once + 1;
-  knots_ = {n_spans, n_spans / block + 1, (n_groups / knots_at_once + 1) * knots_at_once, nullptr, nullptr};
+  knots_ = {n_spans, n_given_ - 1, n_spans / block + 1, (n_groups / knots_at_once + 1) * knots_at_once,
+            nullptr, nullptr};
   knot_values_.resize(knots_.n_blocks * n_channels() * block);
   deviations_.assign(n_channels() * knots_.n_deviations, 0.0);
   double roughness = 0;
   for (std::size_t k = 0; k < n_channels(); ++k) {
     for (std::size_t i = 0; i < knots_.n_blocks * block; ++i)
       knot_values_[(i / block * n_channels() + k) * block + i % block] =
-          value(k, std::min(i * span, n_given_ - 1));
+          value(k, std::min(i * span, knots_.last));
     find_deviations(k);
     for (std::size_t d = 0; d < n_groups; ++d)
       roughness += deviations_[k * knots_.n_deviations + d] / sizes_[k];

@@ -3,6 +3,7 @@
 /// over all instants.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -314,6 +315,28 @@ TEST(InstantsThatMatter, OfEqualInstantsTheFirstOfSmoothFactors) {
       const auto found = pipelines::envelope(p.loads, p.responses, 1);
       EXPECT_EQ(found.principal.instant[0], first);
     }
+}
+
+// Tension along two axes, turned at random: the Lode angle's cosine is known to the root of the rounding,
+// which is less than what two instants beside each other differ by. At a knot, beside one, between two, and
+// last.
+TEST(InstantsThatMatter, OfTwoEqualPrincipalStresses) {
+  std::mt19937 random(43);
+  std::normal_distribution<double> normal;
+  const auto turned_tension = [&] {
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+    const Eigen::Matrix3d m =
+        turn.toRotationMatrix() * Eigen::Vector3d(1, 1, 0).asDiagonal() * turn.toRotationMatrix().transpose();
+    return Stress{m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2)};
+  };
+  for (const Index crest : {0, 96, 97, 100, 719}) {
+    Eigen::ArrayXXd values(1, 720);
+    for (Index i = 0; i < 720; ++i) values(0, i) = 1 + 0.5 * std::cos(M_PI * double(i - crest) / 720);
+    const auto p = walked_problem(100, values, turned_tension);
+    for (const auto instant : pipelines::envelope(p.loads, p.responses, 1).principal.instant)
+      EXPECT_EQ(instant, crest);
+  }
 }
 
 // A history that changes at its last instant alone is not steady.
