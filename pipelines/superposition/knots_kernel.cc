@@ -61,7 +61,8 @@ struct AtKnots {
   double *squares, *thirds, *means;
   double largest_square;
 
-  AtKnots(const double* unit, const Factors& factors, double* room)
+  // Apart from the rest, here and in look_into_span, so that the sums stay in registers: 3 % of the time.
+  [[gnu::noinline]] AtKnots(const double* unit, const Factors& factors, double* room)
       : n(factors.knots.n_blocks * block), squares(room), thirds(room + n), means(room + 2 * n) {
     Lanes most = {};
     for (std::size_t first = 0; first < n; first += n_of_knots * n_lanes) {
@@ -113,7 +114,7 @@ public:
   Maxima(const double* unit, const Factors& factors, const double* lode, const Largest& so_far)
       : principal(so_far), unit_(unit), factors_(factors), lode_(lode) {}
 
-  void look_into_span(std::size_t number) {
+  [[gnu::noinline]] void look_into_span(std::size_t number) {
     const std::size_t first = number * span;
     ++n_spans;
     const Stresses<6, n_of_span> stresses(unit_, factors_at(factors_, first), factors_.n_channels);
