@@ -2,6 +2,7 @@
 #include "pipelines/superposition/knots_kernel.h"
 
 #include "pipelines/superposition/principal_kernel.h"
+#include "pipelines/superposition/spans_kernel.h"
 
 namespace pipelines::kernel::KERNEL_VARIANT {
 namespace {

@@ -26,9 +26,6 @@ public:
   explicit WalkedFactors(const Eigen::ArrayXXd& values);
 
   std::size_t n_channels() const { return independent_.channels.size(); }
-  std::size_t n_instants() const {
-    return n_blocks_ * kernel::block;
-  }  ///< with those that fill the last block
   kernel::Factors for_kernel() const;
 
   /// What a quantity that is linear in the channels makes of the independent ones.
