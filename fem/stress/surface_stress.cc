@@ -1,6 +1,8 @@
 #include "fem/stress/surface_stress.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "fem/common/lagrange.h"
@@ -36,7 +38,81 @@ std::vector<double> face_shapes(CellShape shape, const Point& at) {
   return values;
 }
 
+using Vector3 = Eigen::Vector3d;
+
+/// A point of a face and how it moves with the reference coordinates.
+struct FaceMap {
+  Vector3 at = Vector3::Zero();
+  Eigen::Matrix<double, 3, 2> slope = Eigen::Matrix<double, 3, 2>::Zero();
+};
+
+FaceMap map_face(const Nodes& nodes, const NodeList& face, const Point& at) {
+  const auto on_edge = nodes_on_edge(nodes.degree);
+  const auto x = lagrange(on_edge, at[0]), y = lagrange(on_edge, at[1]);
+  const int* order = vtk_quad_order(nodes.degree);
+  FaceMap map;
+  for (std::size_t v = 0; v < face.size(); ++v) {
+    const auto &a = x[std::size_t(order[v]) % on_edge.size()], &b = y[std::size_t(order[v]) / on_edge.size()];
+    const Vector3 node(&nodes.xyz_m[3 * std::size_t(face.begin()[v])]);
+    map.at += a.value * b.value * node;
+    map.slope.col(0) += a.derivative * b.value * node;
+    map.slope.col(1) += a.value * b.derivative * node;
+  }
+  return map;
+}
+
+/// The point of a face next to another: Gauss and Newton, within the face.
+struct Nearest {
+  Point at{};
+  double distance_m = 0;
+};
+Nearest nearest_on_face(const Nodes& nodes, const NodeList& face, const Vector3& wanted) {
+  constexpr int most_steps = 20;
+  constexpr double small_step = 1e-12;
+  Nearest nearest{{0.5, 0.5}, 0};
+  for (int step = 0; step < most_steps; ++step) {
+    const auto map = map_face(nodes, face, nearest.at);
+    const Eigen::Vector2d change =
+        (map.slope.transpose() * map.slope).ldlt().solve(map.slope.transpose() * (wanted - map.at));
+    double moved = 0;
+    for (int d = 0; d < 2; ++d) {
+      const double before = nearest.at[std::size_t(d)];
+      nearest.at[std::size_t(d)] = std::clamp(before + change[d], 0.0, 1.0);
+      moved = std::max(moved, std::abs(nearest.at[std::size_t(d)] - before));
+    }
+    if (moved < small_step) break;
+  }
+  nearest.distance_m = (map_face(nodes, face, nearest.at).at - wanted).norm();
+  return nearest;
+}
+
 }  // namespace
+
+std::vector<NodeShare> point_on_boundary(const Nodes& nodes, const std::array<double, 3>& at_m,
+                                         double off_m) {
+  if (nodes.shape().is_tetrahedron()) return {};
+  const Vector3 wanted(at_m.data());
+  const auto node_at = [&](std::int32_t i) { return Vector3(&nodes.xyz_m[3 * std::size_t(i)]); };
+  std::vector<NodeShare> found;
+  double least_m = off_m;
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    const Vector3 corner = node_at(face.begin()[0]);
+    double size_m = 0;
+    for (const auto i : face) {
+      if ((node_at(i) - wanted).norm() <= off_m) return {{std::size_t(i), 1}};
+      size_m = std::max(size_m, (node_at(i) - corner).norm());
+    }
+    if ((wanted - corner).norm() > 1.5 * size_m) continue;
+    const auto nearest = nearest_on_face(nodes, face, wanted);
+    if (nearest.distance_m >= least_m) continue;
+    least_m = nearest.distance_m;
+    const auto shapes = face_shapes(nodes.shape(), nearest.at);
+    found.clear();
+    for (std::size_t v = 0; v < face.size(); ++v) found.push_back({std::size_t(face.begin()[v]), shapes[v]});
+  }
+  return found;
+}
 
 std::vector<UnitStress> stress_on_faces_around_Pa(const UnitResponses& responses, std::size_t node, int n,
                                                   const std::vector<char>& left_out) {

@@ -18,4 +18,17 @@ using UnitStress = std::vector<std::array<double, 6>>;
 std::vector<UnitStress> stress_on_faces_around_Pa(const UnitResponses& responses, std::size_t node, int n,
                                                   const std::vector<char>& left_out);
 
+/// What a node's value contributes at a point of the surface.
+struct NodeShare {
+  std::size_t node = 0;
+  double weight = 1;
+};
+
+/// A point of the surface by the boundary face that holds it: one node where one lies there, all of the
+/// face's by their shape functions elsewhere. Hexahedra only.
+/// @param at_m   the point
+/// @param off_m  what it may be off the meshed surface by
+/// @return empty if no face comes so near
+std::vector<NodeShare> point_on_boundary(const Nodes& nodes, const std::array<double, 3>& at_m, double off_m);
+
 }  // namespace fem

@@ -87,6 +87,10 @@ struct ChamberMeshControl {
   double growth = 0.7;     ///< slope of the cell size away from the weld toes
   double toe_walls = 0.6;  ///< size of the cells at the weld toes, in walls of the tube
   std::vector<FineToe> fine_toes;
+  /// For meshes whose cells are cut later: without vertices at the points of hot spots, which are in the way
+  /// all around and along the tube. With toe_walls = lean_toe_walls cells that are cut twice have them.
+  bool lean = false;
+  static constexpr double lean_toe_walls = 1.6;
   double min_scaled_jacobian = 0.3;  ///< refused below
 };
 

@@ -118,7 +118,12 @@ ChamberStations place_stations(const Chamber& chamber, const ChamberLayout& layo
   BreakPoints z_breaks = faces_along_z(chamber, layout), arcs = edges_around(layout);
   add_columns_to_corners(layout, arcs);
   ChamberStations result;
-  result.hot_spots = place_hot_spots(chamber, layout, arcs, z_breaks);
+  if (control.lean) {
+    BreakPoints arcs_with_points = arcs, breaks_with_points = z_breaks;
+    result.hot_spots = place_hot_spots(chamber, layout, arcs_with_points, breaks_with_points);
+  } else {
+    result.hot_spots = place_hot_spots(chamber, layout, arcs, z_breaks);
+  }
 
   const double toe_m = layout.toe_size_m, period_m = 2 * pi * layout.tube_outer_m;
   AxialSize along{

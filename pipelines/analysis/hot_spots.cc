@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fem/stress/surface_stress.h"
+
 namespace pipelines {
 namespace {
 
@@ -11,23 +13,32 @@ using Eigen::ArrayXXd;
 
 constexpr double near_weight = 1.67, far_weight = -0.67;
 
-std::size_t node_at(const fem::Nodes& nodes, const std::array<double, 3>& p, const meshes::HotSpot& spot) {
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < nodes.n; ++i) {
-    const double* x = &nodes.xyz_m[3 * i];
-    const double d = std::hypot(x[0] - p[0], x[1] - p[1], x[2] - p[2]);
-    if (d < least) least = d, best = i;
+/// Of the meshed surface from the drawn one, in plate thicknesses: rounding beside a node, chords elsewhere.
+constexpr double at_node = 1e-6, off_surface = 0.02;
+
+std::vector<fem::NodeShare> shares_at(const fem::Nodes& nodes, const std::array<double, 3>& p,
+                                      const meshes::HotSpot& spot) {
+  for (const double off : {at_node, off_surface})
+    if (auto shares = fem::point_on_boundary(nodes, p, off * spot.thickness_m); !shares.empty())
+      return shares;
+  throw std::runtime_error("hot spot \"" + spot.name + "\": no face of the mesh holds its points");
+}
+
+void add(const std::vector<fem::NodeShare>& shares, double weight, std::vector<StressPoint::Part>& parts) {
+  for (const auto& share : shares) {
+    const auto known =
+        std::find_if(parts.begin(), parts.end(), [&](auto& part) { return part.node == share.node; });
+    if (known != parts.end())
+      known->weight += weight * share.weight;
+    else
+      parts.push_back({share.node, weight * share.weight});
   }
-  if (!(least <= 1e-6 * spot.thickness_m))
-    throw std::runtime_error("hot spot \"" + spot.name + "\": no node of the mesh lies at its points");
-  return best;
 }
 
 }  // namespace
 
 StressPoint stress_point(const HotSpotStress& spot) {
-  return {{{spot.near_node, near_weight}, {spot.far_node, far_weight}}, spot.instant, spot.resolved};
+  return {spot.parts, spot.instant, spot.resolved};
 }
 
 void take_course(const meshes::HotSpot& drawing, const std::vector<std::array<double, 6>>& unit_Pa,
@@ -64,8 +75,13 @@ std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>&
   std::vector<HotSpotStress> results;
   for (const auto& spot : spots) {
     HotSpotStress result;
-    result.near_node = node_at(responses.nodes, spot.near_m, spot);
-    result.far_node = node_at(responses.nodes, spot.far_m, spot);
+    const auto near = shares_at(responses.nodes, spot.near_m, spot),
+               far = shares_at(responses.nodes, spot.far_m, spot);
+    add(near, near_weight, result.parts);
+    add(far, far_weight, result.parts);
+    result.near_node = std::max_element(near.begin(), near.end(), [](auto& x, auto& y) {
+                         return x.weight < y.weight;
+                       })->node;
     result.name = spot.name;
     result.toe_m = spot.toe_m;
     take_course(spot, unit_stress_at(responses, stress_point(result)), loads, result);

@@ -17,7 +17,8 @@ namespace pipelines {
 struct HotSpotStress {
   std::string name;
   std::array<double, 3> toe_m{};
-  std::size_t near_node = 0, far_node = 0;         ///< at 0.4 and 1.0 plate thicknesses
+  std::vector<StressPoint::Part> parts;            ///< nodes of the extrapolation, with its weights
+  std::size_t near_node = 0;                       ///< next to the point at 0.4 plate thicknesses
   double von_mises_Pa = 0;                         ///< largest over the cycle
   std::int32_t instant = 0;                        ///< of that
   double error_Pa = 0;                             ///< numerical part, estimated on this mesh alone

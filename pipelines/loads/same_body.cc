@@ -79,7 +79,7 @@ auto fields(const meshes::Chamber& c) {
 
 bool are_same(const ChamberShape& a, const ChamberShape& b) {
   const auto control = [](const meshes::ChamberMeshControl& c) {
-    return std::tie(c.cells_through_wall, c.size_m, c.growth, c.toe_walls, c.min_scaled_jacobian);
+    return std::tie(c.cells_through_wall, c.size_m, c.growth, c.toe_walls, c.min_scaled_jacobian, c.lean);
   };
   return fields(a.geometry) == fields(b.geometry) && are_same(a.geometry.feet, b.geometry.feet) &&
          control(a.mesh) == control(b.mesh) && are_same(a.mesh.fine_toes, b.mesh.fine_toes);

@@ -196,6 +196,12 @@ std::vector<BodyScene> first_meshes(const BodyScene& body) {
   std::vector<BodyScene> meshes;
   if (!is_block_shaft(body)) {
     meshes = {with_fineness(body, coarser_start)};
+    if (is_refined_locally(body)) {  // a chamber
+      meshes.insert(meshes.begin(), meshes.front());
+      auto& mesh = std::get<ChamberShape>(meshes.front().shape).mesh;
+      mesh.lean = true;
+      mesh.toe_walls = meshes::ChamberMeshControl::lean_toe_walls;
+    }
   } else {
     const auto add = [&](const std::array<int, 2>& cells_and_sectors, bool lean) {
       meshes.push_back(body);
