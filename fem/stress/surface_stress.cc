@@ -40,6 +40,9 @@ std::vector<double> face_shapes(CellShape shape, const Point& at) {
 
 using Vector3 = Eigen::Vector3d;
 
+/// Of a node away from the point, where another lies there.
+constexpr double no_weight = 1e-9;
+
 /// A point of a face and how it moves with the reference coordinates.
 struct FaceMap {
   Vector3 at = Vector3::Zero();
@@ -99,17 +102,16 @@ std::vector<NodeShare> point_on_boundary(const Nodes& nodes, const std::array<do
     const auto face = nodes.face(f);
     const Vector3 corner = node_at(face.begin()[0]);
     double size_m = 0;
-    for (const auto i : face) {
-      if ((node_at(i) - wanted).norm() <= off_m) return {{std::size_t(i), 1}};
-      size_m = std::max(size_m, (node_at(i) - corner).norm());
-    }
+    for (const auto i : face) size_m = std::max(size_m, (node_at(i) - corner).norm());
     if ((wanted - corner).norm() > 1.5 * size_m) continue;
     const auto nearest = nearest_on_face(nodes, face, wanted);
     if (nearest.distance_m >= least_m) continue;
     least_m = nearest.distance_m;
     const auto shapes = face_shapes(nodes.shape(), nearest.at);
     found.clear();
-    for (std::size_t v = 0; v < face.size(); ++v) found.push_back({std::size_t(face.begin()[v]), shapes[v]});
+    for (std::size_t v = 0; v < face.size(); ++v)
+      if (std::abs(shapes[v]) > no_weight) found.push_back({std::size_t(face.begin()[v]), shapes[v]});
+    if (found.size() == 1) found.front().weight = 1;
   }
   return found;
 }

@@ -47,7 +47,7 @@ void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
     StageClock own;
     run.loaded = load_bodies(scene, std::move(run.loaded.meshed), own);
     auto& analysis = run.analyses.front();
-    analysis = superpose_body(scene, scene.bodies[body], run.loaded.meshed[body], run.loaded.body_loads[body],
+    analysis = superpose_body(scene.bodies[body], run.loaded.meshed[body], run.loaded.body_loads[body],
                               std::move(analysis.responses), bench.options().n_threads, own,
                               {{}, analysis.hot_spots});
     run.scene = scene;

@@ -14,12 +14,12 @@ BodyAnalysis& BodyAnalysis::operator=(const BodyAnalysis&) = default;
 BodyAnalysis& BodyAnalysis::operator=(BodyAnalysis&&) noexcept = default;
 BodyAnalysis::~BodyAnalysis() = default;
 
-BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          BodyLoads loads, const RunOptions& options, StageClock& clock) {
+BodyAnalysis analyse_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                          const RunOptions& options, StageClock& clock) {
   const auto start = std::chrono::steady_clock::now();
   auto answer = respond(body, meshed, loads, options, clock);
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
-  auto analysis = superpose_body(scene, body, meshed, std::move(loads), std::move(answer.responses),
+  auto analysis = superpose_body(body, meshed, std::move(loads), std::move(answer.responses),
                                  options.n_threads, clock, {{}, {}, !options.keep_factor});
   analysis.responses_reused = answer.reused;
   analysis.warnings = std::move(answer.warnings);

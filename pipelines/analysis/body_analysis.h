@@ -107,9 +107,9 @@ struct RunOptions {
   bool keep_factor = false;         ///< a search refines locally: for its goals, and instead of submodels
 };
 
-/// Solves and superposes. Writes no results.
+/// Solves and superposes. Finds no zones (superpose_body.h) and writes no results.
 /// @throws fem::SolveFailed if the solve fails, LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
-BodyAnalysis analyse_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          BodyLoads loads, const RunOptions& options, StageClock& clock);
+BodyAnalysis analyse_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                          const RunOptions& options, StageClock& clock);
 
 }  // namespace pipelines

@@ -13,14 +13,13 @@ using Eigen::ArrayXXd;
 
 constexpr double near_weight = 1.67, far_weight = -0.67;
 
-/// Of the meshed surface from the drawn one, in plate thicknesses: rounding beside a node, chords elsewhere.
-constexpr double at_node = 1e-6, off_surface = 0.02;
+/// Of the meshed surface from the drawn one, in plate thicknesses: chords under arcs.
+constexpr double off_surface = 0.02;
 
 std::vector<fem::NodeShare> shares_at(const fem::Nodes& nodes, const std::array<double, 3>& p,
                                       const meshes::HotSpot& spot) {
-  for (const double off : {at_node, off_surface})
-    if (auto shares = fem::point_on_boundary(nodes, p, off * spot.thickness_m); !shares.empty())
-      return shares;
+  auto shares = fem::point_on_boundary(nodes, p, off_surface * spot.thickness_m);
+  if (!shares.empty()) return shares;
   throw std::runtime_error("hot spot \"" + spot.name + "\": no face of the mesh holds its points");
 }
 

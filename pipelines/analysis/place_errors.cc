@@ -126,8 +126,12 @@ void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& j
                             : fmt::format("{} with its own error exceeds it by that", judgement.other_place),
                         judgement.other_places_Pa});
   analysis.place_stresses = judged;
+  take_zone_errors(analysis);
+}
+
+void take_zone_errors(BodyAnalysis& analysis) {
   for (auto& zone : analysis.zones.zones)
-    for (const auto& place : judged)
+    for (const auto& place : analysis.place_stresses)
       if (place.feature == zone.feature && place.value_Pa > 0)
         zone.error_Pa = place.error_Pa * zone.peak_Pa / place.value_Pa;
 }

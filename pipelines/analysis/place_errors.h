@@ -27,6 +27,9 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
 void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
                        const std::string& method);
 
+/// A zone at a place that is judged has the relative error of that place.
+void take_zone_errors(BodyAnalysis& analysis);
+
 /// Cells on the quarter of a fillet, on a locally refined mesh the fewest beside the place's maximum; 0 for
 /// places that are no fillets of a shaft of blocks.
 int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place);

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "pipelines/analysis/load_patch.h"
+#include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/submodels.h"
 #include "pipelines/scene/body_kind.h"
@@ -38,16 +39,29 @@ Peak headline(const BodyAnalysis& analysis) {
   return peak;
 }
 
-/// Of all weld toes, and of the first zones: those that are shown.
-void estimate_errors(BodyAnalysis& analysis) {
+/// Of the weld toe with the largest stress, which may govern.
+void estimate_error_of_largest_toe(BodyAnalysis& analysis) {
+  if (analysis.hot_spots.empty()) return;
+  auto& largest = analysis.hot_spots.front();
+  analysis.hot_spot_errors = errors_at(stress_point(largest), analysis);
+  largest.error_Pa = analysis.hot_spot_errors.numerical_Pa();
+}
+
+/// Of the first zones, those that are shown, and of the other weld toes.
+/// @param judged  places whose errors count instead
+void estimate_errors_shown(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+  const auto is_judged = [&](const std::string& feature) {
+    return std::any_of(judged.begin(), judged.end(), [&](const PlaceStress& place) {
+      return place.feature == feature && place.value_Pa > 0;
+    });
+  };
   auto& zones = analysis.zones.zones;
   for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i)
-    zones[i].error_Pa = errors_at({{{zones[i].peak_node, 1.0}}, zones[i].instant}, analysis).numerical_Pa();
-  for (auto& spot : analysis.hot_spots) {
-    const auto errors = errors_at(stress_point(spot), analysis);
-    spot.error_Pa = errors.numerical_Pa();
-    if (&spot == &analysis.hot_spots.front()) analysis.hot_spot_errors = errors;
-  }
+    if (!is_judged(zones[i].feature))
+      zones[i].error_Pa = errors_at({{{zones[i].peak_node, 1.0}}, zones[i].instant}, analysis).numerical_Pa();
+  for (std::size_t i = 1; i < analysis.hot_spots.size(); ++i)
+    if (auto& spot = analysis.hot_spots[i]; !is_judged(spot.name))
+      spot.error_Pa = errors_at(stress_point(spot), analysis).numerical_Pa();
 }
 
 /// Whether cells of the body were solved that submodels can cut: cheap models have none.
@@ -75,8 +89,8 @@ KnownBefore known_of(BodyAnalysis& before, const BodyLoads& now, bool needs_subm
   return known;
 }
 
-BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
+BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                            fem::UnitResponses responses, int n_threads, StageClock& clock,
                             KnownBefore known) {
   const ShaftShape* shaft = body.shaft();
   BodyAnalysis analysis;
@@ -102,9 +116,6 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                                    analysis.mesh.sharp_edges);
     analysis.peak = headline(analysis);
     analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
-    analysis.zones = divided(zones_of(analysis, scene.zones), analysis.responses.nodes,
-                             analysis.envelope.von_mises, analysis.places);
-    analysis.zone_causes = causes_of(analysis.zones, analysis.responses, analysis.loads.history);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
   });
   if (known.needs_submodels && !analysis.hot_spots.empty() && has_cells(analysis.responses))
@@ -112,7 +123,7 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
       resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
                         analysis.hot_spots, known.hot_spots);
     });
-  clock.run("zones", [&] { estimate_errors(analysis); });
+  clock.run("zones", [&] { estimate_error_of_largest_toe(analysis); });
   clock.run("superpose", [&] { add_load_patch_error(analysis); });
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {
@@ -120,6 +131,14 @@ BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const Mes
                               body.material.density_kg_m3, kind_of(body).supporting_ports(body));
     });
   return analysis;
+}
+
+void add_zones(const ZoneRule& rule, BodyAnalysis& analysis) {
+  analysis.zones = divided(zones_of(analysis, rule), analysis.responses.nodes, analysis.envelope.von_mises,
+                           analysis.places);
+  analysis.zone_causes = causes_of(analysis.zones, analysis.responses, analysis.loads.history);
+  estimate_errors_shown(analysis, analysis.place_stresses);
+  take_zone_errors(analysis);
 }
 
 BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, BodyLoads loads,
@@ -140,7 +159,8 @@ BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, 
   if (resolved)
     resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
                       analysis.hot_spots, before);
-  estimate_errors(analysis);
+  estimate_error_of_largest_toe(analysis);
+  estimate_errors_shown(analysis, {});
   return analysis;
 }
 

@@ -1,4 +1,4 @@
-/// From unit responses to what is known of a body: envelope, places, peak, zones, hot spots, diagrams, and
+/// From unit responses to what is known of a body: envelope, places, peak, hot spots, diagrams, zones, and
 /// their errors.
 #pragma once
 
@@ -19,11 +19,15 @@ struct KnownBefore {
 /// @param before  gives away what is known
 KnownBefore known_of(BodyAnalysis& before, const BodyLoads& now, bool needs_submodels);
 
-/// The second half of analyse_body: everything that follows from unit responses.
+/// The second half of analyse_body: everything that follows from unit responses, but for zones.
 /// @throws LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
-BodyAnalysis superpose_body(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                            BodyLoads loads, fem::UnitResponses responses, int n_threads, StageClock& clock,
+BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                            fem::UnitResponses responses, int n_threads, StageClock& clock,
                             KnownBefore known = {});
+
+/// Zones of the envelope with parts, causes and errors, and errors of weld toes that no search has judged:
+/// what is shown of the final stress, and no search reads.
+void add_zones(const ZoneRule& rule, BodyAnalysis& analysis);
 
 /// The stress from which on a node belongs to a zone [Pa].
 double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa);

@@ -128,8 +128,8 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
   }
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
   const auto places = step.places;
-  auto analysis = superpose_body(scene, body, own, std::move(loads), std::move(step.responses),
-                                 options.n_threads, clock, {std::move(step.envelope), {}});
+  auto analysis = superpose_body(body, own, std::move(loads), std::move(step.responses), options.n_threads,
+                                 clock, {std::move(step.envelope), {}});
   analysis.method = Method::axisymmetric;
   analysis.solve_s = solve.count();
   enter_errors(analysis, places);

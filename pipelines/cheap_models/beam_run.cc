@@ -71,8 +71,8 @@ fem::UnitResponses with_axis(fem::UnitResponses r, int n_angles) {
 
 }  // namespace
 
-BodyAnalysis analyse_beam(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                          BodyLoads loads, const RunOptions& options, StageClock& clock) {
+BodyAnalysis analyse_beam(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                          const RunOptions& options, StageClock& clock) {
   if (const auto why = why_not_beam(body); !why.empty())
     throw StageRefused("the " + body.name + " " + why + ": no beam");
   const auto start = std::chrono::steady_clock::now();
@@ -85,8 +85,7 @@ BodyAnalysis analyse_beam(const Scene& scene, const BodyScene& body, const Meshe
   });
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
   const auto beam = *beam_shaft(body, own.mesh);
-  auto analysis =
-      superpose_body(scene, body, own, std::move(loads), std::move(responses), options.n_threads, clock);
+  auto analysis = superpose_body(body, own, std::move(loads), std::move(responses), options.n_threads, clock);
   analysis.method = Method::beam;
   analysis.solve_s = solve.count();
   auto& errors = analysis.peak.errors;

@@ -73,6 +73,7 @@ public:
     if (is_search() && !options_.only &&
         (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
       agree_at_last();
+    for (auto& analysis : run_.analyses) clock_.run("zones", [&] { add_zones(run_.scene.zones, analysis); });
     for (auto& analysis : run_.analyses) add_fatigue(analysis);
     for (auto& analysis : run_.analyses) add_start_up(analysis);
     for (const auto& warning : warnings_) run_.loaded.loads.warnings.push_back(warning);
@@ -149,13 +150,13 @@ private:
       return analyse_axisymmetric(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
                                   run_.loaded.body_loads[i], options_of(i), clock_, tolerance());
     if (methods_[i] == Method::beam) {
-      auto analysis = analyse_beam(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
-                                   run_.loaded.body_loads[i], options_of(i), clock_);
+      auto analysis = analyse_beam(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                                   options_of(i), clock_);
       if (tolerance() > 0) analysis.search = search_of_beam(run_.scene, i, analysis, tolerance());
       return analysis;
     }
-    return analyse_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                        options_of(i), clock_);
+    return analyse_body(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i], options_of(i),
+                        clock_);
   }
 
   void finish(std::size_t i, BodyAnalysis& analysis) {
@@ -372,10 +373,9 @@ private:
     run_.scene.bodies[i].singular.push_back(spot);
     run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
     BodyAnalysis before = std::move(analysis);
-    analysis =
-        superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                       std::move(before.responses), options_.n_threads, clock_,
-                       known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
+    analysis = superpose_body(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                              std::move(before.responses), options_.n_threads, clock_,
+                              known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
     analysis.responses_reused = before.responses_reused;
   }
 
@@ -435,9 +435,9 @@ private:
       }
       BodyAnalysis before = std::move(run_.analyses[i]);
       auto& after = run_.analyses[i];
-      after = superpose_body(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
-                             run_.loaded.body_loads[i], std::move(before.responses), options_.n_threads,
-                             clock_, known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
+      after = superpose_body(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                             std::move(before.responses), options_.n_threads, clock_,
+                             known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);

@@ -9,6 +9,7 @@
 
 #include "fem/model/model.h"
 #include "pipelines/analysis/place_stress.h"
+#include "pipelines/analysis/superpose_body.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
@@ -79,9 +80,7 @@ struct LoadedShaft {
     return analyse_axisymmetric(scene, body(), loaded.meshed[0], loaded.body_loads[0], {"", 1}, clock,
                                 tolerance);
   }
-  BodyAnalysis beam() {
-    return analyse_beam(scene, body(), loaded.meshed[0], loaded.body_loads[0], {"", 1}, clock);
-  }
+  BodyAnalysis beam() { return analyse_beam(body(), loaded.meshed[0], loaded.body_loads[0], {"", 1}, clock); }
   std::vector<PlaceStress> places(double target) {
     return axisymmetric_place_stresses(body(), loaded.meshed[0], loaded.body_loads[0], 1, target);
   }
@@ -169,7 +168,8 @@ TEST(AxisymmetricRun, ErrorsOfPlacesHold) {
 // Sections carry what statics says of the loads, and rings what a beam twists by.
 TEST(AxisymmetricRun, SectionsCarryStatics) {
   LoadedShaft shaft(edited::scene("load_table", {}));
-  const auto analysis = shaft.axisymmetric();
+  auto analysis = shaft.axisymmetric();
+  add_zones(shaft.scene.zones, analysis);
   ASSERT_TRUE(analysis.diagrams);
   // The stress of cubic cells is of third order: 1e-3 of the largest beside loads.
   EXPECT_LT(analysis.diagrams->force_mismatch, 5e-3);
@@ -196,7 +196,7 @@ TEST(AxisymmetricRun, PlacesAreThoseOfTheSolid) {
   const auto meshed = mesh_body(body, at / "shaft.msh", {});
   std::filesystem::remove(at / "shaft.msh");  // the model has it: nothing reads the text again
   const auto loads = load_bodies(shaft.scene, {meshed}, shaft.clock).body_loads[0];
-  const auto solid = analyse_body(shaft.scene, body, meshed, loads, {at / "out", 1, true}, shaft.clock);
+  const auto solid = analyse_body(body, meshed, loads, {at / "out", 1, true}, shaft.clock);
   const auto own = axisymmetric_place_stresses(body, meshed, loads, 1);
   std::map<std::string, double> of_solid;
   for (const auto& place : largest_by_feature(solid.responses.nodes, solid.envelope.von_mises.value_Pa,
@@ -215,7 +215,9 @@ TEST(AxisymmetricRun, PlacesAreThoseOfTheSolid) {
 
 TEST(AxisymmetricRun, ABeamIsWithinItsOwnError) {
   LoadedShaft shaft(edited::scene("load_table", {}));
-  const auto beam = shaft.beam(), own = shaft.axisymmetric();
+  auto beam = shaft.beam();
+  const auto own = shaft.axisymmetric();
+  add_zones(shaft.scene.zones, beam);
   EXPECT_EQ(beam.method, Method::beam);
   EXPECT_NEAR(beam.peak.value_Pa, own.peak.value_Pa, beam.peak.errors.total_Pa());
   // Its cells only show it: nothing is recovered from them.
