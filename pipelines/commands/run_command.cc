@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include <future>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -157,7 +158,8 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   const auto lives = bearing_lives(scene.bearings, loads, {});
   StagedResults staged(request.directory, {});
   warn_of_earlier(staged);
-  clock.run("write", [&] { write_load_results(staged.folder(), loads, {}); });
+  clock.run("write",
+            [&] { write_load_results(staged.folder(), loads, {}, threads(request.options.n_threads)); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
   finish_run(request, staged,
              {scene, loads, {}, {}, clock.costs(), lives, nullptr, torsion ? &*torsion : nullptr}, torsion,
@@ -195,6 +197,47 @@ void warn_of_damage(SceneRun& run) {
     std::cerr << "millstress: " << fault << '\n';
 }
 
+/// The picture of one body, whose envelope is written.
+/// @return as draw
+std::string draw_body(const std::filesystem::path& place, const Scene& scene, const SceneRun& run,
+                      const BodyAnalysis& analysis, int n_threads) {
+  if (fem::n_ranks(MPI_COMM_WORLD) == 1) return draw(place / "envelope.vtu", place, scene.title, analysis);
+  const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
+  write_whole_envelope(whole.temporary(), run.scene, run.loaded.loads, analysis, n_threads);
+  return draw(whole.temporary(), place, scene.title, analysis);
+}
+
+/// The files of all bodies, and the loads'. While one body is drawn, another thread writes what comes next.
+/// @return why pictures are missing
+std::vector<std::string> write_and_draw(const Request& request, const Scene& scene, const SceneRun& run,
+                                        const std::filesystem::path& folder, StageClock& clock) {
+  const int n_threads = threads(request.options.n_threads), n_ranks = fem::n_ranks(MPI_COMM_WORLD);
+  const auto& loads = run.loaded.loads;
+  const auto place = [&](std::size_t i) { return folder / run.analyses[i].scene.name; };
+  const auto write = [&](std::size_t i) {
+    if (i < run.analyses.size())
+      write_body_results(place(i), run.scene, loads, run.analyses[i], n_ranks, n_threads);
+    else
+      write_load_results(folder, loads, run.loaded.channels(), n_threads);
+  };
+  const auto policy = scene.pictures && n_threads > 1 ? std::launch::async : std::launch::deferred;
+  std::vector<std::string> faults;
+  clock.run("write", [&] { write(0); });
+  for (std::size_t i = 0; i < run.analyses.size(); ++i) {
+    auto next = std::async(policy, write, i + 1);
+    const auto fault =
+        scene.pictures
+            ? clock.run("pictures",
+                        [&] { return draw_body(place(i), scene, run, run.analyses[i], n_threads); })
+            : std::string();
+    clock.run("write", [&] { next.get(); });
+    if (fault.empty()) continue;
+    std::cerr << fault << '\n';
+    faults.push_back(fault);
+  }
+  return faults;
+}
+
 void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   const auto& options = request.options;
   require_blocks(scene);
@@ -214,24 +257,9 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   learn_from(run);
   const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();
   const auto& loads = run.loaded.loads;
-  const auto channels = run.loaded.channels();
   RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings, ""};
-  for (const auto& analysis : run.analyses) {
-    const auto place = staged.folder() / analysis.scene.name;
-    const int n_ranks = fem::n_ranks(MPI_COMM_WORLD);
-    clock.run("write", [&] { write_body_results(place, run.scene, loads, analysis, n_ranks); });
-    if (!scene.pictures) continue;
-    const auto fault = clock.run("pictures", [&] {
-      if (n_ranks == 1) return draw(place / "envelope.vtu", place, scene.title, analysis);
-      const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
-      write_whole_envelope(whole.temporary(), run.scene, loads, analysis);
-      return draw(whole.temporary(), place, scene.title, analysis);
-    });
-    if (fault.empty()) continue;
-    std::cerr << fault << '\n';
+  for (const auto& fault : write_and_draw(request, scene, run, staged.folder(), clock))
     record.warnings.push_back(fault);
-  }
-  clock.run("write", [&] { write_load_results(staged.folder(), loads, channels); });
   if (duty) clock.run("write", [&] { write_duty(staged.folder() / "duty.csv", *duty); });
   const Scene reported = with_machine(run.scene, run.loaded.masses.machine);
   const auto torsion = torsion_of(reported, reported.machine, staged.folder(), clock);

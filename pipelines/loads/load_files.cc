@@ -142,12 +142,12 @@ bool is_loads_file(const std::filesystem::path& path) {
 }
 
 void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
-                     const BodyChannels& bodies) {
+                     const BodyChannels& bodies, int n_threads) {
   for (const auto* body : bodies) check_channels(*body, loads.n_instants());
   std::vector<CsvColumn> columns;
   for (auto& series : series_of(loads, bodies))
     columns.push_back({series.title, series.label.unit, std::move(series.values)});
-  write_csv(path, columns);
+  write_csv(path, columns, n_threads);
 }
 
 }  // namespace pipelines

@@ -22,8 +22,9 @@ using BodyChannels = std::vector<const ChannelHistory*>;
 /// @throws StageRefused if a name is empty or has a slash; FileError naming the file if it cannot be written
 void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
                     const BodyChannels& bodies = {});
+/// @param n_threads  that format numbers; the bytes are the same for any number
 void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
-                     const BodyChannels& bodies = {});
+                     const BodyChannels& bodies = {}, int n_threads = 1);
 
 /// Whether a file begins as those that write_loads_csv leaves, or holds what write_loads_h5 does.
 bool is_loads_file(const std::filesystem::path& path);

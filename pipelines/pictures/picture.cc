@@ -2,6 +2,7 @@
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
+#include <vtkCellArray.h>
 #include <vtkClipPolyData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDataObject.h>
@@ -127,26 +128,60 @@ vtkSmartPointer<vtkScalarBarActor> colour_bar(vtkLookupTable* table, const std::
   return bar;
 }
 
-/// The surface that is drawn: coloured where the field counts, grey where it does not and where it is cut.
+/// Some of the triangles of a surface, over its points.
+vtkSmartPointer<vtkPolyData> triangles_of(vtkPolyData* surface, vtkCellArray* triangles) {
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(surface->GetPoints());
+  result->SetPolys(triangles);
+  result->GetPointData()->ShallowCopy(surface->GetPointData());
+  return result;
+}
+
+/// A surface in parts: coloured where the field counts, grey where it does not.
+struct SurfaceParts {
+  std::vector<vtkSmartPointer<vtkPolyData>> coloured, grey;
+};
+
+/// Triangles on the border between both are cut along it.
+SurfaceParts parts_of(vtkPolyData* surface) {
+  auto* marks = surface->GetPointData()->GetArray(excluded_array);
+  vtkNew<vtkCellArray> coloured, grey, between;
+  for (vtkIdType c = 0; c < surface->GetPolys()->GetNumberOfCells(); ++c) {
+    vtkIdType n = 0;
+    const vtkIdType* points = nullptr;
+    surface->GetPolys()->GetCellAtId(c, n, points);
+    const auto n_excluded =
+        std::count_if(points, points + n, [&](vtkIdType i) { return marks->GetComponent(i, 0) > 0.5; });
+    (n_excluded == 0 ? coloured : n_excluded == n ? grey : between)->InsertNextCell(n, points);
+  }
+  SurfaceParts parts{{triangles_of(surface, coloured)}, {}};
+  if (grey->GetNumberOfCells() > 0) parts.grey = {triangles_of(surface, grey)};
+  if (between->GetNumberOfCells() == 0) return parts;
+  const auto border = triangles_of(surface, between);
+  const std::string shown = border->GetPointData()->GetScalars()->GetName();
+  border->GetPointData()->SetActiveScalars(excluded_array);  // vtkClipPolyData looks at the active ones only
+  vtkNew<vtkClipPolyData> clip;
+  clip->SetInputData(border);
+  clip->SetLocator(vtkNew<vtkNonMergingPointLocator>());  // merging takes long where cells crowd
+  clip->SetValue(0.5);
+  clip->InsideOutOn();
+  clip->GenerateClippedOutputOn();
+  clip->Update();
+  clip->GetOutput()->GetPointData()->SetActiveScalars(shown.c_str());
+  parts.coloured.push_back(clip->GetOutput());
+  parts.grey.push_back(clip->GetClippedOutput());
+  return parts;
+}
+
+/// The surface that is drawn, and where it is cut.
 struct Drawn {
   std::shared_ptr<vtkPolyData> surface, edges, section;
 };
 
-void add_drawn(vtkRenderer* renderer, const Drawn& drawn, vtkLookupTable* table, bool with_edges) {
-  vtkNew<vtkPolyData> marked;  // vtkClipPolyData looks at the active scalars only
-  marked->ShallowCopy(drawn.surface.get());
-  const std::string shown = marked->GetPointData()->GetScalars()->GetName();
-  marked->GetPointData()->SetActiveScalars(excluded_array);
-  vtkNew<vtkClipPolyData> parts;
-  parts->SetInputData(marked);
-  parts->SetLocator(vtkNew<vtkNonMergingPointLocator>());  // merging takes long where cells crowd
-  parts->SetValue(0.5);
-  parts->InsideOutOn();
-  parts->GenerateClippedOutputOn();
-  parts->Update();
-  parts->GetOutput()->GetPointData()->SetActiveScalars(shown.c_str());
-  renderer->AddActor(actor_of(parts->GetOutput(), table));
-  renderer->AddActor(plain_actor(parts->GetClippedOutput(), 0.72));
+void add_drawn(vtkRenderer* renderer, const Drawn& drawn, const SurfaceParts& parts, vtkLookupTable* table,
+               bool with_edges) {
+  for (const auto& part : parts.coloured) renderer->AddActor(actor_of(part, table));
+  for (const auto& part : parts.grey) renderer->AddActor(plain_actor(part, 0.72));
   if (drawn.section) renderer->AddActor(plain_actor(drawn.section.get(), 0.58));
   if (with_edges) add_lines(renderer, drawn.edges.get(), 0.25, 1);
 }
@@ -247,8 +282,9 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   auto *heading = add({0, 1 - head, 1, 1}), *whole = add(layout.whole), *detail = add(layout.detail),
        *legend = add(layout.legend);
 
-  add_drawn(whole, drawn, table, false);
-  add_drawn(detail, drawn, table, options.edges);
+  const auto parts = parts_of(drawn.surface.get());
+  add_drawn(whole, drawn, parts, table, false);
+  add_drawn(detail, drawn, parts, table, options.edges);
   whole->AddActor(ring_at(shown, font_size));
   for (const auto& note : options.notes)
     for (auto* renderer : {whole, detail}) add_note(renderer, note, font_size * 4 / 5);

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "pipelines/common/errors.h"
@@ -47,6 +48,15 @@ std::shared_ptr<Object> shared(const vtkSmartPointer<Object>& object) {
   return {object.Get(), [object](Object*) {}};
 }
 
+/// Of the arrays at the nodes these alone; names that the file does not have are none.
+void read_only(const std::set<std::string>& names, vtkXMLUnstructuredGridReader& reader) {
+  reader.UpdateInformation();
+  for (int i = 0; i < reader.GetNumberOfPointArrays(); ++i) {
+    const char* name = reader.GetPointArrayName(i);
+    reader.SetPointArrayStatus(name, names.count(name) > 0 ? 1 : 0);
+  }
+}
+
 /// Leaves out faces between cells of unlike size, which VTK takes for the surface: they have a point inside.
 void keep_surface(vtkUnstructuredGrid& faces, vtkDataArray& on_surface) {
   vtkNew<vtkCellArray> kept;
@@ -71,6 +81,7 @@ std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path&
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   if (!reader->CanReadFile(vtu.c_str())) throw FileError(vtu.string() + ": is no VTU file that can be read");
   reader->SetFileName(vtu.c_str());
+  read_only({field, excluded, on_surface_array}, *reader);
   vtkNew<vtkUnstructuredGridGeometryFilter> geometry;
   geometry->SetInputConnection(reader->GetOutputPort());
   geometry->Update();

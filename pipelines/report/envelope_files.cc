@@ -9,6 +9,7 @@
 #include "fem/values/cell_shares.h"
 #include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/common/parallel.h"
 #include "pipelines/files/vtk_files.h"
 #include "pipelines/report/results.h"
 
@@ -80,7 +81,8 @@ std::size_t nearest_node(const fem::Nodes& nodes, const std::array<double, 3>& p
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < nodes.n; ++i) {
     const double* x = &nodes.xyz_m[3 * i];
-    const double d = std::hypot(x[0] - p[0], x[1] - p[1], x[2] - p[2]);
+    const double dx = x[0] - p[0], dy = x[1] - p[1], dz = x[2] - p[2];
+    const double d = dx * dx + dy * dy + dz * dz;
     if (d < least) least = d, best = i;
   }
   return best;
@@ -120,7 +122,7 @@ FieldData governing_data(const BodyAnalysis& analysis) {
 }
 
 void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                    const BodyAnalysis& analysis, int n_pieces) {
+                    const BodyAnalysis& analysis, int n_pieces, int n_threads) {
   const auto& nodes = analysis.responses.nodes;
   const auto& envelope = analysis.envelope;
   const auto& effects = analysis.loads.history.effects;
@@ -155,11 +157,30 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
                                  excluded_ids(analysis.places),
                                  surface_ids(nodes)};
   const auto data = governing_data(analysis);
+  const VtuEncoding encoding{VtuCompression::zlib, n_threads};
   if (n_pieces > 1)
     write_envelope_pieces(file, nodes, fem::shares_of_cells(nodes, n_pieces), n_pieces, fields.fields(), ids,
-                          VtuCompression::zlib, data);
+                          encoding, data);
   else
-    write_envelope_vtu(file, nodes, fields.fields(), ids, VtuCompression::zlib, data);
+    write_envelope_vtu(file, nodes, fields.fields(), ids, encoding, data);
+}
+
+/// Stress and displacement of the surface at one instant.
+void write_snapshot(const path& file, const SurfaceSnapshots& files, const BodyAnalysis& analysis,
+                    Eigen::Index instant) {
+  const auto& responses = analysis.responses;
+  const auto& loads = analysis.loads.history;
+  std::vector<double> von_mises(responses.nodes.n), displacement(3 * responses.nodes.n);
+  for (const auto number : files.nodes()) {
+    const auto node = std::size_t(number);
+    von_mises[node] = von_mises_Pa(stress_at(responses, loads, node, instant));
+    const auto moved_m = displacement_at(responses, loads, node, instant);
+    std::copy(moved_m.begin(), moved_m.end(), displacement.begin() + std::ptrdiff_t(3 * node));
+  }
+  Fields fields(analysis.places);
+  fields.add_result_and_whole("von Mises stress [Pa]", von_mises);
+  fields.add("displacement [m]", std::move(displacement), 3, {"x", "y", "z"});
+  files.write(file, fields.fields());
 }
 
 /// What an earlier run on another number of ranks has left.
@@ -195,38 +216,37 @@ std::string pictured_field(const BodyAnalysis& analysis) {
 }
 
 void write_envelope_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                          const BodyAnalysis& analysis, int n_pieces) {
+                          const BodyAnalysis& analysis, int n_pieces, int n_threads) {
   write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
-                 n_pieces);
+                 n_pieces, n_threads);
   remove_other_envelopes(directory, n_pieces);
 }
 
 void write_whole_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                          const BodyAnalysis& analysis) {
-  write_envelope(file, scene, loads, analysis, 1);
+                          const BodyAnalysis& analysis, int n_threads) {
+  write_envelope(file, scene, loads, analysis, 1, n_threads);
 }
 
 void write_cycle_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                       const BodyAnalysis& analysis) {
+                       const BodyAnalysis& analysis, int n_threads) {
   const Eigen::Index per_turn = scene.sampling.instants_per_turn;
   const Eigen::Index first = governing_stress(analysis).instant / per_turn * per_turn;
   std::vector<PvdEntry> entries;
-  std::vector<double> von_mises(analysis.responses.nodes.n);
+  std::vector<Eigen::Index> instants;
   for (int s = 0; s < scene.snapshots; ++s) {
-    const Eigen::Index instant = first + per_turn * s / scene.snapshots;
-    for (std::size_t node = 0; node < von_mises.size(); ++node)
-      von_mises[node] = von_mises_Pa(stress_at(analysis.responses, analysis.loads.history, node, instant));
-    Fields fields(analysis.places);
-    fields.add_result_and_whole("von Mises stress [Pa]", von_mises);
-    fields.add("displacement [m]", displacement_at(analysis.responses, analysis.loads.history, instant), 3,
-               {"x", "y", "z"});
     char name[32];
     std::snprintf(name, sizeof name, "cycle_%03d.vtu", s);
-    write_surface_snapshot_vtu(directory / name, analysis.responses.nodes, fields.fields(),
-                               {excluded_ids(analysis.places)});
-    entries.push_back({loads.time_s[instant], name, analysis.scene.name});
+    instants.push_back(first + per_turn * s / scene.snapshots);
+    entries.push_back({loads.time_s[instants.back()], name, analysis.scene.name});
   }
-  if (!entries.empty()) write_pvd(directory / "cycle.pvd", entries);
+  if (!entries.empty()) {
+    const SurfaceSnapshots files(analysis.responses.nodes, {excluded_ids(analysis.places)},
+                                 {VtuCompression::zlib, n_threads});
+    for_each_parallel(entries.size(), n_threads, [&](std::size_t, std::size_t s) {
+      write_snapshot(directory / entries[s].file, files, analysis, instants[s]);
+    });
+    write_pvd(directory / "cycle.pvd", entries);
+  }
   remove_other_snapshots(directory, entries);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <future>
 
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/statistics.h"
@@ -217,17 +218,20 @@ Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::
   return {int(instant / scene.sampling.instants_per_turn) + 1, angle};
 }
 
-void write_load_results(const path& directory, const kinetics::LoadHistory& loads,
-                        const BodyChannels& bodies) {
+void write_load_results(const path& directory, const kinetics::LoadHistory& loads, const BodyChannels& bodies,
+                        int n_threads) {
+  const auto policy = n_threads > 1 ? std::launch::async : std::launch::deferred;
+  auto csv =
+      std::async(policy, [&] { write_loads_csv(directory / "loads.csv", loads, bodies, n_threads - 1); });
   write_loads_h5(directory / "loads.h5", loads, bodies);
-  write_loads_csv(directory / "loads.csv", loads, bodies);
+  csv.get();
 }
 
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                        const BodyAnalysis& analysis, int n_pieces) {
+                        const BodyAnalysis& analysis, int n_pieces, int n_threads) {
   if (analysis.mesh_file) analysis.mesh_file->commit_as(directory / "mesh.msh");
-  write_envelope_files(directory, scene, loads, analysis, n_pieces);
-  write_cycle_files(directory, scene, loads, analysis);
+  write_envelope_files(directory, scene, loads, analysis, n_pieces, n_threads);
+  write_cycle_files(directory, scene, loads, analysis, n_threads);
   write_zones(directory / "zones.csv", scene, loads, analysis);
   write_zone_tree(directory / "zone_tree.csv", scene, loads, analysis);
   if (!analysis.hot_spots.empty()) write_hot_spots(directory / "hot_spots.csv", scene, loads, analysis);

@@ -13,8 +13,9 @@
 namespace pipelines {
 
 /// loads.h5 and loads.csv, with the channels of the bodies.
+/// @param n_threads  here and below: that format and compress; the bytes are the same for any number
 void write_load_results(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
-                        const BodyChannels& bodies);
+                        const BodyChannels& bodies, int n_threads = 1);
 
 /// In `directory`: mesh.msh of a solid that run_scene has left waiting, to be called once then; envelope.vtu,
 /// cycle.pvd with cycle_*.vtu, zones.csv, zone_tree.csv; hot_spots.csv for a body with weld toes;
@@ -24,7 +25,8 @@ void write_load_results(const std::filesystem::path& directory, const kinetics::
 /// @param n_pieces  of the envelope, one for each MPI rank: with several of them envelope.pvtu and
 /// envelope_<rank>.vtu stand for envelope.vtu
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,
-                        const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces = 1);
+                        const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces = 1,
+                        int n_threads = 1);
 
 /// The turn of the drive in which an instant lies, and the drive angle there, for messages and tables.
 struct Moment {

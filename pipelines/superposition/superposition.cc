@@ -193,15 +193,25 @@ Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& respons
   return EnvelopeWalk(loads).of(responses, n_threads);
 }
 
+std::array<double, 3> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
+                                      std::size_t node, Eigen::Index instant) {
+  const std::size_t n_channels = responses.channels.size();
+  const double* unit = responses.displacement_m.data() + node * n_channels * 3;
+  std::array<double, 3> displacement{};
+  for (std::size_t k = 0; k < n_channels; ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      displacement[c] += loads.values(Eigen::Index(k), instant) * unit[3 * k + c];
+  return displacement;
+}
+
 std::vector<double> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
                                     Eigen::Index instant) {
-  const std::size_t n_channels = responses.channels.size();
-  std::vector<double> displacement(responses.nodes.n * 3, 0.0);
-  for (std::size_t node = 0; node < responses.nodes.n; ++node)
-    for (std::size_t k = 0; k < n_channels; ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        displacement[3 * node + c] += loads.values(Eigen::Index(k), instant) *
-                                      responses.displacement_m[(node * n_channels + k) * 3 + c];
+  std::vector<double> displacement;
+  displacement.reserve(responses.nodes.n * 3);
+  for (std::size_t node = 0; node < responses.nodes.n; ++node) {
+    const auto of_node = displacement_at(responses, loads, node, instant);
+    displacement.insert(displacement.end(), of_node.begin(), of_node.end());
+  }
   return displacement;
 }
 

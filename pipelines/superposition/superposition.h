@@ -78,6 +78,10 @@ private:
   std::shared_ptr<const WalkedFactors> factors_;
 };
 
+/// Displacement of one node at one instant [m], as below.
+std::array<double, 3> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
+                                      std::size_t node, Eigen::Index instant);
+
 /// Displacement of every node at one instant, n x 3 [m]; no rigid part in the mass norm.
 std::vector<double> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
                                     Eigen::Index instant);

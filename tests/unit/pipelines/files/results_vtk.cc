@@ -135,7 +135,7 @@ TEST(EnvelopeVtu, FieldsComeBackInThePrecisionAskedFor) {
   for (const auto compression : {VtuCompression::none, VtuCompression::zlib}) {
     write_envelope_vtu(at / "e.vtu", nodes,
                        {nodal_field("stress [Pa]", stress, 6, {"xx", "yy", "zz", "xy", "yz", "xz"}), exact},
-                       {{"zone", zone}, {"cell", cell, IdField::At::cells}}, compression);
+                       {{"zone", zone}, {"cell", cell, IdField::At::cells}}, {compression});
     const auto grid = read_vtk(at / "e.vtu");
     auto* points = grid->GetPointData();
     ASSERT_EQ(points->GetNumberOfArrays(), 3);
@@ -194,6 +194,41 @@ TEST(SurfaceSnapshotVtu, FacesFollowTheMapOverTheirOwnNodes) {
       const Point expected = quadratic_map({0, (f % ny + p[0]) / ny, (f / ny + p[1]) / nz});
       for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(at_point[d], expected[d], 1e-14);
     });
+  }
+}
+
+// Arrays of many blocks of 32 KiB, one of them of exactly one block: by any number of threads the same bytes,
+// and VTK reads every number back.
+TEST(VtkFiles, ArraysOfManyBlocksComeBackWhole) {
+  const Directory at;
+  const auto nodes = mapped_cube(16, 16, 32, quadratic_map);
+  std::vector<double> field(nodes.n);
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] = std::sin(double(i * i % 1013));
+  std::vector<std::int32_t> id(nodes.n_cells());
+  ASSERT_EQ(id.size() * sizeof(std::int32_t), 32768u);
+  for (std::size_t i = 0; i < id.size(); ++i) id[i] = std::int32_t(i * i % 911);
+  auto exact = nodal_field("f", field);
+  exact.precision = FieldPrecision::float64;
+  const std::vector<IdField> ids{{"id", id, IdField::At::cells}};
+  for (const int n_threads : {1, 2, 5}) {
+    const VtuEncoding encoding{VtuCompression::zlib, n_threads};
+    write_envelope_vtu(at / ("e" + std::to_string(n_threads) + ".vtu"), nodes, {exact}, ids, encoding);
+    SurfaceSnapshots(nodes, {}, encoding).write(at / ("s" + std::to_string(n_threads) + ".vtu"), {exact});
+  }
+  for (const std::string kind : {"e", "s"})
+    for (const std::string n_threads : {"2", "5"})
+      EXPECT_EQ(bytes(at / (kind + n_threads + ".vtu")), bytes(at / (kind + "1.vtu"))) << kind << n_threads;
+  const auto grid = read_vtk(at / "e5.vtu");
+  ASSERT_EQ(grid->GetNumberOfPoints(), vtkIdType(nodes.n));
+  ASSERT_EQ(grid->GetNumberOfCells(), vtkIdType(nodes.n_cells()));
+  for (vtkIdType i = 0; i < vtkIdType(nodes.n); ++i) {
+    ASSERT_EQ(grid->GetPointData()->GetArray("f")->GetComponent(i, 0), field[std::size_t(i)]);
+    for (int d = 0; d < 3; ++d) ASSERT_EQ(grid->GetPoint(i)[d], nodes.xyz_m[std::size_t(3 * i + d)]);
+  }
+  for (vtkIdType c = 0; c < vtkIdType(nodes.n_cells()); ++c) {
+    ASSERT_EQ(grid->GetCellData()->GetArray("id")->GetComponent(c, 0), id[std::size_t(c)]);
+    for (int v = 0; v < 27; ++v)
+      ASSERT_EQ(grid->GetCell(c)->GetPointId(v), nodes.cells[std::size_t(27 * c + v)]);
   }
 }
 
