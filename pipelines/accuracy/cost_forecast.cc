@@ -94,11 +94,11 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
   const AtomicFile scratch(std::filesystem::temp_directory_path() /
                            ("millstress_forecast_" + body.name + ".msh"));
   const std::string first = "first of a search";
+  const double tolerance = with_default({}).tolerance;
   std::string refused;
-  for (const auto& candidate : first_meshes(body)) {  // as a search tries them
+  for (const auto& candidate : first_meshes(body, tolerance)) {  // as a search tries them
     refused = refusal_of([&] {
       auto coarse = mesh_body(candidate, scratch.temporary(), loads.springs);
-      const double tolerance = with_default({}).tolerance;
       const auto model = loads.of_body
                              ? axisymmetric_second_model(candidate, coarse, *loads.of_body, tolerance, 1)
                              : std::nullopt;

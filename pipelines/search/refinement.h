@@ -27,11 +27,13 @@ KeptShare kept_share_of_own_error(const BodyScene& body);
 
 /// Meshes that a search may begin with, the first one that the mesher takes: shafts with 2 cells on every
 /// fillet quarter and 8 sectors, then with more sectors and cells; other bodies with cells half as large
-/// again as the scene's; the scene's own mesh last.
-std::vector<BodyScene> first_meshes(const BodyScene& body);
+/// again as the scene's, chambers before that with lean ones if the tolerance is one of 4 % and more: below,
+/// many toes have to be known, and each takes its steps; the scene's own mesh last.
+/// @param tolerance  of the search, relative
+std::vector<BodyScene> first_meshes(const BodyScene& body, double tolerance);
 
 /// The first of them, whether the mesher takes it or not.
-BodyScene coarsest(const BodyScene& body);
+BodyScene coarsest(const BodyScene& body, double tolerance = 0);
 
 /// A shaft's first mesh with 6 cells on the fillets that a second model finds to be stressed most, 4 on those
 /// with more than half of that stress.

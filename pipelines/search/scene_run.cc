@@ -195,7 +195,7 @@ private:
 
   /// The first of a search's meshes that the mesher takes; the scene's own mesh is refused as in a plain run.
   MeshedBody first_mesh(std::size_t i) {
-    auto candidates = first_meshes(run_.scene.bodies[i]);
+    auto candidates = first_meshes(run_.scene.bodies[i], options_.accuracy.tolerance);
     const BodyScene own = std::move(candidates.back());
     candidates.pop_back();
     for (auto& candidate : candidates) {

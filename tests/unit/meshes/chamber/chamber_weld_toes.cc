@@ -228,4 +228,22 @@ TEST(SharpEdges, AreFoundOnAnyMesh) {
   }
 }
 
+// A mesh that is cut later has the same points, on fewer cells.
+TEST(Chamber, IsLeanWithTheSameHotSpots) {
+  const auto chamber = laboratory_chamber();
+  meshes::ChamberMeshControl control;
+  const auto full = meshes::build_chamber(chamber, control, temporary_msh("full"));
+  control.lean = true;
+  control.toe_walls = meshes::ChamberMeshControl::lean_toe_walls;
+  const auto lean = meshes::build_chamber(chamber, control, temporary_msh("lean"));
+  EXPECT_LT(lean.quality.n_cells, full.quality.n_cells / 2);
+  ASSERT_EQ(lean.hot_spots.size(), full.hot_spots.size());
+  for (std::size_t i = 0; i < lean.hot_spots.size(); ++i) {
+    EXPECT_EQ(lean.hot_spots[i].name, full.hot_spots[i].name);
+    EXPECT_EQ(lean.hot_spots[i].toe_m, full.hot_spots[i].toe_m);
+    EXPECT_EQ(lean.hot_spots[i].near_m, full.hot_spots[i].near_m);
+    EXPECT_EQ(lean.hot_spots[i].far_m, full.hot_spots[i].far_m);
+  }
+}
+
 }  // namespace

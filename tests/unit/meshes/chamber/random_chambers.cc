@@ -29,6 +29,9 @@ TEST(RandomChambers, AllMeshWithGoodCellsAndTheRightVolume) {
   for (int n_meshed = 0; n_meshed < n_chambers();) {
     const auto chamber = random_chamber(random);
     SCOPED_TRACE(text(chamber));
+    control.lean = n_meshed % 2 == 1;
+    control.toe_walls =
+        control.lean ? meshes::ChamberMeshControl::lean_toe_walls : meshes::ChamberMeshControl().toe_walls;
     meshes::BodyMesh body;
     try {
       body = meshes::build_chamber(chamber, control, temporary_msh("random_chamber"));
