@@ -200,10 +200,10 @@ void warn_of_damage(SceneRun& run) {
 /// The picture of one body, whose envelope is written.
 /// @return as draw
 std::string draw_body(const std::filesystem::path& place, const Scene& scene, const SceneRun& run,
-                      const BodyAnalysis& analysis, int n_threads) {
+                      const BodyAnalysis& analysis) {
   if (fem::n_ranks(MPI_COMM_WORLD) == 1) return draw(place / "envelope.vtu", place, scene.title, analysis);
   const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
-  write_whole_envelope(whole.temporary(), run.scene, run.loaded.loads, analysis, n_threads);
+  write_whole_envelope(whole.temporary(), run.scene, run.loaded.loads, analysis);
   return draw(whole.temporary(), place, scene.title, analysis);
 }
 
@@ -227,8 +227,7 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
     auto next = std::async(policy, write, i + 1);
     const auto fault =
         scene.pictures
-            ? clock.run("pictures",
-                        [&] { return draw_body(place(i), scene, run, run.analyses[i], n_threads); })
+            ? clock.run("pictures", [&] { return draw_body(place(i), scene, run, run.analyses[i]); })
             : std::string();
     clock.run("write", [&] { next.get(); });
     if (fault.empty()) continue;

@@ -1,6 +1,21 @@
 #include "pipelines/files/vtk_files.h"
 
-#include <vtkCellType.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCommand.h>
+#include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <array>
 #include <cmath>
@@ -17,16 +32,18 @@
 namespace pipelines {
 namespace {
 
-/// Values of the chosen nodes.
-template <class Number>
-std::vector<Number> chosen_values(const NodalField& field, const std::vector<std::int32_t>& chosen) {
-  const auto n_components = std::size_t(field.n_components);
-  std::vector<Number> values;
-  values.reserve(chosen.size() * n_components);
+/// Values of the chosen nodes as a VTK array of T.
+template <class Array>
+vtkSmartPointer<Array> array_of(const double* values, int n_components,
+                                const std::vector<std::int32_t>& chosen) {
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfComponents(n_components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(chosen.size()));
+  auto* into = array->GetPointer(0);
   for (const std::int32_t node : chosen)
-    for (std::size_t c = 0; c < n_components; ++c)
-      values.push_back(static_cast<Number>(field.values[std::size_t(node) * n_components + c]));
-  return values;
+    for (int c = 0; c < n_components; ++c)
+      *into++ = static_cast<typename Array::ValueType>(values[std::size_t(node) * n_components + c]);
+  return array;
 }
 
 /// Neither too large, nor all lost among the smallest numbers.
@@ -41,8 +58,8 @@ bool is_single(const NodalField& field) {
   return field.precision == FieldPrecision::float32 && fits_single_precision(field);
 }
 
-VtuArray array_of(const NodalField& field, std::size_t n_nodes, const std::vector<std::int32_t>& chosen,
-                  const VtuEncoding& encoding) {
+void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n_nodes,
+               const std::vector<std::int32_t>& chosen) {
   const auto n_components = static_cast<std::size_t>(field.n_components);
   if (field.n_components < 1 || field.n_values != n_nodes * n_components ||
       (!field.component_names.empty() && field.component_names.size() != n_components))
@@ -50,106 +67,114 @@ VtuArray array_of(const NodalField& field, std::size_t n_nodes, const std::vecto
                                 " values do not make " + std::to_string(field.n_components) +
                                 " components at " + std::to_string(n_nodes) +
                                 " nodes, or the names of the components are not as many");
+  vtkSmartPointer<vtkDataArray> array;
   if (is_single(field))
-    return vtu_array(field.name, chosen_values<float>(field, chosen), encoding, field.n_components,
-                     field.component_names);
-  return vtu_array(field.name, chosen_values<double>(field, chosen), encoding, field.n_components,
-                   field.component_names);
+    array = array_of<vtkFloatArray>(field.values, field.n_components, chosen);
+  else
+    array = array_of<vtkDoubleArray>(field.values, field.n_components, chosen);
+  array->SetName(field.name.c_str());
+  for (std::size_t c = 0; c < field.component_names.size(); ++c)
+    array->SetComponentName(static_cast<vtkIdType>(c), field.component_names[c].c_str());
+  grid.GetPointData()->AddArray(array);
 }
 
-}  // namespace
+void add_names(vtkUnstructuredGrid& grid, const NameList& list) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(list.name.c_str());
+  for (const auto& name : list.names) array->InsertNextValue(name);
+  grid.GetFieldData()->AddArray(array);
+}
+
+void add_numbers(vtkUnstructuredGrid& grid, const NumberList& list) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(list.name.c_str());
+  for (const double value : list.values) array->InsertNextValue(value);
+  grid.GetFieldData()->AddArray(array);
+}
+
+void add_ids(vtkDataSetAttributes& data, const std::string& name, const std::vector<std::int32_t>& values) {
+  vtkNew<vtkTypeInt32Array> array;
+  array->SetName(name.c_str());
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  data.AddArray(array);
+}
 
 /// Cells of one type, the nodes of each together.
-struct VtuCells {
+struct Cells {
   int type = 0;
   std::size_t n_nodes = 0;
   const std::vector<std::int32_t>& nodes;
   std::size_t size() const { return nodes.size() / n_nodes; }
 };
 
-namespace {
-
-VtuArray array_of(const IdField& id, std::size_t n_nodes, std::size_t n_cells,
-                  const std::vector<std::int32_t>& chosen, const VtuEncoding& encoding) {
-  const bool at_nodes = id.at == IdField::At::nodes;
-  if (id.values.size() != (at_nodes ? n_nodes : n_cells))
-    throw std::invalid_argument("field \"" + id.name + "\": " + std::to_string(id.values.size()) +
-                                " ids for " + std::to_string(at_nodes ? n_nodes : n_cells) +
-                                (at_nodes ? " nodes" : " cells"));
-  if (!at_nodes) return vtu_array(id.name, id.values, encoding);
-  std::vector<std::int32_t> values;
-  values.reserve(chosen.size());
-  for (const std::int32_t node : chosen) values.push_back(id.values[static_cast<std::size_t>(node)]);
-  return vtu_array(id.name, values, encoding);
+void set_cells(vtkUnstructuredGrid& grid, const Cells& cells) {
+  vtkNew<vtkTypeInt32Array> offsets, connectivity;
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(cells.size()) + 1);
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(cells.nodes.size()));
+  for (std::size_t i = 0; i <= cells.size(); ++i)
+    offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * cells.n_nodes));
+  std::copy(cells.nodes.begin(), cells.nodes.end(), connectivity->GetPointer(0));
+  vtkNew<vtkCellArray> array;
+  array->SetData(offsets.Get(), connectivity.Get());
+  grid.SetCells(cells.type, array);
 }
 
-}  // namespace
-
-/// All of a file but its fields.
-class EncodedCells {
-public:
-  /// Of the chosen nodes of the body: the cells name nodes by their place among the chosen.
-  EncodedCells(const VtuCells& cells, const fem::Nodes& nodes, const std::vector<std::int32_t>& chosen,
-               const std::vector<IdField>& ids, const FieldData& data, const VtuEncoding& encoding)
-      : n_points_(chosen.size()),
-        n_cells_(cells.size()),
-        version_(cells.type == VTK_LAGRANGE_HEXAHEDRON ? "2.2" : "1.0") {
-    if (nodes.xyz_m.size() != 3 * nodes.n)
-      throw std::invalid_argument("nodes: " + std::to_string(nodes.xyz_m.size()) + " coordinates for " +
-                                  std::to_string(nodes.n) + " nodes");
-    for (const auto& list : data.names)
-      field_data_.push_back(vtu_field_array(list.name, list.names, encoding));
-    for (const auto& list : data.numbers)
-      field_data_.push_back(vtu_field_array(list.name, list.values, encoding));
-    for (const auto& id : ids)
-      (id.at == IdField::At::nodes ? ids_of_nodes_ : ids_of_cells_)
-          .push_back(array_of(id, nodes.n, cells.size(), chosen, encoding));
-    const auto xyz = nodal_field("Points", nodes.xyz_m, 3);
-    points_ = {vtu_array(xyz.name, chosen_values<double>(xyz, chosen), encoding, 3)};
-    std::vector<std::int32_t> ends;
-    ends.reserve(cells.size());
-    for (std::size_t i = 1; i <= cells.size(); ++i) ends.push_back(std::int32_t(i * cells.n_nodes));
-    cells_ = {
-        vtu_array("connectivity", cells.nodes, encoding), vtu_array("offsets", ends, encoding),
-        vtu_array("types", std::vector<std::uint8_t>(cells.size(), std::uint8_t(cells.type)), encoding)};
-  }
-
-  void write(const std::filesystem::path& path, const std::vector<VtuArray>& fields,
-             VtuCompression compression) const {
-    VtuGrid grid{
-        n_points_,         n_cells_,        pointers(field_data_), pointers(fields), pointers(ids_of_cells_),
-        pointers(points_), pointers(cells_)};
-    grid.version = version_;
-    for (const auto& id : ids_of_nodes_) grid.point_data.push_back(&id);
-    write_vtu(path, grid, compression);
-  }
-
-private:
-  static std::vector<const VtuArray*> pointers(const std::vector<VtuArray>& arrays) {
-    std::vector<const VtuArray*> result;
-    for (const auto& array : arrays) result.push_back(&array);
-    return result;
-  }
-
-  std::size_t n_points_, n_cells_;
-  const char* version_;
-  std::vector<VtuArray> field_data_, ids_of_nodes_, ids_of_cells_, points_, cells_;
-};
-
-namespace {
-
-std::vector<VtuArray> arrays_of(const std::vector<NodalField>& fields, std::size_t n_nodes,
-                                const std::vector<std::int32_t>& chosen, const VtuEncoding& encoding) {
-  std::vector<VtuArray> arrays;
-  for (const auto& field : fields) arrays.push_back(array_of(field, n_nodes, chosen, encoding));
-  return arrays;
-}
-
-void write_grid(const std::filesystem::path& path, const VtuCells& cells, const fem::Nodes& nodes,
+/// A grid of the cells given, over the chosen nodes of the body (the cells name nodes by their place among
+/// the chosen).
+void write_grid(const std::filesystem::path& path, const Cells& cells, const fem::Nodes& nodes,
                 const std::vector<std::int32_t>& chosen, const std::vector<NodalField>& fields,
-                const std::vector<IdField>& ids, const FieldData& data, const VtuEncoding& encoding) {
-  const EncodedCells encoded(cells, nodes, chosen, ids, data, encoding);
-  encoded.write(path, arrays_of(fields, nodes.n, chosen, encoding), encoding.compression);
+                const std::vector<IdField>& ids, const FieldData& data, VtuCompression compression) {
+  if (nodes.xyz_m.size() != 3 * nodes.n)
+    throw std::invalid_argument("nodes: " + std::to_string(nodes.xyz_m.size()) + " coordinates for " +
+                                std::to_string(nodes.n) + " nodes");
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetData(array_of<vtkDoubleArray>(nodes.xyz_m.data(), 3, chosen));
+  grid->SetPoints(points);
+  set_cells(*grid, cells);
+  for (const auto& field : fields) add_field(*grid, field, nodes.n, chosen);
+  for (const auto& list : data.names) add_names(*grid, list);
+  for (const auto& list : data.numbers) add_numbers(*grid, list);
+  for (const auto& id : ids) {
+    const bool at_nodes = id.at == IdField::At::nodes;
+    if (id.values.size() != (at_nodes ? nodes.n : cells.size()))
+      throw std::invalid_argument("field \"" + id.name + "\": " + std::to_string(id.values.size()) +
+                                  " ids for " + std::to_string(at_nodes ? nodes.n : cells.size()) +
+                                  (at_nodes ? " nodes" : " cells"));
+    std::vector<std::int32_t> values;
+    if (at_nodes)
+      for (const std::int32_t node : chosen) values.push_back(id.values[static_cast<std::size_t>(node)]);
+    if (at_nodes)
+      add_ids(*grid->GetPointData(), id.name, values);
+    else
+      add_ids(*grid->GetCellData(), id.name, id.values);
+  }
+
+  AtomicFile file(path);
+  bool failed = false;
+  vtkNew<vtkCallbackCommand> listener;
+  listener->SetClientData(&failed);
+  listener->SetCallback(
+      [](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  // With listeners VTK prints nothing.
+  writer->AddObserver(vtkCommand::ErrorEvent, listener);
+  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
+  writer->SetFileName(file.temporary().c_str());
+  writer->SetInputData(grid);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetHeaderTypeToUInt64();
+  if (compression == VtuCompression::none)
+    writer->SetCompressorTypeToNone();
+  else
+    writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(1);  // half the time of the default for one percent more bytes
+  if (!writer->Write() || writer->GetErrorCode() != 0 || failed)
+    throw FileError(path.string() + ": cannot be written; check the directory and the free space");
+  file.commit("</VTKFile>\n");
 }
 
 int cell_type(const fem::CellShape& shape) {
@@ -178,12 +203,12 @@ void refuse_beyond_32_bits(const std::filesystem::path& path, std::size_t n_node
 
 void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                         const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
-                        const VtuEncoding& encoding, const FieldData& data) {
+                        VtuCompression compression, const FieldData& data) {
   refuse_beyond_32_bits(path, nodes.n, nodes.n_cells(), nodes.nodes_per_cell());
   std::vector<std::int32_t> all(nodes.n);
   std::iota(all.begin(), all.end(), 0);
-  const VtuCells cells = {cell_type(nodes.shape()), nodes.nodes_per_cell(), nodes.cells};
-  write_grid(path, cells, nodes, all, fields, ids, data, encoding);
+  const Cells cells = {cell_type(nodes.shape()), nodes.nodes_per_cell(), nodes.cells};
+  write_grid(path, cells, nodes, all, fields, ids, data, compression);
 }
 
 namespace {
@@ -220,7 +245,7 @@ std::string joining_text(const std::vector<NodalField>& fields, const std::vecto
 void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& nodes,
                            const std::vector<int>& piece_of_cell, int n_pieces,
                            const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
-                           const VtuEncoding& encoding, const FieldData& data) {
+                           VtuCompression compression, const FieldData& data) {
   refuse_beyond_32_bits(pvtu, nodes.n, nodes.n_cells(), nodes.nodes_per_cell());
   const int type =
       nodes.kind == fem::CellKind::tetrahedra ? VTK_QUADRATIC_TETRA : VTK_TRIQUADRATIC_HEXAHEDRON;
@@ -246,17 +271,18 @@ void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& 
         for (const auto node : nodes.cell(c)) cells.push_back(place[node]);
     names.push_back(pvtu.stem().string() + "_" + std::to_string(piece) + ".vtu");
     write_grid(pvtu.parent_path() / names.back(), {type, nodes.nodes_per_cell(), cells}, nodes, chosen,
-               fields, own_ids, data, encoding);
+               fields, own_ids, data, compression);
   }
   write_text_file(pvtu, joining_text(fields, ids, names));
 }
 
-SurfaceSnapshots::SurfaceSnapshots(const fem::Nodes& nodes, const std::vector<IdField>& ids,
-                                   const VtuEncoding& encoding, const std::vector<NameList>& names)
-    : n_nodes_(nodes.n),
-      n_faces_(nodes.n_faces()),
-      nodes_per_face_(nodes.nodes_per_face()),
-      compression_(encoding.compression) {
+SurfaceSnapshots::SurfaceSnapshots(const fem::Nodes& nodes, std::vector<IdField> ids,
+                                   VtuCompression compression, std::vector<NameList> names)
+    : nodes_(nodes),
+      ids_(std::move(ids)),
+      compression_(compression),
+      names_(std::move(names)),
+      faces_(nodes.faces) {
   std::vector<std::int32_t> place(nodes.n, -1);
   for (const std::int32_t node : nodes.faces) place[static_cast<std::size_t>(node)] = 0;
   for (std::size_t node = 0; node < nodes.n; ++node)
@@ -264,24 +290,20 @@ SurfaceSnapshots::SurfaceSnapshots(const fem::Nodes& nodes, const std::vector<Id
       place[node] = static_cast<std::int32_t>(chosen_.size());
       chosen_.push_back(static_cast<std::int32_t>(node));
     }
-  auto faces = nodes.faces;
-  for (std::int32_t& node : faces) node = place[static_cast<std::size_t>(node)];
-  auto with_boundary = ids;
-  with_boundary.push_back({"boundary_id", nodes.face_boundary_id, IdField::At::cells});
-  cells_ =
-      std::make_shared<const EncodedCells>(VtuCells{face_type(nodes.shape()), nodes.nodes_per_face(), faces},
-                                           nodes, chosen_, with_boundary, FieldData{names, {}}, encoding);
+  for (std::int32_t& node : faces_) node = place[static_cast<std::size_t>(node)];
+  ids_.push_back({"boundary_id", nodes.face_boundary_id, IdField::At::cells});
 }
 
 void SurfaceSnapshots::write(const std::filesystem::path& path, const std::vector<NodalField>& fields) const {
-  refuse_beyond_32_bits(path, n_nodes_, n_faces_, nodes_per_face_);
-  cells_->write(path, arrays_of(fields, n_nodes_, chosen_, {compression_, 1}), compression_);
+  refuse_beyond_32_bits(path, nodes_.n, nodes_.n_faces(), nodes_.nodes_per_face());
+  write_grid(path, {face_type(nodes_.shape()), nodes_.nodes_per_face(), faces_}, nodes_, chosen_, fields,
+             ids_, {names_, {}}, compression_);
 }
 
 void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                                 const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
-                                const VtuEncoding& encoding, const std::vector<NameList>& names) {
-  SurfaceSnapshots(nodes, ids, encoding, names).write(path, fields);
+                                VtuCompression compression, const std::vector<NameList>& names) {
+  SurfaceSnapshots(nodes, ids, compression, names).write(path, fields);
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {

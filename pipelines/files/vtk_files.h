@@ -5,12 +5,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "fem/values/unit_responses.h"
-#include "pipelines/files/vtu_array.h"
 
 namespace pipelines {
 
@@ -58,6 +56,8 @@ struct FieldData {
   std::vector<NumberList> numbers;
 };
 
+enum class VtuCompression { none, zlib };
+
 /// The files have indices of 32 bits: numbers of nodes, and the place where each cell's list of nodes ends.
 /// @throws FileError naming the file, what it would hold and the remedy if they do not suffice
 void refuse_beyond_32_bits(const std::filesystem::path& path, std::size_t n_nodes, std::size_t n_cells,
@@ -71,7 +71,7 @@ void refuse_beyond_32_bits(const std::filesystem::path& path, std::size_t n_node
 ///         std::runtime_error naming the file if it cannot be written
 void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                         const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
-                        const VtuEncoding& encoding = {}, const FieldData& data = {});
+                        VtuCompression compression = VtuCompression::zlib, const FieldData& data = {});
 
 /// The whole body in pieces, one file each beside the .pvtu that joins them: envelope.pvtu, envelope_0.vtu,
 /// envelope_1.vtu ... Nodes between pieces are in each of them.
@@ -81,19 +81,17 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
 void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& nodes,
                            const std::vector<int>& piece_of_cell, int n_pieces,
                            const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
-                           const VtuEncoding& encoding = {}, const FieldData& data = {});
-
-class EncodedCells;
+                           VtuCompression compression = VtuCompression::zlib, const FieldData& data = {});
 
 /// Files of the surface alone, which differ in their fields: the faces of the cells over the nodes that lie
-/// on a boundary face, in ascending order of their numbers; the cell field `boundary_id` is added. What they
-/// have in common is encoded once.
+/// on a boundary face, in ascending order of their numbers; the cell field `boundary_id` is added.
 class SurfaceSnapshots {
 public:
-  /// @param ids  as for write_envelope_vtu; at cells: one per boundary face
-  /// @throws std::invalid_argument naming the field if its size does not fit the nodes or faces
-  explicit SurfaceSnapshots(const fem::Nodes& nodes, const std::vector<IdField>& ids = {},
-                            const VtuEncoding& encoding = {}, const std::vector<NameList>& names = {});
+  /// @param nodes  of the body; they outlive this
+  /// @param ids    as for write_envelope_vtu; at cells: one per boundary face
+  explicit SurfaceSnapshots(const fem::Nodes& nodes, std::vector<IdField> ids = {},
+                            VtuCompression compression = VtuCompression::zlib,
+                            std::vector<NameList> names = {});
 
   /// Numbers of the nodes that the files hold.
   const std::vector<std::int32_t>& nodes() const noexcept { return chosen_; }
@@ -104,17 +102,19 @@ public:
   void write(const std::filesystem::path& path, const std::vector<NodalField>& fields) const;
 
 private:
-  std::size_t n_nodes_, n_faces_, nodes_per_face_;
+  const fem::Nodes& nodes_;
+  std::vector<IdField> ids_;
   VtuCompression compression_;
-  std::vector<std::int32_t> chosen_;
-  std::shared_ptr<const EncodedCells> cells_;
+  std::vector<NameList> names_;
+  std::vector<std::int32_t> chosen_, faces_;
 };
 
 /// One such file.
 /// @throws as write_envelope_vtu
 void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::Nodes& nodes,
                                 const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
-                                const VtuEncoding& encoding = {}, const std::vector<NameList>& names = {});
+                                VtuCompression compression = VtuCompression::zlib,
+                                const std::vector<NameList>& names = {});
 
 struct PvdEntry {
   double time_s = 0;

@@ -32,7 +32,7 @@ void write_port_surface(const std::filesystem::path& vtu, const fem::Nodes& node
   const auto [port_names, ports] = mark(port_fields::port, port_fields::port_names, mesh.ports, groups);
   const auto [feature_names, features] =
       mark(port_fields::feature, port_fields::feature_names, mesh.features, groups);
-  write_surface_snapshot_vtu(vtu, nodes, {}, {ports, features}, {},
+  write_surface_snapshot_vtu(vtu, nodes, {}, {ports, features}, VtuCompression::zlib,
                              {port_names, feature_names});
 }
 

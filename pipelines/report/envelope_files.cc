@@ -122,7 +122,7 @@ FieldData governing_data(const BodyAnalysis& analysis) {
 }
 
 void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                    const BodyAnalysis& analysis, int n_pieces, int n_threads) {
+                    const BodyAnalysis& analysis, int n_pieces) {
   const auto& nodes = analysis.responses.nodes;
   const auto& envelope = analysis.envelope;
   const auto& effects = analysis.loads.history.effects;
@@ -157,12 +157,11 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
                                  excluded_ids(analysis.places),
                                  surface_ids(nodes)};
   const auto data = governing_data(analysis);
-  const VtuEncoding encoding{VtuCompression::zlib, n_threads};
   if (n_pieces > 1)
     write_envelope_pieces(file, nodes, fem::shares_of_cells(nodes, n_pieces), n_pieces, fields.fields(), ids,
-                          encoding, data);
+                          VtuCompression::zlib, data);
   else
-    write_envelope_vtu(file, nodes, fields.fields(), ids, encoding, data);
+    write_envelope_vtu(file, nodes, fields.fields(), ids, VtuCompression::zlib, data);
 }
 
 /// Stress and displacement of the surface at one instant.
@@ -216,15 +215,15 @@ std::string pictured_field(const BodyAnalysis& analysis) {
 }
 
 void write_envelope_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                          const BodyAnalysis& analysis, int n_pieces, int n_threads) {
+                          const BodyAnalysis& analysis, int n_pieces) {
   write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
-                 n_pieces, n_threads);
+                 n_pieces);
   remove_other_envelopes(directory, n_pieces);
 }
 
 void write_whole_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                          const BodyAnalysis& analysis, int n_threads) {
-  write_envelope(file, scene, loads, analysis, 1, n_threads);
+                          const BodyAnalysis& analysis) {
+  write_envelope(file, scene, loads, analysis, 1);
 }
 
 void write_cycle_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
@@ -240,8 +239,7 @@ void write_cycle_files(const path& directory, const Scene& scene, const kinetics
     entries.push_back({loads.time_s[instants.back()], name, analysis.scene.name});
   }
   if (!entries.empty()) {
-    const SurfaceSnapshots files(analysis.responses.nodes, {excluded_ids(analysis.places)},
-                                 {VtuCompression::zlib, n_threads});
+    const SurfaceSnapshots files(analysis.responses.nodes, {excluded_ids(analysis.places)});
     for_each_parallel(entries.size(), n_threads, [&](std::size_t, std::size_t s) {
       write_snapshot(directory / entries[s].file, files, analysis, instants[s]);
     });

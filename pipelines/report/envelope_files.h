@@ -35,18 +35,16 @@ std::string pictured_field(const BodyAnalysis& analysis);
 
 /// envelope.vtu, or in several pieces envelope.pvtu with envelope_0.vtu ...; what an earlier run on another
 /// number of ranks has left is removed. Field data "governing stress": value, position and place.
-/// @param n_threads  here and below: that compute and compress; the bytes are the same for any number
 void write_envelope_files(const std::filesystem::path& directory, const Scene& scene,
-                          const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces,
-                          int n_threads = 1);
+                          const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces);
 
 /// What envelope.vtu has, in one file of any name.
 void write_whole_envelope(const std::filesystem::path& file, const Scene& scene,
-                          const kinetics::LoadHistory& loads, const BodyAnalysis& analysis,
-                          int n_threads = 1);
+                          const kinetics::LoadHistory& loads, const BodyAnalysis& analysis);
 
 /// cycle.pvd with cycle_*.vtu over the turn of the governing stress. Snapshots of an earlier run that this
 /// one does not write are removed.
+/// @param n_threads  that write files; their bytes are the same for any number
 void write_cycle_files(const std::filesystem::path& directory, const Scene& scene,
                        const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_threads = 1);
 

@@ -230,7 +230,7 @@ void write_load_results(const path& directory, const kinetics::LoadHistory& load
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
                         const BodyAnalysis& analysis, int n_pieces, int n_threads) {
   if (analysis.mesh_file) analysis.mesh_file->commit_as(directory / "mesh.msh");
-  write_envelope_files(directory, scene, loads, analysis, n_pieces, n_threads);
+  write_envelope_files(directory, scene, loads, analysis, n_pieces);
   write_cycle_files(directory, scene, loads, analysis, n_threads);
   write_zones(directory / "zones.csv", scene, loads, analysis);
   write_zone_tree(directory / "zone_tree.csv", scene, loads, analysis);

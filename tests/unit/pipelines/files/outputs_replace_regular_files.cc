@@ -143,7 +143,7 @@ TEST(FullDisk, IsToldByEveryKindOfFile) {
       {"text", [&](const fs::path& file) { write_text_file(file, std::string(30000, 'x')); }},
       {"vtu",
        [&](const fs::path& file) {
-         write_envelope_vtu(file, nodes, {nodal_field("f", field)}, {}, {VtuCompression::none});
+         write_envelope_vtu(file, nodes, {nodal_field("f", field)}, {}, VtuCompression::none);
        }},
       {"surface vtu",
        [&](const fs::path& file) { write_surface_snapshot_vtu(file, nodes, {nodal_field("f", field)}); }},
