@@ -138,6 +138,7 @@ TEST(RefinedBodies, ChambersStayWhole) {
     control.cells_through_wall = 1;
     control.size_m = 0.5 * chamber.tube.inner_radius_m;
     control.toe_walls = 2;
+    control.lean = n_meshed % 2 == 1;
     meshes::BodyMesh mesh;
     try {
       mesh = meshes::build_chamber(chamber, control, scratch.path() / "chamber.msh");

@@ -13,7 +13,8 @@ pipelines::Stress tension(double stress_Pa) {
   return {stress_Pa, 0, 0, 0, 0, 0};
 }
 
-/// Nodes along a slanted line from the toe, stress  (constant + slope x distance) of each channel.
+/// A strip of two faces along a slanted line from the toe, stress (constant + slope x distance) of each
+/// channel. The nearer point is a node in the middle of the first face, the farther one lies between nodes.
 struct Line {
   std::array<double, 3> toe{0.1, -0.05, 0.02}, along{0.6, 0.0, 0.8};
   std::vector<pipelines::Stress> constant, slope;  // per channel
@@ -25,14 +26,19 @@ struct Line {
   Line(std::vector<pipelines::Stress> c, std::vector<pipelines::Stress> s)
       : constant(std::move(c)), slope(std::move(s)) {
     for (std::size_t k = 0; k < constant.size(); ++k) responses.channels.push_back("c" + std::to_string(k));
-    for (const double share : {2.0, 0.0, 0.4, 0.7, 1.0}) {
-      const auto p = at(share * thickness);
-      responses.nodes.xyz_m.insert(responses.nodes.xyz_m.end(), p.begin(), p.end());
-      ++responses.nodes.n;
-      for (std::size_t k = 0; k < constant.size(); ++k)
-        for (std::size_t i = 0; i < 6; ++i)
-          responses.stress_Pa.push_back(constant[k][i] + slope[k][i] * share * thickness);
-    }
+    auto& nodes = responses.nodes;
+    for (const double share : {0.0, 0.4, 0.8, 1.2, 1.6})
+      for (const double beside : {-0.3, 0.0, 0.3}) {
+        const auto p = at(share * thickness);
+        nodes.xyz_m.insert(nodes.xyz_m.end(), {p[0], p[1] + beside * thickness, p[2]});
+        ++nodes.n;
+        for (std::size_t k = 0; k < constant.size(); ++k)
+          for (std::size_t i = 0; i < 6; ++i)
+            responses.stress_Pa.push_back(constant[k][i] + slope[k][i] * share * thickness);
+      }
+    for (const std::int32_t first : {0, 6})  // corners, edges, centre
+      for (const std::int32_t node : {0, 6, 8, 2, 3, 7, 5, 1, 4}) nodes.faces.push_back(first + node);
+    nodes.face_boundary_id = {1, 1};
   }
   meshes::HotSpot spot(const std::string& name = "toe") const {
     return {name, thickness, toe, at(0.4 * thickness), at(thickness)};
@@ -63,6 +69,10 @@ TEST(HotSpots, LinearFieldIsExtrapolatedToTheToe) {
   EXPECT_NEAR(on_sloped[0].von_mises_Pa, pipelines::von_mises_Pa(constant), 0.002 * thickness * 15e9);
   EXPECT_EQ(on_sloped[0].toe_m, sloped.toe);
   EXPECT_EQ(on_sloped[0].name, "toe");
+  double sum = 0;
+  for (const auto& part : on_sloped[0].parts) sum += part.weight;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_EQ(on_sloped[0].near_node, 4u) << "the middle of the first face";
 }
 
 // Across the toe is the direction from it to its points: n . s n with n = (0.6, 0, 0.8).
@@ -91,7 +101,7 @@ TEST(HotSpots, AreRankedByTheirStress) {
   const Line line({tension(1e6)}, {tension(1e9)});
   Eigen::ArrayXXd one(1, 1);
   one << 1;
-  // Farther along the same line the stress is larger: points at 0.7 and 2.0 thicknesses.
+  // Farther along the same line the stress is larger: points at 0.7 and 0.4 thicknesses, between nodes.
   auto other = line.spot("farther");
   other.near_m = line.at(0.7 * thickness);
   other.far_m = line.at(0.4 * thickness);
@@ -101,12 +111,13 @@ TEST(HotSpots, AreRankedByTheirStress) {
   EXPECT_GT(result[0].von_mises_Pa, result[1].von_mises_Pa);
 }
 
-TEST(HotSpots, PointThatIsNoNodeIsRefused) {
+TEST(HotSpots, PointOffTheSurfaceIsRefused) {
   const Line line({tension(1e6)}, {tension(0)});
   Eigen::ArrayXXd one(1, 1);
   one << 1;
   auto spot = line.spot("web_1 edge 1");
-  spot.far_m = line.at(0.97 * thickness);
+  spot.far_m[0] -= 0.8 * 0.05 * thickness;  // across the strip
+  spot.far_m[2] += 0.6 * 0.05 * thickness;
   try {
     hot_spot_stresses({spot}, line.responses, history(one));
     FAIL();
