@@ -81,10 +81,4 @@ Eigen::MatrixXd Supports::images(const Eigen::MatrixXd& displacement) const {
   return product(rows_, displacement);
 }
 
-Eigen::MatrixXd Supports::reactions(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const {
-  Eigen::MatrixXd result = images(displacement);
-  for (Eigen::Index r = 0; r < result.rows(); ++r) result.row(r) -= force.row(unknowns_[r]);
-  return result;
-}
-
 }  // namespace fem

@@ -33,9 +33,6 @@ public:
   /// K u in the supported rows (6 x columns), from the rows taken out.
   Eigen::MatrixXd images(const Eigen::MatrixXd& displacement) const;
 
-  /// K u - f there.
-  Eigen::MatrixXd reactions(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const;
-
 private:
   std::vector<std::int64_t> unknowns_;
   Eigen::MatrixXd rows_;  // 6 x n

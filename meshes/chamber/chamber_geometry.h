@@ -88,7 +88,8 @@ struct ChamberMeshControl {
   double toe_walls = 0.6;  ///< size of the cells at the weld toes, in walls of the tube
   std::vector<FineToe> fine_toes;
   /// For meshes whose cells are cut later: without vertices at the points of hot spots, which are in the way
-  /// all around and along the tube. With toe_walls = lean_toe_walls cells that are cut twice have them.
+  /// all around and along the tube. Goes with toe_walls = lean_toe_walls: cut twice, such a cell ends about
+  /// where the nearer point lies, 0.4 walls from the toe.
   bool lean = false;
   static constexpr double lean_toe_walls = 1.6;
   double min_scaled_jacobian = 0.3;  ///< refused below

@@ -31,7 +31,7 @@ struct HotSpotStress {
 StressPoint stress_point(const HotSpotStress& spot);
 
 /// @return in descending order of the largest von Mises stress
-/// @throws std::runtime_error if a point of a hot spot is no node of the solution
+/// @throws std::runtime_error if a point of a hot spot lies on no boundary face of the solution
 std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>& spots,
                                              const fem::UnitResponses& responses,
                                              const ChannelHistory& loads);

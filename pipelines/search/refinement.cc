@@ -16,7 +16,7 @@ namespace pipelines {
 namespace {
 
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
-/// The default chamber: 5 % with 110 k unknowns and not 245 k, but 2 % with 609 k and not 484 k.
+/// The default chamber: 5 % with 107 k unknowns and not 245 k, but 2 % with 609 k and not 484 k.
 constexpr double tolerance_of_lean_toes = 0.04;
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
 /// Cells on a fillet quarter and sectors of a shaft's first mesh; the later ones where the mesher refuses
