@@ -36,6 +36,11 @@ void keep(Block block) {
   blocks.insert(std::upper_bound(blocks.begin(), blocks.end(), block, is_smaller), block);
 }
 
+void unmap_kept() {
+  for (const Block& block : kept()) munmap(block.begin, block.bytes);
+  kept().clear();
+}
+
 /// The beginning of the smallest block that holds so much; what is left of it stays.
 /// @return nothing if there is none
 Block cut_from_kept(std::size_t bytes) {
@@ -86,8 +91,7 @@ void* take(std::size_t bytes) {
   if (block.begin == nullptr) block = grown(bytes);
   if (block.begin == nullptr) block = fresh(bytes);
   if (block.begin == nullptr) {
-    for (const Block& other : kept()) munmap(other.begin, other.bytes);
-    kept().clear();
+    unmap_kept();
     block = fresh(bytes);
   }
   if (block.begin == nullptr) throw std::bad_alloc();
@@ -112,8 +116,7 @@ std::size_t bytes_kept() {
 
 void release_kept() {
   const std::lock_guard<std::mutex> guard(lock());
-  for (const Block& block : kept()) munmap(block.begin, block.bytes);
-  kept().clear();
+  unmap_kept();
 }
 
 }  // namespace fem::large_memory
