@@ -1,5 +1,5 @@
 /// Arrays of hundreds of megabytes whose pages stay with the process when they end, for the next ones: a
-/// virtual machine takes two seconds to find a gigabyte anew. Internal to fem.
+/// virtual machine takes two seconds to find a gigabyte anew.
 #pragma once
 
 #include <cstddef>

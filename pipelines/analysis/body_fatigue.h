@@ -35,7 +35,7 @@ struct FatiguePlace {
   Place surface = Place::free_surface;
   std::size_t node = 0;
   std::array<double, 3> position_m{};
-  StressCycle cycle;             ///< exact: no pair of instants differs more
+  StressCycle cycle{};           ///< exact: no pair of instants differs more
   double gradient_per_m = 0;     ///< related stress gradient of the amplitude
   double support = 1;            ///< n_sigma that it brings
   double endurance_Pa = 0;       ///< sigma_AK: amplitude endured at this mean, reliability in it, j_D not

@@ -19,7 +19,7 @@ std::vector<NodesOfFeature> nodes_by_feature(const BodyAnalysis& analysis);
 /// A node under one history of loads.
 struct FatigueNode {
   std::size_t node = 0;
-  StressCycle cycle;          ///< exact: no pair of instants differs more
+  StressCycle cycle{};        ///< exact: no pair of instants differs more
   double gradient_per_m = 0;  ///< related stress gradient of the amplitude
   double utilisation = -1;    ///< of what is allowed: j_D over the safety against endurance
 };

@@ -14,7 +14,7 @@ namespace pipelines {
 
 struct ZoneCauses {
   StressShares peak;       ///< in the stress at the zone's peak, at its instant
-  StressCycle cycle;       ///< the largest there
+  StressCycle cycle{};     ///< the largest there
   StressShares amplitude;  ///< in the change over it; empty where the stress does not vary
 };
 

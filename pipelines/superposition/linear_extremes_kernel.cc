@@ -66,14 +66,18 @@ void superpose(const double* weights, const double* factors, std::size_t n_chann
   }
 }
 
+template <Wanted wanted>
 void walk_all_instants(const double* weights, const Factors& factors, double* room, LinearExtremes* found) {
   const std::size_t n = factors.n_blocks * block;
   Range ranges[forms_at_once];
   superpose(weights, factors.values, factors.n_channels, factors.n_blocks, room, ranges);
   for (std::size_t i = 0; i < forms_at_once; ++i, room += n) {
-    const double largest = largest_of(ranges[i].largest), smallest = smallest_of(ranges[i].smallest);
-    found[i] = {largest, smallest, first_equal<at_once>(room, n, largest),
-                first_equal<at_once>(room, n, smallest)};
+    found[i].smallest = smallest_of(ranges[i].smallest);
+    found[i].smallest_instant = first_equal<at_once>(room, n, found[i].smallest);
+    if constexpr (wanted == Wanted::both) {
+      found[i].largest = largest_of(ranges[i].largest);
+      found[i].largest_instant = first_equal<at_once>(room, n, found[i].largest);
+    }
   }
 }
 
@@ -95,6 +99,7 @@ void find_deviations(const double* weights, const Factors& factors, double* devi
 }
 
 /// The extremes of a form from its values at the knots.
+template <Wanted wanted>
 class NearKnots {
 public:
   LargestOfLanes largest, negative;
@@ -115,15 +120,17 @@ public:
   void look() {
     const std::size_t n_spans = factors_.knots.n_spans;
     const auto matter = [this](std::size_t i) { return spans_that_matter(i); };
+    std::size_t numbers[n_beside], n = 0;
     for (std::size_t first = 0; first < n_spans; first += 64)
-      for (unsigned long spans = word_of(matter, first, n_spans); spans != 0;) {
-        std::size_t numbers[n_beside];  // with too few, the last one again
-        for (std::size_t j = 0; j < n_beside; ++j) {
-          numbers[j] = j == 0 || spans != 0 ? first + std::size_t(__builtin_ctzl(spans)) : numbers[j - 1];
-          spans &= spans - 1;
-        }
+      for (unsigned long spans = word_of(matter, first, n_spans); spans != 0; spans &= spans - 1) {
+        numbers[n++] = first + std::size_t(__builtin_ctzl(spans));
+        if (n < n_beside) continue;
         look_into_spans(numbers);
+        n = 0;
       }
+    if (n == 0) return;
+    for (std::size_t j = n; j < n_beside; ++j) numbers[j] = numbers[n - 1];  // again
+    look_into_spans(numbers);
   }
 
 private:
@@ -132,7 +139,8 @@ private:
   unsigned spans_that_matter(std::size_t i) const {
     const Lanes a = load(values_ + i), b = load(values_ + i + 1), most = larger(a, b), least = smaller(a, b);
     const Lanes more = larger(deviations_[i / knots_at_once] - 0.25 * (most - least), Lanes{});
-    return at_least(most + more, Lanes{} + most_) | at_least(Lanes{} + least_, least - more);
+    const unsigned low = at_least(Lanes{} + least_, least - more);
+    return wanted == Wanted::both ? low | at_least(most + more, Lanes{} + most_) : low;
   }
 
   void look_into_spans(const std::size_t (&numbers)[n_beside]) {
@@ -150,7 +158,7 @@ private:
   }
 
   void take(Lanes (&values)[n_of_span], std::size_t first) {
-    largest.take(values, first);
+    if constexpr (wanted == Wanted::both) largest.take(values, first);
 #pragma GCC unroll 4
     for (std::size_t r = 0; r < n_of_span; ++r) values[r] = -values[r];
     negative.take(values, first);
@@ -162,6 +170,7 @@ private:
   double rounding_, most_, least_;
 };
 
+template <Wanted wanted>
 void walk_spans(const double* weights, const Factors& factors, double* room, LinearExtremes* found) {
   const std::size_t n = factors.knots.n_blocks * block;
   Range ranges[forms_at_once];
@@ -169,19 +178,30 @@ void walk_spans(const double* weights, const Factors& factors, double* room, Lin
   double* deviations = room + forms_at_once * n;
   find_deviations(weights, factors, deviations);
   for (std::size_t i = 0; i < forms_at_once; ++i) {
-    NearKnots form(weights + i, factors, ranges[i], room + i * n,
-                   deviations + i * factors.knots.n_deviations);
+    NearKnots<wanted> form(weights + i, factors, ranges[i], room + i * n,
+                           deviations + i * factors.knots.n_deviations);
     form.look();
-    const Largest largest = form.largest.of_all(), negative = form.negative.of_all();
-    found[i] = {largest.value, -negative.value, largest.instant, negative.instant};
+    const Largest negative = form.negative.of_all();
+    found[i].smallest = -negative.value;
+    found[i].smallest_instant = negative.instant;
+    if constexpr (wanted == Wanted::both) {
+      const Largest largest = form.largest.of_all();
+      found[i].largest = largest.value;
+      found[i].largest_instant = largest.instant;
+    }
   }
 }
 
 }  // namespace
 
-void linear_walk(const double* weights, const Factors& factors, double* room, LinearExtremes* found) {
-  if (factors.knots.n_spans == 0) return walk_all_instants(weights, factors, room, found);
-  walk_spans(weights, factors, room, found);
+void linear_walk(const double* weights, const Factors& factors, Wanted wanted, double* room,
+                 LinearExtremes* found) {
+  const bool has_knots = factors.knots.n_spans > 0;
+  if (wanted == Wanted::both)
+    (has_knots ? walk_spans<Wanted::both> : walk_all_instants<Wanted::both>)(weights, factors, room, found);
+  else
+    (has_knots ? walk_spans<Wanted::smallest> : walk_all_instants<Wanted::smallest>)(weights, factors, room,
+                                                                                     found);
 }
 
 }  // namespace pipelines::kernel::KERNEL_VARIANT

@@ -15,11 +15,15 @@ struct LinearExtremes {
 /// Forms handled at once: they share each block of factors while it is in the cache.
 constexpr std::size_t forms_at_once = 8;
 
+/// What is looked for; of the other extreme nothing is found.
+enum class Wanted { smallest, both };
+
 /// f_i(t) = sum_k w_ki a_k(t) over all instants.
 /// @param weights  n_channels x forms_at_once
 /// @param room     room_of_linear_walk(factors), to be overwritten
 /// @param found    forms_at_once, to be written
-using LinearWalk = void(const double* weights, const Factors& factors, double* room, LinearExtremes* found);
+using LinearWalk = void(const double* weights, const Factors& factors, Wanted wanted, double* room,
+                        LinearExtremes* found);
 
 /// Numbers that a walk needs room for.
 std::size_t room_of_linear_walk(const Factors& factors);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "pipelines/common/parallel.h"
 #include "pipelines/superposition/linear_extremes_kernel.h"
@@ -19,16 +20,18 @@ Eigen::Map<const UnitRows> unit_stresses(const fem::UnitResponses& responses, st
   return {responses.stress_Pa.data() + node * n_channels * 6, Index(n_channels), 6};
 }
 
+/// Of a smaller number 1/x may overflow.
+constexpr double smallest_with_inverse = 4 * std::numeric_limits<double>::min();
+
 /// What a tensor is multiplied with, component by component, for its product with the deviator of another;
 /// of size one, so that products of small stresses stay numbers.
 Eigen::Matrix<double, 6, 1> direction_of(const Stress& s) {
   const double mean = (s[0] + s[1] + s[2]) / 3, dx = s[0] - mean, dy = s[1] - mean, dz = s[2] - mean;
   const double normal = std::max({std::abs(dx), std::abs(dy), std::abs(dz)});
   const double shear = std::max({std::abs(s[3]), std::abs(s[4]), std::abs(s[5])});
-  const double size = std::max(normal, 2 * shear), divisor = size > 0 ? size : 1;
+  const double size = std::max(normal, 2 * shear), scale = size > smallest_with_inverse ? 1 / size : 1;
   Eigen::Matrix<double, 6, 1> direction;
-  direction << dx / divisor, dy / divisor, dz / divisor, 2 * s[3] / divisor, 2 * s[4] / divisor,
-      2 * s[5] / divisor;
+  direction << scale * dx, scale * dy, scale * dz, 2 * scale * s[3], 2 * scale * s[4], 2 * scale * s[5];
   return direction;
 }
 
@@ -47,10 +50,12 @@ public:
 
   /// @param n  at most kernel::forms_at_once
   void walk(const std::size_t* nodes, std::size_t n, const NodalMaximum& von_mises, StressCycle* cycles) {
-    for (std::size_t i = 0; i < n; ++i) weigh(i, nodes[i], von_mises.stress_Pa[nodes[i]]);
-    find_extremes();
-    for (std::size_t i = 0; i < n; ++i) weigh(i, nodes[i], change_at(nodes[i], found_[i]));
-    find_extremes();
+    for (std::size_t i = 0; i < n; ++i) directions_[i] = direction_of(von_mises.stress_Pa[nodes[i]]);
+    find_extremes(nodes, n, kernel::Wanted::smallest);
+    for (std::size_t i = 0; i < n; ++i)  // no stress is longer, so that none reaches farther along this one
+      found_[i].largest_instant = von_mises.instant[nodes[i]];
+    for (std::size_t i = 0; i < n; ++i) directions_[i] = direction_of(change_at(nodes[i], found_[i]));
+    find_extremes(nodes, n, kernel::Wanted::both);
     for (std::size_t i = 0; i < n; ++i) {
       const Index from = found_[i].smallest_instant, to = found_[i].largest_instant;
       cycles[i] = cycle_between(stress_at(responses_, loads_, nodes[i], from),
@@ -59,16 +64,14 @@ public:
   }
 
 private:
-  /// The form of a node is its stress along a direction.
-  void weigh(std::size_t form, std::size_t node, const Stress& along) {
-    const Eigen::Matrix<double, 6, 1> direction = direction_of(along);
-    const auto unit = unit_stresses(responses_, node);
-    factors_.gather_numbers([&](Index k) { return unit.row(k).dot(direction); }, &weights_[form],
-                            kernel::forms_at_once);
-  }
-
-  void find_extremes() {
-    kernel::linear_walk_for_this_machine()(weights_.data(), factors_.for_kernel(), room_.data(),
+  /// Of the forms that are the nodes' stresses along their directions.
+  void find_extremes(const std::size_t* nodes, std::size_t n, kernel::Wanted wanted) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto unit = unit_stresses(responses_, nodes[i]);
+      factors_.gather_numbers([&](Index k) { return unit.row(k).dot(directions_[i]); }, &weights_[i],
+                              kernel::forms_at_once);
+    }
+    kernel::linear_walk_for_this_machine()(weights_.data(), factors_.for_kernel(), wanted, room_.data(),
                                            found_.data());
   }
 
@@ -88,6 +91,7 @@ private:
   const fem::UnitResponses& responses_;
   const WalkedFactors& factors_;
   std::vector<double> weights_, room_;
+  std::array<Eigen::Matrix<double, 6, 1>, kernel::forms_at_once> directions_;
   std::array<kernel::LinearExtremes, kernel::forms_at_once> found_{};
 };
 
@@ -104,9 +108,9 @@ NodalCycles nodal_cycles(const ChannelHistory& loads, const fem::UnitResponses& 
                          const NodalMaximum& von_mises, std::vector<std::size_t> nodes, int n_threads) {
   check_channels(loads, responses);
   const WalkedFactors factors(loads.values);
-  NodalCycles result{std::move(nodes), {}};
-  result.cycles.resize(result.nodes.size());
-  for_each_range(result.nodes.size(), nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
+  const std::size_t n = nodes.size();
+  NodalCycles result{std::move(nodes), fem::LargeVector<StressCycle>(n)};
+  for_each_range(n, nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
     CycleWalk walk(loads, responses, factors);
     for (std::size_t first = begin; first < end; first += kernel::forms_at_once)
       walk.walk(&result.nodes[first], std::min(kernel::forms_at_once, end - first), von_mises,

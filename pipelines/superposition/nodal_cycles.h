@@ -4,13 +4,14 @@
 
 #include <vector>
 
+#include "fem/common/large_memory.h"
 #include "pipelines/superposition/stress_cycle.h"
 
 namespace pipelines {
 
 struct NodalCycles {
   std::vector<std::size_t> nodes;
-  std::vector<StressCycle> cycles;  ///< one per node
+  fem::LargeVector<StressCycle> cycles;  ///< one per node
 };
 
 /// The nodes of the body's faces, each once, ascending.

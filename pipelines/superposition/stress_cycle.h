@@ -12,12 +12,13 @@
 
 namespace pipelines {
 
+/// Of no value until it is given one: of hundreds of thousands each thread writes its own, once.
 struct StressCycle {
-  Eigen::Index from = 0, to = 0;  ///< instants, from < to; equal where the stress never changes
-  Stress half_range_Pa{};         ///< (s(to) - s(from)) / 2, by component
-  Stress mean_Pa{};               ///< (s(to) + s(from)) / 2
-  double amplitude_Pa = 0;        ///< von Mises stress of half_range_Pa
-  double signed_mean_Pa = 0;      ///< signed_von_mises_Pa of mean_Pa
+  Eigen::Index from, to;  ///< instants, from < to; equal where the stress never changes
+  Stress half_range_Pa;   ///< (s(to) - s(from)) / 2, by component
+  Stress mean_Pa;         ///< (s(to) + s(from)) / 2
+  double amplitude_Pa;    ///< von Mises stress of half_range_Pa
+  double signed_mean_Pa;  ///< signed_von_mises_Pa of mean_Pa
 };
 
 /// Von Mises stress with a sign: v where the sum of the three normal stresses is not negative, -v where it is

@@ -248,8 +248,9 @@ void expect_extremes_of_all_instants(const Eigen::MatrixXd& values, bool is_smoo
   const Eigen::MatrixXd all = weights * values;
   const double rounding = 1e-13 * values.cwiseAbs().maxCoeff();  // sums of seven terms at most
   for (auto* walk : linear_walks_of_this_machine()) {
-    std::array<kernel::LinearExtremes, kernel::forms_at_once> found;
-    walk(walked.data(), factors.for_kernel(), room.data(), found.data());
+    std::array<kernel::LinearExtremes, kernel::forms_at_once> found, of_smallest;
+    walk(walked.data(), factors.for_kernel(), kernel::Wanted::both, room.data(), found.data());
+    walk(walked.data(), factors.for_kernel(), kernel::Wanted::smallest, room.data(), of_smallest.data());
     for (Index form = 0; form < n_forms; ++form) {
       Index largest = 0, smallest = 0;
       const auto& of_form = found[std::size_t(form)];
@@ -257,6 +258,8 @@ void expect_extremes_of_all_instants(const Eigen::MatrixXd& values, bool is_smoo
       EXPECT_NEAR(of_form.smallest, all.row(form).minCoeff(&smallest), rounding);
       EXPECT_EQ(of_form.largest_instant, largest);
       EXPECT_EQ(of_form.smallest_instant, smallest);
+      EXPECT_EQ(of_smallest[std::size_t(form)].smallest, of_form.smallest);
+      EXPECT_EQ(of_smallest[std::size_t(form)].smallest_instant, smallest);
     }
   }
 }
