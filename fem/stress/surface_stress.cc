@@ -91,12 +91,11 @@ Nearest nearest_on_face(const Nodes& nodes, const NodeList& face, const Vector3&
 
 }  // namespace
 
-std::vector<NodeShare> point_on_boundary(const Nodes& nodes, const std::array<double, 3>& at_m,
-                                         double off_m) {
+PointOnBoundary point_on_boundary(const Nodes& nodes, const std::array<double, 3>& at_m, double off_m) {
   if (nodes.shape().is_tetrahedron()) return {};
   const Vector3 wanted(at_m.data());
   const auto node_at = [&](std::int32_t i) { return Vector3(&nodes.xyz_m[3 * std::size_t(i)]); };
-  std::vector<NodeShare> found;
+  PointOnBoundary found;
   double least_m = off_m;
   for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
     const auto face = nodes.face(f);
@@ -108,10 +107,10 @@ std::vector<NodeShare> point_on_boundary(const Nodes& nodes, const std::array<do
     if (nearest.distance_m >= least_m) continue;
     least_m = nearest.distance_m;
     const auto shapes = face_shapes(nodes.shape(), nearest.at);
-    found.clear();
+    found = {f, {}};
     for (std::size_t v = 0; v < face.size(); ++v)
-      if (std::abs(shapes[v]) > no_weight) found.push_back({std::size_t(face.begin()[v]), shapes[v]});
-    if (found.size() == 1) found.front().weight = 1;
+      if (std::abs(shapes[v]) > no_weight) found.shares.push_back({std::size_t(face.begin()[v]), shapes[v]});
+    if (found.shares.size() == 1) found.shares.front().weight = 1;
   }
   return found;
 }

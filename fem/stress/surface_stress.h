@@ -24,11 +24,16 @@ struct NodeShare {
   double weight = 1;
 };
 
-/// A point of the surface by the boundary face that holds it: one node where one lies there, all of the
-/// face's by their shape functions elsewhere. Hexahedra only.
+struct PointOnBoundary {
+  std::size_t face = 0;           ///< index among the boundary faces
+  std::vector<NodeShare> shares;  ///< one node where one lies there, else the face's by their shape functions
+};
+
+/// A point of the surface by the boundary face that holds it; of two that share it, the first. Hexahedra
+/// only.
 /// @param at_m   the point
 /// @param off_m  what it may be off the meshed surface by
-/// @return empty if no face comes so near
-std::vector<NodeShare> point_on_boundary(const Nodes& nodes, const std::array<double, 3>& at_m, double off_m);
+/// @return no shares if no face comes so near
+PointOnBoundary point_on_boundary(const Nodes& nodes, const std::array<double, 3>& at_m, double off_m);
 
 }  // namespace fem

@@ -96,7 +96,7 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
   const std::string first = "first of a search";
   const double tolerance = with_default({}).tolerance;
   std::string refused;
-  for (const auto& candidate : first_meshes(body, tolerance)) {  // as a search tries them
+  for (const auto& candidate : first_meshes(body)) {  // as a search tries them
     refused = refusal_of([&] {
       auto coarse = mesh_body(candidate, scratch.temporary(), loads.springs);
       const auto model = loads.of_body

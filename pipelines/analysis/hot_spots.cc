@@ -16,11 +16,34 @@ constexpr double near_weight = 1.67, far_weight = -0.67;
 /// Of the meshed surface from the drawn one, in plate thicknesses: chords under arcs.
 constexpr double off_surface = 0.02;
 
-std::vector<fem::NodeShare> shares_at(const fem::Nodes& nodes, const std::array<double, 3>& p,
-                                      const meshes::HotSpot& spot) {
-  auto shares = fem::point_on_boundary(nodes, p, off_surface * spot.thickness_m);
-  if (!shares.empty()) return shares;
+fem::PointOnBoundary point_at(const fem::Nodes& nodes, const std::array<double, 3>& p,
+                              const meshes::HotSpot& spot) {
+  auto point = fem::point_on_boundary(nodes, p, off_surface * spot.thickness_m);
+  if (!point.shares.empty()) return point;
   throw std::runtime_error("hot spot \"" + spot.name + "\": no face of the mesh holds its points");
+}
+
+Eigen::Vector3d vector_of(const std::array<double, 3>& x_m) {
+  return Eigen::Vector3d(x_m.data());
+}
+
+/// From the toe to the points of the hot spot.
+Eigen::Vector3d across(const meshes::HotSpot& spot) {
+  return (vector_of(spot.near_m) - vector_of(spot.toe_m)).normalized();
+}
+
+/// Length across the toe of a face that reaches from there to beyond the nearer point; 0 if it begins farther
+/// out.
+double face_at_toe_m(const fem::Nodes& nodes, std::size_t face, const meshes::HotSpot& spot) {
+  const double near_m = (vector_of(spot.near_m) - vector_of(spot.toe_m)).norm();
+  double least_m = near_m, most_m = near_m;
+  for (const auto i : nodes.face(face)) {
+    const Eigen::Map<const Eigen::Vector3d> at_m(&nodes.xyz_m[3 * std::size_t(i)]);
+    const double from_toe_m = across(spot).dot(at_m - vector_of(spot.toe_m));
+    least_m = std::min(least_m, from_toe_m);
+    most_m = std::max(most_m, from_toe_m);
+  }
+  return least_m < 0.5 * near_m ? most_m - least_m : 0;
 }
 
 void add(const std::vector<fem::NodeShare>& shares, double weight, std::vector<StressPoint::Part>& parts) {
@@ -44,14 +67,11 @@ void take_course(const meshes::HotSpot& drawing, const std::vector<std::array<do
                  const ChannelHistory& loads, HotSpotStress& spot) {
   const Eigen::Map<const Eigen::MatrixXd> unit(unit_Pa.front().data(), 6, Eigen::Index(unit_Pa.size()));
   const ArrayXXd stress = (unit * loads.values.matrix()).array();
-  Eigen::Vector3d across;
-  for (int d = 0; d < 3; ++d) across[d] = drawing.near_m[std::size_t(d)] - drawing.toe_m[std::size_t(d)];
-  across.normalize();
+  const Eigen::Vector3d n = across(drawing);
   spot.von_mises_Pa = 0;
   for (Eigen::Index i = 0; i < stress.cols(); ++i) {
     Stress s;
     for (std::size_t c = 0; c < 6; ++c) s[c] = stress(Eigen::Index(c), i);
-    const auto& n = across;
     const double normal = s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2] +
                           2 * (s[3] * n[0] * n[1] + s[4] * n[1] * n[2] + s[5] * n[0] * n[2]);
     spot.max_normal_Pa = i == 0 ? normal : std::max(spot.max_normal_Pa, normal);
@@ -74,13 +94,12 @@ std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>&
   std::vector<HotSpotStress> results;
   for (const auto& spot : spots) {
     HotSpotStress result;
-    const auto near = shares_at(responses.nodes, spot.near_m, spot),
-               far = shares_at(responses.nodes, spot.far_m, spot);
-    add(near, near_weight, result.parts);
-    add(far, far_weight, result.parts);
-    result.near_node = std::max_element(near.begin(), near.end(), [](auto& x, auto& y) {
-                         return x.weight < y.weight;
-                       })->node;
+    const auto near = point_at(responses.nodes, spot.near_m, spot);
+    add(near.shares, near_weight, result.parts);
+    add(point_at(responses.nodes, spot.far_m, spot).shares, far_weight, result.parts);
+    const auto less = [](const auto& a, const auto& b) { return a.weight < b.weight; };
+    result.near_node = std::max_element(near.shares.begin(), near.shares.end(), less)->node;
+    result.face_walls = face_at_toe_m(responses.nodes, near.face, spot) / spot.thickness_m;
     result.name = spot.name;
     result.toe_m = spot.toe_m;
     take_course(spot, unit_stress_at(responses, stress_point(result)), loads, result);

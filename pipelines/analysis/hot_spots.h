@@ -17,8 +17,11 @@ namespace pipelines {
 struct HotSpotStress {
   std::string name;
   std::array<double, 3> toe_m{};
-  std::vector<StressPoint::Part> parts;            ///< nodes of the extrapolation, with its weights
-  std::size_t near_node = 0;                       ///< next to the point at 0.4 plate thicknesses
+  std::vector<StressPoint::Part> parts;  ///< nodes of the extrapolation, with its weights
+  std::size_t near_node = 0;             ///< next to the point at 0.4 plate thicknesses
+  /// Length across the toe, in plate thicknesses, of the face that has both this point and the toe; 0:
+  /// another face's edge lies between.
+  double face_walls = 0;
   double von_mises_Pa = 0;                         ///< largest over the cycle
   std::int32_t instant = 0;                        ///< of that
   double error_Pa = 0;                             ///< numerical part, estimated on this mesh alone

@@ -48,9 +48,11 @@ std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
   std::vector<PlaceStress> places;
   for (const auto& spot : analysis.hot_spots) {
     const double own_Pa = own_error_Pa(analysis, stress_point(spot));
-    places.push_back({spot.name, spot.near_node, spot.von_mises_Pa,
-                      spot.resolved ? own_Pa : std::min(own_Pa, largest_error_of_toes * spot.von_mises_Pa),
-                      spot.toe_m, spot.resolved != nullptr});
+    const bool is_coarse = spot.face_walls > longest_face_walls;
+    const double error_Pa =
+        spot.resolved || is_coarse ? own_Pa : std::min(own_Pa, largest_error_of_toes * spot.von_mises_Pa);
+    places.push_back({spot.name, spot.near_node, spot.von_mises_Pa, error_Pa, spot.toe_m,
+                      spot.resolved != nullptr, is_coarse ? own_Pa : 0});
   }
   return places;
 }

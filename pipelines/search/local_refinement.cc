@@ -9,6 +9,7 @@
 #include "fem/values/errors.h"
 #include "pipelines/analysis/error_budget.h"
 #include "pipelines/analysis/place_errors.h"
+#include "pipelines/analysis/submodels.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {
@@ -16,8 +17,12 @@ namespace {
 
 /// Of what a goal's cells contribute: cells are cut by falling share until this is reached (Doerfler 1996).
 /// With 0.6 the default chamber took five meshes to 5 %, with 0.8 four of about the same size, with 0.92 four
-/// of up to 409 k unknowns.
-constexpr double part_that_is_cut = 0.8;
+/// of up to 409 k unknowns. Where less is enough to meet the tolerance, less is cut, but not below the second
+/// one: the steps would be too many.
+constexpr double most_that_is_cut = 0.8, least_that_is_cut = 0.4;
+/// What is aimed at, of the error that a place may have; what cells contribute less once they are cut: at
+/// least that share.
+constexpr double aim = 0.7, gain_of_cutting = 0.75;
 /// Of the sum of all contributions to a goal, as an error: on surfaces, where the sum was 2 to 5 times the
 /// true error of the default shaft, and at weld toes, whose two nodes make the dual stress steep and the sum
 /// 7 times and more of that of the default chamber.
@@ -44,6 +49,13 @@ struct Goal {
   fem::StressGoal stress;
   std::vector<std::size_t> nodes;  ///< whose cells are cut at least
   bool is_toe = false;
+  double value_Pa = 0;
+
+  /// The error, from the contributions of all cells.
+  double error_Pa(const std::vector<double>& contributions_Pa) const {
+    return (is_toe ? share_at_toes : share_on_surfaces) *
+           std::accumulate(contributions_Pa.begin(), contributions_Pa.end(), 0.0);
+  }
 };
 
 /// The derivative of von Mises stress by the stress, times a weight; its product with the stress itself is
@@ -113,11 +125,26 @@ Goal goal_at(const BodyAnalysis& analysis, const PlaceStress& place) {
   return goal;
 }
 
-std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+std::vector<const PlaceStress*> places_that_may_lead(const std::vector<PlaceStress>& judged) {
   const double leading_Pa = judged[judge(judged).governing].value_Pa;
   std::vector<const PlaceStress*> leading;
   for (const auto& place : judged)
     if (place.value_Pa > 0 && place.value_Pa + place.error_Pa >= leading_Pa) leading.push_back(&place);
+  return leading;
+}
+
+/// Weld toes that may lead, whose faces are too long to tell.
+std::vector<const HotSpotStress*> coarse_toes(const BodyAnalysis& analysis,
+                                              const std::vector<PlaceStress>& judged) {
+  std::vector<const HotSpotStress*> toes;
+  for (const auto* place : places_that_may_lead(judged))
+    for (const auto& spot : analysis.hot_spots)
+      if (spot.name == place->feature && spot.face_walls > longest_face_walls) toes.push_back(&spot);
+  return toes;
+}
+
+std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+  auto leading = places_that_may_lead(judged);
   std::stable_sort(leading.begin(), leading.end(), [](const auto* a, const auto* b) {
     return a->value_Pa + a->error_Pa > b->value_Pa + b->error_Pa;
   });
@@ -127,17 +154,24 @@ std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<Place
     const auto spot = std::find_if(analysis.hot_spots.begin(), analysis.hot_spots.end(),
                                    [&](const auto& s) { return s.name == place->feature; });
     goals.push_back(spot != analysis.hot_spots.end() ? goal_at(analysis, *spot) : goal_at(analysis, *place));
+    goals.back().value_Pa = place->value_Pa;
   }
   return goals;
 }
 
-/// Marks the cells by falling contribution until they make up the part that is cut.
-void mark_largest(const std::vector<double>& contributions, std::vector<char>& marked) {
+/// @param allowed_Pa  error that a goal may have in the end
+double part_to_cut(double error_Pa, double allowed_Pa) {
+  if (!(error_Pa > 0)) return least_that_is_cut;
+  return std::clamp((1 - aim * allowed_Pa / error_Pa) / gain_of_cutting, least_that_is_cut, most_that_is_cut);
+}
+
+/// Marks the cells by falling contribution until they make up a part of the sum.
+void mark_largest(const std::vector<double>& contributions, double part, std::vector<char>& marked) {
   std::vector<std::size_t> order(contributions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](auto a, auto b) { return contributions[a] > contributions[b]; });
-  const double wanted = part_that_is_cut * std::accumulate(contributions.begin(), contributions.end(), 0.0);
+  const double wanted = part * std::accumulate(contributions.begin(), contributions.end(), 0.0);
   double sum = 0, last = 0;
   for (const auto cell : order) {
     // Cells that symmetry makes alike are cut together, whatever rounding makes of them.
@@ -165,16 +199,21 @@ bool is_refined_locally(const BodyScene& body) {
 }
 
 LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,
-                             const std::vector<PlaceStress>& judged) {
+                             const std::vector<PlaceStress>& judged, double tolerance) {
   const auto goals = goals_of(analysis, judged);
+  const double allowed_Pa = (1 + tolerance) * judged[judge(judged).governing].value_Pa;
   std::vector<fem::StressGoal> stresses;
   for (const auto& goal : goals) stresses.push_back(goal.stress);
   const auto errors_Pa = model.goal_errors_Pa(analysis.responses, stresses);
   const auto& nodes = analysis.responses.nodes;
   std::vector<char> marked(nodes.n_cells(), 0), is_place(nodes.n, 0);
-  for (const auto& of_goal : errors_Pa) mark_largest(of_goal, marked);
+  for (std::size_t g = 0; g < goals.size(); ++g)
+    mark_largest(errors_Pa[g], part_to_cut(goals[g].error_Pa(errors_Pa[g]), allowed_Pa - goals[g].value_Pa),
+                 marked);
   for (const auto& goal : goals)
     for (const auto node : goal.nodes) is_place[node] = 1;
+  for (const auto* toe : coarse_toes(analysis, judged))
+    for (const auto& part : toe->parts) is_place[part.node] = 1;
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
     const auto cell = nodes.cell(c);
     if (std::any_of(cell.begin(), cell.end(), [&](auto i) { return is_place[std::size_t(i)] != 0; }))
@@ -185,8 +224,7 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
     if (marked[c] != 0) result.cells.push_back(std::int32_t(c));
   for (std::size_t g = 0; g < goals.size(); ++g) {
     result.features.push_back(goals[g].feature);
-    const double sum_Pa = std::accumulate(errors_Pa[g].begin(), errors_Pa[g].end(), 0.0);
-    result.goal_error_Pa.push_back((goals[g].is_toe ? share_at_toes : share_on_surfaces) * sum_Pa);
+    result.goal_error_Pa.push_back(goals[g].error_Pa(errors_Pa[g]));
   }
   for (const auto& place : judged)
     if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < cells_that_converge)

@@ -34,10 +34,11 @@ std::vector<PlaceStress> with_goal_errors(std::vector<PlaceStress> judged, const
 /// toes the extrapolated hot-spot stress. The product of the errors of the load case and of the goal's dual
 /// solution (fem::Model::goal_errors_Pa) says what each cell contributes. Cut are the cells that together
 /// contribute the larger part to any of the goals, and those at the places themselves.
-/// @param model   that the analysis' responses are of
-/// @param judged  the places with their errors, not empty
+/// @param model      that the analysis' responses are of
+/// @param judged     the places with their errors, not empty
+/// @param tolerance  of the largest stress, relative: no more is cut than it needs; 0: none
 LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,
-                             const std::vector<PlaceStress>& judged);
+                             const std::vector<PlaceStress>& judged, double tolerance);
 
 /// Cuts them: a further cycle of body.refinements.
 /// @return nothing if there are none

@@ -16,8 +16,6 @@ namespace pipelines {
 namespace {
 
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
-/// The default chamber: 5 % with 107 k unknowns and not 245 k, but 2 % with 609 k and not 484 k.
-constexpr double tolerance_of_lean_toes = 0.04;
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
 /// Cells on a fillet quarter and sectors of a shaft's first mesh; the later ones where the mesher refuses
 /// one.
@@ -194,12 +192,11 @@ KeptShare kept_share_of_own_error(const BodyScene& body) {
   return {1, 1};
 }
 
-std::vector<BodyScene> first_meshes(const BodyScene& body, double tolerance) {
+std::vector<BodyScene> first_meshes(const BodyScene& body) {
   std::vector<BodyScene> meshes;
   if (!is_block_shaft(body)) {
     meshes = {with_fineness(body, coarser_start)};
-    const bool is_chamber = std::holds_alternative<ChamberShape>(body.shape);
-    if (is_chamber && is_refined_locally(body) && tolerance >= tolerance_of_lean_toes) {
+    if (std::holds_alternative<ChamberShape>(body.shape) && is_refined_locally(body)) {
       meshes.insert(meshes.begin(), meshes.front());
       auto& mesh = std::get<ChamberShape>(meshes.front().shape).mesh;
       mesh.lean = true;
@@ -221,8 +218,8 @@ std::vector<BodyScene> first_meshes(const BodyScene& body, double tolerance) {
   return meshes;
 }
 
-BodyScene coarsest(const BodyScene& body, double tolerance) {
-  return first_meshes(body, tolerance).front();
+BodyScene coarsest(const BodyScene& body) {
+  return first_meshes(body).front();
 }
 
 BodyScene guided_by(const SecondModel& model, const BodyScene& body) {

@@ -27,13 +27,12 @@ KeptShare kept_share_of_own_error(const BodyScene& body);
 
 /// Meshes that a search may begin with, the first one that the mesher takes: shafts with 2 cells on every
 /// fillet quarter and 8 sectors, then with more sectors and cells; other bodies with cells half as large
-/// again as the scene's, chambers before that with lean ones if the tolerance is one of 4 % and more: below,
-/// many toes have to be known, and each takes its steps; the scene's own mesh last.
-/// @param tolerance  of the search, relative
-std::vector<BodyScene> first_meshes(const BodyScene& body, double tolerance);
+/// again as the scene's, chambers that are refined locally before that with lean ones; the scene's own mesh
+/// last.
+std::vector<BodyScene> first_meshes(const BodyScene& body);
 
 /// The first of them, whether the mesher takes it or not.
-BodyScene coarsest(const BodyScene& body, double tolerance = 0);
+BodyScene coarsest(const BodyScene& body);
 
 /// A shaft's first mesh with 6 cells on the fillets that a second model finds to be stressed most, 4 on those
 /// with more than half of that stress.

@@ -195,7 +195,7 @@ private:
 
   /// The first of a search's meshes that the mesher takes; the scene's own mesh is refused as in a plain run.
   MeshedBody first_mesh(std::size_t i) {
-    auto candidates = first_meshes(run_.scene.bodies[i], options_.accuracy.tolerance);
+    auto candidates = first_meshes(run_.scene.bodies[i]);
     const BodyScene own = std::move(candidates.back());
     candidates.pop_back();
     for (auto& candidate : candidates) {
@@ -272,7 +272,8 @@ private:
     auto judged = state.history.judged();
     if (is_refined_locally(run_.scene.bodies[i])) {
       const auto& model = *run_.loaded.meshed[i].model;
-      state.local = clock_.run("refine", [&] { return cells_to_cut(model, analysis, judged); });
+      state.local =
+          clock_.run("refine", [&] { return cells_to_cut(model, analysis, judged, state.search.tolerance); });
       judged = with_goal_errors(std::move(judged), state.local);
     }
     take_place_errors(analysis, judged,
