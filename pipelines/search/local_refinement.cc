@@ -22,7 +22,7 @@ namespace {
 constexpr double most_that_is_cut = 0.8, least_that_is_cut = 0.4;
 /// What is aimed at, of the error that a place may have; what cells contribute less once they are cut: at
 /// least that share.
-constexpr double aim = 0.7, gain_of_cutting = 0.75;
+constexpr double aim = 0.5, gain_of_cutting = 0.75;
 /// Of the sum of all contributions to a goal, as an error: on surfaces, where the sum was 2 to 5 times the
 /// true error of the default shaft, and at weld toes, whose two nodes make the dual stress steep and the sum
 /// 7 times and more of that of the default chamber.
