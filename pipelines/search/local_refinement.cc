@@ -133,13 +133,26 @@ std::vector<const PlaceStress*> places_that_may_lead(const std::vector<PlaceStre
   return leading;
 }
 
-/// Weld toes that may lead, whose faces are too long to tell.
+double range_Pa(const HotSpotStress& spot) {
+  return spot.max_normal_Pa - spot.min_normal_Pa;
+}
+
+/// Weld toes whose faces are too long to tell, that may lead by stress, or by its range where fatigue is
+/// asked for.
 std::vector<const HotSpotStress*> coarse_toes(const BodyAnalysis& analysis,
                                               const std::vector<PlaceStress>& judged) {
+  const double leading_Pa = judged[judge(judged).governing].value_Pa;
+  double leading_range_Pa = 0;
+  for (const auto& spot : analysis.hot_spots) leading_range_Pa = std::max(leading_range_Pa, range_Pa(spot));
   std::vector<const HotSpotStress*> toes;
-  for (const auto* place : places_that_may_lead(judged))
-    for (const auto& spot : analysis.hot_spots)
-      if (spot.name == place->feature && spot.face_walls > longest_face_walls) toes.push_back(&spot);
+  for (const auto& place : judged)
+    for (const auto& spot : analysis.hot_spots) {
+      if (spot.name != place.feature || spot.face_walls <= longest_face_walls || place.value_Pa == 0)
+        continue;
+      const double most = 1 + place.error_Pa / place.value_Pa;
+      const bool leads_range = analysis.scene.fatigue && most * range_Pa(spot) >= leading_range_Pa;
+      if (most * place.value_Pa >= leading_Pa || leads_range) toes.push_back(&spot);
+    }
   return toes;
 }
 
