@@ -111,6 +111,18 @@ TEST(HotSpots, AreRankedByTheirStress) {
   EXPECT_GT(result[0].von_mises_Pa, result[1].von_mises_Pa);
 }
 
+// The strip's first face ends at 0.8 thicknesses.
+TEST(HotSpots, KnowTheFaceBetweenToeAndPoint) {
+  const Line line({tension(1e6)}, {tension(0)});
+  Eigen::ArrayXXd one(1, 1);
+  one << 1;
+  auto beyond = line.spot("beyond");
+  beyond.near_m = line.at(thickness);  // in the second face
+  beyond.far_m = line.at(1.2 * thickness);
+  for (const auto& spot : hot_spot_stresses({line.spot(), beyond}, line.responses, history(one)))
+    EXPECT_NEAR(spot.face_walls, spot.name == "toe" ? 0.8 : 0, 1e-12) << spot.name;
+}
+
 TEST(HotSpots, PointOffTheSurfaceIsRefused) {
   const Line line({tension(1e6)}, {tension(0)});
   Eigen::ArrayXXd one(1, 1);
