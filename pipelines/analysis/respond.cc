@@ -72,4 +72,17 @@ std::string keep_responses(const BodyScene& body, const MeshedBody& meshed, cons
   return text_hash(key);
 }
 
+std::string keep_harmonics(const BodyAnalysis& analysis, const RunOptions& options, StageClock& clock) {
+  const auto& responses = analysis.responses;
+  auto key = "harmonics around the axis\nprogram " + program_fingerprint() + '\n';
+  for (const auto& channel : responses.channels) key += channel + '\n';
+  for (const auto* values : {&responses.nodes.xyz_m, &responses.stress_Pa, &responses.displacement_m})
+    key += text_hash({reinterpret_cast<const char*>(values->data()), sizeof(double) * values->size()}) + '\n';
+  clock.run("write", [&] {
+    std::filesystem::create_directories(options.directory);
+    write_unit_responses(kept_responses(options), key, responses);
+  });
+  return text_hash(key);
+}
+
 }  // namespace pipelines

@@ -24,6 +24,12 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
 std::string keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
                            const RunOptions& options, StageClock& clock);
 
+/// Leaves the unit responses of harmonics around the axis, at their revolved nodes, in unit_responses.h5 for
+/// whoever reads stress over the cycle. No run takes them again: their key is their own content.
+/// @return text_hash of the key that they are kept under
+/// @throws FileError naming the file if it cannot be written
+std::string keep_harmonics(const BodyAnalysis& analysis, const RunOptions& options, StageClock& clock);
+
 /// So many threads, or as many as the machine has where the number is not positive.
 int threads(int wanted);
 
