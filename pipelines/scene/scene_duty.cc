@@ -10,9 +10,9 @@
 namespace pipelines {
 namespace {
 
-/// What belongs to the run as a whole.
-const std::vector<std::string> never_of_a_block = {"title",   "tolerance", "time_limit", "method",  "zones",
-                                                   "results", "sweep",     "duty",       "bearings"};
+/// What an operating point is made of; all else is of the scene as a whole, or of the body that all blocks
+/// share.
+const std::vector<std::string> keys_of_a_block = {"machine", "effects", "sampling"};
 
 /// Shares are written with few digits: three thirds as 33.3 %.
 constexpr double rounding_of_shares = 1e-9;
@@ -33,20 +33,40 @@ std::optional<DutyStart> read_start(SceneTable& table, const Scene& scene) {
   return start;
 }
 
+/// Refuses every value in a table that no block may change.
+/// @param key  of the table: "duty[2].set.shaft"
+void refuse_all_values(const TomlNode& node, const std::string& key, SceneFindings& findings) {
+  if (node.kind == TomlNode::Kind::table && node.entries.size() > 0) {
+    for (const auto& entry : node.entries) refuse_all_values(entry.value, key + "." + entry.key, findings);
+    return;
+  }
+  findings.errors.push_back({findings.file, node.at.line, node.at.column, key, node.as_written,
+                             "is the same in all blocks, which are operating points of one body; a block "
+                             "sets keys of machine, effects and sampling only: write it outside the blocks"});
+}
+
+/// @return whether a block's table `set` has only keys that a block may change
+bool allow_keys(const TomlNode& set, const std::string& key, SceneFindings& findings) {
+  bool all_allowed = true;
+  for (const auto& entry : set.entries)
+    if (!contains(keys_of_a_block, entry.key.substr(0, entry.key.find_first_of(".[")))) {
+      refuse_all_values(entry.value, key + "." + entry.key, findings);
+      all_allowed = false;
+    }
+  return all_allowed;
+}
+
 /// The scene's tree with a block's keys; nothing where one is refused.
 std::optional<TomlNode> tree_of_block(const TomlNode& tree, std::size_t block, const std::string& key,
                                       SceneTable& table, SceneFindings& findings) {
   TomlNode version = without_duty(tree);
   table.know("set");
   if (!table.has("set")) return version;
-  for (const auto& name : table.table("set").names())
-    if (contains(never_of_a_block, name.substr(0, name.find_first_of(".[")))) {
-      table.refuse("set", name + " belongs to the scene as a whole; take it out of the block");
-      return std::nullopt;
-    }
+  table.table("set");  // refuses what is no table
+  const auto& set = tree.find("duty")->value.items[block].find("set")->value;
+  if (!allow_keys(set, key + ".set", findings)) return std::nullopt;
   try {
-    const auto& items = tree.find("duty")->value.items;
-    set_entries(version, items[block].find("set")->value, key + ".set", findings.file);
+    set_entries(version, set, key + ".set", findings.file);
   } catch (const SceneError& error) {
     findings.errors.insert(findings.errors.end(), error.findings().begin(), error.findings().end());
     return std::nullopt;
