@@ -39,6 +39,17 @@ std::vector<LoadCycle> rainflow(const Eigen::ArrayXd& series);
 /// @throws MachineRefused as turning_points
 std::vector<LoadCycle> rainflow_repeating(const Eigen::ArrayXd& period);
 
+/// Where a counted cycle lies in its series.
+struct CycleEnds {
+  Eigen::Index from = 0, to = 0;  ///< indices of its two turning points, from < to
+};
+
+/// The cycles of rainflow_repeating by their places. Cycles of one size are closed by neighbours, whatever
+/// rounding does to them: what differs by no more than `alike` counts as equal, and smaller ranges are none.
+/// @param alike  >= 0, in the unit of the series
+/// @throws MachineRefused as turning_points, or if alike is negative or not finite
+std::vector<CycleEnds> rainflow_repeating_ends(const Eigen::ArrayXd& period, double alike);
+
 /// Exact spectrum: equal (range, mean) merged, their counts summed; by falling range, then rising mean.
 std::vector<LoadCycle> spectrum(std::vector<LoadCycle> cycles);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "pipelines/analysis/fatigue_places.h"
 #include "pipelines/analysis/fatigue_rules.h"
@@ -21,11 +22,11 @@ using Eigen::ArrayXXd;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-void take_life(const FatigueRules& rules, const ArrayXXd& stress_Pa, const EnduranceLimit& limit,
-               const LoadPeriod& period, FatiguePlace& place) {
-  if (!(place.cycle.amplitude_Pa > 0)) return;
-  const auto blocks = rules.counted(along_cycle_Pa(stress_Pa, place.cycle), place.cycle, limit);
+void take_life(const FatigueRules& rules, const CountedNode& counted, const LoadPeriod& period,
+               FatiguePlace& place) {
+  const auto& blocks = counted.blocks;
   place.n_counted = blocks.size();
+  if (blocks.empty()) return;
   const auto curve = rules.design_curve(blocks);
   const double damage = miner_damage(curve, blocks);
   place.damage_per_turn = damage / period.turns;
@@ -77,33 +78,53 @@ std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAna
   return lines;
 }
 
-FatiguePlace place_of(const std::string& feature, const FatigueNode& worst, const BodyAnalysis& analysis,
-                      const FatigueRules& rules, const LoadPeriod& period) {
-  const auto& loads = analysis.loads.history;
+/// Of the nodes that may be the worst of a feature.
+struct JudgedNode {
+  FatigueNode node;
+  CountedNode counted;
+};
+
+JudgedNode worst_of(const std::vector<FatigueNode>& candidates, const FatiguePlaces& search,
+                    const FatigueRules& rules, double duration_s) {
+  JudgedNode worst;
+  for (const auto& node : candidates) {
+    JudgedNode one{node, search.counted(node, duration_s)};
+    if (worst.node.utilisation < 0 ||
+        damages_more(rules, one.counted.blocks, worst.counted.blocks, duration_s))
+      worst = std::move(one);
+  }
+  return worst;
+}
+
+FatiguePlace place_of(const std::string& feature, const JudgedNode& worst, const FatiguePlaces& search,
+                      const BodyAnalysis& analysis, const FatigueRules& rules, const LoadPeriod& period) {
   FatiguePlace place;
   place.feature = feature;
-  place.node = worst.node;
-  place.cycle = worst.cycle;
-  place.gradient_per_m = worst.gradient_per_m;
-  place.utilisation = worst.utilisation;
+  place.node = worst.node.node;
+  place.cycle = worst.node.cycle;
+  place.from = worst.node.from;
+  place.to = worst.node.to;
+  place.gradient_per_m = worst.node.gradient_per_m;
+  place.utilisation = worst.node.utilisation;
   place.surface = analysis.places.place[place.node];
   std::copy_n(&analysis.responses.nodes.xyz_m[3 * place.node], 3, place.position_m.begin());
   const auto limit = rules.limit(place.gradient_per_m, scalar(place.cycle));
   place.support = limit.support;
   place.endurance_Pa = limit.amplitude_Pa;
   place.safety = place.cycle.amplitude_Pa > 0 ? limit.amplitude_Pa / place.cycle.amplitude_Pa : never;
-  const auto stress_Pa = stress_history_Pa(analysis.responses, loads, place.node);
-  take_life(rules, stress_Pa, limit, period, place);
-  place.others = second_opinions(rules, stress_Pa, limit, place.cycle);
-  place.effect_share = shares_of_change(unit_stresses_at(analysis.responses, place.node), loads,
-                                        place.cycle.from, place.cycle.to)
+  take_life(rules, worst.counted, period, place);
+  place.others = second_opinions(
+      rules, stress_history_Pa(analysis.responses, analysis.loads.history, place.node), limit, place.cycle);
+  place.effect_share = shares_of_change(unit_stresses_at(analysis.responses, place.node),
+                                        search.between(place.from, place.to), 0, 1)
                            .effects;
-  place.error_share = error_share_of(analysis, feature);
+  place.error_share = error_share_of(analysis, feature) + search.unresolved_share(worst.node, worst.counted);
   return place;
 }
 
-WeldFatigue weld_of(const WeldPlace& place, const BodyAnalysis& analysis, const LoadPeriod& period) {
-  const auto toe = place.stress(analysis.loads.history.values);
+WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const BodyAnalysis& analysis,
+                    const LoadPeriod& period) {
+  const auto toe = place.stress(course);
   const auto amplitude = toe.cycles.size() > 1 ? LoadAmplitude::variable : LoadAmplitude::constant;
   WeldFatigue weld;
   weld.name = place.name;
@@ -125,13 +146,14 @@ WeldFatigue weld_of(const WeldPlace& place, const BodyAnalysis& analysis, const 
   if (const auto wanted = analysis.scene.fatigue->wanted_life_s)
     weld.life_safety =
         life_factor(weld_curve(place.detail, amplitude), ranges, *wanted / period.duration_s, damage_sum);
-  weld.error_share = place.error_share;
+  weld.error_share = place.error_share + place.unresolved_share(course, toe);
   return weld;
 }
 
-std::vector<WeldFatigue> judge_welds(const BodyAnalysis& analysis, const LoadPeriod& period) {
+std::vector<WeldFatigue> judge_welds(const BodyAnalysis& analysis, const FactorCourse& course,
+                                     const LoadPeriod& period) {
   std::vector<WeldFatigue> welds;
-  for (const auto& place : weld_places(analysis)) welds.push_back(weld_of(place, analysis, period));
+  for (const auto& place : weld_places(analysis)) welds.push_back(weld_of(place, course, analysis, period));
   std::stable_sort(welds.begin(), welds.end(), [](const auto& a, const auto& b) {
     return a.damage_per_turn != b.damage_per_turn ? a.damage_per_turn > b.damage_per_turn
                                                   : a.range_Pa > b.range_Pa;
@@ -165,7 +187,8 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
   fatigue.places.resize(features.size());
   for_each_parallel(features.size(), n_threads, [&](std::size_t, std::size_t i) {
     const auto& [feature, own] = features[i];
-    fatigue.places[i] = place_of(feature, search.worst_of(own), analysis, rules, period);
+    fatigue.places[i] = place_of(feature, worst_of(search.worst_of(own), search, rules, period.duration_s),
+                                 search, analysis, rules, period);
   });
   std::stable_sort(fatigue.places.begin(), fatigue.places.end(),
                    [](const auto& a, const auto& b) { return a.utilisation > b.utilisation; });
@@ -175,7 +198,7 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
                                       [&](const auto& p) { return p.feature == fillet; });
       return place == fatigue.places.end() ? -1 : place->cycle.amplitude_Pa;
     });
-  fatigue.welds = judge_welds(analysis, period);
+  fatigue.welds = judge_welds(analysis, search.course(), period);
   fatigue.assumptions = assumptions_of(rules, analysis);
   return fatigue;
 }

@@ -35,7 +35,8 @@ struct FatiguePlace {
   Place surface = Place::free_surface;
   std::size_t node = 0;
   std::array<double, 3> position_m{};
-  StressCycle cycle{};           ///< exact: no pair of instants differs more
+  StressCycle cycle{};           ///< no pair of instants differs more, nor of what lies between them
+  double from = 0, to = 0;       ///< its instants: i + share of the step to the next
   double gradient_per_m = 0;     ///< related stress gradient of the amplitude
   double support = 1;            ///< n_sigma that it brings
   double endurance_Pa = 0;       ///< sigma_AK: amplitude endured at this mean, reliability in it, j_D not
@@ -44,10 +45,11 @@ struct FatiguePlace {
   double damage_per_turn = 0;    ///< of the drive, at the design limit sigma_AK / j_D; 0: endures
   std::optional<double> life_s;  ///< none: endures
   std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses over j_D
-  std::size_t n_counted = 0;          ///< rainflow cycles in a period
+  std::size_t n_counted = 0;          ///< rainflow cycles in a period, along the direction of most damage
   SecondOpinions others;
   std::vector<double> effect_share;  ///< of the amplitude, in the order of ChannelHistory::effects; sums to 1
-  double error_share = 0;            ///< numerical error of the stress at the place; infinite: not known
+  double error_share = 0;            ///< numerical error of the stress at the place, with what its instants
+                                     ///< leave unresolved; infinite: not known
 };
 
 /// A weld toe by its structural hot-spot stress over the cycle.

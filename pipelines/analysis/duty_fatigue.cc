@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
+#include "kinetics/load_spectrum.h"
+#include "pipelines/analysis/damage_direction.h"
 #include "pipelines/analysis/fatigue_places.h"
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/superposition/nodal_cycles.h"
@@ -39,6 +43,7 @@ struct CountedBlocks {
     std::vector<StressBlock> starting;           ///< of start sequences, likewise
     std::vector<StressBlock> running_in_starts;  ///< of the running in these
     double amplitude_Pa = 0, start_amplitude_Pa = 0;
+    double unresolved_share = 0, unresolved_start_share = 0;  ///< of these
   };
   std::vector<Block> blocks;
 
@@ -67,6 +72,7 @@ void take_damage(const CountedBlocks& counted, const SnCurve& curve, double dama
     place.blocks.push_back(damage);
   }
   if (place.damage_per_s > 0) place.life_s = damage_sum / place.damage_per_s;
+  place.slope = curve.slope;
   if (wanted_life_s) place.life_safety = life_factor(curve, counted.all(), *wanted_life_s, damage_sum);
 }
 
@@ -86,7 +92,8 @@ public:
 
   DutyPlace worst_of(const std::string& feature, const std::vector<std::size_t>& nodes) const {
     std::set<std::size_t> candidates;
-    for (const auto& places : places_) candidates.insert(places.worst_of(nodes).node);
+    for (const auto& places : places_)
+      for (const auto& node : places.worst_of(nodes)) candidates.insert(node.node);
     for (const auto& block : blocks_)
       if (block.start_von_mises != nullptr)
         candidates.insert(*std::max_element(nodes.begin(), nodes.end(), [&](std::size_t a, std::size_t b) {
@@ -98,13 +105,10 @@ public:
     std::optional<DutyPlace> worst;
     for (const auto node : candidates) {
       auto place = at(node);
-      const bool is_worse = !worst || place.damage_per_s > worst->damage_per_s ||
-                            (place.damage_per_s == worst->damage_per_s &&
-                             largest_amplitude_Pa(place) > largest_amplitude_Pa(*worst));
-      if (is_worse) worst = std::move(place);
+      if (!worst || is_worse(place, *worst)) worst = std::move(place);
     }
     worst->feature = feature;
-    worst->error_share = error_share_of(analysis_, feature);
+    worst->error_share += error_share_of(analysis_, feature);
     return std::move(*worst);
   }
 
@@ -113,22 +117,37 @@ public:
     place.feature = weld.name;
     place.position_m = weld.toe_m;
     place.is_weld = true;
-    place.error_share = weld.error_share;
     CountedBlocks counted;
-    for (const auto& block : blocks_) {
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      const auto& block = blocks_[b];
+      const auto& course = places_[b].course();
       auto& own = counted.blocks.emplace_back();
-      own.amplitude_Pa = take_ranges(weld.stress(block.running->values).cycles,
-                                     block.share / block.period.duration_s, own.running);
+      const auto running = weld.stress(course);
+      own.amplitude_Pa = take_ranges(running.cycles, block.share / block.period.duration_s, own.running);
+      own.unresolved_share = weld.unresolved_share(course, running);
       if (!(block.starts_per_s > 0)) continue;
       const auto& starting = block.starting != nullptr ? block.starting->values : ArrayXXd();
-      own.start_amplitude_Pa =
-          take_ranges(weld.stress(start_sequence(block.running->values, starting)).cycles, block.starts_per_s,
-                      own.starting);
-      take_ranges(weld.stress(block.running->values).cycles, block.starts_per_s, own.running_in_starts);
+      const auto start = weld.stress(start_sequence(course.fine(), starting));
+      own.start_amplitude_Pa = take_ranges(start.cycles, block.starts_per_s, own.starting);
+      take_ranges(kinetics::rainflow_repeating(start.stress_Pa.tail(course.fine().cols())),
+                  block.starts_per_s, own.running_in_starts);
+      own.unresolved_start_share = start_sampling_share(weld.unit_Pa, starting, own.start_amplitude_Pa);
     }
     take_damage(counted, weld_curve(weld.detail, LoadAmplitude::variable), damage_sum_of_spectra,
                 rules_.scene().wanted_life_s, place);
+    place.error_share = weld.error_share + sampling_share(counted, place);
     return place;
+  }
+
+  /// Of damage; where there is none, of what is left until there would be.
+  static bool is_worse(const DutyPlace& a, const DutyPlace& b) {
+    const auto safety = [](const DutyPlace& place) {
+      return place.life_safety.value_or(std::numeric_limits<double>::infinity());
+    };
+    if (a.damage_per_s != b.damage_per_s) return a.damage_per_s > b.damage_per_s;
+    if (safety(a) != safety(b)) return safety(a) < safety(b);
+    if (a.utilisation != b.utilisation) return a.utilisation > b.utilisation;
+    return largest_amplitude_Pa(a) > largest_amplitude_Pa(b);
   }
 
   static double largest_amplitude_Pa(const DutyPlace& place) {
@@ -159,36 +178,81 @@ private:
     return largest / 2;
   }
 
+  /// What the instants leave unresolved, by the damage of blocks and starts; without damage the largest.
+  static double sampling_share(const CountedBlocks& counted, const DutyPlace& place) {
+    double most = 0, weighed = 0;
+    for (std::size_t b = 0; b < counted.blocks.size(); ++b) {
+      const auto& block = counted.blocks[b];
+      most = std::max({most, block.unresolved_share, block.unresolved_start_share});
+      weighed += block.unresolved_share * place.blocks[b].damage_per_s +
+                 block.unresolved_start_share * place.blocks[b].starts_per_s;
+    }
+    return place.damage_per_s > 0 ? weighed / place.damage_per_s : most;
+  }
+
+  /// By how much the amplitude of a start's largest cycle may be larger between its instants.
+  static double start_sampling_share(const UnitStresses& unit_Pa, const ArrayXXd& starting,
+                                     double amplitude_Pa) {
+    if (starting.cols() == 0 || !(amplitude_Pa > 0)) return 0;
+    std::vector<std::array<double, 6>> tensors(std::size_t(unit_Pa.cols()));
+    for (Index k = 0; k < unit_Pa.cols(); ++k)
+      std::copy_n(unit_Pa.col(k).data(), 6, tensors[std::size_t(k)].begin());
+    return time_sampling(tensors, starting).error_Pa() / amplitude_Pa;
+  }
+
   DutyPlace at(std::size_t node) const {
     CountedBlocks counted;
-    for (std::size_t b = 0; b < blocks_.size(); ++b)
-      count(places_[b].at(node), blocks_[b], counted.blocks.emplace_back());
     DutyPlace place;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      const auto own = places_[b].at(node);
+      place.utilisation = std::max(place.utilisation, own.utilisation);
+      count(own, places_[b], blocks_[b], counted.blocks.emplace_back());
+    }
     std::copy_n(&analysis_.responses.nodes.xyz_m[3 * node], 3, place.position_m.begin());
     take_damage(counted, rules_.design_curve(counted.all()), 1, rules_.scene().wanted_life_s, place);
+    place.error_share = sampling_share(counted, place);
     return place;
   }
 
-  void count(const FatigueNode& node, const BlockOnBody& block, CountedBlocks::Block& own) const {
-    const ArrayXXd running = stress_history_Pa(analysis_.responses, *block.running, node.node);
+  void count(const FatigueNode& node, const FatiguePlaces& places, const BlockOnBody& block,
+             CountedBlocks::Block& own) const {
     own.amplitude_Pa = node.cycle.amplitude_Pa;
-    if (node.cycle.amplitude_Pa > 0)
-      append(own.running,
-             rules_.counted(along_cycle_Pa(running, node.cycle), node.cycle,
-                            rules_.limit(node.gradient_per_m, scalar(node.cycle))),
-             block.share / block.period.duration_s);
-    if (!(block.starts_per_s > 0)) return;
+    const auto counted = places.counted(node, block.period.duration_s / block.share);
+    append(own.running, counted.blocks, block.share / block.period.duration_s);
+    own.unresolved_share = places.unresolved_share(node, counted);
+    if (block.starts_per_s > 0) count_start(node, places, block, own);
+  }
+
+  /// Along the direction in which a start does most damage beyond that of the running in it.
+  void count_start(const FatigueNode& node, const FatiguePlaces& places, const BlockOnBody& block,
+                   CountedBlocks::Block& own) const {
+    const StressCourse running(places.stress_of(node.node).stress_Pa());
     const ArrayXXd starting = block.starting != nullptr
                                   ? stress_history_Pa(analysis_.responses, *block.starting, node.node)
                                   : ArrayXXd();
-    const ArrayXXd sequence = start_sequence(running, starting);
-    const auto cycle = largest_cycle(sequence, slack_of_long_series);
+    const StressCourse sequence(start_sequence(running.stress_Pa(), starting));
+    const auto cycle = sequence.largest(slack_of_long_series).cycle;
     if (!(cycle.amplitude_Pa > 0)) return;
     own.start_amplitude_Pa = cycle.amplitude_Pa;
     const auto limit = rules_.limit(node.gradient_per_m, scalar(cycle));
-    append(own.starting, rules_.counted(along_cycle_Pa(sequence, cycle), cycle, limit), block.starts_per_s);
-    const Eigen::ArrayXd along = along_cycle_Pa(sequence, cycle).tail(running.cols());
-    append(own.running_in_starts, rules_.counted(along, cycle, limit), block.starts_per_s);
+    const auto counted = [&](const StressCourse& course, const DeviatoricDirection& direction) {
+      return rules_.counted(course.cycles_along(direction), limit);
+    };
+    const double slope = rules_.group().slope_normal;
+    const auto added = [&](const DeviatoricDirection& direction) {
+      return elementary_damage(counted(sequence, direction), slope) -
+             elementary_damage(counted(running, direction), slope);
+    };
+    const auto directions =
+        damage_directions(sequence.coordinates(), direction_of(cycle.half_range_Pa), added);
+    const auto worst = *std::max_element(directions.begin(), directions.end(),
+                                         [&](const auto& a, const auto& b) { return added(a) < added(b); });
+    append(own.starting, counted(sequence, worst), block.starts_per_s);
+    append(own.running_in_starts, counted(running, worst), block.starts_per_s);
+    own.unresolved_start_share = block.starting == nullptr
+                                     ? 0
+                                     : start_sampling_share(unit_stresses_at(analysis_.responses, node.node),
+                                                            block.starting->values, cycle.amplitude_Pa);
   }
 
   const BodyAnalysis& analysis_;
@@ -210,11 +274,7 @@ std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vecto
     result[i] = judge.worst_of(features[i].first, features[i].second);
   });
   for (const auto& weld : weld_places(analysis)) result.push_back(judge.weld(weld));
-  std::stable_sort(result.begin(), result.end(), [](const DutyPlace& a, const DutyPlace& b) {
-    return a.damage_per_s != b.damage_per_s
-               ? a.damage_per_s > b.damage_per_s
-               : DutyJudge::largest_amplitude_Pa(a) > DutyJudge::largest_amplitude_Pa(b);
-  });
+  std::stable_sort(result.begin(), result.end(), DutyJudge::is_worse);
   return result;
 }
 

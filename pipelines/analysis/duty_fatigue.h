@@ -45,13 +45,18 @@ struct DutyPlace {
   double damage_per_s = 0;            ///< of operation, all together
   std::optional<double> life_s;       ///< in operation; none: endures
   std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
-  double error_share = 0;             ///< numerical error of the stress; infinite: not known
+  double utilisation = 0;             ///< by the largest cycle of the block that uses it most; toes: 0
+  double slope = 0;                   ///< of its S-N curve above the knee
+  double error_share = 0;             ///< numerical error of the stress, with what the instants leave
+                                      ///< unresolved, by the damage of the blocks; infinite: not known
 };
 
-/// Every feature's worst node, and every weld toe; by falling damage, then by falling amplitude. The node is
-/// the one with most damage of those that some block uses up most, that a start stresses most, or whose
-/// largest cycles of all blocks, each counted once a period without support by the gradient, do most damage
-/// together.
+/// Every feature's worst node, and every weld toe; by falling damage, then by rising safety against the
+/// wanted life, then by falling utilisation and amplitude. The node is the first by the same order of those
+/// that some block uses up most (FatiguePlaces::worst_of), that a start stresses most, or whose largest
+/// cycles of all blocks, each counted once a period without support by the gradient, do most damage together.
+/// Each block is counted along the direction in which it damages most: the sum is at least that of any one
+/// direction.
 /// @param analysis  whose scene asks for fatigue
 std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks,
                                   int n_threads);

@@ -15,7 +15,8 @@ struct BlockStress {
   std::string body, feature;
   bool is_hot_spot = false;  ///< structural stress of a weld toe
   double value_Pa = 0;
-  double safety = 0;  ///< yield strength over it
+  double safety = 0;             ///< yield strength over it
+  double sampling_error_Pa = 0;  ///< by how much it may be larger between the instants (time_sampling.h)
 };
 
 struct BlockResult {

@@ -1,9 +1,14 @@
 #include "pipelines/analysis/fatigue_places.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
+#include "pipelines/analysis/damage_direction.h"
 #include "pipelines/analysis/place_stress.h"
+#include "pipelines/analysis/time_sampling.h"
+#include "pipelines/superposition/cycle_extremes.h"
 #include "pipelines/superposition/nodal_cycles.h"
 #include "pipelines/superposition/stress_shares.h"
 
@@ -17,6 +22,8 @@ Stress as_stress(const Eigen::Matrix<double, 6, 1>& components) {
 }
 
 constexpr double slack_of_search = 1e-6;
+constexpr double life_without_wish_s = 1e8;
+constexpr double places_per_period = 48, places_in_search = 24;
 
 }  // namespace
 
@@ -36,6 +43,27 @@ std::vector<NodesOfFeature> nodes_by_feature(const BodyAnalysis& analysis) {
   return {result.begin(), result.end()};
 }
 
+bool damages_more(const FatigueRules& rules, const std::vector<StressBlock>& blocks,
+                  const std::vector<StressBlock>& others, double duration_s) {
+  const auto curve = rules.design_curve(blocks), of_others = rules.design_curve(others);
+  const double damage = miner_damage(curve, blocks), damage_of_others = miner_damage(of_others, others);
+  if (damage != damage_of_others) return damage > damage_of_others;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const double repetitions = rules.scene().wanted_life_s.value_or(life_without_wish_s) / duration_s;
+  return life_factor(curve, blocks, repetitions).value_or(never) <
+         life_factor(of_others, others, repetitions).value_or(never);
+}
+
+Eigen::ArrayXd channel_sizes_Pa(const fem::UnitResponses& responses) {
+  Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(Eigen::Index(responses.channels.size()));
+  for (const auto node : surface_nodes(responses.nodes)) {
+    const auto unit = unit_stresses_at(responses, node);
+    for (Eigen::Index k = 0; k < unit.cols(); ++k)
+      sizes[k] = std::max(sizes[k], von_mises_Pa(as_stress(unit.col(k))));
+  }
+  return sizes;
+}
+
 FatiguePlaces::FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& slopes,
                              const ChannelHistory& loads, const std::vector<double>& largest_Pa,
                              const FatigueRules& rules)
@@ -44,11 +72,14 @@ FatiguePlaces::FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& 
       loads_(loads),
       largest_Pa_(largest_Pa),
       rules_(rules),
-      half_ranges_(0.5 * (loads.values.rowwise().maxCoeff() - loads.values.rowwise().minCoeff())),
+      course_(loads.values, channel_sizes_Pa(analysis.responses), places_per_period),
+      of_search_(loads.values, channel_sizes_Pa(analysis.responses), places_in_search),
+      half_ranges_(0.5 * (course_.fine().rowwise().maxCoeff() - course_.fine().rowwise().minCoeff()) *
+                   course_.most_over_places()),
       most_per_Pa_(rules.scene().safety /
                    (rules.limit(0, {}).reversed_Pa * rules.least_mean_stress_factor())) {}
 
-FatigueNode FatiguePlaces::worst_of(const std::vector<std::size_t>& nodes) const {
+std::vector<FatigueNode> FatiguePlaces::worst_of(const std::vector<std::size_t>& nodes) const {
   std::vector<std::pair<double, std::size_t>> by_bound;
   for (const auto node : nodes) by_bound.emplace_back(most_amplitude_Pa(node), node);
   std::stable_sort(by_bound.begin(), by_bound.end(),
@@ -56,10 +87,22 @@ FatigueNode FatiguePlaces::worst_of(const std::vector<std::size_t>& nodes) const
   FatigueNode worst;
   for (const auto& [bound_Pa, node] : by_bound) {
     if (most_per_Pa_ * bound_Pa <= worst.utilisation) break;
-    auto candidate = at(node, slack_of_search);
+    auto candidate = judged(node, of_search_, slack_of_search);
     if (candidate.utilisation > worst.utilisation) worst = candidate;
   }
-  return nodes.empty() ? worst : at(worst.node);
+  std::vector<FatigueNode> result;
+  if (nodes.empty()) return result;
+  result.push_back(at(worst.node));
+  if (course_.orders().size() < 2) return result;
+  std::size_t by_harmonics = worst.node;
+  double most = harmonics_damage_about(by_harmonics) * (1 + slack_of_search);
+  for (const auto node : nodes)
+    if (const double damage = harmonics_damage_about(node); damage > most) {
+      most = damage;
+      by_harmonics = node;
+    }
+  if (by_harmonics != worst.node) result.push_back(at(by_harmonics));
+  return result;
 }
 
 /// Half of the difference of two stresses has at most the larger von Mises stress of both, and at most the
@@ -69,21 +112,100 @@ double FatiguePlaces::most_amplitude_Pa(std::size_t node) const {
   double of_channels_Pa = 0;
   for (Eigen::Index k = 0; k < unit.cols(); ++k)
     of_channels_Pa += half_ranges_[k] * von_mises_Pa(as_stress(unit.col(k)));
-  return std::min(of_channels_Pa, largest_Pa_[node]);
+  const double larger = course_.most_over_instants();
+  return largest_Pa_[node] > 0 ? std::min(of_channels_Pa, larger * largest_Pa_[node]) : of_channels_Pa;
 }
 
-FatigueNode FatiguePlaces::at(std::size_t node, double slack) const {
+/// In proportion: sum of h A_h^k over the orders, A_h the larger half axis of the deviator's ellipse.
+double FatiguePlaces::harmonics_damage_about(std::size_t node) const {
+  const auto unit = unit_stresses_at(analysis_.responses, node);
+  const auto coordinates = deviatoric_coordinates(unit);
+  double damage = 0;
+  for (Eigen::Index i = 0; i < course_.orders().size(); ++i) {
+    const Eigen::VectorXcd line = coordinates.matrix() * course_.strongest().col(i).matrix();
+    const double axis_squared = (line.squaredNorm() + std::abs(line.cwiseProduct(line).sum())) / 2;
+    damage += course_.orders()[i] * std::pow(std::sqrt(axis_squared) / rules_.limit(0, {}).reversed_Pa,
+                                             rules_.group().slope_normal);
+  }
+  return damage;
+}
+
+double FatiguePlaces::gradient_per_m(std::size_t node, double from, double to) const {
+  if (analysis_.method == Method::beam) return 0;
+  const Eigen::VectorXd half =
+      0.5 * (loads_.values.matrix() * (course_.weights_at(to) - course_.weights_at(from)));
+  return slopes_.related_gradient_per_m(node, [&](std::size_t other) {
+    return von_mises_Pa(as_stress(unit_stresses_at(analysis_.responses, other) * half));
+  });
+}
+
+FatigueNode FatiguePlaces::judged(std::size_t node, const FactorCourse& factors, double slack) const {
   FatigueNode result;
   result.node = node;
-  result.cycle = largest_cycle(stress_history_Pa(analysis_.responses, loads_, node), slack);
-  if (analysis_.method != Method::beam && result.cycle.amplitude_Pa > 0) {
-    const Eigen::VectorXd half =
-        0.5 * (loads_.values.col(result.cycle.to) - loads_.values.col(result.cycle.from)).matrix();
-    result.gradient_per_m = slopes_.related_gradient_per_m(node, [&](std::size_t other) {
-      return von_mises_Pa(as_stress(unit_stresses_at(analysis_.responses, other) * half));
-    });
-  }
+  const auto found = StressCourse(unit_stresses_at(analysis_.responses, node), factors).largest(slack);
+  result.cycle = found.cycle;
+  result.from = found.from;
+  result.to = found.to;
+  if (result.cycle.amplitude_Pa > 0) result.gradient_per_m = gradient_per_m(node, result.from, result.to);
   result.utilisation = rules_.limit(result.gradient_per_m, scalar(result.cycle)).utilisation;
+  return result;
+}
+
+FatigueNode FatiguePlaces::at(std::size_t node) const {
+  return judged(node, course_, 0);
+}
+
+StressCourse FatiguePlaces::stress_of(std::size_t node) const {
+  return {unit_stresses_at(analysis_.responses, node), course_};
+}
+
+CountedNode FatiguePlaces::counted(const FatigueNode& node, double duration_s) const {
+  CountedNode worst;
+  if (!(node.cycle.amplitude_Pa > 0)) return worst;
+  const auto course = stress_of(node.node);
+  const auto limit = rules_.limit(node.gradient_per_m, scalar(node.cycle));
+  const auto about = [&](const DeviatoricDirection& direction) {
+    return elementary_damage(rules_.counted(course.cycles_along(direction, false), limit),
+                             rules_.group().slope_normal);
+  };
+  const auto directions =
+      damage_directions(course.coordinates(), direction_of(node.cycle.half_range_Pa), about);
+  for (const auto& direction : directions) {
+    const auto cycles = course.cycles_along(direction);
+    if (cycles.empty()) continue;
+    const auto largest = std::max_element(
+        cycles.begin(), cycles.end(), [](const auto& a, const auto& b) { return a.range_Pa < b.range_Pa; });
+    CountedNode one;
+    one.direction = direction;
+    one.amplitude_Pa = largest->range_Pa / 2;
+    one.limit = &direction == &directions.front()
+                    ? limit
+                    : rules_.limit(gradient_per_m(node.node, largest->from_instant, largest->to_instant),
+                                   scalar(cycle_between(largest->from, largest->to, 0, 1)));
+    one.blocks = rules_.counted(cycles, one.limit);
+    if (worst.blocks.empty() || damages_more(rules_, one.blocks, worst.blocks, duration_s))
+      worst = std::move(one);
+  }
+  return worst;
+}
+
+double FatiguePlaces::unresolved_share(const FatigueNode& node, const CountedNode& counted) const {
+  if (course_.is_resolved() || !(counted.amplitude_Pa > 0)) return 0;
+  const Eigen::VectorXd middle =
+      0.5 * (loads_.values.matrix() * (course_.weights_at(node.from) + course_.weights_at(node.to)));
+  const auto unit = unit_stresses_at(analysis_.responses, node.node);
+  std::vector<std::array<double, 6>> tensors(std::size_t(unit.cols()));
+  for (Eigen::Index k = 0; k < unit.cols(); ++k) tensors[std::size_t(k)] = as_stress(unit.col(k));
+  const auto sampling = time_sampling(tensors, loads_.values.colwise() - middle.array());
+  return (course_.is_polynomial() ? sampling.unresolved_Pa : sampling.error_Pa()) / counted.amplitude_Pa;
+}
+
+ChannelHistory FatiguePlaces::between(double from, double to) const {
+  Eigen::MatrixXd weights(loads_.values.cols(), 2);
+  weights << course_.weights_at(from), course_.weights_at(to);
+  ChannelHistory result{loads_.body, loads_.channels, loads_.effects, {}, {}};
+  result.values = (loads_.values.matrix() * weights).array();
+  for (const auto& part : loads_.by_effect) result.by_effect.push_back((part.matrix() * weights).array());
   return result;
 }
 

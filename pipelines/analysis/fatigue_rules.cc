@@ -25,17 +25,15 @@ EnduranceLimit FatigueRules::limit(double gradient_per_m, const CyclicStress& st
   return limit;
 }
 
-std::vector<StressBlock> FatigueRules::counted(const Eigen::ArrayXd& along_Pa, const StressCycle& largest,
+std::vector<StressBlock> FatigueRules::counted(const std::vector<EndsOfCycle>& cycles,
                                                const EnduranceLimit& limit) const {
-  const auto cycles = kinetics::rainflow_repeating(along_Pa);
-  double most = 0;
-  for (const auto& cycle : cycles) most = std::max(most, cycle.range);
   std::vector<StressBlock> blocks;
+  blocks.reserve(cycles.size());
   for (const auto& cycle : cycles) {
-    const double mean = cycle.range == most ? largest.signed_mean_Pa : cycle.mean;
+    const double mean_Pa = cycle_between(cycle.from, cycle.to, 0, 1).signed_mean_Pa;
     const double amplitude_Pa =
-        equivalent_reversed_amplitude_Pa({cycle.range / 2, mean}, limit.mean_stress_sensitivity);
-    blocks.push_back({amplitude_Pa / limit.reversed_Pa, cycle.count});
+        equivalent_reversed_amplitude_Pa({cycle.range_Pa / 2, mean_Pa}, limit.mean_stress_sensitivity);
+    blocks.push_back({amplitude_Pa / limit.reversed_Pa, 1});
   }
   return blocks;
 }

@@ -3,11 +3,10 @@
 
 #include <vector>
 
-#include "kinetics/load_spectrum.h"
 #include "pipelines/fatigue/endurance.h"
 #include "pipelines/fatigue/sn_curve.h"
 #include "pipelines/scene/fatigue_scene.h"
-#include "pipelines/superposition/stress_cycle.h"
+#include "pipelines/superposition/stress_course.h"
 
 namespace pipelines {
 
@@ -25,12 +24,9 @@ public:
   /// The least that any mean leaves of the endurance limit, over that without mean: field IV of the diagram.
   double least_mean_stress_factor() const { return limit(0, {0, 1}).amplitude_Pa / limit(0, {}).reversed_Pa; }
 
-  /// The series along a node's largest cycle, counted by rainflow over a period that repeats: amplitudes at
-  /// R = -1 as shares of what is endured there. Means are those along the largest cycle; that one has the
-  /// mean of its tensors, so that stress across it counts too.
-  /// @param along_Pa  along_cycle_Pa of `largest`, or of a series whose largest cycle it is
-  std::vector<StressBlock> counted(const Eigen::ArrayXd& along_Pa, const StressCycle& largest,
-                                   const EnduranceLimit& limit) const;
+  /// Counted cycles as amplitudes at R = -1, shares of what is endured there. Each has the mean of its own
+  /// tensors, at both its ends: stress across the direction of counting opens cracks too.
+  std::vector<StressBlock> counted(const std::vector<EndsOfCycle>& cycles, const EnduranceLimit& limit) const;
 
   /// S-N curve of such shares at the design limit. Where one amplitude is above the knee, those below it
   /// count by the same slope (Miner's elementary rule): damage lowers the limit.

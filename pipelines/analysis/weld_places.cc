@@ -6,10 +6,11 @@
 #include "pipelines/analysis/hot_spots.h"
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/analysis/stress_gradient.h"
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
-#include "pipelines/superposition/stress_shares.h"
+#include "pipelines/superposition/stress_course.h"
 
 namespace pipelines {
 namespace {
@@ -33,6 +34,33 @@ void require_toes(const BodyScene& body, const meshes::BodyMesh& mesh) {
     if (!contains(names, name))
       throw StageRefused(toe.origin + ": \"" + name + "\" is no weld toe of this body; write one of " +
                          listed(names));
+}
+
+ToeStress WeldPlace::stress(const FactorCourse& course) const {
+  auto toe = stress(course.fine());
+  toe.cycles.clear();
+  const StressCourse stresses(unit_Pa, course);
+  for (const auto& cycle : stresses.cycles_of(toe.form)) {
+    const auto mean = [&](Index c) { return (cycle.from[std::size_t(c)] + cycle.to[std::size_t(c)]) / 2; };
+    double mean_Pa = 0;
+    for (Index c = 0; c < 6; ++c) mean_Pa += toe.form[c] * mean(c);
+    toe.cycles.push_back({cycle.range_Pa, mean_Pa, 1});
+  }
+  return toe;
+}
+
+double WeldPlace::unresolved_share(const FactorCourse& course, const ToeStress& toe) const {
+  const double range_Pa = toe.stress_Pa.maxCoeff() - toe.stress_Pa.minCoeff();
+  if (course.is_resolved() || !(range_Pa > 0)) return 0;
+  const auto& values = course.values();
+  const Eigen::ArrayXd middle = (values.rowwise().maxCoeff() + values.rowwise().minCoeff()) / 2;
+  std::vector<std::array<double, 6>> tensors(std::size_t(unit_Pa.cols()));
+  for (Index k = 0; k < unit_Pa.cols(); ++k)
+    std::copy_n(unit_Pa.col(k).data(), 6, tensors[std::size_t(k)].begin());
+  const auto sampling = time_sampling(tensors, values.colwise() - middle);
+  constexpr double most_principal = 1.1547;  // of von Mises in plane stress: 2 / sqrt(3)
+  return most_principal * (course.is_polynomial() ? sampling.unresolved_Pa : sampling.error_Pa()) /
+         (range_Pa / 2);
 }
 
 std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis) {

@@ -8,6 +8,7 @@
 
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/fatigue/weld_fatigue.h"
+#include "pipelines/superposition/factor_course.h"
 
 namespace pipelines {
 
@@ -22,10 +23,18 @@ struct WeldPlace {
   WeldDetail detail;
   double error_share = 0;  ///< numerical error of the stress; infinite: not known
 
-  /// Under loads with the channels of the unit responses.
+  /// Under loads with the channels of the unit responses. The direction is that of the places between the
+  /// instants; cycles have their turning points where the stress has them.
+  ToeStress stress(const FactorCourse& course) const;
+
+  /// Of a series that is no period of a polynomial.
   ToeStress stress(const Eigen::ArrayXXd& factors) const {
     return toe_stress(unit_Pa * factors.matrix(), surface_normal, across_toe);
   }
+
+  /// By how much half a range may be larger than its instants tell, or the polynomial through them, as a
+  /// share of it: what the toe's deviator may, at most.
+  double unresolved_share(const FactorCourse& course, const ToeStress& toe) const;
 };
 
 /// @throws StageRefused if the scene's fatigue names a toe that the body does not have

@@ -77,6 +77,12 @@ double miner_damage(const SnCurve& curve, const std::vector<StressBlock>& blocks
   return damage;
 }
 
+double elementary_damage(const std::vector<StressBlock>& blocks, double slope) {
+  double damage = 0;
+  for (const StressBlock& block : blocks) damage += block.count * std::pow(block.amplitude_Pa, slope);
+  return damage;
+}
+
 std::optional<double> life_factor(const SnCurve& curve, const std::vector<StressBlock>& blocks,
                                   double repetitions, double damage_sum) {
   require_sound(curve);

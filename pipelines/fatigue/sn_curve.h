@@ -43,6 +43,9 @@ struct StressBlock {
 /// finite
 double miner_damage(const SnCurve& curve, const std::vector<StressBlock>& blocks);
 
+/// Sum of n_i A_i^k: in proportion to the damage by one slope without a knee (Miner's elementary rule).
+double elementary_damage(const std::vector<StressBlock>& blocks, double slope);
+
 /// Largest factor on all amplitudes with which the blocks can be repeated so often: the safety against a
 /// wanted life. With it the damage of all repetitions is just the damage sum, or, without second slope, the
 /// next larger factor would pass it. Found in closed form between the factors at which an amplitude crosses

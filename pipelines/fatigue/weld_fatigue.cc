@@ -1,6 +1,7 @@
 #include "pipelines/fatigue/weld_fatigue.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -8,6 +9,8 @@
 
 namespace pipelines {
 namespace {
+
+constexpr double slope_above_knee = 3;
 
 /// The three stresses in the surface: along the toe's normal, along the toe, shear.
 struct SurfaceHistory {
@@ -17,18 +20,27 @@ struct SurfaceHistory {
     const double c = std::cos(angle_rad), s = std::sin(angle_rad);
     return c * c * across_Pa + s * s * along_Pa + 2 * s * c * shear_Pa;
   }
+  /// The range that does the damage of all cycles at once.
   double range_at(double angle_rad) const {
-    const Eigen::ArrayXd stress_Pa = at(angle_rad);
-    return stress_Pa.maxCoeff() - stress_Pa.minCoeff();
+    const auto cycles = kinetics::rainflow_repeating(at(angle_rad));
+    double largest = 0, sum = 0;
+    for (const auto& cycle : cycles) largest = std::max(largest, cycle.range);
+    if (!(largest > 0)) return 0;
+    for (const auto& cycle : cycles) sum += cycle.count * std::pow(cycle.range / largest, slope_above_knee);
+    return largest * std::pow(sum, 1 / slope_above_knee);
   }
 };
 
-Eigen::ArrayXd history_between(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
-                               const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
-  Eigen::Matrix<double, 1, 6> w;
+Eigen::Matrix<double, 6, 1> form_between(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+  Eigen::Matrix<double, 6, 1> w;
   w << u.x() * v.x(), u.y() * v.y(), u.z() * v.z(), u.x() * v.y() + u.y() * v.x(),
       u.y() * v.z() + u.z() * v.y(), u.x() * v.z() + u.z() * v.x();
-  return (w * history_Pa).transpose().array();
+  return w;
+}
+
+Eigen::ArrayXd history_between(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
+                               const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+  return (form_between(u, v).transpose() * history_Pa).transpose().array();
 }
 
 /// Golden section on a bracket of one maximum.
@@ -66,7 +78,7 @@ double thickness_factor(double thickness_m, double exponent) {
 SnCurve weld_curve(const WeldDetail& detail, LoadAmplitude amplitude) {
   require_input_between("fat_Pa", detail.fat_Pa, 1e6, 500e6);
   require_input_between("gamma_M", detail.gamma_M, 1, 2);
-  constexpr double class_cycles = 2e6, knee_cycles = 1e7, slope = 3;
+  constexpr double class_cycles = 2e6, knee_cycles = 1e7, slope = slope_above_knee;
   const double at_class_Pa =
       thickness_factor(detail.thickness_m, detail.thickness_exponent) * detail.fat_Pa / detail.gamma_M;
   return {at_class_Pa * std::pow(class_cycles / knee_cycles, 1 / slope), knee_cycles, slope,
@@ -109,6 +121,8 @@ ToeStress toe_stress(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
     toe.angle_rad = angle_rad;
     toe.is_principal = true;
   }
+  const Eigen::Vector3d governing = std::cos(toe.angle_rad) * u + std::sin(toe.angle_rad) * v;
+  toe.form = form_between(governing, governing);
   toe.stress_Pa = history.at(toe.angle_rad);
   toe.cycles = kinetics::rainflow_repeating(toe.stress_Pa);
   return toe;

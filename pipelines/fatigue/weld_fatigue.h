@@ -58,16 +58,18 @@ double weld_damage(const WeldDetail& detail, LoadAmplitude amplitude,
 struct ToeStress {
   double angle_rad = 0;                     ///< from the toe's normal towards surface_normal x toe_normal
   bool is_principal = false;                ///< else the stress normal to the toe
+  Eigen::Matrix<double, 6, 1> form;         ///< weights of the components that make that stress
   Eigen::ArrayXd stress_Pa;                 ///< one value for each instant
   std::vector<kinetics::LoadCycle> cycles;  ///< of the period that repeats
 };
 
 /// Stress range across a toe. IIW: the principal stress in the surface, if its direction is within 60 degrees
 /// of the toe's normal, else the stress normal to the toe. Over a cycle with turning principal directions
-/// this is read as: of the fixed directions within 60 degrees, one where the range of the normal stress has a
-/// maximum (the principal direction of the range; the end of the sector is none), if that range is not less
-/// than the range normal to the toe. With proportional stress it is the principal stress itself, and there
-/// are no jumps between two of them.
+/// this is read as: of the fixed directions within 60 degrees, one where the counted cycles of the normal
+/// stress have a maximum of (sum of range^3)^(1/3), which their damage goes by above the knee (the end of the
+/// sector is none), if it is not less than that normal to the toe. With one cycle in the period that is the
+/// direction of the largest range; with proportional stress it is the principal stress itself, and there are
+/// no jumps between two of them.
 /// @param history_Pa      structural stress, rows xx, yy, zz, xy, yz, xz, a column for each instant of a
 /// period
 /// @param surface_normal  need not have unit length

@@ -16,15 +16,24 @@ namespace {
 constexpr std::size_t n_duty_places_shown = 4;
 constexpr double hour_s = 3600, day_h = 24;
 
+/// What lies between the instants, where it is worth a word.
+std::string sampling_text(const BlockStress& stress) {
+  constexpr double worth_a_word = 0.001;
+  const double share = stress.sampling_error_Pa / stress.value_Pa;
+  return share > worth_a_word ? fmt::format(", up to {:.2g} % more between the instants", 100 * share)
+                              : std::string();
+}
+
 void print_blocks(std::ostream& out, const DutyResult& duty) {
   out << fmt::format("\n  {:<24}{:>8}{:>12}  {}\n", "operating block", "share", "starts/day",
                      "largest stress");
   for (const auto& block : duty.blocks) {
     std::string stresses;
     for (const auto& stress : block.stresses)
-      stresses += fmt::format("{}{} {} MPa (safety {}) at {}", stresses.empty() ? "" : "; ", stress.body,
-                              fixed(stress.value_Pa / 1e6, 1), fixed(stress.safety, 2),
-                              stress.feature + (stress.is_hot_spot ? " (weld toe)" : ""));
+      stresses +=
+          fmt::format("{}{} {} MPa (safety {}) at {}", stresses.empty() ? "" : "; ", stress.body,
+                      fixed(stress.value_Pa / 1e6, 1), fixed(stress.safety, 2),
+                      stress.feature + (stress.is_hot_spot ? " (weld toe)" : "") + sampling_text(stress));
     out << fmt::format("  {:<24}{:>6.4g} %{:>12}  {}\n", block.name, 100 * block.share,
                        block.starts_per_day > 0
                            ? fmt::format("{:.4g}{}", block.starts_per_day, block.has_transient ? "" : " *")
@@ -59,16 +68,17 @@ std::string causes_of(const DutyResult& duty, const DutyPlace& place) {
 
 void print_places(std::ostream& out, const DutyResult& duty) {
   for (const auto& [body, places] : duty.places) {
-    out << fmt::format("\n  {:<40}{:>13}{:>14}  {}\n", body + " over all blocks", "amplitude MPa", "life",
+    out << fmt::format("\n  {:<40}{:>13}{:>32}  {}\n", body + " over all blocks", "amplitude MPa", "life",
                        "damage by");
     const auto n = std::min(n_duty_places_shown, places.size());
     for (std::size_t i = 0; i < n; ++i) {
       double amplitude_Pa = 0;
       for (const auto& block : places[i].blocks)
         amplitude_Pa = std::max({amplitude_Pa, block.amplitude_Pa, block.start_amplitude_Pa});
-      out << fmt::format("  {:<40}{:>13.1f}{:>14}  {}\n",
+      out << fmt::format("  {:<40}{:>13.1f}{:>32}  {}\n",
                          places[i].feature + (places[i].is_weld ? " (weld toe)" : ""), amplitude_Pa / 1e6,
-                         life_text(places[i].life_s), causes_of(duty, places[i]));
+                         life_range_text(places[i].life_s, places[i].error_share, places[i].slope),
+                         causes_of(duty, places[i]));
       if (places[i].life_safety)
         out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
                            *places[i].life_safety);
@@ -137,6 +147,7 @@ summary::Json duty_json(const DutyResult& duty) {
                     {"start_transient", block.has_transient}});
     for (const auto& stress : block.stresses)
       entry["bodies"][stress.body] = object({{"von_mises", figure(stress.value_Pa, "Pa")},
+                                             {"time_sampling", figure(stress.sampling_error_Pa, "Pa")},
                                              {"feature", stress.feature},
                                              {"weld_toe", stress.is_hot_spot},
                                              {"safety", number_or_none(stress.safety)}});

@@ -23,15 +23,6 @@ std::string safety_text(double safety) {
   return std::isfinite(safety) ? fixed(safety, 2) : "-";
 }
 
-/// Life goes with the slope-th power of stress: what the stress's error makes of it, "4000 to 9000".
-std::string life_range(const FatiguePlace& place, double slope) {
-  if (!place.life_s) return "endures";
-  const double hours = *place.life_s / seconds_per_hour;
-  if (!(place.error_share < 1)) return fmt::format("{:.2g} h, not known well", hours);
-  return fmt::format("{:.2g} h ({:.2g} to {:.2g})", hours, hours * std::pow(1 + place.error_share, -slope),
-                     hours * std::pow(1 - place.error_share, -slope));
-}
-
 const GroupConstants& group_of(const BodyAnalysis& analysis) {
   return constants_of(analysis.scene.fatigue->material.group);
 }
@@ -92,6 +83,14 @@ std::string life_text(const std::optional<double>& life_s) {
   return life_s ? fmt::format("{:.2g} h", *life_s / seconds_per_hour) : "endures";
 }
 
+std::string life_range_text(const std::optional<double>& life_s, double error_share, double slope) {
+  if (!life_s) return "endures";
+  const double hours = *life_s / seconds_per_hour;
+  if (!(error_share < 1)) return fmt::format("{:.2g} h, not known well", hours);
+  return fmt::format("{:.2g} h ({:.2g} to {:.2g})", hours, hours * std::pow(1 + error_share, -slope),
+                     hours * std::pow(1 - error_share, -slope));
+}
+
 void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   if (!analysis.fatigue) return;
   const auto& fatigue = *analysis.fatigue;
@@ -103,18 +102,18 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
     out << fmt::format("  {:<30}{:>13}{:>10}{:>12}{:>9}{:>12.1f}%  {}\n", place.feature,
                        fixed(place.cycle.amplitude_Pa / 1e6, 1), fixed(place.cycle.signed_mean_Pa / 1e6, 1),
                        fixed(place.endurance_Pa / 1e6, 1), safety_text(place.safety), 100 * place.utilisation,
-                       life_range(place, group_of(analysis).slope_normal));
+                       life_range_text(place.life_s, place.error_share, group_of(analysis).slope_normal));
   }
   if (fatigue.places.empty()) return;
   const auto& first = fatigue.places.front();
-  const auto at = [&](Eigen::Index instant) {
-    const auto moment = moment_of(report.scene, report.loads, instant);
+  const auto at = [&](double instant) {
+    const auto moment = moment_between(report.scene, report.loads, instant);
     return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / M_PI);
   };
   if (first.cycle.amplitude_Pa > 0)
     out << fmt::format(
         "    {}: from {} to {}; by {}; n_sigma {:.3f} at {:.3g}/mm; stress known to {}\n", first.feature,
-        at(first.cycle.from), at(first.cycle.to),
+        at(first.from), at(first.to),
         largest_shares(group_shares(analysis.loads.history.effects, first.effect_share)), first.support,
         first.gradient_per_m * 1e-3,
         std::isfinite(first.error_share) ? fmt::format("{:.1f} %", 100 * first.error_share) : "nothing");
@@ -180,8 +179,8 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
   json["safety_factor"] = figure(analysis.scene.fatigue->safety, "1");
   json["places"] = summary::Json::array();
   for (const auto& place : fatigue.places) {
-    const auto moment = [&](Eigen::Index instant) {
-      const auto m = moment_of(report.scene, report.loads, instant);
+    const auto moment = [&](double instant) {
+      const auto m = moment_between(report.scene, report.loads, instant);
       return object({{"turn", m.turn}, {"drive_angle_rad", m.angle_rad}});
     };
     const auto life = place.life_s.value_or(std::numeric_limits<double>::infinity());
@@ -195,8 +194,8 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
          {"mean_Pa", number(place.cycle.signed_mean_Pa)},
          {"half_range_Pa", place.cycle.half_range_Pa},
          {"mean_tensor_Pa", place.cycle.mean_Pa},
-         {"from", moment(place.cycle.from)},
-         {"to", moment(place.cycle.to)},
+         {"from", moment(place.from)},
+         {"to", moment(place.to)},
          {"related_gradient_1_m", number(place.gradient_per_m)},
          {"support_factor", number(place.support)},
          {"endurance_Pa", number(place.endurance_Pa)},
@@ -291,14 +290,12 @@ void write_fatigue(const std::filesystem::path& file, const Scene& scene, const 
     const char* const names[] = {"x", "y", "z"};
     columns.push_back(numbers(names[c], "m", places, [&](const auto& p) { return p.position_m[c]; }));
   }
-  const auto angle = [&](Eigen::Index instant) {
-    const auto moment = moment_of(scene, loads, instant);
+  const auto angle = [&](double instant) {
+    const auto moment = moment_between(scene, loads, instant);
     return 2 * M_PI * (moment.turn - 1) + moment.angle_rad;
   };
-  columns.push_back(
-      numbers("drive_angle_from", "rad", places, [&](const auto& p) { return angle(p.cycle.from); }));
-  columns.push_back(
-      numbers("drive_angle_to", "rad", places, [&](const auto& p) { return angle(p.cycle.to); }));
+  columns.push_back(numbers("drive_angle_from", "rad", places, [&](const auto& p) { return angle(p.from); }));
+  columns.push_back(numbers("drive_angle_to", "rad", places, [&](const auto& p) { return angle(p.to); }));
   write_csv(file, columns);
 }
 

@@ -29,4 +29,9 @@ void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& a
 /// "endures", "1.2e+04 h": of a life in seconds.
 std::string life_text(const std::optional<double>& life_s);
 
+/// The same with what the stress's error makes of it: "1.2e+04 h (8000 to 1.9e+04)".
+/// @param error_share  of the stress; infinite: not known
+/// @param slope        life goes with that power of stress
+std::string life_range_text(const std::optional<double>& life_s, double error_share, double slope);
+
 }  // namespace pipelines

@@ -213,9 +213,16 @@ void write_torsion(const path& directory, const kinetics::LoadHistory& loads, co
 }  // namespace
 
 Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::Index instant) {
-  double angle = std::remainder(loads.phi_rad[instant] - M_PI, 2 * M_PI) + M_PI;
+  return moment_between(scene, loads, double(instant));
+}
+
+Moment moment_between(const Scene& scene, const kinetics::LoadHistory& loads, double instant) {
+  const auto before = Eigen::Index(instant);
+  const double step = loads.phi_rad.size() > 1 ? loads.phi_rad[1] - loads.phi_rad[0] : 0;
+  const double phi = loads.phi_rad[before] + (instant - double(before)) * step;
+  double angle = std::remainder(phi - M_PI, 2 * M_PI) + M_PI;
   if (angle > 2 * M_PI - 1e-9) angle = 0;  // a whole turn that rounding leaves short of itself
-  return {int(instant / scene.sampling.instants_per_turn) + 1, angle};
+  return {int(before / scene.sampling.instants_per_turn) + 1, angle};
 }
 
 void write_load_results(const path& directory, const kinetics::LoadHistory& loads, const BodyChannels& bodies,

@@ -8,6 +8,7 @@
 #include "pipelines/analysis/hot_spots.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/served_loads.h"
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/search/duty_loads.h"
 
@@ -64,13 +65,16 @@ ServedBlock serve(const DutyBlock& block, const BodyAnalysis& analysis, BlockLoa
 BlockStress stress_of(const BodyAnalysis& analysis, const ServedBlock& block) {
   const auto& largest_Pa = block.von_mises.value_Pa;
   const auto node = peak_node(largest_Pa, analysis.places);
-  BlockStress stress{analysis.scene.name, "", false, largest_Pa[node], 0};
+  BlockStress stress{analysis.scene.name, "", false, largest_Pa[node], 0, 0};
   if (const auto feature = analysis.places.feature[node]; feature >= 0)
     stress.feature = analysis.places.feature_names[std::size_t(feature)];
   const auto spots = hot_spot_stresses(analysis.mesh.hot_spots, analysis.responses, block.running.history);
   if (!spots.empty() && spots.front().von_mises_Pa > stress.value_Pa)
-    stress = {analysis.scene.name, spots.front().name, true, spots.front().von_mises_Pa, 0};
+    stress = {analysis.scene.name, spots.front().name, true, spots.front().von_mises_Pa, 0, 0};
   stress.safety = analysis.scene.yield_strength_Pa / stress.value_Pa;
+  const auto at = stress.is_hot_spot ? stress_point(spots.front()) : StressPoint{{{node, 1.0}}, 0};
+  stress.sampling_error_Pa =
+      time_sampling(unit_stress_at(analysis.responses, at), block.running.history.values).error_Pa();
   return stress;
 }
 

@@ -1,0 +1,126 @@
+#include "pipelines/superposition/factor_course.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unsupported/Eigen/FFT>
+#include <utility>
+#include <vector>
+
+#include "pipelines/superposition/cycle_extremes.h"
+#include "pipelines/superposition/factor_spectrum.h"
+
+namespace pipelines {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::ArrayXXcd;
+using Eigen::ArrayXXd;
+using Eigen::Index;
+
+/// Of the largest channel: kinetics' angles over a thousand turns are off by 1e-12.
+constexpr double no_line_of_course = 1e-12;
+/// Of the largest channel: what a polynomial may leave unresolved. Steps leave more, kinks less from some
+/// 300 instants on.
+constexpr double most_unresolved = 0.01;
+/// Of the largest channel: harmonics that are smaller in sum ask for no places.
+constexpr double no_places_for = 1e-5;
+/// is_closed looks at polynomials through four instants on either side.
+constexpr Index least_to_be_closed = 16;
+
+/// The highest order beyond which lines come to less than `most` in sum.
+Index highest_that_counts(const ArrayXd& line_size, double most) {
+  double sum = 0;
+  for (Index h = line_size.size() - 1; h > 0; --h) {
+    sum += line_size[h];
+    if (sum > most) return h;
+  }
+  return 0;
+}
+
+double over_samples(Index highest, Index n) {
+  return 2 * highest < n ? 1 / std::cos(M_PI * double(highest) / double(n))
+                         : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+FactorCourse::FactorCourse(ArrayXXd values, const ArrayXd& size, double per_period)
+    : values_(std::move(values)) {
+  const Index n = values_.cols();
+  if (n < 3 || !can_be_transformed(n)) return;
+  const ArrayXXd stress = values_.colwise() * size;
+  const double largest = stress.size() > 0 ? stress.abs().maxCoeff() : 0;
+  if (!(largest > 0)) return;
+  const auto spectrum = factor_spectrum(stress, no_line_of_course * largest);
+  const auto& lines = spectrum.lines;
+  ArrayXd line_size(lines.cols());
+  for (Index h = 0; h < lines.cols(); ++h) line_size[h] = pipelines::line_size(spectrum, h);
+  is_resolved_ = spectrum.is_resolved();
+  is_polynomial_ = is_resolved_ || (spectrum.unresolved() <= most_unresolved * largest &&
+                                    (n < least_to_be_closed || is_closed(stress)));
+  take_strongest(lines, line_size);
+  for (Index k = 0; k < strongest_.rows(); ++k) strongest_.row(k) /= size[k] > 0 ? size[k] : 1;
+  if (!is_polynomial_) return;
+  highest_ = highest_that_counts(line_size, no_places_for * largest);
+  per_step_ = std::max<Index>(1, Index(std::ceil(per_period * double(highest_) / double(n) * (1 - 1e-12))));
+  if (per_step_ == 1) return;
+  take_places();
+}
+
+/// By the inverse transform of the spectrum, with zeros above it.
+void FactorCourse::take_places() {
+  const ArrayXXcd lines = factor_spectrum(values_, 0).lines;
+  const Index n = values_.cols() * per_step_;
+  Eigen::FFT<double> transform;
+  Eigen::VectorXcd spectrum(n), series(n);
+  fine_.resize(values_.rows(), n);
+  for (Index k = 0; k < values_.rows(); ++k) {
+    spectrum.setZero();
+    spectrum.head(lines.cols()) = lines.row(k).matrix().transpose() * double(n);
+    transform.inv(series, spectrum);
+    fine_.row(k) = series.real().transpose().array();
+  }
+  for (Index i = 0; i < values_.cols(); ++i) fine_.col(i * per_step_) = values_.col(i);
+}
+
+void FactorCourse::take_strongest(const ArrayXXcd& lines, const ArrayXd& line_size) {
+  std::vector<Index> order(std::size_t(std::max<Index>(0, lines.cols() - 1)));
+  std::iota(order.begin(), order.end(), Index(1));
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return line_size[a] > line_size[b]; });
+  order.resize(std::min(order.size(), std::size_t(most_orders)));
+  strongest_.resize(lines.rows(), Index(order.size()));
+  orders_.resize(Index(order.size()));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    strongest_.col(Index(i)) = lines.col(order[i]);
+    orders_[Index(i)] = double(order[i]);
+  }
+}
+
+Eigen::VectorXd FactorCourse::weights_at(double instant) const {
+  const Index n = values_.cols();
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+  const double nearest = std::round(instant);
+  if (!is_polynomial_ || std::abs(instant - nearest) < 1e-13 * double(n)) {
+    weights[(Index(nearest) % n + n) % n] = 1;
+    return weights;
+  }
+  // Dirichlet's kernel; of an even number of instants the line at n / 2 is its cosine.
+  for (Index i = 0; i < n; ++i) {
+    const double half = M_PI * (instant - double(i)) / double(n);
+    const double comb = std::sin(double(n) * half) / (double(n) * std::sin(half));
+    weights[i] = n % 2 == 0 ? comb * std::cos(half) : comb;
+  }
+  return weights;
+}
+
+double FactorCourse::most_over_instants() const {
+  return is_polynomial_ ? over_samples(highest_, values_.cols()) : 1;
+}
+
+double FactorCourse::most_over_places() const {
+  return is_polynomial_ ? over_samples(highest_, values_.cols() * per_step_) : 1;
+}
+
+}  // namespace pipelines

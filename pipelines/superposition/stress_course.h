@@ -1,0 +1,77 @@
+/// The stress of one place over a cycle, between its instants too: largest cycle and cycles along a
+/// direction, with the instants of their ends.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "pipelines/superposition/factor_course.h"
+#include "pipelines/superposition/stress_cycle.h"
+#include "pipelines/superposition/stress_shares.h"
+
+namespace pipelines {
+
+/// A direction in the space of stress deviators, of length one in the coordinates whose 2-norm is von Mises
+/// stress (deviatoric_coordinates.h).
+using DeviatoricDirection = Eigen::Matrix<double, 5, 1>;
+
+/// A counted cycle, by the stresses at its ends.
+struct EndsOfCycle {
+  double range_Pa = 0;                      ///< along what was counted
+  Stress from{}, to{};                      ///< at its ends
+  double from_instant = 0, to_instant = 0;  ///< i + share of the step to the next
+};
+
+/// The largest cycle, its ends between the instants.
+struct CycleBetween {
+  StressCycle cycle{};      ///< with the nearest instants
+  double from = 0, to = 0;  ///< instants: i + share of the step to the next
+};
+
+class StressCourse {
+public:
+  /// @param unit_Pa  of the place, a column for each channel
+  StressCourse(const UnitStresses& unit_Pa, const FactorCourse& factors);
+
+  /// Of a series that is known at its instants alone.
+  /// @param stress_Pa  6 x instants (xx, yy, zz, xy, yz, xz), at least one
+  explicit StressCourse(Eigen::ArrayXXd stress_Pa);
+
+  /// 6 x places.
+  const Eigen::ArrayXXd& stress_Pa() const { return stress_Pa_; }
+  /// 5 x places; their distance is the von Mises stress of the difference.
+  const Eigen::Matrix<double, 5, Eigen::Dynamic>& coordinates() const { return coordinates_; }
+
+  /// No two places differ more, but for the slack. Then each end goes to where it is farthest from the other,
+  /// until neither does. Where a second pair is almost as far apart as the first, up to
+  /// (pi / places per period)^2 may be missed: 0.4 % with 48.
+  CycleBetween largest(double slack = 0) const;
+
+  /// Cycles of a form that is linear in the stress, by rainflow over a period that repeats, each turning
+  /// point where the form has it: to 1e-6 of its harmonic with 48 places a period. Ranges that differ by 1e-9
+  /// of the largest count as equal.
+  /// @param form     six weights of the components
+  /// @param refined  false: at the places
+  std::vector<EndsOfCycle> cycles_of(const Eigen::Matrix<double, 6, 1>& form, bool refined = true) const;
+  /// Of the part of the stress along that direction.
+  std::vector<EndsOfCycle> cycles_along(const DeviatoricDirection& direction, bool refined = true) const;
+
+private:
+  Stress at(double place) const;
+  double instant_of(double place) const;
+  double crest_of(const Eigen::ArrayXd& values, Eigen::Index place) const;
+  double farthest_near(double place, const Stress& from) const;
+
+  Eigen::ArrayXXd stress_Pa_;
+  Eigen::Matrix<double, 5, Eigen::Dynamic> coordinates_;
+  bool is_smooth_ = false;
+  Eigen::Index per_step_ = 1;
+};
+
+/// The six weights by which a direction's part of a stress is formed.
+Eigen::Matrix<double, 6, 1> form_along(const DeviatoricDirection& direction);
+
+/// The direction of a stress's deviator; zero without one.
+DeviatoricDirection direction_of(const Stress& stress);
+
+}  // namespace pipelines
