@@ -11,6 +11,7 @@
 #include "pipelines/loads/start_up_loads.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/search/found_body.h"
+#include "pipelines/superposition/factor_spectrum.h"
 
 namespace pipelines {
 namespace {
@@ -76,6 +77,25 @@ std::vector<BodyLoads> loads_of_start(const DutyBlock& block, Scene scene, const
   return result;
 }
 
+/// A crest may be missed by so much of the largest channel before a block asks for more instants.
+constexpr double missed_of_channels = 0.01;
+constexpr int most_more_instants_of_blocks = 8, kind_of_instants = 12;
+
+/// Loads of the block over its period; where their spectra ask for more instants than there are, and for more
+/// than those of the scene's own running, at so many.
+LoadedScene load_block(Scene& scene, double needed_by_scene, const std::vector<MeshedBody>& meshed,
+                       StageClock& clock) {
+  auto loaded = load_bodies(scene, meshed, clock);
+  double needed = 0;
+  for (const auto& body : loaded.body_loads) needed = std::max(needed, instants_of_duty(body.history));
+  const double before = double(loaded.loads.time_s.size());
+  if (!(needed > before) || !(needed > needed_by_scene)) return loaded;
+  const double more = std::min(double(most_more_instants_of_blocks), needed / before);
+  auto& per_turn = scene.sampling.instants_per_turn;
+  per_turn = int(kind_of_instants * std::ceil(more * per_turn / kind_of_instants));
+  return load_bodies(scene, meshed, clock);
+}
+
 }  // namespace
 
 void require_blocks(const Scene& scene) {
@@ -103,12 +123,17 @@ DutyBlock with_short_start(DutyBlock block) {
   return block;
 }
 
+double instants_of_duty(const ChannelHistory& loads) {
+  if (!can_be_transformed(loads.values.cols())) return 0;
+  return instants_needed(loads, missed_of_channels).n_instants;
+}
+
 BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Scene& found,
-                          const std::vector<MeshedBody>& meshed, StageClock& clock) {
+                          const std::vector<MeshedBody>& meshed, StageClock& clock, double needed_by_scene) {
   return in_block(block, [&] {
-    const auto scene = scene_of_block(block, as_read, found);
+    auto scene = scene_of_block(block, as_read, found);
     BlockLoads result;
-    auto loaded = load_bodies(scene, meshed, clock);
+    auto loaded = load_block(scene, needed_by_scene, meshed, clock);
     result.loads = std::move(loaded.loads);
     result.running = std::move(loaded.body_loads);
     result.bearings = std::move(loaded.bearings);

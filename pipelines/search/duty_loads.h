@@ -1,6 +1,7 @@
 /// Loads of a scene's operating blocks on the bodies that the scene itself is solved for.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -26,9 +27,16 @@ void require_blocks(const Scene& scene);
 /// @param as_read  the scene before a search chose meshes, harmonics and instants
 /// @param found    after it
 /// @param meshed   its bodies
+/// @param needed_by_scene  instants_of_duty of the scene's own running; a block whose own spectra ask for
+/// more
+///                         than that, and than there are, gets up to eight times as many instants
 /// @throws as load_bodies, with the block's name; StageRefused if a start has too many turns
 BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Scene& found,
-                          const std::vector<MeshedBody>& meshed, StageClock& clock);
+                          const std::vector<MeshedBody>& meshed, StageClock& clock,
+                          double needed_by_scene = std::numeric_limits<double>::infinity());
+
+/// Instants over the period by which no crest is missed by more than a hundredth of the largest channel.
+double instants_of_duty(const ChannelHistory& loads);
 
 /// The block with a start of at most two turns at full speed, which has all channels of the whole.
 DutyBlock with_short_start(DutyBlock block);

@@ -88,9 +88,13 @@ LoadPeriod period_of(const kinetics::LoadHistory& loads, const Scene& scene) {
 DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, StageClock& clock) {
   DutyResult result;
   for (const auto& block : run.scene.duty) result.in_operation += block.share;
+  double needed = 0;
+  for (const auto& analysis : run.analyses)
+    needed = std::max(needed, instants_of_duty(analysis.loads.history));
   std::vector<BlockLoads> loads;
   for (const auto& block : run.scene.duty) {
-    auto& own = loads.emplace_back(loads_of_block(block, as_read, run.scene, run.loaded.meshed, clock));
+    auto& own =
+        loads.emplace_back(loads_of_block(block, as_read, run.scene, run.loaded.meshed, clock, needed));
     result.blocks.push_back({block.name,
                              block.share,
                              block.start ? block.start->per_day : 0,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -89,6 +90,41 @@ Counts smallest_first(const ArrayXd& values) {
     v.erase(v.begin() + long(std::min(best, next)));
   }
   return sums;
+}
+
+// Equal cycles but for rounding: each is closed by neighbours. The order in which they are found tells by
+// what distance they are; without `alike` some pair points far apart.
+TEST(RainflowEnds, OfEqualCyclesAreNeighbours) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> rounding(-1e-12, 1e-12);
+  ArrayXd values(400);
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = (i % 2 == 0 ? 1 : -1) + rounding(random);
+  const auto ends = kinetics::rainflow_repeating_ends(values, 1e-9);
+  ASSERT_EQ(ends.size(), 200u);
+  for (const auto& [from, to] : ends) EXPECT_TRUE(to - from == 1 || to - from == 399) << from << " " << to;
+}
+
+// The same ranges and means as rainflow_repeating; what is not larger than `alike` is none.
+TEST(RainflowEnds, AreThoseOfTheCycles) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 100; ++trial) {
+    const ArrayXd values = ArrayXd::NullaryExpr(3 + trial, [&] { return normal(random); });
+    std::vector<std::pair<double, double>> by_ends, by_cycles;
+    for (const auto& [from, to] : kinetics::rainflow_repeating_ends(values, 0))
+      by_ends.emplace_back(std::abs(values[from] - values[to]), values[from] / 2 + values[to] / 2);
+    for (const auto& cycle : kinetics::rainflow_repeating(values))
+      by_cycles.emplace_back(cycle.range, cycle.mean);
+    std::sort(by_ends.begin(), by_ends.end());
+    std::sort(by_cycles.begin(), by_cycles.end());
+    ASSERT_EQ(by_ends.size(), by_cycles.size());
+    for (std::size_t i = 0; i < by_ends.size(); ++i) {
+      EXPECT_DOUBLE_EQ(by_ends[i].first, by_cycles[i].first);
+      EXPECT_NEAR(by_ends[i].second, by_cycles[i].second, 1e-15 * 8) << "the sum in either order";
+    }
+    EXPECT_TRUE(kinetics::rainflow_repeating_ends(values, 20).empty());
+  }
+  EXPECT_THROW(kinetics::rainflow_repeating_ends(ArrayXd::Zero(3), -1), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 /// are not divided by periods, one S-N curve for each block.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -122,6 +123,41 @@ TEST(DamageOverBlocks, IsThatOfTheWorstNode) {
     least = std::min(least, places.front().damage_per_s / most);
   }
   EXPECT_GT(least, 1 - 1e-9) << "of the worst node's damage";
+}
+
+// One block that changes nothing is the scene's own running: the same life safety at every place, also where
+// nothing is damaged and nodes have unlike means. Turns red: ties between nodes broken by amplitude.
+TEST(DamageOverBlocks, OfOneBlockIsThatOfTheScene) {
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (int trial = 0; trial < 60; ++trial) {
+    Example example(random);
+    auto& block = example.blocks[0];
+    const double scale = trial % 2 == 0 ? 0.05 : 1;  // far below the limit, and above it
+    for (std::size_t k = 0; k < n_channels; ++k)
+      block.loads.values.row(Eigen::Index(k)) =
+          scale * (block.loads.values.row(Eigen::Index(k)) + 1e9 * (any(random) - 0.3));
+    block.loads.by_effect = {block.loads.values};
+    auto& body = example.body;
+    body.scene.fatigue->wanted_life_s = 1e8;
+    body.loads.history = block.loads;
+    body.envelope = envelope(block.loads, body.responses, 1);
+    block.von_mises = body.envelope.von_mises;
+    block.cycles =
+        nodal_cycles(block.loads, body.responses, block.von_mises, surface_nodes(body.responses.nodes), 1);
+    const LoadPeriod period{block.period_s, 1};
+    const auto alone = judge_fatigue(body, period, 1);
+    const auto duty = judge_duty(body, {{&block.loads, &block.von_mises, &block.cycles, period, 1.0}}, 1);
+    ASSERT_EQ(alone.places.size(), duty.size());
+    for (const auto& place : alone.places) {
+      const auto same = std::find_if(duty.begin(), duty.end(),
+                                     [&](const auto& other) { return other.feature == place.feature; });
+      ASSERT_NE(same, duty.end());
+      // Duty may look at one node more, never at one less.
+      EXPECT_LE(*same->life_safety, *place.life_safety * (1 + 1e-12)) << trial << ", " << place.feature;
+      EXPECT_GE(*same->life_safety, *place.life_safety * (1 - 0.02)) << trial << ", " << place.feature;
+    }
+  }
 }
 
 }  // namespace
