@@ -12,8 +12,14 @@
 
 namespace fem {
 
+/// deal.II begins PETSc and SLEPc too (fem/modes/krylov_schur.cc): they would take options from the command
+/// line, which is this program's, from the environment and from files, and print and trap as these say.
 struct Environment::Impl {
-  Impl(int& argc, char**& argv, unsigned n_threads) : mpi(argc, argv, n_threads) {}
+  explicit Impl(unsigned n_threads) : mpi(argc, argv, n_threads) {}
+  char name[11] = "millstress", no_files[14] = "-skip_petscrc";
+  char* arguments[3] = {name, no_files, nullptr};
+  char** argv = arguments;
+  int argc = 2;
   dealii::Utilities::MPI::MPI_InitFinalize mpi;
 };
 
@@ -36,14 +42,15 @@ bool mpi_runs() {
 }
 }  // namespace
 
-Environment::Environment(int& argc, char**& argv, int n_threads) {
+Environment::Environment(int&, char**&, int n_threads) {
   if (n_threads < 0)
     throw std::invalid_argument("threads = " + std::to_string(n_threads) +
                                 ": must be 0 (all cores) or positive");
   const unsigned n = n_threads == 0 ? dealii::numbers::invalid_unsigned_int : unsigned(n_threads);
   if (!mpi_runs()) {
     begin_alone_quickly();
-    impl_ = std::make_unique<Impl>(argc, argv, n);
+    unsetenv("PETSC_OPTIONS");
+    impl_ = std::make_unique<Impl>(n);
   } else if (n_threads > 0)
     dealii::MultithreadInfo::set_thread_limit(n);
   set_blas_threads(static_cast<int>(dealii::MultithreadInfo::n_threads()));

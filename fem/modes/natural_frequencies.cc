@@ -5,8 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "fem/common/dense_algebra.h"
-#include "fem/common/lanczos.h"
+#include "fem/modes/krylov_schur.h"
 #include "fem/values/errors.h"
 
 namespace fem {
@@ -36,32 +35,17 @@ void refuse_unbalanced(const NaturalMode& mode, std::size_t number, double round
   throw SolveFailed(message.str());
 }
 
-/// One step of inverse iteration, mended for the rounding of the solve; then the best of its span (Ritz).
-/// @param pairs  1 / w^2 and shapes
-/// @return w^2 ascending and shapes
-Eigenpairs improve(const VibratingBody& body, const Eigenpairs& pairs) {
-  Eigen::MatrixXd inertia = body.mass(pairs.vector) * pairs.value.cwiseInverse().asDiagonal();
-  Eigen::MatrixXd shapes = body.inverse(inertia);
-  shapes += body.inverse(inertia - body.stiffness(shapes));
-  const Eigen::MatrixXd stiffness = transposed_product(shapes, body.stiffness(shapes)),
-                        mass = transposed_product(shapes, body.mass(shapes));
-  const Eigenpairs ritz =
-      symmetric_eigenpairs((stiffness + stiffness.transpose()) / 2, (mass + mass.transpose()) / 2);
-  return {ritz.value, product(shapes, ritz.vector)};
-}
-
 }  // namespace
 
 std::vector<NaturalMode> natural_frequencies(const VibratingBody& body, int n_modes) {
   refuse_number(body, n_modes);
-  const int n_sought = n_modes + 2;  // the search must not end between the two of a pair
-  auto pairs = largest_eigenpairs(
-      body.n_unknowns(), n_sought, [&](const Eigen::MatrixXd& x) { return body.mass(x); },
-      [&](const Eigen::MatrixXd& f) { return body.inverse(f); });
-  if (pairs.value.size() < n_modes)
-    throw SolveFailed("natural frequencies: only " + std::to_string(pairs.value.size()) + " of " +
-                      std::to_string(n_modes) + " found; ask for fewer");
-  pairs = improve(body, pairs);
+  const auto pairs = lowest_modes({body.n_unknowns(),
+                                   [&](const Eigen::MatrixXd& x) { return body.stiffness(x); },
+                                   [&](const Eigen::MatrixXd& x) { return body.mass(x); },
+                                   [&](const Eigen::MatrixXd& f) { return body.inverse(f); },
+                                   body.unheld_motions(),
+                                   {}},
+                                  n_modes);
 
   Eigen::MatrixXd inertia = body.mass(pairs.vector) * pairs.value.asDiagonal();
   body.clear_clamped(inertia);

@@ -72,6 +72,11 @@ Eigen::Index VibratingBody::n_vibrating() const noexcept {
   return n_unknowns() - (6 - n_held_by_springs_);
 }
 
+Eigen::MatrixXd VibratingBody::unheld_motions() const {
+  if (!clamped_.empty()) return Eigen::MatrixXd(n_unknowns(), 0);
+  return rigid_.rightCols(rigid_.cols() - n_held_by_springs_);
+}
+
 void VibratingBody::clear_clamped(Eigen::MatrixXd& vectors) const {
   for (const auto unknown : clamped_) vectors.row(unknown).setZero();
 }

@@ -33,6 +33,9 @@ public:
   /// Without the clamped unknowns and the rigid motions that nothing holds.
   Eigen::Index n_vibrating() const noexcept;
 
+  /// Z: rigid motions that nothing holds, orthonormal in the mass; none of a clamped body.
+  Eigen::MatrixXd unheld_motions() const;
+
   Eigen::MatrixXd mass(const Eigen::MatrixXd& motion) const { return mass_ * motion; }
   /// Forces on the unknowns that are not clamped, zero on those that are.
   Eigen::MatrixXd stiffness(const Eigen::MatrixXd& motion) const;

@@ -195,9 +195,12 @@ SymmetricMatrix permuted(const SymmetricMatrix& matrix, const std::vector<std::i
   return result;
 }
 
-Eigen::MatrixXd multiply(const SymmetricMatrix& matrix, const Eigen::MatrixXd& x) {
-  constexpr int width = 8;  // columns that travel together: the matrix is read once for all of them
-  using Block = Eigen::Matrix<double, Eigen::Dynamic, width, Eigen::RowMajor>;
+namespace {
+
+/// Columns that travel together: the matrix is read once for all of them.
+template <int width>
+Eigen::MatrixXd multiply_by_blocks(const SymmetricMatrix& matrix, const Eigen::MatrixXd& x) {
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, width, width == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
   Eigen::MatrixXd y(matrix.n, x.cols());
   const std::size_t n_blocks = (x.cols() + width - 1) / width;
   parallel_for(n_blocks, 1, [&](std::size_t begin, std::size_t end) {
@@ -221,6 +224,14 @@ Eigen::MatrixXd multiply(const SymmetricMatrix& matrix, const Eigen::MatrixXd& x
     }
   });
   return y;
+}
+
+}  // namespace
+
+Eigen::MatrixXd multiply(const SymmetricMatrix& matrix, const Eigen::MatrixXd& x) {
+  if (x.cols() == 1) return multiply_by_blocks<1>(matrix, x);
+  if (x.cols() <= 4) return multiply_by_blocks<4>(matrix, x);
+  return multiply_by_blocks<8>(matrix, x);
 }
 
 }  // namespace fem

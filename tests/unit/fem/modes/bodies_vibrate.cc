@@ -190,6 +190,16 @@ TEST_F(Vibrations, RigidBodyOnSoftSprings) {
   EXPECT_NEAR(modes[5].frequency_Hz / (*free_modes)[0].frequency_Hz, 1, 1e-3);
 }
 
+// On springs a thousand times softer the rod's own flexibility, k over 1e8 N/m, no longer counts. 1e-6: a
+// frequency that came from u'K u would be off by K's rounding of a rigid motion, some 1e-5 of w^2.
+TEST_F(Vibrations, SofterSpringsLoseNoDigits) {
+  const double k = 10;
+  const fem::Model model(on_springs({"end_1", "end_2"}, {k, k, k}));
+  const double expected_Hz = std::sqrt(2 * k / model.mass_properties().mass_kg) / (2 * pi);
+  const auto modes = model.natural_frequencies(4);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(modes[std::size_t(i)].frequency_Hz / expected_Hz, 1, 1e-6) << i;
+}
+
 // Without Poisson's ratio the rod is a bar: held by k at one end, with (w L / c) tan(w L / c) = k L / (E A).
 TEST_F(Vibrations, BarWithASpringAtItsEnd) {
   for (const double k_over_bar : {1e-3, 1.0, 1e5}) {

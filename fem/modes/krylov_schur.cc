@@ -1,0 +1,350 @@
+// Krylov-Schur: Stewart, SIAM J. Matrix Anal. Appl. 23 (2001) 601. SLEPc: Hernandez, Roman and Vidal, ACM
+// Trans. Math. Softw. 31 (2005) 351.
+//
+// A Krylov space from one vector has one direction of each eigenspace, however large that is: the start's
+// share in it (Parlett, The Symmetric Eigenvalue Problem, 1998, ch. 12). In exact arithmetic a search so
+// finds one mode of a pair, and only rounding brings the other one, some time. So the searches go on, from
+// other starts, in the complement of all that was found, until one ends whose lowest mode lies above the
+// highest wanted one. A mode that they all missed would have no share in the starts of all of them: of the
+// last one, for that alone searched to its end without it. Starts are pseudo-random vectors, whose share in a
+// given direction is zero with probability zero, and small ones take longer to converge but do.
+#include "fem/modes/krylov_schur.h"
+
+#include <slepceps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <random>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "fem/values/errors.h"
+
+namespace fem {
+
+namespace {
+
+static_assert(std::is_same_v<PetscScalar, double>, "PETSc and SLEPc of real numbers in double precision");
+
+// |K^-1 M x - x / w^2| in the mass norm, over 1 / w^2. Inertia forces are left unbalanced by some ten times
+// that, 1e-6 of them at most are accepted (natural_frequencies.cc); squares of frequencies are off by its
+// square.
+constexpr double converged = 1e-10;
+constexpr int most_restarts = 100;  // of one search; shafts and chambers take 2 to 10
+
+[[noreturn]] void fail(const std::string& what) {
+  throw SolveFailed("the natural frequencies do not converge: " + what +
+                    "; ask for fewer or check the mesh for degenerate cells");
+}
+
+/// The same numbers with every standard library.
+Eigen::VectorXd pseudo_random(Eigen::Index n_rows, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  Eigen::VectorXd x(n_rows);
+  for (auto& entry : x) entry = static_cast<double>(engine() >> 11) * 0x1p-53 - 0.5;
+  return x;
+}
+
+/// PETSc as long as modes are searched for: without options from outside, and silent. fem::Environment has
+/// begun it as a part of deal.II, unless MPI belongs to a program around this one: then it begins and ends
+/// here, on this rank alone.
+class QuietPetsc {
+public:
+  QuietPetsc() : begins_here_(SlepcInitializeCalled == PETSC_FALSE) {
+    if (begins_here_) {
+      PETSC_COMM_WORLD = MPI_COMM_SELF;
+      check(SlepcInitializeNoArguments());
+      PetscPopSignalHandler();
+    }
+    PetscPushErrorHandler(keep_first_message, &message_);
+    PetscOptionsCreate(&no_options_);
+    PetscOptionsPush(no_options_);
+  }
+  ~QuietPetsc() {
+    PetscOptionsPop();
+    PetscOptionsDestroy(&no_options_);
+    PetscPopErrorHandler();
+    if (begins_here_) SlepcFinalize();
+  }
+  QuietPetsc(const QuietPetsc&) = delete;
+  QuietPetsc& operator=(const QuietPetsc&) = delete;
+
+  /// @throws SolveFailed with PETSc's message if a call failed
+  void check(PetscErrorCode code) const {
+    if (code != 0) fail("SLEPc's error " + std::to_string(code) + ", " + message_);
+  }
+
+private:
+  static PetscErrorCode keep_first_message(MPI_Comm, int, const char*, const char*, PetscErrorCode code,
+                                           PetscErrorType, const char* text, void* message) {
+    auto& first = *static_cast<std::string*>(message);
+    if (first.empty() && text != nullptr) first = text;
+    return code;
+  }
+
+  bool begins_here_;
+  PetscOptions no_options_ = nullptr;
+  std::string message_;
+};
+
+/// A PETSc object that is destroyed with its handle.
+template <typename Object, auto destroy>
+struct Handle {
+  Object object = nullptr;
+  Handle() = default;
+  ~Handle() { destroy(&object); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+};
+using Matrix = Handle<Mat, MatDestroy>;
+using Vector = Handle<Vec, VecDestroy>;
+using EigenSolver = Handle<EPS, EPSDestroy>;
+
+/// What SLEPc's callbacks know of a search.
+struct Search {
+  const VibrationProblem& problem;
+  std::size_t n_modes;
+  std::vector<double> known;  ///< 1 / w^2 that were found before or have converged in this search
+  double smallest = std::numeric_limits<double>::infinity();  ///< of those that have converged in this search
+  std::exception_ptr failure{};                               ///< what a product threw
+
+  /// Largest values converge first: what this search could still find is smaller than what it has.
+  bool is_done() const {
+    return std::count_if(known.begin(), known.end(), [&](double t) { return t >= smallest; }) >=
+           static_cast<std::ptrdiff_t>(n_modes);
+  }
+};
+
+/// y = f(x). SLEPc is written in C: no exception may pass through it.
+PetscErrorCode apply(Search& search, const BlockOperator& f, Vec x, Vec y) {
+  const auto n = search.problem.n_rows;
+  const double* in = nullptr;
+  PetscCall(VecGetArrayRead(x, &in));
+  const Eigen::MatrixXd argument = Eigen::Map<const Eigen::VectorXd>(in, n);
+  PetscCall(VecRestoreArrayRead(x, &in));
+  Eigen::MatrixXd result;
+  try {
+    result = f(argument);
+  } catch (...) {
+    search.failure = std::current_exception();
+    return PETSC_ERR_USER;
+  }
+  double* out = nullptr;
+  PetscCall(VecGetArrayWrite(y, &out));
+  Eigen::Map<Eigen::VectorXd>(out, n) = result;
+  return VecRestoreArrayWrite(y, &out);
+}
+
+PetscErrorCode apply_stiffness(Mat matrix, Vec x, Vec y) {
+  Search* search = nullptr;
+  PetscCall(MatShellGetContext(matrix, &search));
+  return apply(*search, search->problem.stiffness, x, y);
+}
+
+PetscErrorCode apply_mass(Mat matrix, Vec x, Vec y) {
+  Search* search = nullptr;
+  PetscCall(MatShellGetContext(matrix, &search));
+  return apply(*search, search->problem.mass, x, y);
+}
+
+PetscErrorCode apply_inverse(PC preconditioner, Vec x, Vec y) {
+  Search* search = nullptr;
+  PetscCall(PCShellGetContext(preconditioner, &search));
+  return apply(*search, search->problem.inverse, x, y);
+}
+
+/// SLEPc asks for one value after the other, until one has not converged.
+/// @param value  1 / w^2
+PetscErrorCode test_convergence(EPS, PetscScalar value, PetscScalar, PetscReal residual, PetscReal* error,
+                                void* context) {
+  auto& search = *static_cast<Search*>(context);
+  *error = residual / std::abs(value);
+  if (*error < converged) {
+    search.known.push_back(value);
+    search.smallest = std::min(search.smallest, value);
+  }
+  return 0;
+}
+
+PetscErrorCode test_stop(EPS, PetscInt n_restarts, PetscInt most, PetscInt n_converged, PetscInt n_wanted,
+                         EPSConvergedReason* reason, void* context) {
+  if (n_converged >= n_wanted || static_cast<const Search*>(context)->is_done())
+    *reason = EPS_CONVERGED_USER;
+  else if (n_restarts >= most)
+    *reason = EPS_DIVERGED_ITS;
+  return 0;
+}
+
+/// Vectors of PETSc on the columns of matrices, which outlive them.
+class Columns {
+public:
+  void add(const QuietPetsc& petsc, const Eigen::MatrixXd& x) {
+    for (Eigen::Index c = 0; c < x.cols(); ++c) {
+      auto& vector = handles_.emplace_back();
+      petsc.check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(x.rows()), x.col(c).data(),
+                                        &vector.object));
+      vectors_.push_back(vector.object);
+    }
+  }
+  PetscInt size() const { return static_cast<PetscInt>(vectors_.size()); }
+  Vec* data() { return vectors_.data(); }
+
+private:
+  std::deque<Vector> handles_;
+  std::vector<Vec> vectors_;
+};
+
+void make_shell(const QuietPetsc& petsc, Search& search, PetscErrorCode (*multiply)(Mat, Vec, Vec),
+                Matrix& matrix) {
+  const auto n = static_cast<PetscInt>(search.problem.n_rows);
+  petsc.check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, &search, &matrix.object));
+  petsc.check(MatShellSetOperation(matrix.object, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+}
+
+/// (K - 0 M)^-1 by the problem's own inverse.
+void shift_and_invert_about_zero(const QuietPetsc& petsc, Search& search, EPS solver) {
+  ST transformation = nullptr;
+  petsc.check(EPSGetST(solver, &transformation));
+  petsc.check(STSetType(transformation, STSINVERT));
+  petsc.check(STSetMatMode(transformation, ST_MATMODE_SHELL));
+  petsc.check(EPSSetTarget(solver, 0));
+  petsc.check(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE));
+  KSP linear_solver = nullptr;
+  petsc.check(STGetKSP(transformation, &linear_solver));
+  petsc.check(KSPSetType(linear_solver, KSPPREONLY));
+  PC inverse = nullptr;
+  petsc.check(KSPGetPC(linear_solver, &inverse));
+  petsc.check(PCSetType(inverse, PCSHELL));
+  petsc.check(PCShellSetContext(inverse, &search));
+  petsc.check(PCShellSetApply(inverse, apply_inverse));
+}
+
+Eigenpairs converged_pairs(const QuietPetsc& petsc, EPS solver, Eigen::Index n_rows) {
+  PetscInt n = 0;
+  petsc.check(EPSGetConverged(solver, &n));
+  Eigenpairs pairs{Eigen::VectorXd(n), Eigen::MatrixXd(n_rows, n)};
+  Columns shapes;
+  shapes.add(petsc, pairs.vector);
+  for (PetscInt i = 0; i < n; ++i)
+    petsc.check(EPSGetEigenpair(solver, i, &pairs.value[i], nullptr, shapes.data()[i], nullptr));
+  return pairs;
+}
+
+/// Where K x is small for a shape x that is left out, SLEPc's set-up takes x for K's null space. PETSc would
+/// then take shares of x, in the wrong inner product, out of all that the inverse returns: large ones, that
+/// cancel later.
+void set_up_without_null_space(const QuietPetsc& petsc, const Search& search, EPS solver) {
+  const auto code = EPSSetUp(solver);
+  if (search.failure) std::rethrow_exception(search.failure);
+  petsc.check(code);
+  ST transformation = nullptr;
+  KSP linear_solver = nullptr;
+  Mat shifted = nullptr;
+  petsc.check(EPSGetST(solver, &transformation));
+  petsc.check(STGetKSP(transformation, &linear_solver));
+  petsc.check(KSPGetOperators(linear_solver, &shifted, nullptr));
+  petsc.check(MatSetNullSpace(shifted, nullptr));
+}
+
+double mass_norm(const VibrationProblem& problem, const Eigen::MatrixXd& x) {
+  return std::sqrt(x.cwiseProduct(problem.mass(x)).sum());
+}
+
+/// Some of the lowest modes beside those left out and found, ascending.
+/// @param n_most  that end the search; it ends before where all n_modes are known, found ones included
+Eigenpairs search_beside(const QuietPetsc& petsc, const VibrationProblem& problem, const Eigenpairs& found,
+                         int n_modes, int n_most, const Eigen::MatrixXd& direction) {
+  const Eigen::MatrixXd start = direction / mass_norm(problem, direction);
+  Search search{problem, std::size_t(n_modes), {}};
+  for (const double square : found.value) search.known.push_back(1 / square);
+  Matrix stiffness, mass;
+  make_shell(petsc, search, apply_stiffness, stiffness);
+  make_shell(petsc, search, apply_mass, mass);
+  Columns beside, begin;
+  beside.add(petsc, problem.left_out);
+  beside.add(petsc, found.vector);
+  begin.add(petsc, start);
+
+  EigenSolver solver;
+  petsc.check(EPSCreate(PETSC_COMM_SELF, &solver.object));
+  petsc.check(EPSSetOperators(solver.object, stiffness.object, mass.object));
+  petsc.check(EPSSetProblemType(solver.object, EPS_GHEP));
+  petsc.check(EPSSetType(solver.object, EPSKRYLOVSCHUR));
+  shift_and_invert_about_zero(petsc, search, solver.object);
+  petsc.check(EPSSetDimensions(solver.object, n_most, PETSC_DEFAULT, PETSC_DEFAULT));
+  petsc.check(EPSSetTolerances(solver.object, converged, most_restarts));
+  petsc.check(EPSSetConvergenceTestFunction(solver.object, test_convergence, &search, nullptr));
+  petsc.check(EPSSetStoppingTestFunction(solver.object, test_stop, &search, nullptr));
+  // Purifying takes a solve for each mode and changes nothing: all vectors come out of the inverse.
+  petsc.check(EPSSetPurify(solver.object, PETSC_FALSE));
+  if (beside.size() > 0) petsc.check(EPSSetDeflationSpace(solver.object, beside.size(), beside.data()));
+  petsc.check(EPSSetInitialSpace(solver.object, begin.size(), begin.data()));
+
+  set_up_without_null_space(petsc, search, solver.object);
+  const auto code = EPSSolve(solver.object);
+  if (search.failure) std::rethrow_exception(search.failure);
+  petsc.check(code);
+  EPSConvergedReason reason{};
+  petsc.check(EPSGetConvergedReason(solver.object, &reason));
+  if (reason == EPS_DIVERGED_ITS)
+    fail(std::to_string(most_restarts) + " restarts were not enough for " + std::to_string(n_modes));
+  if (reason < 0) fail("SLEPc's reason is " + std::to_string(reason));
+  return converged_pairs(petsc, solver.object, problem.n_rows);
+}
+
+/// Of both, ascending.
+Eigenpairs joined(const Eigenpairs& a, const Eigenpairs& b) {
+  Eigenpairs both{Eigen::VectorXd(a.value.size() + b.value.size()),
+                  Eigen::MatrixXd(a.vector.rows(), a.value.size() + b.value.size())};
+  both.value << a.value, b.value;
+  both.vector << a.vector, b.vector;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(both.value.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return both.value[i] < both.value[j]; });
+  return {both.value(order), both.vector(Eigen::all, order)};
+}
+
+/// A power of two near the largest 1 / w^2. SLEPc compares norms with absolute limits of some 1e-16: they
+/// shall mean the same for all units and bodies.
+double size_of_inverse(const VibrationProblem& problem, const Eigen::MatrixXd& start) {
+  const double size = mass_norm(problem, problem.inverse(problem.mass(start))) / mass_norm(problem, start);
+  if (!(size > 0) || !std::isfinite(size)) fail("inertia forces move the body by nothing or without limit");
+  return std::exp2(std::round(std::log2(size)));
+}
+
+VibrationProblem scaled(const VibrationProblem& problem, double size) {
+  auto result = problem;
+  result.stiffness = [&problem, size](const Eigen::MatrixXd& x) { return size * problem.stiffness(x); };
+  result.inverse = [&problem, size](const Eigen::MatrixXd& f) { return problem.inverse(f) / size; };
+  return result;
+}
+
+}  // namespace
+
+Eigenpairs lowest_modes(const VibrationProblem& problem, int n_modes) {
+  static std::mutex one_at_a_time;  // PETSc's options and handlers are those of the process
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  const QuietPetsc petsc;
+  const auto n_rows = problem.n_rows;
+  unsigned seed = 1;
+  Eigen::MatrixXd start = problem.start.size() > 0 ? problem.start : pseudo_random(n_rows, seed);
+  const double size = size_of_inverse(problem, start);
+  const auto unit = scaled(problem, size);
+  Eigenpairs found{Eigen::VectorXd(0), Eigen::MatrixXd(n_rows, 0)};
+  for (int n_most = n_modes;; n_most = n_modes / 4 + 1) {  // the first search leaves little to the others
+    const auto more = search_beside(petsc, unit, found, n_modes, n_most, start);
+    const bool is_last = found.value.size() >= n_modes &&
+                         more.value[0] >= found.value[n_modes - 1] * (1 - converged);  // its twin, or higher
+    if (is_last) return {found.value.head(n_modes) / size, found.vector.leftCols(n_modes)};
+    found = joined(found, more);
+    start = pseudo_random(n_rows, ++seed);
+  }
+}
+
+}  // namespace fem
