@@ -1,13 +1,12 @@
 // Krylov-Schur: Stewart, SIAM J. Matrix Anal. Appl. 23 (2001) 601. SLEPc: Hernandez, Roman and Vidal, ACM
 // Trans. Math. Softw. 31 (2005) 351.
 //
-// A Krylov space from one vector has one direction of each eigenspace, however large that is: the start's
-// share in it (Parlett, The Symmetric Eigenvalue Problem, 1998, ch. 12). In exact arithmetic a search so
-// finds one mode of a pair, and only rounding brings the other one, some time. So the searches go on, from
-// other starts, in the complement of all that was found, until one ends whose lowest mode lies above the
-// highest wanted one. A mode that they all missed would have no share in the starts of all of them: of the
-// last one, for that alone searched to its end without it. Starts are pseudo-random vectors, whose share in a
-// given direction is zero with probability zero, and small ones take longer to converge but do.
+// A Krylov space holds one direction of each eigenspace: that of the start's share in it (Parlett, The
+// Symmetric Eigenvalue Problem, 1998, ch. 12). A search therefore finds one mode of a pair, and the other one
+// only when rounding brings it. So the search is repeated from other starts in the complement of all modes
+// that are known, until the lowest mode that it finds there lies above the highest wanted one. What that last
+// search misses has no share in its start, which is pseudo-random: that happens with probability zero, and
+// small shares grow.
 #include "fem/modes/krylov_schur.h"
 
 #include <slepceps.h>
@@ -236,22 +235,6 @@ Eigenpairs converged_pairs(const QuietPetsc& petsc, EPS solver, Eigen::Index n_r
   return pairs;
 }
 
-/// Where K x is small for a shape x that is left out, SLEPc's set-up takes x for K's null space. PETSc would
-/// then take shares of x, in the wrong inner product, out of all that the inverse returns: large ones, that
-/// cancel later.
-void set_up_without_null_space(const QuietPetsc& petsc, const Search& search, EPS solver) {
-  const auto code = EPSSetUp(solver);
-  if (search.failure) std::rethrow_exception(search.failure);
-  petsc.check(code);
-  ST transformation = nullptr;
-  KSP linear_solver = nullptr;
-  Mat shifted = nullptr;
-  petsc.check(EPSGetST(solver, &transformation));
-  petsc.check(STGetKSP(transformation, &linear_solver));
-  petsc.check(KSPGetOperators(linear_solver, &shifted, nullptr));
-  petsc.check(MatSetNullSpace(shifted, nullptr));
-}
-
 double mass_norm(const VibrationProblem& problem, const Eigen::MatrixXd& x) {
   return std::sqrt(x.cwiseProduct(problem.mass(x)).sum());
 }
@@ -286,7 +269,6 @@ Eigenpairs search_beside(const QuietPetsc& petsc, const VibrationProblem& proble
   if (beside.size() > 0) petsc.check(EPSSetDeflationSpace(solver.object, beside.size(), beside.data()));
   petsc.check(EPSSetInitialSpace(solver.object, begin.size(), begin.data()));
 
-  set_up_without_null_space(petsc, search, solver.object);
   const auto code = EPSSolve(solver.object);
   if (search.failure) std::rethrow_exception(search.failure);
   petsc.check(code);
@@ -310,21 +292,6 @@ Eigenpairs joined(const Eigenpairs& a, const Eigenpairs& b) {
   return {both.value(order), both.vector(Eigen::all, order)};
 }
 
-/// A power of two near the largest 1 / w^2. SLEPc compares norms with absolute limits of some 1e-16: they
-/// shall mean the same for all units and bodies.
-double size_of_inverse(const VibrationProblem& problem, const Eigen::MatrixXd& start) {
-  const double size = mass_norm(problem, problem.inverse(problem.mass(start))) / mass_norm(problem, start);
-  if (!(size > 0) || !std::isfinite(size)) fail("inertia forces move the body by nothing or without limit");
-  return std::exp2(std::round(std::log2(size)));
-}
-
-VibrationProblem scaled(const VibrationProblem& problem, double size) {
-  auto result = problem;
-  result.stiffness = [&problem, size](const Eigen::MatrixXd& x) { return size * problem.stiffness(x); };
-  result.inverse = [&problem, size](const Eigen::MatrixXd& f) { return problem.inverse(f) / size; };
-  return result;
-}
-
 }  // namespace
 
 Eigenpairs lowest_modes(const VibrationProblem& problem, int n_modes) {
@@ -334,14 +301,12 @@ Eigenpairs lowest_modes(const VibrationProblem& problem, int n_modes) {
   const auto n_rows = problem.n_rows;
   unsigned seed = 1;
   Eigen::MatrixXd start = problem.start.size() > 0 ? problem.start : pseudo_random(n_rows, seed);
-  const double size = size_of_inverse(problem, start);
-  const auto unit = scaled(problem, size);
   Eigenpairs found{Eigen::VectorXd(0), Eigen::MatrixXd(n_rows, 0)};
   for (int n_most = n_modes;; n_most = n_modes / 4 + 1) {  // the first search leaves little to the others
-    const auto more = search_beside(petsc, unit, found, n_modes, n_most, start);
+    const auto more = search_beside(petsc, problem, found, n_modes, n_most, start);
     const bool is_last = found.value.size() >= n_modes &&
                          more.value[0] >= found.value[n_modes - 1] * (1 - converged);  // its twin, or higher
-    if (is_last) return {found.value.head(n_modes) / size, found.vector.leftCols(n_modes)};
+    if (is_last) return {found.value.head(n_modes), found.vector.leftCols(n_modes)};
     found = joined(found, more);
     start = pseudo_random(n_rows, ++seed);
   }
