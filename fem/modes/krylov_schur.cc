@@ -35,7 +35,8 @@ static_assert(std::is_same_v<PetscScalar, double>, "PETSc and SLEPc of real numb
 // that, 1e-6 of them at most are accepted (natural_frequencies.cc); squares of frequencies are off by its
 // square.
 constexpr double converged = 1e-10;
-constexpr int most_restarts = 100;  // of one search; shafts and chambers take 2 to 10
+constexpr int most_restarts = 100;      // of one search; shafts and chambers take 2 to 10
+constexpr unsigned most_searches = 50;  // shafts and chambers take 2 or 3
 
 [[noreturn]] void fail(const std::string& what) {
   throw SolveFailed("the natural frequencies do not converge: " + what +
@@ -235,15 +236,10 @@ Eigenpairs converged_pairs(const QuietPetsc& petsc, EPS solver, Eigen::Index n_r
   return pairs;
 }
 
-double mass_norm(const VibrationProblem& problem, const Eigen::MatrixXd& x) {
-  return std::sqrt(x.cwiseProduct(problem.mass(x)).sum());
-}
-
 /// Some of the lowest modes beside those left out and found, ascending.
 /// @param n_most  that end the search; it ends before where all n_modes are known, found ones included
 Eigenpairs search_beside(const QuietPetsc& petsc, const VibrationProblem& problem, const Eigenpairs& found,
-                         int n_modes, int n_most, const Eigen::MatrixXd& direction) {
-  const Eigen::MatrixXd start = direction / mass_norm(problem, direction);
+                         int n_modes, int n_most, const Eigen::MatrixXd& start) {
   Search search{problem, std::size_t(n_modes), {}};
   for (const double square : found.value) search.known.push_back(1 / square);
   Matrix stiffness, mass;
@@ -299,17 +295,19 @@ Eigenpairs lowest_modes(const VibrationProblem& problem, int n_modes) {
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const QuietPetsc petsc;
   const auto n_rows = problem.n_rows;
-  unsigned seed = 1;
-  Eigen::MatrixXd start = problem.start.size() > 0 ? problem.start : pseudo_random(n_rows, seed);
   Eigenpairs found{Eigen::VectorXd(0), Eigen::MatrixXd(n_rows, 0)};
-  for (int n_most = n_modes;; n_most = n_modes / 4 + 1) {  // the first search leaves little to the others
+  for (unsigned i = 1; i <= most_searches; ++i) {
+    const Eigen::MatrixXd start =
+        i == 1 && problem.start.size() > 0 ? problem.start : pseudo_random(n_rows, i);
+    const int n_most = i == 1 ? n_modes : n_modes / 4 + 1;  // the first search leaves little to the others
     const auto more = search_beside(petsc, problem, found, n_modes, n_most, start);
     const bool is_last = found.value.size() >= n_modes &&
                          more.value[0] >= found.value[n_modes - 1] * (1 - converged);  // its twin, or higher
     if (is_last) return {found.value.head(n_modes), found.vector.leftCols(n_modes)};
     found = joined(found, more);
-    start = pseudo_random(n_rows, ++seed);
   }
+  fail(std::to_string(most_searches) + " searches still found others of the lowest " +
+       std::to_string(n_modes));
 }
 
 }  // namespace fem

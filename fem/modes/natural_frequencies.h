@@ -1,4 +1,4 @@
-/// Natural frequencies by shift-invert Lanczos about zero. Internal to fem.
+/// Natural frequencies and their shapes. Internal to fem.
 #pragma once
 
 #include <vector>
