@@ -109,4 +109,17 @@ std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>&
   return results;
 }
 
+std::vector<HotSpotStress> hot_spots_under(const std::vector<meshes::HotSpot>& drawings,
+                                           const fem::UnitResponses& responses, const ChannelHistory& loads,
+                                           std::vector<HotSpotStress> spots) {
+  for (auto& spot : spots) {
+    const auto drawing = std::find_if(drawings.begin(), drawings.end(),
+                                      [&](const auto& drawn) { return drawn.name == spot.name; });
+    if (drawing == drawings.end()) throw std::logic_error("hot spot \"" + spot.name + "\": is not drawn");
+    take_course(*drawing, unit_stress_at(responses, stress_point(spot)), loads, spot);
+  }
+  sort_by_stress(spots);
+  return spots;
+}
+
 }  // namespace pipelines

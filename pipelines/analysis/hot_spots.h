@@ -43,6 +43,14 @@ std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>&
 void take_course(const meshes::HotSpot& drawing, const std::vector<std::array<double, 6>>& unit_Pa,
                  const ChannelHistory& loads, HotSpotStress& spot);
 
+/// The same toes under other loads, by the same unit stress: a submodel's where one was solved.
+/// @param drawings  of all of `spots`, which are of the same responses
+/// @param loads     with the channels of the unit responses
+/// @return in descending order of the largest von Mises stress
+std::vector<HotSpotStress> hot_spots_under(const std::vector<meshes::HotSpot>& drawings,
+                                           const fem::UnitResponses& responses, const ChannelHistory& loads,
+                                           std::vector<HotSpotStress> spots);
+
 /// Descending; equal ones keep their order.
 void sort_by_stress(std::vector<HotSpotStress>& spots);
 
