@@ -85,6 +85,7 @@ std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis) {
                        Eigen::Map<const Vector3d>(drawing->toe_m.data());
     place.detail = {rules.class_Pa, drawing->thickness_m, WeldDetail().thickness_exponent,
                     rules.partial_factor};
+    place.type = rules.type;
     place.error_share = error_share_of(analysis, spot.name);
     places.push_back(std::move(place));
   }

@@ -21,6 +21,7 @@ struct WeldPlace {
   Eigen::Matrix<double, 6, Eigen::Dynamic> unit_Pa;  ///< hot-spot stress of each unit load
   Eigen::Vector3d surface_normal, across_toe;
   WeldDetail detail;
+  std::string type;        ///< of weld_classes.h; empty: the class is the scene's own
   double error_share = 0;  ///< numerical error of the stress; infinite: not known
 
   /// Under loads with the channels of the unit responses. The direction is that of the places between the

@@ -11,9 +11,10 @@ namespace pipelines {
 
 /// Weld toes of a body, by IIW's structural hot-spot stress.
 struct WeldToeScene {
-  double class_Pa = 90e6;        ///< FAT: range with 95 % survival at 2e6 cycles
-  double partial_factor = 1.35;  ///< gamma_M on the class
-  std::string origin{};          ///< "file:line:column: key" of an entry for a single toe
+  std::string type = "load-carrying";  ///< weld_classes.h; empty: the class is the scene's own
+  double class_Pa = 90e6;              ///< FAT: range with 95 % survival at 2e6 cycles
+  double partial_factor = 1.35;        ///< gamma_M on the class
+  std::string origin{};                ///< "file:line:column: key" of an entry for a single toe
 };
 
 struct FatigueScene {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipelines/fatigue/weld_classes.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/machine_kind.h"
 
@@ -28,6 +29,22 @@ void doubt_seats(const Scene& scene, const BodyScene& body, Doubts& doubts) {
   if (fastest != nullptr)
     doubts.peripheral("the seat \"" + fastest->name + "\" of the " + body.name,
                       *speed_rad_s * fastest->diameter_m / 2);
+}
+
+/// Classes of the scene's own that IIW does not have.
+void doubt_classes(const BodyScene& body, Doubts& doubts) {
+  if (!body.fatigue) return;
+  const auto doubt = [&](const std::string& of, const WeldToeScene& toe) {
+    if (!is_fat_class(toe.class_Pa))
+      doubts.texts.push_back(
+          fmt::format("{}: class {:.4g} MPa is no FAT class of IIW ({}); hot-spot stress in "
+                      "steel has FAT 90 and 100",
+                      of, toe.class_Pa / 1e6, fat_classes_text()));
+  };
+  doubt(body.name + ".fatigue.welds", body.fatigue->toes);
+  for (const auto& [name, toe] : body.fatigue->toes_by_name)
+    if (toe.class_Pa != body.fatigue->toes.class_Pa)
+      doubt(body.name + ".fatigue.welds, \"" + name + "\"", toe);
 }
 
 }  // namespace
@@ -61,6 +78,7 @@ std::vector<std::string> implausible(const Scene& scene) {
   kind_of(scene.machine).doubt(scene, doubts);
   for (const auto& body : scene.bodies) {
     doubt_seats(scene, body, doubts);
+    doubt_classes(body, doubts);
     if (body.material.poisson_ratio > most_poisson_ratio)
       doubts.texts.push_back(
           fmt::format("{}.material.poisson_ratio = {:g}: cells of degree 2 hardly keep the volume of such a "

@@ -2,10 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <regex>
 #include <stdexcept>
 
 #include "pipelines/common/nearest_name.h"
 #include "pipelines/fatigue/endurance.h"
+#include "pipelines/fatigue/weld_classes.h"
 
 namespace pipelines {
 namespace {
@@ -83,9 +85,49 @@ void read_safety(SceneTable& table, FatigueScene& fatigue) {
                    "stands beside " + std::string(other) + ", which gives one too; remove one");
 }
 
+std::string type_names() {
+  std::vector<std::string> names;
+  for (const auto& type : weld_types()) names.emplace_back(type.name);
+  return listed(names);
+}
+
+bool begins_with_fat(const std::string& as_written) {
+  return std::regex_search(as_written, std::regex(R"(^["']\s*FAT)", std::regex::icase));
+}
+
+/// "FAT 90" or a range.
+double read_class(SceneTable& table) {
+  if (!begins_with_fat(table.written_at("class").as_written))
+    return table.quantity("class", "Pa", between(10e6, 200e6));
+  const auto fat_Pa = fat_of_text(table.text("class"));
+  if (fat_Pa && is_fat_class(*fat_Pa)) return *fat_Pa;
+  table.refuse("class", "is no FAT class; IIW has " + fat_classes_text() + " for steel, of hot-spot stress " +
+                            "90 and 100; write one of them, or a range in MPa that was measured");
+  return WeldToeScene().class_Pa;
+}
+
+/// Type or class; what is not written stays.
+void read_class_or_type(SceneTable& table, WeldToeScene& toe) {
+  for (const char* key : {"type", "class"}) table.know(key);
+  if (table.has("type") && table.has("class"))
+    table.refuse("class", "stands beside type, which gives the class; remove one");
+  if (table.has("type")) {
+    const auto name = table.text("type");
+    if (const auto* type = weld_type(name)) {
+      toe.type = type->name;
+      toe.class_Pa = type->fat_Pa;
+    } else if (!name.empty())
+      table.refuse("type", "is no type of weld; write one of " + type_names());
+  } else if (table.has("class")) {
+    toe.type.clear();
+    toe.class_Pa = read_class(table);
+  } else if (!toe.type.empty())
+    table.record_default("type", "\"" + toe.type + "\"",
+                         fmt::format("FAT {:.0f} of structural hot-spot stress (IIW)", toe.class_Pa / 1e6));
+}
+
 void read_toe(SceneTable& table, WeldToeScene& toe) {
-  toe.class_Pa = table.quantity_or("class", "Pa", between(10e6, 200e6), toe.class_Pa,
-                                   "FAT of hot-spot stress; 90 MPa: fillet welds that carry the load");
+  read_class_or_type(table, toe);
   toe.partial_factor = table.quantity_or("partial_factor", "1", between(1, 2), toe.partial_factor,
                                          "gamma_M; 1.35: safe life, severe consequences (Eurocode 3-1-9)");
 }
@@ -99,6 +141,10 @@ void read_toes(SceneTable& table, FatigueScene& fatigue) {
       WeldToeScene toe = fatigue.toes;
       const auto name = entry.text("name");
       read_toe(entry, toe);
+      if (!entry.has("type") && !entry.has("class") && !entry.has("partial_factor"))
+        entry.refuse("name",
+                     "is a toe of which nothing is said; give it a type, a class or a "
+                     "partial_factor, or remove the entry");
       toe.origin = entry.origin();
       if (!name.empty() && !fatigue.toes_by_name.emplace(name, toe).second)
         entry.refuse("name", "has an entry already; give each weld toe one");
