@@ -5,6 +5,7 @@
 #include <vtkCellArray.h>
 #include <vtkClipPolyData.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkCoordinate.h>
 #include <vtkDataObject.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
@@ -30,6 +31,7 @@
 #include <vector>
 
 #include "pipelines/pictures/cut_surface.h"
+#include "pipelines/pictures/note_boxes.h"
 #include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/pictures/picture_lines.h"
 #include "pipelines/pictures/picture_parts.h"
@@ -216,15 +218,46 @@ int pieces_of(vtkIdType n_faces, int wanted) {
   return pieces;
 }
 
-/// Words beside a place, in front of all.
-void add_note(vtkRenderer* renderer, const PictureMark& note, int font_size) {
-  auto* text = add_text(renderer, note.text, font_size, 0, 0);
-  auto* place = text->GetPositionCoordinate();
+/// Where a renderer whose camera is set shows a place, in its pixels.
+Pixel pixel_of(vtkRenderer* renderer, const Vector& at) {
+  vtkNew<vtkCoordinate> place;
   place->SetCoordinateSystemToWorld();
-  place->SetValue(note.at_m[0], note.at_m[1], note.at_m[2]);
-  text->GetTextProperty()->SetBold(true);
-  text->GetTextProperty()->SetBackgroundColor(1, 1, 1);
-  text->GetTextProperty()->SetBackgroundOpacity(0.7);
+  place->SetValue(at[0], at[1], at[2]);
+  const int* pixel = place->GetComputedViewportValue(renderer);
+  return {double(pixel[0]), double(pixel[1])};
+}
+
+/// Words in boxes beside the places that a renderer shows, in front of all; a line leads from a box that had
+/// to make room to its place.
+/// @param width, height  of the renderer in pixels
+void add_notes(vtkRenderer* renderer, const std::vector<PictureMark>& notes, double width, double height,
+               int font_size) {
+  std::vector<vtkTextActor*> texts;
+  std::vector<Pixel> places;
+  std::vector<NoteBox> boxes;
+  for (const auto& note : notes) {
+    const auto place = pixel_of(renderer, note.at_m);
+    if (place[0] < 0 || place[0] > width || place[1] < 0 || place[1] > height) continue;
+    auto* text = add_words(renderer, note.text, font_size, place[0], place[1]);
+    text->GetTextProperty()->SetBold(true);
+    text->GetTextProperty()->SetBackgroundColor(1, 1, 1);
+    text->GetTextProperty()->SetBackgroundOpacity(0.7);
+    double box[4];
+    text->GetBoundingBox(renderer, box);
+    texts.push_back(text);
+    places.push_back(place);
+    boxes.push_back(
+        {place[0] + font_size, place[1] + font_size, box[1] - box[0], box[3] - box[2]});
+  }
+  const auto moved = moved_apart(boxes, 0.3 * font_size, width, height);
+  Drawing leaders;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    texts[i]->GetPositionCoordinate()->SetValue(moved[i].left, moved[i].bottom);
+    leaders.line(places[i][0], places[i][1],
+                 std::clamp(places[i][0], moved[i].left, moved[i].left + moved[i].width),
+                 std::clamp(places[i][1], moved[i].bottom, moved[i].bottom + moved[i].height));
+  }
+  leaders.put(renderer, ink, 1.5);
 }
 
 /// What is ringed, and what the grey means; above the colours.
@@ -286,8 +319,6 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   add_drawn(whole, drawn, parts, table, false);
   add_drawn(detail, drawn, parts, table, options.edges);
   whole->AddActor(ring_at(shown, font_size));
-  for (const auto& note : options.notes)
-    for (auto* renderer : {whole, detail}) add_note(renderer, note, font_size * 4 / 5);
   all.half_width *= 1.06;
   all.half_height *= 1.1;
   look(whole, view, all, width_over_height(layout.whole, options), 4 * all.half_depth);
@@ -300,6 +331,13 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
       std::max(2 * all.half_width / whole_width,
                2 * all.half_height * width_over_height(layout.whole, options) / whole_width);
   add_scale_bar(whole, 0.02 * options.width, font_size, 0.1 * options.width, m_per_pixel, font_size);
+
+  const auto note = [&](vtkRenderer* renderer, const Layout::Place& place) {
+    add_notes(renderer, options.notes, (place[2] - place[0]) * options.width,
+              (place[3] - place[1]) * options.height, font_size * 4 / 5);
+  };
+  note(whole, layout.whole);
+  note(detail, layout.detail);
 
   add_triad(add({1 - 0.13, gap, 1, gap + 0.22}), whole);
 
