@@ -13,6 +13,8 @@
 #include <set>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/common/name_lists.h"
+#include "pipelines/common/nearest_name.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/hdf5_file.h"
@@ -56,6 +58,19 @@ NearestNode nearest_node(const fem::Nodes& nodes, const std::array<double, 3>& p
   return {std::size_t(node), std::sqrt(squared)};
 }
 
+/// The longest distance from a node to another one of its cells: how far from the nearest node a place inside
+/// the body can be.
+double cell_size_m(const fem::Nodes& nodes, std::size_t node) {
+  const auto position = [&](std::size_t i) { return Eigen::Vector3d(&nodes.xyz_m[3 * i]); };
+  double size_m = 0;
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto cell = nodes.cell(c);
+    if (std::find(cell.begin(), cell.end(), std::int32_t(node)) == cell.end()) continue;
+    for (const auto i : cell) size_m = std::max(size_m, (position(std::size_t(i)) - position(node)).norm());
+  }
+  return size_m;
+}
+
 /// The node that is at a place of the run, to the digits of its summary.
 std::size_t node_at(const RunBody& body, const std::array<double, 3>& position_m) {
   const auto nearest = nearest_node(body.responses.nodes, position_m);
@@ -83,6 +98,10 @@ HistoryPoint point_at_zone(const RunBody& body, std::size_t i) {
   return point_at(body, fmt::format("zone {}", i + 1), body.summary["zones"][i], "peak_von_mises_Pa");
 }
 
+const char* const without_history =
+    "its stress comes from a submodel, whose responses a run does not keep; with a tolerance, as --tolerance "
+    "\"5 %\", toes are refined in the mesh and have histories";
+
 /// Stress of toes that were solved as submodels is not in the unit responses.
 bool has_parts(const ordered_json& hot_spot) {
   return hot_spot.contains("extrapolated_from");
@@ -99,8 +118,7 @@ void add_all(const RunBody& body, StressHistories& histories, std::vector<Histor
     if (has_parts(spot))
       points.push_back(point_at(body, name, spot, "von_mises_Pa"));
     else
-      histories.left_out.push_back(body.name + "/" + name +
-                                   ": its stress comes from a submodel, whose responses a run does not keep");
+      histories.left_out.push_back(body.name + "/" + name + ": " + without_history);
   }
 }
 
@@ -109,32 +127,73 @@ bool has_hot_spot(const RunBody& body, const std::string& name) {
   return std::any_of(spots.begin(), spots.end(), [&](const auto& spot) { return spot.at("name") == name; });
 }
 
-std::vector<std::string> names_of(const RunBody& body) {
+/// Of surfaces, ports and weld toes that have a history.
+std::vector<std::string> place_names_of(const RunBody& body) {
   std::vector<std::string> names;
-  if (const auto n = list_of(body, "zones").size(); n > 0) names.push_back(fmt::format("zone 1 to {}", n));
   for (const auto& spot : list_of(body, "hot_spots"))
     if (has_parts(spot)) names.push_back(spot.at("name"));
   for (const auto& place : list_of(body, "places"))
     if (!has_hot_spot(body, place.at("feature"))) names.push_back(place.at("feature"));
-  names.push_back(fmt::format("node 0 to {}", body.responses.nodes.n - 1));
-  names.emplace_back("x, y, z mm");
   return names;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+/// The points of a body that are like a text, or some of them: a chamber has dozens of toes.
+std::string names_like(const RunBody& body, const std::string& what) {
+  constexpr std::size_t most = 4;
+  const auto places = place_names_of(body);
+  std::vector<std::string> names;
+  if (const auto nearest = nearest_name(what, places); !nearest.empty()) names.push_back(nearest);
+  for (const auto& name : places)
+    if (!what.empty() && name.find(what) != std::string::npos && !contains(names, name))
+      names.push_back(name);
+  for (const auto& name : places)
+    if (names.size() < most && !contains(names, name)) names.push_back(name);
+  names.resize(std::min(most, names.size()));
+  const auto n_zones = list_of(body, "zones").size();
+  std::string text = n_zones > 0 ? fmt::format("zone 1 to {}, ", n_zones) : "";
+  for (const auto& name : names) text += "\"" + name + "\", ";
+  if (places.size() > names.size()) text += fmt::format("{} more names, ", places.size() - names.size());
+  return text + fmt::format("node 0 to {}, x, y, z mm", body.responses.nodes.n - 1);
 }
 
-/// Nothing if it is no point of this body.
-std::optional<HistoryPoint> find_point(const RunBody& body, const std::string& what) {
+/// What a text means in one body: a point, or why there is none; neither: it is no point of the body.
+struct FoundPoint {
+  std::optional<HistoryPoint> point;
+  std::string why_not;
+
+  FoundPoint() = default;
+  FoundPoint(HistoryPoint found) : point(std::move(found)) {}
+};
+
+FoundPoint refused_point(std::string why_not) {
+  FoundPoint found;
+  found.why_not = std::move(why_not);
+  return found;
+}
+
+/// The node that is nearest to a place in or beside the body.
+FoundPoint point_near(const RunBody& body, const std::string& what, const std::array<double, 3>& wanted_m) {
+  const auto& nodes = body.responses.nodes;
+  const auto nearest = nearest_node(nodes, wanted_m);
+  const double cell_m = cell_size_m(nodes, nearest.node);
+  if (nearest.distance_m > cell_m)
+    return refused_point(
+        fmt::format("is {:.4g} mm from the nearest node of the {}, whose cells are {:.3g} mm "
+                    "long there: write a place in the body, in its frame",
+                    1e3 * nearest.distance_m, body.name, 1e3 * cell_m));
+  const double* x = &nodes.xyz_m[3 * nearest.node];
+  HistoryPoint point{body.name, what, "", {x[0], x[1], x[2]}, {{nearest.node, 1}}, 0};
+  point.distance_m = nearest.distance_m;
+  return point;
+}
+
+FoundPoint find_point(const RunBody& body, const std::string& what) {
   static const std::regex zone("zone ([0-9]{1,6})"), node("node ([0-9]{1,10})"),
       position(R"(\(?\s*([-+0-9.eE]+)\s*,\s*([-+0-9.eE]+)\s*,\s*([-+0-9.eE]+)\s*\)?\s*mm)");
   std::smatch match;
   if (std::regex_match(what, match, zone)) {
     const auto number = std::stoul(match[1]);
-    if (number == 0 || number > list_of(body, "zones").size()) return std::nullopt;
+    if (number == 0 || number > list_of(body, "zones").size()) return {};
     return point_at_zone(body, number - 1);
   }
   const auto& nodes = body.responses.nodes;
@@ -144,7 +203,7 @@ std::optional<HistoryPoint> find_point(const RunBody& body, const std::string& w
   };
   if (std::regex_match(what, match, node)) {
     const auto number = std::stoull(match[1]);
-    return number < nodes.n ? std::optional(at_node(number)) : std::nullopt;
+    return number < nodes.n ? FoundPoint(at_node(number)) : FoundPoint();
   }
   if (std::regex_match(what, match, position)) {
     std::array<double, 3> wanted_m{};
@@ -152,24 +211,25 @@ std::optional<HistoryPoint> find_point(const RunBody& body, const std::string& w
       char* end = nullptr;
       const std::string text = match[d + 1];
       wanted_m[d] = 1e-3 * std::strtod(text.c_str(), &end);
-      if (*end != '\0' || !std::isfinite(wanted_m[d])) return std::nullopt;
+      if (*end != '\0' || !std::isfinite(wanted_m[d])) return {};
     }
-    return at_node(nearest_node(nodes, wanted_m).node);
+    return point_near(body, what, wanted_m);
   }
   for (const auto& spot : list_of(body, "hot_spots"))
     if (spot.at("name") == what)
-      return has_parts(spot) ? std::optional(point_at(body, what, spot, "von_mises_Pa")) : std::nullopt;
+      return has_parts(spot) ? FoundPoint(point_at(body, what, spot, "von_mises_Pa"))
+                             : refused_point(without_history);
   for (const auto& place : list_of(body, "places"))
     if (place.at("feature") == what && place.contains("position_m"))
       return point_at(body, what, place, "von_mises_Pa");
-  return std::nullopt;
+  return {};
 }
 
 /// The points that a text means, in every body that has one.
 std::vector<std::pair<std::size_t, HistoryPoint>> find_points(const std::vector<RunBody>& bodies,
                                                               const std::string& wanted) {
   std::vector<std::pair<std::size_t, HistoryPoint>> found;
-  std::string known;
+  std::string known, why_not;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto& body = bodies[b];
     const std::string prefix = body.name + "/";
@@ -178,10 +238,13 @@ std::vector<std::pair<std::size_t, HistoryPoint>> find_points(const std::vector<
       return wanted.rfind(other.name + "/", 0) == 0;
     });
     if (names_other) continue;
-    if (auto point = find_point(body, names_body ? wanted.substr(prefix.size()) : wanted))
-      found.emplace_back(b, std::move(*point));
-    known += fmt::format("; {} has {}", body.name, joined(names_of(body)));
+    const auto what = names_body ? wanted.substr(prefix.size()) : wanted;
+    auto [point, refusal] = find_point(body, what);
+    if (point) found.emplace_back(b, std::move(*point));
+    if (!refusal.empty()) why_not += (why_not.empty() ? "" : "; ") + refusal;
+    known += fmt::format("; {} has {}", body.name, names_like(body, what));
   }
+  if (found.empty() && !why_not.empty()) throw OptionError("--at " + wanted + ": " + why_not);
   if (found.empty()) throw OptionError("--at " + wanted + ": is no point of the run" + known);
   return found;
 }
@@ -395,6 +458,7 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
                                {"point", history.point.name},
                                {"feature", history.point.feature},
                                {"position_m", history.point.position_m},
+                               {"distance_m", history.point.distance_m},
                                {"file", names[p] + ".csv"},
                                {"von_mises_max_Pa", history.von_mises_Pa().maxCoeff()},
                                {"signed_von_mises_min_Pa", with_sign.minCoeff()},
@@ -418,6 +482,11 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
         history.point.feature, feature, history.von_mises_Pa().maxCoeff() / 1e6,
         fmt::format("{:.2f} to {:.2f}", with_sign.minCoeff() / 1e6, with_sign.maxCoeff() / 1e6));
   }
+  for (const auto& [point, stress_Pa] : histories.points)
+    if (point.distance_m > 0)
+      out << fmt::format("  {}, {}: at the nearest node, ({:.6g}, {:.6g}, {:.6g}) mm, {:.3g} mm from it\n",
+                         point.body, point.name, 1e3 * point.position_m[0], 1e3 * point.position_m[1],
+                         1e3 * point.position_m[2], 1e3 * point.distance_m);
   for (const auto& text : histories.left_out) out << "  without: " << text << '\n';
 }
 

@@ -20,7 +20,8 @@ struct HistoryPoint {
   std::string feature;                 ///< that it lies on, as the run says; empty where it does not
   std::array<double, 3> position_m{};  ///< in the body's frame; of a toe the toe's own
   std::vector<Part> parts;
-  double stated_Pa = 0;  ///< the run's largest von Mises stress there; 0 where it states none
+  double stated_Pa = 0;   ///< the run's largest von Mises stress there; 0 where it states none
+  double distance_m = 0;  ///< of the node from the place that was asked for
 };
 
 struct StressHistory {
@@ -47,8 +48,9 @@ struct StressHistories {
 /// @param results  directory of a whole run
 /// @param wanted   each "WHAT" or "BODY/WHAT", with WHAT "zone 2", the name of a surface, port or weld toe
 ///                 (where its stress is largest), "node 1234", or "12.5, 0, -3 mm" for the node nearest to
-///                 it; none: all zones and weld toes
-/// @throws OptionError for what is no point of the run, with those that are; StageRefused if the run has no
+///                 it, not farther away than the cells there are long; none: all zones and weld toes
+/// @throws OptionError for what is no point of the run, with names that are like it, for a place outside, and
+///         for a toe that was solved as a submodel; StageRefused if the run has no
 ///         body with unit responses; FileError naming the file that is damaged, or of another run
 StressHistories read_stress_histories(const std::filesystem::path& results,
                                       const std::vector<std::string>& wanted);

@@ -145,7 +145,19 @@ TEST(Histories, RefuseWhatIsNoPointAndFilesOfAnotherRun) {
     EXPECT_NE(text.find("is no point of the run"), std::string::npos) << at << text;
     EXPECT_NE(text.find("middle"), std::string::npos) << "names those that are: " << text;
   }
+  // Beside the body: the bar's radius is 5 mm, its largest cell 20 mm long.
+  const auto beside = refusal(directory.path, "scene.toml -o h --at '1e9, 0, 0 mm'");
+  EXPECT_NE(beside.find("is 1e+09 mm from the nearest node of the shaft"), std::string::npos) << beside;
+  EXPECT_NE(refusal(directory.path, "scene.toml -o h --at 'midle'").find("\"middle\""), std::string::npos);
   EXPECT_FALSE(fs::exists(directory / "h"));
+  const auto inside = millstress(directory.path, "history scene.toml -o g --json --at '0.1, 0, 102 mm'");
+  ASSERT_EQ(inside.exit_code, 0) << inside.err;
+  const auto near = Json::parse(inside.out)["points"][0];
+  const auto& at_m = near["position_m"];
+  const double distance_m =
+      std::hypot(at_m[0].get<double>() - 1e-4, at_m[1].get<double>(), at_m[2].get<double>() - 0.102);
+  EXPECT_GT(distance_m, 0);
+  EXPECT_NEAR(near["distance_m"].get<double>(), distance_m, 1e-12) << near;
   write(directory / "taken", "a file");
   EXPECT_NE(refusal(directory.path, "scene.toml -o taken").find("taken"), std::string::npos);
   EXPECT_NE(refusal(directory.path, "'" + shipped("drive_train.toml").string() + "' -o h").find("no body"),
