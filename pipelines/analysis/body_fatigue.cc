@@ -22,6 +22,11 @@ using Eigen::ArrayXXd;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
+/// None: nothing damages.
+std::optional<double> life_of(double damage, double duration_s) {
+  return damage > 0 ? std::optional(duration_s / damage) : std::nullopt;
+}
+
 void take_life(const FatigueRules& rules, const CountedNode& counted, const LoadPeriod& period,
                FatiguePlace& place) {
   const auto& blocks = counted.blocks;
@@ -33,6 +38,14 @@ void take_life(const FatigueRules& rules, const CountedNode& counted, const Load
   if (damage > 0) place.life_s = period.duration_s / damage;
   if (const auto wanted = rules.scene().wanted_life_s)
     place.life_safety = life_factor(curve, blocks, *wanted / period.duration_s);
+  place.certainty =
+      certainty_of(place.error_share,
+                   beyond_curve(place.cycle.amplitude_Pa + std::abs(place.cycle.signed_mean_Pa),
+                                rules.scene().material.yield_strength_Pa, curve, blocks),
+                   [&](double factor) {
+                     const auto other = scaled(blocks, factor);
+                     return life_of(miner_damage(rules.design_curve(other), other), period.duration_s);
+                   });
 }
 
 SecondOpinions second_opinions(const FatigueRules& rules, const ArrayXXd& stress_Pa,
@@ -68,13 +81,18 @@ std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAna
     lines.push_back(
         fmt::format("the smooth specimen's limit is the scene's, {:.1f} MPa", *scene.endurance_Pa / 1e6));
   if (!analysis.hot_spots.empty())
-    lines.push_back(
-        fmt::format("weld toes: IIW, structural hot-spot stress, FAT {:.0f} / gamma_M {:.3g}, 95 % survival, "
-                    "as welded; range of "
-                    "the principal stress within 60 degrees of the toe's normal",
-                    scene.toes.class_Pa / 1e6, scene.toes.partial_factor));
+    lines.push_back(fmt::format(
+        "weld toes: IIW, structural hot-spot stress, FAT {:.0f}{} / gamma_M {:.3g}, 95 % survival, "
+        "as welded; range of "
+        "the principal stress within 60 degrees of the toe's normal",
+        scene.toes.class_Pa / 1e6, scene.toes.type.empty() ? "" : " (" + scene.toes.type + ")",
+        scene.toes.partial_factor));
+  if (!analysis.hot_spots.empty() && scene.toes.type == "load-carrying")
+    lines.emplace_back(
+        "  load-carrying fillet welds: webs carry the load from the housings to the tube, lugs that of the "
+        "springs; another type of a toe stands in [[chamber.fatigue.welds.toes]]");
   if (analysis.method == Method::beam)
-    lines.push_back("a beam knows no stress gradient: no support is counted, which is safe");
+    lines.push_back("a beam knows no stress gradient: no support by it is counted (n_sigma 1)");
   return lines;
 }
 
@@ -112,13 +130,13 @@ FatiguePlace place_of(const std::string& feature, const JudgedNode& worst, const
   place.support = limit.support;
   place.endurance_Pa = limit.amplitude_Pa;
   place.safety = place.cycle.amplitude_Pa > 0 ? limit.amplitude_Pa / place.cycle.amplitude_Pa : never;
+  place.error_share = error_share_of(analysis, feature) + search.unresolved_share(worst.node, worst.counted);
   take_life(rules, worst.counted, period, place);
   place.others = second_opinions(
       rules, stress_history_Pa(analysis.responses, analysis.loads.history, place.node), limit, place.cycle);
   place.effect_share = shares_of_change(unit_stresses_at(analysis.responses, place.node),
                                         search.between(place.from, place.to), 0, 1)
                            .effects;
-  place.error_share = error_share_of(analysis, feature) + search.unresolved_share(worst.node, worst.counted);
   return place;
 }
 
@@ -129,6 +147,7 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
   WeldFatigue weld;
   weld.name = place.name;
   weld.toe_m = place.toe_m;
+  weld.type = place.type;
   weld.class_Pa = place.detail.fat_Pa;
   weld.thickness_m = place.detail.thickness_m;
   weld.angle_rad = toe.angle_rad;
@@ -147,6 +166,13 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
     weld.life_safety =
         life_factor(weld_curve(place.detail, amplitude), ranges, *wanted / period.duration_s, damage_sum);
   weld.error_share = place.error_share + place.unresolved_share(course, toe);
+  const auto curve = weld_curve(place.detail, amplitude);
+  weld.certainty = certainty_of(
+      weld.error_share,
+      beyond_curve(toe.stress_Pa.abs().maxCoeff(), analysis.scene.yield_strength_Pa, curve, ranges),
+      [&](double factor) {
+        return life_of(miner_damage(curve, scaled(ranges, factor)) / damage_sum, period.duration_s);
+      });
   return weld;
 }
 
@@ -168,6 +194,35 @@ namespace {
 /// DIN 743 is for shafts of rolled and forged steel.
 bool is_steel(const GroupConstants& group) {
   return !group.is_cast && group.group != MaterialGroup::wrought_aluminium;
+}
+
+/// The places of a list where the curve does not hold.
+template <typename Place, typename Name>
+void warn_beyond(const std::string& body, const std::vector<Place>& places, const Name& name,
+                 std::vector<std::string>& warnings) {
+  const auto is_beyond = [](const Place& place) { return !place.certainty.beyond.empty(); };
+  const auto first = std::find_if(places.begin(), places.end(), is_beyond);
+  if (first == places.end()) return;
+  const auto n = std::size_t(std::count_if(places.begin(), places.end(), is_beyond));
+  warnings.push_back(warning_beyond_curve(body, n, name(*first), first->certainty.beyond));
+}
+
+std::vector<std::string> warnings_of(const FatigueRules& rules, const std::string& body,
+                                     const BodyFatigue& fatigue) {
+  std::vector<std::string> warnings;
+  const double reversed_Pa = rules.limit(0, {}).reversed_Pa,
+               yield_Pa = rules.scene().material.yield_strength_Pa;
+  if (reversed_Pa > yield_Pa)
+    warnings.push_back(fmt::format(
+        "{}.fatigue: a reversed amplitude of {:.0f} MPa is endured for ever by its keys, more than "
+        "the yield strength, {:.0f} MPa: check surface_treatment = {:.3g}{}",
+        body, reversed_Pa / 1e6, yield_Pa / 1e6, rules.scene().treatment,
+        rules.scene().endurance_Pa ? " and endurance_limit" : ""));
+  warn_beyond(
+      body, fatigue.places, [](const auto& place) { return place.feature; }, warnings);
+  warn_beyond(
+      body, fatigue.welds, [](const auto& weld) { return "weld toe " + weld.name; }, warnings);
+  return warnings;
 }
 
 }  // namespace
@@ -200,6 +255,7 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
     });
   fatigue.welds = judge_welds(analysis, search.course(), period);
   fatigue.assumptions = assumptions_of(rules, analysis);
+  fatigue.warnings = warnings_of(rules, analysis.scene.name, fatigue);
   return fatigue;
 }
 

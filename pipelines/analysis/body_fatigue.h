@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
+#include "pipelines/analysis/life_certainty.h"
 #include "pipelines/analysis/nominal_fatigue.h"
 #include "pipelines/superposition/nodal_cycles.h"
 
@@ -50,12 +51,14 @@ struct FatiguePlace {
   std::vector<double> effect_share;  ///< of the amplitude, in the order of ChannelHistory::effects; sums to 1
   double error_share = 0;            ///< numerical error of the stress at the place, with what its instants
                                      ///< leave unresolved; infinite: not known
+  LifeCertainty certainty;           ///< of the life
 };
 
 /// A weld toe by its structural hot-spot stress over the cycle.
 struct WeldFatigue {
   std::string name;
   std::array<double, 3> toe_m{};
+  std::string type;  ///< of weld_classes.h; empty: the class is the scene's own
   double class_Pa = 0, thickness_m = 0;
   double range_Pa = 0;        ///< largest of the counted cycles
   double angle_rad = 0;       ///< of the governing direction from the toe's normal, at most 60 degrees
@@ -65,6 +68,7 @@ struct WeldFatigue {
   std::optional<double> life_s;       ///< none: endures
   std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
   double error_share = 0;             ///< numerical error of the stress; infinite: not known
+  LifeCertainty certainty;            ///< of the life
 };
 
 struct BodyFatigue {
@@ -74,6 +78,7 @@ struct BodyFatigue {
   std::vector<NominalFatigue> nominal;   ///< fillets of steel shafts by DIN 743, least safety first
   std::vector<WeldFatigue> welds;        ///< by rising life, then by falling range
   std::vector<std::string> assumptions;  ///< sentences: rules, factors and defaults
+  std::vector<std::string> warnings;     ///< where the rules do not hold
 };
 
 /// @param analysis  with envelope, places and loads; its scene asks for fatigue

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
 
@@ -44,8 +45,15 @@ struct CountedBlocks {
     std::vector<StressBlock> running_in_starts;  ///< of the running in these
     double amplitude_Pa = 0, start_amplitude_Pa = 0;
     double unresolved_share = 0, unresolved_start_share = 0;  ///< of these
+    double largest_Pa = 0;  ///< amplitude and size of the mean of the largest cycles
   };
   std::vector<Block> blocks;
+
+  double largest_Pa() const {
+    double largest = 0;
+    for (const auto& block : blocks) largest = std::max(largest, block.largest_Pa);
+    return largest;
+  }
 
   std::vector<StressBlock> all() const {
     std::vector<StressBlock> result;
@@ -57,23 +65,55 @@ struct CountedBlocks {
   }
 };
 
+/// With all stresses times a factor.
+BlockDamage damage_of(const CountedBlocks::Block& block, const SnCurve& curve, double factor = 1) {
+  const auto of = [&](const std::vector<StressBlock>& cycles) {
+    return miner_damage(curve, scaled(cycles, factor));
+  };
+  BlockDamage damage;
+  damage.amplitude_Pa = block.amplitude_Pa;
+  damage.start_amplitude_Pa = block.start_amplitude_Pa;
+  damage.damage_per_s = of(block.running);
+  damage.starts_per_s = std::max(0.0, of(block.starting) - of(block.running_in_starts));
+  return damage;
+}
+
+/// What the instants leave unresolved, by the damage of blocks and starts; without damage the largest.
+double sampling_share(const CountedBlocks& counted, const DutyPlace& place) {
+  double most = 0, weighed = 0;
+  for (std::size_t b = 0; b < counted.blocks.size(); ++b) {
+    const auto& block = counted.blocks[b];
+    most = std::max({most, block.unresolved_share, block.unresolved_start_share});
+    weighed += block.unresolved_share * place.blocks[b].damage_per_s +
+               block.unresolved_start_share * place.blocks[b].starts_per_s;
+  }
+  return place.damage_per_s > 0 ? weighed / place.damage_per_s : most;
+}
+
+/// S-N curve for cycles of all blocks.
+using CurveOf = std::function<SnCurve(const std::vector<StressBlock>&)>;
+
 /// Damage by block with one curve for all.
-void take_damage(const CountedBlocks& counted, const SnCurve& curve, double damage_sum,
-                 std::optional<double> wanted_life_s, DutyPlace& place) {
+void take_damage(const CountedBlocks& counted, const CurveOf& curve_of, double damage_sum,
+                 const FatigueScene& scene, DutyPlace& place) {
+  const auto all = counted.all();
+  const auto curve = curve_of(all);
   place.damage_per_s = 0;
   for (const auto& block : counted.blocks) {
-    BlockDamage damage;
-    damage.amplitude_Pa = block.amplitude_Pa;
-    damage.start_amplitude_Pa = block.start_amplitude_Pa;
-    damage.damage_per_s = miner_damage(curve, block.running);
-    damage.starts_per_s =
-        std::max(0.0, miner_damage(curve, block.starting) - miner_damage(curve, block.running_in_starts));
-    place.damage_per_s += damage.sum_per_s();
-    place.blocks.push_back(damage);
+    place.blocks.push_back(damage_of(block, curve));
+    place.damage_per_s += place.blocks.back().sum_per_s();
   }
   if (place.damage_per_s > 0) place.life_s = damage_sum / place.damage_per_s;
-  place.slope = curve.slope;
-  if (wanted_life_s) place.life_safety = life_factor(curve, counted.all(), *wanted_life_s, damage_sum);
+  place.error_share += sampling_share(counted, place);
+  if (scene.wanted_life_s) place.life_safety = life_factor(curve, all, *scene.wanted_life_s, damage_sum);
+  place.certainty = certainty_of(
+      place.error_share, beyond_curve(counted.largest_Pa(), scene.material.yield_strength_Pa, curve, all),
+      [&](double factor) {
+        const auto other = curve_of(scaled(all, factor));
+        double per_s = 0;
+        for (const auto& block : counted.blocks) per_s += damage_of(block, other, factor).sum_per_s();
+        return per_s > 0 ? std::optional(damage_sum / per_s) : std::nullopt;
+      });
 }
 
 class DutyJudge {
@@ -103,12 +143,12 @@ public:
       return damage_about_[a] < damage_about_[b];
     }));
     std::optional<DutyPlace> worst;
+    const double error_share = error_share_of(analysis_, feature);
     for (const auto node : candidates) {
-      auto place = at(node);
+      auto place = at(node, error_share);
       if (!worst || is_worse(place, *worst)) worst = std::move(place);
     }
     worst->feature = feature;
-    worst->error_share += error_share_of(analysis_, feature);
     return std::move(*worst);
   }
 
@@ -117,6 +157,7 @@ public:
     place.feature = weld.name;
     place.position_m = weld.toe_m;
     place.is_weld = true;
+    place.error_share = weld.error_share;
     CountedBlocks counted;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const auto& block = blocks_[b];
@@ -124,18 +165,20 @@ public:
       auto& own = counted.blocks.emplace_back();
       const auto running = weld.stress(course);
       own.amplitude_Pa = take_ranges(running.cycles, block.share / block.period.duration_s, own.running);
+      own.largest_Pa = running.stress_Pa.abs().maxCoeff();
       own.unresolved_share = weld.unresolved_share(course, running);
       if (!(block.starts_per_s > 0)) continue;
       const auto& starting = block.starting != nullptr ? block.starting->values : ArrayXXd();
       const auto start = weld.stress(start_sequence(course.fine(), starting));
       own.start_amplitude_Pa = take_ranges(start.cycles, block.starts_per_s, own.starting);
+      own.largest_Pa = std::max(own.largest_Pa, start.stress_Pa.abs().maxCoeff());
       take_ranges(kinetics::rainflow_repeating(start.stress_Pa.tail(course.fine().cols())),
                   block.starts_per_s, own.running_in_starts);
       own.unresolved_start_share = start_sampling_share(weld.unit_Pa, starting, own.start_amplitude_Pa);
     }
-    take_damage(counted, weld_curve(weld.detail, LoadAmplitude::variable), damage_sum_of_spectra,
-                rules_.scene().wanted_life_s, place);
-    place.error_share = weld.error_share + sampling_share(counted, place);
+    const auto curve = weld_curve(weld.detail, LoadAmplitude::variable);
+    take_damage(
+        counted, [&](const auto&) { return curve; }, damage_sum_of_spectra, rules_.scene(), place);
     return place;
   }
 
@@ -178,18 +221,6 @@ private:
     return largest / 2;
   }
 
-  /// What the instants leave unresolved, by the damage of blocks and starts; without damage the largest.
-  static double sampling_share(const CountedBlocks& counted, const DutyPlace& place) {
-    double most = 0, weighed = 0;
-    for (std::size_t b = 0; b < counted.blocks.size(); ++b) {
-      const auto& block = counted.blocks[b];
-      most = std::max({most, block.unresolved_share, block.unresolved_start_share});
-      weighed += block.unresolved_share * place.blocks[b].damage_per_s +
-                 block.unresolved_start_share * place.blocks[b].starts_per_s;
-    }
-    return place.damage_per_s > 0 ? weighed / place.damage_per_s : most;
-  }
-
   /// By how much the amplitude of a start's largest cycle may be larger between its instants.
   static double start_sampling_share(const UnitStresses& unit_Pa, const ArrayXXd& starting,
                                      double amplitude_Pa) {
@@ -200,23 +231,29 @@ private:
     return time_sampling(tensors, starting).error_Pa() / amplitude_Pa;
   }
 
-  DutyPlace at(std::size_t node) const {
+  static double amplitude_and_mean_Pa(const StressCycle& cycle) {
+    return cycle.amplitude_Pa + std::abs(cycle.signed_mean_Pa);
+  }
+
+  DutyPlace at(std::size_t node, double error_share) const {
     CountedBlocks counted;
     DutyPlace place;
+    place.error_share = error_share;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const auto own = places_[b].at(node);
       place.utilisation = std::max(place.utilisation, own.utilisation);
       count(own, places_[b], blocks_[b], counted.blocks.emplace_back());
     }
     std::copy_n(&analysis_.responses.nodes.xyz_m[3 * node], 3, place.position_m.begin());
-    take_damage(counted, rules_.design_curve(counted.all()), 1, rules_.scene().wanted_life_s, place);
-    place.error_share = sampling_share(counted, place);
+    take_damage(
+        counted, [&](const auto& cycles) { return rules_.design_curve(cycles); }, 1, rules_.scene(), place);
     return place;
   }
 
   void count(const FatigueNode& node, const FatiguePlaces& places, const BlockOnBody& block,
              CountedBlocks::Block& own) const {
     own.amplitude_Pa = node.cycle.amplitude_Pa;
+    own.largest_Pa = amplitude_and_mean_Pa(node.cycle);
     const auto counted = places.counted(node, block.period.duration_s / block.share);
     append(own.running, counted.blocks, block.share / block.period.duration_s);
     own.unresolved_share = places.unresolved_share(node, counted);
@@ -234,6 +271,7 @@ private:
     const auto cycle = sequence.largest(slack_of_long_series).cycle;
     if (!(cycle.amplitude_Pa > 0)) return;
     own.start_amplitude_Pa = cycle.amplitude_Pa;
+    own.largest_Pa = std::max(own.largest_Pa, amplitude_and_mean_Pa(cycle));
     const auto limit = rules_.limit(node.gradient_per_m, scalar(cycle));
     const auto counted = [&](const StressCourse& course, const DeviatoricDirection& direction) {
       return rules_.counted(course.cycles_along(direction), limit);

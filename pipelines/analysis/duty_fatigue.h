@@ -46,9 +46,9 @@ struct DutyPlace {
   std::optional<double> life_s;       ///< in operation; none: endures
   std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
   double utilisation = 0;             ///< by the largest cycle of the block that uses it most; toes: 0
-  double slope = 0;                   ///< of its S-N curve above the knee
   double error_share = 0;             ///< numerical error of the stress, with what the instants leave
                                       ///< unresolved, by the damage of the blocks; infinite: not known
+  LifeCertainty certainty;            ///< of the life
 };
 
 /// Every feature's worst node, and every weld toe; by falling damage, then by rising safety against the

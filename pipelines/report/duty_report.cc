@@ -77,12 +77,13 @@ void print_places(std::ostream& out, const DutyResult& duty) {
         amplitude_Pa = std::max({amplitude_Pa, block.amplitude_Pa, block.start_amplitude_Pa});
       out << fmt::format("  {:<40}{:>13.1f}{:>32}  {}\n",
                          places[i].feature + (places[i].is_weld ? " (weld toe)" : ""), amplitude_Pa / 1e6,
-                         life_range_text(places[i].life_s, places[i].error_share, places[i].slope),
-                         causes_of(duty, places[i]));
+                         life_text(places[i].life_s, places[i].certainty), causes_of(duty, places[i]));
       if (places[i].life_safety)
         out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
                            *places[i].life_safety);
     }
+    print_may_last_less(out, places.empty() ? "" : places.front().feature,
+                        may_last_less(places, [](const auto& place) { return place.feature; }));
   }
 }
 
@@ -120,6 +121,8 @@ summary::Json place_json(const DutyResult& duty, const DutyPlace& place) {
        {"damage_per_hour", number(place.damage_per_s * hour_s)},
        {"life_h", number_or_none(or_infinite(place.life_s) / hour_s)},
        {"life_days", number_or_none(or_infinite(place.life_s) / hour_s / day_h / duty.in_operation)},
+       {"life_range_h", life_range_json(place.certainty)},
+       {"beyond_sn_curve", beyond_json(place.certainty)},
        {"life_safety", number_or_none(or_infinite(place.life_safety))},
        {"stress_error", number_or_none(place.error_share)},
        {"by_block", by_block}});
@@ -168,7 +171,7 @@ summary::Json duty_json(const DutyResult& duty) {
 }
 
 void write_duty(const std::filesystem::path& file, const DutyResult& duty) {
-  std::vector<std::string> bodies, features, kinds, lives;
+  std::vector<std::string> bodies, features, kinds, lives, least, most;
   std::vector<double> damage;
   std::array<std::vector<double>, 3> position;
   std::vector<std::vector<double>> running(duty.blocks.size()), starts(duty.blocks.size());
@@ -179,16 +182,19 @@ void write_duty(const std::filesystem::path& file, const DutyResult& duty) {
       kinds.push_back(place.is_weld ? "weld toe" : "surface");
       damage.push_back(place.damage_per_s * hour_s);
       lives.push_back(place.life_s ? shortest(*place.life_s / hour_s) : std::string());
+      least.push_back(life_cell(place.certainty, &LifeRange::least_s));
+      most.push_back(life_cell(place.certainty, &LifeRange::most_s));
       for (std::size_t d = 0; d < 3; ++d) position[d].push_back(place.position_m[d]);
       for (std::size_t b = 0; b < duty.blocks.size(); ++b) {
         running[b].push_back(place.blocks[b].damage_per_s * hour_s);
         starts[b].push_back(place.blocks[b].starts_per_s * hour_s);
       }
     }
-  std::vector<CsvColumn> columns{{"body", "", bodies},    {"feature", "", features},
-                                 {"kind", "", kinds},     {"damage_per_hour", "1/h", damage},
-                                 {"life", "h", lives},    {"x", "m", position[0]},
-                                 {"y", "m", position[1]}, {"z", "m", position[2]}};
+  std::vector<CsvColumn> columns{{"body", "", bodies},     {"feature", "", features},
+                                 {"kind", "", kinds},      {"damage_per_hour", "1/h", damage},
+                                 {"life", "h", lives},     {"life_least", "h", least},
+                                 {"life_most", "h", most}, {"x", "m", position[0]},
+                                 {"y", "m", position[1]},  {"z", "m", position[2]}};
   for (std::size_t b = 0; b < duty.blocks.size(); ++b) {
     columns.push_back({duty.blocks[b].name + ".running", "1/h", running[b]});
     if (duty.blocks[b].starts_per_day > 0)

@@ -23,10 +23,6 @@ std::string safety_text(double safety) {
   return std::isfinite(safety) ? fixed(safety, 2) : "-";
 }
 
-const GroupConstants& group_of(const BodyAnalysis& analysis) {
-  return constants_of(analysis.scene.fatigue->material.group);
-}
-
 template <typename Get>
 CsvColumn numbers(const char* name, const char* unit, const std::vector<FatiguePlace>& places, Get&& get) {
   std::vector<double> cells;
@@ -54,8 +50,10 @@ void print_welds(std::ostream& out, const BodyFatigue& fatigue) {
     const auto& weld = fatigue.welds[i];
     out << fmt::format("  {:<40}{:>11}{:>9.1f} mm{:>10.0f}{:>9.0f}  {}\n", weld.name,
                        fixed(weld.range_Pa / 1e6, 1), 1e3 * weld.thickness_m, weld.angle_rad * 180 / M_PI,
-                       weld.class_Pa / 1e6, life_text(weld.life_s));
+                       weld.class_Pa / 1e6, life_text(weld.life_s, weld.certainty));
   }
+  print_may_last_less(out, fatigue.welds.front().name,
+                      may_last_less(fatigue.welds, [](const auto& weld) { return weld.name; }));
 }
 
 summary::Json welds_json(const BodyFatigue& fatigue) {
@@ -64,6 +62,7 @@ summary::Json welds_json(const BodyFatigue& fatigue) {
     json.push_back(summary::object(
         {{"name", weld.name},
          {"position_m", weld.toe_m},
+         {"type", weld.type.empty() ? summary::Json(nullptr) : summary::Json(weld.type)},
          {"class_Pa", summary::number(weld.class_Pa)},
          {"thickness_m", summary::number(weld.thickness_m)},
          {"range_Pa", summary::number(weld.range_Pa)},
@@ -72,6 +71,8 @@ summary::Json welds_json(const BodyFatigue& fatigue) {
          {"counted_cycles", weld.n_counted},
          {"damage_per_turn", summary::number(weld.damage_per_turn)},
          {"life_h", weld.life_s ? summary::number(*weld.life_s / seconds_per_hour) : summary::Json(nullptr)},
+         {"life_range_h", life_range_json(weld.certainty)},
+         {"beyond_sn_curve", beyond_json(weld.certainty)},
          {"life_safety", weld.life_safety ? summary::number(*weld.life_safety) : summary::Json(nullptr)},
          {"stress_error", summary::number_or_none(weld.error_share)}}));
   return json;
@@ -83,12 +84,43 @@ std::string life_text(const std::optional<double>& life_s) {
   return life_s ? fmt::format("{:.2g} h", *life_s / seconds_per_hour) : "endures";
 }
 
-std::string life_range_text(const std::optional<double>& life_s, double error_share, double slope) {
-  if (!life_s) return "endures";
-  const double hours = *life_s / seconds_per_hour;
-  if (!(error_share < 1)) return fmt::format("{:.2g} h, not known well", hours);
-  return fmt::format("{:.2g} h ({:.2g} to {:.2g})", hours, hours * std::pow(1 + error_share, -slope),
-                     hours * std::pow(1 - error_share, -slope));
+std::string life_text(const std::optional<double>& life_s, const LifeCertainty& certainty) {
+  const auto text = life_text(life_s);
+  if (!certainty.beyond.empty()) return text + ", beyond the S-N curve";
+  const auto& range = certainty.range;
+  if (!life_s)
+    return text + (range && range->least_s ? " (" + life_text(range->least_s) + " at least)" : std::string());
+  if (!range) return text + ", not known well";
+  return fmt::format("{} ({:.2g} to {})", text, range->least_s.value_or(*life_s) / seconds_per_hour,
+                     range->most_s ? fmt::format("{:.2g}", *range->most_s / seconds_per_hour) : "ever");
+}
+
+summary::Json life_range_json(const LifeCertainty& certainty) {
+  if (!certainty.range) return nullptr;
+  const auto hours = [](const std::optional<double>& life_s) {
+    return life_s ? summary::number(*life_s / seconds_per_hour) : summary::Json(nullptr);
+  };
+  return summary::Json::array({hours(certainty.range->least_s), hours(certainty.range->most_s)});
+}
+
+summary::Json beyond_json(const LifeCertainty& certainty) {
+  return certainty.beyond.empty() ? summary::Json(nullptr) : summary::Json(certainty.beyond);
+}
+
+std::string life_cell(const LifeCertainty& certainty, std::optional<double> LifeRange::*end) {
+  if (!certainty.range) return "";
+  const auto& life_s = (*certainty.range).*end;
+  return life_s ? shortest(*life_s / seconds_per_hour) : std::string();
+}
+
+void print_may_last_less(std::ostream& out, const std::string& first,
+                         const std::vector<std::string>& others) {
+  constexpr std::size_t most = 3;
+  if (others.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(most, others.size()); ++i) names += (i > 0 ? "; " : "") + others[i];
+  if (others.size() > most) names += fmt::format("; and {} more", others.size() - most);
+  out << fmt::format("    by the errors of their stresses these may last less than {}: {}\n", first, names);
 }
 
 void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
@@ -102,7 +134,7 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
     out << fmt::format("  {:<30}{:>13}{:>10}{:>12}{:>9}{:>12.1f}%  {}\n", place.feature,
                        fixed(place.cycle.amplitude_Pa / 1e6, 1), fixed(place.cycle.signed_mean_Pa / 1e6, 1),
                        fixed(place.endurance_Pa / 1e6, 1), safety_text(place.safety), 100 * place.utilisation,
-                       life_range_text(place.life_s, place.error_share, group_of(analysis).slope_normal));
+                       life_text(place.life_s, place.certainty));
   }
   if (fatigue.places.empty()) return;
   const auto& first = fatigue.places.front();
@@ -112,11 +144,11 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
   };
   if (first.cycle.amplitude_Pa > 0)
     out << fmt::format(
-        "    {}: from {} to {}; by {}; n_sigma {:.3f} at {:.3g}/mm; stress known to {}\n", first.feature,
-        at(first.from), at(first.to),
+        "    {}: from {} to {}; by {}; n_sigma {:.3f} at {:.3g}/mm; numerical error of the stress {}\n",
+        first.feature, at(first.from), at(first.to),
         largest_shares(group_shares(analysis.loads.history.effects, first.effect_share)), first.support,
         first.gradient_per_m * 1e-3,
-        std::isfinite(first.error_share) ? fmt::format("{:.1f} %", 100 * first.error_share) : "nothing");
+        std::isfinite(first.error_share) ? fmt::format("{:.1f} %", 100 * first.error_share) : "not known");
   if (first.life_safety)
     out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
                        *first.life_safety);
@@ -206,6 +238,8 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
          {"damage_per_hour", number(place.life_s ? seconds_per_hour / *place.life_s : 0)},
          {"life_turns", number_or_none(place.life_s ? 1 / place.damage_per_turn : life)},
          {"life_h", number_or_none(life / seconds_per_hour)},
+         {"life_range_h", life_range_json(place.certainty)},
+         {"beyond_sn_curve", beyond_json(place.certainty)},
          {"life_safety", number_or_none(place.life_safety.value_or(std::numeric_limits<double>::infinity()))},
          {"safety_by", object({{"findley", number_or_none(place.others.findley)},
                                {"goodman", number_or_none(place.others.goodman)},
@@ -234,11 +268,15 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
 }
 
 void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& analysis) {
-  std::vector<std::string> names, lives;
+  std::vector<std::string> names, types, lives, least, most, error;
   std::vector<double> range, thickness, angle, fat, damage;
   std::array<std::vector<double>, 3> toe;
   for (const auto& weld : analysis.fatigue->welds) {
     names.push_back(weld.name);
+    types.push_back(weld.type);
+    least.push_back(life_cell(weld.certainty, &LifeRange::least_s));
+    most.push_back(life_cell(weld.certainty, &LifeRange::most_s));
+    error.push_back(cell(weld.error_share));
     range.push_back(weld.range_Pa);
     thickness.push_back(weld.thickness_m);
     angle.push_back(weld.angle_rad);
@@ -254,6 +292,10 @@ void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& a
                    {"class", "Pa", fat},
                    {"damage_per_turn", "", damage},
                    {"life", "h", lives},
+                   {"life_least", "h", least},
+                   {"life_most", "h", most},
+                   {"stress_error", "", error},
+                   {"type", "", types},
                    {"x", "m", toe[0]},
                    {"y", "m", toe[1]},
                    {"z", "m", toe[2]}});
@@ -275,6 +317,10 @@ void write_fatigue(const std::filesystem::path& file, const Scene& scene, const 
   columns.push_back(texts("life", "h", places, [](const auto& p) {
     return p.life_s ? shortest(*p.life_s / seconds_per_hour) : std::string();
   }));
+  columns.push_back(texts("life_least", "h", places,
+                          [](const auto& p) { return life_cell(p.certainty, &LifeRange::least_s); }));
+  columns.push_back(texts("life_most", "h", places,
+                          [](const auto& p) { return life_cell(p.certainty, &LifeRange::most_s); }));
   columns.push_back(texts("stress_error", "", places, [](const auto& p) { return cell(p.error_share); }));
   columns.push_back(numbers("support_factor", "", places, [](const auto& p) { return p.support; }));
   columns.push_back(

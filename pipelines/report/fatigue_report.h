@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/report/results.h"
@@ -29,9 +32,33 @@ void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& a
 /// "endures", "1.2e+04 h": of a life in seconds.
 std::string life_text(const std::optional<double>& life_s);
 
-/// The same with what the stress's error makes of it: "1.2e+04 h (8000 to 1.9e+04)".
-/// @param error_share  of the stress; infinite: not known
-/// @param slope        life goes with that power of stress
-std::string life_range_text(const std::optional<double>& life_s, double error_share, double slope);
+/// The same with what the error of the stress leaves possible: "5e+03 h (4e+03 to 9e+03)", "endures (1e+04 h
+/// at least)", "5e+03 h, not known well", "0.01 h, beyond the S-N curve".
+std::string life_text(const std::optional<double>& life_s, const LifeCertainty& certainty);
+
+/// life_range_h: [least, most], null where one endures; null where nothing is known.
+summary::Json life_range_json(const LifeCertainty& certainty);
+
+/// beyond_sn_curve: why the curve does not hold; null: it holds.
+summary::Json beyond_json(const LifeCertainty& certainty);
+
+/// "least" and "most" of a range in hours for a table; empty: not known, or endures.
+std::string life_cell(const LifeCertainty& certainty, std::optional<double> LifeRange::*end);
+
+/// Of places by rising life: the names of those whose life may be below the first one's by the error of their
+/// stress.
+template <typename Place, typename Name>
+std::vector<std::string> may_last_less(const std::vector<Place>& places, const Name& name) {
+  std::vector<std::string> names;
+  if (places.empty() || !places.front().life_s) return names;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const auto& range = places[i].certainty.range;
+    if (range && range->least_s && *range->least_s < *places.front().life_s) names.push_back(name(places[i]));
+  }
+  return names;
+}
+
+/// A line for the terminal below such places; nothing where there is none.
+void print_may_last_less(std::ostream& out, const std::string& first, const std::vector<std::string>& others);
 
 }  // namespace pipelines

@@ -194,14 +194,21 @@ std::string or_dash(const Json& value, double scale, const char* format) {
   return value.is_null() ? "-" : number(value, scale, format);
 }
 
+/// What the error of the stress leaves of a life at least, h; results of earlier versions have none.
+std::string least_life(const Json& place) {
+  if (!place.contains("life_range_h") || place["life_range_h"].is_null()) return "-";
+  return or_dash(place["life_range_h"][0], 1, "{:.3g}");
+}
+
 void add_welds(HtmlPage& page, const Json& welds) {
   Rows rows;
   for (const auto& weld : welds) {
     if (rows.size() == n_rows_of_fatigue) break;
     rows.push_back({weld.at("name").get<std::string>(), number(weld.at("range_Pa"), 1e-6, "{:.1f}"),
-                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), or_dash(weld.at("life_h"), 1, "{:.3g}")});
+                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), or_dash(weld.at("life_h"), 1, "{:.3g}"),
+                    least_life(weld)});
   }
-  page.table({"weld toe", "range MPa", "FAT MPa", "life h"}, rows);
+  page.table({"weld toe", "range MPa", "FAT MPa", "life h", "at least h"}, rows);
 }
 
 /// Places and weld toes by falling use, where the scene asks for fatigue.
@@ -211,14 +218,16 @@ void add_fatigue(HtmlPage& page, const Json& body) {
   Rows rows;
   for (const auto& place : fatigue.at("places")) {
     if (rows.size() == n_rows_of_fatigue) break;
-    rows.push_back(
-        {place.at("feature").get<std::string>(), number(place.at("amplitude_Pa"), 1e-6, "{:.1f}"),
-         number(place.at("mean_Pa"), 1e-6, "{:.1f}"), number(place.at("endurance_Pa"), 1e-6, "{:.1f}"),
-         or_dash(place.at("safety_against_endurance"), 1, "{:.2f}"),
-         number(place.at("utilisation"), 100, "{:.0f}"), or_dash(place.at("life_h"), 1, "{:.3g}")});
+    rows.push_back({place.at("feature").get<std::string>(), number(place.at("amplitude_Pa"), 1e-6, "{:.1f}"),
+                    number(place.at("mean_Pa"), 1e-6, "{:.1f}"),
+                    number(place.at("endurance_Pa"), 1e-6, "{:.1f}"),
+                    or_dash(place.at("safety_against_endurance"), 1, "{:.2f}"),
+                    number(place.at("utilisation"), 100, "{:.0f}"), or_dash(place.at("life_h"), 1, "{:.3g}"),
+                    least_life(place)});
   }
   page.heading(3, "Fatigue");
-  page.table({"place", "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation %", "life h"},
+  page.table({"place", "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation %", "life h",
+              "at least h"},
              rows);
   if (fatigue.contains("welds")) add_welds(page, fatigue.at("welds"));
   for (const auto& line : fatigue.at("assumptions")) page.paragraph(line.get<std::string>());
@@ -294,13 +303,15 @@ void add_duty_places(HtmlPage& page, const std::string& body, const Json& places
   Rows rows;
   for (const auto& place : places) {
     if (rows.size() == n_rows_of_fatigue) break;
-    rows.push_back({place.at("feature").get<std::string>(),
-                    place.at("weld_toe").get<bool>() ? "weld toe" : "",
-                    number(place.at("damage_per_hour"), 1, "{:.3g}"),
-                    or_dash(place.at("life_h"), 1, "{:.3g}"), or_dash(place.at("life_safety"), 1, "{:.2f}")});
+    rows.push_back(
+        {place.at("feature").get<std::string>(), place.at("weld_toe").get<bool>() ? "weld toe" : "",
+         number(place.at("damage_per_hour"), 1, "{:.3g}"), or_dash(place.at("life_h"), 1, "{:.3g}"),
+         least_life(place), or_dash(place.at("life_safety"), 1, "{:.2f}")});
   }
   page.heading(3, body + ": life over all blocks");
-  page.table({"place", "", "damage per hour", "life h in operation", "safety against the wanted life"}, rows);
+  page.table(
+      {"place", "", "damage per hour", "life h in operation", "at least h", "safety against the wanted life"},
+      rows);
 }
 
 void add_duty(HtmlPage& page, const Json& summary) {

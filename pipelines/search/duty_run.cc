@@ -68,7 +68,8 @@ BlockStress stress_of(const BodyAnalysis& analysis, const ServedBlock& block) {
   BlockStress stress{analysis.scene.name, "", false, largest_Pa[node], 0, 0};
   if (const auto feature = analysis.places.feature[node]; feature >= 0)
     stress.feature = analysis.places.feature_names[std::size_t(feature)];
-  const auto spots = hot_spot_stresses(analysis.mesh.hot_spots, analysis.responses, block.running.history);
+  const auto spots =
+      hot_spots_under(analysis.mesh.hot_spots, analysis.responses, block.running.history, analysis.hot_spots);
   if (!spots.empty() && spots.front().von_mises_Pa > stress.value_Pa)
     stress = {analysis.scene.name, spots.front().name, true, spots.front().von_mises_Pa, 0, 0};
   stress.safety = analysis.scene.yield_strength_Pa / stress.value_Pa;
@@ -142,6 +143,19 @@ std::vector<std::string> blocks_beyond_the_scene(const DutyResult& duty, const S
             "zones, pictures and errors are of the latter; give the scene the block's keys to see them",
             block.name, stress.body, stress.value_Pa / 1e6, own_Pa / 1e6));
     }
+  return sentences;
+}
+
+std::vector<std::string> duty_lives_beyond_curves(const DutyResult& duty) {
+  std::vector<std::string> sentences;
+  for (const auto& [body, places] : duty.places) {
+    const auto is_beyond = [](const DutyPlace& place) { return !place.certainty.beyond.empty(); };
+    const auto first = std::find_if(places.begin(), places.end(), is_beyond);
+    if (first != places.end())
+      sentences.push_back(warning_beyond_curve(
+          body + " over all blocks", std::size_t(std::count_if(places.begin(), places.end(), is_beyond)),
+          first->feature, first->certainty.beyond));
+  }
   return sentences;
 }
 

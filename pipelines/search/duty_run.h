@@ -14,4 +14,7 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
 /// Sentences on blocks that stress a body more than the scene's own running, which all other results are of.
 std::vector<std::string> blocks_beyond_the_scene(const DutyResult& duty, const SceneRun& run);
 
+/// Sentences on bodies whose lives over all blocks no S-N curve holds for.
+std::vector<std::string> duty_lives_beyond_curves(const DutyResult& duty);
+
 }  // namespace pipelines

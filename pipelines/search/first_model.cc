@@ -61,7 +61,8 @@ Search search_of_beam(const Scene& scene, std::size_t i_body, const BodyAnalysis
   search.steps = {step_of(scene, i_body, stress, analysis, analysis.solve_s)};
   search.steps.back().fineness = "beam";
   search.met = stress.errors.reducible_Pa() <= tolerance * stress.value_Pa;
-  search.ended = search.met ? "the tolerance is met" : "a beam has no mesh to refine; take method \"auto\"";
+  search.ended = search.met ? "the tolerance is met"
+                            : "a beam has no mesh to refine (method \"auto\" takes a finer model)";
   return search;
 }
 

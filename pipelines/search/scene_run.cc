@@ -193,6 +193,7 @@ private:
       analysis.fatigue = std::make_shared<const BodyFatigue>(judge_fatigue(
           analysis, {step_s * double(time_s.size()), double(grid.turns)}, threads(options_.n_threads)));
     });
+    for (const auto& warning : analysis.fatigue->warnings) warnings_.push_back(warning);
   }
 
   /// The start, where the scene asks for it, on the final responses.

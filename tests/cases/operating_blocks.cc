@@ -83,6 +83,13 @@ TEST(OperatingBlocks, DamageAddsByShares) {
   const auto place = first_place(both);
   // The block's loads are the same numbers in another order: round-off of the stress, to the fifth power.
   EXPECT_NEAR(place["life_h"].get<double>(), expected, 1e-9 * expected);
+  // Both blocks are above the knee, or count by its slope: life goes with the fifth power of stress.
+  const double error = place["stress_error"];
+  EXPECT_GT(error, 0);
+  ASSERT_LT(error, 1);
+  EXPECT_NEAR(place["life_range_h"][0].get<double>(), expected * std::pow(1 + error, -slope),
+              1e-9 * expected);
+  EXPECT_NEAR(place["life_range_h"][1].get<double>() / (expected * std::pow(1 - error, -slope)), 1, 1e-9);
   EXPECT_NEAR(place["life_days"].get<double>(), expected / 24 / 0.75, 1e-9 * expected);
   EXPECT_NEAR(place["by_block"]["heavy"]["damage_per_hour"].get<double>() * life(heavy), q_heavy, 1e-9);
   EXPECT_EQ(place["by_block"]["light"]["starts_damage_per_hour"].get<double>(), 0);
@@ -202,4 +209,34 @@ TEST(OperatingBlocks, KeepTheBody) {
   EXPECT_NE(refusal("run", "machine.speeed = \"600 rpm\"").find("(in the duty block \"other\")"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(directory / "out"));
+}
+
+// A block without keys of its own is the scene's running: it has the same stress at the toes that were solved
+// as submodels, too. Red if a block takes the stress of toes from the mesh of the whole body.
+TEST(OperatingBlocks, HaveTheStressOfToesThatWereSolvedAsSubmodels) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", chamber_alone({{"instants_per_turn = 120", "instants_per_turn = 24"},
+                                                 {"snapshots = 24", "snapshots = 0"},
+                                                 {"pictures = true", "pictures = false"},
+                                                 {"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}}) +
+                                      block("own", "100 %"));
+  const auto outcome = millstress(directory.path, "run scene.toml -o out --tolerance none");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = summary(directory / "out");
+  const auto& chamber = json["bodies"]["chamber"];
+  ASSERT_EQ(chamber["governing"]["kind"], "hot_spot") << "the test wants a toe that leads";
+  EXPECT_FALSE(chamber["hot_spots"][0].contains("extrapolated_from")) << "and was solved as a submodel";
+  const double own_Pa = chamber["governing"]["value"];
+  const auto& in_block = json["duty"]["blocks"]["own"]["bodies"]["chamber"];
+  // The same sums in another order.
+  EXPECT_NEAR(in_block["von_mises"]["value"].get<double>(), own_Pa, 1e-9 * own_Pa) << in_block;
+  const std::string toe = chamber["hot_spots"][0]["name"];
+  const auto history =
+      millstress(directory.path, "history scene.toml --results out -o h --tolerance none --at '" + toe + "'");
+  EXPECT_EQ(history.exit_code, 2) << history.out;
+  EXPECT_NE(history.err.find("its stress comes from a submodel"), std::string::npos) << history.err;
+  EXPECT_LT(history.err.size(), 2000u) << "no list of dozens of toes";
+  for (const auto& warning : json["warnings"])
+    EXPECT_EQ(warning.get<std::string>().find("more than the scene's own running"), std::string::npos)
+        << warning;
 }

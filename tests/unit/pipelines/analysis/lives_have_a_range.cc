@@ -1,0 +1,59 @@
+// What an error of the stress makes of a life, and where S-N curves end.
+// Turns red: the error on the wrong side, a range where nothing is known, a border at another number of
+// cycles.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "pipelines/analysis/life_certainty.h"
+
+using namespace pipelines;
+
+namespace {
+
+const SnCurve falling{100e6, 1e6, 5, {}};  // endures 100 MPa
+
+LifeCertainty certainty(double amplitude_Pa, double error, const std::string& beyond = "") {
+  return certainty_of(error, beyond,
+                      [&](double factor) { return cycles_to_failure(falling, factor * amplitude_Pa); });
+}
+
+}  // namespace
+
+// N = 1e6 (100 / 200)^5 at 200 MPa; rounding alone.
+TEST(LifeCertainty, FollowsThePowerOfTheStress) {
+  const auto range = certainty(200e6, 0.1).range;
+  ASSERT_TRUE(range);
+  EXPECT_NEAR(*range->least_s, 1e6 / std::pow(2.2, 5), 1e-6);
+  EXPECT_NEAR(*range->most_s, 1e6 / std::pow(1.8, 5), 1e-6);
+}
+
+TEST(LifeCertainty, MayEndAboveOrBelowTheLimit) {
+  const auto endures = certainty(95e6, 0.1).range, fails = certainty(105e6, 0.1).range;
+  ASSERT_TRUE(endures && fails);
+  EXPECT_NEAR(*endures->least_s, 1e6 / std::pow(1.045, 5), 1e-5);
+  EXPECT_FALSE(endures->most_s);
+  EXPECT_FALSE(fails->most_s);
+  EXPECT_TRUE(fails->least_s);
+}
+
+TEST(LifeCertainty, IsNoneWhereTheStressOrTheCurveIsNotKnown) {
+  EXPECT_FALSE(certainty(200e6, 1).range);
+  EXPECT_FALSE(certainty(200e6, std::numeric_limits<double>::infinity()).range);
+  const auto beyond = certainty(200e6, 0.1, "why");
+  EXPECT_FALSE(beyond.range);
+  EXPECT_EQ(beyond.beyond, "why");
+}
+
+// 1e4 cycles are endured at 100 MPa (1e6 / 1e4)^(1/5) = 251.19 MPa.
+TEST(LifeCertainty, CurvesEndAtYieldAndAtTenThousandCycles) {
+  const double most = 100e6 * std::pow(100, 0.2);
+  const auto text = [&](double largest_Pa, double amplitude_Pa) {
+    return beyond_curve(largest_Pa, 300e6, falling, {{90e6, 1}, {amplitude_Pa, 1}, {400e6, 0}});
+  };
+  EXPECT_EQ(text(300e6, 0.999 * most), "");
+  EXPECT_NE(text(300.1e6, 0.999 * most).find("exceed the yield strength, 300 MPa"), std::string::npos);
+  EXPECT_NE(text(300e6, 1.001 * most).find("S-N curves begin at 1e+04"), std::string::npos);
+  EXPECT_EQ(text(100e6, 80e6), "") << "endures";
+}
