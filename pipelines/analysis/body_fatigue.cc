@@ -140,6 +140,21 @@ FatiguePlace place_of(const std::string& feature, const JudgedNode& worst, const
   return place;
 }
 
+/// What each effect brings to the difference between the largest and the smallest stress along the direction
+/// that governs.
+std::vector<double> shares_of_range(const WeldPlace& place, const ToeStress& toe,
+                                    const ChannelHistory& loads) {
+  Eigen::Index high = 0, low = 0;
+  const double range_Pa = toe.stress_Pa.maxCoeff(&high) - toe.stress_Pa.minCoeff(&low);
+  std::vector<double> shares;
+  if (!(range_Pa > 0)) return shares;
+  for (const auto& part : loads.by_effect) {
+    const ArrayXXd change = part.col(high) - part.col(low);
+    shares.push_back(place.along_Pa(change, toe.angle_rad)[0] / range_Pa);
+  }
+  return shares;
+}
+
 WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const BodyAnalysis& analysis,
                     const LoadPeriod& period) {
   const auto toe = place.stress(course);
@@ -153,6 +168,7 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
   weld.angle_rad = toe.angle_rad;
   weld.is_principal = toe.is_principal;
   weld.n_counted = toe.cycles.size();
+  weld.effect_share = shares_of_range(place, toe, analysis.loads.history);
   std::vector<StressBlock> ranges;
   for (const auto& cycle : toe.cycles) {
     weld.range_Pa = std::max(weld.range_Pa, cycle.range);

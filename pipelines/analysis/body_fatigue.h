@@ -63,6 +63,9 @@ struct WeldFatigue {
   double range_Pa = 0;        ///< largest of the counted cycles
   double angle_rad = 0;       ///< of the governing direction from the toe's normal, at most 60 degrees
   bool is_principal = false;  ///< a principal direction of the range; else the toe's normal
+  /// Of the range, in the order of ChannelHistory::effects; sums to 1, but for effects without a share of
+  /// their own. Empty: nothing changes.
+  std::vector<double> effect_share;
   std::size_t n_counted = 0;  ///< rainflow cycles in a period
   double damage_per_turn = 0;
   std::optional<double> life_s;       ///< none: endures

@@ -1,6 +1,8 @@
 #include "pipelines/analysis/weld_places.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "pipelines/analysis/hot_spots.h"
@@ -19,6 +21,16 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 }  // namespace
+
+Eigen::ArrayXd WeldPlace::along_Pa(const Eigen::ArrayXXd& factors, double angle_rad) const {
+  const Vector3d n = surface_normal.normalized();
+  const Vector3d u = (across_toe - across_toe.dot(n) * n).normalized();
+  const Vector3d d = std::cos(angle_rad) * u + std::sin(angle_rad) * n.cross(u);
+  Eigen::Matrix<double, 1, 6> weights;
+  weights << d.x() * d.x(), d.y() * d.y(), d.z() * d.z(), 2 * d.x() * d.y(), 2 * d.y() * d.z(),
+      2 * d.x() * d.z();
+  return (weights * unit_Pa * factors.matrix()).transpose().array();
+}
 
 double error_share_of(const BodyAnalysis& analysis, const std::string& feature) {
   for (const auto& place : analysis.place_stresses)

@@ -24,6 +24,9 @@ struct WeldPlace {
   std::string type;        ///< of weld_classes.h; empty: the class is the scene's own
   double error_share = 0;  ///< numerical error of the stress; infinite: not known
 
+  /// Stress along a direction in the surface, for ToeStress::angle_rad; a value per column of the factors.
+  Eigen::ArrayXd along_Pa(const Eigen::ArrayXXd& factors, double angle_rad) const;
+
   /// Under loads with the channels of the unit responses. The direction is that of the places between the
   /// instants; cycles have their turning points where the stress has them.
   ToeStress stress(const FactorCourse& course) const;

@@ -1,7 +1,5 @@
 #include "pipelines/analysis/zone_causes.h"
 
-#include <algorithm>
-
 namespace pipelines {
 namespace {
 
@@ -23,8 +21,7 @@ ZoneCauses causes_at(const Zone& zone, const fem::UnitResponses& responses, cons
 std::vector<ZoneCauses> causes_of(const Zones& zones, const fem::UnitResponses& responses,
                                   const ChannelHistory& loads) {
   std::vector<ZoneCauses> causes;
-  for (std::size_t i = 0; i < std::min(n_zones_shown, zones.zones.size()); ++i)
-    causes.push_back(causes_at(zones.zones[i], responses, loads));
+  for (const auto& zone : zones.zones) causes.push_back(causes_at(zone, responses, loads));
   return causes;
 }
 

@@ -18,7 +18,7 @@ struct ZoneCauses {
   StressShares amplitude;  ///< in the change over it; empty where the stress does not vary
 };
 
-/// Of the first zones, at most n_zones_shown. Amplitudes below 1e-9 of the peak are rounding: what stands
+/// Of all zones, in their order. Amplitudes below 1e-9 of the peak are rounding: what stands
 /// still in the body's frame leaves some, and its shares would be noise.
 std::vector<ZoneCauses> causes_of(const Zones& zones, const fem::UnitResponses& responses,
                                   const ChannelHistory& loads);

@@ -42,7 +42,7 @@ std::string cell(double value) {
   return std::isfinite(value) ? shortest(value) : std::string();
 }
 
-void print_welds(std::ostream& out, const BodyFatigue& fatigue) {
+void print_welds(std::ostream& out, const BodyFatigue& fatigue, const std::vector<std::string>& effects) {
   if (fatigue.welds.empty()) return;
   out << fmt::format("\n  {:<40}{:>11}{:>12}{:>10}{:>9}  {}\n", "fatigue of weld toes", "range MPa",
                      "thickness", "angle deg", "FAT", "life");
@@ -52,11 +52,21 @@ void print_welds(std::ostream& out, const BodyFatigue& fatigue) {
                        fixed(weld.range_Pa / 1e6, 1), 1e3 * weld.thickness_m, weld.angle_rad * 180 / M_PI,
                        weld.class_Pa / 1e6, life_text(weld.life_s, weld.certainty));
   }
-  print_may_last_less(out, fatigue.welds.front().name,
+  const auto& first = fatigue.welds.front();
+  if (!first.effect_share.empty())
+    out << fmt::format("    {}: range by {}\n", first.name,
+                       largest_shares(group_shares(effects, first.effect_share)));
+  print_may_last_less(out, first.name,
                       may_last_less(fatigue.welds, [](const auto& weld) { return weld.name; }));
 }
 
-summary::Json welds_json(const BodyFatigue& fatigue) {
+summary::Json welds_json(const BodyFatigue& fatigue, const std::vector<std::string>& effects) {
+  const auto shares = [&](const WeldFatigue& weld) {
+    auto json = summary::Json::object();
+    for (std::size_t e = 0; e < weld.effect_share.size(); ++e)
+      json[effects[e]] = summary::number(weld.effect_share[e]);
+    return json;
+  };
   auto json = summary::Json::array();
   for (const auto& weld : fatigue.welds)
     json.push_back(summary::object(
@@ -74,7 +84,8 @@ summary::Json welds_json(const BodyFatigue& fatigue) {
          {"life_range_h", life_range_json(weld.certainty)},
          {"beyond_sn_curve", beyond_json(weld.certainty)},
          {"life_safety", weld.life_safety ? summary::number(*weld.life_safety) : summary::Json(nullptr)},
-         {"stress_error", summary::number_or_none(weld.error_share)}}));
+         {"stress_error", summary::number_or_none(weld.error_share)},
+         {"effect_share_of_range", shares(weld)}}));
   return json;
 }
 
@@ -165,7 +176,7 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
         least.load.amplitude_Pa.bending / 1e6, least.shape_factor.bending,
         least.load.amplitude_Pa.torsion / 1e6, least.shape_factor.torsion);
   }
-  print_welds(out, fatigue);
+  print_welds(out, fatigue, analysis.loads.history.effects);
   for (const auto& line : fatigue.assumptions) out << "    " << line << '\n';
 }
 
@@ -263,7 +274,7 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
                                       {"safety_against_fatigue", number_or_none(nominal.safety.fatigue)},
                                       {"safety_against_yielding", number_or_none(nominal.safety.yielding)}}));
   }
-  if (!fatigue.welds.empty()) json["welds"] = welds_json(fatigue);
+  if (!fatigue.welds.empty()) json["welds"] = welds_json(fatigue, effects);
   return json;
 }
 

@@ -72,9 +72,9 @@ TEST(OperatingBlocks, DamageAddsByShares) {
   const auto alone = [&](const char* size) {
     return run(directory.path, turning_shaft(size, fatigue + bearing));
   };
-  const auto light = alone("700 N"), heavy = alone("1400 N");
-  const auto both = run(directory.path, turning_shaft("700 N", fatigue + bearing + block("light", "50 %") +
-                                                                   block("heavy", "25 %", force("1400 N"))));
+  const auto light = alone("200 N"), heavy = alone("270 N");
+  const auto both = run(directory.path, turning_shaft("200 N", fatigue + bearing + block("light", "50 %") +
+                                                                   block("heavy", "25 %", force("270 N"))));
   const auto life = [](const Json& json) {
     return json["bodies"]["shaft"]["fatigue"]["places"][0]["life_h"].get<double>();
   };
@@ -102,7 +102,7 @@ TEST(OperatingBlocks, DamageAddsByShares) {
   const auto hours = [](const Json& json) { return json["bearings"]["left"]["L10h"]["value"].get<double>(); };
   const double bearing_h = 1 / (q_light / hours(light) + q_heavy / hours(heavy));
   EXPECT_NEAR(both["duty"]["bearings"]["left"]["L10h"]["value"].get<double>(), bearing_h, 1e-9 * bearing_h);
-  const double equivalent = std::cbrt(q_light * std::pow(350, 3) + q_heavy * std::pow(700, 3));
+  const double equivalent = std::cbrt(q_light * std::pow(100, 3) + q_heavy * std::pow(135, 3));
   EXPECT_NEAR(both["duty"]["bearings"]["left"]["equivalent_load"]["value"].get<double>(), equivalent,
               1e-6 * equivalent)
       << "half of the force, to what the mesh's ends leave";

@@ -16,11 +16,12 @@ using Eigen::ArrayXd;
 using Eigen::ArrayXXd;
 using Eigen::Index;
 
-constexpr double slope = 5;
+constexpr double damage_slope = 5;
 
 double damage_along(const StressCourse& course, const DeviatoricDirection& direction) {
   double damage = 0;
-  for (const auto& cycle : course.cycles_along(direction, false)) damage += std::pow(cycle.range_Pa, slope);
+  for (const auto& cycle : course.cycles_along(direction, false))
+    damage += std::pow(cycle.range_Pa, damage_slope);
   return damage;
 }
 
@@ -101,7 +102,7 @@ TEST(CyclesByDirection, AddedBendingDoesNotLengthenTheLife) {
     const double damage = worst_damage(StressCourse(stress));
     // Of cycles along torsion nothing is taken away: to rounding.
     EXPECT_GE(damage, before * (1 - 1e-9)) << bending;
-    EXPECT_GE(damage, 20 * std::pow(2, slope) * (1 - 1e-9)) << bending;
+    EXPECT_GE(damage, 20 * std::pow(2, damage_slope) * (1 - 1e-9)) << bending;
     before = damage;
   }
 }
@@ -125,7 +126,7 @@ TEST(CyclesByDirection, EachCycleHasTheMeanOfItsTensors) {
     const StressCourse course(unit, FactorCourse(values, ArrayXd::Constant(2, 1e8), 48));
     const auto blocks = rules.counted(course.cycles_along(direction_of({0, 0, 0, 0, 1, 0})), limit);
     ASSERT_EQ(blocks.size(), std::size_t(order));
-    by_order.push_back(elementary_damage(blocks, slope) / order);
+    by_order.push_back(elementary_damage(blocks, damage_slope) / order);
   }
   for (const double damage : by_order) EXPECT_NEAR(damage, by_order.front(), 1e-5 * by_order.front());
 }
