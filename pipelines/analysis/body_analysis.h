@@ -75,7 +75,7 @@ struct BodyAnalysis {
   NodePlaces places;
   Envelope envelope;
   Zones zones;
-  std::vector<ZoneCauses> zone_causes;      ///< of the first zones, in their order
+  std::vector<ZoneCauses> zone_causes;      ///< of the zones, in their order
   Peak peak;                                ///< largest von Mises stress outside the exclusion distances
   std::size_t principal_node = 0;           ///< largest principal stress, likewise
   std::vector<HotSpotStress> hot_spots;     ///< descending

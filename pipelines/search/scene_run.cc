@@ -73,7 +73,10 @@ public:
     if (is_search() && !options_.only &&
         (n_bodies() > 1 || run_.scene.sampling.instants_per_turn != first_sampling))
       agree_at_last();
-    keep_all_harmonics();
+    for (std::size_t k = 0; options_.keep && k < run_.analyses.size(); ++k)
+      if (run_.analyses[k].method == Method::axisymmetric)  // not before: later bodies may change the loads
+        run_.kept_under[run_.analyses[k].scene.name] =
+            keep_harmonics(run_.analyses[k], options_of(options_.only.value_or(k)), clock_);
     for (auto& analysis : run_.analyses) clock_.run("zones", [&] { add_zones(run_.scene.zones, analysis); });
     for (auto& analysis : run_.analyses) add_fatigue(analysis);
     for (auto& analysis : run_.analyses) add_start_up(analysis);
@@ -171,16 +174,6 @@ private:
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
     if (!is_without_mesh(i)) files_[i].finish(analysis, run_.loaded.meshed[i]);
     run_.loaded.meshed[i].model.reset();
-  }
-
-  /// Of the final loads: cheap models are solved again where a later body has changed them.
-  void keep_all_harmonics() {
-    if (!options_.keep) return;
-    const auto bodies = wanted();
-    for (std::size_t k = 0; k < bodies.size(); ++k)
-      if (methods_[bodies[k]] == Method::axisymmetric)
-        run_.kept_under[run_.analyses[k].scene.name] =
-            keep_harmonics(run_.analyses[k], options_of(bodies[k]), clock_);
   }
 
   /// Fatigue, where the scene asks for it: of the final stresses.
