@@ -141,9 +141,9 @@ FatiguePlace place_of(const std::string& feature, const JudgedNode& worst, const
 }
 
 /// What each effect brings to the difference between the largest and the smallest stress along the direction
-/// that governs.
-std::vector<double> shares_of_range(const WeldPlace& place, const ToeStress& toe,
-                                    const ChannelHistory& loads) {
+/// that governs, at the instants of the loads.
+std::vector<double> shares_of_range(const WeldPlace& place, const ChannelHistory& loads) {
+  const auto toe = place.stress(loads.values);
   Eigen::Index high = 0, low = 0;
   const double range_Pa = toe.stress_Pa.maxCoeff(&high) - toe.stress_Pa.minCoeff(&low);
   std::vector<double> shares;
@@ -168,7 +168,7 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
   weld.angle_rad = toe.angle_rad;
   weld.is_principal = toe.is_principal;
   weld.n_counted = toe.cycles.size();
-  weld.effect_share = shares_of_range(place, toe, analysis.loads.history);
+  weld.effect_share = shares_of_range(place, analysis.loads.history);
   std::vector<StressBlock> ranges;
   for (const auto& cycle : toe.cycles) {
     weld.range_Pa = std::max(weld.range_Pa, cycle.range);
