@@ -12,7 +12,7 @@ using Coordinates = Eigen::Matrix<double, 5, Eigen::Dynamic>;
 
 /// Of the largest range: with a slope of 5, cycles below it do 3e-7 of its damage.
 constexpr double small_range = 0.05;
-constexpr double first_turn_rad = 0.3, last_turn_rad = 0.02;
+constexpr double first_turn_rad = 0.3, last_turn_rad = 0.005;
 constexpr std::size_t n_ascents = 3;
 
 /// From one end to the farthest point and on, as long as that grows: almost the widest pair.

@@ -20,7 +20,7 @@ using DamageAlong = std::function<double(const DeviatoricDirection&)>;
 /// Directions to count along, of which one is the worst to some percent of its damage: the largest cycle's;
 /// the widest ones across those before, until no range is left above a twentieth of the largest; and from the
 /// worst of these and of the middles of any two, what small turns towards each of the others make worse, down
-/// to 1/50 rad. Without a direction where nothing changes.
+/// to 1/200 rad. Without a direction where nothing changes.
 /// @param coordinates  5 x places (StressCourse::coordinates)
 /// @param largest      of the largest cycle
 std::vector<DeviatoricDirection> damage_directions(

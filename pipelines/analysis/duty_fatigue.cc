@@ -311,7 +311,11 @@ std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vecto
   for_each_parallel(features.size(), n_threads, [&](std::size_t, std::size_t i) {
     result[i] = judge.worst_of(features[i].first, features[i].second);
   });
-  for (const auto& weld : weld_places(analysis)) result.push_back(judge.weld(weld));
+  const auto welds = weld_places(analysis);
+  const std::size_t n_features = features.size();
+  result.resize(n_features + welds.size());
+  for_each_parallel(welds.size(), n_threads,
+                    [&](std::size_t, std::size_t i) { result[n_features + i] = judge.weld(welds[i]); });
   std::stable_sort(result.begin(), result.end(), DutyJudge::is_worse);
   return result;
 }

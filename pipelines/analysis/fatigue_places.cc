@@ -74,8 +74,9 @@ FatiguePlaces::FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& 
       rules_(rules),
       course_(loads.values, channel_sizes_Pa(analysis.responses), places_per_period),
       of_search_(loads.values, channel_sizes_Pa(analysis.responses), places_in_search),
-      half_ranges_(0.5 * (course_.fine().rowwise().maxCoeff() - course_.fine().rowwise().minCoeff()) *
-                   course_.most_over_places()),
+      half_ranges_(0.5 * (course_.fine().rowwise().maxCoeff() - course_.fine().rowwise().minCoeff()) +
+                   course_.missed_by_places()),
+      missed_(course_.missed_by_instants()),
       most_per_Pa_(rules.scene().safety /
                    (rules.limit(0, {}).reversed_Pa * rules.least_mean_stress_factor())) {}
 
@@ -105,15 +106,18 @@ std::vector<FatigueNode> FatiguePlaces::worst_of(const std::vector<std::size_t>&
   return result;
 }
 
-/// Half of the difference of two stresses has at most the larger von Mises stress of both, and at most the
-/// sum of the channels' own: exact zero where no channel changes.
+/// Half of the difference of two stresses has at most the larger von Mises stress of both, which the instants
+/// tell but for what they miss, and at most the sum of the channels' own: exact zero where no channel
+/// changes.
 double FatiguePlaces::most_amplitude_Pa(std::size_t node) const {
   const auto unit = unit_stresses_at(analysis_.responses, node);
-  double of_channels_Pa = 0;
-  for (Eigen::Index k = 0; k < unit.cols(); ++k)
-    of_channels_Pa += half_ranges_[k] * von_mises_Pa(as_stress(unit.col(k)));
-  const double larger = course_.most_over_instants();
-  return largest_Pa_[node] > 0 ? std::min(of_channels_Pa, larger * largest_Pa_[node]) : of_channels_Pa;
+  double of_channels_Pa = 0, missed_Pa = 0;
+  for (Eigen::Index k = 0; k < unit.cols(); ++k) {
+    const double size_Pa = von_mises_Pa(as_stress(unit.col(k)));
+    of_channels_Pa += half_ranges_[k] * size_Pa;
+    missed_Pa += missed_[k] * size_Pa;
+  }
+  return std::min(of_channels_Pa, largest_Pa_[node] + missed_Pa);
 }
 
 /// In proportion: sum of h A_h^k over the orders, A_h the larger half axis of the deviator's ellipse.

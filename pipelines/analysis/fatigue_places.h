@@ -87,6 +87,7 @@ private:
   const FatigueRules& rules_;
   FactorCourse course_, of_search_;
   Eigen::ArrayXd half_ranges_;  // of the channels
+  Eigen::ArrayXd missed_;       // by the instants, of each channel
   double most_per_Pa_;          // bound of the utilisation per von Mises stress
 };
 

@@ -48,7 +48,7 @@ double angle_of_largest_range(const SurfaceHistory& history, double low, double 
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double a = high - golden * (high - low), b = low + golden * (high - low);
   double of_a = history.range_at(a), of_b = history.range_at(b);
-  while (high - low > 1e-9) {
+  while (high - low > 1e-8) {
     if (of_a < of_b) {
       low = a;
       a = b;
@@ -105,16 +105,18 @@ ToeStress toe_stress(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
   const SurfaceHistory history{history_between(history_Pa, u, u), history_between(history_Pa, v, v),
                                history_between(history_Pa, u, v)};
   const double degree = std::acos(-1.0) / 180;
-  constexpr int sector = 60;
-  std::vector<double> range_Pa;  // every degree, one beyond both ends
-  for (int i = -sector - 1; i <= sector + 1; ++i) range_Pa.push_back(history.range_at(i * degree));
+  constexpr int step = 3, n_steps = 20;  // of three degrees, to 60 either way
+  constexpr double sector = n_steps * step;
+  std::vector<double> range_Pa;  // one beyond both ends
+  for (int i = -n_steps - 1; i <= n_steps + 1; ++i) range_Pa.push_back(history.range_at(i * step * degree));
 
   ToeStress toe;
-  double largest_Pa = range_Pa[sector + 1];
-  for (int i = -sector; i <= sector; ++i) {
-    const double* const at = range_Pa.data() + (i + sector + 1);
+  double largest_Pa = range_Pa[n_steps + 1];
+  for (int i = -n_steps; i <= n_steps; ++i) {
+    const double* const at = range_Pa.data() + (i + n_steps + 1);
     if (at[0] < at[-1] || at[0] < at[1] || (at[0] == at[-1] && at[0] == at[1])) continue;
-    const double angle_rad = angle_of_largest_range(history, (i - 1) * degree, (i + 1) * degree);
+    const double angle_rad =
+        angle_of_largest_range(history, (i - 1) * step * degree, (i + 1) * step * degree);
     const double found_Pa = history.range_at(angle_rad);
     if (std::abs(angle_rad) > sector * degree * (1 + 1e-9) || found_Pa < largest_Pa * (1 - 1e-12)) continue;
     largest_Pa = found_Pa;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <unsupported/Eigen/FFT>
 #include <utility>
@@ -24,8 +23,9 @@ constexpr double no_line_of_course = 1e-12;
 /// Of the largest channel: what a polynomial may leave unresolved. Steps leave more, kinks less from some
 /// 300 instants on.
 constexpr double most_unresolved = 0.01;
-/// Of the largest channel: harmonics that are smaller in sum ask for no places.
-constexpr double no_places_for = 1e-5;
+/// Of the largest channel: the highest harmonics that are smaller in sum ask for no places; others for so
+/// many in a period, which polynomials through eight of them need.
+constexpr double no_places_for = 1e-4, least_per_period = 8;
 /// is_closed looks at polynomials through four instants on either side.
 constexpr Index least_to_be_closed = 16;
 
@@ -39,9 +39,12 @@ Index highest_that_counts(const ArrayXd& line_size, double most) {
   return 0;
 }
 
-double over_samples(Index highest, Index n) {
-  return 2 * highest < n ? 1 / std::cos(M_PI * double(highest) / double(n))
-                         : std::numeric_limits<double>::infinity();
+/// Crests are missed by no more of the largest channel than one harmonic's with `per_period` places:
+/// sum of size (pi h / n)^2 / 2 (factor_spectrum.h, instants_for).
+double places_for_crests(const ArrayXd& line_size, double largest, double per_period) {
+  double curvature = 0;
+  for (Index h = 1; h < line_size.size(); ++h) curvature += line_size[h] * double(h * h);
+  return per_period * std::sqrt(curvature / largest);
 }
 
 }  // namespace
@@ -63,8 +66,12 @@ FactorCourse::FactorCourse(ArrayXXd values, const ArrayXd& size, double per_peri
   take_strongest(lines, line_size);
   for (Index k = 0; k < strongest_.rows(); ++k) strongest_.row(k) /= size[k] > 0 ? size[k] : 1;
   if (!is_polynomial_) return;
-  highest_ = highest_that_counts(line_size, no_places_for * largest);
-  per_step_ = std::max<Index>(1, Index(std::ceil(per_period * double(highest_) / double(n) * (1 - 1e-12))));
+  line_sizes_ = lines.abs().colwise() / (size > 0).select(size, 1);
+  const Index highest = highest_that_counts(line_size, no_places_for * largest);
+  const double places =
+      std::max(places_for_crests(line_size, largest, per_period), least_per_period * double(highest));
+  constexpr double rounding = 1e-12;
+  per_step_ = std::max<Index>(1, Index(std::ceil(places / double(n) * (1 - rounding))));
   if (per_step_ == 1) return;
   take_places();
 }
@@ -115,12 +122,13 @@ Eigen::VectorXd FactorCourse::weights_at(double instant) const {
   return weights;
 }
 
-double FactorCourse::most_over_instants() const {
-  return is_polynomial_ ? over_samples(highest_, values_.cols()) : 1;
-}
-
-double FactorCourse::most_over_places() const {
-  return is_polynomial_ ? over_samples(highest_, values_.cols() * per_step_) : 1;
+ArrayXd FactorCourse::missed_by(double n) const {
+  ArrayXd missed = ArrayXd::Zero(values_.rows());
+  for (Index h = 1; h < line_sizes_.cols(); ++h) {
+    const double away = M_PI * double(h) / n;
+    missed += line_sizes_.col(h) * std::min(2.0, away * away / 2);
+  }
+  return missed;
 }
 
 }  // namespace pipelines

@@ -11,7 +11,8 @@ public:
   /// @param values      channels x n instants, equidistant over one period
   /// @param size        of the stress that one unit of each channel brings at most [Pa]: what does not stress
   ///                    the body does not count
-  /// @param per_period  the least number of places in a period of the highest harmonic that counts
+  /// @param per_period  places in a period of a single harmonic, at least; with several so many that crests
+  ///                    are missed by no more of the largest channel
   FactorCourse(Eigen::ArrayXXd values, const Eigen::ArrayXd& size, double per_period);
 
   /// Whether there are places between the instants: the spectrum leaves no more than a hundredth of the
@@ -31,11 +32,11 @@ public:
   /// @param instant  i + share of the step to the next, 0 to n
   Eigen::VectorXd weights_at(double instant) const;
 
-  /// By what factor a sum of the channels may exceed its largest absolute value at the instants, and at the
-  /// places: 1 / cos(pi H / n) with the highest order H (Ehlich and Zeller 1964); infinite where H reaches
-  /// n / 2, and 1 without a polynomial.
-  double most_over_instants() const;
-  double most_over_places() const;
+  /// By how much each channel's part of a crest may exceed what the instants, or the places, tell: the sum
+  /// over its lines of size min(2, (pi h / n)^2 / 2) (factor_spectrum.h, instants_for). A crest of a sum of
+  /// channels is missed by the sum of these at most. Zeros without a polynomial.
+  Eigen::ArrayXd missed_by_instants() const { return missed_by(double(values_.cols())); }
+  Eigen::ArrayXd missed_by_places() const { return missed_by(double(values_.cols() * per_step_)); }
 
   /// Amplitudes of the strongest orders that are not constant, at most `most_orders`, channels x orders.
   const Eigen::ArrayXXcd& strongest() const { return strongest_; }
@@ -43,11 +44,13 @@ public:
   static constexpr Eigen::Index most_orders = 24;
 
 private:
+  Eigen::ArrayXd missed_by(double n) const;
   void take_places();
   void take_strongest(const Eigen::ArrayXXcd& lines, const Eigen::ArrayXd& line_size);
 
   Eigen::ArrayXXd values_, fine_;
-  Eigen::Index per_step_ = 1, highest_ = 0;
+  Eigen::ArrayXXd line_sizes_;  // channels x orders
+  Eigen::Index per_step_ = 1;
   bool is_polynomial_ = false, is_resolved_ = false;
   Eigen::ArrayXXcd strongest_;
   Eigen::ArrayXd orders_;

@@ -16,12 +16,12 @@ using Eigen::ArrayXd;
 using Eigen::ArrayXXd;
 using Eigen::Index;
 
-constexpr double damage_slope = 5;
+constexpr double life_slope = 5;
 
 double damage_along(const StressCourse& course, const DeviatoricDirection& direction) {
   double damage = 0;
   for (const auto& cycle : course.cycles_along(direction, false))
-    damage += std::pow(cycle.range_Pa, damage_slope);
+    damage += std::pow(cycle.range_Pa, life_slope);
   return damage;
 }
 
@@ -85,7 +85,6 @@ TEST(CyclesByDirection, AreAlmostTheWorstOfAllDirections) {
     EXPECT_GE(share, stated) << trial;
     least = std::min(least, share);
   }
-  RecordProperty("least_share", std::to_string(least));
   std::printf("least share %.4f\n", least);
 }
 
@@ -100,9 +99,9 @@ TEST(CyclesByDirection, AddedBendingDoesNotLengthenTheLife) {
       stress(4, i) = std::cos(40 * M_PI * double(i) / n) / std::sqrt(3.0);
     }
     const double damage = worst_damage(StressCourse(stress));
-    // Of cycles along torsion nothing is taken away: to rounding.
-    EXPECT_GE(damage, before * (1 - 1e-9)) << bending;
-    EXPECT_GE(damage, 20 * std::pow(2, damage_slope) * (1 - 1e-9)) << bending;
+    // Of cycles along torsion nothing is taken away. Turns end at 1/200 rad: slope / 2 of its square.
+    EXPECT_GE(damage, before * (1 - 1e-4)) << bending;
+    EXPECT_GE(damage, 20 * std::pow(2, life_slope) * (1 - 1e-4)) << bending;
     before = damage;
   }
 }
@@ -113,6 +112,7 @@ TEST(CyclesByDirection, EachCycleHasTheMeanOfItsTensors) {
   FatigueScene scene;
   scene.material.tensile_strength_Pa = 590e6;
   scene.material.yield_strength_Pa = 305e6;
+  scene.roughness_m = 6.3e-6;
   const FatigueRules rules(scene);
   const auto limit = rules.limit(0, {});
   std::vector<double> by_order;
@@ -126,7 +126,7 @@ TEST(CyclesByDirection, EachCycleHasTheMeanOfItsTensors) {
     const StressCourse course(unit, FactorCourse(values, ArrayXd::Constant(2, 1e8), 48));
     const auto blocks = rules.counted(course.cycles_along(direction_of({0, 0, 0, 0, 1, 0})), limit);
     ASSERT_EQ(blocks.size(), std::size_t(order));
-    by_order.push_back(elementary_damage(blocks, damage_slope) / order);
+    by_order.push_back(elementary_damage(blocks, life_slope) / order);
   }
   for (const double damage : by_order) EXPECT_NEAR(damage, by_order.front(), 1e-5 * by_order.front());
 }
