@@ -246,8 +246,7 @@ void add_notes(vtkRenderer* renderer, const std::vector<PictureMark>& notes, dou
     text->GetBoundingBox(renderer, box);
     texts.push_back(text);
     places.push_back(place);
-    boxes.push_back(
-        {place[0] + font_size, place[1] + font_size, box[1] - box[0], box[3] - box[2]});
+    boxes.push_back({place[0] + font_size, place[1] + font_size, box[1] - box[0], box[3] - box[2]});
   }
   const auto moved = moved_apart(boxes, 0.3 * font_size, width, height);
   Drawing leaders;
