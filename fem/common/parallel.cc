@@ -1,18 +1,12 @@
 #include "fem/common/parallel.h"
 
 #include <deal.II/base/parallel.h>
-#include <dlfcn.h>
+
+#include "fem/common/library_function.h"
 
 namespace fem {
 
 namespace {
-
-// Looked up at run time: the reference BLAS has no such functions, and both go by the name libblas.so.3; an
-// OpenMP library comes with CHOLMOD only.
-template <typename Function>
-Function* library_function(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
-}
 
 int blas_threads() {
   const auto get = library_function<int()>("openblas_get_num_threads");

@@ -55,20 +55,48 @@ std::vector<Dof> merge_same_places(const dealii::AffineConstraints<double>& hang
   return same;
 }
 
+/// Flags the cells that have a vertex at one of the points. Nodes on hanging faces are a little off the
+/// vertices there.
+void flag_cells_at(dealii::Triangulation<3>& mesh, const std::vector<std::array<double, 3>>& points_m) {
+  constexpr double share_of_cell = 0.02;
+  std::vector<char> is_found(points_m.size(), 0);
+  for (const auto& cell : mesh.active_cell_iterators()) {
+    const auto centre = cell->center();
+    const double size_m = cell->diameter();
+    for (std::size_t p = 0; p < points_m.size(); ++p) {
+      const dealii::Point<3> point(points_m[p][0], points_m[p][1], points_m[p][2]);
+      if (centre.distance(point) > size_m) continue;
+      for (const auto vertex : cell->vertex_indices())
+        if (cell->vertex(vertex).distance(point) <= share_of_cell * size_m) {
+          cell->set_refine_flag();
+          is_found[p] = 1;
+        }
+    }
+  }
+  for (std::size_t p = 0; p < points_m.size(); ++p)
+    if (is_found[p] == 0)
+      throw std::invalid_argument("refinements: no vertex lies at (" + std::to_string(points_m[p][0]) + ", " +
+                                  std::to_string(points_m[p][1]) + ", " + std::to_string(points_m[p][2]) +
+                                  ") m");
+}
+
 }  // namespace
 
-void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<std::vector<std::int32_t>>& cycles) {
+void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<RefinementCycle>& cycles) {
   if (cycles.empty()) return;
   refuse_pieces(mesh);
   for (const auto& cycle : cycles) {
     std::vector<char> is_cut(mesh.n_active_cells(), 0);
-    for (const auto cell : cycle) {
+    for (const auto cell : cycle.cells) {
       if (cell < 0 || std::size_t(cell) >= is_cut.size())
         throw std::invalid_argument("refinements: the mesh has no cell " + std::to_string(cell));
       is_cut[std::size_t(cell)] = 1;
     }
     for (const auto& cell : mesh.active_cell_iterators())
       if (is_cut[cell->active_cell_index()] != 0) cell->set_refine_flag();
+    mesh.execute_coarsening_and_refinement();
+    if (cycle.again_at_m.empty()) continue;
+    flag_cells_at(mesh, cycle.again_at_m);
     mesh.execute_coarsening_and_refinement();
   }
 }

@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "fem/mesh/grid.h"
+#include "fem/values/body.h"
 
 namespace fem {
 
 /// Cuts cells into eight, cycle after cycle; more where levels would differ by more than one across a face,
 /// an edge or a vertex. New vertices lie on the manifolds.
-/// @param cycles  indices of active cells (Body::refinements)
-/// @throws std::invalid_argument for an index that is no cell
+/// @throws std::invalid_argument for an index that is no cell, a point without vertex
 /// @throws MeshUnusable if the mesh is in several pieces
-void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<std::vector<std::int32_t>>& cycles);
+void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<RefinementCycle>& cycles);
 
 /// Larger cells that share a vertex with one of these, ascending.
 /// @param cells  indices of active cells

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "fem/common/blas_kernels.h"
 #include "fem/common/parallel.h"
 #include "fem/model/model.h"
 
@@ -46,6 +47,7 @@ Environment::Environment(int&, char**&, int n_threads) {
   if (n_threads < 0)
     throw std::invalid_argument("threads = " + std::to_string(n_threads) +
                                 ": must be 0 (all cores) or positive");
+  mend_blas_kernels();
   const unsigned n = n_threads == 0 ? dealii::numbers::invalid_unsigned_int : unsigned(n_threads);
   if (!mpi_runs()) {
     begin_alone_quickly();

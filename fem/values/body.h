@@ -44,6 +44,18 @@ struct Clamp {
   std::optional<double> only_at_z_m{};  ///< holds the group's nodes at this height only: a line
 };
 
+/// Hexahedra cut into eight at once.
+struct RefinementCycle {
+  std::vector<std::int32_t> cells;  ///< indices in the mesh before (Nodes::cells of a model of that)
+  /// Of the cells then, those with a vertex at one of these points are cut once more: vertices and nodes of
+  /// the mesh before.
+  std::vector<std::array<double, 3>> again_at_m{};
+};
+
+inline bool operator==(const RefinementCycle& a, const RefinementCycle& b) {
+  return a.cells == b.cells && a.again_at_m == b.again_at_m;
+}
+
 struct Body {
   /// .msh 4.1 with physical groups: linear hexahedra, or quadratic tetrahedra (10 nodes, curved as they are;
   /// no charts, degree 2)
@@ -52,9 +64,8 @@ struct Body {
   std::vector<TorusChart> tori;
   Material material;
   std::vector<ElasticSupport> elastic_supports;
-  /// Hexahedra cut into eight, cycle after cycle: indices of cells of the mesh before (Nodes::cells of a model
-  /// with the cycles before). More are cut where neighbours would differ by more than one halving of edges.
-  std::vector<std::vector<std::int32_t>> refinements{};
+  /// One after the other. More cells are cut where neighbours would differ by more than one halving of edges.
+  std::vector<RefinementCycle> refinements{};
   int degree = 2;  ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
   /// None: a free body, whose loads inertia balances. Otherwise they hold all six rigid motions.
   std::vector<Clamp> clamps{};

@@ -20,7 +20,7 @@ public:
 /// and cells may be thinner than that is off. Cutting the larger ones mends it.
 class InvertedBesideLarger : public MeshUnusable {
 public:
-  /// @param larger  indices of the larger neighbours, ascending: a further cycle of Body::refinements
+  /// @param larger  indices of the larger neighbours, ascending: RefinementCycle::cells of a further cycle
   InvertedBesideLarger(const std::string& what, std::vector<std::int32_t> larger)
       : MeshUnusable(what), larger_(std::move(larger)) {}
   const std::vector<std::int32_t>& larger() const noexcept { return larger_; }

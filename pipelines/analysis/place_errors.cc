@@ -7,6 +7,7 @@
 
 #include "fem/submodel/submodel.h"
 #include "fem/values/constants.h"
+#include "pipelines/analysis/exclusion_border.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/submodels.h"
@@ -109,6 +110,9 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
       place.error_Pa = std::max(place.error_Pa, wanting_Pa);
       if (cells < cells_that_converge) place.least_error_Pa = wanting_Pa;
     }
+    const double rise_Pa = rise_to_border_Pa(analysis, place);
+    place.error_Pa += rise_Pa;
+    place.least_error_Pa = std::max(place.least_error_Pa, rise_Pa);
   }
   if (with_submodels) ask_submodels(analysis, largest_Pa, places);
   const auto toes = weld_toes(analysis);

@@ -64,10 +64,11 @@ const std::string& program_fingerprint() {
 namespace {
 
 /// Of the cells that are cut in each cycle; empty if there is none.
-std::string hash_of(const std::vector<std::vector<std::int32_t>>& refinements) {
+std::string hash_of(const std::vector<fem::RefinementCycle>& refinements) {
   std::string text;
-  for (const auto& cells : refinements)
-    text += fmt::format("{:016x}", XXH3_64bits(cells.data(), sizeof(std::int32_t) * cells.size()));
+  for (const auto& [cells, again_at_m] : refinements)
+    text += fmt::format("{:016x}{:016x}", XXH3_64bits(cells.data(), sizeof(std::int32_t) * cells.size()),
+                        XXH3_64bits(again_at_m.data(), sizeof(again_at_m[0]) * again_at_m.size()));
   return text;
 }
 

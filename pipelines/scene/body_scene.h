@@ -61,7 +61,7 @@ struct BodyScene {
   int degree =
       2;  ///< of the polynomials in a cell (fem::Body); 2 in every scene, accuracy studies take 1 and 3 too
   /// Cells cut into eight after meshing, cycle after cycle (fem::Body): a search chooses them.
-  std::vector<std::vector<std::int32_t>> refinements;
+  std::vector<fem::RefinementCycle> refinements;
   std::optional<FatigueScene> fatigue;  ///< where the scene asks for it
   int natural_frequencies = 0;          ///< how many to compute and compare with the loads; 0: none
   std::string difference_port;          ///< carries what the load stage's masses and the mesh's differ by

@@ -225,14 +225,22 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
                  marked);
   for (const auto& goal : goals)
     for (const auto node : goal.nodes) is_place[node] = 1;
-  for (const auto* toe : coarse_toes(analysis, judged))
-    for (const auto& part : toe->parts) is_place[part.node] = 1;
+  LocalRefinement result;
+  for (const auto* toe : coarse_toes(analysis, judged)) {
+    const bool is_goal =
+        std::any_of(goals.begin(), goals.end(), [&](const auto& goal) { return goal.feature == toe->name; });
+    for (const auto& part : toe->parts) {
+      is_place[part.node] = 1;
+      const double* x_m = &nodes.xyz_m[3 * part.node];
+      if (is_goal && toe->face_walls > 2 * longest_face_walls)
+        result.again_at_m.push_back({x_m[0], x_m[1], x_m[2]});
+    }
+  }
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
     const auto cell = nodes.cell(c);
     if (std::any_of(cell.begin(), cell.end(), [&](auto i) { return is_place[std::size_t(i)] != 0; }))
       marked[c] = 1;
   }
-  LocalRefinement result;
   for (std::size_t c = 0; c < marked.size(); ++c)
     if (marked[c] != 0) result.cells.push_back(std::int32_t(c));
   for (std::size_t g = 0; g < goals.size(); ++g) {
@@ -247,7 +255,7 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
 
 std::optional<MeshStep> refine_locally(BodyScene& body, const LocalRefinement& local) {
   if (local.cells.empty()) return std::nullopt;
-  body.refinements.push_back(local.cells);
+  body.refinements.push_back({local.cells, local.again_at_m});
   return MeshStep{MeshPart::local, 2, order_of_halving, local.features, local.coarse};
 }
 
@@ -257,7 +265,7 @@ MeshedBody mesh_refined(BodyScene& body, const std::function<MeshedBody()>& mesh
       return mesh();
     } catch (const fem::InvertedBesideLarger& inverted) {
       if (n_mended == most_mendings) throw;
-      body.refinements.push_back(inverted.larger());
+      body.refinements.push_back({inverted.larger()});
     }
   }
 }

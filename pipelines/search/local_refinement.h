@@ -20,6 +20,8 @@ bool is_refined_locally(const BodyScene& body);
 
 struct LocalRefinement {
   std::vector<std::int32_t> cells;    ///< of the present mesh, ascending
+  /// Nodes at weld toes whose faces would still be too long: cells there are cut once more.
+  std::vector<std::array<double, 3>> again_at_m;
   std::vector<std::string> features;  ///< places whose own cells are among them
   std::vector<std::string> coarse;    ///< of these, fillets of few cells (MeshStep::coarse)
   std::vector<double> goal_error_Pa;  ///< of `features`, from what all cells contribute together
@@ -33,7 +35,8 @@ std::vector<PlaceStress> with_goal_errors(std::vector<PlaceStress> judged, const
 /// von Mises stress at the instant of its maximum, weighted so that it follows the maximum smoothly; at weld
 /// toes the extrapolated hot-spot stress. The product of the errors of the load case and of the goal's dual
 /// solution (fem::Model::goal_errors_Pa) says what each cell contributes. Cut are the cells that together
-/// contribute the larger part to any of the goals, and those at the places themselves.
+/// contribute the larger part to any of the goals, and those at the places themselves; twice at weld toes
+/// among the goals whose faces one cut leaves too long.
 /// @param model      that the analysis' responses are of
 /// @param judged     the places with their errors, not empty
 /// @param tolerance  of the largest stress, relative: no more is cut than it needs; 0: none

@@ -28,7 +28,7 @@ struct Bent {
   std::size_t peak = 0;  ///< node on a fillet with the largest von Mises stress
   double peak_Pa = 0;
 
-  explicit Bent(const fem_tests::ShaftBody& body, const std::vector<std::vector<std::int32_t>>& refinements)
+  explicit Bent(const fem_tests::ShaftBody& body, const std::vector<fem::RefinementCycle>& refinements)
       : shaft(body) {
     shaft.body.refinements = refinements;
     model = std::make_shared<const fem::Model>(shaft.body);
@@ -99,7 +99,7 @@ TEST(Goals, TheirDualLoadsDoTheWorkOfAUniformStress) {
 TEST(Goals, LeadRefinementToThePeak) {
   const Bent fine(fem_tests::eccentric_shaft(12), {});
   const auto coarse = fem_tests::eccentric_shaft(2);
-  std::vector<std::vector<std::int32_t>> refinements;
+  std::vector<fem::RefinementCycle> refinements;
   std::vector<double> off, indicated;
   std::size_t n_dofs = 0;
   for (int cycle = 0; cycle < 4; ++cycle) {
@@ -109,7 +109,7 @@ TEST(Goals, LeadRefinementToThePeak) {
     const auto errors_Pa = bent.model->goal_errors_Pa(bent.responses, {bent.goal()}).at(0);
     const double sum_Pa = std::accumulate(errors_Pa.begin(), errors_Pa.end(), 0.0);
     indicated.push_back(sum_Pa / bent.peak_Pa);
-    auto& cut = refinements.emplace_back();
+    auto& cut = refinements.emplace_back().cells;
     const double largest_Pa = *std::max_element(errors_Pa.begin(), errors_Pa.end());
     for (std::size_t c = 0; c < errors_Pa.size(); ++c)
       if (errors_Pa[c] > 0.1 * largest_Pa) cut.push_back(std::int32_t(c));

@@ -36,13 +36,13 @@ fem::Grid with_cells_cut(const meshes::BodyMesh& mesh, std::mt19937& random, int
   for (std::size_t c = 0; c < n_cells; ++c)
     if (random() % 20 == 0) cut.push_back(std::int32_t(c));
   if (cut.empty()) cut = {0};
-  body.refinements = {cut};
+  body.refinements = {{cut}};
   while (true) {
     try {
       return fem::read_grid(body);
     } catch (const fem::InvertedBesideLarger& inverted) {
       if (body.refinements.size() > 10) throw;
-      body.refinements.push_back(inverted.larger());
+      body.refinements.push_back({inverted.larger()});
       ++n_mended;
     }
   }

@@ -1,10 +1,14 @@
 /// A promise about the largest stress of a body is one about every place that may hold it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "pipelines/analysis/exclusion_border.h"
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/scene/scene.h"
 #include "pipelines/search/place_history.h"
 #include "pipelines/search/refinement.h"
+#include "tests/unit/pipelines/examples/row_of_cells.h"
 
 using namespace pipelines;
 
@@ -66,6 +70,30 @@ TEST(Places, ASeamBelongsToBothOfItsFeatures) {
   EXPECT_EQ(places[1].node, 1U);  // not node 5, the largest that lies on the cylinder alone
   EXPECT_EQ(places[2].feature, inside_the_body);
   EXPECT_EQ(places[2].value_Pa, 6);
+}
+
+// Stress r^-1/2 beside a sharp edge that is left out up to 2.5, nodes at 2 and 3: at the border it
+// is 2.5^-1/2, 9 % more than at the first node outside. A row of nodes on the border leaves nothing out.
+TEST(Places, MayRiseTowardsTheBorderOfWhatIsLeftOut) {
+  examples::Row row(3);
+  const auto singular = [](double r) { return 1 / std::sqrt(r); };
+  for (std::size_t layer = 0; layer <= 6; ++layer) row.layer(layer, singular(std::max(0.25, double(layer))));
+  BodyAnalysis analysis;
+  analysis.responses.nodes = row.nodes;
+  analysis.envelope.von_mises = row.envelope;
+  analysis.mesh.features = row.features;
+  const auto rise = [&](double border_m) {
+    analysis.mesh.sharp_edges = {examples::edge_along({{0, 0, 0}, {0, 2, 0}}, border_m)};
+    analysis.places = row.places(analysis.mesh.sharp_edges);
+    for (const auto& place :
+         largest_by_feature(row.nodes, row.envelope.value_Pa, row.features, analysis.places))
+      if (place.feature == "fillet") return rise_to_border_Pa(analysis, place);
+    return -1.0;
+  };
+  EXPECT_GT(rise(2.5), singular(2.5) - singular(3));
+  EXPECT_LT(rise(2.5), 1.2 * (singular(2.5) - singular(3)));  // the chord of a convex function, half way
+  EXPECT_NEAR(rise(2.0), 0, 2e-3);                            // what counts as on the border
+  EXPECT_EQ(rise(0.0), 0);
 }
 
 // v = v0 (1 - c h^2) on a fillet, of first order elsewhere: the change tells exactly what is missing.

@@ -1,0 +1,95 @@
+#include "pipelines/analysis/exclusion_border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pipelines/superposition/zones.h"
+
+namespace pipelines {
+namespace {
+
+using NodeSpan = decltype(std::declval<const fem::Nodes&>().face(0));
+
+class Border {
+public:
+  Border(const BodyAnalysis& analysis, double largest_Pa) : analysis_(analysis), largest_Pa_(largest_Pa) {}
+
+  /// @param boundary_id  whose own distances count; none: inside the body
+  void look_at(const NodeSpan& nodes, std::optional<int> boundary_id) {
+    const auto& excluded = analysis_.places.excluded;
+    std::vector<std::size_t> within, outside;
+    for (const auto i : nodes) (excluded[std::size_t(i)] != 0 ? within : outside).push_back(std::size_t(i));
+    if (within.empty()) return;
+    for (const auto node : outside) {
+      const auto next = nearest(node, within);
+      if (nearest(next, outside) == node)
+        largest_Pa_ = std::max(largest_Pa_, on_border_Pa(node, next, boundary_id));
+    }
+  }
+
+  double largest_Pa() const { return largest_Pa_; }
+
+private:
+  std::array<double, 3> point_m(std::size_t node) const {
+    const double* x = &analysis_.responses.nodes.xyz_m[3 * node];
+    return {x[0], x[1], x[2]};
+  }
+
+  /// Of some nodes, not none, the first of the nearest ones.
+  std::size_t nearest(std::size_t node, const std::vector<std::size_t>& others) const {
+    const auto distance_from = [&, at_m = point_m(node)](std::size_t other) {
+      const auto to_m = point_m(other);
+      return std::hypot(to_m[0] - at_m[0], to_m[1] - at_m[1], to_m[2] - at_m[2]);
+    };
+    return *std::min_element(others.begin(), others.end(), [&](std::size_t a, std::size_t b) {
+      return distance_from(a) < distance_from(b);
+    });
+  }
+
+  double on_border_Pa(std::size_t outside, std::size_t within, std::optional<int> boundary_id) const {
+    const auto& stress_Pa = analysis_.envelope.von_mises.value_Pa;
+    const double rise_Pa = stress_Pa[within] - stress_Pa[outside];
+    if (!(rise_Pa > 0) || stress_Pa[within] <= largest_Pa_) return stress_Pa[outside];
+    const double from_m = std::max(0.0, beyond_m(outside, boundary_id)),
+                 to_m = std::min(0.0, beyond_m(within, boundary_id));
+    const double share = from_m > to_m ? from_m / (from_m - to_m) : 0;
+    return stress_Pa[outside] + share * rise_Pa;
+  }
+
+  /// Distance to the nearest border; negative within.
+  double beyond_m(std::size_t node, std::optional<int> boundary_id) const {
+    double least_m = std::numeric_limits<double>::max();
+    for (const auto& edge : analysis_.mesh.sharp_edges) {
+      double border_m = edge.distance_m;
+      if (boundary_id)
+        if (const auto own = edge.distance_on_m.find(*boundary_id); own != edge.distance_on_m.end())
+          border_m = std::max(border_m, own->second);
+      least_m = std::min(least_m, distance_m(point_m(node), edge) - border_m);
+    }
+    return least_m;
+  }
+
+  const BodyAnalysis& analysis_;
+  double largest_Pa_;
+};
+
+}  // namespace
+
+double rise_to_border_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
+  const auto& nodes = analysis.responses.nodes;
+  Border border(analysis, place.value_Pa);
+  if (place.feature == inside_the_body)
+    for (std::size_t c = 0; c < nodes.n_cells(); ++c) border.look_at(nodes.cell(c), std::nullopt);
+  for (const auto& feature : analysis.mesh.features)
+    if (feature.name == place.feature)
+      for (std::size_t f = 0; f < nodes.n_faces(); ++f)
+        if (nodes.face_boundary_id[f] == feature.boundary_id)
+          border.look_at(nodes.face(f), feature.boundary_id);
+  return border.largest_Pa() - place.value_Pa;
+}
+
+}  // namespace pipelines
