@@ -47,7 +47,7 @@ struct Clamp {
 /// Hexahedra cut into eight at once.
 struct RefinementCycle {
   std::vector<std::int32_t> cells;  ///< indices in the mesh before (Nodes::cells of a model of that)
-  /// Of the cells then, those with a vertex at one of these points are cut once more: vertices and nodes of
+  /// Then all cells with a vertex at one of these points are cut, pieces of these among them: nodes of
   /// the mesh before.
   std::vector<std::array<double, 3>> again_at_m{};
 };
