@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "pipelines/analysis/damage_shares.h"
 #include "pipelines/analysis/fatigue_places.h"
 #include "pipelines/analysis/fatigue_rules.h"
 #include "pipelines/analysis/place_stress.h"
@@ -63,15 +64,38 @@ SecondOpinions second_opinions(const FatigueRules& rules, const ArrayXXd& stress
   return others;
 }
 
+/// DIN 743 is for shafts of rolled and forged steel.
+bool is_steel(const GroupConstants& group) {
+  return !group.is_cast && group.group != MaterialGroup::wrought_aluminium;
+}
+
+/// Empty where it has one.
+std::string why_no_din_743(const FatigueRules& rules, const BodyAnalysis& analysis) {
+  if (!is_steel(rules.group()))
+    return fmt::format("it is for rolled and forged steel, not for {}", rules.group().name);
+  if (analysis.scene.shaft() == nullptr) return "it is for shafts of round solid sections";
+  if (!analysis.diagrams)
+    return fmt::format("a run with method {} has no resultants of the sections", to_string(analysis.method));
+  if (!has_din_fillet(analysis.scene.shaft()->geometry))
+    return "the shaft has no fillet between solid segments";
+  return "";
+}
+
 std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAnalysis& analysis) {
   const auto& scene = rules.scene();
   const auto limit = rules.limit(0, {});
   std::vector<std::string> lines;
-  lines.push_back(fmt::format(
-      "FKM, local stresses, {}: R_m {:.0f} MPa, reversed limit {:.1f} MPa with R_z {:.3g} um (K_R {:.3f}), "
-      "treatment {:.3g}, survival {:.5g} %",
-      rules.group().name, scene.material.tensile_strength_Pa / 1e6, limit.reversed_Pa / 1e6,
-      scene.roughness_m * 1e6, limit.roughness, scene.treatment, 100 * scene.reliability));
+  const auto size =
+      scene.size_factor == 1
+          ? std::string("of the part at its size: size_factor 1")
+          : fmt::format("{:.0f} MPa by size_factor {:.3g}",
+                        scene.material.tensile_strength_Pa / scene.size_factor / 1e6, scene.size_factor);
+  lines.push_back(
+      fmt::format("FKM, local stresses, {}: R_m {:.0f} MPa ({}), reversed limit {:.1f} MPa with R_z {:.3g} "
+                  "um (K_R {:.3f}), "
+                  "treatment {:.3g}, survival {:.5g} %",
+                  rules.group().name, scene.material.tensile_strength_Pa / 1e6, size, limit.reversed_Pa / 1e6,
+                  scene.roughness_m * 1e6, limit.roughness, scene.treatment, 100 * scene.reliability));
   lines.push_back(
       fmt::format("safety factor {:.3g} ({}); mean-stress sensitivity {:.3f}; S-N slope {:.3g}, knee at "
                   "{:.0e} cycles",
@@ -87,10 +111,21 @@ std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAna
         "the principal stress within 60 degrees of the toe's normal",
         scene.toes.class_Pa / 1e6, scene.toes.type.empty() ? "" : " (" + scene.toes.type + ")",
         scene.toes.partial_factor));
+  if (!analysis.hot_spots.empty()) {
+    const auto one = weld_curve({scene.toes.class_Pa}, LoadAmplitude::constant),
+               several = weld_curve({scene.toes.class_Pa}, LoadAmplitude::variable);
+    lines.push_back(fmt::format(
+        "  Palmgren-Miner, S-N slope {:.3g}, knee at {:.0e} cycles; behind it {:.3g} and damage sum 1 with "
+        "one "
+        "cycle a period, {:.3g} and damage sum {:.3g} with several",
+        one.slope, one.knee_cycles, *one.second_slope, *several.second_slope, damage_sum_of_spectra));
+  }
   if (!analysis.hot_spots.empty() && scene.toes.type == "load-carrying")
     lines.emplace_back(
         "  load-carrying fillet welds: webs carry the load from the housings to the tube, lugs that of the "
         "springs; another type of a toe stands in [[chamber.fatigue.welds.toes]]");
+  if (const auto reason = why_no_din_743(rules, analysis); !reason.empty())
+    lines.push_back("DIN 743 gives no second opinion: " + reason);
   if (analysis.method == Method::beam)
     lines.push_back("a beam knows no stress gradient: no support by it is counted (n_sigma 1)");
   return lines;
@@ -137,6 +172,9 @@ FatiguePlace place_of(const std::string& feature, const JudgedNode& worst, const
   place.effect_share = shares_of_change(unit_stresses_at(analysis.responses, place.node),
                                         search.between(place.from, place.to), 0, 1)
                            .effects;
+  place.damage_share =
+      shares_in_damage(analysis, analysis.loads.history, search, rules, worst.node, worst.counted, false)
+          .effects;
   return place;
 }
 
@@ -183,6 +221,7 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
         life_factor(weld_curve(place.detail, amplitude), ranges, *wanted / period.duration_s, damage_sum);
   weld.error_share = place.error_share + place.unresolved_share(course, toe);
   const auto curve = weld_curve(place.detail, amplitude);
+  weld.damage_share = shares_in_damage(place, analysis.loads.history, course, toe, curve);
   weld.certainty = certainty_of(
       weld.error_share,
       beyond_curve(toe.stress_Pa.abs().maxCoeff(), analysis.scene.yield_strength_Pa, curve, ranges),
@@ -203,14 +242,24 @@ std::vector<WeldFatigue> judge_welds(const BodyAnalysis& analysis, const FactorC
   return welds;
 }
 
+ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const BodyAnalysis& analysis,
+                     const FatigueRules& rules, const LoadPeriod& period, bool is_on_surface) {
+  ZoneDamage result;
+  result.is_on_surface = is_on_surface;
+  if (!is_on_surface) return result;
+  const auto node = search.at(zone.peak_node);
+  const auto counted = search.counted(node, period.duration_s);
+  if (counted.blocks.empty()) return result;
+  const double damage = miner_damage(rules.design_curve(counted.blocks), counted.blocks);
+  result.damage_per_turn = damage / period.turns;
+  result.life_s = life_of(damage, period.duration_s);
+  result.shares = shares_in_damage(analysis, analysis.loads.history, search, rules, node, counted, true);
+  return result;
+}
+
 }  // namespace
 
 namespace {
-
-/// DIN 743 is for shafts of rolled and forged steel.
-bool is_steel(const GroupConstants& group) {
-  return !group.is_cast && group.group != MaterialGroup::wrought_aluminium;
-}
 
 /// The places of a list where the curve does not hold.
 template <typename Place, typename Name>
@@ -270,6 +319,13 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
       return place == fatigue.places.end() ? -1 : place->cycle.amplitude_Pa;
     });
   fatigue.welds = judge_welds(analysis, search.course(), period);
+  const auto& zones = analysis.zones.zones;
+  fatigue.zones.resize(zones.size());
+  for_each_parallel(zones.size(), n_threads, [&](std::size_t, std::size_t i) {
+    const auto& surface = fatigue.cycles.nodes;
+    fatigue.zones[i] = damage_of(zones[i], search, analysis, rules, period,
+                                 std::binary_search(surface.begin(), surface.end(), zones[i].peak_node));
+  });
   fatigue.assumptions = assumptions_of(rules, analysis);
   fatigue.warnings = warnings_of(rules, analysis.scene.name, fatigue);
   return fatigue;

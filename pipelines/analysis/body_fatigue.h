@@ -49,6 +49,7 @@ struct FatiguePlace {
   std::size_t n_counted = 0;          ///< rainflow cycles in a period, along the direction of most damage
   SecondOpinions others;
   std::vector<double> effect_share;  ///< of the amplitude, in the order of ChannelHistory::effects; sums to 1
+  std::vector<double> damage_share;  ///< likewise of the damage (damage_shares.h); empty: nothing changes
   double error_share = 0;            ///< numerical error of the stress at the place, with what its instants
                                      ///< leave unresolved; infinite: not known
   LifeCertainty certainty;           ///< of the life
@@ -66,12 +67,21 @@ struct WeldFatigue {
   /// Of the range, in the order of ChannelHistory::effects; sums to 1, but for effects without a share of
   /// their own. Empty: nothing changes.
   std::vector<double> effect_share;
-  std::size_t n_counted = 0;  ///< rainflow cycles in a period
+  std::vector<double> damage_share;  ///< likewise of the damage (damage_shares.h)
+  std::size_t n_counted = 0;         ///< rainflow cycles in a period
   double damage_per_turn = 0;
   std::optional<double> life_s;       ///< none: endures
   std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
   double error_share = 0;             ///< numerical error of the stress; infinite: not known
   LifeCertainty certainty;            ///< of the life
+};
+
+/// The damage at a zone's peak.
+struct ZoneDamage {
+  bool is_on_surface = false;  ///< else nothing is judged: fatigue is one of the surface
+  double damage_per_turn = 0;
+  std::optional<double> life_s;  ///< none: endures
+  StressShares shares;           ///< of the damage (damage_shares.h); empty: nothing changes
 };
 
 struct BodyFatigue {
@@ -80,6 +90,7 @@ struct BodyFatigue {
   std::vector<FatiguePlace> places;      ///< by falling utilisation
   std::vector<NominalFatigue> nominal;   ///< fillets of steel shafts by DIN 743, least safety first
   std::vector<WeldFatigue> welds;        ///< by rising life, then by falling range
+  std::vector<ZoneDamage> zones;         ///< in the order of BodyAnalysis::zones
   std::vector<std::string> assumptions;  ///< sentences: rules, factors and defaults
   std::vector<std::string> warnings;     ///< where the rules do not hold
 };

@@ -8,6 +8,7 @@
 
 #include "kinetics/load_spectrum.h"
 #include "pipelines/analysis/damage_direction.h"
+#include "pipelines/analysis/duty_shares.h"
 #include "pipelines/analysis/fatigue_places.h"
 #include "pipelines/analysis/time_sampling.h"
 #include "pipelines/analysis/weld_places.h"
@@ -37,6 +38,9 @@ void append(std::vector<StressBlock>& all, const std::vector<StressBlock>& count
   for (const auto& block : counted) all.push_back({block.amplitude_Pa, block.count * per_s});
 }
 
+/// dD/ds of a part of the damage, an entry for each effect of all blocks.
+using DerivativeBy = std::function<Eigen::VectorXd(const SnCurve&)>;
+
 /// What the cycles of a place come to, block by block.
 struct CountedBlocks {
   struct Block {
@@ -48,6 +52,7 @@ struct CountedBlocks {
     double largest_Pa = 0;  ///< amplitude and size of the mean of the largest cycles
   };
   std::vector<Block> blocks;
+  std::vector<DerivativeBy> derivatives;  ///< their sum is that of the damage
 
   double largest_Pa() const {
     double largest = 0;
@@ -116,11 +121,41 @@ void take_damage(const CountedBlocks& counted, const CurveOf& curve_of, double d
       });
 }
 
+std::vector<double> shares_by_effect(const CountedBlocks& counted, const SnCurve& curve, Index n_effects) {
+  const auto of_shares = curve_of_shares(curve, counted.all());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_effects);
+  for (const auto& derivative : counted.derivatives) sum += derivative(of_shares);
+  return shares_of(sum);
+}
+
+/// Ranges as they are, as weld toes count them.
+WeighedCycles weighed(const StressCourse& stress, const Eigen::Matrix<double, 6, 1>& form, double per_s) {
+  WeighedCycles result{stress.cycles_of(form), {}};
+  for (const auto& cycle : result.cycles) result.blocks.push_back({cycle.range_Pa, per_s});
+  return result;
+}
+
+std::vector<StressBlock> in_a_second(std::vector<StressBlock> blocks, double per_s) {
+  for (auto& block : blocks) block.count *= per_s;
+  return blocks;
+}
+
+SlopesOf ranges_along(const Eigen::Matrix<double, 6, 1>& form) {
+  return [form](const EndsOfCycle& cycle) { return slopes_of_range(cycle, form); };
+}
+
+SlopesOf equivalents_along(const Eigen::Matrix<double, 6, 1>& form, const EnduranceLimit& limit) {
+  return [form, sensitivity = limit.mean_stress_sensitivity](const EndsOfCycle& cycle) {
+    return slopes_of_equivalent(cycle, form, sensitivity);
+  };
+}
+
 class DutyJudge {
 public:
   DutyJudge(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks)
       : analysis_(analysis),
         blocks_(blocks),
+        shares_(effects_of_blocks(blocks)),
         rules_(*analysis.scene.fatigue),
         slopes_(analysis.responses.nodes) {
     damage_about_.assign(analysis.responses.nodes.n, 0);
@@ -144,11 +179,17 @@ public:
     }));
     std::optional<DutyPlace> worst;
     const double error_share = error_share_of(analysis_, feature);
+    CountedBlocks of_worst;
     for (const auto node : candidates) {
-      auto place = at(node, error_share);
-      if (!worst || is_worse(place, *worst)) worst = std::move(place);
+      CountedBlocks counted;
+      auto place = at(node, error_share, counted);
+      if (worst && !is_worse(place, *worst)) continue;
+      worst = std::move(place);
+      of_worst = std::move(counted);
     }
     worst->feature = feature;
+    worst->effect_share =
+        shares_by_effect(of_worst, rules_.design_curve(of_worst.all()), shares_.n_effects());
     return std::move(*worst);
   }
 
@@ -164,9 +205,15 @@ public:
       const auto& course = places_[b].course();
       auto& own = counted.blocks.emplace_back();
       const auto running = weld.stress(course);
-      own.amplitude_Pa = take_ranges(running.cycles, block.share / block.period.duration_s, own.running);
+      own.amplitude_Pa = take_ranges(running.cycles, block.running_per_s(), own.running);
       own.largest_Pa = running.stress_Pa.abs().maxCoeff();
       own.unresolved_share = weld.unresolved_share(course, running);
+      counted.derivatives.push_back(
+          [this, &weld, &block, &course, form = running.form](const SnCurve& curve) {
+            const StressCourse stress(weld.unit_Pa, course);
+            return shares_.running({weld.unit_Pa, block, course},
+                                   weighed(stress, form, block.running_per_s()), ranges_along(form), curve);
+          });
       if (!(block.starts_per_s > 0)) continue;
       const auto& starting = block.starting != nullptr ? block.starting->values : ArrayXXd();
       const auto start = weld.stress(start_sequence(course.fine(), starting));
@@ -175,10 +222,19 @@ public:
       take_ranges(kinetics::rainflow_repeating(start.stress_Pa.tail(course.fine().cols())),
                   block.starts_per_s, own.running_in_starts);
       own.unresolved_start_share = start_sampling_share(weld.unit_Pa, starting, own.start_amplitude_Pa);
+      counted.derivatives.push_back([this, &weld, &block, &course, form = start.form](const SnCurve& curve) {
+        const ArrayXXd before = block.starting != nullptr ? block.starting->values : ArrayXXd();
+        const auto under = [&](const ArrayXXd& factors) {
+          return weighed(StressCourse((weld.unit_Pa * factors.matrix()).array()), form, block.starts_per_s);
+        };
+        return shares_.starting({weld.unit_Pa, block, course}, under(start_sequence(course.fine(), before)),
+                                under(course.fine()), ranges_along(form), curve);
+      });
     }
     const auto curve = weld_curve(weld.detail, LoadAmplitude::variable);
     take_damage(
         counted, [&](const auto&) { return curve; }, damage_sum_of_spectra, rules_.scene(), place);
+    place.effect_share = shares_by_effect(counted, curve, shares_.n_effects());
     return place;
   }
 
@@ -235,14 +291,13 @@ private:
     return cycle.amplitude_Pa + std::abs(cycle.signed_mean_Pa);
   }
 
-  DutyPlace at(std::size_t node, double error_share) const {
-    CountedBlocks counted;
+  DutyPlace at(std::size_t node, double error_share, CountedBlocks& counted) const {
     DutyPlace place;
     place.error_share = error_share;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const auto own = places_[b].at(node);
       place.utilisation = std::max(place.utilisation, own.utilisation);
-      count(own, places_[b], blocks_[b], counted.blocks.emplace_back());
+      count(own, places_[b], blocks_[b], counted.blocks.emplace_back(), counted.derivatives);
     }
     std::copy_n(&analysis_.responses.nodes.xyz_m[3 * node], 3, place.position_m.begin());
     take_damage(
@@ -251,18 +306,29 @@ private:
   }
 
   void count(const FatigueNode& node, const FatiguePlaces& places, const BlockOnBody& block,
-             CountedBlocks::Block& own) const {
+             CountedBlocks::Block& own, std::vector<DerivativeBy>& derivatives) const {
     own.amplitude_Pa = node.cycle.amplitude_Pa;
     own.largest_Pa = amplitude_and_mean_Pa(node.cycle);
     const auto counted = places.counted(node, block.period.duration_s / block.share);
-    append(own.running, counted.blocks, block.share / block.period.duration_s);
+    append(own.running, counted.blocks, block.running_per_s());
     own.unresolved_share = places.unresolved_share(node, counted);
-    if (block.starts_per_s > 0) count_start(node, places, block, own);
+    if (!counted.blocks.empty())
+      derivatives.push_back([this, &places, &block, node, counted](const SnCurve& curve) {
+        const auto stress = places.stress_of(node.node);
+        const auto form = form_along(counted.direction);
+        return shares_.running(
+            {unit_stresses_at(analysis_.responses, node.node), block, places.course()},
+            {stress.cycles_along(counted.direction), in_a_second(counted.blocks, block.running_per_s())},
+            equivalents_along(form, counted.limit), curve,
+            shares_.support(places, rules_, block, node.node, counted.from, counted.to),
+            stress.is_smooth() ? &form : nullptr);
+      });
+    if (block.starts_per_s > 0) count_start(node, places, block, own, derivatives);
   }
 
   /// Along the direction in which a start does most damage beyond that of the running in it.
   void count_start(const FatigueNode& node, const FatiguePlaces& places, const BlockOnBody& block,
-                   CountedBlocks::Block& own) const {
+                   CountedBlocks::Block& own, std::vector<DerivativeBy>& derivatives) const {
     const StressCourse running(places.stress_of(node.node).stress_Pa());
     const ArrayXXd starting = block.starting != nullptr
                                   ? stress_history_Pa(analysis_.responses, *block.starting, node.node)
@@ -285,8 +351,16 @@ private:
         damage_directions(sequence.coordinates(), direction_of(cycle.half_range_Pa), added);
     const auto worst = *std::max_element(directions.begin(), directions.end(),
                                          [&](const auto& a, const auto& b) { return added(a) < added(b); });
-    append(own.starting, counted(sequence, worst), block.starts_per_s);
-    append(own.running_in_starts, counted(running, worst), block.starts_per_s);
+    WeighedCycles in_start{sequence.cycles_along(worst), {}}, in_running{running.cycles_along(worst), {}};
+    for (auto* weighed : {&in_start, &in_running})
+      weighed->blocks = in_a_second(rules_.counted(weighed->cycles, limit), block.starts_per_s);
+    append(own.starting, in_start.blocks, 1);
+    append(own.running_in_starts, in_running.blocks, 1);
+    derivatives.push_back([=, &places, &block](const SnCurve& curve) {
+      return shares_.starting({unit_stresses_at(analysis_.responses, node.node), block, places.course()},
+                              in_start, in_running, equivalents_along(form_along(worst), limit), curve,
+                              shares_.support(places, rules_, block, node.node, node.from, node.to));
+    });
     own.unresolved_start_share = block.starting == nullptr
                                      ? 0
                                      : start_sampling_share(unit_stresses_at(analysis_.responses, node.node),
@@ -295,6 +369,7 @@ private:
 
   const BodyAnalysis& analysis_;
   const std::vector<BlockOnBody>& blocks_;
+  DutyShares shares_;
   FatigueRules rules_;
   SurfaceSlopes slopes_;
   std::vector<FatiguePlaces> places_;  ///< by block

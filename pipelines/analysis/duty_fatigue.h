@@ -26,6 +26,9 @@ struct BlockOnBody {
   const ChannelHistory* starting = nullptr;       ///< over one start; null: none, or at once
   double starts_per_s = 0;                        ///< of operation
   const NodalMaximum* start_von_mises = nullptr;  ///< largest in a start, about; null: the block has none
+
+  /// Periods in a second of operation.
+  double running_per_s() const { return share / period.duration_s; }
 };
 
 /// What a block does to a place.
@@ -49,6 +52,9 @@ struct DutyPlace {
   double error_share = 0;             ///< numerical error of the stress, with what the instants leave
                                       ///< unresolved, by the damage of the blocks; infinite: not known
   LifeCertainty certainty;            ///< of the life
+  /// Of the damage of all blocks (damage_shares.h), in the order of effects_of_blocks; empty: nothing
+  /// changes.
+  std::vector<double> effect_share;
 };
 
 /// Every feature's worst node, and every weld toe; by falling damage, then by rising safety against the

@@ -135,11 +135,14 @@ double FatiguePlaces::harmonics_damage_about(std::size_t node) const {
 }
 
 double FatiguePlaces::gradient_per_m(std::size_t node, double from, double to) const {
-  if (analysis_.method == Method::beam) return 0;
-  const Eigen::VectorXd half =
-      0.5 * (loads_.values.matrix() * (course_.weights_at(to) - course_.weights_at(from)));
+  if (!has_gradients()) return 0;
+  return gradient_per_m(node,
+                        0.5 * (loads_.values.matrix() * (course_.weights_at(to) - course_.weights_at(from))));
+}
+
+double FatiguePlaces::gradient_per_m(std::size_t node, const Eigen::VectorXd& loads) const {
   return slopes_.related_gradient_per_m(node, [&](std::size_t other) {
-    return von_mises_Pa(as_stress(unit_stresses_at(analysis_.responses, other) * half));
+    return von_mises_Pa(as_stress(unit_stresses_at(analysis_.responses, other) * loads));
   });
 }
 
@@ -182,10 +185,12 @@ CountedNode FatiguePlaces::counted(const FatigueNode& node, double duration_s) c
     CountedNode one;
     one.direction = direction;
     one.amplitude_Pa = largest->range_Pa / 2;
-    one.limit = &direction == &directions.front()
-                    ? limit
-                    : rules_.limit(gradient_per_m(node.node, largest->from_instant, largest->to_instant),
-                                   scalar(cycle_between(largest->from, largest->to, 0, 1)));
+    const bool is_first = &direction == &directions.front();
+    one.from = is_first ? node.from : largest->from_instant;
+    one.to = is_first ? node.to : largest->to_instant;
+    one.limit = is_first ? limit
+                         : rules_.limit(gradient_per_m(node.node, one.from, one.to),
+                                        scalar(cycle_between(largest->from, largest->to, 0, 1)));
     one.blocks = rules_.counted(cycles, one.limit);
     if (worst.blocks.empty() || damages_more(rules_, one.blocks, worst.blocks, duration_s))
       worst = std::move(one);

@@ -31,7 +31,8 @@ struct CountedNode {
   std::vector<StressBlock> blocks;  ///< shares of what is endured, of one period
   double amplitude_Pa = 0;          ///< of the largest of them, along the direction
   DeviatoricDirection direction = DeviatoricDirection::Zero();
-  EnduranceLimit limit;  ///< with the gradient of that largest one
+  EnduranceLimit limit;     ///< with the gradient of that largest one
+  double from = 0, to = 0;  ///< the instants of that gradient: i + share of the step to the next
 };
 
 /// Whether blocks do more damage than others; of those that do none, leave less of a factor on all stresses
@@ -70,6 +71,11 @@ public:
   /// The loads, at 48 places in a period of the highest harmonic.
   const FactorCourse& course() const { return course_; }
   StressCourse stress_of(std::size_t node) const;
+
+  /// Whether the responses tell the related gradient; a beam's do not.
+  bool has_gradients() const { return analysis_.method != Method::beam; }
+  /// The related gradient of the stress under such loads, one of each channel.
+  double gradient_per_m(std::size_t node, const Eigen::VectorXd& loads) const;
 
   /// The loads at two instants or between them.
   ChannelHistory between(double from, double to) const;

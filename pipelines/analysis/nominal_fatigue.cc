@@ -55,7 +55,17 @@ const SectionResult* nearest_section(const Diagrams& diagrams, const std::string
   return nearest;
 }
 
+bool is_din_fillet(const meshes::Shaft& shaft, std::size_t i) {
+  return shaft.fillets_m[i] > 0 && !(shaft.segments[i].bore_m > 0) && !(shaft.segments[i + 1].bore_m > 0);
+}
+
 }  // namespace
+
+bool has_din_fillet(const meshes::Shaft& shaft) {
+  for (std::size_t i = 0; i < shaft.fillets_m.size(); ++i)
+    if (is_din_fillet(shaft, i)) return true;
+  return false;
+}
 
 DinTriple own_shape_factor(const DinTriple& published, const DinTriple& nominal_Pa, double local_Pa) {
   const double direct_Pa = published.tension * nominal_Pa.tension + published.bending * nominal_Pa.bending;
@@ -82,7 +92,7 @@ std::vector<NominalFatigue> din_743_of_fillets(
   for (std::size_t i = 0; i < shaft->geometry.fillets_m.size(); ++i) {
     const double fillet_m = shaft->geometry.fillets_m[i];
     const auto &left = segments[i], &right = segments[i + 1];
-    if (!(fillet_m > 0) || left.bore_m > 0 || right.bore_m > 0) continue;
+    if (!is_din_fillet(shaft->geometry, i)) continue;
     const auto& thin = left.diameter_m < right.diameter_m ? left : right;
     const auto& thick = &thin == &left ? right : left;
     const auto* section = nearest_section(*analysis.diagrams, thin.name, left.end_m);

@@ -31,6 +31,9 @@ DinTriple own_shape_factor(const DinTriple& published, const DinTriple& nominal_
 /// @param small_m, large_m  diameters
 DinTriple din_shoulder_gradient_1_m(double small_m, double large_m, double fillet_m);
 
+/// Whether there is a fillet between solid segments: the only notch that is taken.
+bool has_din_fillet(const meshes::Shaft& shaft);
+
 /// Every fillet between solid segments of a parametric shaft, least safety first; none of other bodies.
 /// @param local_amplitude_Pa  of a fillet, by feature; negative: not known
 std::vector<NominalFatigue> din_743_of_fillets(

@@ -94,4 +94,19 @@ double equivalent_reversed_amplitude_Pa(const CyclicStress& stress, double sensi
   return stress.amplitude_Pa / haigh_factor(stress, sensitivity);
 }
 
+EquivalentAmplitudeSlopes equivalent_amplitude_slopes(const CyclicStress& stress, double sensitivity) {
+  const double M = sensitivity, pulsating = (1 + M) / (1 + M / 3);
+  switch (haigh_field(stress)) {
+    case HaighField::compression:
+      return {1 - M, 0};
+    case HaighField::alternating:
+      return {1, M};
+    case HaighField::pulsating_tension:
+      return {pulsating, pulsating * M / 3};
+    case HaighField::high_static_tension:
+      break;
+  }
+  return {pulsating * (1 + M), 0};
+}
+
 }  // namespace pipelines

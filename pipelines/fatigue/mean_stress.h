@@ -88,4 +88,11 @@ double haigh_factor(const CyclicStress& stress, double sensitivity);
 /// Amplitude at R = -1 that does the same damage: sigma_a / K_AK.
 double equivalent_reversed_amplitude_Pa(const CyclicStress& stress, double sensitivity);
 
+/// Derivatives of equivalent_reversed_amplitude_Pa, which in each field is linear in amplitude and mean.
+struct EquivalentAmplitudeSlopes {
+  double by_amplitude = 1, by_mean = 0;
+};
+/// On a border those of the field that haigh_field names.
+EquivalentAmplitudeSlopes equivalent_amplitude_slopes(const CyclicStress& stress, double sensitivity);
+
 }  // namespace pipelines

@@ -7,7 +7,10 @@
 #include <ostream>
 
 #include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/weld_places.h"
+#include "pipelines/common/name_lists.h"
 #include "pipelines/files/csv.h"
+#include "pipelines/report/damage_share_text.h"
 #include "pipelines/report/fatigue_report.h"
 
 namespace pipelines {
@@ -66,6 +69,14 @@ std::string causes_of(const DutyResult& duty, const DutyPlace& place) {
   return text;
 }
 
+std::string rule_of_lives() {
+  return fmt::format(
+      "lives: Palmgren-Miner over all blocks and starts, at each place one S-N curve for the cycles of all, "
+      "at "
+      "a damage sum of 1, at weld toes {:.3g}; the order of blocks does not count",
+      damage_sum_of_spectra);
+}
+
 void print_places(std::ostream& out, const DutyResult& duty) {
   for (const auto& [body, places] : duty.places) {
     out << fmt::format("\n  {:<40}{:>13}{:>32}  {}\n", body + " over all blocks", "amplitude MPa", "life",
@@ -78,6 +89,10 @@ void print_places(std::ostream& out, const DutyResult& duty) {
       out << fmt::format("  {:<40}{:>13.1f}{:>32}  {}\n",
                          places[i].feature + (places[i].is_weld ? " (weld toe)" : ""), amplitude_Pa / 1e6,
                          life_text(places[i].life_s, places[i].certainty), causes_of(duty, places[i]));
+      if (const auto text =
+              damage_text(duty.effects.at(body), places[i].effect_share, places[i].damage_per_s > 0);
+          !text.empty())
+        out << "    effects: " << text << '\n';
       if (places[i].life_safety)
         out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
                            *places[i].life_safety);
@@ -85,6 +100,7 @@ void print_places(std::ostream& out, const DutyResult& duty) {
     print_may_last_less(out, places.empty() ? "" : places.front().feature,
                         may_last_less(places, [](const auto& place) { return place.feature; }));
   }
+  if (!duty.places.empty()) out << "    " << rule_of_lives() << '\n';
 }
 
 void print_bearings(std::ostream& out, const DutyResult& duty) {
@@ -103,7 +119,7 @@ double or_infinite(const std::optional<double>& value) {
   return value.value_or(std::numeric_limits<double>::infinity());
 }
 
-summary::Json place_json(const DutyResult& duty, const DutyPlace& place) {
+summary::Json place_json(const DutyResult& duty, const std::string& body, const DutyPlace& place) {
   using summary::number;
   using summary::number_or_none;
   using summary::object;
@@ -125,7 +141,8 @@ summary::Json place_json(const DutyResult& duty, const DutyPlace& place) {
        {"beyond_sn_curve", beyond_json(place.certainty)},
        {"life_safety", number_or_none(or_infinite(place.life_safety))},
        {"stress_error", number_or_none(place.error_share)},
-       {"by_block", by_block}});
+       {"by_block", by_block},
+       {"effect_share_of_damage", effect_shares_json(duty.effects.at(body), place.effect_share)}});
 }
 
 }  // namespace
@@ -143,6 +160,7 @@ summary::Json duty_json(const DutyResult& duty) {
   using summary::object;
   summary::Json json;
   json["in_operation"] = number(duty.in_operation);
+  if (!duty.places.empty()) json["rule"] = rule_of_lives();
   for (const auto& block : duty.blocks) {
     auto& entry = json["blocks"][block.name];
     entry = object({{"share", number(block.share)},
@@ -160,7 +178,7 @@ summary::Json duty_json(const DutyResult& duty) {
                   {"L10h", bearing.life ? figure(bearing.life->hours, "h") : summary::Json(nullptr)}});
   }
   for (const auto& [body, places] : duty.places)
-    for (const auto& place : places) json["places"][body].push_back(place_json(duty, place));
+    for (const auto& place : places) json["places"][body].push_back(place_json(duty, body, place));
   for (const auto& bearing : duty.bearings)
     json["bearings"][bearing.name] =
         object({{"equivalent_load", figure(bearing.equivalent_load_N, "N")},
@@ -174,10 +192,20 @@ void write_duty(const std::filesystem::path& file, const DutyResult& duty) {
   std::vector<std::string> bodies, features, kinds, lives, least, most;
   std::vector<double> damage;
   std::array<std::vector<double>, 3> position;
+  std::vector<std::string> effects;  // of all bodies
+  for (const auto& [body, own] : duty.effects)
+    for (const auto& effect : own)
+      if (!contains(effects, effect)) effects.push_back(effect);
+  std::vector<std::vector<double>> shares;
   std::vector<std::vector<double>> running(duty.blocks.size()), starts(duty.blocks.size());
   for (const auto& [body, places] : duty.places)
     for (const auto& place : places) {
       bodies.push_back(body);
+      auto& row = shares.emplace_back();
+      if (!place.effect_share.empty()) row.assign(effects.size(), 0.0);
+      for (std::size_t e = 0; e < place.effect_share.size(); ++e)
+        row[std::size_t(std::find(effects.begin(), effects.end(), duty.effects.at(body)[e]) -
+                        effects.begin())] = place.effect_share[e];
       features.push_back(place.feature);
       kinds.push_back(place.is_weld ? "weld toe" : "surface");
       damage.push_back(place.damage_per_s * hour_s);
@@ -200,6 +228,7 @@ void write_duty(const std::filesystem::path& file, const DutyResult& duty) {
     if (duty.blocks[b].starts_per_day > 0)
       columns.push_back({duty.blocks[b].name + ".starts", "1/h", starts[b]});
   }
+  add_damage_shares(columns, effects, shares);
   write_csv(file, columns);
 }
 

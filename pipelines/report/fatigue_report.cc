@@ -10,6 +10,7 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/files/csv.h"
+#include "pipelines/report/damage_share_text.h"
 #include "pipelines/report/zone_text.h"
 
 namespace pipelines {
@@ -54,19 +55,14 @@ void print_welds(std::ostream& out, const BodyFatigue& fatigue, const std::vecto
   }
   const auto& first = fatigue.welds.front();
   if (!first.effect_share.empty())
-    out << fmt::format("    {}: range by {}\n", first.name,
-                       largest_shares(group_shares(effects, first.effect_share)));
+    out << fmt::format("    {}: range by {}; {}\n", first.name,
+                       largest_shares(group_shares(effects, first.effect_share)),
+                       damage_text(effects, first.damage_share, first.damage_per_turn > 0));
   print_may_last_less(out, first.name,
                       may_last_less(fatigue.welds, [](const auto& weld) { return weld.name; }));
 }
 
 summary::Json welds_json(const BodyFatigue& fatigue, const std::vector<std::string>& effects) {
-  const auto shares = [&](const WeldFatigue& weld) {
-    auto json = summary::Json::object();
-    for (std::size_t e = 0; e < weld.effect_share.size(); ++e)
-      json[effects[e]] = summary::number(weld.effect_share[e]);
-    return json;
-  };
   auto json = summary::Json::array();
   for (const auto& weld : fatigue.welds)
     json.push_back(summary::object(
@@ -85,7 +81,8 @@ summary::Json welds_json(const BodyFatigue& fatigue, const std::vector<std::stri
          {"beyond_sn_curve", beyond_json(weld.certainty)},
          {"life_safety", weld.life_safety ? summary::number(*weld.life_safety) : summary::Json(nullptr)},
          {"stress_error", summary::number_or_none(weld.error_share)},
-         {"effect_share_of_range", shares(weld)}}));
+         {"effect_share_of_range", effect_shares_json(effects, weld.effect_share)},
+         {"effect_share_of_damage", effect_shares_json(effects, weld.damage_share)}}));
   return json;
 }
 
@@ -155,10 +152,12 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
   };
   if (first.cycle.amplitude_Pa > 0)
     out << fmt::format(
-        "    {}: from {} to {}; by {}; n_sigma {:.3f} at {:.3g}/mm; numerical error of the stress {}\n",
+        "    {}: from {} to {}; amplitude by {}; {}; n_sigma {:.3f} at {:.3g}/mm; numerical error of the "
+        "stress {}\n",
         first.feature, at(first.from), at(first.to),
-        largest_shares(group_shares(analysis.loads.history.effects, first.effect_share)), first.support,
-        first.gradient_per_m * 1e-3,
+        largest_shares(group_shares(analysis.loads.history.effects, first.effect_share)),
+        damage_text(analysis.loads.history.effects, first.damage_share, first.damage_per_turn > 0),
+        first.support, first.gradient_per_m * 1e-3,
         std::isfinite(first.error_share) ? fmt::format("{:.1f} %", 100 * first.error_share) : "not known");
   if (first.life_safety)
     out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
@@ -220,6 +219,7 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
   summary::Json json;
   json["assumptions"] = fatigue.assumptions;
   json["safety_factor"] = figure(analysis.scene.fatigue->safety, "1");
+  json["size_factor"] = figure(analysis.scene.fatigue->size_factor, "1");
   json["places"] = summary::Json::array();
   for (const auto& place : fatigue.places) {
     const auto moment = [&](double instant) {
@@ -227,8 +227,6 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
       return object({{"turn", m.turn}, {"drive_angle_rad", m.angle_rad}});
     };
     const auto life = place.life_s.value_or(std::numeric_limits<double>::infinity());
-    summary::Json shares = summary::Json::object();
-    for (std::size_t e = 0; e < effects.size(); ++e) shares[effects[e]] = number(place.effect_share[e]);
     json["places"].push_back(object(
         {{"feature", place.feature},
          {"place", to_string(place.surface)},
@@ -257,7 +255,8 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
                                {"gerber", number_or_none(place.others.gerber)},
                                {"soderberg", number_or_none(place.others.soderberg)}})},
          {"stress_error", number_or_none(place.error_share)},
-         {"effect_share_of_amplitude", shares}}));
+         {"effect_share_of_amplitude", effect_shares_json(effects, place.effect_share)},
+         {"effect_share_of_damage", effect_shares_json(effects, place.damage_share)}}));
   }
   for (const auto& nominal : fatigue.nominal) {
     const auto triple = [](const DinTriple& t) {
@@ -282,7 +281,9 @@ void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& a
   std::vector<std::string> names, types, lives, least, most, error;
   std::vector<double> range, thickness, angle, fat, damage;
   std::array<std::vector<double>, 3> toe;
+  std::vector<std::vector<double>> shares;
   for (const auto& weld : analysis.fatigue->welds) {
+    shares.push_back(weld.damage_share);
     names.push_back(weld.name);
     types.push_back(weld.type);
     least.push_back(life_cell(weld.certainty, &LifeRange::least_s));
@@ -296,20 +297,14 @@ void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& a
     lives.push_back(weld.life_s ? shortest(*weld.life_s / seconds_per_hour) : std::string());
     for (std::size_t d = 0; d < 3; ++d) toe[d].push_back(weld.toe_m[d]);
   }
-  write_csv(file, {{"toe", "", names},
-                   {"range", "Pa", range},
-                   {"thickness", "m", thickness},
-                   {"angle", "rad", angle},
-                   {"class", "Pa", fat},
-                   {"damage_per_turn", "", damage},
-                   {"life", "h", lives},
-                   {"life_least", "h", least},
-                   {"life_most", "h", most},
-                   {"stress_error", "", error},
-                   {"type", "", types},
-                   {"x", "m", toe[0]},
-                   {"y", "m", toe[1]},
-                   {"z", "m", toe[2]}});
+  std::vector<CsvColumn> columns{
+      {"toe", "", names},          {"range", "Pa", range},     {"thickness", "m", thickness},
+      {"angle", "rad", angle},     {"class", "Pa", fat},       {"damage_per_turn", "", damage},
+      {"life", "h", lives},        {"life_least", "h", least}, {"life_most", "h", most},
+      {"stress_error", "", error}, {"type", "", types},        {"x", "m", toe[0]},
+      {"y", "m", toe[1]},          {"z", "m", toe[2]}};
+  add_damage_shares(columns, analysis.loads.history.effects, shares);
+  write_csv(file, columns);
 }
 
 void write_fatigue(const std::filesystem::path& file, const Scene& scene, const kinetics::LoadHistory& loads,
@@ -353,6 +348,9 @@ void write_fatigue(const std::filesystem::path& file, const Scene& scene, const 
   };
   columns.push_back(numbers("drive_angle_from", "rad", places, [&](const auto& p) { return angle(p.from); }));
   columns.push_back(numbers("drive_angle_to", "rad", places, [&](const auto& p) { return angle(p.to); }));
+  std::vector<std::vector<double>> shares;
+  for (const auto& place : places) shares.push_back(place.damage_share);
+  add_damage_shares(columns, analysis.loads.history.effects, shares);
   write_csv(file, columns);
 }
 

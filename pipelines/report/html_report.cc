@@ -112,7 +112,7 @@ void add_effects(HtmlPage& page, const Json& peak) {
   page.table({"in sum", "share"}, sums);
 }
 
-/// Of "causes.peak" or "causes.amplitude".
+/// Of "causes.peak", "causes.amplitude" or "causes.damage".
 std::string brought_by(const Json& causes) {
   std::vector<NamedShare> shares;
   if (causes.contains("effects"))
@@ -129,8 +129,12 @@ void add_zone_causes(HtmlPage& page, const Json& zones) {
     rows.push_back({fmt::format("{}", rows.size() + 1), MPa(zone.at("peak_von_mises_Pa")),
                     brought_by(zone.at("causes").at("peak")), MPa(amplitude.at("value_Pa")),
                     brought_by(amplitude)});
+    if (zone.at("causes").contains("damage"))
+      rows.back().push_back(brought_by(zone.at("causes").at("damage")));
   }
-  page.table({"", "peak MPa", "brought by", "amplitude MPa", "brought by"}, rows);
+  std::vector<std::string> titles{"", "peak MPa", "brought by", "amplitude MPa", "brought by"};
+  if (!rows.empty() && rows.front().size() > titles.size()) titles.emplace_back("damage by");
+  page.table(titles, rows);
   Rows parts;
   for (const auto& zone : zones)
     if (zone.contains("parts"))

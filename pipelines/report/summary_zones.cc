@@ -1,3 +1,4 @@
+#include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary_values.h"
@@ -36,6 +37,15 @@ Json causes_json(const RunReport& report, const ChannelHistory& loads, const Zon
   return object({{"peak", shares_json(loads, causes.peak)}, {"amplitude", amplitude}});
 }
 
+/// Of a zone on the surface, where fatigue is asked for; shares where something changes.
+Json damage_json(const ChannelHistory& loads, const ZoneDamage& damage) {
+  if (!damage.is_on_surface) return nullptr;
+  Json json = object({{"damage_per_turn", number(damage.damage_per_turn)},
+                      {"life_h", damage.life_s ? number(*damage.life_s / 3600) : Json(nullptr)}});
+  if (!damage.shares.effects.empty()) json.update(shares_json(loads, damage.shares));
+  return json;
+}
+
 Json part_json(const RunReport& report, const ZonePart& part) {
   Json json = object({{"zone", part.number},
                       {"level_Pa", number(part.level_Pa)},
@@ -59,6 +69,8 @@ Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
     entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
     if (json.size() < analysis.zone_causes.size())
       entry["causes"] = causes_json(report, analysis.loads.history, analysis.zone_causes[json.size()]);
+    if (analysis.fatigue && json.size() < analysis.fatigue->zones.size() && entry.contains("causes"))
+      entry["causes"]["damage"] = damage_json(analysis.loads.history, analysis.fatigue->zones[json.size()]);
     for (const auto& part : zone.parts) entry["parts"].push_back(part_json(report, part));
     json.push_back(entry);
   }

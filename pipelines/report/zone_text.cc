@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/scene/effect_groups.h"
@@ -63,8 +64,13 @@ std::string causes_text(const BodyAnalysis& analysis, std::size_t zone) {
   if (of_peak.size() < 2) return {};
   std::string text = "by " + largest_shares(of_peak);
   if (causes.amplitude.effects.empty()) return text + "; constant over the cycle";
-  return text + "; amplitude " + fixed(causes.cycle.amplitude_Pa / 1e6, 1) + " MPa by " +
-         largest_shares(group_shares(effects, causes.amplitude.effects));
+  text += "; amplitude " + fixed(causes.cycle.amplitude_Pa / 1e6, 1) + " MPa by " +
+          largest_shares(group_shares(effects, causes.amplitude.effects));
+  if (!analysis.fatigue || zone >= analysis.fatigue->zones.size()) return text;
+  const auto& damage = analysis.fatigue->zones[zone];
+  if (!damage.is_on_surface) return text + "; inside the body, where no fatigue is judged";
+  if (!(damage.damage_per_turn > 0)) return text + "; no damage";
+  return text + "; damage by " + largest_shares(group_shares(effects, damage.shares.effects));
 }
 
 std::string parts_text(const Zone& zone) {

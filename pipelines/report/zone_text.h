@@ -22,7 +22,8 @@ std::vector<NamedShare> group_shares(const std::vector<std::string>& effects,
 /// is left, where that is not below it. Empty without shares.
 std::string largest_shares(std::vector<NamedShare> shares);
 
-/// "by belt 83 %, drive 17 %; amplitude 41.9 MPa by belt 100 %", by groups. Empty where there is one group
+/// "by belt 83 %, drive 17 %; amplitude 41.9 MPa by belt 100 %", by groups, and where fatigue is asked for
+/// "; damage by belt 100 %". Empty where there is one group
 /// only, or nothing known of the zone.
 /// @param zone  index
 std::string causes_text(const BodyAnalysis& analysis, std::size_t zone);

@@ -18,7 +18,8 @@ struct WeldToeScene {
 };
 
 struct FatigueScene {
-  FatigueMaterial material;
+  FatigueMaterial material;            ///< its tensile strength has the size factor in it
+  double size_factor = 1;              ///< K_d: tensile strength of the part over that of the scene
   double roughness_m = 0;              ///< R_z
   double treatment = 1;                ///< K_V: shot peening, nitriding ... raise what the surface endures
   double safety = 1.5;                 ///< j_D: on the design endurance limit

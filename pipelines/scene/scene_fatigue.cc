@@ -35,6 +35,21 @@ bool is_readable(const FatigueMaterial& material) {
   return material.yield_strength_Pa > 0 && material.tensile_strength_Pa >= material.yield_strength_Pa;
 }
 
+/// Beyond 1.21, that of the thinnest grey iron, and below 0.5 FKM and DIN 743 have no factor.
+void read_size(SceneTable& table, FatigueScene& fatigue) {
+  auto& material = fatigue.material;
+  fatigue.size_factor = table.quantity_or("size_factor", "1", between(0.5, 1.25), 1,
+                                          "K_d; tensile_strength is that of the part, at its size");
+  const bool is_told = !is_readable(material);
+  if (!(fatigue.size_factor > 0)) return;  // told already
+  material.tensile_strength_Pa *= fatigue.size_factor;
+  if (!is_told && !is_readable(material))
+    table.refuse(
+        "size_factor",
+        "makes the tensile strength less than the material's yield_strength; give the yield strength "
+        "of the part's size too, or a larger factor");
+}
+
 /// The rules have ranges of their own: strengths that a group never has.
 void try_rules(SceneTable& table, const FatigueScene& fatigue) {
   if (!is_readable(fatigue.material) || !(fatigue.roughness_m > 0) || !(fatigue.treatment > 0)) return;
@@ -164,6 +179,7 @@ std::optional<FatigueScene> read_fatigue(SceneTable& body, double yield_strength
   fatigue.material.tensile_strength_Pa = table.quantity("tensile_strength", "Pa", between(1e7, 3e9));
   if (fatigue.material.tensile_strength_Pa < yield_strength_Pa)
     table.refuse("tensile_strength", "is below the material's yield_strength; correct one of them");
+  read_size(table, fatigue);
   read_group(table, fatigue);
   table.know("elongation");
   if (table.has("elongation")) fatigue.material.elongation = table.quantity("elongation", "1", between(0, 1));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipelines/analysis/duty_shares.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/hot_spots.h"
 #include "pipelines/analysis/respond.h"
@@ -123,6 +124,7 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
                         !run.scene.duty[k].start ? nullptr
                         : served[k].starting     ? &served[k].start_von_mises
                                                  : &served[k].von_mises});
+    result.effects[analysis.scene.name] = effects_of_blocks(blocks);
     result.places[analysis.scene.name] =
         clock.run("fatigue", [&] { return judge_duty(analysis, blocks, threads(n_threads)); });
   }

@@ -39,6 +39,8 @@ public:
 
   /// 6 x places.
   const Eigen::ArrayXXd& stress_Pa() const { return stress_Pa_; }
+  /// Turning points lie between the places, where the polynomial has them.
+  bool is_smooth() const { return is_smooth_; }
   /// 5 x places; their distance is the von Mises stress of the difference.
   const Eigen::Matrix<double, 5, Eigen::Dynamic>& coordinates() const { return coordinates_; }
 

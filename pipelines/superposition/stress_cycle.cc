@@ -79,6 +79,19 @@ double signed_von_mises_Pa(const Stress& s) {
   return std::clamp(size + 2 * std::min(trace, 0.0), -size, size);
 }
 
+Stress signed_von_mises_slopes(const Stress& s) {
+  Stress slopes{};
+  const double size = von_mises_Pa(s), trace = s[0] + s[1] + s[2];
+  if (!(size > 0)) return slopes;
+  const bool is_compression = trace <= -size, is_between = trace < 0 && !is_compression;
+  for (std::size_t c = 0; c < 6; ++c) {
+    slopes[c] = (c < 3 ? 1.5 * (s[c] - trace / 3) : 3 * s[c]) / size;
+    if (is_compression) slopes[c] = -slopes[c];
+    if (is_between && c < 3) slopes[c] += 2;
+  }
+  return slopes;
+}
+
 StressCycle cycle_between(const Stress& from, const Stress& to, Index first, Index second) {
   StressCycle cycle;
   cycle.from = std::min(first, second);

@@ -27,6 +27,10 @@ struct StressCycle {
 /// them.
 double signed_von_mises_Pa(const Stress& stress);
 
+/// Its derivatives by the six components, where each shear component stands for both in the tensor; zeros
+/// without von Mises stress.
+Stress signed_von_mises_slopes(const Stress& stress);
+
 /// The largest cycle: no pair of instants differs more, but for the slack. Of equal ones that which is found
 /// first from the instant of the largest von Mises stress.
 /// @param stress_Pa  6 x instants (xx, yy, zz, xy, yz, xz), at least one instant

@@ -1,0 +1,100 @@
+/// What brings the damage of a place: shares of the effects, or of the channels.
+///
+/// D is Palmgren and Miner's sum over counted cycles, D = sum n_i / N(A_i). With a factor s_e on all loads of
+/// effect e,
+///   share_e = (dD/ds_e) / sum_f (dD/ds_f),   dD/ds_e = sum k_i (n_i / N_i) d ln(A_i) / ds_e,
+/// k_i the slope of the branch of the S-N curve that A_i is on. Shares sum to one; a negative one relieves.
+/// With the effect times 1 - h the damage falls by h times k times the share, to first order, where one slope
+/// counts.
+///
+/// A_i is a function of the stresses at the two ends of its cycle, which are linear in the effects: its range
+/// along the direction of counting, at unwelded places with the mean and its sensitivity. Ends are turning
+/// points: by their moving the range does not change to first order, but the mean does. What the effects do
+/// to the support by the stress gradient is in the shares. The direction of counting is held: it is the one
+/// with most damage, so that turning it a little changes the damage in second order only.
+///
+/// Where nothing damages, the shares are those of the damage that begins when all loads are raised together:
+/// every cycle by the slope above the knee.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipelines/analysis/fatigue_places.h"
+#include "pipelines/analysis/weld_places.h"
+
+namespace pipelines {
+
+/// Stresses of the parts of a load at one instant, a column for each part [Pa].
+using PartStresses = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+/// By instant: i + share of the step to the next.
+using PartsAt = std::function<PartStresses(double)>;
+
+/// What the effects bring at one place, in the order of ChannelHistory::effects.
+/// @param course  of the loads; both outlive the result
+PartsAt parts_by_effect(const UnitStresses& unit_Pa, const ChannelHistory& loads, const FactorCourse& course);
+/// What the channels bring, in the order of ChannelHistory::channels.
+PartsAt parts_by_channel(const UnitStresses& unit_Pa, const ChannelHistory& loads,
+                         const FactorCourse& course);
+
+/// d ln(A) of one cycle by the stresses at its ends [1/Pa], and by the moving of its ends.
+struct AmplitudeSlopes {
+  Eigen::Matrix<double, 6, 1> by_from, by_to;
+  /// Of the part by the mean: what the moving of the ends changes.
+  Eigen::Matrix<double, 6, 1> by_mean = Eigen::Matrix<double, 6, 1>::Zero();
+};
+
+/// A is the range of a form that is linear in the stress.
+AmplitudeSlopes slopes_of_range(const EndsOfCycle& cycle, const Eigen::Matrix<double, 6, 1>& form);
+/// A is FKM's equivalent reversed amplitude (FatigueRules::counted).
+AmplitudeSlopes slopes_of_equivalent(const EndsOfCycle& cycle, const Eigen::Matrix<double, 6, 1>& form,
+                                     double mean_stress_sensitivity);
+
+/// The curve that shares are taken by: the same where it has damage. Else its knee is at the largest
+/// amplitude, and one slope counts.
+SnCurve curve_of_shares(SnCurve curve, const std::vector<StressBlock>& blocks);
+
+/// k n / N: by how much the damage of a block grows with the logarithm of its amplitude.
+double damage_slope(const SnCurve& curve, const StressBlock& block);
+
+/// Sums dD/ds over cycles.
+class DamageDerivative {
+public:
+  explicit DamageDerivative(Eigen::Index n_parts) : sum_(Eigen::VectorXd::Zero(n_parts)) {}
+
+  /// @param weight  k n / N of the cycle, with a sign
+  /// @param moving  form whose turning points the ends are, where they lie on a smooth course; null: ends
+  ///                stay where they are
+  void add(const EndsOfCycle& cycle, const AmplitudeSlopes& slopes, const PartsAt& parts, double weight,
+           const Eigen::Matrix<double, 6, 1>* moving = nullptr);
+  /// The same change of ln(A) for all cycles of that weight in sum.
+  void add(const Eigen::VectorXd& change, double weight) { sum_ += weight * change; }
+
+  const Eigen::VectorXd& sum() const { return sum_; }
+
+private:
+  Eigen::VectorXd sum_;
+};
+
+/// Divided by their sum; empty where that is not positive.
+std::vector<double> shares_of(const Eigen::VectorXd& derivative);
+
+/// Of a node's cycles over a period. Empty where nothing changes.
+/// @param loads         those that `search` has
+/// @param with_channels else their shares stay empty
+StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory& loads,
+                              const FatiguePlaces& search, const FatigueRules& rules, const FatigueNode& node,
+                              const CountedNode& counted, bool with_channels);
+
+/// d ln(1 / sigma_WK) by each part, of the support by the stress gradient at the counted cycles' limit.
+/// @param change_of  a part's loads at the instants in `counted`, from first to second
+Eigen::VectorXd support_change(const FatiguePlaces& search, const FatigueRules& rules, std::size_t node,
+                               const Eigen::VectorXd& change, const Eigen::MatrixXd& change_of_parts);
+
+/// Of a toe's cycles over a period, by effect. Empty where nothing changes.
+std::vector<double> shares_in_damage(const WeldPlace& place, const ChannelHistory& loads,
+                                     const FactorCourse& course, const ToeStress& toe, const SnCurve& curve);
+
+}  // namespace pipelines
