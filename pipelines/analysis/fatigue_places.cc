@@ -23,6 +23,8 @@ Stress as_stress(const Eigen::Matrix<double, 6, 1>& components) {
 
 constexpr double slack_of_search = 1e-6;
 constexpr double life_without_wish_s = 1e8;
+/// By which ends of a cycle between the places of the search may leave the polynomial, as a share.
+constexpr double off_the_polynomial = 1e-3;
 constexpr double places_per_period = 48, places_in_search = 24;
 
 }  // namespace
@@ -74,6 +76,7 @@ FatiguePlaces::FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& 
       rules_(rules),
       course_(loads.values, channel_sizes_Pa(analysis.responses), places_per_period),
       of_search_(loads.values, channel_sizes_Pa(analysis.responses), places_in_search),
+      bound_(of_search_, channel_sizes_Pa(analysis.responses)),
       half_ranges_(0.5 * (course_.fine().rowwise().maxCoeff() - course_.fine().rowwise().minCoeff()) +
                    course_.missed_by_places()),
       missed_(course_.missed_by_instants()),
@@ -82,13 +85,14 @@ FatiguePlaces::FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& 
 
 std::vector<FatigueNode> FatiguePlaces::worst_of(const std::vector<std::size_t>& nodes) const {
   std::vector<std::pair<double, std::size_t>> by_bound;
-  for (const auto node : nodes) by_bound.emplace_back(most_amplitude_Pa(node), node);
+  for (const auto node : nodes) by_bound.emplace_back(most_utilisation(node), node);
   std::stable_sort(by_bound.begin(), by_bound.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   FatigueNode worst;
-  for (const auto& [bound_Pa, node] : by_bound) {
-    if (most_per_Pa_ * bound_Pa <= worst.utilisation) break;
-    auto candidate = judged(node, of_search_, slack_of_search);
+  for (const auto& [bound, node] : by_bound) {
+    if (bound <= worst.utilisation) break;
+    const auto unit = unit_stresses_at(analysis_.responses, node);
+    auto candidate = judged(node, bound_.stress_of(unit, of_search_), slack_of_search, worst.utilisation);
     if (candidate.utilisation > worst.utilisation) worst = candidate;
   }
   std::vector<FatigueNode> result;
@@ -109,8 +113,7 @@ std::vector<FatigueNode> FatiguePlaces::worst_of(const std::vector<std::size_t>&
 /// Half of the difference of two stresses has at most the larger von Mises stress of both, which the instants
 /// tell but for what they miss, and at most the sum of the channels' own: exact zero where no channel
 /// changes.
-double FatiguePlaces::most_amplitude_Pa(std::size_t node) const {
-  const auto unit = unit_stresses_at(analysis_.responses, node);
+double FatiguePlaces::most_amplitude_Pa(std::size_t node, const UnitStresses& unit) const {
   double of_channels_Pa = 0, missed_Pa = 0;
   for (Eigen::Index k = 0; k < unit.cols(); ++k) {
     const double size_Pa = von_mises_Pa(as_stress(unit.col(k)));
@@ -118,6 +121,19 @@ double FatiguePlaces::most_amplitude_Pa(std::size_t node) const {
     missed_Pa += missed_[k] * size_Pa;
   }
   return std::min(of_channels_Pa, largest_Pa_[node] + missed_Pa);
+}
+
+/// Without support by the gradient. Two stresses of a ball of radius R that differ by twice A have their
+/// middle within sqrt(R^2 - A^2) of its centre. What is equivalent at R = -1 grows with the amplitude by one
+/// at least and with the mean by M at most, so that A < R may win by R (sqrt(1 + M^2) - 1), no more.
+double FatiguePlaces::most_utilisation(std::size_t node) const {
+  const auto unit = unit_stresses_at(analysis_.responses, node);
+  const auto ball = bound_.about_mean(unit);
+  const double radius_Pa = ball.radius_Pa * (1 + off_the_polynomial);
+  const auto limit = rules_.limit(0, {radius_Pa, ball.mean_Pa});
+  const double by_mean_Pa = radius_Pa * (std::hypot(1, limit.mean_stress_sensitivity) - 1);
+  return std::min(most_per_Pa_ * most_amplitude_Pa(node, unit),
+                  limit.utilisation + rules_.scene().safety / limit.reversed_Pa * by_mean_Pa);
 }
 
 /// In proportion: sum of h A_h^k over the orders, A_h the larger half axis of the deviator's ellipse.
@@ -146,20 +162,23 @@ double FatiguePlaces::gradient_per_m(std::size_t node, const Eigen::VectorXd& lo
   });
 }
 
-FatigueNode FatiguePlaces::judged(std::size_t node, const FactorCourse& factors, double slack) const {
+FatigueNode FatiguePlaces::judged(std::size_t node, const StressCourse& course, double slack,
+                                  double known) const {
   FatigueNode result;
   result.node = node;
-  const auto found = StressCourse(unit_stresses_at(analysis_.responses, node), factors).largest(slack);
+  const auto found = course.largest(slack);
   result.cycle = found.cycle;
   result.from = found.from;
   result.to = found.to;
-  if (result.cycle.amplitude_Pa > 0) result.gradient_per_m = gradient_per_m(node, result.from, result.to);
+  result.utilisation = rules_.limit(0, scalar(result.cycle)).utilisation;
+  if (!(result.cycle.amplitude_Pa > 0) || result.utilisation <= known) return result;
+  result.gradient_per_m = gradient_per_m(node, result.from, result.to);
   result.utilisation = rules_.limit(result.gradient_per_m, scalar(result.cycle)).utilisation;
   return result;
 }
 
 FatigueNode FatiguePlaces::at(std::size_t node) const {
-  return judged(node, course_, 0);
+  return judged(node, stress_of(node), 0, -1);
 }
 
 StressCourse FatiguePlaces::stress_of(std::size_t node) const {

@@ -8,6 +8,7 @@
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/fatigue_rules.h"
 #include "pipelines/analysis/stress_gradient.h"
+#include "pipelines/superposition/amplitude_bound.h"
 #include "pipelines/superposition/factor_course.h"
 
 namespace pipelines {
@@ -53,7 +54,7 @@ public:
   FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& slopes, const ChannelHistory& loads,
                 const std::vector<double>& largest_Pa, const FatigueRules& rules);
 
-  /// The most used one of these nodes: they are looked at by falling bound of their amplitude, between the
+  /// The most used one of these nodes: they are looked at by falling bound of their use, between the
   /// instants too, until no other can reach what is found; each at 24 places in a period of the highest
   /// harmonic, which miss 0.9 % at most. And, if another, the one where the harmonics by themselves, each as
   /// often as its order, do most damage: many cycles may do more than a larger one.
@@ -81,10 +82,12 @@ public:
   ChannelHistory between(double from, double to) const;
 
 private:
-  double most_amplitude_Pa(std::size_t node) const;
+  double most_utilisation(std::size_t node) const;
+  double most_amplitude_Pa(std::size_t node, const UnitStresses& unit_Pa) const;
   double harmonics_damage_about(std::size_t node) const;
   double gradient_per_m(std::size_t node, double from, double to) const;
-  FatigueNode judged(std::size_t node, const FactorCourse& factors, double slack) const;
+  /// @param known  a utilisation: where this one is not above it, it may be without support
+  FatigueNode judged(std::size_t node, const StressCourse& course, double slack, double known) const;
 
   const BodyAnalysis& analysis_;
   const SurfaceSlopes& slopes_;
@@ -92,6 +95,7 @@ private:
   const std::vector<double>& largest_Pa_;
   const FatigueRules& rules_;
   FactorCourse course_, of_search_;
+  AmplitudeBound bound_;
   Eigen::ArrayXd half_ranges_;  // of the channels
   Eigen::ArrayXd missed_;       // by the instants, of each channel
   double most_per_Pa_;          // bound of the utilisation per von Mises stress

@@ -77,13 +77,20 @@ double squared_distance(const Stress& a, const Stress& b) {
 }  // namespace
 
 StressCourse::StressCourse(const UnitStresses& unit_Pa, const FactorCourse& factors)
-    : StressCourse((unit_Pa * factors.fine().matrix()).array()) {
-  is_smooth_ = factors.is_polynomial() && stress_Pa_.cols() >= n_local;
-  per_step_ = factors.per_step();
+    : StressCourse(at_places((unit_Pa * factors.fine().matrix()).array(), factors)) {}
+
+StressCourse StressCourse::at_places(ArrayXXd stress_Pa, const FactorCourse& factors) {
+  StressCourse course(std::move(stress_Pa));
+  course.is_smooth_ = factors.is_polynomial() && course.stress_Pa_.cols() >= n_local;
+  course.per_step_ = factors.per_step();
+  return course;
 }
 
-StressCourse::StressCourse(ArrayXXd stress_Pa)
-    : stress_Pa_(std::move(stress_Pa)), coordinates_(deviatoric_coordinates(stress_Pa_.matrix()).matrix()) {}
+StressCourse::StressCourse(ArrayXXd stress_Pa) : stress_Pa_(std::move(stress_Pa)) {}
+
+Eigen::Matrix<double, 5, Eigen::Dynamic> StressCourse::coordinates() const {
+  return deviatoric_coordinates(stress_Pa_.matrix()).matrix();
+}
 
 double StressCourse::instant_of(double place) const {
   const double n = double(stress_Pa_.cols());

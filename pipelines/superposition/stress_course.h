@@ -33,6 +33,9 @@ public:
   /// @param unit_Pa  of the place, a column for each channel
   StressCourse(const UnitStresses& unit_Pa, const FactorCourse& factors);
 
+  /// @param stress_Pa  6 x places of the factors
+  static StressCourse at_places(Eigen::ArrayXXd stress_Pa, const FactorCourse& factors);
+
   /// Of a series that is known at its instants alone.
   /// @param stress_Pa  6 x instants (xx, yy, zz, xy, yz, xz), at least one
   explicit StressCourse(Eigen::ArrayXXd stress_Pa);
@@ -42,7 +45,7 @@ public:
   /// Turning points lie between the places, where the polynomial has them.
   bool is_smooth() const { return is_smooth_; }
   /// 5 x places; their distance is the von Mises stress of the difference.
-  const Eigen::Matrix<double, 5, Eigen::Dynamic>& coordinates() const { return coordinates_; }
+  Eigen::Matrix<double, 5, Eigen::Dynamic> coordinates() const;
 
   /// No two places differ more, but for the slack. Then each end goes to where it is farthest from the other,
   /// until neither does. Where a second pair is almost as far apart as the first, up to
@@ -65,7 +68,6 @@ private:
   double farthest_near(double place, const Stress& from) const;
 
   Eigen::ArrayXXd stress_Pa_;
-  Eigen::Matrix<double, 5, Eigen::Dynamic> coordinates_;
   bool is_smooth_ = false;
   Eigen::Index per_step_ = 1;
 };

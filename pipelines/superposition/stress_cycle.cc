@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace pipelines {
@@ -49,9 +50,99 @@ Pair pair_by_hops(const Deviators& x, Index start) {
 
 /// Differences below this share of the squared diameter are rounding: pairs of a circle are all alike.
 constexpr double alike = 1 + 1e-12;
+/// Fewer are compared each with each.
+constexpr std::size_t few_points = 128;
+
+/// Boxes around points, each but the smallest divided in two along its widest side: pairs of boxes that are
+/// nowhere so far apart as a known pair of points need no look inside.
+class Boxes {
+public:
+  Boxes(const Deviators& x, std::vector<Index> points) : x_(x), points_(std::move(points)) {
+    boxes_.reserve(2 * points_.size() / std::size_t(most_in_box) + 2);
+    add(0, Index(points_.size()));
+  }
+
+  /// The farthest pair of points, or `known` where none is farther apart by more than the slack.
+  Pair farthest(const Pair& known, double slack) {
+    best_ = known;
+    factor_ = (1 + slack) * (1 + slack) * alike;
+    look(0, 0);
+    return best_;
+  }
+
+private:
+  static constexpr Index most_in_box = 8;
+  using Corner = Eigen::Array<double, 5, 1>;
+  struct Box {
+    Index begin, end;             // of the points
+    Index left = -1, right = -1;  // boxes; none: undivided
+    Corner low, high;
+  };
+
+  Index add(Index begin, Index end) {
+    const Index own = Index(boxes_.size());
+    Box box{begin, end, -1, -1, x_.col(points_[std::size_t(begin)]).array(), {}};
+    box.high = box.low;
+    for (Index i = begin; i < end; ++i) {
+      box.low = box.low.min(x_.col(points_[std::size_t(i)]).array());
+      box.high = box.high.max(x_.col(points_[std::size_t(i)]).array());
+    }
+    boxes_.push_back(box);
+    if (end - begin <= most_in_box) return own;
+    Index side = 0;
+    (box.high - box.low).maxCoeff(&side);
+    const Index middle = (begin + end) / 2;
+    std::nth_element(points_.begin() + begin, points_.begin() + middle, points_.begin() + end,
+                     [&](Index a, Index b) { return x_(side, a) < x_(side, b); });
+    const Index left = add(begin, middle), right = add(middle, end);
+    boxes_[std::size_t(own)].left = left;
+    boxes_[std::size_t(own)].right = right;
+    return own;
+  }
+
+  double most_squared(Index a, Index b) const {
+    const Box &one = boxes_[std::size_t(a)], &other = boxes_[std::size_t(b)];
+    return (one.high - other.low).abs().max((other.high - one.low).abs()).square().sum();
+  }
+
+  void look(Index a, Index b) {
+    if (!(most_squared(a, b) > best_.squared * factor_)) return;
+    const Box &one = boxes_[std::size_t(a)], &other = boxes_[std::size_t(b)];
+    if (one.left < 0 && other.left < 0) {
+      for (Index i = one.begin; i < one.end; ++i)
+        for (Index j = other.begin; j < other.end; ++j) {
+          const Index from = points_[std::size_t(i)], to = points_[std::size_t(j)];
+          const double squared = (x_.col(from) - x_.col(to)).squaredNorm();
+          if (squared > best_.squared * alike) best_ = {from, to, squared};
+        }
+      return;
+    }
+    if (a == b) {
+      look(one.left, one.right);
+      look(one.left, one.left);
+      look(one.right, one.right);
+      return;
+    }
+    const bool first =
+        other.left < 0 || (one.left >= 0 && (one.high - one.low).matrix().squaredNorm() >
+                                                (other.high - other.low).matrix().squaredNorm());
+    const Index kept = first ? b : a, left = first ? one.left : other.left,
+                right = first ? one.right : other.right;
+    const bool left_first = most_squared(left, kept) >= most_squared(right, kept);
+    look(left_first ? left : right, kept);
+    look(left_first ? right : left, kept);
+  }
+
+  const Deviators& x_;
+  std::vector<Index> points_;
+  std::vector<Box> boxes_;
+  Pair best_;
+  double factor_ = 1;
+};
 
 /// A pair that beats the known one has a sum of distances from any centre that is larger: from the middle of
-/// the known pair few points are so far out.
+/// the known pair few points are so far out. Of many such points, of a circle or of a shape that is about as
+/// wide in all directions, boxes tell.
 Pair exact_pair(const Deviators& x, Pair best, double slack) {
   const Eigen::Matrix<double, 5, 1> centre = 0.5 * (x.col(best.first) + x.col(best.second));
   const ArrayXd radius = (x.colwise() - centre).colwise().norm().transpose().array();
@@ -59,6 +150,7 @@ Pair exact_pair(const Deviators& x, Pair best, double slack) {
   std::vector<Index> order;  // of those that may have a partner
   for (Index i = 0; i < x.cols(); ++i)
     if (radius[i] > least) order.push_back(i);
+  if (slack > 0 && order.size() > few_points) return Boxes(x, std::move(order)).farthest(best, slack);
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return radius[a] > radius[b]; });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double wanted = (1 + slack) * std::sqrt(best.squared * alike);

@@ -87,6 +87,32 @@ TEST(LargestCycle, WithSlackIsThatOfAllPairsUpToIt) {
   }
 }
 
+// Many instants, of which all may belong to the largest pair: random courses, and a curve that is 2 MPa wide
+// in every direction, h = 1 + cos(3 a) / 10 about its middle, so that no centre tells where the pairs are.
+TEST(LargestCycle, WithSlackIsThatOfAllPairsOfManyInstants) {
+  std::mt19937 random(7);
+  constexpr double slack = 1e-6;
+  for (int trial = 0; trial < 12; ++trial) {
+    const Index n = 401 + 40 * trial;
+    auto history = random_course(random, n);
+    if (trial % 2 == 0)
+      for (Index i = 0; i < n; ++i) {
+        const double a = 2 * M_PI * double(i) / double(n), h = 1 + std::cos(3 * a) / 10,
+                     slope = -0.3 * std::sin(3 * a);
+        history.col(i) << 0, 0, h * std::cos(a) - slope * std::sin(a), 0,
+            (h * std::sin(a) + slope * std::cos(a)) / std::sqrt(3.0), 0;
+        history.col(i) *= 1e6;
+      }
+    const double most = by_all_pairs(history);
+    const double found = pipelines::largest_cycle(history, slack).amplitude_Pa;
+    EXPECT_LE(found, most * (1 + 1e-12)) << trial;
+    EXPECT_GE(found * (1 + slack), most * (1 - 1e-12)) << trial;
+    if (trial % 2 == 0) {
+      EXPECT_NEAR(most, 1e6, 10) << "half of the width, up to (pi / n)^2 / 8";
+    }
+  }
+}
+
 // sigma = S cos t: amplitude S, mean 0. tau = T cos t: sqrt(3) T, whatever its sign does to a principal
 // stress.
 TEST(LargestCycle, OfReversedTensionAndTorsionIsTheirVonMisesStress) {

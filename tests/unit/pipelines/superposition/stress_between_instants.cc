@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "pipelines/superposition/amplitude_bound.h"
 #include "pipelines/superposition/stress_course.h"
 
 namespace {
@@ -93,6 +94,52 @@ TEST(StressBetweenInstants, LargestCyclesOfRandomCourses) {
       most = std::max(most, (x.rightCols(n_dense - i).colwise() - x.col(i)).colwise().norm().maxCoeff() / 2);
     EXPECT_GE(found.cycle.amplitude_Pa, most * (1 - 0.004)) << trial;
     EXPECT_LE(found.cycle.amplitude_Pa, most * (1 + 2e-4)) << trial;
+  }
+}
+
+// Bending S and torsion T, each with an order of its own: along one direction their half axes add up, across
+// each other they add up by squares. Both are reached, so the bound is exact; the mean is that of the static
+// part.
+TEST(AmplitudeBound, OfTwoOrdersIsExactAlongOneDirectionAndAcross) {
+  constexpr double size_Pa = 80e6, other_Pa = 30e6, static_Pa = 11e6;
+  const auto factors = course_of(harmonics(240, {0, 1, 7}, {0, 0.4, 1}));
+  const pipelines::AmplitudeBound bound(factors, ArrayXd::Constant(3, size_Pa));
+  pipelines::UnitStresses unit = pipelines::UnitStresses::Zero(6, 3);
+  unit(2, 0) = static_Pa;
+  unit(2, 1) = size_Pa;
+  unit(4, 2) = other_Pa / std::sqrt(3.0);
+  EXPECT_NEAR(bound.about_mean(unit).radius_Pa, std::hypot(size_Pa, other_Pa), 1e-9 * size_Pa);
+  EXPECT_NEAR(bound.about_mean(unit).mean_Pa, static_Pa, 1e-9 * size_Pa);
+  unit(4, 2) = 0;
+  unit(2, 2) = other_Pa;
+  EXPECT_NEAR(bound.about_mean(unit).radius_Pa, size_Pa + other_Pa, 1e-9 * size_Pa);
+}
+
+// Thirty orders, of which 24 are lines of the bound: no stress at any place is farther from the mean, of
+// random tensors and of a single channel. And the stress from few rows is that from all channels.
+TEST(AmplitudeBound, HoldsForRandomCourses) {
+  std::mt19937 random(53);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 12; ++trial) {
+    std::vector<double> orders, phases;
+    for (int order = 0; order <= 30; ++order) {
+      orders.push_back(order);
+      phases.push_back(3 * normal(random));
+    }
+    const auto factors = course_of(harmonics(121 + trial, orders, phases));
+    pipelines::UnitStresses unit = pipelines::UnitStresses::NullaryExpr(
+        6, Index(orders.size()), [&] { return 1e6 * std::exp(2 * normal(random)) * normal(random); });
+    if (trial % 4 == 0) unit.rightCols(30 - 2 * trial).setZero();
+    const ArrayXd size = unit.colwise().norm().transpose().array();
+    const pipelines::AmplitudeBound bound(factors, size);
+    const auto ball = bound.about_mean(unit);
+    const StressCourse course(unit, factors);
+    const auto x = course.coordinates();
+    const double most = (x.colwise() - x.rowwise().mean()).colwise().norm().maxCoeff();
+    EXPECT_GE(ball.radius_Pa, most * (1 - 1e-12)) << trial;
+    EXPECT_NEAR(ball.mean_Pa, x.rowwise().mean().norm(), 1e-9 * size.maxCoeff()) << trial;
+    const auto from_rows = bound.stress_of(unit, factors);
+    EXPECT_LE((from_rows.stress_Pa() - course.stress_Pa()).abs().maxCoeff(), 1e-9 * size.maxCoeff()) << trial;
   }
 }
 
