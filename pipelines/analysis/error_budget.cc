@@ -1,6 +1,7 @@
 #include "pipelines/analysis/error_budget.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -13,6 +14,10 @@
 
 namespace pipelines {
 namespace {
+
+/// What a finer model than harmonics or a beam would not leave out.
+constexpr std::array<const char*, 5> of_cheaper_models = {"model", "eccentric_segments", "offset_axis",
+                                                          "ovalisation", "spin"};
 
 double sum_of(const std::vector<ErrorEntry>& entries) {
   double sum = 0;
@@ -99,9 +104,15 @@ double ErrorBudget::total_Pa() const {
 
 double ErrorBudget::reducible_Pa() const {
   double sum_Pa = numerical_Pa();
-  for (const char* source : {"model", "eccentric_segments", "offset_axis", "ovalisation", "spin"})
-    sum_Pa += of(source);
+  for (const char* source : of_cheaper_models) sum_Pa += of(source);
   return sum_Pa;
+}
+
+std::string ErrorBudget::largest_reducible() const {
+  std::string result = largest();
+  for (const char* source : of_cheaper_models)
+    if (of(source) > (result.empty() ? 0 : of(result))) result = source;
+  return result;
 }
 
 std::string ErrorBudget::largest() const {

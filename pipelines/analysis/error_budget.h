@@ -47,6 +47,8 @@ struct ErrorBudget {
   double reducible_Pa() const;
   /// Source of the largest numerical entry; empty without any.
   std::string largest() const;
+  /// Source of the largest entry of reducible_Pa; empty without any.
+  std::string largest_reducible() const;
   /// 0 if the budget has no such entry.
   double of(const std::string& source) const;
   /// ErrorEntry::safety of a numerical entry; 1 if there is no such entry.

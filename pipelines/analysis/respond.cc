@@ -27,10 +27,14 @@ std::string key_of(const MeshedBody& meshed, const BodyLoads& loads,
 }
 
 std::filesystem::path kept_responses(const RunOptions& options) {
-  return options.directory / "unit_responses.h5";
+  return options.directory / kept_responses_name(Method::solid);
 }
 
 }  // namespace
+
+std::string kept_responses_name(Method method) {
+  return method == Method::axisymmetric ? "unit_harmonics.h5" : "unit_responses.h5";
+}
 
 int threads(int wanted) {
   return wanted > 0 ? wanted : int(std::max(1u, std::thread::hardware_concurrency()));
@@ -80,7 +84,7 @@ std::string keep_harmonics(const BodyAnalysis& analysis, const RunOptions& optio
     key += text_hash({reinterpret_cast<const char*>(values->data()), sizeof(double) * values->size()}) + '\n';
   clock.run("write", [&] {
     std::filesystem::create_directories(options.directory);
-    write_unit_responses(kept_responses(options), key, responses);
+    write_unit_responses(options.directory / kept_responses_name(analysis.method), key, responses);
   });
   return text_hash(key);
 }

@@ -9,6 +9,9 @@
 
 namespace pipelines {
 
+/// The file in a body's folder that keeps the unit responses of a model; a beam keeps none.
+std::string kept_responses_name(Method method);
+
 struct Answer {
   fem::UnitResponses responses;
   bool reused = false;                ///< taken from an earlier run
@@ -24,8 +27,9 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
 std::string keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
                            const RunOptions& options, StageClock& clock);
 
-/// Leaves the unit responses of harmonics around the axis, at their revolved nodes, in unit_responses.h5 for
-/// whoever reads stress over the cycle. No run takes them again: their key is their own content.
+/// Leaves the unit responses of harmonics around the axis, at their revolved nodes, in unit_harmonics.h5 for
+/// whoever reads stress over the cycle. No run takes them again: their key is their own content. Those of a
+/// solid stay beside them, for its next run.
 /// @return text_hash of the key that they are kept under
 /// @throws FileError naming the file if it cannot be written
 std::string keep_harmonics(const BodyAnalysis& analysis, const RunOptions& options, StageClock& clock);

@@ -134,6 +134,7 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
   analysis.solve_s = solve.count();
   enter_errors(analysis, places);
   if (tolerance > 0) {
+    search.steps.back().errors = analysis.peak.errors;
     search.met = analysis.peak.errors.reducible_Pa() <= tolerance * analysis.peak.value_Pa;
     if (!search.met && search.ended == "the tolerance is met")
       search.ended = "the section is fine enough; what is left is not its error";

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "pipelines/machines/kinds.h"
 #include "pipelines/machines/load_table_reader.h"
 #include "pipelines/scene/plausibility.h"
@@ -27,6 +30,16 @@ public:
   }
   std::vector<kinetics::EffectInfo> effects(const Machine& machine) const override {
     return kinetics::load_table_effects(table_in(machine));
+  }
+  int instants_of_orders(const Machine& machine) const override {
+    constexpr double in_a_period = 4, of_a_kind = 12, most = 100'000;
+    double highest = 0;
+    for (const auto& load : table_in(machine).loads)
+      if (const auto* harmonic = std::get_if<kinetics::HarmonicCourse>(&load.course);
+          harmonic != nullptr && harmonic->amplitude != 0)
+        highest = std::max(highest, harmonic->order);
+    const double instants = of_a_kind * std::ceil(in_a_period * highest / of_a_kind);
+    return instants <= most ? int(instants) : 0;
   }
   bool has_samples() const override { return true; }
   std::vector<kinetics::ResamplingError> resampling_errors(const Machine& machine,

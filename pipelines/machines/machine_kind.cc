@@ -21,6 +21,10 @@ std::optional<kinetics::LoadHistory> MachineKind::rehearse(const Scene& scene) c
                        has_samples() ? scene.sampling : kinetics::TimeGrid{1, 8});
 }
 
+int MachineKind::instants_of_orders(const Machine&) const {
+  return 0;
+}
+
 std::vector<std::string> MachineKind::added_loads(const Scene&) const {
   return {};
 }

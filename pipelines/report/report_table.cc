@@ -80,8 +80,8 @@ void print_search(std::ostream& out, const Search& search) {
   for (const auto& step : search.steps)
     out << fmt::format("    step {:<17}{:>9}{:>9.1f}%{:>11}{:>9.1f}  {}; {}\n", ++n,
                        fixed(step.value_Pa / 1e6, 1),
-                       step.value_Pa > 0 ? 100 * step.errors.numerical_Pa() / step.value_Pa : 0.0,
-                       step.n_dofs, step.seconds, step.errors.largest(), step.fineness);
+                       step.value_Pa > 0 ? 100 * step.errors.reducible_Pa() / step.value_Pa : 0.0,
+                       step.n_dofs, step.seconds, step.errors.largest_reducible(), step.fineness);
   out << fmt::format("  {}: {}", search.met ? "ended" : "NOT MET", search.ended);
   if (search.tolerance > 0) out << fmt::format("; {:.3g} % was asked", 100 * search.tolerance);
   if (search.time_was_up()) out << fmt::format("; the next step needs about {:.0f} s", search.next_seconds);

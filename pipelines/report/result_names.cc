@@ -73,13 +73,13 @@ void refuse_link(const fs::path& folder) {
 
 bool is_body_file(const std::string& name) {
   static const std::regex given(
-      R"(mesh\.msh|unit_responses\.h5|iteration_gave_up\.txt|(zones|zone_tree|hot_spots|fatigue|weld_fatigue|diagrams|torsion|torsion_cycle|element_torques|start_up)\.csv|)"
+      R"(mesh\.msh|unit_(responses|harmonics)\.h5|iteration_gave_up\.txt|(zones|zone_tree|hot_spots|fatigue|weld_fatigue|diagrams|torsion|torsion_cycle|element_torques|start_up)\.csv|)"
       R"(envelope(\.vtu|\.pvtu|\.png|_\d+\.vtu)|cycle\.pvd|cycle_\d+\.vtu)");
   return std::regex_match(name, given);
 }
 
 bool is_kept_file(const std::string& name) {
-  return name == "unit_responses.h5" || name == "iteration_gave_up.txt";
+  return name == "unit_responses.h5" || name == "unit_harmonics.h5" || name == "iteration_gave_up.txt";
 }
 
 void refuse_foreign_files(const fs::path& directory, const std::vector<std::string>& bodies) {

@@ -73,11 +73,9 @@ bool is_whole_or_gone(const fs::path& kept, const std::string& key_hash) {
 /// What the manifest does not list: the page, which anybody may make anew, and what is kept for later runs.
 bool is_rest_whole(const fs::path& directory, const std::vector<std::string>& bodies,
                    const RunRecord& record) {
+  for (const auto& [file, key_hash] : record.kept_under)
+    if (!is_whole_or_gone(directory / file, key_hash)) return false;
   for (const auto& body : bodies) {
-    const auto kept = record.kept_under.find(body);
-    if (kept != record.kept_under.end() &&
-        !is_whole_or_gone(directory / body / "unit_responses.h5", kept->second))
-      return false;
     if (!is_whole_or_gone(directory / body / "iteration_gave_up.txt", "")) return false;
   }
   return text_of_file(directory / "report.html") == html_report(directory, directory / "accuracy");

@@ -12,6 +12,7 @@
 #include <regex>
 #include <set>
 
+#include "pipelines/analysis/respond.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
@@ -75,10 +76,10 @@ double cell_size_m(const fem::Nodes& nodes, std::size_t node) {
 std::size_t node_at(const RunBody& body, const std::array<double, 3>& position_m) {
   const auto nearest = nearest_node(body.responses.nodes, position_m);
   if (nearest.distance_m > 1e-9)
-    throw FileError(
-        fmt::format("{}/unit_responses.h5: no node is at ({:.6g}, {:.6g}, {:.6g}) m, where the "
-                    "run's summary.json has a place: the file is of another run; run the scene with --fresh",
-                    body.name, position_m[0], position_m[1], position_m[2]));
+    throw FileError(fmt::format(
+        "{}: among the kept unit responses no node is at ({:.6g}, {:.6g}, {:.6g}) m, where the "
+        "run's summary.json has a place: the kept ones are of another run; run the scene with --fresh",
+        body.name, position_m[0], position_m[1], position_m[2]));
   return nearest.node;
 }
 
@@ -377,13 +378,15 @@ StressHistories read_stress_histories(const std::filesystem::path& results,
   histories.drive_angle_rad = column(loads, "/phi");
   std::vector<RunBody> bodies;
   for (const auto& [name, json] : summary.at("bodies").items()) {
-    const auto file = results / name / "unit_responses.h5";
-    if (json.value("method", "solid") == "beam") {  // the file may be there, of a run before
+    const std::string method = json.value("method", "solid");
+    const auto file = results / name / kept_responses_name(method_of(method).value_or(Method::solid));
+    if (method == "beam") {  // the file may be there, of a run before
       histories.left_out.push_back(name + ": a beam keeps no unit responses; --method solid does");
       continue;
     }
     if (!std::filesystem::exists(file)) {
-      histories.left_out.push_back(name + ": unit_responses.h5 was removed; run --fresh makes it");
+      histories.left_out.push_back(name + ": " + file.filename().string() +
+                                   " was removed; run --fresh makes it");
       continue;
     }
     auto responses = read_unit_responses(file, Hdf5Reader(file).text_attribute("/", "key"));

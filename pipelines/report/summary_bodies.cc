@@ -53,7 +53,7 @@ Json search_json(const Search& search) {
                                     {"dofs", step.n_dofs},
                                     {"value_Pa", number(step.value_Pa)},
                                     {"error", budget_json(step.errors)},
-                                    {"dominated_by", step.errors.largest()}}));
+                                    {"dominated_by", step.errors.largest_reducible()}}));
   return json;
 }
 

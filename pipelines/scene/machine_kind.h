@@ -57,6 +57,9 @@ public:
 
   // ---- Loads ----
 
+  /// Instants per turn that tell the highest order of the machine's loads whole, four in its period; 0 where
+  /// the scene does not state orders.
+  virtual int instants_of_orders(const Machine& machine) const;
   /// The effects that the machine knows under its convention, in the order of summation.
   virtual std::vector<kinetics::EffectInfo> effects(const Machine& machine) const = 0;
   /// Over the scene's period, or its run-up.

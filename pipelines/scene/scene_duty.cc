@@ -74,11 +74,22 @@ std::optional<TomlNode> tree_of_block(const TomlNode& tree, std::size_t block, c
   return version;
 }
 
+bool sets_sampling(const TomlNode& block) {
+  const auto* set = block.find("set");
+  return set != nullptr &&
+         std::any_of(set->value.entries.begin(), set->value.entries.end(), [](const TomlEntry& entry) {
+           return entry.key.substr(0, entry.key.find('.')) == "sampling";
+         });
+}
+
 /// Nothing where the block's version is refused.
-std::shared_ptr<const Scene> scene_of_block(const TomlNode& version, const Scene& scene,
-                                            const std::string& name, SceneFindings& findings) {
+/// @param block  its table
+std::shared_ptr<const Scene> scene_of_block(const TomlNode& version, const TomlNode& block,
+                                            const Scene& scene, const std::string& name,
+                                            SceneFindings& findings) {
   VersionReading reading;
   reading.has_notes = false;
+  reading.takes_instants_of_orders = !sets_sampling(block);
   try {
     return std::make_shared<const Scene>(read_scene(scene.file, version, {}, reading));
   } catch (const SceneError& error) {
@@ -130,7 +141,7 @@ void read_duty(SceneTable& root, const TomlNode& tree, Scene& scene, SceneFindin
       continue;
     }
     if (!version || !findings.errors.empty()) continue;
-    block.scene = scene_of_block(*version, scene, block.name, findings);
+    block.scene = scene_of_block(*version, tree.find("duty")->value.items[i], scene, block.name, findings);
     if (block.scene) scene.duty.push_back(std::move(block));
   }
   const bool is_used = !scene.bearings.empty() || std::any_of(scene.bodies.begin(), scene.bodies.end(),

@@ -122,6 +122,9 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
   SceneReading reading{root, machine, scene, findings, {}};
   kind->read(reading);
   scene.sampling = read_sampling(root.table_or_empty("sampling"), scene, findings);
+  if (version.takes_instants_of_orders && findings.errors.empty())
+    scene.sampling.instants_per_turn =
+        std::max(scene.sampling.instants_per_turn, kind->instants_of_orders(scene.machine));
   std::vector<SceneTable> bodies = reading.bodies ? *reading.bodies : read_bodies(root, scene, findings);
   if (bodies.empty() && (root.has("zones") || root.has("results")))
     findings.warnings.push_back("without a body ([shaft], [chamber] ...) [zones] and [results] have no use");

@@ -26,6 +26,8 @@ struct VersionReading {
   /// The caller runs the load stage at once and, if that or a bearing's load is refused, reads again without
   /// this: the reader does not compute loads of its own.
   bool loads_follow = false;
+  /// Of an operating block that leaves the sampling to the scene: as many instants as its own orders ask for.
+  bool takes_instants_of_orders = false;
 };
 
 /// As read_scene of the file.

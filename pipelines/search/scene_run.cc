@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <new>
 #include <set>
@@ -75,7 +77,7 @@ public:
       agree_at_last();
     for (std::size_t k = 0; options_.keep && k < run_.analyses.size(); ++k)
       if (run_.analyses[k].method == Method::axisymmetric)  // not before: later bodies may change the loads
-        run_.kept_under[run_.analyses[k].scene.name] =
+        run_.kept_under[run_.analyses[k].scene.name + '/' + kept_responses_name(Method::axisymmetric)] =
             keep_harmonics(run_.analyses[k], options_of(options_.only.value_or(k)), clock_);
     for (auto& analysis : run_.analyses) clock_.run("zones", [&] { add_zones(run_.scene.zones, analysis); });
     for (auto& analysis : run_.analyses) add_fatigue(analysis);
@@ -115,9 +117,9 @@ private:
   /// not met.
   BodyAnalysis solve(std::size_t i) {
     if (is_without_mesh(i)) {
-      if (run_.scene.method != Method::automatic) return analyse(i);
+      if (run_.scene.method != Method::automatic) return search_without_mesh(i);
       std::optional<BodyAnalysis> analysis;
-      const auto refusal = refusal_of([&] { analysis = analyse(i); });
+      const auto refusal = refusal_of([&] { analysis = search_without_mesh(i); });
       if (refusal.empty()) {
         const auto stress = governing_stress(*analysis);
         if (stress.errors.reducible_Pa() <= tolerance() * stress.value_Pa) return std::move(*analysis);
@@ -130,6 +132,44 @@ private:
       exchange_mesh(i, first_mesh(i));
     }
     return is_search() ? search_mesh(i) : solve_once(i);
+  }
+
+  /// Harmonics or a beam; while instants or pressure harmonics alone hold the tolerance back, anew with more
+  /// of them.
+  BodyAnalysis search_without_mesh(std::size_t i) {
+    constexpr double least_gain = 0.75;
+    const double end_s = end_of(i);
+    double before_s = seconds_since(start_), before_share = std::numeric_limits<double>::infinity();
+    auto analysis = analyse(i);
+    while (tolerance() > 0) {
+      const auto stress = governing_stress(analysis);
+      const double of_loads_Pa = stress.errors.of("time_sampling") + stress.errors.of("pressure_harmonics");
+      const double rest_Pa = stress.errors.reducible_Pa() - of_loads_Pa,
+                   most_Pa = tolerance() * stress.value_Pa;
+      const double share = stress.value_Pa > 0 ? of_loads_Pa / stress.value_Pa : 0;
+      if (rest_Pa + of_loads_Pa <= most_Pa || rest_Pa > most_Pa || share > least_gain * before_share) break;
+      const double now_s = seconds_since(start_);
+      if (end_s > 0 && now_s + (now_s - before_s) > end_s) {
+        analysis.search.ended = "the time is up";
+        analysis.search.next_seconds = now_s - before_s;
+        break;
+      }
+      Scene next = run_.scene;
+      if (!refine_sampling_and_harmonics(next, i, stress, analysis.loads.history).possible) break;
+      before_s = now_s, before_share = share;
+      run_.scene = std::move(next);
+      exchange_mesh(i, MeshedBody(run_.loaded.meshed[i]));
+      auto steps = std::move(analysis.search.steps);
+      analysis = analyse(i);
+      prepend_steps(std::move(steps), analysis.search);
+    }
+    return analysis;
+  }
+
+  static void prepend_steps(std::vector<SearchStep> before, Search& search) {
+    before.insert(before.end(), std::make_move_iterator(search.steps.begin()),
+                  std::make_move_iterator(search.steps.end()));
+    search.steps = std::move(before);
   }
 
   MeshedBody mesh(std::size_t i, const MeshedBody* coarse = nullptr) {
@@ -165,7 +205,7 @@ private:
 
   void finish(std::size_t i, BodyAnalysis& analysis) {
     if (options_.keep && !is_without_mesh(i))
-      run_.kept_under[run_.scene.bodies[i].name] =
+      run_.kept_under[run_.scene.bodies[i].name + '/' + kept_responses_name(Method::solid)] =
           keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
     add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
     if (analysis.vibration)
@@ -435,7 +475,12 @@ private:
     load(std::move(meshed));
     for (std::size_t i = 0; i < n_bodies(); ++i) {
       if (is_without_mesh(i)) {  // cheap, and its errors follow from its own steps
+        auto steps = std::move(run_.analyses[i].search.steps);
         run_.analyses[i] = analyse(i);
+        const auto n_own = run_.analyses[i].search.steps.size();
+        steps.resize(steps.size() -
+                     std::min(steps.size(), n_own));  // the last ones are those of the same scene
+        prepend_steps(std::move(steps), run_.analyses[i].search);
         bound_dropped_effects(run_.scene, i, run_.loaded, run_.analyses[i]);
         continue;
       }

@@ -32,9 +32,10 @@ struct SceneRunOptions {
 struct SceneRun {
   Scene scene;  ///< with the meshes, instants and harmonics that were chosen
   LoadedScene loaded;
-  std::vector<BodyAnalysis> analyses;             ///< in the order of Scene::bodies, or of the only body
-  std::shared_ptr<const StartUp> start_up;        ///< loads of a start that the scene asks for; else null
-  std::map<std::string, std::string> kept_under;  ///< of bodies with kept unit responses: hash of their key
+  std::vector<BodyAnalysis> analyses;       ///< in the order of Scene::bodies, or of the only body
+  std::shared_ptr<const StartUp> start_up;  ///< loads of a start that the scene asks for; else null
+  /// Files of unit responses that were kept, as "body/file": hash of their key.
+  std::map<std::string, std::string> kept_under;
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   SceneRun();
@@ -55,7 +56,8 @@ struct SceneRun {
 
 /// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the
 /// solve (effect_bounds.h) exceed the limit all the same, one comes back and the bodies are run again.
-/// Leaves mesh.msh and unit_responses.h5 in the bodies' folders. Needs an fem::Environment.
+/// Leaves mesh.msh and unit_responses.h5, or unit_harmonics.h5, in the bodies' folders. Needs an
+/// fem::Environment.
 /// @throws as load_bodies and analyse_body, before any earlier
 /// result is touched where the scene is wrong
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock);

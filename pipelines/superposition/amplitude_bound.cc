@@ -22,6 +22,9 @@ constexpr std::array<double, 3> powers = {1, 1.5, 2};
 /// Of the largest channel: what rows may leave; nothing beside the slack of searches.
 constexpr double same_row = 1e-10;
 
+/// Of these alone copies are made.
+constexpr Index places_at_once = 4096;
+
 /// An eigenvalue in single steps of rounding.
 constexpr double rounding = 1e-12;
 
@@ -33,30 +36,56 @@ double largest_eigenvalue(const Matrix5& matrix) {
 
 AmplitudeBound::AmplitudeBound(const FactorCourse& course, const Eigen::ArrayXd& size)
     : mean_(course.fine().rowwise().mean().matrix()), lines_(course.strongest().matrix()) {
-  const Index n = course.fine().cols(), n_lines = lines_.cols();
-  Eigen::MatrixXd waves(2 * n_lines, n);
-  for (Index l = 0; l < n_lines; ++l)
-    for (Index i = 0; i < n; ++i) {
-      const double angle = 2 * M_PI * std::fmod(course.orders()[l] * double(i), double(n)) / double(n);
-      waves(2 * l, i) = std::cos(angle);
-      waves(2 * l + 1, i) = -std::sin(angle);
-    }
-  Eigen::MatrixXd amplitudes(lines_.rows(), 2 * n_lines);
-  for (Index l = 0; l < n_lines; ++l) {
-    amplitudes.col(2 * l) = lines_.col(l).real();
-    amplitudes.col(2 * l + 1) = lines_.col(l).imag();
-  }
-  const Eigen::MatrixXd about_mean = course.fine().matrix().colwise() - mean_;
-  rest_ = (about_mean - amplitudes * waves).array().abs().rowwise().maxCoeff();
+  const auto& fine = course.fine();
+  const Index n = fine.cols(), n_channels = fine.rows(), n_lines = lines_.cols();
+  Eigen::MatrixXd amplitudes(n_channels, 2 * n_lines);
+  amplitudes << lines_.real(), lines_.imag();
   const Eigen::VectorXd scale = (size > 0).select(size, 0).matrix();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> reduced(about_mean.transpose() * scale.asDiagonal());
+  rest_ = Eigen::ArrayXd::Zero(n_channels);
+  Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(n_channels, n_channels);  // R of all places so far
+  for (Index first = 0; first < n; first += places_at_once) {
+    const Index m = std::min(places_at_once, n - first);
+    const Eigen::MatrixXd about_mean = fine.middleCols(first, m).matrix().colwise() - mean_;
+    Eigen::MatrixXd waves(2 * n_lines, m);
+    for (Index l = 0; l < n_lines; ++l)
+      for (Index i = 0; i < m; ++i) {
+        const double angle =
+            2 * M_PI * std::fmod(course.orders()[l] * double(first + i), double(n)) / double(n);
+        waves(l, i) = std::cos(angle);
+        waves(n_lines + l, i) = -std::sin(angle);
+      }
+    rest_ = rest_.max((about_mean - amplitudes * waves).array().abs().rowwise().maxCoeff());
+    Eigen::MatrixXd stacked(n_channels + m, n_channels);
+    stacked << triangle, about_mean.transpose() * scale.asDiagonal();
+    triangle = Eigen::HouseholderQR<Eigen::MatrixXd>(stacked).matrixQR().topRows(n_channels);
+    triangle.triangularView<Eigen::StrictlyLower>().setZero();
+  }
+  take_rows(fine, triangle, scale);
+}
+
+/// Channels by pivots, the others as sums of these.
+void AmplitudeBound::take_rows(const Eigen::ArrayXXd& fine, const Eigen::MatrixXd& triangle,
+                               const Eigen::VectorXd& scale) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> reduced(triangle);
   reduced.setThreshold(same_row);
-  const Index rank = reduced.rank();
-  const Eigen::MatrixXd rows = reduced.householderQ() * Eigen::MatrixXd::Identity(n, rank);
-  of_rows_.resize(size.size(), rank + 1);
-  of_rows_ << about_mean * rows, mean_;
-  rows_.resize(rank + 1, n);
-  rows_ << rows.transpose(), Eigen::RowVectorXd::Ones(n);
+  const Index n_channels = fine.rows(), rank = reduced.rank();
+  const auto& pivots = reduced.colsPermutation().indices();
+  const Eigen::MatrixXd sums = reduced.matrixR()
+                                   .topLeftCorner(rank, rank)
+                                   .triangularView<Eigen::Upper>()
+                                   .solve(reduced.matrixR().topRightCorner(rank, n_channels - rank));
+  rows_.resize(rank + 1, fine.cols());
+  of_rows_ = Eigen::MatrixXd::Zero(n_channels, rank + 1);
+  for (Index row = 0; row < rank; ++row) {
+    const Index own = pivots[row];
+    rows_.row(row) = (fine.row(own) - mean_[own]).matrix();
+    of_rows_(own, row) = 1;
+    for (Index i = rank; i < n_channels; ++i)
+      if (const Index other = pivots[i]; scale[other] > 0)
+        of_rows_(other, row) = sums(row, i - rank) * scale[own] / scale[other];
+  }
+  rows_.row(rank).setOnes();
+  of_rows_.col(rank) = mean_;
 }
 
 StressBall AmplitudeBound::about_mean(const UnitStresses& unit_Pa) const {

@@ -40,10 +40,12 @@ public:
   StressCourse stress_of(const UnitStresses& unit_Pa, const FactorCourse& course) const;
 
 private:
+  void take_rows(const Eigen::ArrayXXd& fine, const Eigen::MatrixXd& triangle, const Eigen::VectorXd& scale);
+
   Eigen::VectorXd mean_;     // of each channel
   Eigen::MatrixXcd lines_;   // channels x lines
   Eigen::ArrayXd rest_;      // of each channel: what mean and lines leave, at any place
-  Eigen::MatrixXd rows_;     // orthonormal, without the mean, and ones for it: rows x places
+  Eigen::MatrixXd rows_;     // of some channels without their means, and ones: rows x places
   Eigen::MatrixXd of_rows_;  // channels x rows
 };
 

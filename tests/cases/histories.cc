@@ -195,6 +195,28 @@ TEST(Histories, AreOfTheRunThatIsAskedFor) {
   EXPECT_FALSE(fs::exists(directory / "none"));
 }
 
+// Harmonics keep their unit responses beside those of a solid. Red if one takes the other's place: the solid
+// would be solved again, or a history would be of the other model.
+TEST(Histories, HarmonicsLeaveASolidsResponses) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml",
+        small_shaft(fixed_in_space("pull", "middle", "100 N"), "mm", "600 rpm", ""));
+  const auto run = [&](const std::string& method) {
+    const auto outcome = millstress(directory.path, "run scene.toml --tolerance none --method " + method);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return summary(directory / "results/scene")["bodies"]["shaft"]["peak_von_mises"]["value"].get<double>();
+  };
+  const auto kept = directory / "results/scene/shaft/unit_responses.h5";
+  const double solid_Pa = run("solid");
+  const auto before = fs::last_write_time(kept);
+  const double harmonics_Pa = run("axisymmetric");
+  EXPECT_TRUE(fs::exists(directory / "results/scene/shaft/unit_harmonics.h5"));
+  const auto json = history(directory.path, "--tolerance none --method axisymmetric");
+  EXPECT_NEAR(json["points"][0]["von_mises_max_Pa"].get<double>(), harmonics_Pa, 1e-9 * harmonics_Pa);
+  EXPECT_EQ(run("solid"), solid_Pa);
+  EXPECT_EQ(fs::last_write_time(kept), before) << "taken, not solved again";
+}
+
 // The toes' stress is extrapolated from two nodes; the run's range across the toe is that of its tensor.
 TEST(Histories, WeldToesHaveTheExtrapolatedStress) {
   const results_test::Directory directory;

@@ -47,22 +47,36 @@ Json run(const fs::path& directory, const std::string& scene) {
 
 }  // namespace
 
-// A block that turns torsion's order from 1 to 9 at 24 instants: its damage is nine times that of the
-// scene's own running. Turns red: blocks on the instants of the scene, which meet 9 periods in 24.
+// A block that turns torsion's order from 1 to 9, or 20, at 24 instants: its damage is that many times that
+// of the scene's own running. Turns red: blocks on the instants of the scene, which meet 9 periods in 24 and
+// cannot tell 20 from 4. A block that gives its own instants has these, and is refused where they are too
+// few.
 TEST(OperatingBlocks, TakeTheInstantsThatTheirOrdersAskFor) {
-  const results_test::Directory directory;
-  const auto scene =
-      "method = \"solid\"\ntolerance = \"none\"\n" +
-      small_shaft({{"drive", "middle.torque", "45 N m", 1}}, "mm", "600 rpm", "pressure_harmonics = 0") +
-      fatigue + block("mesh", "100 %", "set.\"machine.harmonics[1].order\" = 9\n");
-  const auto json = run(directory.path, scene);
-  const auto own = json["bodies"]["shaft"]["fatigue"]["places"][0];
-  ASSERT_FALSE(own["life_h"].is_null());
-  const double life_h = own["life_h"], block_h = first_place(json)["life_h"];
-  EXPECT_NEAR(block_h, life_h / 9, 1e-5 * block_h) << "turning points to 1e-6, to the fifth power";
-  const auto stress = json["duty"]["blocks"]["mesh"]["bodies"]["shaft"];
-  EXPECT_LT(stress["time_sampling"]["value"].get<double>(),
-            1e-9 * stress["von_mises"]["value"].get<double>());
+  for (const int order : {9, 20}) {
+    const results_test::Directory directory;
+    const auto with = [&](const std::string& keys) {
+      return "method = \"solid\"\ntolerance = \"none\"\n" +
+             small_shaft({{"drive", "middle.torque", "45 N m", 1}}, "mm", "600 rpm",
+                         "pressure_harmonics = 0") +
+             fatigue +
+             block("mesh", "100 %",
+                   "set.\"machine.harmonics[1].order\" = " + std::to_string(order) + "\n" + keys);
+    };
+    if (order == 20) {
+      write(directory / "scene.toml", with("set.sampling.instants_per_turn = 36\n"));
+      const auto refused = millstress(directory.path, "check scene.toml");
+      EXPECT_EQ(refused.exit_code, 2) << refused.out;
+      EXPECT_NE(refused.err.find("take more than 40 instants per turn"), std::string::npos) << refused.err;
+    }
+    const auto json = run(directory.path, with(""));
+    const auto own = json["bodies"]["shaft"]["fatigue"]["places"][0];
+    ASSERT_FALSE(own["life_h"].is_null());
+    const double life_h = own["life_h"], block_h = first_place(json)["life_h"];
+    EXPECT_NEAR(block_h, life_h / order, 1e-5 * block_h) << "turning points to 1e-6, to the fifth power";
+    const auto stress = json["duty"]["blocks"]["mesh"]["bodies"]["shaft"];
+    EXPECT_LT(stress["time_sampling"]["value"].get<double>(),
+              1e-9 * stress["von_mises"]["value"].get<double>());
+  }
 }
 
 // Two blocks and standstill: each block does the damage that its force does alone, for its share of the
