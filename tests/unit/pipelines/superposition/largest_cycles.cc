@@ -87,15 +87,21 @@ TEST(LargestCycle, WithSlackIsThatOfAllPairsUpToIt) {
   }
 }
 
-// Many instants, of which all may belong to the largest pair: random courses, and a curve that is 2 MPa wide
-// in every direction, h = 1 + cos(3 a) / 10 about its middle, so that no centre tells where the pairs are.
+// Many instants, of which all may belong to the largest pair: random courses, random directions, and a curve
+// that is 2 MPa wide in every direction, h = 1 + cos(3 a) / 10 about its middle, so that no centre tells
+// where the pairs are.
 TEST(LargestCycle, WithSlackIsThatOfAllPairsOfManyInstants) {
   std::mt19937 random(7);
   constexpr double slack = 1e-6;
-  for (int trial = 0; trial < 12; ++trial) {
-    const Index n = 401 + 40 * trial;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Index n = 241 + 40 * (trial % 10);
     auto history = random_course(random, n);
-    if (trial % 2 == 0)
+    if (trial % 3 == 1) {  // directions at random, all of one size
+      history = ArrayXXd::NullaryExpr(6, n, [&] { return std::normal_distribution<double>()(random); });
+      for (Index i = 0; i < n; ++i)
+        history.col(i) *= 1e6 / pipelines::von_mises_Pa(stress_at_instant(history, i));
+    }
+    if (trial % 3 == 0)
       for (Index i = 0; i < n; ++i) {
         const double a = 2 * M_PI * double(i) / double(n), h = 1 + std::cos(3 * a) / 10,
                      slope = -0.3 * std::sin(3 * a);
@@ -107,8 +113,8 @@ TEST(LargestCycle, WithSlackIsThatOfAllPairsOfManyInstants) {
     const double found = pipelines::largest_cycle(history, slack).amplitude_Pa;
     EXPECT_LE(found, most * (1 + 1e-12)) << trial;
     EXPECT_GE(found * (1 + slack), most * (1 - 1e-12)) << trial;
-    if (trial % 2 == 0) {
-      EXPECT_NEAR(most, 1e6, 10) << "half of the width, up to (pi / n)^2 / 8";
+    if (trial % 3 == 0) {
+      EXPECT_NEAR(most, 1e6, 25) << "half of the width, up to (pi / n)^2 / 8";
     }
   }
 }
