@@ -33,7 +33,7 @@ struct WeldPlace {
 
   /// Of a series that is no period of a polynomial.
   ToeStress stress(const Eigen::ArrayXXd& factors) const {
-    return toe_stress(unit_Pa * factors.matrix(), surface_normal, across_toe);
+    return toe_stress(unit_Pa * factors.matrix(), surface_normal, across_toe, detail);
   }
 
   /// By how much half a range may be larger than its instants tell, or the polynomial through them, as a

@@ -10,24 +10,22 @@
 namespace pipelines {
 namespace {
 
-constexpr double slope_above_knee = 3;
-
 /// The three stresses in the surface: along the toe's normal, along the toe, shear.
 struct SurfaceHistory {
   Eigen::ArrayXd across_Pa, along_Pa, shear_Pa;
+  SnCurve curve;  ///< for cycles of unlike size
 
   Eigen::ArrayXd at(double angle_rad) const {
     const double c = std::cos(angle_rad), s = std::sin(angle_rad);
     return c * c * across_Pa + s * s * along_Pa + 2 * s * c * shear_Pa;
   }
-  /// The range that does the damage of all cycles at once.
+  /// Of one cycle that does the damage of all.
   double range_at(double angle_rad) const {
-    const auto cycles = kinetics::rainflow_repeating(at(angle_rad));
-    double largest = 0, sum = 0;
-    for (const auto& cycle : cycles) largest = std::max(largest, cycle.range);
-    if (!(largest > 0)) return 0;
-    for (const auto& cycle : cycles) sum += cycle.count * std::pow(cycle.range / largest, slope_above_knee);
-    return largest * std::pow(sum, 1 / slope_above_knee);
+    std::vector<StressBlock> blocks;
+    for (const auto& cycle : kinetics::rainflow_repeating(at(angle_rad)))
+      blocks.push_back({cycle.range, cycle.count});
+    const double damage = miner_damage(curve, blocks);
+    return damage > 0 ? endured_amplitude_Pa(curve, 1 / damage) : 0;
   }
 };
 
@@ -78,7 +76,7 @@ double thickness_factor(double thickness_m, double exponent) {
 SnCurve weld_curve(const WeldDetail& detail, LoadAmplitude amplitude) {
   require_input_between("fat_Pa", detail.fat_Pa, 1e6, 500e6);
   require_input_between("gamma_M", detail.gamma_M, 1, 2);
-  constexpr double class_cycles = 2e6, knee_cycles = 1e7, slope = slope_above_knee;
+  constexpr double class_cycles = 2e6, knee_cycles = 1e7, slope = 3;
   const double at_class_Pa =
       thickness_factor(detail.thickness_m, detail.thickness_exponent) * detail.fat_Pa / detail.gamma_M;
   return {at_class_Pa * std::pow(class_cycles / knee_cycles, 1 / slope), knee_cycles, slope,
@@ -94,7 +92,8 @@ double weld_damage(const WeldDetail& detail, LoadAmplitude amplitude,
 }
 
 ToeStress toe_stress(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
-                     const Eigen::Vector3d& surface_normal, const Eigen::Vector3d& toe_normal) {
+                     const Eigen::Vector3d& surface_normal, const Eigen::Vector3d& toe_normal,
+                     const WeldDetail& detail) {
   if (history_Pa.cols() == 0) throw std::invalid_argument("history_Pa: holds no instants; give at least one");
   if (!history_Pa.allFinite()) throw std::invalid_argument("history_Pa: holds a value that is not finite");
   const Eigen::Vector3d n = surface_normal.normalized();
@@ -103,7 +102,8 @@ ToeStress toe_stress(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
     throw std::invalid_argument("toe_normal: must have a part in the surface; both normals must not be zero");
   const Eigen::Vector3d u = in_surface.normalized(), v = n.cross(u);
   const SurfaceHistory history{history_between(history_Pa, u, u), history_between(history_Pa, v, v),
-                               history_between(history_Pa, u, v)};
+                               history_between(history_Pa, u, v),
+                               weld_curve(detail, LoadAmplitude::variable)};
   const double degree = std::acos(-1.0) / 180;
   constexpr int step = 3, n_steps = 20;  // of three degrees, to 60 either way
   constexpr double sector = n_steps * step;

@@ -65,19 +65,20 @@ struct ToeStress {
 
 /// Stress range across a toe. IIW: the principal stress in the surface, if its direction is within 60 degrees
 /// of the toe's normal, else the stress normal to the toe. Over a cycle with turning principal directions
-/// this is read as: of the fixed directions within 60 degrees, one where the counted cycles of the normal
-/// stress have a maximum of (sum of range^3)^(1/3), which their damage goes by above the knee (the end of the
-/// sector is none), if it is not less than that normal to the toe. With one cycle in the period that is the
-/// direction of the largest range; with proportional stress it is the principal stress itself, and there are
-/// no jumps between two of them.
+/// this is read as: of the fixed directions within 60 degrees, one where the damage of the counted cycles of
+/// the normal stress has a maximum (the end of the sector is none), if it is not less than that normal to the
+/// toe. With one cycle in the period that is the direction of the largest range; with proportional stress it
+/// is the principal stress itself, and there are no jumps between two of them.
 /// @param history_Pa      structural stress, rows xx, yy, zz, xy, yz, xz, a column for each instant of a
 /// period
 /// @param surface_normal  need not have unit length
 /// @param toe_normal      across the toe; its part in the surface counts
-/// @throws std::invalid_argument if the history is empty or not finite, or the toe's normal has no part in
-/// the
+/// @param detail          whose S-N curve for variable amplitude tells the damage
+/// @throws std::invalid_argument as weld_curve, if the history is empty or not finite, or the toe's normal
+/// has no part in the
 ///         surface
 ToeStress toe_stress(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
-                     const Eigen::Vector3d& surface_normal, const Eigen::Vector3d& toe_normal);
+                     const Eigen::Vector3d& surface_normal, const Eigen::Vector3d& toe_normal,
+                     const WeldDetail& detail);
 
 }  // namespace pipelines

@@ -49,7 +49,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> at_angle(double degrees) {
 
 TEST(WeldFatigue, PrincipalWithin60Degrees) {
   const auto toe = [](double degrees) {
-    return toe_stress(at_angle(degrees), Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(3, 0, 1));
+    return toe_stress(at_angle(degrees), Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(3, 0, 1), {});
   };
   for (const double degrees : {-59.0, -20.0, 0.0, 45.0, 59.0}) {
     const ToeStress stress = toe(degrees);
@@ -70,11 +70,38 @@ TEST(WeldFatigue, PrincipalWithin60Degrees) {
 TEST(WeldFatigue, ShearCountsByItsPrincipalStress) {
   Eigen::Matrix<double, 6, Eigen::Dynamic> h = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 4);
   h.row(3) << 0, 30, 0, -30;
-  const ToeStress stress = toe_stress(h, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX());
+  const ToeStress stress = toe_stress(h, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), {});
   EXPECT_TRUE(stress.is_principal);
   EXPECT_NEAR(std::abs(stress.angle_rad), M_PI / 4, 1e-6);
   EXPECT_NEAR(stress.cycles.at(0).range, 60, 1e-10);
-  EXPECT_THROW(toe_stress(h, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitZ()), std::invalid_argument);
+  EXPECT_THROW(toe_stress(h, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitZ(), {}), std::invalid_argument);
+}
+
+// One large cycle across the toe, ten of 0.6 times its range at 45 degrees: below the knee the fifth powers
+// of the ranges do the damage and the large cycle leads, above it the third powers, and the many do.
+TEST(WeldFatigue, TheDirectionOfMostDamageGoverns) {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> h = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 360);
+  for (int i = 0; i < 360; ++i) {
+    const double slow = 5e6 * std::cos(2 * M_PI * i / 360), fast = 3e6 * std::cos(10 * 2 * M_PI * i / 360);
+    h(0, i) = slow + 0.5 * fast;
+    h(1, i) = h(3, i) = 0.5 * fast;
+  }
+  const WeldDetail detail;
+  std::vector<double> angles;
+  for (const double factor : {1.0, 30.0}) {
+    const auto toe = toe_stress(factor * h, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), detail);
+    const double damage = weld_damage(detail, LoadAmplitude::variable, toe.cycles);
+    for (int degrees = -60; degrees <= 60; ++degrees) {
+      const double c = std::cos(degrees * M_PI / 180), s = std::sin(degrees * M_PI / 180);
+      const Eigen::ArrayXd along =
+          factor * (c * c * h.row(0) + s * s * h.row(1) + 2 * s * c * h.row(3)).transpose().array();
+      EXPECT_GE(damage * (1 + 1e-9),
+                weld_damage(detail, LoadAmplitude::variable, kinetics::rainflow_repeating(along)))
+          << factor << ' ' << degrees;
+    }
+    angles.push_back(toe.angle_rad);
+  }
+  EXPECT_LT(angles[0], 0.5 * angles[1]);
 }
 
 }  // namespace
