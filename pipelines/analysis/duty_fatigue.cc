@@ -284,7 +284,7 @@ private:
     std::vector<std::array<double, 6>> tensors(std::size_t(unit_Pa.cols()));
     for (Index k = 0; k < unit_Pa.cols(); ++k)
       std::copy_n(unit_Pa.col(k).data(), 6, tensors[std::size_t(k)].begin());
-    return time_sampling(tensors, starting).error_Pa() / amplitude_Pa;
+    return time_sampling(tensors, starting, SeriesKind::transient).error_Pa() / amplitude_Pa;
   }
 
   static double amplitude_and_mean_Pa(const StressCycle& cycle) {
@@ -349,8 +349,13 @@ private:
     };
     const auto directions =
         damage_directions(sequence.coordinates(), direction_of(cycle.half_range_Pa), added);
-    const auto worst = *std::max_element(directions.begin(), directions.end(),
-                                         [&](const auto& a, const auto& b) { return added(a) < added(b); });
+    DeviatoricDirection worst = directions.front();
+    double most = -std::numeric_limits<double>::infinity();
+    for (const auto& direction : directions)
+      if (const double damage = added(direction); damage > most) {
+        most = damage;
+        worst = direction;
+      }
     WeighedCycles in_start{sequence.cycles_along(worst), {}}, in_running{running.cycles_along(worst), {}};
     for (auto* weighed : {&in_start, &in_running})
       weighed->blocks = in_a_second(rules_.counted(weighed->cycles, limit), block.starts_per_s);

@@ -25,7 +25,8 @@ constexpr double no_line = 1e-12;
 constexpr double no_excess = 64 * std::numeric_limits<double>::epsilon();
 
 /// @param values  coordinates x instants, of size 1
-CycleExtreme extreme_of(const ArrayXXd& values) {
+CycleExtreme extreme_of(const ArrayXXd& values, SeriesKind kind) {
+  if (kind == SeriesKind::transient && values.cols() >= least_for_pieces) return extreme_of_pieces(values);
   std::optional<CycleExtreme> of_polynomial;
   if (can_be_transformed(values.cols())) {
     const auto spectrum = factor_spectrum(values, no_line);
@@ -42,7 +43,8 @@ CycleExtreme extreme_of(const ArrayXXd& values) {
 
 }  // namespace
 
-TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const ArrayXXd& values) {
+TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const ArrayXXd& values,
+                           SeriesKind kind) {
   if (unit.empty() || values.cols() < 3) return {};
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> tensors(unit.front().data(), 6,
                                                                            Index(unit.size()));
@@ -52,7 +54,7 @@ TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const
   if (!(scale_Pa > 0)) return {};
   const ArrayXXd course = (coordinates.matrix() * (values / scale_Pa).matrix()).array();
   const double largest = std::sqrt(course.square().colwise().sum().maxCoeff());
-  const auto extreme = extreme_of(course);
+  const auto extreme = extreme_of(course, kind);
   const double excess = extreme.value - largest;
   return {excess > no_excess * largest ? excess * scale_Pa : 0, extreme.unresolved * scale_Pa,
           extreme.instant};

@@ -15,6 +15,8 @@ struct TimeSampling {
   double error_Pa() const { return excess_Pa + unresolved_Pa; }
 };
 
+enum class SeriesKind { period, transient };
+
 /// A stress whose spectrum is empty from a third of the number of instants on is resolved: its factors are
 /// trigonometric polynomials, and the crest is found exactly. Others have the smaller of two bounds, of their
 /// trigonometric polynomial and of polynomials through eight instants, each with what the instants leave
@@ -23,6 +25,10 @@ struct TimeSampling {
 /// nothing is known: 0.
 /// @param unit    per channel (xx, yy, zz, xy, yz, xz) [Pa]
 /// @param values  channels x instants
-TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXXd& values);
+/// @param kind    a transient has no polynomial of a period, and none is sought: its thousands of instants
+/// may
+///                have a large prime factor, with which a transform takes longer than all else
+TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXXd& values,
+                           SeriesKind kind = SeriesKind::period);
 
 }  // namespace pipelines

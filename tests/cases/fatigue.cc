@@ -280,6 +280,85 @@ TEST(Fatigue, LivesBeyondTheYieldStrengthAreNone) {
   EXPECT_NE(warning(run("10 N", "surface_treatment = 3\n"), "check surface_treatment = 3"), "");
 }
 
+// Shares in damage are Miner's derivative: whole runs with one effect's load 1e-4 larger and smaller. Its
+// damage changes by 2e-4 k times the share, k = 5 (steel; all cycles, as one is above the knee). Red if the
+// shares are those of the amplitude, in which the constant torque has none.
+TEST(Fatigue, SharesInDamagePredictWholeRuns) {
+  const results_test::Directory directory;
+  const auto with = [&](double pull, double twist, double press) {
+    const auto newtons = [](double size) { return std::to_string(size) + " N"; };
+    auto loads = fixed_in_space("pull", "middle", newtons(250 * pull));
+    loads.push_back({"press", "middle.torque", newtons(20 * press) + " m", 0});
+    loads.push_back({"twist", "middle.torque", newtons(8 * twist) + " m", 2});
+    return run_small(directory.path, "method = \"solid\"\ntolerance = \"none\"\n" +
+                                         small_shaft(loads, "mm", "600 rpm", "pressure_harmonics = 0") +
+                                         steel_that_counts)["bodies"]["shaft"];
+  };
+  const auto damage = [](const Json& shaft) {
+    return shaft["fatigue"]["places"][0]["damage_per_turn"].get<double>();
+  };
+  constexpr double step = 1e-4, slope = 5;
+  const auto shaft = with(1, 1, 1);
+  const auto& shares = shaft["fatigue"]["places"][0]["effect_share_of_damage"];
+  ASSERT_GT(damage(shaft), 0);
+  ASSERT_EQ(shares.size(), 3u);
+  const auto share = [&](const char* effect) { return shares[effect].get<double>(); };
+  EXPECT_NEAR(share("pull") + share("twist") + share("press"), 1, 1e-12);
+  const auto by_runs = [&](const Json& more, const Json& less) {
+    return std::log(damage(more) / damage(less)) / (2 * step * slope);
+  };
+  // The search leaves the direction of counting some 1/200 rad, which may jump between runs.
+  EXPECT_NEAR(share("pull"), by_runs(with(1 + step, 1, 1), with(1 - step, 1, 1)), 0.01);
+  EXPECT_NEAR(share("twist"), by_runs(with(1, 1 + step, 1), with(1, 1 - step, 1)), 0.01);
+  EXPECT_NEAR(share("press"), by_runs(with(1, 1, 1 + step), with(1, 1, 1 - step)), 0.01);
+  EXPECT_GT(share("press"), 0.01) << "by FKM's M; none of the amplitude";
+  // The zone on that place, by effect and by channel; and the table.
+  const auto& zone = shaft["zones"][0]["causes"]["damage"];
+  EXPECT_GT(zone["damage_per_turn"].get<double>(), 0);
+  double of_channels = 0;
+  for (const auto& share : zone["channels"]) of_channels += share.get<double>();
+  EXPECT_NEAR(of_channels, 1, 1e-12);
+  const auto table = csv(directory / "out/shaft/fatigue.csv");
+  EXPECT_EQ(table.at("damage_share_pull").size(), shaft["fatigue"]["places"].size());
+}
+
+// The tensile strength of the part: K_d times that of the scene, by name in the output; nonsense is refused.
+TEST(Fatigue, HaveASizeFactor) {
+  const results_test::Directory directory;
+  std::string out;
+  const auto shaft = [&](const std::string& keys) {
+    return run_small(
+        directory.path,
+        small_shaft(fixed_in_space("pull", "middle", "100 N"), "mm", "600 rpm", "pressure_harmonics = 0") +
+            steel_that_counts + keys,
+        &out)["bodies"]["shaft"]["fatigue"];
+  };
+  const auto plain = shaft("");
+  EXPECT_NE(out.find("R_m 600 MPa (of the part at its size: size_factor 1)"), std::string::npos) << out;
+  const auto scaled = shaft("size_factor = 0.9\n");
+  EXPECT_NE(out.find("R_m 540 MPa (600 MPa by size_factor 0.9)"), std::string::npos) << out;
+  EXPECT_EQ(scaled["size_factor"]["value"].get<double>(), 0.9);
+  auto by_hand =
+      small_shaft(fixed_in_space("pull", "middle", "100 N"), "mm", "600 rpm", "pressure_harmonics = 0");
+  by_hand += "[shaft.fatigue]\ntensile_strength = \"540 MPa\"\nroughness = \"1 um\"\n";
+  const auto other = run_small(directory.path, by_hand)["bodies"]["shaft"]["fatigue"];
+  const double endured = scaled["places"][0]["endurance_Pa"];
+  EXPECT_NEAR(endured, other["places"][0]["endurance_Pa"].get<double>(), 1e-9 * endured);
+  EXPECT_LT(endured, plain["places"][0]["endurance_Pa"].get<double>());
+  const auto refusal = [&](const std::string& keys) {
+    write(directory / "scene.toml",
+          small_shaft(fixed_in_space("pull", "middle", "100 N")) + steel_that_counts + keys);
+    const auto outcome = millstress(directory.path, "check scene.toml");
+    EXPECT_EQ(outcome.exit_code, 2) << keys << outcome.out;
+    return outcome.err;
+  };
+  EXPECT_NE(refusal("size_factor = 0\n").find("shaft.fatigue.size_factor = 0"), std::string::npos);
+  EXPECT_NE(refusal("size_factor = 40\n").find("shaft.fatigue.size_factor = 40"), std::string::npos);
+  EXPECT_NE(refusal("size_factor = 0.5\n")
+                .find("makes the tensile strength less than the material's yield_strength"),
+            std::string::npos);
+}
+
 // Type and class of weld toes.
 TEST(Fatigue, WeldToesHaveTypesAndClasses) {
   const results_test::Directory directory;

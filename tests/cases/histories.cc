@@ -107,7 +107,9 @@ TEST(Histories, ZonesHaveTheTensorOfTheRun) {
   const auto n_zones = zones.at("zone").size();
   ASSERT_GE(n_zones, 1u);
   ASSERT_EQ(json["points"].size(), n_zones);
-  EXPECT_TRUE(fs::exists(directory / "h/histories.h5"));
+  const auto groups = results_test::bytes(directory / "h/histories.h5");
+  EXPECT_NE(groups.find("zone_1"), std::string::npos) << "the group has the name of the table";
+  EXPECT_NE(groups.find("zone 1"), std::string::npos) << "its attribute that of the point";
   for (std::size_t k = 0; k < n_zones; ++k) {
     const auto table = csv(directory / ("h/" + json["points"][k]["file"].get<std::string>()));
     const double peak = zones.at("peak_von_mises")[k] / 1e6;

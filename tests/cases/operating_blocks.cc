@@ -254,3 +254,42 @@ TEST(OperatingBlocks, HaveTheStressOfToesThatWereSolvedAsSubmodels) {
     EXPECT_EQ(warning.get<std::string>().find("more than the scene's own running"), std::string::npos)
         << warning;
 }
+
+// The shipped scene with blocks and the chamber's welds: on the mesh that three seconds allow, with a charge
+// that comes round in two turns instead of twenty.
+TEST(OperatingBlocks, TheShippedSceneOfAMillRuns) {
+  const results_test::Directory directory;
+  const auto outcome =
+      millstress(directory.path,
+                 "run '" + shipped("vibratory_mill_duty.toml").string() +
+                     "' -o out --time-limit '3 s' --set machine.charge.turn_ratio=-1/2 --set "
+                     "sampling.turns=2 --set sampling.instants_per_turn=24 --set results.pictures=false");
+  ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 4) << outcome.err;
+  const auto duty = summary(directory / "out")["duty"];
+  EXPECT_EQ(duty["blocks"].size(), 3u);
+  EXPECT_NE(outcome.out.find("lives: Palmgren-Miner over all blocks and starts"), std::string::npos);
+  EXPECT_NE(outcome.out.find("S-N slope 3, knee at 1e+07 cycles; behind it 22 and damage sum 1"),
+            std::string::npos);
+  EXPECT_NE(outcome.out.find("DIN 743 gives no second opinion: it is for shafts"), std::string::npos);
+  for (const char* body : {"shaft", "chamber"}) {
+    const auto& first = duty["places"][body][0];
+    double effects = 0, blocks = 0;
+    for (const auto& share : first["effect_share_of_damage"]) effects += share.get<double>();
+    for (const auto& block : first["by_block"])
+      blocks += block["damage_per_hour"].get<double>() + block["starts_damage_per_hour"].get<double>();
+    EXPECT_NEAR(effects, 1, 1e-12) << body;
+    const double damage = first["damage_per_hour"];
+    EXPECT_NEAR(blocks, damage, 1e-12 * damage) << body;
+    if (!first["life_h"].is_null()) {
+      const double sum = first["weld_toe"].get<bool>() ? 0.5 : 1;
+      EXPECT_NEAR(first["life_h"].get<double>() * damage, sum, 1e-9) << body;
+      // 55 % of the time in operation.
+      EXPECT_NEAR(first["life_days"].get<double>() * 24 * 0.55 * damage, sum, 1e-9) << body;
+    }
+  }
+  EXPECT_TRUE(duty["places"]["chamber"][0]["weld_toe"].get<bool>()) << "toes of the webs last least";
+  double in_table = 0;
+  for (const auto& [title, cells] : csv(directory / "out/duty.csv"))
+    if (title.rfind("damage_share_", 0) == 0) in_table += cells[0];
+  EXPECT_NEAR(in_table, 1, 1e-12);
+}
