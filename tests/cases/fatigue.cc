@@ -316,7 +316,7 @@ TEST(Fatigue, SharesInDamagePredictWholeRuns) {
   const auto& zone = shaft["zones"][0]["causes"]["damage"];
   EXPECT_GT(zone["damage_per_turn"].get<double>(), 0);
   double of_channels = 0;
-  for (const auto& share : zone["channels"]) of_channels += share.get<double>();
+  for (const auto& own : zone["channels"]) of_channels += own.get<double>();
   EXPECT_NEAR(of_channels, 1, 1e-12);
   const auto table = csv(directory / "out/shaft/fatigue.csv");
   EXPECT_EQ(table.at("damage_share_pull").size(), shaft["fatigue"]["places"].size());
