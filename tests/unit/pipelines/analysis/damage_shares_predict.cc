@@ -27,7 +27,8 @@ constexpr LoadPeriod one_second{1, 1};
 struct Body {
   BodyAnalysis analysis;
 
-  /// @param depth_share by channel: how much less it stresses a node 1 mm below the surface
+  /// @param depth_share by channel: how much less it stresses a node 1 mm below the surface; faces of a Row
+  /// look along +x
   Body(const UnitStresses& unit_Pa, const std::vector<ArrayXXd>& by_effect,
        const std::vector<double>& depth_share) {
     examples::Row row(3);
@@ -49,7 +50,7 @@ struct Body {
     for (std::size_t i = 0; i < row.nodes.n; ++i)
       for (Index k = 0; k < unit_Pa.cols(); ++k) {
         const double depth_mm = 1e3 * row.nodes.xyz_m[3 * i];
-        const double left = depth_share.empty() ? 1 : 1 - depth_share[std::size_t(k)] * depth_mm;
+        const double left = depth_share.empty() ? 1 : 1 + depth_share[std::size_t(k)] * depth_mm;
         for (Index c = 0; c < 6; ++c) analysis.responses.stress_Pa.push_back(left * unit_Pa(c, k));
       }
     for (std::size_t e = 0; e < by_effect.size(); ++e) history.effects.push_back("e" + std::to_string(e));
@@ -141,14 +142,16 @@ Body random_body(Random& random, bool with_gradients) {
   for (auto& one : order) one = int(1 + std::min(6.0, std::floor(3 * std::abs(random()))));
   std::vector<ArrayXXd> by_effect;
   for (Index e = 0; e < 3; ++e) {
-    by_effect.push_back(wave(3, (e + 1) % 3, 0.3e8 * random(), 0));
+    by_effect.push_back(wave(3, (e + 1) % 3, 2e8 * random(), 0));
     for (Index part = 0; part < 2; ++part)
-      by_effect.back() += wave(3, (e + part) % 3, 1e8 * random(), order[std::size_t(part)], 3 * random());
+      by_effect.back() += wave(3, (e + part) % 3, 3e8 * random(), order[std::size_t(part)], 3 * random());
   }
   std::vector<double> depth;
   if (with_gradients)
-    for (int k = 0; k < 3; ++k) depth.push_back(0.05 + 0.1 * std::abs(random()));
-  return {unit, by_effect, depth};
+    for (int k = 0; k < 3; ++k) depth.push_back(0.05 + 0.3 * std::abs(random()));
+  Body body(unit, by_effect, depth);
+  body.analysis.scene.fatigue->material.tensile_strength_Pa = 1200e6;  // M is 0.32: means count
+  return body;
 }
 
 /// Differences of shares from those by finite differences: half of them, and 90 %, are below.
@@ -167,12 +170,14 @@ TEST(DamageShares, ArePredictionsOfWholeJudgements) {
   constexpr double step = 1e-3;
   for (const bool with_gradients : {false, true}) {
     std::vector<double> off;
+    int n_with_support = 0;
     for (int trial = 0; trial < 25; ++trial) {
       const auto body = random_body(random, with_gradients);
       const auto place = body.judged();
       ASSERT_EQ(place.damage_share.size(), 3u);
       EXPECT_NEAR(sum_of(place.damage_share), 1, 1e-12);
       if (!(place.damage_per_turn > 0)) continue;
+      n_with_support += place.support > 1.0001 ? 1 : 0;
       for (std::size_t e = 0; e < 3; ++e) {
         const double larger = body.with(e, 1 + step).damage_per_turn,
                      smaller = body.with(e, 1 - step).damage_per_turn;
@@ -180,7 +185,8 @@ TEST(DamageShares, ArePredictionsOfWholeJudgements) {
       }
     }
     ASSERT_GT(off.size(), 40u);
-    expect_small(off, 5e-4, 1e-2);
+    EXPECT_EQ(n_with_support > 3, with_gradients) << n_with_support;
+    expect_small(off, 2.5e-4, 1.5e-2);
   }
 }
 
@@ -192,7 +198,8 @@ TEST(DamageShares, DoNotDependOnTheSizeOfAllLoads) {
   for (int trial = 0; trial < 10; ++trial) {
     std::vector<ArrayXXd> by_effect;
     for (int e = 0; e < 3; ++e)
-      by_effect.push_back(wave(1, 0, 3e8 * random(), 1 + 2 * e, random()) + wave(1, 0, 1e8 * random(), 0));
+      by_effect.push_back(wave(1, 0, 3e8 * (1 + std::abs(random())), 1 + 2 * e, random()) +
+                          wave(1, 0, 1e8 * random(), 0));
     const Body body(tension(), by_effect, {0.1});
     Body small = body;
     for (auto& part : small.analysis.loads.history.by_effect) part *= 1e-3;
@@ -215,9 +222,8 @@ TEST(DamageShares, OfZonesHaveChannels) {
     for (Index k = 0; k < 3; ++k)
       by_effect.push_back(wave(3, k, 2e8 * random(), 0) + wave(3, k, 2e8 * random(), int(k) + 1, random()));
     Body body(unit, by_effect, {0.05, 0.1, 0.15});
-    const auto& nodes = body.analysis.responses.nodes;
     Zone on_surface, inside;
-    on_surface.peak_node = std::size_t(nodes.faces.front());
+    on_surface.peak_node = body.judged().node;
     inside.peak_node = 1;  // x is not zero there
     body.analysis.zones.zones = {on_surface, inside};
     const auto fatigue = judge_fatigue(body.analysis, one_second, 1);
@@ -228,7 +234,7 @@ TEST(DamageShares, OfZonesHaveChannels) {
     EXPECT_TRUE(zone.is_on_surface);
     EXPECT_NEAR(zone.damage_per_turn, fatigue.places[0].damage_per_turn,
                 1e-6 * fatigue.places[0].damage_per_turn)
-        << "all nodes of the surface are alike";
+        << "at the same node";
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_NEAR(zone.shares.channels[k], zone.shares.effects[k], 1e-9) << "crests are found to 1e-6";
   }
@@ -279,7 +285,7 @@ TEST(DamageShares, OfToesPredictTheirDamage) {
       const double sum = sum_of(by_difference);
       for (std::size_t e = 0; e < 3; ++e) off.push_back(std::abs(by_difference[e] / sum - shares[e]));
     }
-    expect_small(off, n_orders == 1 ? 5e-4 : 1e-3, n_orders == 1 ? 5e-3 : 2e-2);
+    expect_small(off, n_orders == 1 ? 3e-4 : 1e-4, n_orders == 1 ? 3e-3 : 2e-3);
   }
 }
 
@@ -352,7 +358,7 @@ TEST(DamageShares, OverBlocksPredictTheirDamage) {
     }
   }
   ASSERT_GT(off.size(), 20u);
-  expect_small(off, 1e-3, 2e-2);
+  expect_small(off, 6e-4, 0.15);  // with starts more directions and pairs damage alike
 }
 
 }  // namespace
