@@ -170,14 +170,12 @@ TEST(DamageShares, ArePredictionsOfWholeJudgements) {
   constexpr double step = 1e-3;
   for (const bool with_gradients : {false, true}) {
     std::vector<double> off;
-    int n_with_support = 0;
     for (int trial = 0; trial < 25; ++trial) {
       const auto body = random_body(random, with_gradients);
       const auto place = body.judged();
       ASSERT_EQ(place.damage_share.size(), 3u);
       EXPECT_NEAR(sum_of(place.damage_share), 1, 1e-12);
       if (!(place.damage_per_turn > 0)) continue;
-      n_with_support += place.support > 1.0001 ? 1 : 0;
       for (std::size_t e = 0; e < 3; ++e) {
         const double larger = body.with(e, 1 + step).damage_per_turn,
                      smaller = body.with(e, 1 - step).damage_per_turn;
@@ -185,7 +183,6 @@ TEST(DamageShares, ArePredictionsOfWholeJudgements) {
       }
     }
     ASSERT_GT(off.size(), 40u);
-    EXPECT_EQ(n_with_support > 3, with_gradients) << n_with_support;
     expect_small(off, 2.5e-4, 1.5e-2);
   }
 }
