@@ -26,13 +26,16 @@ struct Environment::Impl {
 
 namespace {
 /// One process that no launcher has started needs neither Open MPI's daemon nor its networks, which take most
-/// of the half second that MPI needs to begin. What the user's environment says goes before.
+/// of the half second that MPI needs to begin. Nor its directory in TMPDIR: all such processes share it, and
+/// the one that ends takes it from the one that starts, which then fails
+/// (https://github.com/open-mpi/ompi/issues/3818). What the user's environment says goes before.
 void begin_alone_quickly() {
   for (const char* by_launcher : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "SLURM_PROCID"})
     if (std::getenv(by_launcher) != nullptr) return;
-  for (const auto& [name, value] : {std::pair("OMPI_MCA_ess_singleton_isolated", "1"),
-                                    std::pair("OMPI_MCA_pml", "ob1"), std::pair("OMPI_MCA_btl", "self"),
-                                    std::pair("OMPI_MCA_mtl", "^ofi"), std::pair("OMPI_MCA_osc", "^ucx")})
+  for (const auto& [name, value] :
+       {std::pair("OMPI_MCA_ess_singleton_isolated", "1"), std::pair("OMPI_MCA_pml", "ob1"),
+        std::pair("OMPI_MCA_btl", "self"), std::pair("OMPI_MCA_mtl", "^ofi"),
+        std::pair("OMPI_MCA_osc", "^ucx"), std::pair("OMPI_MCA_orte_create_session_dirs", "0")})
     setenv(name, value, 0);
 }
 

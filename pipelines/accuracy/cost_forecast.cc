@@ -91,8 +91,7 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
   if (!can_be_refined(body)) return models;
   for (const double factor : even_factors)
     models.push_back(forecaster.finer(fmt::format("even mesh, cells 1/{:g}", factor), meshed, factor));
-  const AtomicFile scratch(std::filesystem::temp_directory_path() /
-                           ("millstress_forecast_" + body.name + ".msh"));
+  const AtomicFile scratch(scratch_target("millstress_forecast_" + body.name + ".msh"));
   const std::string first = "first of a search";
   const double tolerance = with_default({}).tolerance;
   std::string refused;

@@ -35,8 +35,8 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
   std::vector<fem::Nodes> nodes;
   for (const auto& body : scene.bodies)
     clock.run("mesh", [&] {
-      const AtomicFile scratch(std::filesystem::temp_directory_path() /
-                               ("millstress_ports_" + scene.file.stem().string() + "_" + body.name + ".msh"));
+      const AtomicFile scratch(
+          scratch_target("millstress_ports_" + scene.file.stem().string() + "_" + body.name + ".msh"));
       meshed.push_back(build_mesh(body, scratch.temporary()));
       nodes.push_back(fem::body_nodes(to_fem_body(meshed.back(), body.material)));
     });

@@ -81,6 +81,15 @@ std::filesystem::path partial_name(const std::filesystem::path& target) {
   return directory / (start + std::to_string(getpid()) + "-" + std::to_string(count++) + suffix);
 }
 
+std::filesystem::path scratch_target(const std::string& name) {
+  std::error_code error;
+  const auto directory = std::filesystem::temp_directory_path(error);
+  if (!error) return directory / name;
+  const char* given = std::getenv("TMPDIR");
+  throw OptionError(std::string("TMPDIR = ") + (given != nullptr ? given : "") +
+                    ": scratch files need a directory there: set TMPDIR to one");
+}
+
 void remove_partial_names(const std::filesystem::path& directory) {
   std::error_code ignored;
   const std::string host = "." + host_name() + ".";

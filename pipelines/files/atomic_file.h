@@ -46,6 +46,10 @@ private:
 /// @throws std::filesystem::filesystem_error if the directory cannot be made
 std::filesystem::path partial_name(const std::filesystem::path& target);
 
+/// A target for files that only this run needs: in the directory that TMPDIR names, else in /tmp.
+/// @throws OptionError if that is no directory
+std::filesystem::path scratch_target(const std::string& name);
+
 /// Removes what processes of this machine that are gone have left in a directory under such names, whatever
 /// the target.
 void remove_partial_names(const std::filesystem::path& directory);

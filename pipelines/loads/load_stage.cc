@@ -38,8 +38,7 @@ std::vector<MeshedBody> mesh_bodies(const Scene& scene,
 ScratchMeshes::ScratchMeshes(const Scene& scene) {
   for (const auto& body : scene.bodies)
     files_.push_back(std::make_unique<AtomicFile>(
-        std::filesystem::temp_directory_path() /
-        ("millstress_" + scene.file.stem().string() + "_" + body.name + ".msh")));
+        scratch_target("millstress_" + scene.file.stem().string() + "_" + body.name + ".msh")));
   bodies_ = mesh_bodies(scene, files_);
 }
 

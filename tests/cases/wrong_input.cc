@@ -122,6 +122,24 @@ TEST(WrongInput, OutputThatCannotBeWrittenIsNamed) {
   EXPECT_EQ(results_test::bytes(directory / "file"), "not a directory");
 }
 
+// MPI kept a directory in TMPDIR that all runs shared: one that ended took it from one that started, which
+// then failed. Where TMPDIR is no directory a run that needs none goes on, and one that does says so.
+TEST(WrongInput, TmpdirIsNoDirectory) {
+  const results_test::Directory directory;
+  write(directory / "file", "no directory\n");
+  write(directory / "scene.toml", edited("shaft.toml", {}));
+  const std::string tmpdir = (directory / "file").string();
+  const char* before = std::getenv("TMPDIR");
+  const std::string restored = before != nullptr ? before : "";
+  setenv("TMPDIR", tmpdir.c_str(), 1);
+  const auto run = millstress(directory.path, "run scene.toml --method beam -o out"),
+             check = millstress(directory.path, "check scene.toml");
+  restored.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", restored.c_str(), 1);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(check.exit_code, 2) << check.err;
+  EXPECT_NE(check.err.find("TMPDIR = " + tmpdir), std::string::npos) << check.err;
+}
+
 TEST(WrongInput, ModelForCalculixNeedsAFreeBody) {
   const results_test::Directory directory;
   fs::copy_file(shipped("drive_train.toml"), directory / "train.toml");
