@@ -59,6 +59,10 @@ SnCurve curve_of_shares(SnCurve curve, const std::vector<StressBlock>& blocks);
 /// k n / N: by how much the damage of a block grows with the logarithm of its amplitude.
 double damage_slope(const SnCurve& curve, const StressBlock& block);
 
+/// Indices of cycles, ascending, without those that together have less than 1e-5 of the sum of the weights.
+/// @param weights  k n / N, at least 0
+std::vector<std::size_t> cycles_that_matter(const std::vector<double>& weights);
+
 /// Sums dD/ds over cycles.
 class DamageDerivative {
 public:

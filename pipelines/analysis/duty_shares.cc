@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "pipelines/common/name_lists.h"
 
@@ -16,14 +17,11 @@ using Eigen::VectorXd;
 double add_cycles(const WeighedCycles& weighed, const SnCurve& curve, const SlopesOf& slopes_of,
                   const PartsAt& parts, double sign, const Eigen::Matrix<double, 6, 1>* moving,
                   DamageDerivative& derivative) {
-  double sum = 0;
-  for (std::size_t i = 0; i < weighed.cycles.size(); ++i) {
-    const double weight = damage_slope(curve, weighed.blocks[i]);
-    if (!(weight > 0)) continue;
-    sum += sign * weight;
-    derivative.add(weighed.cycles[i], slopes_of(weighed.cycles[i]), parts, sign * weight, moving);
-  }
-  return sum;
+  std::vector<double> weights;
+  for (const auto& block : weighed.blocks) weights.push_back(damage_slope(curve, block));
+  for (const auto i : cycles_that_matter(weights))
+    derivative.add(weighed.cycles[i], slopes_of(weighed.cycles[i]), parts, sign * weights[i], moving);
+  return sign * std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
 }  // namespace

@@ -114,9 +114,10 @@ Eigen::VectorXd FactorCourse::weights_at(double instant) const {
     return weights;
   }
   // Dirichlet's kernel; of an even number of instants the line at n / 2 is its cosine.
+  const double sine = std::sin(M_PI * (instant - nearest));
   for (Index i = 0; i < n; ++i) {
     const double half = M_PI * (instant - double(i)) / double(n);
-    const double comb = std::sin(double(n) * half) / (double(n) * std::sin(half));
+    const double comb = ((Index(nearest) - i) % 2 == 0 ? sine : -sine) / (double(n) * std::sin(half));
     weights[i] = n % 2 == 0 ? comb * std::cos(half) : comb;
   }
   return weights;
