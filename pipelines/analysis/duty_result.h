@@ -39,7 +39,7 @@ struct DutyBearing {
 struct DutyResult {
   double in_operation = 0;  ///< share of all time, the sum of the blocks'
   std::vector<BlockResult> blocks;
-  std::map<std::string, std::vector<DutyPlace>> places;  ///< by body whose fatigue the scene asks for
+  std::map<std::string, std::vector<DutyPlace>> places;     ///< by body whose fatigue the scene asks for
   std::map<std::string, std::vector<std::string>> effects;  ///< of their shares, likewise
   std::vector<DutyBearing> bearings;
 };

@@ -85,8 +85,9 @@ namespace {
 
 std::string locally_text(const BodyScene& body) {
   const auto n = body.refinements.size();
-  return n == 0 ? ""
-                : fmt::format("; {} cells cut{}", body.refinements.back().cells.size(), n > 1 ? " at last" : "");
+  return n == 0
+             ? ""
+             : fmt::format("; {} cells cut{}", body.refinements.back().cells.size(), n > 1 ? " at last" : "");
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ namespace {
 /// of up to 409 k unknowns. Where less is enough to meet the tolerance, less is cut, but not below the second
 /// one: the steps would be too many.
 constexpr double most_that_is_cut = 0.8, least_that_is_cut = 0.4;
-/// What is aimed at, of the error that a place may have, on surfaces and at weld toes: with 0.5 there the default
-/// chamber took 270 k unknowns to 2 %, not 208 k. And what cells contribute less once they are cut, at least.
+/// What is aimed at, of the error that a place may have, on surfaces and at weld toes: with 0.5 there the
+/// default chamber took 270 k unknowns to 2 %, not 208 k. And what cells contribute less once they are cut,
+/// at least.
 constexpr double aim = 0.5, aim_at_toes = 0.75, gain_of_cutting = 0.75;
 /// Of the sum of all contributions to a goal, as an error: on surfaces, where the sum was 2 to 5 times the
 /// true error of the default shaft, and at weld toes, whose two nodes make the dual stress steep and the sum

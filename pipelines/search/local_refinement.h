@@ -19,7 +19,7 @@ namespace pipelines {
 bool is_refined_locally(const BodyScene& body);
 
 struct LocalRefinement {
-  std::vector<std::int32_t> cells;    ///< of the present mesh, ascending
+  std::vector<std::int32_t> cells;  ///< of the present mesh, ascending
   /// Nodes at weld toes whose faces would still be too long: cells there are cut once more.
   std::vector<std::array<double, 3>> again_at_m;
   std::vector<std::string> features;  ///< places whose own cells are among them
