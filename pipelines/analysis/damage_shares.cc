@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 
 #include "pipelines/superposition/stress_shares.h"
@@ -26,18 +25,6 @@ Vector6 vector_of(const Stress& stress) {
   return Eigen::Map<const Vector6>(stress.data());
 }
 
-/// Component c of part p in row 6 p + c, a column for each instant.
-PartsAt parts_of(std::shared_ptr<const MatrixXd> rows, const FactorCourse& course) {
-  return [rows, &course](double instant) -> PartStresses {
-    const Index n = rows->cols();
-    const double nearest = std::round(instant);
-    const VectorXd at = instant == nearest || !course.is_polynomial()
-                            ? VectorXd(rows->col((Index(nearest) % n + n) % n))
-                            : VectorXd(*rows * course.weights_at(instant));
-    return Eigen::Map<const PartStresses>(at.data(), 6, at.size() / 6);
-  };
-}
-
 }  // namespace
 
 std::vector<std::size_t> cycles_that_matter(const std::vector<double>& weights) {
@@ -51,22 +38,6 @@ std::vector<std::size_t> cycles_that_matter(const std::vector<double>& weights) 
   order.erase(order.begin(), order.begin() + std::ptrdiff_t(n_dropped));
   std::sort(order.begin(), order.end());
   return order;
-}
-
-PartsAt parts_by_effect(const UnitStresses& unit_Pa, const ChannelHistory& loads,
-                        const FactorCourse& course) {
-  auto rows = std::make_shared<MatrixXd>(6 * Index(loads.effects.size()), loads.values.cols());
-  for (std::size_t e = 0; e < loads.effects.size(); ++e)
-    rows->middleRows(6 * Index(e), 6) = unit_Pa * loads.by_effect[e].matrix();
-  return parts_of(std::move(rows), course);
-}
-
-PartsAt parts_by_channel(const UnitStresses& unit_Pa, const ChannelHistory& loads,
-                         const FactorCourse& course) {
-  auto rows = std::make_shared<MatrixXd>(6 * unit_Pa.cols(), loads.values.cols());
-  for (Index k = 0; k < unit_Pa.cols(); ++k)
-    rows->middleRows(6 * k, 6) = unit_Pa.col(k) * loads.values.row(k).matrix();
-  return parts_of(std::move(rows), course);
 }
 
 AmplitudeSlopes slopes_of_range(const EndsOfCycle& cycle, const Vector6& form) {
@@ -106,24 +77,65 @@ double damage_slope(const SnCurve& curve, const StressBlock& block) {
   return (is_above ? curve.slope : curve.second_slope.value_or(curve.slope)) * block.count / *cycles;
 }
 
-void DamageDerivative::add(const EndsOfCycle& cycle, const AmplitudeSlopes& slopes, const PartsAt& parts,
-                           double weight, const Vector6* moving) {
+DamageDerivative::DamageDerivative(const UnitStresses& unit_Pa, const ChannelHistory& loads,
+                                   const FactorCourse* course)
+    : unit_Pa_(unit_Pa), loads_(loads), course_(course), by_stress_(MatrixXd::Zero(loads.values.cols(), 6)) {}
+
+VectorXd DamageDerivative::weights_at(double instant) const {
+  if (course_ != nullptr) return course_->weights_at(instant);
+  return VectorXd::Unit(by_stress_.rows(), Index(instant));
+}
+
+void DamageDerivative::add(double instant, const Vector6& by_stress) {
+  by_stress_.noalias() += weights_at(instant) * by_stress.transpose();
+}
+
+void DamageDerivative::add(const EndsOfCycle& cycle, const AmplitudeSlopes& slopes, double weight,
+                           const Vector6* moving) {
   const auto add_end = [&](double instant, const Vector6& by_stress) {
-    const PartStresses here = parts(instant);
-    sum_ += weight * (here.transpose() * by_stress);
+    add(instant, weight * by_stress);
     if (moving == nullptr || slopes.by_mean.isZero(0)) return;
-    const PartStresses before = parts(instant - step_of_instants), after = parts(instant + step_of_instants);
-    const PartStresses slope = (after - before) / (2 * step_of_instants);
-    const Vector6 curvature =
-        (after - 2 * here + before).rowwise().sum() / (step_of_instants * step_of_instants);
-    const double bend = moving->dot(curvature);
+    const VectorXd here = weights_at(instant), before = weights_at(instant - step_of_instants),
+                   after = weights_at(instant + step_of_instants);
+    const VectorXd slope = (after - before) / (2 * step_of_instants);
+    const VectorXd curvature = (after - 2 * here + before) / (step_of_instants * step_of_instants);
+    const auto stress = [&](const VectorXd& weights) -> Vector6 {
+      return unit_Pa_ * (loads_.values.matrix() * weights);
+    };
+    const double bend = moving->dot(stress(curvature));
     if (bend == 0) return;
     // The form's slope stays zero: the end moves by -(slope of the part) / bend.
-    const VectorXd moves = -(slope.transpose() * *moving) / bend;
-    sum_ += weight * slopes.by_mean.dot(slope.rowwise().sum()) * moves;
+    const double by_move = weight * slopes.by_mean.dot(stress(slope));
+    by_stress_.noalias() -= slope * (by_move / bend * moving->transpose());
   };
   add_end(cycle.from_instant, slopes.by_from);
   add_end(cycle.to_instant, slopes.by_to);
+}
+
+void DamageDerivative::add(const SupportSlopes& support, double weight) {
+  if (support.by_change.isZero(0)) return;
+  if (by_load_.size() == 0) by_load_ = MatrixXd::Zero(loads_.values.rows(), loads_.values.cols());
+  const VectorXd weights = weights_at(support.to) - weights_at(support.from);
+  by_load_.noalias() += weight * support.by_change * weights.transpose();
+}
+
+/// dD / d loads, channels x instants.
+MatrixXd DamageDerivative::by_loads() const {
+  MatrixXd result = unit_Pa_.transpose() * by_stress_.transpose();
+  if (by_load_.size() > 0) result += by_load_;
+  return result;
+}
+
+VectorXd DamageDerivative::by_effect() const {
+  const MatrixXd by_load = by_loads();
+  VectorXd result(Index(loads_.effects.size()));
+  for (Index e = 0; e < result.size(); ++e)
+    result[e] = (by_load.array() * loads_.by_effect[std::size_t(e)]).sum();
+  return result;
+}
+
+VectorXd DamageDerivative::by_channel() const {
+  return (by_loads().array() * loads_.values).rowwise().sum();
 }
 
 std::vector<double> shares_of(const VectorXd& derivative) {
@@ -134,25 +146,10 @@ std::vector<double> shares_of(const VectorXd& derivative) {
   return shares;
 }
 
-VectorXd support_change(const FatiguePlaces& search, const FatigueRules& rules, std::size_t node,
-                        const VectorXd& change, const MatrixXd& change_of_parts) {
-  constexpr double step = 1e-4;  // of a part
-  const auto log_support = [&](const VectorXd& loads) {
-    return std::log(rules.limit(search.gradient_per_m(node, 0.5 * loads), {}).support);
-  };
-  VectorXd result(change_of_parts.cols());
-  for (Index p = 0; p < result.size(); ++p) {
-    const VectorXd part = step * change_of_parts.col(p);
-    result[p] = part.isZero(0) ? 0 : (log_support(change - part) - log_support(change + part)) / (2 * step);
-  }
-  return result;
-}
-
 StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory& loads,
                               const FatiguePlaces& search, const FatigueRules& rules, const FatigueNode& node,
                               const CountedNode& counted, bool with_channels) {
   StressShares shares;
-  const auto& course = search.course();
   if (counted.blocks.empty()) return shares;
   const auto curve = curve_of_shares(rules.design_curve(counted.blocks), counted.blocks);
   const auto stress = search.stress_of(node.node);
@@ -161,25 +158,14 @@ StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory
   std::vector<double> weights;
   double sum = 0;
   for (const auto& block : counted.blocks) sum += weights.emplace_back(damage_slope(curve, block));
-  const UnitStresses unit = unit_stresses_at(analysis.responses, node.node);
-  const auto derivative = [&](const PartsAt& parts, const MatrixXd& change_of_parts) {
-    DamageDerivative result(change_of_parts.cols());
-    for (const auto i : cycles_that_matter(weights))
-      result.add(cycles[i], slopes_of_equivalent(cycles[i], form, counted.limit.mean_stress_sensitivity),
-                 parts, weights[i], stress.is_smooth() ? &form : nullptr);
-    if (search.has_gradients())
-      result.add(support_change(search, rules, node.node, change_of_parts.rowwise().sum(), change_of_parts),
-                 sum);
-    return shares_of(result.sum());
-  };
-  const VectorXd weights_of_change = course.weights_at(counted.to) - course.weights_at(counted.from);
-  MatrixXd by_effect(loads.values.rows(), Index(loads.effects.size()));
-  for (std::size_t e = 0; e < loads.effects.size(); ++e)
-    by_effect.col(Index(e)) = loads.by_effect[e].matrix() * weights_of_change;
-  shares.effects = derivative(parts_by_effect(unit, loads, course), by_effect);
-  if (with_channels)
-    shares.channels = derivative(parts_by_channel(unit, loads, course),
-                                 VectorXd(loads.values.matrix() * weights_of_change).asDiagonal());
+  const UnitStresses unit_Pa = unit_stresses_at(analysis.responses, node.node);
+  DamageDerivative derivative(unit_Pa, loads, &search.course());
+  for (const auto i : cycles_that_matter(weights))
+    derivative.add(cycles[i], slopes_of_equivalent(cycles[i], form, counted.limit.mean_stress_sensitivity),
+                   weights[i], stress.is_smooth() ? &form : nullptr);
+  derivative.add(search.support_slopes(node.node, counted.from, counted.to), sum);
+  shares.effects = shares_of(derivative.by_effect());
+  if (with_channels) shares.channels = shares_of(derivative.by_channel());
   return shares;
 }
 
@@ -189,13 +175,12 @@ std::vector<double> shares_in_damage(const WeldPlace& place, const ChannelHistor
   std::vector<StressBlock> blocks;
   for (const auto& cycle : cycles) blocks.push_back({cycle.range_Pa, 1});
   const auto of_shares = curve_of_shares(curve, blocks);
-  const auto parts = parts_by_effect(place.unit_Pa, loads, course);
-  DamageDerivative derivative(Index(loads.effects.size()));
+  DamageDerivative derivative(place.unit_Pa, loads, &course);
   std::vector<double> weights;
   for (const auto& block : blocks) weights.push_back(damage_slope(of_shares, block));
   for (const auto i : cycles_that_matter(weights))
-    derivative.add(cycles[i], slopes_of_range(cycles[i], toe.form), parts, weights[i]);
-  return shares_of(derivative.sum());
+    derivative.add(cycles[i], slopes_of_range(cycles[i], toe.form), weights[i]);
+  return shares_of(derivative.by_effect());
 }
 
 }  // namespace pipelines

@@ -18,7 +18,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,18 +25,6 @@
 #include "pipelines/analysis/weld_places.h"
 
 namespace pipelines {
-
-/// Stresses of the parts of a load at one instant, a column for each part [Pa].
-using PartStresses = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-/// By instant: i + share of the step to the next.
-using PartsAt = std::function<PartStresses(double)>;
-
-/// What the effects bring at one place, in the order of ChannelHistory::effects.
-/// @param course  of the loads; both outlive the result
-PartsAt parts_by_effect(const UnitStresses& unit_Pa, const ChannelHistory& loads, const FactorCourse& course);
-/// What the channels bring, in the order of ChannelHistory::channels.
-PartsAt parts_by_channel(const UnitStresses& unit_Pa, const ChannelHistory& loads,
-                         const FactorCourse& course);
 
 /// d ln(A) of one cycle by the stresses at its ends [1/Pa], and by the moving of its ends.
 struct AmplitudeSlopes {
@@ -63,23 +50,37 @@ double damage_slope(const SnCurve& curve, const StressBlock& block);
 /// @param weights  k n / N, at least 0
 std::vector<std::size_t> cycles_that_matter(const std::vector<double>& weights);
 
-/// Sums dD/ds over cycles.
+/// dD/ds of the parts of one history at one place. It is linear in their stresses at the ends of cycles, so
+/// that weights of instants are gathered over cycles, and parts are looked at once.
 class DamageDerivative {
 public:
-  explicit DamageDerivative(Eigen::Index n_parts) : sum_(Eigen::VectorXd::Zero(n_parts)) {}
+  /// @param course  of the loads; null: ends of cycles are instants
+  /// All outlive this.
+  DamageDerivative(const UnitStresses& unit_Pa, const ChannelHistory& loads, const FactorCourse* course);
 
   /// @param weight  k n / N of the cycle, with a sign
   /// @param moving  form whose turning points the ends are, where they lie on a smooth course; null: ends
   ///                stay where they are
-  void add(const EndsOfCycle& cycle, const AmplitudeSlopes& slopes, const PartsAt& parts, double weight,
+  void add(const EndsOfCycle& cycle, const AmplitudeSlopes& slopes, double weight,
            const Eigen::Matrix<double, 6, 1>* moving = nullptr);
-  /// The same change of ln(A) for all cycles of that weight in sum.
-  void add(const Eigen::VectorXd& change, double weight) { sum_ += weight * change; }
+  /// The stress at an instant of the history.
+  /// @param by_stress  dD / d stress [1/Pa]
+  void add(double instant, const Eigen::Matrix<double, 6, 1>& by_stress);
+  /// The support by the stress gradient, for all cycles of that weight in sum.
+  void add(const SupportSlopes& support, double weight);
 
-  const Eigen::VectorXd& sum() const { return sum_; }
+  Eigen::VectorXd by_effect() const;
+  Eigen::VectorXd by_channel() const;
 
 private:
-  Eigen::VectorXd sum_;
+  Eigen::VectorXd weights_at(double instant) const;
+  Eigen::MatrixXd by_loads() const;
+
+  const UnitStresses& unit_Pa_;
+  const ChannelHistory& loads_;
+  const FactorCourse* course_;
+  Eigen::MatrixXd by_stress_;  // instants x 6
+  Eigen::MatrixXd by_load_;    // channels x instants: of the support; empty: none
 };
 
 /// Divided by their sum; empty where that is not positive.
@@ -91,11 +92,6 @@ std::vector<double> shares_of(const Eigen::VectorXd& derivative);
 StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory& loads,
                               const FatiguePlaces& search, const FatigueRules& rules, const FatigueNode& node,
                               const CountedNode& counted, bool with_channels);
-
-/// d ln(1 / sigma_WK) by each part, of the support by the stress gradient at the counted cycles' limit.
-/// @param change_of  a part's loads at the instants in `counted`, from first to second
-Eigen::VectorXd support_change(const FatiguePlaces& search, const FatigueRules& rules, std::size_t node,
-                               const Eigen::VectorXd& change, const Eigen::MatrixXd& change_of_parts);
 
 /// Of a toe's cycles over a period, by effect. Empty where nothing changes.
 std::vector<double> shares_in_damage(const WeldPlace& place, const ChannelHistory& loads,

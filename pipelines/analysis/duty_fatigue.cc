@@ -316,12 +316,11 @@ private:
       derivatives.push_back([this, &places, &block, node, counted](const SnCurve& curve) {
         const auto stress = places.stress_of(node.node);
         const auto form = form_along(counted.direction);
+        const auto support = places.support_slopes(node.node, counted.from, counted.to);
         return shares_.running(
             {unit_stresses_at(analysis_.responses, node.node), block, places.course()},
             {stress.cycles_along(counted.direction), in_a_second(counted.blocks, block.running_per_s())},
-            equivalents_along(form, counted.limit), curve,
-            shares_.support(places, rules_, block, node.node, counted.from, counted.to),
-            stress.is_smooth() ? &form : nullptr);
+            equivalents_along(form, counted.limit), curve, &support, stress.is_smooth() ? &form : nullptr);
       });
     if (block.starts_per_s > 0) count_start(node, places, block, own, derivatives);
   }
@@ -362,9 +361,10 @@ private:
     append(own.starting, in_start.blocks, 1);
     append(own.running_in_starts, in_running.blocks, 1);
     derivatives.push_back([=, &places, &block](const SnCurve& curve) {
+      const auto support = places.support_slopes(node.node, node.from, node.to);
       return shares_.starting({unit_stresses_at(analysis_.responses, node.node), block, places.course()},
                               in_start, in_running, equivalents_along(form_along(worst), limit), curve,
-                              shares_.support(places, rules_, block, node.node, node.from, node.to));
+                              &support);
     });
     own.unresolved_start_share = block.starting == nullptr
                                      ? 0

@@ -35,29 +35,23 @@ public:
   Eigen::Index n_effects() const { return Eigen::Index(effects_.size()); }
 
   /// dD/ds of the running.
-  /// @param support  `support` of the place; none: no stress gradient counts
+  /// @param support  FatiguePlaces::support_slopes; null: no stress gradient counts
   /// @param moving   as in DamageDerivative::add
   Eigen::VectorXd running(const PlaceInBlock& at, const WeighedCycles& weighed, const SlopesOf& slopes_of,
-                          const SnCurve& curve, const Eigen::VectorXd& support = {},
+                          const SnCurve& curve, const SupportSlopes* support = nullptr,
                           const Eigen::Matrix<double, 6, 1>* moving = nullptr) const;
 
   /// dD/ds of what starts do beyond the running in them; zeros where that is nothing.
   /// @param start        ends are columns of the start sequence: the transient, or rest, then
-  /// FactorCourse::fine
+  ///                     FactorCourse::fine
   /// @param its_running  ends are columns of FactorCourse::fine
+  /// @param support      of the running
   Eigen::VectorXd starting(const PlaceInBlock& at, const WeighedCycles& start,
                            const WeighedCycles& its_running, const SlopesOf& slopes_of, const SnCurve& curve,
-                           const Eigen::VectorXd& support = {}) const;
-
-  /// support_change between two instants of the block's running; zeros for a beam.
-  Eigen::VectorXd support(const FatiguePlaces& places, const FatigueRules& rules, const BlockOnBody& block,
-                          std::size_t node, double from, double to) const;
+                           const SupportSlopes* support = nullptr) const;
 
 private:
-  Eigen::Index index_of(const std::string& effect) const;
-  PartStresses on_all(const PartStresses& own, const std::vector<std::string>& names) const;
-  PartsAt running_parts(const PlaceInBlock& at) const;
-  PartsAt starting_parts(const PlaceInBlock& at) const;
+  Eigen::VectorXd on_all(const Eigen::VectorXd& own, const std::vector<std::string>& names) const;
 
   std::vector<std::string> effects_;
 };

@@ -150,16 +150,40 @@ double FatiguePlaces::harmonics_damage_about(std::size_t node) const {
   return damage;
 }
 
-double FatiguePlaces::gradient_per_m(std::size_t node, double from, double to) const {
-  if (!has_gradients()) return 0;
-  return gradient_per_m(node,
-                        0.5 * (loads_.values.matrix() * (course_.weights_at(to) - course_.weights_at(from))));
+Eigen::VectorXd FatiguePlaces::half_change(double from, double to) const {
+  return 0.5 * (loads_.values.matrix() * (course_.weights_at(to) - course_.weights_at(from)));
 }
 
-double FatiguePlaces::gradient_per_m(std::size_t node, const Eigen::VectorXd& loads) const {
+double FatiguePlaces::gradient_per_m(std::size_t node, double from, double to) const {
+  if (!has_gradients()) return 0;
+  const Eigen::VectorXd loads = half_change(from, to);
   return slopes_.related_gradient_per_m(node, [&](std::size_t other) {
     return von_mises_Pa(as_stress(unit_stresses_at(analysis_.responses, other) * loads));
   });
+}
+
+/// With f von Mises stress and S its slope inwards, G = -S / f: dG = -(dS + G df) / f.
+SupportSlopes FatiguePlaces::support_slopes(std::size_t node, double from, double to) const {
+  SupportSlopes result{Eigen::VectorXd::Zero(loads_.values.rows()), from, to};
+  const double gradient = gradient_per_m(node, from, to);
+  if (!(gradient > 0)) return result;
+  const Eigen::VectorXd loads = half_change(from, to);
+  const auto slopes_at = [&](std::size_t other) -> Eigen::VectorXd {
+    const auto unit = unit_stresses_at(analysis_.responses, other);
+    return unit.transpose() * form_along(direction_of(as_stress(unit * loads)));
+  };
+  const Eigen::VectorXd here = slopes_at(node);
+  Eigen::VectorXd by_load = gradient * here;
+  for (const auto& [other, weight] : slopes_.inward_weights(node))
+    by_load += weight * (slopes_at(other) - here);
+  constexpr double step = 1e-4;  // off by its square
+  const auto log_support = [&](double factor) {
+    return std::log(rules_.limit(factor * gradient, {}).support);
+  };
+  const double by_log_gradient = (log_support(1 + step) - log_support(1 - step)) / (2 * step);
+  const double stress_Pa = here.dot(loads);
+  result.by_change = by_log_gradient / (gradient * stress_Pa) * 0.5 * by_load;
+  return result;
 }
 
 FatigueNode FatiguePlaces::judged(std::size_t node, const StressCourse& course, double slack,

@@ -36,6 +36,12 @@ struct CountedNode {
   double from = 0, to = 0;  ///< the instants of that gradient: i + share of the step to the next
 };
 
+/// d ln(1 / sigma_WK) by the loads of a cycle: what they do to the support by the stress gradient.
+struct SupportSlopes {
+  Eigen::VectorXd by_change;  ///< by the change of each channel's load between the instants [1/unit]
+  double from = 0, to = 0;    ///< i + share of the step to the next
+};
+
 /// Whether blocks do more damage than others; of those that do none, leave less of a factor on all stresses
 /// until they would within the wanted life (without one, within three years).
 /// @param duration_s  in which the blocks happen once
@@ -73,10 +79,8 @@ public:
   const FactorCourse& course() const { return course_; }
   StressCourse stress_of(std::size_t node) const;
 
-  /// Whether the responses tell the related gradient; a beam's do not.
-  bool has_gradients() const { return analysis_.method != Method::beam; }
-  /// The related gradient of the stress under such loads, one of each channel.
-  double gradient_per_m(std::size_t node, const Eigen::VectorXd& loads) const;
+  /// Zeros where there is no support.
+  SupportSlopes support_slopes(std::size_t node, double from, double to) const;
 
   /// The loads at two instants or between them.
   ChannelHistory between(double from, double to) const;
@@ -85,6 +89,10 @@ private:
   double most_utilisation(std::size_t node) const;
   double most_amplitude_Pa(std::size_t node, const UnitStresses& unit_Pa) const;
   double harmonics_damage_about(std::size_t node) const;
+  /// Half of the change of the loads, one of each channel.
+  Eigen::VectorXd half_change(double from, double to) const;
+  /// Whether the responses tell the related gradient; a beam's do not.
+  bool has_gradients() const { return analysis_.method != Method::beam; }
   double gradient_per_m(std::size_t node, double from, double to) const;
   /// @param known  a utilisation: where this one is not above it, it may be without support
   FatigueNode judged(std::size_t node, const StressCourse& course, double slack, double known) const;

@@ -59,10 +59,8 @@ std::array<double, 3> SurfaceSlopes::outward_normal(std::size_t node) const {
   return {outward[0], outward[1], outward[2]};
 }
 
-double SurfaceSlopes::related_gradient_per_m(std::size_t node,
-                                             const std::function<double(std::size_t)>& field) const {
-  const double here = field(node);
-  if (!(here > 0) || cells_of_[node].empty() || faces_of_[node].empty()) return 0;
+std::vector<std::pair<std::size_t, double>> SurfaceSlopes::inward_weights(std::size_t node) const {
+  if (cells_of_[node].empty() || faces_of_[node].empty()) return {};
   const auto outward = outward_normal(node);
   const Vector3d inward = -Eigen::Map<const Vector3d>(outward.data());
 
@@ -78,20 +76,38 @@ double SurfaceSlopes::related_gradient_per_m(std::size_t node,
   const bool quadratic = nodes_->degree >= 2 && around.size() >= 12;
   const Index n_terms = quadratic ? 9 : 3;
   Eigen::MatrixXd terms(Index(around.size()), n_terms);
-  Eigen::VectorXd values(Index(around.size()));
+  Eigen::VectorXd nearness(Index(around.size()));
   Index row = 0;
   for (const auto other : around) {
     const Vector3d d = (position_of_node(*nodes_, std::size_t(other)) - at) / size;
-    const double weight = 1 / (0.1 + d.norm());
     terms.row(row).head<3>() = d;
     if (quadratic)
       terms.row(row).tail<6>() << d[0] * d[0], d[1] * d[1], d[2] * d[2], d[0] * d[1], d[1] * d[2],
           d[2] * d[0];
-    terms.row(row) *= weight;
-    values[row++] = weight * (field(std::size_t(other)) - here);
+    nearness[row] = 1 / (0.1 + d.norm());
+    terms.row(row) *= nearness[row];
+    ++row;
   }
-  const Eigen::VectorXd fit = terms.colPivHouseholderQr().solve(values);
-  return std::max(0.0, -fit.head<3>().dot(inward) / size / here);
+  // The fit's slope is linear in the values: the transposed problem has its weights.
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(n_terms);
+  slope.head<3>() = inward / size;
+  const Eigen::VectorXd fit = terms.colPivHouseholderQr().transpose().solve(slope);
+  std::vector<std::pair<std::size_t, double>> weights;
+  row = 0;
+  for (const auto other : around) {
+    weights.emplace_back(std::size_t(other), fit[row] * nearness[row]);
+    ++row;
+  }
+  return weights;
+}
+
+double SurfaceSlopes::related_gradient_per_m(std::size_t node,
+                                             const std::function<double(std::size_t)>& field) const {
+  const double here = field(node);
+  if (!(here > 0)) return 0;
+  double slope = 0;
+  for (const auto& [other, weight] : inward_weights(node)) slope += weight * (field(other) - here);
+  return std::max(0.0, -slope / here);
 }
 
 }  // namespace pipelines

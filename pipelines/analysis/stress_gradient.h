@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "fem/values/unit_responses.h"
@@ -22,6 +23,10 @@ public:
   /// @param field  at any node; positive at this one
   /// @return not negative: a field that rises inwards has no support; zero where no cells are around
   double related_gradient_per_m(std::size_t node, const std::function<double(std::size_t)>& field) const;
+
+  /// df/dn at a node of the surface, n pointing inwards, is the sum of weight (f(other) - f(node)) over its
+  /// neighbours [1/m]; none where no cells or faces are around.
+  std::vector<std::pair<std::size_t, double>> inward_weights(std::size_t node) const;
 
   /// Of the faces around a node of the surface, outwards, of length one; zero where there are none.
   std::array<double, 3> outward_normal(std::size_t node) const;

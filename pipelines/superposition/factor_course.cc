@@ -66,6 +66,7 @@ FactorCourse::FactorCourse(ArrayXXd values, const ArrayXd& size, double per_peri
   take_strongest(lines, line_size);
   for (Index k = 0; k < strongest_.rows(); ++k) strongest_.row(k) /= size[k] > 0 ? size[k] : 1;
   if (!is_polynomial_) return;
+  take_angles();
   line_sizes_ = lines.abs().colwise() / (size > 0).select(size, 1);
   const Index highest = highest_that_counts(line_size, no_places_for * largest);
   const double places =
@@ -105,21 +106,35 @@ void FactorCourse::take_strongest(const ArrayXXcd& lines, const ArrayXd& line_si
   }
 }
 
+void FactorCourse::take_angles() {
+  const Index n = values_.cols();
+  cosines_.resize(n);
+  sines_.resize(n);
+  for (Index j = 0; j < n; ++j) {
+    cosines_[j] = std::cos(M_PI * double(j) / double(n));
+    sines_[j] = std::sin(M_PI * double(j) / double(n));
+  }
+}
+
 Eigen::VectorXd FactorCourse::weights_at(double instant) const {
   const Index n = values_.cols();
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
-  const double nearest = std::round(instant);
-  if (!is_polynomial_ || std::abs(instant - nearest) < 1e-13 * double(n)) {
-    weights[(Index(nearest) % n + n) % n] = 1;
+  const double nearest = std::round(instant), beyond = instant - nearest;
+  const Index first = (Index(nearest) % n + n) % n;
+  Eigen::VectorXd weights(n);
+  if (!is_polynomial_ || std::abs(beyond) < 1e-13 * double(n)) {
+    weights.setZero();
+    weights[first] = 1;
     return weights;
   }
-  // Dirichlet's kernel; of an even number of instants the line at n / 2 is its cosine.
-  const double sine = std::sin(M_PI * (instant - nearest));
-  for (Index i = 0; i < n; ++i) {
-    const double half = M_PI * (instant - double(i)) / double(n);
-    const double comb = ((Index(nearest) - i) % 2 == 0 ? sine : -sine) / (double(n) * std::sin(half));
-    weights[i] = n % 2 == 0 ? comb * std::cos(half) : comb;
-  }
+  // Dirichlet's kernel; of an even number of instants the line at n / 2 is its cosine. The angle of the j-th
+  // instant after the nearest one is pi (beyond - j) / n: no difference of its sine is of two that are alike.
+  const double c = std::cos(M_PI * beyond / double(n)), s = std::sin(M_PI * beyond / double(n));
+  const double comb = std::sin(M_PI * beyond) / double(n);
+  const ArrayXd sine = s * cosines_ - c * sines_;
+  ArrayXd kernel = n % 2 == 0 ? ArrayXd(comb * (c * cosines_ + s * sines_) / sine) : ArrayXd(comb / sine);
+  for (Index j = 1; j < n; j += 2) kernel[j] = -kernel[j];
+  weights.tail(n - first) = kernel.head(n - first);
+  weights.head(first) = kernel.tail(first);
   return weights;
 }
 

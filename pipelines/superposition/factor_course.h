@@ -46,10 +46,12 @@ public:
 private:
   Eigen::ArrayXd missed_by(double n) const;
   void take_places();
+  void take_angles();
   void take_strongest(const Eigen::ArrayXXcd& lines, const Eigen::ArrayXd& line_size);
 
   Eigen::ArrayXXd values_, fine_;
-  Eigen::ArrayXXd line_sizes_;  // channels x orders
+  Eigen::ArrayXXd line_sizes_;      // channels x orders
+  Eigen::ArrayXd cosines_, sines_;  // of pi j / n
   Eigen::Index per_step_ = 1;
   bool is_polynomial_ = false, is_resolved_ = false;
   Eigen::ArrayXXcd strongest_;
