@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "pipelines/superposition/stress_shares.h"
 
@@ -14,31 +13,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// Steps of instants for derivatives of a polynomial whose shortest period is two instants: off by
-/// (pi h)^2 / 12 = 1e-4.
-constexpr double step_of_instants = 0.01;
-/// Cycles that together have less of the damage than this are left out: of shares in per cent nobody sees it,
-/// and hundreds of small cycles cost as much as the large ones.
-constexpr double least_of_damage = 1e-5;
+/// Places that are whole but for what instants times steps lose.
+constexpr double rounding_of_places = 1e-9;
 
 Vector6 vector_of(const Stress& stress) {
   return Eigen::Map<const Vector6>(stress.data());
 }
 
 }  // namespace
-
-std::vector<std::size_t> cycles_that_matter(const std::vector<double>& weights) {
-  std::vector<std::size_t> order(weights.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return weights[a] < weights[b]; });
-  double left = least_of_damage * std::accumulate(weights.begin(), weights.end(), 0.0);
-  std::size_t n_dropped = 0;
-  for (; n_dropped < order.size(); ++n_dropped)
-    if ((left -= weights[order[n_dropped]]) < 0) break;
-  order.erase(order.begin(), order.begin() + std::ptrdiff_t(n_dropped));
-  std::sort(order.begin(), order.end());
-  return order;
-}
 
 AmplitudeSlopes slopes_of_range(const EndsOfCycle& cycle, const Vector6& form) {
   const double range = form.dot(vector_of(cycle.to) - vector_of(cycle.from));
@@ -79,49 +61,61 @@ double damage_slope(const SnCurve& curve, const StressBlock& block) {
 
 DamageDerivative::DamageDerivative(const UnitStresses& unit_Pa, const ChannelHistory& loads,
                                    const FactorCourse* course)
-    : unit_Pa_(unit_Pa), loads_(loads), course_(course), by_stress_(MatrixXd::Zero(loads.values.cols(), 6)) {}
+    : unit_Pa_(unit_Pa),
+      loads_(loads),
+      course_(course),
+      by_stress_(MatrixXd::Zero(6, course != nullptr ? course->fine().cols() : loads.values.cols())) {}
 
-VectorXd DamageDerivative::weights_at(double instant) const {
-  if (course_ != nullptr) return course_->weights_at(instant);
-  return VectorXd::Unit(by_stress_.rows(), Index(instant));
+void DamageDerivative::spread(Index first, const PlacesAround::Weights& weights, const Vector6& by_stress) {
+  const Index n = by_stress_.cols();
+  for (Index i = 0; i < PlacesAround::n; ++i)
+    by_stress_.col(((first + i) % n + n) % n) += weights[i] * by_stress;
 }
 
-void DamageDerivative::add(double instant, const Vector6& by_stress) {
-  by_stress_.noalias() += weights_at(instant) * by_stress.transpose();
+void DamageDerivative::add(double place, const Vector6& by_stress) {
+  const double nearest = std::round(place);
+  if (std::abs(place - nearest) < rounding_of_places)
+    by_stress_.col(Index(nearest) % by_stress_.cols()) += by_stress;
+  else {
+    const PlacesAround around(place);
+    spread(around.first, around.value, by_stress);
+  }
 }
 
 void DamageDerivative::add(const EndsOfCycle& cycle, const AmplitudeSlopes& slopes, double weight,
                            const Vector6* moving) {
-  const auto add_end = [&](double instant, const Vector6& by_stress) {
-    add(instant, weight * by_stress);
+  const double per_step = course_ != nullptr ? double(course_->per_step()) : 1;
+  const auto add_end = [&](double place, const Vector6& by_stress) {
+    add(place, weight * by_stress);
     if (moving == nullptr || slopes.by_mean.isZero(0)) return;
-    const VectorXd here = weights_at(instant), before = weights_at(instant - step_of_instants),
-                   after = weights_at(instant + step_of_instants);
-    const VectorXd slope = (after - before) / (2 * step_of_instants);
-    const VectorXd curvature = (after - 2 * here + before) / (step_of_instants * step_of_instants);
-    const auto stress = [&](const VectorXd& weights) -> Vector6 {
-      return unit_Pa_ * (loads_.values.matrix() * weights);
-    };
-    const double bend = moving->dot(stress(curvature));
+    const PlacesAround around(place);
+    const Index n = by_stress_.cols();
+    Vector6 slope = Vector6::Zero(), curvature = Vector6::Zero();
+    for (Index i = 0; i < PlacesAround::n; ++i) {
+      const Vector6 stress = unit_Pa_ * course_->fine().matrix().col(((around.first + i) % n + n) % n);
+      slope += around.slope[i] * stress;
+      curvature += around.curvature[i] * stress;
+    }
+    const double bend = moving->dot(curvature);
     if (bend == 0) return;
     // The form's slope stays zero: the end moves by -(slope of the part) / bend.
-    const double by_move = weight * slopes.by_mean.dot(stress(slope));
-    by_stress_.noalias() -= slope * (by_move / bend * moving->transpose());
+    spread(around.first, around.slope, -weight * slopes.by_mean.dot(slope) / bend * *moving);
   };
-  add_end(cycle.from_instant, slopes.by_from);
-  add_end(cycle.to_instant, slopes.by_to);
+  add_end(cycle.from_instant * per_step, slopes.by_from);
+  add_end(cycle.to_instant * per_step, slopes.by_to);
 }
 
 void DamageDerivative::add(const SupportSlopes& support, double weight) {
   if (support.by_change.isZero(0)) return;
   if (by_load_.size() == 0) by_load_ = MatrixXd::Zero(loads_.values.rows(), loads_.values.cols());
-  const VectorXd weights = weights_at(support.to) - weights_at(support.from);
+  const VectorXd weights = course_->weights_at(support.to) - course_->weights_at(support.from);
   by_load_.noalias() += weight * support.by_change * weights.transpose();
 }
 
 /// dD / d loads, channels x instants.
 MatrixXd DamageDerivative::by_loads() const {
-  MatrixXd result = unit_Pa_.transpose() * by_stress_.transpose();
+  MatrixXd result =
+      unit_Pa_.transpose() * (course_ != nullptr ? course_->by_instant(by_stress_) : by_stress_);
   if (by_load_.size() > 0) result += by_load_;
   return result;
 }
@@ -155,14 +149,15 @@ StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory
   const auto stress = search.stress_of(node.node);
   const Vector6 form = form_along(counted.direction);
   const auto cycles = stress.cycles_along(counted.direction);
-  std::vector<double> weights;
-  double sum = 0;
-  for (const auto& block : counted.blocks) sum += weights.emplace_back(damage_slope(curve, block));
   const UnitStresses unit_Pa = unit_stresses_at(analysis.responses, node.node);
   DamageDerivative derivative(unit_Pa, loads, &search.course());
-  for (const auto i : cycles_that_matter(weights))
+  double sum = 0;
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const double weight = damage_slope(curve, counted.blocks[i]);
     derivative.add(cycles[i], slopes_of_equivalent(cycles[i], form, counted.limit.mean_stress_sensitivity),
-                   weights[i], stress.is_smooth() ? &form : nullptr);
+                   weight, stress.is_smooth() ? &form : nullptr);
+    sum += weight;
+  }
   derivative.add(search.support_slopes(node.node, counted.from, counted.to), sum);
   shares.effects = shares_of(derivative.by_effect());
   if (with_channels) shares.channels = shares_of(derivative.by_channel());
@@ -176,10 +171,8 @@ std::vector<double> shares_in_damage(const WeldPlace& place, const ChannelHistor
   for (const auto& cycle : cycles) blocks.push_back({cycle.range_Pa, 1});
   const auto of_shares = curve_of_shares(curve, blocks);
   DamageDerivative derivative(place.unit_Pa, loads, &course);
-  std::vector<double> weights;
-  for (const auto& block : blocks) weights.push_back(damage_slope(of_shares, block));
-  for (const auto i : cycles_that_matter(weights))
-    derivative.add(cycles[i], slopes_of_range(cycles[i], toe.form), weights[i]);
+  for (std::size_t i = 0; i < cycles.size(); ++i)
+    derivative.add(cycles[i], slopes_of_range(cycles[i], toe.form), damage_slope(of_shares, blocks[i]));
   return shares_of(derivative.by_effect());
 }
 

@@ -46,15 +46,11 @@ SnCurve curve_of_shares(SnCurve curve, const std::vector<StressBlock>& blocks);
 /// k n / N: by how much the damage of a block grows with the logarithm of its amplitude.
 double damage_slope(const SnCurve& curve, const StressBlock& block);
 
-/// Indices of cycles, ascending, without those that together have less than 1e-5 of the sum of the weights.
-/// @param weights  k n / N, at least 0
-std::vector<std::size_t> cycles_that_matter(const std::vector<double>& weights);
-
-/// dD/ds of the parts of one history at one place. It is linear in their stresses at the ends of cycles, so
-/// that weights of instants are gathered over cycles, and parts are looked at once.
+/// dD/ds of the parts of one history at one place of the body. It is linear in their stresses at the ends of
+/// cycles: weights of these over time are gathered, and parts are looked at once.
 class DamageDerivative {
 public:
-  /// @param course  of the loads; null: ends of cycles are instants
+  /// @param course  of the loads; null: ends of cycles are at instants
   /// All outlive this.
   DamageDerivative(const UnitStresses& unit_Pa, const ChannelHistory& loads, const FactorCourse* course);
 
@@ -63,9 +59,9 @@ public:
   ///                stay where they are
   void add(const EndsOfCycle& cycle, const AmplitudeSlopes& slopes, double weight,
            const Eigen::Matrix<double, 6, 1>* moving = nullptr);
-  /// The stress at an instant of the history.
+  /// The stress at a column of FactorCourse::fine, or between two; without a course at an instant.
   /// @param by_stress  dD / d stress [1/Pa]
-  void add(double instant, const Eigen::Matrix<double, 6, 1>& by_stress);
+  void add(double place, const Eigen::Matrix<double, 6, 1>& by_stress);
   /// The support by the stress gradient, for all cycles of that weight in sum.
   void add(const SupportSlopes& support, double weight);
 
@@ -73,13 +69,14 @@ public:
   Eigen::VectorXd by_channel() const;
 
 private:
-  Eigen::VectorXd weights_at(double instant) const;
+  void spread(Eigen::Index first, const PlacesAround::Weights& weights,
+              const Eigen::Matrix<double, 6, 1>& by_stress);
   Eigen::MatrixXd by_loads() const;
 
   const UnitStresses& unit_Pa_;
   const ChannelHistory& loads_;
   const FactorCourse* course_;
-  Eigen::MatrixXd by_stress_;  // instants x 6
+  Eigen::MatrixXd by_stress_;  // 6 x places
   Eigen::MatrixXd by_load_;    // channels x instants: of the support; empty: none
 };
 

@@ -138,6 +138,25 @@ Eigen::VectorXd FactorCourse::weights_at(double instant) const {
   return weights;
 }
 
+/// The transpose of take_places: its kernel is even, so that it is the same filter.
+Eigen::MatrixXd FactorCourse::by_instant(const Eigen::MatrixXd& by_place) const {
+  if (per_step_ == 1) return by_place;
+  const Index n = values_.cols();
+  const ArrayXXcd lines = factor_spectrum(by_place.array(), 0).lines;
+  Eigen::FFT<double> transform;
+  Eigen::VectorXcd spectrum(n), series(n);
+  Eigen::MatrixXd result(by_place.rows(), n);
+  for (Index k = 0; k < result.rows(); ++k) {
+    const Index n_lines = std::min(n / 2 + 1, lines.cols());
+    spectrum.setZero();
+    spectrum.head(n_lines) = lines.row(k).head(n_lines).matrix().transpose() * double(n * per_step_);
+    if (n % 2 == 0 && n / 2 < n_lines) spectrum[n / 2] *= 0.5;  // half of the places' line is the instants'
+    transform.inv(series, spectrum);
+    result.row(k) = series.real().transpose();
+  }
+  return result;
+}
+
 ArrayXd FactorCourse::missed_by(double n) const {
   ArrayXd missed = ArrayXd::Zero(values_.rows());
   for (Index h = 1; h < line_sizes_.cols(); ++h) {

@@ -32,6 +32,11 @@ public:
   /// @param instant  i + share of the step to the next, 0 to n
   Eigen::VectorXd weights_at(double instant) const;
 
+  /// A sum over the places as one over the instants: of weights of places those of the instants, so that
+  /// sum w(p) fine(p) = sum result(i) values(i).
+  /// @param by_place  rows x (n per_step())
+  Eigen::MatrixXd by_instant(const Eigen::MatrixXd& by_place) const;
+
   /// By how much each channel's part of a crest may exceed what the instants, or the places, tell: the sum
   /// over its lines of size min(2, (pi h / n)^2 / 2) (factor_spectrum.h, instants_for). A crest of a sum of
   /// channels is missed by the sum of these at most. Zeros without a polynomial.

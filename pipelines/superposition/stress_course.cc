@@ -17,7 +17,7 @@ using Eigen::ArrayXXd;
 using Eigen::Index;
 
 /// Places of a polynomial that stands for the course between two of them.
-constexpr Index n_local = 8;
+constexpr Index n_local = PlacesAround::n;
 /// Of the largest range: equal to rainflow.
 constexpr double equal_ranges = 1e-9;
 
@@ -75,6 +75,15 @@ double squared_distance(const Stress& a, const Stress& b) {
 }
 
 }  // namespace
+
+PlacesAround::PlacesAround(double place) : first(Index(std::floor(place)) - (n / 2 - 1)) {
+  constexpr double step = 0.01;  // of places: off by (2 pi step / 48)^2 / 6 of a harmonic's slope
+  const auto at = [&](double x) { return Weights(Weights::Map(local_weights(x - double(first)).data())); };
+  const Weights before = at(place - step), after = at(place + step);
+  value = at(place);
+  slope = (after - before) / (2 * step);
+  curvature = (after - 2 * value + before) / (step * step);
+}
 
 StressCourse::StressCourse(const UnitStresses& unit_Pa, const FactorCourse& factors)
     : StressCourse(at_places((unit_Pa * factors.fine().matrix()).array(), factors)) {}
@@ -146,10 +155,11 @@ std::vector<EndsOfCycle> StressCourse::cycles_of(const Eigen::Matrix<double, 6, 
   const Index n = values.size();
   const double alike = equal_ranges * (values.maxCoeff() - values.minCoeff());
   std::vector<double> places;
+  double before = values[0] - values[n - 1];
   for (Index i = 0; i < n; ++i) {
-    const double before = values[i] - values[wrapped(i - 1, n)],
-                 after = values[wrapped(i + 1, n)] - values[i];
+    const double after = values[i + 1 < n ? i + 1 : 0] - values[i];
     if (before * after <= 0 && !(before == 0 && after == 0)) places.push_back(double(i));
+    before = after;
   }
   if (refined && is_smooth_)
     for (auto& place : places) place = crest_of(values, Index(place));

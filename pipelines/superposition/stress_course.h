@@ -28,6 +28,17 @@ struct CycleBetween {
   double from = 0, to = 0;  ///< instants: i + share of the step to the next
 };
 
+/// Between places a value is that of the polynomial through eight of them.
+struct PlacesAround {
+  static constexpr Eigen::Index n = 8;
+  using Weights = Eigen::Matrix<double, n, 1>;
+
+  explicit PlacesAround(double place);
+
+  Eigen::Index first;               ///< the weights' places begin here and repeat with the period
+  Weights value, slope, curvature;  ///< of the polynomial and its derivatives, by the step of the places
+};
+
 class StressCourse {
 public:
   /// @param unit_Pa  of the place, a column for each channel

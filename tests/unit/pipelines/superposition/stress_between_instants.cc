@@ -159,6 +159,11 @@ TEST(FactorCourse, GoesThroughTheInstantsAndBetweenThem) {
         EXPECT_NEAR(by_weights[k], exact, 1e-12);
       }
     }
+    // A sum over places is one over instants: red if the line at n / 2 counts twice.
+    const Eigen::MatrixXd by_place = Eigen::MatrixXd::Random(2, course.fine().cols());
+    const Eigen::MatrixXd over_places = by_place * course.fine().matrix().transpose(),
+                          over_instants = course.by_instant(by_place) * values.matrix().transpose();
+    EXPECT_LT((over_places - over_instants).cwiseAbs().maxCoeff(), 1e-11) << "rounding of 300 terms";
     const ArrayXd most = values.rowwise().maxCoeff() + course.missed_by_instants();
     EXPECT_GE(most.minCoeff(), 1 - 1e-12) << "crests are 1";
     EXPECT_LT(course.missed_by_places().maxCoeff(), 0.01);
