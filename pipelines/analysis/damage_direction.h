@@ -27,4 +27,11 @@ std::vector<DeviatoricDirection> damage_directions(
     const Eigen::Matrix<double, 5, Eigen::Dynamic>& coordinates, const DeviatoricDirection& largest,
     const DamageAlong& damage);
 
+/// The direction near one from which no small turn makes the damage larger, by Newton's method on its
+/// logarithm: there turning changes it in second order only. Damage jumps where other turning points pair up
+/// to equal ranges with unlike means. The largest one may lie at such an edge; then what is returned is the
+/// worst of those that the method came past, at least as bad as the given one.
+/// @param damage  positive at the given one
+DeviatoricDirection stationary_direction(const DeviatoricDirection& near, const DamageAlong& damage);
+
 }  // namespace pipelines

@@ -16,6 +16,10 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 /// Places that are whole but for what instants times steps lose.
 constexpr double rounding_of_places = 1e-9;
 
+Index wrapped_place(Index place, Index n) {
+  return (place % n + n) % n;
+}
+
 Vector6 vector_of(const Stress& stress) {
   return Eigen::Map<const Vector6>(stress.data());
 }
@@ -42,16 +46,6 @@ AmplitudeSlopes slopes_of_equivalent(const EndsOfCycle& cycle, const Vector6& fo
   return {by_mean - by_range, by_mean + by_range, by_mean};
 }
 
-SnCurve curve_of_shares(SnCurve curve, const std::vector<StressBlock>& blocks) {
-  if (miner_damage(curve, blocks) > 0) return curve;
-  double largest_Pa = 0;
-  for (const auto& block : blocks)
-    if (block.count > 0) largest_Pa = std::max(largest_Pa, block.amplitude_Pa);
-  if (largest_Pa > 0) curve.knee_amplitude_Pa = largest_Pa;
-  curve.second_slope = curve.slope;
-  return curve;
-}
-
 double damage_slope(const SnCurve& curve, const StressBlock& block) {
   const auto cycles = cycles_to_failure(curve, block.amplitude_Pa);
   if (!cycles) return 0;
@@ -66,10 +60,10 @@ DamageDerivative::DamageDerivative(const UnitStresses& unit_Pa, const ChannelHis
       course_(course),
       by_stress_(MatrixXd::Zero(6, course != nullptr ? course->fine().cols() : loads.values.cols())) {}
 
-void DamageDerivative::spread(Index first, const PlacesAround::Weights& weights, const Vector6& by_stress) {
-  const Index n = by_stress_.cols();
+void DamageDerivative::spread(const PlacesAround& around, const PlacesAround::Weights& weights,
+                              const Vector6& by_stress) {
   for (Index i = 0; i < PlacesAround::n; ++i)
-    by_stress_.col(((first + i) % n + n) % n) += weights[i] * by_stress;
+    by_stress_.col(wrapped_place(around.first + i, by_stress_.cols())) += weights[i] * by_stress;
 }
 
 void DamageDerivative::add(double place, const Vector6& by_stress) {
@@ -78,8 +72,24 @@ void DamageDerivative::add(double place, const Vector6& by_stress) {
     by_stress_.col(Index(nearest) % by_stress_.cols()) += by_stress;
   else {
     const PlacesAround around(place);
-    spread(around.first, around.value, by_stress);
+    spread(around, around.value, by_stress);
   }
+}
+
+/// A turning point of a form stays one: the form's slope stays zero, so that the place moves by
+/// -(slope of the part) / bend.
+/// @param by_move  dD by the move of the place, of the loads' slopes there
+template <typename ByMove>
+void DamageDerivative::add_move(double place, const Vector6& form, const ByMove& by_move) {
+  const PlacesAround around(place);
+  VectorXd slope = VectorXd::Zero(loads_.values.rows()), curvature = slope;
+  for (Index i = 0; i < PlacesAround::n; ++i) {
+    const auto loads = course_->fine().matrix().col(wrapped_place(around.first + i, by_stress_.cols()));
+    slope += around.slope[i] * loads;
+    curvature += around.curvature[i] * loads;
+  }
+  const double bend = form.dot(unit_Pa_ * curvature);
+  if (bend != 0) spread(around, around.slope, -by_move(slope) / bend * form);
 }
 
 void DamageDerivative::add(const EndsOfCycle& cycle, const AmplitudeSlopes& slopes, double weight,
@@ -88,28 +98,23 @@ void DamageDerivative::add(const EndsOfCycle& cycle, const AmplitudeSlopes& slop
   const auto add_end = [&](double place, const Vector6& by_stress) {
     add(place, weight * by_stress);
     if (moving == nullptr || slopes.by_mean.isZero(0)) return;
-    const PlacesAround around(place);
-    const Index n = by_stress_.cols();
-    Vector6 slope = Vector6::Zero(), curvature = Vector6::Zero();
-    for (Index i = 0; i < PlacesAround::n; ++i) {
-      const Vector6 stress = unit_Pa_ * course_->fine().matrix().col(((around.first + i) % n + n) % n);
-      slope += around.slope[i] * stress;
-      curvature += around.curvature[i] * stress;
-    }
-    const double bend = moving->dot(curvature);
-    if (bend == 0) return;
-    // The form's slope stays zero: the end moves by -(slope of the part) / bend.
-    spread(around.first, around.slope, -weight * slopes.by_mean.dot(slope) / bend * *moving);
+    add_move(place, *moving,
+             [&](const VectorXd& loads) { return weight * slopes.by_mean.dot(unit_Pa_ * loads); });
   };
   add_end(cycle.from_instant * per_step, slopes.by_from);
   add_end(cycle.to_instant * per_step, slopes.by_to);
 }
 
 void DamageDerivative::add(const SupportSlopes& support, double weight) {
-  if (support.by_change.isZero(0)) return;
-  if (by_load_.size() == 0) by_load_ = MatrixXd::Zero(loads_.values.rows(), loads_.values.cols());
+  if (support.by_change.size() == 0) return;
   const VectorXd weights = course_->weights_at(support.to) - course_->weights_at(support.from);
-  by_load_.noalias() += weight * support.by_change * weights.transpose();
+  by_load_ = weight * support.by_change * weights.transpose();
+  if (!course_->is_polynomial() || by_stress_.cols() < PlacesAround::n) return;
+  const double per_step = double(course_->per_step());
+  for (const auto& [instant, sign] : {std::pair(support.from, -1.0), std::pair(support.to, 1.0)})
+    add_move(instant * per_step, support.form, [&, of_end = sign * weight](const VectorXd& loads) {
+      return of_end * support.by_change.dot(loads);
+    });
 }
 
 /// dD / d loads, channels x instants.
@@ -145,7 +150,7 @@ StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory
                               const CountedNode& counted, bool with_channels) {
   StressShares shares;
   if (counted.blocks.empty()) return shares;
-  const auto curve = curve_of_shares(rules.design_curve(counted.blocks), counted.blocks);
+  const auto curve = curve_with_damage(rules.design_curve(counted.blocks), counted.blocks);
   const auto stress = search.stress_of(node.node);
   const Vector6 form = form_along(counted.direction);
   const auto cycles = stress.cycles_along(counted.direction);
@@ -158,7 +163,7 @@ StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory
                    weight, stress.is_smooth() ? &form : nullptr);
     sum += weight;
   }
-  derivative.add(search.support_slopes(node.node, counted.from, counted.to), sum);
+  derivative.add(search.support_slopes(node.node, counted), sum);
   shares.effects = shares_of(derivative.by_effect());
   if (with_channels) shares.channels = shares_of(derivative.by_channel());
   return shares;
@@ -169,7 +174,7 @@ std::vector<double> shares_in_damage(const WeldPlace& place, const ChannelHistor
   const auto cycles = StressCourse(place.unit_Pa, course).cycles_of(toe.form);
   std::vector<StressBlock> blocks;
   for (const auto& cycle : cycles) blocks.push_back({cycle.range_Pa, 1});
-  const auto of_shares = curve_of_shares(curve, blocks);
+  const auto of_shares = curve_with_damage(curve, blocks);
   DamageDerivative derivative(place.unit_Pa, loads, &course);
   for (std::size_t i = 0; i < cycles.size(); ++i)
     derivative.add(cycles[i], slopes_of_range(cycles[i], toe.form), damage_slope(of_shares, blocks[i]));

@@ -39,10 +39,6 @@ AmplitudeSlopes slopes_of_range(const EndsOfCycle& cycle, const Eigen::Matrix<do
 AmplitudeSlopes slopes_of_equivalent(const EndsOfCycle& cycle, const Eigen::Matrix<double, 6, 1>& form,
                                      double mean_stress_sensitivity);
 
-/// The curve that shares are taken by: the same where it has damage. Else its knee is at the largest
-/// amplitude, and one slope counts.
-SnCurve curve_of_shares(SnCurve curve, const std::vector<StressBlock>& blocks);
-
 /// k n / N: by how much the damage of a block grows with the logarithm of its amplitude.
 double damage_slope(const SnCurve& curve, const StressBlock& block);
 
@@ -69,8 +65,10 @@ public:
   Eigen::VectorXd by_channel() const;
 
 private:
-  void spread(Eigen::Index first, const PlacesAround::Weights& weights,
+  void spread(const PlacesAround& around, const PlacesAround::Weights& weights,
               const Eigen::Matrix<double, 6, 1>& by_stress);
+  template <typename ByMove>
+  void add_move(double place, const Eigen::Matrix<double, 6, 1>& form, const ByMove& by_move);
   Eigen::MatrixXd by_loads() const;
 
   const UnitStresses& unit_Pa_;

@@ -122,7 +122,7 @@ void take_damage(const CountedBlocks& counted, const CurveOf& curve_of, double d
 }
 
 std::vector<double> shares_by_effect(const CountedBlocks& counted, const SnCurve& curve, Index n_effects) {
-  const auto of_shares = curve_of_shares(curve, counted.all());
+  const auto of_shares = curve_with_damage(curve, counted.all());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_effects);
   for (const auto& derivative : counted.derivatives) sum += derivative(of_shares);
   return shares_of(sum);
@@ -316,18 +316,20 @@ private:
       derivatives.push_back([this, &places, &block, node, counted](const SnCurve& curve) {
         const auto stress = places.stress_of(node.node);
         const auto form = form_along(counted.direction);
-        const auto support = places.support_slopes(node.node, counted.from, counted.to);
+        const auto support = places.support_slopes(node.node, counted);
         return shares_.running(
             {unit_stresses_at(analysis_.responses, node.node), block, places.course()},
             {stress.cycles_along(counted.direction), in_a_second(counted.blocks, block.running_per_s())},
-            equivalents_along(form, counted.limit), curve, &support, stress.is_smooth() ? &form : nullptr);
+            equivalents_along(form, counted.limit), curve, support, stress.is_smooth() ? &form : nullptr);
       });
-    if (block.starts_per_s > 0) count_start(node, places, block, own, derivatives);
+    if (block.starts_per_s > 0) count_start(node, counted, places, block, own, derivatives);
   }
 
-  /// Along the direction in which a start does most damage beyond that of the running in it.
-  void count_start(const FatigueNode& node, const FatiguePlaces& places, const BlockOnBody& block,
-                   CountedBlocks::Block& own, std::vector<DerivativeBy>& derivatives) const {
+  /// Along the direction in which a start does most damage beyond that of the running in it, with the support
+  /// that the running has.
+  void count_start(const FatigueNode& node, const CountedNode& of_running, const FatiguePlaces& places,
+                   const BlockOnBody& block, CountedBlocks::Block& own,
+                   std::vector<DerivativeBy>& derivatives) const {
     const StressCourse running(places.stress_of(node.node).stress_Pa());
     const ArrayXXd starting = block.starting != nullptr
                                   ? stress_history_Pa(analysis_.responses, *block.starting, node.node)
@@ -337,7 +339,7 @@ private:
     if (!(cycle.amplitude_Pa > 0)) return;
     own.start_amplitude_Pa = cycle.amplitude_Pa;
     own.largest_Pa = std::max(own.largest_Pa, amplitude_and_mean_Pa(cycle));
-    const auto limit = rules_.limit(node.gradient_per_m, scalar(cycle));
+    const auto limit = of_running.blocks.empty() ? rules_.limit(0, {}) : of_running.limit;
     const auto counted = [&](const StressCourse& course, const DeviatoricDirection& direction) {
       return rules_.counted(course.cycles_along(direction), limit);
     };
@@ -355,16 +357,17 @@ private:
         most = damage;
         worst = direction;
       }
+    if (most > 0) worst = stationary_direction(worst, added);
     WeighedCycles in_start{sequence.cycles_along(worst), {}}, in_running{running.cycles_along(worst), {}};
     for (auto* weighed : {&in_start, &in_running})
       weighed->blocks = in_a_second(rules_.counted(weighed->cycles, limit), block.starts_per_s);
     append(own.starting, in_start.blocks, 1);
     append(own.running_in_starts, in_running.blocks, 1);
     derivatives.push_back([=, &places, &block](const SnCurve& curve) {
-      const auto support = places.support_slopes(node.node, node.from, node.to);
+      const auto support = places.support_slopes(node.node, of_running);
       return shares_.starting({unit_stresses_at(analysis_.responses, node.node), block, places.course()},
                               in_start, in_running, equivalents_along(form_along(worst), limit), curve,
-                              &support);
+                              support);
     });
     own.unresolved_start_share = block.starting == nullptr
                                      ? 0

@@ -34,7 +34,7 @@ VectorXd DutyShares::on_all(const VectorXd& own, const std::vector<std::string>&
 }
 
 VectorXd DutyShares::running(const PlaceInBlock& at, const WeighedCycles& weighed, const SlopesOf& slopes_of,
-                             const SnCurve& curve, const SupportSlopes* support,
+                             const SnCurve& curve, const SupportSlopes& support,
                              const Vector6* moving) const {
   DamageDerivative derivative(at.unit_Pa, *at.block.running, &at.course);
   double sum = 0;
@@ -43,13 +43,13 @@ VectorXd DutyShares::running(const PlaceInBlock& at, const WeighedCycles& weighe
     derivative.add(weighed.cycles[i], slopes_of(weighed.cycles[i]), weight, moving);
     sum += weight;
   }
-  if (support != nullptr) derivative.add(*support, sum);
+  derivative.add(support, sum);
   return on_all(derivative.by_effect(), at.block.running->effects);
 }
 
 VectorXd DutyShares::starting(const PlaceInBlock& at, const WeighedCycles& start,
                               const WeighedCycles& its_running, const SlopesOf& slopes_of,
-                              const SnCurve& curve, const SupportSlopes* support) const {
+                              const SnCurve& curve, const SupportSlopes& support) const {
   if (!(miner_damage(curve, start.blocks) > miner_damage(curve, its_running.blocks)))
     return VectorXd::Zero(n_effects());
   const auto* transient = at.block.starting;
@@ -77,7 +77,7 @@ VectorXd DutyShares::starting(const PlaceInBlock& at, const WeighedCycles& start
   };
   add(start, 1, n_before);
   add(its_running, -1, 0);
-  if (support != nullptr) running.add(*support, sum);
+  running.add(support, sum);
   VectorXd result = on_all(running.by_effect(), at.block.running->effects);
   if (before) result += on_all(before->by_effect(), transient->effects);
   return result;

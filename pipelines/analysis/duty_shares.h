@@ -35,10 +35,10 @@ public:
   Eigen::Index n_effects() const { return Eigen::Index(effects_.size()); }
 
   /// dD/ds of the running.
-  /// @param support  FatiguePlaces::support_slopes; null: no stress gradient counts
+  /// @param support  FatiguePlaces::support_slopes; none at a weld
   /// @param moving   as in DamageDerivative::add
   Eigen::VectorXd running(const PlaceInBlock& at, const WeighedCycles& weighed, const SlopesOf& slopes_of,
-                          const SnCurve& curve, const SupportSlopes* support = nullptr,
+                          const SnCurve& curve, const SupportSlopes& support = {},
                           const Eigen::Matrix<double, 6, 1>* moving = nullptr) const;
 
   /// dD/ds of what starts do beyond the running in them; zeros where that is nothing.
@@ -48,7 +48,7 @@ public:
   /// @param support      of the running
   Eigen::VectorXd starting(const PlaceInBlock& at, const WeighedCycles& start,
                            const WeighedCycles& its_running, const SlopesOf& slopes_of, const SnCurve& curve,
-                           const SupportSlopes* support = nullptr) const;
+                           const SupportSlopes& support = {}) const;
 
 private:
   Eigen::VectorXd on_all(const Eigen::VectorXd& own, const std::vector<std::string>& names) const;

@@ -163,11 +163,10 @@ double FatiguePlaces::gradient_per_m(std::size_t node, double from, double to) c
 }
 
 /// With f von Mises stress and S its slope inwards, G = -S / f: dG = -(dS + G df) / f.
-SupportSlopes FatiguePlaces::support_slopes(std::size_t node, double from, double to) const {
-  SupportSlopes result{Eigen::VectorXd::Zero(loads_.values.rows()), from, to};
-  const double gradient = gradient_per_m(node, from, to);
-  if (!(gradient > 0)) return result;
-  const Eigen::VectorXd loads = half_change(from, to);
+SupportSlopes FatiguePlaces::support_slopes(std::size_t node, const CountedNode& counted) const {
+  const double gradient = gradient_per_m(node, counted.from, counted.to);
+  if (!(gradient > 0)) return {};
+  const Eigen::VectorXd loads = half_change(counted.from, counted.to);
   const auto slopes_at = [&](std::size_t other) -> Eigen::VectorXd {
     const auto unit = unit_stresses_at(analysis_.responses, other);
     return unit.transpose() * form_along(direction_of(as_stress(unit * loads)));
@@ -182,8 +181,8 @@ SupportSlopes FatiguePlaces::support_slopes(std::size_t node, double from, doubl
   };
   const double by_log_gradient = (log_support(1 + step) - log_support(1 - step)) / (2 * step);
   const double stress_Pa = here.dot(loads);
-  result.by_change = by_log_gradient / (gradient * stress_Pa) * 0.5 * by_load;
-  return result;
+  return {by_log_gradient / (gradient * stress_Pa) * 0.5 * by_load, counted.from, counted.to,
+          form_along(counted.direction)};
 }
 
 FatigueNode FatiguePlaces::judged(std::size_t node, const StressCourse& course, double slack,
@@ -218,27 +217,33 @@ CountedNode FatiguePlaces::counted(const FatigueNode& node, double duration_s) c
     return elementary_damage(rules_.counted(course.cycles_along(direction, false), limit),
                              rules_.group().slope_normal);
   };
-  const auto directions =
-      damage_directions(course.coordinates(), direction_of(node.cycle.half_range_Pa), about);
-  for (const auto& direction : directions) {
+  const auto along = [&](const DeviatoricDirection& direction) {
+    CountedNode one;
     const auto cycles = course.cycles_along(direction);
-    if (cycles.empty()) continue;
+    if (cycles.empty()) return one;
     const auto largest = std::max_element(
         cycles.begin(), cycles.end(), [](const auto& a, const auto& b) { return a.range_Pa < b.range_Pa; });
-    CountedNode one;
     one.direction = direction;
     one.amplitude_Pa = largest->range_Pa / 2;
-    const bool is_first = &direction == &directions.front();
-    one.from = is_first ? node.from : largest->from_instant;
-    one.to = is_first ? node.to : largest->to_instant;
-    one.limit = is_first ? limit
-                         : rules_.limit(gradient_per_m(node.node, one.from, one.to),
-                                        scalar(cycle_between(largest->from, largest->to, 0, 1)));
+    one.from = largest->from_instant;
+    one.to = largest->to_instant;
+    one.limit = rules_.limit(gradient_per_m(node.node, one.from, one.to),
+                             scalar(cycle_between(largest->from, largest->to, 0, 1)));
     one.blocks = rules_.counted(cycles, one.limit);
-    if (worst.blocks.empty() || damages_more(rules_, one.blocks, worst.blocks, duration_s))
+    return one;
+  };
+  for (const auto& direction :
+       damage_directions(course.coordinates(), direction_of(node.cycle.half_range_Pa), about)) {
+    auto one = along(direction);
+    if (!one.blocks.empty() &&
+        (worst.blocks.empty() || damages_more(rules_, one.blocks, worst.blocks, duration_s)))
       worst = std::move(one);
   }
-  return worst;
+  if (worst.blocks.empty()) return worst;
+  const auto curve = curve_with_damage(rules_.design_curve(worst.blocks), worst.blocks);
+  const auto direction = stationary_direction(
+      worst.direction, [&](const auto& turned) { return miner_damage(curve, along(turned).blocks); });
+  return direction == worst.direction ? worst : along(direction);
 }
 
 double FatiguePlaces::unresolved_share(const FatigueNode& node, const CountedNode& counted) const {

@@ -38,8 +38,10 @@ struct CountedNode {
 
 /// d ln(1 / sigma_WK) by the loads of a cycle: what they do to the support by the stress gradient.
 struct SupportSlopes {
-  Eigen::VectorXd by_change;  ///< by the change of each channel's load between the instants [1/unit]
+  Eigen::VectorXd by_change;  ///< by the change of each channel's load between the instants [1/unit]; empty:
+                              ///< no support
   double from = 0, to = 0;    ///< i + share of the step to the next
+  Eigen::Matrix<double, 6, 1> form = Eigen::Matrix<double, 6, 1>::Zero();  ///< they are its turning points
 };
 
 /// Whether blocks do more damage than others; of those that do none, leave less of a factor on all stresses
@@ -79,8 +81,7 @@ public:
   const FactorCourse& course() const { return course_; }
   StressCourse stress_of(std::size_t node) const;
 
-  /// Zeros where there is no support.
-  SupportSlopes support_slopes(std::size_t node, double from, double to) const;
+  SupportSlopes support_slopes(std::size_t node, const CountedNode& counted) const;
 
   /// The loads at two instants or between them.
   ChannelHistory between(double from, double to) const;

@@ -77,6 +77,16 @@ double miner_damage(const SnCurve& curve, const std::vector<StressBlock>& blocks
   return damage;
 }
 
+SnCurve curve_with_damage(SnCurve curve, const std::vector<StressBlock>& blocks) {
+  if (miner_damage(curve, blocks) > 0) return curve;
+  double largest_Pa = 0;
+  for (const auto& block : blocks)
+    if (block.count > 0) largest_Pa = std::max(largest_Pa, block.amplitude_Pa);
+  if (largest_Pa > 0) curve.knee_amplitude_Pa = largest_Pa;
+  curve.second_slope = curve.slope;
+  return curve;
+}
+
 double elementary_damage(const std::vector<StressBlock>& blocks, double slope) {
   double damage = 0;
   for (const StressBlock& block : blocks) damage += block.count * std::pow(block.amplitude_Pa, slope);

@@ -43,6 +43,10 @@ struct StressBlock {
 /// finite
 double miner_damage(const SnCurve& curve, const std::vector<StressBlock>& blocks);
 
+/// The same curve where the blocks have damage by it. Else with its knee at the largest amplitude and one
+/// slope: the damage that begins when all amplitudes are raised together.
+SnCurve curve_with_damage(SnCurve curve, const std::vector<StressBlock>& blocks);
+
 /// Sum of n_i A_i^k: in proportion to the damage by one slope without a knee (Miner's elementary rule).
 double elementary_damage(const std::vector<StressBlock>& blocks, double slope);
 

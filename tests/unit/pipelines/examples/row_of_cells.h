@@ -26,7 +26,8 @@ struct Row {
     }
     for (int c = 0; c < n_cells; ++c) {
       for (const int v : fem::vtk_hexahedron_from_lexicographic) nodes.cells.push_back(18 * c + v);
-      for (int v = 0; v < 9; ++v) nodes.faces.push_back(18 * c + 3 * v);  // x = 0
+      // x = 0: corners, edges and middle, round the normal outwards.
+      for (const int v : {0, 6, 8, 2, 3, 7, 5, 1, 4}) nodes.faces.push_back(18 * c + 3 * v);
       nodes.face_boundary_id.push_back(std::min(c, 2) + 1);
     }
     envelope.value_Pa.assign(nodes.n, 0);
