@@ -10,8 +10,9 @@
 /// A_i is a function of the stresses at the two ends of its cycle, which are linear in the effects: its range
 /// along the direction of counting, at unwelded places with the mean and its sensitivity. Ends are turning
 /// points: by their moving the range does not change to first order, but the mean does. What the effects do
-/// to the support by the stress gradient is in the shares. The direction of counting is held: it is the one
-/// with most damage, so that turning it a little changes the damage in second order only.
+/// to the support by the stress gradient, at instants that move likewise, is in the shares. The direction of
+/// counting is held: turning it changes the damage in second order only (stationary_direction). Where other
+/// turning points pair up damage jumps, and has no derivative by the effects.
 ///
 /// Where nothing damages, the shares are those of the damage that begins when all loads are raised together:
 /// every cycle by the slope above the knee.

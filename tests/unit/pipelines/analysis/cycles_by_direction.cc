@@ -3,6 +3,7 @@
 /// the direction instead of that of the tensors, basis directions without those between them.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 
@@ -129,6 +130,26 @@ TEST(CyclesByDirection, EachCycleHasTheMeanOfItsTensors) {
     by_order.push_back(elementary_damage(blocks, life_slope) / order);
   }
   for (const double damage : by_order) EXPECT_NEAR(damage, by_order.front(), 1e-5 * by_order.front());
+}
+
+// A quadratic form is largest along its first eigenvector. Turns red: a search in fixed steps, which stays
+// 1/200 rad away; a Newton step that is not taken back where it goes too far.
+TEST(CyclesByDirection, StationaryOnesAreFoundToRounding) {
+  std::mt19937 engine(3);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 20; ++trial) {
+    using Matrix5 = Eigen::Matrix<double, 5, 5>;
+    const Matrix5 any = Matrix5::NullaryExpr([&] { return normal(engine); });
+    const Eigen::SelfAdjointEigenSolver<Matrix5> axes(any);
+    Eigen::Matrix<double, 5, 1> values;
+    values << 0.1, 0.5, 1, 2, 4;
+    const Matrix5 form = axes.eigenvectors() * values.asDiagonal() * axes.eigenvectors().transpose();
+    const DeviatoricDirection exact = axes.eigenvectors().col(4);
+    const DeviatoricDirection near = (exact + 0.05 * any.col(0).normalized()).normalized();
+    const auto found =
+        pipelines::stationary_direction(near, [&](const auto& d) { return std::pow(d.dot(form * d), 2.5); });
+    EXPECT_LT((found - exact).norm(), 1e-7) << trial << ": differences with a step of 1e-3 rad, squared";
+  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 /// Shares of the effects in damage against closed forms, and against whole judgements with one effect a
 /// little larger and smaller. Turns red: shares of the amplitude instead, the mean left out, or its ends
-/// held, the support by the gradient left out, one slope on both sides of the knee, starts without their
-/// transient.
+/// held, the support by the gradient left out, or its ends held, one slope on both sides of the knee, starts
+/// without their transient.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -161,9 +161,12 @@ void expect_small(std::vector<double> off, double half, double ninety_percent) {
 }
 
 // d ln(D) / ds_e is the slope times the share: against judgements of the whole body with the effect larger
-// and smaller. What is left is what the search leaves of the worst direction (to 1/200 rad; its direction
-// jumps by that, damage_direction.h), and of the difference: step^2. Where two directions or counted pairs
-// damage alike there is no derivative.
+// and smaller. The direction of counting is stationary and where it is held in them nothing else differs:
+// what is left of a difference is step^2 times slope^2 and crests to 1e-6. Not so at few places whose
+// direction of most damage lies where other turning points pair up: there damage jumps by up to some per
+// cent, as equal ranges get other means, and the edge moves with the effects.
+// Turns red: directions to 1/200 rad, as their search leaves them (shares off by 1e-4, and one in ten by
+// 4e-3).
 TEST(DamageShares, ArePredictionsOfWholeJudgements) {
   Random random{std::mt19937(11)};
   constexpr double step = 1e-3;
@@ -182,7 +185,7 @@ TEST(DamageShares, ArePredictionsOfWholeJudgements) {
       }
     }
     ASSERT_GT(off.size(), 40u);
-    expect_small(off, 2.5e-4, 1.5e-2);
+    expect_small(off, 1e-6, 1e-5);
   }
 }
 
@@ -368,10 +371,12 @@ void scale(ChannelHistory& loads, const std::string& effect, double factor) {
 }
 
 // Two blocks, the second one without the third effect and in another order of them, starts through a
-// transient and at once: against judgements with one effect larger and smaller everywhere.
+// transient and at once: against judgements with one effect larger and smaller everywhere. Transients at
+// random have many turning points: with 0.1 % larger loads one place in ten meets others that pair up, and
+// its damage jumps by up to 0.7 %; with 0.01 % none of these does.
 TEST(DamageShares, OverBlocksPredictTheirDamage) {
   Random random{std::mt19937(29)};
-  constexpr double step = 1e-3;
+  constexpr double step = 1e-4;
   std::vector<double> off;
   for (int trial = 0; trial < 12; ++trial) {
     const auto body = random_body(random, trial % 2 == 0);
@@ -404,7 +409,9 @@ TEST(DamageShares, OverBlocksPredictTheirDamage) {
     }
   }
   ASSERT_GT(off.size(), 20u);
-  expect_small(off, 6e-4, 0.15);  // with starts more directions and pairs damage alike
+  // Half: rounding of what the crests leave over the step. Ninety per cent: three of 24 directions of blocks
+  // and starts lie at an edge where others pair up, of which the damage in a held direction knows nothing.
+  expect_small(off, 2e-6, 5e-3);
 }
 
 }  // namespace
