@@ -146,6 +146,7 @@ JudgedNode worst_of(const std::vector<FatigueNode>& candidates, const FatiguePla
         damages_more(rules, one.counted.blocks, worst.counted.blocks, duration_s))
       worst = std::move(one);
   }
+  worst.counted = search.stationary(worst.node, worst.counted);
   return worst;
 }
 
@@ -248,7 +249,7 @@ ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const BodyAn
   result.is_on_surface = is_on_surface;
   if (!is_on_surface) return result;
   const auto node = search.at(zone.peak_node);
-  const auto counted = search.counted(node, period.duration_s);
+  const auto counted = search.stationary(node, search.counted(node, period.duration_s));
   if (counted.blocks.empty()) return result;
   const double damage = miner_damage(rules.design_curve(counted.blocks), counted.blocks);
   result.damage_per_turn = damage / period.turns;

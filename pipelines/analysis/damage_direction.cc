@@ -98,42 +98,45 @@ std::vector<DeviatoricDirection> damage_directions(const Coordinates& coordinate
 }
 
 DeviatoricDirection stationary_direction(const DeviatoricDirection& near, const DamageAlong& damage) {
-  constexpr double difference_rad = 1e-3, most_turn_rad = 0.1, last_turn_rad = 1e-4, rounding = 1e-12;
+  constexpr double difference_rad = 1e-3, most_turn_rad = 0.1, last_turn_rad = 1e-3, rounding = 1e-12;
   constexpr int most_turns = 4, most_halvings = 3;
   using Turn = Eigen::Vector4d;
   DeviatoricDirection direction = near;
   double here = std::log(damage(direction));
+  Eigen::LLT<Eigen::Matrix4d> crest;  // of the second derivatives, but for the sign
   for (int i = 0; i < most_turns; ++i) {
+    // Turns are small: the second derivatives of the first one do for all.
     const Eigen::Matrix<double, 5, 5> basis =
         Eigen::HouseholderQR<DeviatoricDirection>(direction).householderQ();
     const auto turned = [&](const Turn& turn) {
       return DeviatoricDirection((direction + basis.rightCols<4>() * turn).normalized());
     };
     const auto at = [&](const Turn& turn) { return std::log(damage(turned(turn))); };
-    Turn slope;
-    Eigen::Matrix4d bend;
+    Turn more, less;
     for (Index a = 0; a < 4; ++a) {
-      const Turn one = difference_rad * Turn::Unit(a);
-      const double more = at(one), less = at(-one);
-      slope[a] = (more - less) / (2 * difference_rad);
-      bend(a, a) = (more - 2 * here + less) / (difference_rad * difference_rad);
-      for (Index b = 0; b < a; ++b) {
-        const Turn other = difference_rad * Turn::Unit(b);
-        const double twist = at(one + other) - at(one - other) - at(other - one) + at(-one - other);
-        bend(a, b) = bend(b, a) = twist / (4 * difference_rad * difference_rad);
-      }
+      more[a] = at(difference_rad * Turn::Unit(a)) - here;
+      less[a] = at(-difference_rad * Turn::Unit(a)) - here;
     }
-    if (!bend.allFinite()) break;
-    const Eigen::LLT<Eigen::Matrix4d> is_crest(-bend);
-    if (is_crest.info() != Eigen::Success) break;
-    Turn turn = is_crest.solve(slope);
+    if (i == 0) {
+      Eigen::Matrix4d bend = (more + less).asDiagonal();
+      for (Index a = 0; a < 4; ++a)
+        for (Index b = 0; b < a; ++b)
+          bend(a, b) = bend(b, a) =
+              at(difference_rad * (Turn::Unit(a) + Turn::Unit(b))) - here - more[a] - more[b];
+      bend /= -difference_rad * difference_rad;
+      if (!bend.allFinite()) break;
+      crest.compute(bend);
+      if (crest.info() != Eigen::Success) break;
+    }
+    Turn turn = crest.solve((more - less) / (2 * difference_rad));
+    if (!turn.allFinite()) break;
     turn *= std::min(1.0, most_turn_rad / turn.norm());
     double there = at(turn);
     for (int h = 0; h < most_halvings && !(there > here); ++h) there = at(turn /= 2);
     if (!(there > here + rounding)) break;
     direction = turned(turn);
     here = there;
-    if (turn.norm() < last_turn_rad) break;  // the next one is its square
+    if (turn.norm() < last_turn_rad) break;
   }
   return direction;
 }

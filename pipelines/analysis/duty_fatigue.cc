@@ -178,19 +178,19 @@ public:
       return damage_about_[a] < damage_about_[b];
     }));
     std::optional<DutyPlace> worst;
+    std::size_t worst_node = 0;
     const double error_share = error_share_of(analysis_, feature);
-    CountedBlocks of_worst;
+    CountedBlocks counted;
     for (const auto node : candidates) {
-      CountedBlocks counted;
-      auto place = at(node, error_share, counted);
+      auto place = at(node, error_share, Directions::about, counted);
       if (worst && !is_worse(place, *worst)) continue;
       worst = std::move(place);
-      of_worst = std::move(counted);
+      worst_node = node;
     }
-    worst->feature = feature;
-    worst->effect_share =
-        shares_by_effect(of_worst, rules_.design_curve(of_worst.all()), shares_.n_effects());
-    return std::move(*worst);
+    auto place = at(worst_node, error_share, Directions::stationary, counted);
+    place.feature = feature;
+    place.effect_share = shares_by_effect(counted, rules_.design_curve(counted.all()), shares_.n_effects());
+    return place;
   }
 
   DutyPlace weld(const WeldPlace& weld) const {
@@ -291,13 +291,17 @@ private:
     return cycle.amplitude_Pa + std::abs(cycle.signed_mean_Pa);
   }
 
-  DutyPlace at(std::size_t node, double error_share, CountedBlocks& counted) const {
+  /// Those of FatiguePlaces::counted, or those of FatiguePlaces::stationary.
+  enum class Directions { about, stationary };
+
+  DutyPlace at(std::size_t node, double error_share, Directions kind, CountedBlocks& counted) const {
     DutyPlace place;
+    counted = {};
     place.error_share = error_share;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const auto own = places_[b].at(node);
       place.utilisation = std::max(place.utilisation, own.utilisation);
-      count(own, places_[b], blocks_[b], counted.blocks.emplace_back(), counted.derivatives);
+      count(own, places_[b], blocks_[b], kind, counted.blocks.emplace_back(), counted.derivatives);
     }
     std::copy_n(&analysis_.responses.nodes.xyz_m[3 * node], 3, place.position_m.begin());
     take_damage(
@@ -305,11 +309,12 @@ private:
     return place;
   }
 
-  void count(const FatigueNode& node, const FatiguePlaces& places, const BlockOnBody& block,
+  void count(const FatigueNode& node, const FatiguePlaces& places, const BlockOnBody& block, Directions kind,
              CountedBlocks::Block& own, std::vector<DerivativeBy>& derivatives) const {
     own.amplitude_Pa = node.cycle.amplitude_Pa;
     own.largest_Pa = amplitude_and_mean_Pa(node.cycle);
-    const auto counted = places.counted(node, block.period.duration_s / block.share);
+    auto counted = places.counted(node, block.period.duration_s / block.share);
+    if (kind == Directions::stationary) counted = places.stationary(node, counted);
     append(own.running, counted.blocks, block.running_per_s());
     own.unresolved_share = places.unresolved_share(node, counted);
     if (!counted.blocks.empty())
@@ -322,13 +327,13 @@ private:
             {stress.cycles_along(counted.direction), in_a_second(counted.blocks, block.running_per_s())},
             equivalents_along(form, counted.limit), curve, support, stress.is_smooth() ? &form : nullptr);
       });
-    if (block.starts_per_s > 0) count_start(node, counted, places, block, own, derivatives);
+    if (block.starts_per_s > 0) count_start(node, counted, places, block, kind, own, derivatives);
   }
 
   /// Along the direction in which a start does most damage beyond that of the running in it, with the support
   /// that the running has.
   void count_start(const FatigueNode& node, const CountedNode& of_running, const FatiguePlaces& places,
-                   const BlockOnBody& block, CountedBlocks::Block& own,
+                   const BlockOnBody& block, Directions kind, CountedBlocks::Block& own,
                    std::vector<DerivativeBy>& derivatives) const {
     const StressCourse running(places.stress_of(node.node).stress_Pa());
     const ArrayXXd starting = block.starting != nullptr
@@ -357,7 +362,7 @@ private:
         most = damage;
         worst = direction;
       }
-    if (most > 0) worst = stationary_direction(worst, added);
+    if (kind == Directions::stationary && most > 0) worst = stationary_direction(worst, added);
     WeighedCycles in_start{sequence.cycles_along(worst), {}}, in_running{running.cycles_along(worst), {}};
     for (auto* weighed : {&in_start, &in_running})
       weighed->blocks = in_a_second(rules_.counted(weighed->cycles, limit), block.starts_per_s);

@@ -208,6 +208,23 @@ StressCourse FatiguePlaces::stress_of(std::size_t node) const {
   return {unit_stresses_at(analysis_.responses, node), course_};
 }
 
+CountedNode FatiguePlaces::counted_along(const DeviatoricDirection& direction, std::size_t node,
+                                         const StressCourse& course) const {
+  CountedNode counted;
+  const auto cycles = course.cycles_along(direction);
+  if (cycles.empty()) return counted;
+  const auto largest = std::max_element(cycles.begin(), cycles.end(),
+                                        [](const auto& a, const auto& b) { return a.range_Pa < b.range_Pa; });
+  counted.direction = direction;
+  counted.amplitude_Pa = largest->range_Pa / 2;
+  counted.from = largest->from_instant;
+  counted.to = largest->to_instant;
+  counted.limit = rules_.limit(gradient_per_m(node, counted.from, counted.to),
+                               scalar(cycle_between(largest->from, largest->to, 0, 1)));
+  counted.blocks = rules_.counted(cycles, counted.limit);
+  return counted;
+}
+
 CountedNode FatiguePlaces::counted(const FatigueNode& node, double duration_s) const {
   CountedNode worst;
   if (!(node.cycle.amplitude_Pa > 0)) return worst;
@@ -217,33 +234,24 @@ CountedNode FatiguePlaces::counted(const FatigueNode& node, double duration_s) c
     return elementary_damage(rules_.counted(course.cycles_along(direction, false), limit),
                              rules_.group().slope_normal);
   };
-  const auto along = [&](const DeviatoricDirection& direction) {
-    CountedNode one;
-    const auto cycles = course.cycles_along(direction);
-    if (cycles.empty()) return one;
-    const auto largest = std::max_element(
-        cycles.begin(), cycles.end(), [](const auto& a, const auto& b) { return a.range_Pa < b.range_Pa; });
-    one.direction = direction;
-    one.amplitude_Pa = largest->range_Pa / 2;
-    one.from = largest->from_instant;
-    one.to = largest->to_instant;
-    one.limit = rules_.limit(gradient_per_m(node.node, one.from, one.to),
-                             scalar(cycle_between(largest->from, largest->to, 0, 1)));
-    one.blocks = rules_.counted(cycles, one.limit);
-    return one;
-  };
   for (const auto& direction :
        damage_directions(course.coordinates(), direction_of(node.cycle.half_range_Pa), about)) {
-    auto one = along(direction);
+    auto one = counted_along(direction, node.node, course);
     if (!one.blocks.empty() &&
         (worst.blocks.empty() || damages_more(rules_, one.blocks, worst.blocks, duration_s)))
       worst = std::move(one);
   }
-  if (worst.blocks.empty()) return worst;
-  const auto curve = curve_with_damage(rules_.design_curve(worst.blocks), worst.blocks);
-  const auto direction = stationary_direction(
-      worst.direction, [&](const auto& turned) { return miner_damage(curve, along(turned).blocks); });
-  return direction == worst.direction ? worst : along(direction);
+  return worst;
+}
+
+CountedNode FatiguePlaces::stationary(const FatigueNode& node, const CountedNode& counted) const {
+  if (counted.blocks.empty()) return counted;
+  const auto course = stress_of(node.node);
+  const auto curve = curve_with_damage(rules_.design_curve(counted.blocks), counted.blocks);
+  const auto direction = stationary_direction(counted.direction, [&](const DeviatoricDirection& turned) {
+    return miner_damage(curve, counted_along(turned, node.node, course).blocks);
+  });
+  return direction == counted.direction ? counted : counted_along(direction, node.node, course);
 }
 
 double FatiguePlaces::unresolved_share(const FatigueNode& node, const CountedNode& counted) const {

@@ -70,8 +70,11 @@ public:
 
   FatigueNode at(std::size_t node) const;
 
+  /// Along the worst direction to some percent of its damage, which tells nodes apart.
   /// @param duration_s  of the period
   CountedNode counted(const FatigueNode& node, double duration_s) const;
+  /// Along the direction near by from which turning changes the damage in second order only.
+  CountedNode stationary(const FatigueNode& node, const CountedNode& counted) const;
 
   /// By how much the amplitude may be larger than at the instants, or on the polynomial through them, as a
   /// share of that of the counted cycles; 0 where the instants resolve the loads (time_sampling.h).
@@ -87,6 +90,8 @@ public:
   ChannelHistory between(double from, double to) const;
 
 private:
+  CountedNode counted_along(const DeviatoricDirection& direction, std::size_t node,
+                            const StressCourse& course) const;
   double most_utilisation(std::size_t node) const;
   double most_amplitude_Pa(std::size_t node, const UnitStresses& unit_Pa) const;
   double harmonics_damage_about(std::size_t node) const;

@@ -27,12 +27,19 @@ Index wrapped(Index i, Index n) {
 
 /// Lagrange's weights of the places first .. first + n_local - 1 for one in their middle.
 std::array<double, n_local> local_weights(double from_first) {
+  // 1 / product of (i - other): (-1)^(7 - i) / (i! (7 - i)!)
+  static_assert(n_local == 8);
+  constexpr std::array<double, n_local> scale{-1. / 5040, 1. / 720, -1. / 240, 1. / 144,
+                                              -1. / 144,  1. / 240, -1. / 720, 1. / 5040};
   std::array<double, n_local> weights{};
+  double before = 1, behind = 1;  // products of the distances to the others
   for (Index i = 0; i < n_local; ++i) {
-    double weight = 1;
-    for (Index other = 0; other < n_local; ++other)
-      if (other != i) weight *= (from_first - double(other)) / double(i - other);
-    weights[std::size_t(i)] = weight;
+    weights[std::size_t(i)] = scale[std::size_t(i)] * before;
+    before *= from_first - double(i);
+  }
+  for (Index i = n_local - 1; i >= 0; --i) {
+    weights[std::size_t(i)] *= behind;
+    behind *= from_first - double(i);
   }
   return weights;
 }
