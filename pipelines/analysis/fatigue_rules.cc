@@ -43,7 +43,8 @@ SnCurve FatigueRules::design_curve(const std::vector<StressBlock>& blocks) const
   const bool above = std::any_of(blocks.begin(), blocks.end(), [&](const auto& block) {
     return block.amplitude_Pa > curve.knee_amplitude_Pa;
   });
-  if (above && !curve.second_slope) curve.second_slope = curve.slope;
+  curve.endures_together = !curve.second_slope;
+  if (above && curve.endures_together) curve.second_slope = curve.slope;
   return curve;
 }
 

@@ -110,6 +110,10 @@ std::optional<double> life_factor(const SnCurve& curve, const std::vector<Stress
   // Amplitudes as parts of the largest, factors as those that bring the largest to the knee: no power
   // overflows.
   const double largest = falling.front().amplitude_Pa;
+  if (curve.endures_together) {
+    const SnCurve one_slope{curve.knee_amplitude_Pa, curve.knee_cycles, curve.slope, curve.slope};
+    return std::max(1 / largest, *life_factor(one_slope, blocks, repetitions, damage_sum));
+  }
   const double per_count = repetitions / (curve.knee_cycles * damage_sum);
   const double k = curve.slope, k2 = curve.second_slope.value_or(k);
   std::vector<double> rest(falling.size() + 1, 0);  // sum of the blocks from i on, below the knee

@@ -15,6 +15,9 @@ struct SnCurve {
   double knee_cycles = 0;              ///< N_D
   double slope = 0;                    ///< k >= 1
   std::optional<double> second_slope;  ///< k2 >= k; without: amplitudes up to the knee endure for ever
+  /// Amplitudes up to the knee endure while none is above it, and count by the slope k beside one that is.
+  /// Who makes the curve sets second_slope by the amplitudes at hand; life_factor minds both cases.
+  bool endures_together = false;
 };
 
 /// Haibach's second slope 2 k - 1.

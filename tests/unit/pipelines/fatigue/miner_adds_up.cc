@@ -71,4 +71,22 @@ TEST(Miner, LifeFactorIsARoot) {
   EXPECT_THROW(life_factor({100, 1e6, 5, {}}, {{-1, 1}}, 1), std::invalid_argument);
 }
 
+// Below the knee all endure, above it small cycles count by the one slope: with the factor the repetitions
+// are endured, just above they are not. A part 1 % above its endurance is not far from a life for ever.
+TEST(Miner, WhatEnduresTogetherHasTheFactorOfTheKnee) {
+  const std::vector<StressBlock> blocks{{300, 2}, {120, 40}, {70, 900}};
+  const auto damage_with = [&](double factor) {
+    auto scaled = blocks;
+    for (auto& block : scaled) block.amplitude_Pa *= factor;
+    return miner_damage({100, 1e6, 5, factor * 300 > 100 ? std::optional(5.0) : std::nullopt}, scaled);
+  };
+  for (const auto second : {std::optional<double>(), std::optional(5.0)})
+    for (const double repetitions : {1.0, 1e2, 1e4, 1e6, 1e12}) {
+      const double factor = *life_factor({100, 1e6, 5, second, true}, blocks, repetitions, 0.5);
+      EXPECT_LE(repetitions * damage_with(factor * (1 - 1e-12)), 0.5 * (1 + 1e-10)) << repetitions;
+      EXPECT_GE(repetitions * damage_with(factor * (1 + 1e-12)), 0.5 * (1 - 1e-10)) << repetitions;
+    }
+  EXPECT_NEAR(*life_factor({100, 1e6, 5, 5.0, true}, {{101, 1}}, 1e9), 100.0 / 101, 1e-12);
+}
+
 }  // namespace
