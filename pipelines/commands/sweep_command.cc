@@ -62,6 +62,21 @@ std::string journal_key(const SweepCommandOptions& options, const RequestedAccur
                            accuracy.time_limit_s, accuracy.once, accuracy.by_default, n_threads);
 }
 
+/// No figure of a sweep depends on these keys: points that look alike would be no answer.
+void require_swept(const std::string& key) {
+  const auto begins = [&](const std::string& word) {
+    return key.compare(0, word.size(), word) == 0 &&
+           (key.size() == word.size() || key[word.size()] == '.' || key[word.size()] == '[');
+  };
+  const auto dot = key.find('.');
+  if (begins("duty") || (dot != std::string::npos && key.compare(dot, 8, ".fatigue") == 0 &&
+                         (key.size() == dot + 8 || key[dot + 8] == '.')))
+    throw OptionError(
+        "--vary " + key +
+        ": a sweep judges no fatigue and no operating blocks, so that no figure depends on this; "
+        "run the scene with --set for each value");
+}
+
 void tell_forecast(const SweepForecast& forecast, std::size_t n_known, const RequestedAccuracy& accuracy) {
   std::string text =
       fmt::format("millstress: {} point{}", forecast.n_points, forecast.n_points == 1 ? "" : "s");
@@ -344,6 +359,7 @@ void sweep(const SweepCommandOptions& options, std::ostream& out) {
   const auto tree = without_duty(read_scene_tree(options.scene));
   const auto request = requested(options, read_sweep_request(options.scene, tree));
   const auto plan = plan_sweep(request);
+  for (const auto& variation : plan.variations) require_swept(variation.key);
   const auto directory = options.output.empty()
                              ? std::filesystem::path("results") / (options.scene.stem().string() + "_sweep")
                              : options.output;

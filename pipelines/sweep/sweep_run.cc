@@ -44,6 +44,12 @@ std::vector<std::string> names_of(const std::vector<SweepPoint>& points) {
   return names;
 }
 
+std::string names_of_bodies(const Scene& scene) {
+  std::string names;
+  for (const auto& body : scene.bodies) names += (names.empty() ? "" : ", ") + body.name;
+  return names.empty() ? "no body" : names;
+}
+
 /// effects = [...] as the scene has them on.
 std::string effects_setting(const Scene& scene) {
   std::string list;
@@ -64,9 +70,10 @@ public:
     names_.resize(std::size_t(n_threads()));
     refused_.resize(settings_.size());
     std::exception_ptr first_failure;
+    std::string first_bodies;
     std::size_t n_read = 0;
     for (std::size_t p = 0; p < settings_.size(); ++p) {
-      if (p > 0 && n_read > 0 && !needs_bodies_) break;  // the rest is read when it is run
+      if (n_read > 0 && !needs_bodies_ && options_.loads_only) break;  // the rest is read when it is run
       Scene scene;
       refused_[p] = point_refusal([&] {
         try {
@@ -77,6 +84,14 @@ public:
         }
       });
       if (!refused_[p].empty()) continue;
+      const auto bodies = names_of_bodies(scene);
+      if (n_read > 0 && bodies != first_bodies) {
+        refused_[p] =
+            fmt::format("has {} where the points before have {}; sweep points of other bodies apart", bodies,
+                        first_bodies);
+        continue;
+      }
+      first_bodies = bodies;
       if (n_read++ == 0)
         needs_bodies_ = !scene.bodies.empty() && (!options_.loads_only || !scene.masses_from_mesh.empty());
       if (accepted_.empty()) accepted_ = scene.bodies;

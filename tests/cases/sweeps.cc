@@ -196,6 +196,23 @@ TEST(Sweeps, OneRefusedMeshIsNoFaultOfOthers) {
   EXPECT_NE(none.err.find("no point could be computed"), std::string::npos) << none.err;
 }
 
+// A body that only some points have ended the program, or left the others without a figure and without a
+// word.
+TEST(Sweeps, PointsWithOtherBodiesAreRefused) {
+  const results_test::Directory directory;
+  write(directory / "bar.toml",
+        "method = \"axisymmetric\"\n" +
+            small_shaft(fixed_in_space("pull", "middle", "100 N"), "mm", "600 rpm", ""));
+  for (const auto* order : {"kept, removed", "removed, kept"}) {
+    const auto points =
+        points_of(directory.path, std::string("bar.toml --fresh --vary 'shaft = ") + order + "'");
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_FALSE(points[0].contains("refused")) << points[0];
+    EXPECT_NE(points[1].value("refused", "").find("sweep points of other bodies apart"), std::string::npos)
+        << points[1];
+  }
+}
+
 // A column of errors stands behind the figures that have one, and behind no others.
 TEST(Sweeps, PrintErrorsBesideTheirFigures) {
   const results_test::Directory directory;
@@ -355,6 +372,8 @@ TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
         {"--vary 'machine.drive.sped = 1, 2'", "unknown key; known here: eccentricity, speed"},
         {"--vary 'machine.drive.speed = 1..2 rpm'", "how many values"},
         {"--vary 'machine.drive.speed = 1, 2 rpm' --design best", "is no design"},
+        {"--vary 'shaft.fatigue.roughness = 6, 25 um'", "judges no fatigue"},
+        {"--vary 'duty[1].share = 10, 20 %'", "no operating blocks"},
         {"--vary 'machine.drive.speed = 1200, 1300 rpm' --loads --figure nothing", "has no such figure"},
         {"--vary 'effects.gravty_charge = off, off'", "effects does not have it"}}) {
     const auto outcome = as_a_user(directory.path, "sweep mill.toml " + arguments);
