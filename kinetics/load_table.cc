@@ -95,11 +95,15 @@ void check(const LoadTable& table, const TimeGrid& grid) {
   }
 }
 
-/// Samples over one period as a curve; a last sample that stands where the next period begins gives way to
-/// the first.
+/// A last sample that stands where the next period begins gives way to the first.
+Index n_of_period(const SampledCourse& samples, double period_rad) {
+  const Index n = samples.angle_rad.size();
+  return samples.angle_rad[n - 1] - samples.angle_rad[0] > period_rad * (1 - 1e-9) ? n - 1 : n;
+}
+
+/// Samples over one period as a curve.
 table::PeriodicCubic curve_of(const SampledCourse& samples, double period_rad) {
-  Index n = samples.angle_rad.size();
-  if (samples.angle_rad[n - 1] - samples.angle_rad[0] > period_rad * (1 - 1e-9)) --n;
+  const Index n = n_of_period(samples, period_rad);
   return {samples.angle_rad.head(n), samples.values.head(n), period_rad};
 }
 
@@ -146,14 +150,20 @@ void warn(const ResamplingError& error, LoadHistory& history) {
                                "that much where the samples are that coarse");
 }
 
-/// Where the instants lie further apart than the samples, they may miss their largest value.
-void warn_of_missed(const TableLoad& load, const SampledCourse& samples, const ArrayXd& values,
-                    LoadHistory& history) {
-  const double largest = samples.values.abs().maxCoeff(), missed = largest - values.abs().maxCoeff();
-  if (missed > too_much_missed * largest)
-    history.warnings.push_back(load.effect + "/" + name_of(load) + " is " +
-                               number(std::round(1000 * missed / largest) / 10) +
-                               " % larger between the instants than at them; take more instants per turn");
+/// Where the instants lie further apart than the samples, they may miss the largest one: nothing in their
+/// values tells, so that no error would hold it.
+void check_missed(const TableLoad& load, const SampledCourse& samples, const ArrayXd& values,
+                  const TimeGrid& grid) {
+  const double largest = samples.values.head(n_of_period(samples, grid.turns * turn_rad)).abs().maxCoeff();
+  const double missed = largest - values.abs().maxCoeff();
+  if (missed <= too_much_missed * largest) return;
+  const Index n = samples.angle_rad.size();
+  const double step_rad = (samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1)).minCoeff();
+  throw MachineRefused(load.effect + "/" + name_of(load) + " is " +
+                       number(std::round(1000 * missed / largest) / 10) +
+                       " % larger between the instants than at them, " +
+                       std::to_string(grid.instants_per_turn) + " per turn; the samples are as dense as " +
+                       number(std::ceil(turn_rad / step_rad * (1 - 1e-9))) + ": take more instants per turn");
 }
 
 void post(const TableLoad& load, const ArrayXd& values, LoadHistory& history) {
@@ -229,7 +239,7 @@ LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>
       post(load, values, history);
       if (const auto* samples = std::get_if<SampledCourse>(&load.course)) {
         warn(error_of(load, *samples, grid.turns * turn_rad), history);
-        warn_of_missed(load, *samples, values, history);
+        check_missed(load, *samples, values, grid);
       }
     }
   }

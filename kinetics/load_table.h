@@ -61,12 +61,13 @@ std::vector<ResamplingError> resampling_errors(const LoadTable& table, const Tim
 /// Between samples a cubic of Fritsch and Carlson (1980): smooth, and never beyond the samples on either
 /// side. One resultant per port, one contribution per effect; other components become quantities
 /// "<port>.<component>". Samples are not turned: they mean the frame that their port means. A jump at the
-/// seam above 1 % of the largest value, interpolation above 1 %, and instants that miss the largest sample by
-/// more than 10 % are warned of.
+/// seam above 1 % of the largest value, and interpolation above 1 %, are warned of.
 /// @throws MachineRefused naming parameter, value and remedy: no load, an unknown effect, NaN or
 ///         infinity, fewer than four samples, angles that do not ascend or span more than the period, samples
-///         that leave more than half a turn uncovered, an order that does not fit the period or that two
-///         instants per period or fewer would alias, speed not positive, the same load twice in one effect
+///         that leave more than half a turn uncovered, instants that miss the largest sample by more than 10
+///         % of it (less is told by the error of time sampling), an order that does not fit the period or
+///         that two instants per period or fewer would alias, speed not positive, the same load twice in one
+///         effect
 LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>& effects,
                           const TimeGrid& grid);
 

@@ -91,9 +91,9 @@ std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAna
           : fmt::format("{:.0f} MPa by size_factor {:.3g}",
                         scene.material.tensile_strength_Pa / scene.size_factor / 1e6, scene.size_factor);
   lines.push_back(
-      fmt::format("FKM, local stresses, {}: R_m {:.0f} MPa ({}), reversed limit {:.1f} MPa with R_z {:.3g} "
+      fmt::format("FKM, local stresses, {}: R_m {:.0f} MPa ({}), reversed limit {:.1f} MPa with R_z {:.4g} "
                   "um (K_R {:.3f}), "
-                  "treatment {:.3g}, survival {:.5g} %",
+                  "treatment {:.3g}, survival {:.8g} %",
                   rules.group().name, scene.material.tensile_strength_Pa / 1e6, size, limit.reversed_Pa / 1e6,
                   scene.roughness_m * 1e6, limit.roughness, scene.treatment, 100 * scene.reliability));
   lines.push_back(

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kinetics/load_table.h"
+#include "kinetics/machine_refused.h"
 #include "kinetics/table/periodic_cubic.h"
 
 using namespace kinetics;
@@ -114,6 +115,21 @@ TEST(LoadTable, HarmonicsAndConstantsAreExactAndEffectsAddUp) {
   EXPECT_EQ(without.resultant("disc").contributions.size(), 2u);
   EXPECT_TRUE((without.resultant("disc").total.row(2) == 0).all());
   EXPECT_THROW(without.quantity("disc.fz"), std::out_of_range);
+}
+
+// A shock that lasts for five degrees, between two instants: it would be no load at all.
+TEST(LoadTable, InstantsThatMissTheLargestSampleAreRefused) {
+  const auto shock = sampled(360, [](double phi) { return phi > 1.60 && phi < 1.65 ? 14e3 : 10.0; });
+  try {
+    loads_of(shock, 24);
+    FAIL();
+  } catch (const MachineRefused& refused) {
+    EXPECT_NE(std::string(refused.what()).find("as dense as 360: take more instants"), std::string::npos)
+        << refused.what();
+  }
+  EXPECT_NEAR(loads_of(shock, 360).resultant("pulley_seat").total.row(0).maxCoeff(), 14e3, 1e-8);
+  EXPECT_NO_THROW(loads_of(sampled(360, [](double phi) { return std::cos(phi - 0.2); }), 8))
+      << "smooth: the error of time sampling tells";
 }
 
 // A ramp does not close; a wave sampled eight times per turn is coarse. Both are stated with their size.
