@@ -88,6 +88,20 @@ TEST(Accuracy, EveryModelBoundsItsError) {
   EXPECT_FALSE(fs::exists(files / "shaft")) << "scratch";
 }
 
+// 48 instants tell order 20, half of them do not: the study goes on without fewer instants.
+TEST(Accuracy, FewerInstantsThatCannotTellTheLoadsAreLeftOut) {
+  const results_test::Directory directory;
+  auto scene = stepped_shaft();
+  scene.replace(scene.find("order = 1"), 9, "order = 20");
+  write(directory / "small.toml", scene);
+  const auto outcome =
+      millstress(directory.path, "accuracy small.toml -o out --tolerance '20 %' --time-limit '25 s'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("even mesh"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("effects on the shaft"), std::string::npos) << "the scene's own mesh was run";
+  EXPECT_EQ(outcome.out.find("fewer instants"), std::string::npos) << outcome.out;
+}
+
 // Three systematic meshes of a shoulder fillet in torsion, whose largest stress is known: 190.192 MPa (the
 // scene's head). The order is one that quadratic cells can have, the extrapolated value is closer than the
 // finest mesh, and the index bounds that mesh's error without exceeding half a per cent.
