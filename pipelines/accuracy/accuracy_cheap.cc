@@ -18,18 +18,12 @@ namespace {
 /// learn_from_change takes it:
 constexpr double finer_of_two = 2, first_of_two = 1.5, harmonics_order = 1;
 
-/// Of the beam's own estimate: it knows nothing of loads beside a fillet, nor of short segments.
-constexpr double beam_safety = 3;
-
-/// What a fillet makes of stress that comes from a section going oval, at most: published factors in bending
-/// end there for fillets of a twentieth of the diameter.
-constexpr double fillet_factor = 2;
-
 /// A cheap model's responses, and what the model itself is known to be off by.
 struct CheapModel {
   fem::UnitResponses responses;
   double model_error = 0;  ///< relative
   std::string method, fineness;
+  std::optional<fem::BeamShaft> beam{};  ///< then its entries stand in place of model_error
 };
 
 using Loads = std::vector<fem::UnitLoad>;
@@ -38,9 +32,7 @@ std::optional<CheapModel> beam_model(const BodyScene& body, const meshes::BodyMe
                                      const Loads& loads) {
   auto responses = beam_responses(body, mesh, loads);
   if (!responses) return std::nullopt;
-  return CheapModel{std::move(*responses), beam_safety * fem::beam_model_error(*beam_shaft(body, mesh)),
-                    "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
-                    "published fillet factors"};
+  return CheapModel{std::move(*responses), 0, "", "published fillet factors", beam_shaft(body, mesh)};
 }
 
 std::optional<CheapModel> axisymmetric_model(const BodyScene& body, const meshes::BodyMesh& mesh,
@@ -69,7 +61,11 @@ AccuracyRow row_of(const std::string& name, const AccuracyBench& bench, const Lo
   row.principal_Pa = maximum.principal.value_Pa[peak_node(maximum.principal.value_Pa, places)];
   row.errors = self_estimate({{{node, 1.0}}, maximum.von_mises.instant[node]}, model.responses, loads,
                              bench.body().material, 0);
-  row.errors.model.push_back({"model", model.method, model.model_error * row.value_Pa});
+  if (model.beam)
+    row.errors.model = beam_model_entries(*model.beam, loads, model.responses.nodes,
+                                          maximum.von_mises.value_Pa, places.excluded, row.value_Pa);
+  else
+    row.errors.model.push_back({"model", model.method, model.model_error * row.value_Pa});
   take_cost(row, clock);
   return row;
 }
@@ -144,17 +140,8 @@ std::vector<AccuracyRow> cheap_models(AccuracyBench& bench) {
     if (bench.has_hot_spots()) rows.push_back(shell_row(bench, loaded.body_loads[bench.index()]));
     return rows;
   }
-  if (auto row = cheap_model("beam", bench, bench.body(), loaded, beam_model)) {
-    const double ring_Pa =
-        ring_stress_Pa(*beam_shaft(bench.body(), bench.own().mesh), loaded.body_loads[bench.index()]);
-    if (ring_Pa > 0)
-      row->errors.model.push_back(
-          {"ovalisation", "bored seats as rings, twice as much at a fillet", fillet_factor * ring_Pa});
-    const double spin_Pa = spin_stress_Pa(*beam_shaft(bench.body(), bench.own().mesh), bench.body().material,
-                                          loaded.body_loads[bench.index()]);
-    if (spin_Pa > 0) row->errors.model.push_back({"spin", "segments as long cylinders that turn", spin_Pa});
+  if (auto row = cheap_model("beam", bench, bench.body(), loaded, beam_model))
     rows.push_back(std::move(*row));
-  }
   std::vector<AccuracyRow> sizes;
   for (const double factor : {0.5, 1.0, 2.0}) {
     auto row =

@@ -25,7 +25,8 @@ std::string remedy_of_model(const std::string& source) {
     return "give the seats' pressure as it is known (half_angle, harmonics); no mesh lowers it";
   if (source == "quasi_static")
     return "keep the natural frequencies away from the harmonics of the stress; no mesh lowers it";
-  for (const char* of_cheap_model : {"model", "ovalisation", "spin", "eccentric_segments", "offset_axis"})
+  for (const char* of_cheap_model :
+       {"model", "near_loads", "ovalisation", "spin", "eccentric_segments", "offset_axis"})
     if (source == of_cheap_model) return "--method solid";
   if (source == "dropped_effects") return "name the effects instead of effects = \"auto\"";
   return "no mesh lowers it";

@@ -16,11 +16,6 @@
 namespace pipelines {
 namespace {
 
-/// The beam knows nothing of loads beside a fillet, nor of short segments.
-constexpr double beam_safety = 3;
-/// What a fillet makes of stress that comes from a section going oval, at most.
-constexpr double fillet_factor = 2;
-
 /// The beam's cylinders have no fillets, so that its body forces carry a little less than the masses that the
 /// loads were made with; balancing takes the difference away again. What is stated are those masses.
 void take_resultants(const std::vector<fem::UnitLoad>& loads, const std::vector<RegionMass>& regions,
@@ -84,19 +79,13 @@ BodyAnalysis analyse_beam(const BodyScene& body, const MeshedBody& meshed, BodyL
     return with_axis(std::move(surface), fem::BeamShaft().n_angles);
   });
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
-  const auto beam = *beam_shaft(body, own.mesh);
   auto analysis = superpose_body(body, own, std::move(loads), std::move(responses), options.n_threads, clock);
   analysis.method = Method::beam;
   analysis.solve_s = solve.count();
-  auto& errors = analysis.peak.errors;
-  errors.set_model({"model",
-                    "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
-                    beam_safety * fem::beam_model_error(beam) * analysis.peak.value_Pa});
-  if (const double ring_Pa = ring_stress_Pa(beam, analysis.loads); ring_Pa > 0)
-    errors.set_model(
-        {"ovalisation", "bored seats as rings, twice as much at a fillet", fillet_factor * ring_Pa});
-  if (const double spin_Pa = spin_stress_Pa(beam, body.material, analysis.loads); spin_Pa > 0)
-    errors.set_model({"spin", "segments as long cylinders that turn", spin_Pa});
+  for (const auto& entry : beam_model_entries(*beam_shaft(body, own.mesh), analysis.loads,
+                                              analysis.responses.nodes, analysis.envelope.von_mises.value_Pa,
+                                              analysis.places.excluded, analysis.peak.value_Pa))
+    analysis.peak.errors.set_model(entry);
   return analysis;
 }
 

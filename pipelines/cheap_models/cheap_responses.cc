@@ -18,6 +18,12 @@ std::size_t segment_at(const meshes::Shaft& shaft, double z_m) {
   return shaft.segments.size() - 1;
 }
 
+/// The beam's own estimate knows nothing of loads beside a fillet.
+constexpr double beam_safety = 3;
+/// What a fillet makes of stress that comes from a section going oval, at most: published factors in bending
+/// end there for fillets of a twentieth of the diameter.
+constexpr double fillet_factor = 2;
+
 }  // namespace
 
 std::optional<fem::BeamShaft> beam_shaft(const BodyScene& body, const meshes::BodyMesh& mesh) {
@@ -97,6 +103,41 @@ double spin_stress_Pa(const fem::BeamShaft& shaft, const fem::Material& material
     largest_rad2_s2 = std::max(largest_rad2_s2, loads.history.values.row(Eigen::Index(k)).maxCoeff());
   }
   return per_rad2_s2 * largest_rad2_s2;
+}
+
+double near_load_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads, const fem::Nodes& nodes,
+                           const std::vector<double>& von_mises_Pa, const std::vector<char>& excluded,
+                           double peak_Pa) {
+  std::map<double, double> largest_Pa;  // by the circles' z
+  for (std::size_t i = 0; i < nodes.n; ++i)
+    if (!excluded[i]) {
+      auto& largest = largest_Pa[nodes.xyz_m[3 * i + 2]];
+      largest = std::max(largest, von_mises_Pa[i]);
+    }
+  std::vector<double> z_m;
+  for (const auto& circle : largest_Pa) z_m.push_back(circle.first);
+  const auto errors_Pa = fem::near_load_error_Pa(shaft, loads.unit_loads, loads.history.values, z_m);
+  double beyond_Pa = 0;
+  for (std::size_t c = 0; c < z_m.size(); ++c)
+    beyond_Pa = std::max(beyond_Pa, largest_Pa[z_m[c]] + errors_Pa[c] - peak_Pa);
+  return beyond_Pa;
+}
+
+std::vector<ErrorEntry> beam_model_entries(const fem::BeamShaft& shaft, const BodyLoads& loads,
+                                           const fem::Nodes& nodes, const std::vector<double>& von_mises_Pa,
+                                           const std::vector<char>& excluded, double peak_Pa) {
+  std::vector<ErrorEntry> entries{
+      {"model", "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
+       beam_safety * fem::beam_model_error(shaft) * peak_Pa}};
+  const auto add = [&](const char* source, const char* method, double value_Pa) {
+    if (value_Pa > 0) entries.push_back({source, method, value_Pa});
+  };
+  add("near_loads", "loads that enter, and bend, within a diameter, times 1.5",
+      near_load_stress_Pa(shaft, loads, nodes, von_mises_Pa, excluded, peak_Pa));
+  add("ovalisation", "bored seats as rings, twice as much at a fillet",
+      fillet_factor * ring_stress_Pa(shaft, loads));
+  add("spin", "segments as long cylinders that turn", spin_stress_Pa(shaft, shaft.material, loads));
+  return entries;
 }
 
 std::optional<AxisymmetricModel> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,

@@ -7,6 +7,7 @@
 
 #include "fem/beam/beam_shaft.h"
 #include "fem/values/unit_responses.h"
+#include "pipelines/analysis/error_budget.h"
 #include "pipelines/loads/load_collector.h"
 #include "pipelines/scene/body_scene.h"
 
@@ -34,6 +35,21 @@ double ring_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads);
 /// with the constants of plane strain).
 /// @return largest over segments and instants [Pa]
 double spin_stress_Pa(const fem::BeamShaft& shaft, const fem::Material& material, const BodyLoads& loads);
+
+/// What a beam's peak may be too low by near loads (fem::near_load_error_Pa): by how much the
+/// largest stress of any circle with that error exceeds the peak.
+/// @param von_mises_Pa  largest at each of the nodes
+/// @param excluded      one per node: what stress does there does not count
+/// @return [Pa], not negative
+double near_load_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads, const fem::Nodes& nodes,
+                           const std::vector<double>& von_mises_Pa, const std::vector<char>& excluded,
+                           double peak_Pa);
+
+/// The entries of a beam's error that no mesh lowers: `model`, `near_loads`, `ovalisation`, `spin`; those
+/// that are zero are left out, but for the first.
+std::vector<ErrorEntry> beam_model_entries(const fem::BeamShaft& shaft, const BodyLoads& loads,
+                                           const fem::Nodes& nodes, const std::vector<double>& von_mises_Pa,
+                                           const std::vector<char>& excluded, double peak_Pa);
 
 /// Unit responses and what the model behind them leaves out.
 struct AxisymmetricModel {
