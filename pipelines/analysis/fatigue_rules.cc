@@ -8,6 +8,10 @@ CyclicStress scalar(const StressCycle& cycle) {
   return {cycle.amplitude_Pa, cycle.signed_mean_Pa};
 }
 
+CyclicStress scalar(const NodalCycle& cycle) {
+  return {cycle.amplitude_Pa, cycle.signed_mean_Pa};
+}
+
 FatigueRules::FatigueRules(const FatigueScene& scene)
     : scene_(scene),
       factor_(reliability_factor_of_97_5(scene.reliability) *

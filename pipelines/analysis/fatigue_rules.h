@@ -6,12 +6,14 @@
 #include "pipelines/fatigue/endurance.h"
 #include "pipelines/fatigue/sn_curve.h"
 #include "pipelines/scene/fatigue_scene.h"
+#include "pipelines/superposition/nodal_cycles.h"
 #include "pipelines/superposition/stress_course.h"
 
 namespace pipelines {
 
 /// Amplitude and signed mean of a cycle.
 CyclicStress scalar(const StressCycle& cycle);
+CyclicStress scalar(const NodalCycle& cycle);
 
 class FatigueRules {
 public:

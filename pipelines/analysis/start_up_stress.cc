@@ -8,6 +8,7 @@
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/finite_stress.h"
+#include "pipelines/superposition/stress_shares.h"
 
 namespace pipelines {
 namespace {
@@ -28,8 +29,9 @@ void add_peak(const BodyAnalysis& analysis, const BodyLoads& loads, int n_thread
   result.safety = analysis.scene.yield_strength_Pa / result.von_mises.largest;
   result.error_share = error_share_of(analysis, result.feature);
   result.effects = loads.history.effects;
-  const auto shares = envelope.effect_share.begin() + std::ptrdiff_t(node * result.effects.size());
-  result.effect_share.assign(shares, shares + std::ptrdiff_t(result.effects.size()));
+  result.effect_share =
+      shares_of_stress(unit_stresses_at(analysis.responses, node), loads.history, maximum.instant[node])
+          .effects;
 }
 
 std::optional<StartUpRing> largest_ring(const BodyAnalysis& analysis, const BodyLoads& loads,

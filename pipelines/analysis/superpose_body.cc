@@ -9,6 +9,7 @@
 #include "pipelines/analysis/submodels.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/finite_stress.h"
+#include "pipelines/superposition/stress_shares.h"
 #include "pipelines/superposition/zone_parts.h"
 
 namespace pipelines {
@@ -32,9 +33,9 @@ Peak headline(const BodyAnalysis& analysis) {
   if (const auto feature = analysis.places.feature[peak.node]; feature >= 0)
     peak.feature = analysis.places.feature_names[std::size_t(feature)];
   peak.safety = analysis.scene.yield_strength_Pa / peak.value_Pa;
-  const std::size_t n_effects = analysis.loads.history.effects.size();
-  const auto shares = analysis.envelope.effect_share.begin() + std::ptrdiff_t(peak.node * n_effects);
-  peak.effect_share.assign(shares, shares + std::ptrdiff_t(n_effects));
+  peak.effect_share =
+      shares_of_stress(unit_stresses_at(analysis.responses, peak.node), analysis.loads.history, peak.instant)
+          .effects;
   peak.errors = errors_at({{{peak.node, 1.0}}, peak.instant}, analysis);
   return peak;
 }

@@ -148,7 +148,8 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
   fields.add_result("drive angle of largest principal stress [deg]", angles(envelope.principal.instant));
   fields.add_result("stress at largest principal stress [Pa]", flatten(envelope.principal.stress_Pa), 6,
                     names_of_components);
-  fields.add_result("effect share", envelope.effect_share, int(effects.size()), effects);
+  fields.add_result("effect share", {envelope.effect_share.begin(), envelope.effect_share.end()},
+                    int(effects.size()), effects);
   if (analysis.fatigue) add_fatigue(fields, analysis);
   if (!analysis.hot_spots.empty()) fields.add(hot_spot_field, hot_spot_values(analysis));
   const std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},

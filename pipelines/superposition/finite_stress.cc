@@ -20,9 +20,11 @@ Eigen::Index first_fault(const Values& values) {
 }
 
 /// Of one value for each node, or several.
-void check_nodes(const std::string& stage, const std::string& what, const std::vector<double>& values,
+template <typename Number>
+void check_nodes(const std::string& stage, const std::string& what, const std::vector<Number>& values,
                  std::size_t per_node) {
-  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), Eigen::Index(values.size()));
+  using Array = Eigen::Array<Number, Eigen::Dynamic, 1>;
+  const Eigen::Map<const Array> all(values.data(), Eigen::Index(values.size()));
   if (const auto at = first_fault(all); at >= 0)
     refuse_not_finite(stage, what,
                       fmt::format(" at node {}", std::size_t(at) / std::max<std::size_t>(1, per_node)));

@@ -49,7 +49,7 @@ public:
         room_(kernel::room_of_linear_walk(factors.for_kernel())) {}
 
   /// @param n  at most kernel::forms_at_once
-  void walk(const std::size_t* nodes, std::size_t n, const NodalMaximum& von_mises, StressCycle* cycles) {
+  void walk(const std::size_t* nodes, std::size_t n, const NodalMaximum& von_mises, NodalCycle* cycles) {
     for (std::size_t i = 0; i < n; ++i) directions_[i] = direction_of(von_mises.stress_Pa[nodes[i]]);
     find_extremes(nodes, n, kernel::Wanted::smallest);
     for (std::size_t i = 0; i < n; ++i)  // no stress is longer, so that none reaches farther along this one
@@ -58,8 +58,10 @@ public:
     find_extremes(nodes, n, kernel::Wanted::both);
     for (std::size_t i = 0; i < n; ++i) {
       const Index from = found_[i].smallest_instant, to = found_[i].largest_instant;
-      cycles[i] = cycle_between(stress_at(responses_, loads_, nodes[i], from),
-                                stress_at(responses_, loads_, nodes[i], to), from, to);
+      const auto cycle = cycle_between(stress_at(responses_, loads_, nodes[i], from),
+                                       stress_at(responses_, loads_, nodes[i], to), from, to);
+      cycles[i] = {std::int32_t(cycle.from), std::int32_t(cycle.to), cycle.amplitude_Pa,
+                   cycle.signed_mean_Pa};
     }
   }
 
@@ -109,7 +111,7 @@ NodalCycles nodal_cycles(const ChannelHistory& loads, const fem::UnitResponses& 
   check_channels(loads, responses);
   const WalkedFactors factors(loads.values);
   const std::size_t n = nodes.size();
-  NodalCycles result{std::move(nodes), fem::LargeVector<StressCycle>(n)};
+  NodalCycles result{std::move(nodes), fem::LargeVector<NodalCycle>(n)};
   for_each_range(n, nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
     CycleWalk walk(loads, responses, factors);
     for (std::size_t first = begin; first < end; first += kernel::forms_at_once)

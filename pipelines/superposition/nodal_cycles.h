@@ -2,6 +2,7 @@
 /// stored.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "fem/common/large_memory.h"
@@ -9,9 +10,15 @@
 
 namespace pipelines {
 
+/// What is kept of a node's StressCycle.
+struct NodalCycle {
+  std::int32_t from, to;
+  double amplitude_Pa, signed_mean_Pa;
+};
+
 struct NodalCycles {
   std::vector<std::size_t> nodes;
-  fem::LargeVector<StressCycle> cycles;  ///< one per node
+  fem::LargeVector<NodalCycle> cycles;  ///< one per node
 };
 
 /// The nodes of the body's faces, each once, ascending.

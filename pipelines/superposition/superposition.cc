@@ -32,10 +32,10 @@ Stress combine(const double* unit, const Eigen::ArrayXXd& factors, Eigen::Index 
 /// @param sigma_v  of `stress`
 /// @param along    room for a number per channel: 3/2 of its unit stress times the deviator over sigma_v^2
 void find_shares(const double* unit, const ChannelHistory& loads, const Stress& stress, double sigma_v,
-                 Eigen::Index instant, Eigen::VectorXd& along, double* shares) {
+                 Eigen::Index instant, Eigen::VectorXd& along, float* shares) {
   const std::size_t n_effects = loads.effects.size();
   if (sigma_v == 0) {
-    std::fill_n(shares, n_effects, 0.0);
+    std::fill_n(shares, n_effects, 0.0f);
     return;
   }
   const double mean = (stress[0] + stress[1] + stress[2]) / 3, scale = 1.5 / (sigma_v * sigma_v);
@@ -44,7 +44,8 @@ void find_shares(const double* unit, const ChannelHistory& loads, const Stress& 
     deviator[c] = scale * (c < 3 ? stress[std::size_t(c)] - mean : 2 * stress[std::size_t(c)]);
   for (Eigen::Index k = 0; k < along.size(); ++k)
     along[k] = deviator.dot(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(unit + 6 * k));
-  for (std::size_t e = 0; e < n_effects; ++e) shares[e] = loads.by_effect[e].col(instant).matrix().dot(along);
+  for (std::size_t e = 0; e < n_effects; ++e)
+    shares[e] = float(loads.by_effect[e].col(instant).matrix().dot(along));
 }
 
 /// Largest principal stress by the Lode angle, mean + 2/3 sigma_v cos(theta), where that is as exact as QR
@@ -154,7 +155,7 @@ Envelope EnvelopeWalk::of(const fem::UnitResponses& responses, int n_threads) co
     maximum->instant.assign(n_nodes, 0);
     maximum->stress_Pa.assign(n_nodes, Stress{});
   }
-  result.effect_share.assign(n_nodes * n_effects, 0.0);
+  result.effect_share.assign(n_nodes * n_effects, 0.0f);
 
   for_each_range(n_nodes, nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
     BatchWalk walk(*factors_, responses);

@@ -34,8 +34,9 @@ struct NodalMaximum {
 struct Envelope {
   NodalMaximum von_mises;
   NodalMaximum principal;  ///< largest principal stress
-  std::vector<double>
-      effect_share;  ///< n_nodes x n_effects: share of each effect in von Mises at its maximum; sums to 1
+  /// n_nodes x n_effects: share of each effect in von Mises at its maximum; sums to 1. Single precision: with
+  /// many effects shares would be most of the envelope's memory. Of one place: shares_of_stress.
+  std::vector<float> effect_share;
 };
 
 /// Stress at one node and instant.

@@ -191,7 +191,7 @@ Envelope LeadingStress::envelope(const ChannelHistory& loads, const fem::UnitRes
     maximum->instant.assign(n_nodes, 0);
     maximum->stress_Pa.assign(n_nodes, Stress{});
   }
-  all.effect_share.assign(n_nodes * loads.effects.size(), 0.0);
+  all.effect_share.assign(n_nodes * loads.effects.size(), 0.0f);
   const ArrayXd most_Pa = reach(loads);
   Walker walker(loads, responses, all);
   std::vector<PlaceSearch> surface;

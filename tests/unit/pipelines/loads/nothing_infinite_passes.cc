@@ -102,7 +102,7 @@ TEST(NothingInfinite, LeavesTheSuperposition) {
   wrong.principal.stress_Pa[0][3] = nan;
   EXPECT_TRUE(names(guard_says("shaft", wrong), "superposition on the shaft", "principal"));
   wrong = envelope;
-  wrong.effect_share[0] = nan;
+  wrong.effect_share[0] = float(nan);
   EXPECT_TRUE(names(guard_says("shaft", wrong), "superposition on the shaft", "share"));
 }
 

@@ -190,7 +190,7 @@ TEST(Superposition, EffectSharesAddUpToOne) {
   for (std::size_t node = 0; node < 20; ++node) {
     double sum = 0;
     for (std::size_t e = 0; e < 3; ++e) sum += envelope.effect_share[3 * node + e];
-    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_NEAR(sum, 1, 1e-5) << "rounding of single precision, of parts that cancel";
   }
 }
 
