@@ -176,7 +176,8 @@ Envelope EnvelopeWalk::of(const fem::UnitResponses& responses, int n_threads) co
       }
     }
   });
-  return scale_ == 1 ? result : unscaled(std::move(result), scale_);
+  if (scale_ != 1) return unscaled(std::move(result), scale_);
+  return result;
 }
 
 bool have_same_values(const ChannelHistory& a, const ChannelHistory& b) {
