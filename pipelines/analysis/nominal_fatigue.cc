@@ -20,31 +20,6 @@ double middle(const ArrayXd& values) {
   return (values.maxCoeff() + values.minCoeff()) / 2;
 }
 
-/// Of a solid round section from its resultants about its own axis.
-DinLoad nominal_load(const SectionResult& section) {
-  const auto& at = section.by_statics;
-  const auto& plane = section.plane;
-  const double d = 2 * plane.radius_m, area_m2 = M_PI * d * d / 4, bending_m3 = M_PI * d * d * d / 32;
-  const ArrayXd normal = at.row(2).transpose();
-  const ArrayXd mx = at.row(3).transpose() - plane.axis_y_m * normal;
-  const ArrayXd my = at.row(4).transpose() + plane.axis_x_m * normal;
-  const ArrayXd torque = at.row(5).transpose() -
-                         (plane.axis_x_m * at.row(1).transpose() - plane.axis_y_m * at.row(0).transpose());
-  ArrayXd bending = mx;
-  for (int i = 1; i < n_directions; ++i) {
-    const double angle = M_PI * i / n_directions;
-    const ArrayXd along = std::cos(angle) * mx + std::sin(angle) * my;
-    if (half_range(along) > half_range(bending)) bending = along;
-  }
-  if (!(half_range(bending) > 0)) bending = (mx.square() + my.square()).sqrt();
-  DinLoad load;
-  load.amplitude_Pa = {half_range(normal) / area_m2, half_range(bending) / bending_m3,
-                       half_range(torque) / (2 * bending_m3)};
-  load.mean_Pa = {middle(normal) / area_m2, std::abs(middle(bending)) / bending_m3,
-                  std::abs(middle(torque)) / (2 * bending_m3)};
-  return load;
-}
-
 /// The section of that segment nearest to a place.
 const SectionResult* nearest_section(const Diagrams& diagrams, const std::string& segment, double z_m) {
   const SectionResult* nearest = nullptr;
@@ -65,6 +40,33 @@ bool has_din_fillet(const meshes::Shaft& shaft) {
   for (std::size_t i = 0; i < shaft.fillets_m.size(); ++i)
     if (is_din_fillet(shaft, i)) return true;
   return false;
+}
+
+DinLoad nominal_load(const SectionResult& section) {
+  const auto& at = section.by_statics;
+  const auto& plane = section.plane;
+  const double d = 2 * plane.radius_m, area_m2 = M_PI * d * d / 4, bending_m3 = M_PI * d * d * d / 32;
+  const ArrayXd normal = at.row(2).transpose();
+  const ArrayXd mx = at.row(3).transpose() - plane.axis_y_m * normal;
+  const ArrayXd my = at.row(4).transpose() + plane.axis_x_m * normal;
+  const ArrayXd torque = at.row(5).transpose() -
+                         (plane.axis_x_m * at.row(1).transpose() - plane.axis_y_m * at.row(0).transpose());
+  const auto along = [&](int i) -> ArrayXd {
+    const double angle = M_PI * i / n_directions;
+    return std::cos(angle) * mx + std::sin(angle) * my;
+  };
+  double amplitude_Nm = 0, mean_Nm = 0;
+  for (int i = 0; i < n_directions; ++i) {
+    const ArrayXd bending = along(i), across = along(i + n_directions / 2);
+    amplitude_Nm = std::max(amplitude_Nm, half_range(bending));
+    mean_Nm = std::max(mean_Nm, std::hypot(middle(bending), middle(across)));
+  }
+  DinLoad load;
+  load.amplitude_Pa = {half_range(normal) / area_m2, amplitude_Nm / bending_m3,
+                       half_range(torque) / (2 * bending_m3)};
+  load.mean_Pa = {middle(normal) / area_m2, mean_Nm / bending_m3,
+                  std::abs(middle(torque)) / (2 * bending_m3)};
+  return load;
 }
 
 DinTriple own_shape_factor(const DinTriple& published, const DinTriple& nominal_Pa, double local_Pa) {

@@ -15,10 +15,16 @@ struct NominalFatigue {
   std::string fillet;     ///< the feature, "fillet A/B"
   double z_m = 0;         ///< of the section
   double diameter_m = 0;  ///< of the section
-  DinLoad load;           ///< over the cycle: bending in the direction in which it changes most
+  DinLoad load;           ///< over the cycle (nominal_load)
   DinTriple shape_factor;
   DinSafety safety;  ///< DIN asks for 1.2
 };
+
+/// Nominal stresses of a solid round section over the cycle, from its resultants by statics about its own
+/// axis. The amplitude of bending is that in the direction in which it changes most. Its mean is the vector
+/// of the middles in two directions at right angles, the largest for any such pair: static bending counts
+/// whole, whichever way it lies to what changes, as if both met in one fibre. That is on the safe side.
+DinLoad nominal_load(const SectionResult& section);
 
 /// Of the shape factor by published fits (fem/beam/fillet_factors.h) that which makes the local stress
 /// amplitude the program's own: the fits share it out among tension, bending and torsion.

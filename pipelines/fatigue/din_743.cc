@@ -35,12 +35,15 @@ DinLimit limit_of_kind(const DinKind& kind, const DinShaft& shaft) {
   return limit;
 }
 
+/// Of the equivalent amplitude: a kind of stress with less counts the mean in proportion.
+constexpr double least_share = 0.01;
+
 double endured_amplitude(const DinLimit& limit, double yield_Pa, double amplitude_Pa, double mean_Pa,
-                         DinLoadCase load_case) {
+                         double least_Pa, DinLoadCase load_case) {
   if (load_case == DinLoadCase::constant_mean)
     return std::max(0.0, std::min(limit.reversed_Pa - limit.sensitivity * mean_Pa, yield_Pa - mean_Pa));
   if (amplitude_Pa == 0) return 0;
-  const double ratio = mean_Pa / amplitude_Pa;
+  const double ratio = mean_Pa / std::max(amplitude_Pa, least_Pa);
   return std::min(limit.reversed_Pa / (1 + limit.sensitivity * ratio), yield_Pa / (1 + ratio));
 }
 
@@ -125,23 +128,25 @@ DinSafety din_743_safety(const DinShaft& shaft, const DinLoad& load) {
   const double normal_Pa = std::max(0.0, load.mean_Pa.tension + load.mean_Pa.bending);
   safety.mean_equivalent_Pa = std::hypot(normal_Pa, std::sqrt(3.0) * load.mean_Pa.torsion);
   const double mean_Pa = safety.mean_equivalent_Pa;
+  const DinTriple& a = load.amplitude_Pa;
+  const double least_Pa = least_share * std::hypot(a.tension + a.bending, std::sqrt(3.0) * a.torsion);
 
-  const auto fill = [&](double DinTriple::*kind, const DinKind& of, double mean_of_kind_Pa) {
+  const auto fill = [&](double DinTriple::*kind, const DinKind& of, double mean_of_kind_Pa,
+                        double least_of_kind_Pa) {
     const DinLimit limit = limit_of_kind(of, shaft);
     safety.notch_effect.*kind = limit.notch_effect;
     safety.total_factor.*kind = limit.total_factor;
     safety.reversed_Pa.*kind = limit.reversed_Pa;
     safety.sensitivity.*kind = limit.sensitivity;
     safety.amplitude_Pa.*kind = endured_amplitude(limit, safety.yield_Pa.*kind, load.amplitude_Pa.*kind,
-                                                  mean_of_kind_Pa, load.load_case);
+                                                  mean_of_kind_Pa, least_of_kind_Pa, load.load_case);
   };
-  fill(&DinTriple::tension, {0.4, alpha.tension, gradient.tension, 1, roughness}, mean_Pa);
-  fill(&DinTriple::bending, {0.5, alpha.bending, gradient.bending, size, roughness}, mean_Pa);
+  fill(&DinTriple::tension, {0.4, alpha.tension, gradient.tension, 1, roughness}, mean_Pa, least_Pa);
+  fill(&DinTriple::bending, {0.5, alpha.bending, gradient.bending, size, roughness}, mean_Pa, least_Pa);
   fill(&DinTriple::torsion, {0.3, alpha.torsion, gradient.torsion, size, 0.575 * roughness + 0.425},
-       mean_Pa / std::sqrt(3.0));
+       mean_Pa / std::sqrt(3.0), least_Pa / std::sqrt(3.0));
 
   safety.fatigue = din_safety_of(load.amplitude_Pa, safety.amplitude_Pa);
-  const DinTriple& a = load.amplitude_Pa;
   const DinTriple& m = load.mean_Pa;
   safety.yielding = din_safety_of(
       {a.tension + std::abs(m.tension), a.bending + std::abs(m.bending), a.torsion + std::abs(m.torsion)},

@@ -69,7 +69,10 @@ struct DinSafety {
 
 /// Safety against fatigue and against yielding; infinite without amplitudes, without stress. DIN asks
 /// for 1.2. The endured amplitude is sigma_WK - psi sigma_mv in case 1 and sigma_WK / (1 + psi sigma_mv /
-/// sigma_a) in case 2, and at most what reaches the yield strength.
+/// sigma_a) in case 2, and at most what reaches the yield strength. In case 2 each kind of stress that
+/// alternates at all would count the whole mean once more, be it 1 Pa: below a hundredth of the equivalent
+/// amplitude it counts it in proportion (sigma_a in sigma_mv / sigma_a is at least that hundredth), so that
+/// the safety has no jump. The standard has no such bound.
 /// @throws std::invalid_argument if a strength, the diameter, R_z or K_V is not positive, the yield strength
 /// is
 ///         above the tensile strength, a shape factor below 1, a gradient or an amplitude negative, or a

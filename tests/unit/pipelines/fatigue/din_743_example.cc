@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -54,6 +55,32 @@ TEST(Din743, CaseTwoIsTheSameRatio) {
   load.load_case = DinLoadCase::constant_mean;
   EXPECT_NEAR(din_743_safety(shoulder(), load).fatigue, 1, 1e-12);
   EXPECT_LT(at.fatigue, 2.373);
+}
+
+// Reversed torsion with static bending: what bending alternates by, from nothing on, moves the safety by
+// little. By the standard's letter 1 Pa of it would count the mean a second time. From a hundredth of the
+// equivalent amplitude on the letter holds: sigma_a / sigma_ADK is the larger of (sigma_a + psi sigma_mv) /
+// sigma_WK and (sigma_a + sigma_mv) / sigma_FK.
+TEST(Din743, ALittleBendingIsNoJump) {
+  DinLoad load;
+  load.mean_Pa.bending = 140e6;
+  load.amplitude_Pa.torsion = 11e6;
+  const double without = din_743_safety(shoulder(), load).fatigue;
+  for (const double little_Pa : {1e-8, 1.0, 5e3}) {
+    load.amplitude_Pa.bending = little_Pa;
+    EXPECT_NEAR(din_743_safety(shoulder(), load).fatigue, without, 1e-3 * without) << little_Pa;
+  }
+  load.amplitude_Pa.bending = 0.011 * std::sqrt(3.0) * 11e6;
+  const auto s = din_743_safety(shoulder(), load);
+  const auto share = [](double amplitude, double mean, double psi, double reversed, double yield) {
+    return std::max((amplitude + psi * mean) / reversed, (amplitude + mean) / yield);
+  };
+  const double bending = share(load.amplitude_Pa.bending, 140e6, s.sensitivity.bending, s.reversed_Pa.bending,
+                               s.yield_Pa.bending);
+  const double torsion =
+      share(11e6, 140e6 / std::sqrt(3.0), s.sensitivity.torsion, s.reversed_Pa.torsion, s.yield_Pa.torsion);
+  EXPECT_NEAR(s.fatigue, 1 / std::hypot(bending, torsion), 1e-12);
+  EXPECT_LT(s.fatigue, 0.99 * without);
 }
 
 TEST(Din743, LimitsAndRefusals) {
