@@ -167,6 +167,9 @@ public:
     return refined(best, 1e-3, 1e-7);
   }
 
+  /// Near a plane that another history told: half a spacing of coarse planes away at most.
+  Plane best_near(const Vector3d& normal) { return refined(at(normal), 0.04, 1e-7); }
+
   /// Largest shear; of planes that share it, by 1e-9, the one with the larger normal stress. Where a whole
   /// circle of planes shares it, a search for both leads to the largest normal stress on the circle.
   Plane best_of_largest_shear() {
@@ -273,6 +276,16 @@ CriticalPlane stress_on_plane(const StressPath& history_Pa, const Eigen::Vector3
   if (!normal.allFinite() || normal.isZero(0))
     throw std::invalid_argument("normal: must be a finite vector that is not zero");
   return described(PlaneSearch(history_Pa, limit.normal_share).at(normal.normalized()), limit, 1);
+}
+
+CriticalPlane findley(const StressPath& history_Pa, const StressPath& finer_Pa,
+                      const CriticalPlaneLimit& limit) {
+  const auto found = findley(history_Pa, limit);
+  require_search(finer_Pa, limit);
+  const double scale = finer_Pa.cwiseAbs().maxCoeff();
+  if (scale == 0) return {};
+  PlaneSearch search(finer_Pa / scale, limit.normal_share);
+  return described(search.best_near(found.normal), limit, scale);
 }
 
 CriticalPlane findley(const StressPath& history_Pa, const CriticalPlaneLimit& limit) {

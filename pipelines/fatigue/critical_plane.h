@@ -54,6 +54,10 @@ CriticalPlane stress_on_plane(const StressPath& history_Pa, const Eigen::Vector3
 /// of them to 1e-7 rad: local maxima closer to the best than a coarse direction can lie below its maximum.
 /// @throws std::invalid_argument if the history is empty or not finite, k is negative or f not positive
 CriticalPlane findley(const StressPath& history_Pa, const CriticalPlaneLimit& limit);
+/// The same where more of the path is known than a search over all planes needs: the plane is found by the
+/// history, then refined, and its stresses taken, by the finer one.
+CriticalPlane findley(const StressPath& history_Pa, const StressPath& finer_Pa,
+                      const CriticalPlaneLimit& limit);
 CriticalPlane matake(const StressPath& history_Pa, const CriticalPlaneLimit& limit);
 
 /// Radius of the smallest circle that holds all points, to rounding.

@@ -104,6 +104,19 @@ StressCourse StressCourse::at_places(ArrayXXd stress_Pa, const FactorCourse& fac
 
 StressCourse::StressCourse(ArrayXXd stress_Pa) : stress_Pa_(std::move(stress_Pa)) {}
 
+ArrayXXd StressCourse::denser_Pa(Index n) const {
+  if (!is_smooth_ || n < 2) return stress_Pa_;
+  const Index n_places = stress_Pa_.cols();
+  ArrayXXd result = ArrayXXd::Zero(6, n * n_places);
+  for (Index j = 0; j < n; ++j) {
+    const PlacesAround around(double(j) / double(n));
+    for (Index p = 0; p < n_places; ++p)
+      for (Index i = 0; i < n_local; ++i)
+        result.col(p * n + j) += around.value[i] * stress_Pa_.col(wrapped(p + around.first + i, n_places));
+  }
+  return result;
+}
+
 Eigen::Matrix<double, 5, Eigen::Dynamic> StressCourse::coordinates() const {
   return deviatoric_coordinates(stress_Pa_.matrix()).matrix();
 }

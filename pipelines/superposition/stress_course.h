@@ -53,6 +53,8 @@ public:
 
   /// 6 x places.
   const Eigen::ArrayXXd& stress_Pa() const { return stress_Pa_; }
+  /// At n times as many places where the course is smooth; else at the places. 6 x places.
+  Eigen::ArrayXXd denser_Pa(Eigen::Index n) const;
   /// Turning points lie between the places, where the polynomial has them.
   bool is_smooth() const { return is_smooth_; }
   /// 5 x places; their distance is the von Mises stress of the difference.

@@ -162,6 +162,91 @@ TEST(Fatigue, OfFilletsHasASecondOpinionByDin743) {
   EXPECT_NE(run.out.find("DIN 743 from nominal stresses"), std::string::npos) << run.out;
 }
 
+namespace {
+
+/// Static bending by 20 kN, reversed torsion, and a force across it.
+std::string steady_bending(const std::string& alternating) {
+  return R"(title = "steady bending"
+method = "axisymmetric"
+tolerance = "none"
+effects = ["pull", "drive"]
+[machine]
+type = "load_table"
+speed = "960 rpm"
+constants = [{ effect = "pull", load = "pulley.fx", value = "20 kN" }]
+harmonics = [{ effect = "drive", load = "roller.torque", amplitude = "60 N m", order = 2, phase = "0 deg" },
+             { effect = "drive", load = "pulley.fy", amplitude = ")" +
+         alternating + R"(", order = 2, phase = "0 deg" }]
+[sampling]
+instants_per_turn = 48
+[shaft]
+contour = [{ port = "pulley", diameter = "30 mm", length = "40 mm" }, { fillet = "1.5 mm" },
+           { port = "bearing_1", diameter = "35 mm", length = "20 mm" }, { fillet = "1 mm" },
+           { port = "roller", diameter = "42 mm", length = "90 mm" }, { fillet = "1 mm" },
+           { port = "bearing_2", diameter = "35 mm", length = "20 mm" }]
+bearings = ["bearing_1", "bearing_2"]
+torque_support = "pulley"
+[shaft.material]
+name = "C45"
+youngs_modulus = "206 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "305 MPa"
+[shaft.fatigue]
+tensile_strength = "590 MPa"
+[shaft.mesh]
+cells_per_fillet_quarter = 2
+[results]
+pictures = false
+snapshots = 0
+)";
+}
+
+}  // namespace
+
+// 20 kN of static bending and reversed torsion: 1 N that alternates across the bending, or none, is all the
+// same to every rule. Turns red: mean bending along the direction of the change alone (DIN 743 of 10
+// for 2.3), Shigley's lines at the node that FKM takes, to which means beyond R = 0.5 are equal
+// (Soderberg 1.18 for 0.90).
+TEST(Fatigue, ALittleForceMovesNoSecondOpinion) {
+  const results_test::Directory directory;
+  const auto with = [&](const char* force) {
+    return run_small(directory.path, steady_bending(force))["bodies"]["shaft"]["fatigue"];
+  };
+  const auto without = with("0 N"), little = with("1 N");
+  ASSERT_EQ(little["din_743"].size(), without["din_743"].size());
+  for (const auto* key : {"safety_against_fatigue", "safety_against_yielding"}) {
+    const double expected = without["din_743"][0][key];
+    EXPECT_NEAR(little["din_743"][0][key].get<double>(), expected, 1e-3 * expected) << key;
+  }
+  // Amplitudes of 1 N are 4e-4 of those of the torsion, in some direction or other.
+  for (const auto* rule : {"findley", "goodman", "gerber", "soderberg"}) {
+    const double expected = without["places"][0]["safety_by"][rule];
+    EXPECT_NEAR(little["places"][0]["safety_by"][rule].get<double>(), expected, 3e-3 * expected) << rule;
+  }
+  // M / (pi d^3 / 32) where the pulley's fillet of 1.5 mm begins, 18.5 mm from the middle of its seat.
+  const double nominal_Pa = 20e3 * 0.0185 / (M_PI * std::pow(0.03, 3) / 32);
+  EXPECT_EQ(little["din_743"][0]["feature"], "fillet pulley/bearing_1");
+  EXPECT_NEAR(little["din_743"][0]["mean_Pa"]["bending"].get<double>(), nominal_Pa, 0.01 * nominal_Pa);
+}
+
+// Findley sees crests between the instants, as FKM does.
+TEST(Fatigue, FindleyDoesNotDependOnTheInstants) {
+  const results_test::Directory directory;
+  const auto with = [&](const std::string& instants) {
+    const auto run = millstress(directory.path, "run " + shipped("shaft.toml").string() +
+                                                    " --method axisymmetric --set results.pictures=false "
+                                                    "--set sampling.instants_per_turn=" +
+                                                    instants + " -o out");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return summary(directory / "out")["bodies"]["shaft"]["fatigue"]["places"][0]["safety_by"];
+  };
+  const auto few = with("24"), many = with("360");
+  const double expected = many["findley"];
+  // Crests are missed by (pi / (8 * 48))^2 / 2 = 3e-5 of the amplitude.
+  EXPECT_NEAR(few["findley"].get<double>(), expected, 1e-4 * expected);
+}
+
 TEST(Fatigue, IsJudgedWhereItIsAskedForOnly) {
   const results_test::Directory directory;
   std::string out;

@@ -165,4 +165,16 @@ TEST(CriticalPlane, NothingAndRefusals) {
   EXPECT_THROW(findley(StressPath::Zero(6, 4), {-0.3, 1}), std::invalid_argument);
 }
 
+// A crest between coarse instants: 11 of them, odd, miss it by up to 1 - cos(pi / 22) = 1 %, the finer path
+// tells it. Closed form of the reversed bar; turns red if the finer path is left out.
+TEST(CriticalPlane, AFinerPathHasTheCrest) {
+  const auto limit = findley_limit(300e6, 0.577 * 300e6);
+  const double k = limit.normal_share, sigma = 100e6;
+  StressPath coarse = StressPath::Zero(6, 11);
+  for (int i = 0; i < 11; ++i) coarse(0, i) = sigma * std::cos(2 * M_PI * (i + 0.5) / 11);
+  const double expected = sigma / 2 * (k + std::sqrt(1 + k * k));
+  EXPECT_NEAR(findley(coarse, history(sigma, 0, 0, 0, 3600), limit).equivalent_Pa, expected, 1e-6 * expected);
+  EXPECT_LT(findley(coarse, limit).equivalent_Pa, (1 - 2e-3) * expected);
+}
+
 }  // namespace
