@@ -145,6 +145,19 @@ std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAna
                   "{:.0e} cycles",
                   scene.safety, scene.safety_reason, limit.mean_stress_sensitivity,
                   rules.group().slope_normal, rules.group().knee_cycles));
+  lines.emplace_back(
+      "amplitude: half the von Mises stress of the difference of two instants; mean: signed von Mises stress "
+      "of "
+      "their middle, by FKM's Haigh diagram at constant stress ratio (F2)");
+  const auto& second = rules.group().second_slope_normal;
+  lines.push_back(fmt::format(
+      "cycles by rainflow along the direction of most damage; Palmgren-Miner, damage sum 1, {}",
+      second ? fmt::format("S-N slope {:.3g} behind the knee", *second)
+             : std::string("elementary: beside a cycle above the knee all others count by the same slope")));
+  const double shear = rules.group().f_W_tau;
+  lines.push_back(shear > 0.5 && shear < 1
+                      ? fmt::format("Findley with tau_W / sigma_W {:.3f}", shear)
+                      : fmt::format("no Findley: tau_W / sigma_W {:.3f} is outside 0.5 to 1", shear));
   if (scene.endurance_Pa)
     lines.push_back(
         fmt::format("the smooth specimen's limit is the scene's, {:.1f} MPa", *scene.endurance_Pa / 1e6));

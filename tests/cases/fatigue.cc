@@ -247,6 +247,16 @@ TEST(Fatigue, FindleyDoesNotDependOnTheInstants) {
   EXPECT_NEAR(few["findley"].get<double>(), expected, 1e-4 * expected);
 }
 
+TEST(Fatigue, NamesTheRules) {
+  const results_test::Directory directory;
+  std::string out;
+  fatigue_of(directory.path, fixed_in_space("pull", "middle", "100 N"), "", &out);
+  for (const auto* words : {"half the von Mises stress of the difference", "signed von Mises", "Haigh", "F2",
+                            "rainflow along the direction of most damage", "Palmgren-Miner", "elementary",
+                            "Findley with tau_W / sigma_W 0.577"})
+    EXPECT_NE(out.find(words), std::string::npos) << words << '\n' << out;
+}
+
 TEST(Fatigue, IsJudgedWhereItIsAskedForOnly) {
   const results_test::Directory directory;
   std::string out;
