@@ -268,7 +268,6 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
                                       {"diameter_m", nominal.diameter_m},
                                       {"amplitude_Pa", triple(nominal.load.amplitude_Pa)},
                                       {"mean_Pa", triple(nominal.load.mean_Pa)},
-                                      {"mean_Pa", triple(nominal.load.mean_Pa)},
                                       {"shape_factor", triple(nominal.shape_factor)},
                                       {"notch_effect", triple(nominal.safety.notch_effect)},
                                       {"safety_against_fatigue", number_or_none(nominal.safety.fatigue)},
