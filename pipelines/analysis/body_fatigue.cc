@@ -164,8 +164,8 @@ std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAna
   if (!analysis.hot_spots.empty())
     lines.push_back(fmt::format(
         "weld toes: IIW, structural hot-spot stress, FAT {:.0f}{} / gamma_M {:.3g}, 95 % survival, "
-        "as welded; range of "
-        "the principal stress within 60 degrees of the toe's normal",
+        "as welded; range of the principal stress within 60 degrees of the toe's normal; "
+        "thickness factor f(t) = (25 mm / t)^n above 25 mm",
         scene.toes.class_Pa / 1e6, scene.toes.type.empty() ? "" : " (" + scene.toes.type + ")",
         scene.toes.partial_factor));
   if (!analysis.hot_spots.empty()) {
@@ -261,6 +261,8 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
   weld.type = place.type;
   weld.class_Pa = place.detail.fat_Pa;
   weld.thickness_m = place.detail.thickness_m;
+  weld.thickness_exponent = place.detail.thickness_exponent;
+  weld.thickness_factor = thickness_factor(weld.thickness_m, weld.thickness_exponent);
   weld.angle_rad = toe.angle_rad;
   weld.is_principal = toe.is_principal;
   weld.n_counted = toe.cycles.size();

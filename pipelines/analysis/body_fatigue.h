@@ -61,7 +61,8 @@ struct WeldFatigue {
   std::array<double, 3> toe_m{};
   std::string type;  ///< of weld_classes.h; empty: the class is the scene's own
   double class_Pa = 0, thickness_m = 0;
-  double range_Pa = 0;        ///< largest of the counted cycles
+  double thickness_exponent = 0, thickness_factor = 1;  ///< n and f(t) on the class (weld_fatigue.h)
+  double range_Pa = 0;                                  ///< largest of the counted cycles
   double angle_rad = 0;       ///< of the governing direction from the toe's normal, at most 60 degrees
   bool is_principal = false;  ///< a principal direction of the range; else the toe's normal
   /// Of the range, in the order of ChannelHistory::effects; sums to 1, but for effects without a share of

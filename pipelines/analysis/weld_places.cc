@@ -12,6 +12,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
+#include "pipelines/fatigue/weld_classes.h"
 #include "pipelines/superposition/stress_course.h"
 
 namespace pipelines {
@@ -95,7 +96,7 @@ std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis) {
     place.surface_normal = Eigen::Map<const Vector3d>(normal.data());
     place.across_toe = Eigen::Map<const Vector3d>(drawing->near_m.data()) -
                        Eigen::Map<const Vector3d>(drawing->toe_m.data());
-    place.detail = {rules.class_Pa, drawing->thickness_m, WeldDetail().thickness_exponent,
+    place.detail = {rules.class_Pa, drawing->thickness_m, thickness_exponent_of(rules.type),
                     rules.partial_factor};
     place.type = rules.type;
     place.error_share = error_share_of(analysis, spot.name);

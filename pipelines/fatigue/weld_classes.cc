@@ -18,10 +18,12 @@ constexpr std::array<int, 13> classes_MPa = {36, 40, 45, 50, 56, 63, 71, 80, 90,
 }  // namespace
 
 const std::vector<WeldType>& weld_types() {
-  static const std::vector<WeldType> types = {{"load-carrying", fat_load_carrying_fillet_Pa},
-                                              {"non-load-carrying", fat_non_load_carrying_Pa},
-                                              {"butt", fat_non_load_carrying_Pa},
-                                              {"full penetration", fat_non_load_carrying_Pa}};
+  using namespace thickness_exponent;
+  static const std::vector<WeldType> types = {
+      {"load-carrying", fat_load_carrying_fillet_Pa, cruciform_or_attachment},
+      {"non-load-carrying", fat_non_load_carrying_Pa, cruciform_or_attachment},
+      {"butt", fat_non_load_carrying_Pa, transverse_butt},
+      {"full penetration", fat_non_load_carrying_Pa, cruciform_or_attachment}};
   return types;
 }
 
@@ -29,6 +31,11 @@ const WeldType* weld_type(const std::string& name) {
   const auto& types = weld_types();
   const auto found = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == name; });
   return found == types.end() ? nullptr : &*found;
+}
+
+double thickness_exponent_of(const std::string& name) {
+  const auto* const type = weld_type(name);
+  return type ? type->thickness_exponent : thickness_exponent::cruciform_or_attachment;
 }
 
 bool is_fat_class(double fat_Pa) {

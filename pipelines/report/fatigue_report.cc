@@ -45,13 +45,14 @@ std::string cell(double value) {
 
 void print_welds(std::ostream& out, const BodyFatigue& fatigue, const std::vector<std::string>& effects) {
   if (fatigue.welds.empty()) return;
-  out << fmt::format("\n  {:<40}{:>11}{:>12}{:>10}{:>9}  {}\n", "fatigue of weld toes", "range MPa",
-                     "thickness", "angle deg", "FAT", "life");
+  out << fmt::format("\n  {:<40}{:>11}{:>12}{:>13}{:>11}{:>6}  {}\n", "fatigue of weld toes", "range MPa",
+                     "thickness", "f(t), n", "angle deg", "FAT", "life");
   for (std::size_t i = 0; i < std::min(n_places_shown, fatigue.welds.size()); ++i) {
     const auto& weld = fatigue.welds[i];
-    out << fmt::format("  {:<40}{:>11}{:>9.1f} mm{:>10.0f}{:>9.0f}  {}\n", weld.name,
-                       fixed(weld.range_Pa / 1e6, 1), 1e3 * weld.thickness_m, weld.angle_rad * 180 / M_PI,
-                       weld.class_Pa / 1e6, life_text(weld.life_s, weld.certainty));
+    out << fmt::format(
+        "  {:<40}{:>11}{:>9.1f} mm{:>13}{:>11.0f}{:>6.0f}  {}\n", weld.name, fixed(weld.range_Pa / 1e6, 1),
+        1e3 * weld.thickness_m, fmt::format("{:.3g}, {:.2g}", weld.thickness_factor, weld.thickness_exponent),
+        weld.angle_rad * 180 / M_PI, weld.class_Pa / 1e6, life_text(weld.life_s, weld.certainty));
   }
   const auto& first = fatigue.welds.front();
   if (!first.effect_share.empty())
@@ -71,6 +72,8 @@ summary::Json welds_json(const BodyFatigue& fatigue, const std::vector<std::stri
          {"type", weld.type.empty() ? summary::Json(nullptr) : summary::Json(weld.type)},
          {"class_Pa", summary::number(weld.class_Pa)},
          {"thickness_m", summary::number(weld.thickness_m)},
+         {"thickness_factor", summary::number(weld.thickness_factor)},
+         {"thickness_exponent", summary::number(weld.thickness_exponent)},
          {"range_Pa", summary::number(weld.range_Pa)},
          {"angle_rad", summary::number(weld.angle_rad)},
          {"principal", weld.is_principal},
@@ -279,7 +282,7 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
 
 void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& analysis) {
   std::vector<std::string> names, types, lives, least, most, error;
-  std::vector<double> range, thickness, angle, fat, damage;
+  std::vector<double> range, thickness, factor, exponent, angle, fat, damage;
   std::array<std::vector<double>, 3> toe;
   std::vector<std::vector<double>> shares;
   for (const auto& weld : analysis.fatigue->welds) {
@@ -291,18 +294,30 @@ void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& a
     error.push_back(cell(weld.error_share));
     range.push_back(weld.range_Pa);
     thickness.push_back(weld.thickness_m);
+    factor.push_back(weld.thickness_factor);
+    exponent.push_back(weld.thickness_exponent);
     angle.push_back(weld.angle_rad);
     fat.push_back(weld.class_Pa);
     damage.push_back(weld.damage_per_turn);
     lives.push_back(weld.life_s ? shortest(*weld.life_s / seconds_per_hour) : std::string());
     for (std::size_t d = 0; d < 3; ++d) toe[d].push_back(weld.toe_m[d]);
   }
-  std::vector<CsvColumn> columns{
-      {"toe", "", names},          {"range", "Pa", range},     {"thickness", "m", thickness},
-      {"angle", "rad", angle},     {"class", "Pa", fat},       {"damage_per_turn", "", damage},
-      {"life", "h", lives},        {"life_least", "h", least}, {"life_most", "h", most},
-      {"stress_error", "", error}, {"type", "", types},        {"x", "m", toe[0]},
-      {"y", "m", toe[1]},          {"z", "m", toe[2]}};
+  std::vector<CsvColumn> columns{{"toe", "", names},
+                                 {"range", "Pa", range},
+                                 {"thickness", "m", thickness},
+                                 {"angle", "rad", angle},
+                                 {"class", "Pa", fat},
+                                 {"damage_per_turn", "", damage},
+                                 {"life", "h", lives},
+                                 {"life_least", "h", least},
+                                 {"life_most", "h", most},
+                                 {"stress_error", "", error},
+                                 {"type", "", types},
+                                 {"thickness_factor", "", factor},
+                                 {"thickness_exponent", "", exponent},
+                                 {"x", "m", toe[0]},
+                                 {"y", "m", toe[1]},
+                                 {"z", "m", toe[2]}};
   add_damage_shares(columns, analysis.loads.history.effects, shares);
   write_csv(file, columns);
 }

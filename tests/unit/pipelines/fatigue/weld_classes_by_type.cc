@@ -1,5 +1,7 @@
 // FAT classes by name, text and list. The classes are those of IIW-1823-07, table 3.3-1.
-// Turns red: another class of a type, a text taken for a class, a class outside IIW's list passed over.
+// Exponents of wall thickness: table 3.5-1, cruciform and T joints and attachments 0.3, transverse butt welds
+// 0.2. Turns red: another class of a type, one exponent for all, a text taken for a class, a class outside
+// IIW's list passed over.
 #include <gtest/gtest.h>
 
 #include "pipelines/fatigue/weld_classes.h"
@@ -14,6 +16,9 @@ TEST(WeldClasses, FollowFromTheType) {
     EXPECT_EQ(weld_type(other)->fat_Pa, 100e6) << other;
   }
   EXPECT_EQ(weld_type("Butt"), nullptr);
+  EXPECT_EQ(thickness_exponent_of("butt"), 0.2);
+  for (const char* other : {"load-carrying", "non-load-carrying", "full penetration", ""})
+    EXPECT_EQ(thickness_exponent_of(other), 0.3) << other;
 }
 
 TEST(WeldClasses, AreReadFromTexts) {

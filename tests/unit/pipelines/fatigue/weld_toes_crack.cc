@@ -1,5 +1,6 @@
 /// IIW curves, thickness, and which stress governs a toe.
-/// Turns red: amplitude for range, knee at 2e6, f(t) above 1 for thin plates, a sector of 45 or 90 degrees.
+/// Turns red: the curve of a thick plate without f(t), amplitude for range, knee at 2e6, f(t) above 1 for
+/// thin plates, a sector of 45 or 90 degrees.
 #include "pipelines/fatigue/weld_fatigue.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +33,21 @@ TEST(WeldFatigue, Thickness) {
   EXPECT_NEAR(thickness_factor(0.050), std::pow(0.5, 0.3), 1e-15);
   EXPECT_NEAR(thickness_factor(0.050, thickness_exponent::transverse_butt), std::pow(0.5, 0.2), 1e-15);
   EXPECT_THROW(thickness_factor(0), std::invalid_argument);
+}
+
+// FAT 90 of a 50 mm plate, n = 0.3, gamma_M 1.35: 90 x 0.5^0.3 / 1.35 = 54.15016 MPa at 2e6 cycles, at 1e7
+// 0.2^(1/3) of that, 31.66721 MPa.
+TEST(WeldFatigue, TheCurveOfAThickPlateIsLower) {
+  for (const auto amplitude : {LoadAmplitude::constant, LoadAmplitude::variable}) {
+    const SnCurve curve = weld_curve({90e6, 0.050, 0.3, 1.35}, amplitude);
+    EXPECT_NEAR(curve.knee_amplitude_Pa, 31.66721e6, 5);  // digits written above
+    EXPECT_NEAR(*cycles_to_failure(curve, 54.15016e6), 2e6, 1);
+    EXPECT_NEAR(*cycles_to_failure(curve, 2 * 54.15016e6), 2e6 / 8, 0.2);
+    // A factor f on the class is one of f^3 on the life, 0.5^0.9.
+    EXPECT_NEAR(*cycles_to_failure(curve, 100e6) /
+                    *cycles_to_failure(weld_curve({90e6, 0.025, 0.3, 1.35}, amplitude), 100e6),
+                0.5358867, 1e-7);
+  }
 }
 
 /// Uniaxial stress in the surface z = 0 at an angle to x, one period of a cosine about a mean.
