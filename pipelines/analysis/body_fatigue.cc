@@ -49,9 +49,9 @@ void take_life(const FatigueRules& rules, const CountedNode& counted, const Load
                    });
 }
 
-MeanStressSafety lines_of(const FatigueRules& rules, const EnduranceLimit& limit, const StressCycle& cycle) {
+MeanStressSafety lines_of(const FatigueRules& rules, const EnduranceLimit& limit, const CyclicStress& cycle) {
   const auto& material = rules.scene().material;
-  return mean_stress_safety(scalar(cycle),
+  return mean_stress_safety(cycle,
                             {limit.reversed_Pa, material.tensile_strength_Pa, material.yield_strength_Pa});
 }
 
@@ -77,7 +77,7 @@ std::vector<std::size_t> worst_by_lines(const FatigueRules& rules, const NodalCy
   least.fill({never, 0});
   for (const auto node : nodes) {
     const auto at = std::lower_bound(known.nodes.begin(), known.nodes.end(), node) - known.nodes.begin();
-    const auto lines = lines_of(rules, limit, known.cycles[std::size_t(at)]);
+    const auto lines = lines_of(rules, limit, scalar(known.cycles[std::size_t(at)]));
     const std::array<double, 3> safety{lines.goodman, lines.gerber, lines.soderberg};
     for (std::size_t i = 0; i < safety.size(); ++i)
       if (safety[i] < least[i].first) least[i] = {safety[i], node};
@@ -98,7 +98,7 @@ SecondOpinions second_opinions(const FatigueRules& rules, const FatigueNode& wor
   for (const auto node : by_lines) {
     const auto one = node == worst.node ? worst : search.at(node);
     const auto limit = rules.limit(one.gradient_per_m, scalar(one.cycle));
-    const auto lines = lines_of(rules, limit, one.cycle);
+    const auto lines = lines_of(rules, limit, scalar(one.cycle));
     least.goodman = std::min(least.goodman, lines.goodman);
     least.gerber = std::min(least.gerber, lines.gerber);
     least.soderberg = std::min(least.soderberg, lines.soderberg);
