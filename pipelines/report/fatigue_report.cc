@@ -8,7 +8,9 @@
 #include <limits>
 #include <ostream>
 
+#include "pipelines/analysis/duty_result.h"
 #include "pipelines/analysis/error_text.h"
+#include "pipelines/common/name_lists.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/report/damage_share_text.h"
 #include "pipelines/report/zone_text.h"
@@ -182,34 +184,69 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
   for (const auto& line : fatigue.assumptions) out << "    " << line << '\n';
 }
 
-void print_shortest_lives(std::ostream& out, const std::vector<BodyAnalysis>& bodies) {
-  struct Entry {
-    std::string place;
-    double life_s, use;  ///< use: of what is allowed; 0 at toes, which have a life or none
-  };
-  constexpr double never = std::numeric_limits<double>::infinity();
-  constexpr std::size_t most = 5;
-  std::vector<Entry> entries;
+std::vector<RankedPlace> fatigue_ranking(const RunReport& report) {
+  std::vector<RankedPlace> ranking;
   std::size_t n_judged = 0;
-  for (const auto& analysis : bodies) {
+  for (const auto& analysis : report.bodies) {
     if (!analysis.fatigue) continue;
     ++n_judged;
-    const auto& name = analysis.scene.name;
+    const auto& body = analysis.scene.name;
+    if (report.duty != nullptr) {
+      const auto places = report.duty->places.find(body);
+      if (places == report.duty->places.end()) continue;
+      for (const auto& place : places->second)
+        ranking.push_back({body, place.feature, place.is_weld, place.life_s,
+                           place.is_weld ? std::nullopt : std::optional(place.utilisation)});
+      continue;
+    }
     for (const auto& place : analysis.fatigue->places)
-      entries.push_back({name + ", " + place.feature, place.life_s.value_or(never), place.utilisation});
+      ranking.push_back({body, place.feature, false, place.life_s, place.utilisation});
     for (const auto& weld : analysis.fatigue->welds)
-      entries.push_back({name + ", " + weld.name + " (weld toe)", weld.life_s.value_or(never), 0});
+      ranking.push_back({body, weld.name, true, weld.life_s, std::nullopt});
   }
-  if (n_judged < 2) return;
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.life_s != b.life_s ? a.life_s < b.life_s : a.use > b.use;
+  if (n_judged < 2) return {};
+  std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    const double life_of_a = a.life_s.value_or(never), life_of_b = b.life_s.value_or(never);
+    return life_of_a != life_of_b ? life_of_a < life_of_b
+                                  : a.utilisation.value_or(0) > b.utilisation.value_or(0);
   });
-  out << fmt::format("\n  {:<56}{}\n", "fatigue of all bodies, shortest life first", "life");
-  for (std::size_t i = 0; i < std::min(most, entries.size()); ++i)
-    out << fmt::format("  {:<56}{}\n", entries[i].place,
-                       entries[i].life_s < never
-                           ? life_text(entries[i].life_s)
-                           : fmt::format("endures, {:.0f} % used", 100 * entries[i].use));
+  return ranking;
+}
+
+void print_shortest_lives(std::ostream& out, const RunReport& report) {
+  constexpr std::size_t most = 5;
+  const auto ranking = fatigue_ranking(report);
+  if (ranking.empty()) return;
+  out << fmt::format("\n  {:<62}{}\n",
+                     std::string("fatigue of all bodies, ") +
+                         (report.duty != nullptr ? "over all blocks, " : "") + "shortest life first",
+                     "life");
+  std::vector<std::string> bodies;
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    const auto& place = ranking[i];
+    const bool is_first = !contains(bodies, place.body);
+    if (is_first) bodies.push_back(place.body);
+    if (i >= most && !is_first) continue;
+    const auto life = place.life_s || !place.utilisation
+                          ? life_text(place.life_s)
+                          : fmt::format("endures, {:.0f} % used", 100 * *place.utilisation);
+    out << fmt::format("  {:>4}  {:<56}{}\n", i + 1,
+                       place.body + ", " + place.feature + (place.is_weld ? " (weld toe)" : ""), life);
+  }
+}
+
+summary::Json fatigue_ranking_json(const RunReport& report) {
+  auto places = summary::Json::array();
+  for (const auto& place : fatigue_ranking(report))
+    places.push_back(summary::object(
+        {{"body", place.body},
+         {"feature", place.feature},
+         {"weld_toe", place.is_weld},
+         {"life_h",
+          place.life_s ? summary::number(*place.life_s / seconds_per_hour) : summary::Json(nullptr)},
+         {"utilisation", place.utilisation ? summary::number(*place.utilisation) : summary::Json(nullptr)}}));
+  return places;
 }
 
 summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis) {

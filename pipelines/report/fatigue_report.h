@@ -16,8 +16,23 @@ namespace pipelines {
 /// The first places, with what brings the amplitude, and the rules; nothing where the scene does not ask.
 void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis);
 
-/// The places and weld toes of all bodies that last least, where several bodies are judged.
-void print_shortest_lives(std::ostream& out, const std::vector<BodyAnalysis>& bodies);
+/// A place or weld toe among those of all bodies.
+struct RankedPlace {
+  std::string body, feature;
+  bool is_weld = false;
+  std::optional<double> life_s;       ///< none: endures
+  std::optional<double> utilisation;  ///< of what is allowed; toes have none
+};
+
+/// Places and weld toes of all bodies by rising life, over all operating blocks where the scene has some;
+/// those that endure by falling utilisation. Empty where fewer than two bodies are judged.
+std::vector<RankedPlace> fatigue_ranking(const RunReport& report);
+
+/// The first of them, and the first of each body.
+void print_shortest_lives(std::ostream& out, const RunReport& report);
+
+/// What `fatigue_ranking` has.
+summary::Json fatigue_ranking_json(const RunReport& report);
 
 /// What bodies.<body>.fatigue has.
 summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis);

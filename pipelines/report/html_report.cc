@@ -318,6 +318,28 @@ void add_duty_places(HtmlPage& page, const std::string& body, const Json& places
       rows);
 }
 
+/// The first places of all bodies, and the first of each body.
+void add_fatigue_ranking(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("fatigue_ranking")) return;
+  Rows rows;
+  std::vector<std::string> bodies;
+  std::size_t rank = 0;
+  for (const auto& place : summary.at("fatigue_ranking")) {
+    ++rank;
+    const auto body = place.at("body").get<std::string>();
+    const bool is_first = std::find(bodies.begin(), bodies.end(), body) == bodies.end();
+    if (is_first) bodies.push_back(body);
+    if (rank > n_rows_of_fatigue && !is_first) continue;
+    rows.push_back({fmt::format("{}", rank), body, place.at("feature").get<std::string>(),
+                    place.at("weld_toe").get<bool>() ? "weld toe" : "",
+                    place.at("life_h").is_null() ? "endures" : number(place.at("life_h"), 1, "{:.3g}"),
+                    or_dash(place.at("utilisation"), 100, "{:.0f}")});
+  }
+  page.heading(2, std::string("Fatigue of all bodies") +
+                      (summary.contains("duty") ? ", over all operating blocks" : ""));
+  page.table({"", "body", "place", "", "life h", "utilisation %"}, rows);
+}
+
 void add_duty(HtmlPage& page, const Json& summary) {
   if (!summary.contains("duty")) return;
   const Json& duty = summary.at("duty");
@@ -393,6 +415,7 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
     for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);
   add_loads(page, summary);
   add_bearings(page, summary);
+  add_fatigue_ranking(page, summary);
   add_duty(page, summary);
   add_natural_frequencies(page, summary);
   add_resonance_margins(page, summary);

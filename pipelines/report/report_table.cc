@@ -224,7 +224,7 @@ void print_report(std::ostream& out, const RunReport& report) {
   out << '\n';
   print_loads(out, report);
   for (const auto& analysis : report.bodies) print_body(out, report, analysis);
-  print_shortest_lives(out, report.bodies);
+  print_shortest_lives(out, report);
   print_effect_choice(out, report.scene, report.bodies);
   print_resampling(out, report);
   print_bearings(out, report);

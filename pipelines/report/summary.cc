@@ -10,6 +10,7 @@
 #include "pipelines/common/version.h"
 #include "pipelines/files/content_hash.h"
 #include "pipelines/report/duty_report.h"
+#include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/summary_values.h"
 #include "pipelines/report/torsion_json.h"
 #include "pipelines/scene/machine_kind.h"
@@ -129,6 +130,7 @@ std::string summary_json(const RunReport& report) {
     entry["L10h"] = bearing.life ? figure(bearing.life->hours, "h") : Json(nullptr);
     add_answers(entry, bearing.answers);
   }
+  if (const auto ranking = fatigue_ranking_json(report); !ranking.empty()) json["fatigue_ranking"] = ranking;
   if (report.duty != nullptr) json["duty"] = duty_json(*report.duty);
   for (const auto& cost : report.costs)
     json["timing"][cost.stage] =

@@ -288,5 +288,28 @@ TEST(OperatingBlocks, TheShippedSceneOfAMillRuns) {
     }
   }
   EXPECT_TRUE(duty["places"]["chamber"][0]["weld_toe"].get<bool>()) << "toes of the webs last least";
+  // All bodies in one list, by the lives over the blocks; the shaft's first place is printed wherever it
+  // stands.
+  EXPECT_NE(outcome.out.find("fatigue of all bodies, over all blocks, shortest life first"),
+            std::string::npos);
+  const auto ranking = summary(directory / "out")["fatigue_ranking"];
+  ASSERT_EQ(ranking.size(), duty["places"]["shaft"].size() + duty["places"]["chamber"].size());
+  for (const std::string body : {"shaft", "chamber"}) {
+    const auto& first = duty["places"][body][0];
+    const auto at = std::find_if(ranking.begin(), ranking.end(),
+                                 [&](const auto& place) { return place["body"] == body; });
+    EXPECT_EQ((*at)["feature"], first["feature"]) << body;
+    EXPECT_EQ((*at)["life_h"], first["life_h"]) << body;
+    const auto row =
+        std::to_string(at - ranking.begin() + 1) + "  " + body + ", " + first["feature"].get<std::string>();
+    EXPECT_NE(outcome.out.find(row), std::string::npos) << row;
+  }
+  for (std::size_t i = 1; i < ranking.size(); ++i) {
+    const auto &life = ranking[i]["life_h"], &before = ranking[i - 1]["life_h"];
+    EXPECT_TRUE(life.is_null() || (!before.is_null() && before.get<double>() <= life.get<double>())) << i;
+  }
+  EXPECT_NE(results_test::bytes(directory / "out/report.html")
+                .find("Fatigue of all bodies, over all operating blocks"),
+            std::string::npos);
   EXPECT_EQ(csv(directory / "out/duty.csv").count("damage_share_structure_inertia"), 1u);
 }
