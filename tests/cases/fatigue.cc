@@ -336,6 +336,12 @@ TEST(Fatigue, WeldToesHaveAtLeastTheDamageAcrossThem) {
         EXPECT_GE(least, life * std::pow(1 + error, -5) * (1 - 1e-9)) << weld;
       }
       EXPECT_EQ(weld["damage_per_turn"].get<double>() > 0, !weld["life_h"].is_null());
+      // To IIW's damage sum, in hours of turns at 151.844 rad/s.
+      if (!weld["life_h"].is_null()) {
+        const double turns = weld["life_h"].get<double>() * 3600 * 151.844 / (2 * M_PI);
+        EXPECT_NEAR(turns * weld["damage_per_turn"].get<double>(), weld["counted_cycles"] > 1 ? 0.5 : 1, 1e-9)
+            << weld;
+      }
     }
   EXPECT_GE(n_ranges, 1);
   EXPECT_TRUE(fs::exists(directory / "out/chamber/weld_fatigue.csv"));
