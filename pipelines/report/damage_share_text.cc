@@ -19,13 +19,18 @@ summary::Json effect_shares_json(const std::vector<std::string>& effects, const 
   return json;
 }
 
-void add_damage_shares(std::vector<CsvColumn>& columns, const std::vector<std::string>& effects,
-                       const std::vector<std::vector<double>>& shares) {
+void add_shares(std::vector<CsvColumn>& columns, const std::string& prefix,
+                const std::vector<std::string>& effects, const std::vector<std::vector<double>>& shares) {
   for (std::size_t e = 0; e < effects.size(); ++e) {
     std::vector<std::string> cells;
     for (const auto& row : shares) cells.push_back(row.empty() ? std::string() : shortest(row[e]));
-    columns.push_back({"damage_share_" + effects[e], "", std::move(cells)});
+    columns.push_back({prefix + effects[e], "", std::move(cells)});
   }
+}
+
+void add_damage_shares(std::vector<CsvColumn>& columns, const std::vector<std::string>& effects,
+                       const std::vector<std::vector<double>>& shares) {
+  add_shares(columns, "damage_share_", effects, shares);
 }
 
 }  // namespace pipelines

@@ -17,8 +17,12 @@ std::string damage_text(const std::vector<std::string>& effects, const std::vect
 /// By effect; empty without shares.
 summary::Json effect_shares_json(const std::vector<std::string>& effects, const std::vector<double>& shares);
 
-/// Adds a column "damage_share_<effect>" for each effect; cells are empty where nothing changes.
-/// @param shares  of each row
+/// Adds a column "<prefix><effect>" for each effect; cells are empty where nothing changes.
+/// @param shares  of each row; empty: nothing changes there
+void add_shares(std::vector<CsvColumn>& columns, const std::string& prefix,
+                const std::vector<std::string>& effects, const std::vector<std::vector<double>>& shares);
+
+/// The same with "damage_share_".
 void add_damage_shares(std::vector<CsvColumn>& columns, const std::vector<std::string>& effects,
                        const std::vector<std::vector<double>>& shares);
 

@@ -372,6 +372,8 @@ void write_fatigue(const std::filesystem::path& file, const Scene& scene, const 
       texts("safety_against_endurance", "", places, [](const auto& p) { return cell(p.safety); }));
   columns.push_back(numbers("utilisation", "", places, [](const auto& p) { return p.utilisation; }));
   columns.push_back(numbers("damage_per_turn", "", places, [](const auto& p) { return p.damage_per_turn; }));
+  columns.push_back(numbers("damage_per_hour", "1/h", places,
+                            [](const auto& p) { return p.life_s ? seconds_per_hour / *p.life_s : 0; }));
   columns.push_back(texts("life", "h", places, [](const auto& p) {
     return p.life_s ? shortest(*p.life_s / seconds_per_hour) : std::string();
   }));
@@ -400,9 +402,13 @@ void write_fatigue(const std::filesystem::path& file, const Scene& scene, const 
   };
   columns.push_back(numbers("drive_angle_from", "rad", places, [&](const auto& p) { return angle(p.from); }));
   columns.push_back(numbers("drive_angle_to", "rad", places, [&](const auto& p) { return angle(p.to); }));
-  std::vector<std::vector<double>> shares;
-  for (const auto& place : places) shares.push_back(place.damage_share);
-  add_damage_shares(columns, analysis.loads.history.effects, shares);
+  std::vector<std::vector<double>> of_amplitude, of_damage;
+  for (const auto& place : places) {
+    of_amplitude.push_back(place.cycle.amplitude_Pa > 0 ? place.effect_share : std::vector<double>());
+    of_damage.push_back(place.damage_share);
+  }
+  add_shares(columns, "amplitude_share_", analysis.loads.history.effects, of_amplitude);
+  add_damage_shares(columns, analysis.loads.history.effects, of_damage);
   write_csv(file, columns);
 }
 

@@ -215,6 +215,41 @@ void add_welds(HtmlPage& page, const Json& welds) {
   page.table({"weld toe", "range MPa", "FAT MPa", "life h", "at least h"}, rows);
 }
 
+/// Results of earlier versions may have none.
+std::string moment_of(const Json& place, const char* key) {
+  return place.contains(key) ? moment(place.at(key)) : "-";
+}
+
+void add_other_rules(HtmlPage& page, const Json& places) {
+  Rows rows;
+  for (const auto& place : places) {
+    if (rows.size() == n_rows_of_fatigue || !place.contains("safety_by")) break;
+    std::vector<std::string> row{place.at("feature").get<std::string>()};
+    for (const char* rule : {"findley", "goodman", "gerber", "soderberg"})
+      row.push_back(or_dash(place.at("safety_by").at(rule), 1, "{:.2f}"));
+    rows.push_back(std::move(row));
+  }
+  if (!rows.empty())
+    page.table({"safety by other rules, same limit", "Findley", "Goodman", "Gerber", "Soderberg"}, rows);
+}
+
+void add_din_743(HtmlPage& page, const Json& fatigue) {
+  if (!fatigue.contains("din_743")) return;
+  Rows rows;
+  for (const auto& fillet : fatigue.at("din_743")) {
+    const auto nominal = [&](const char* stress) {
+      return fmt::format("{} x {}", number(fillet.at("amplitude_Pa").at(stress), 1e-6, "{:.1f}"),
+                         number(fillet.at("shape_factor").at(stress), 1, "{:.2f}"));
+    };
+    rows.push_back({fillet.at("feature").get<std::string>(), nominal("tension"), nominal("bending"),
+                    nominal("torsion"), or_dash(fillet.at("safety_against_fatigue"), 1, "{:.2f}"),
+                    or_dash(fillet.at("safety_against_yielding"), 1, "{:.2f}")});
+  }
+  page.table({"DIN 743, nominal stresses: fillet", "tension MPa x factor", "bending", "torsion",
+              "safety against fatigue", "against yielding"},
+             rows);
+}
+
 /// Places and weld toes by falling use, where the scene asks for fatigue.
 void add_fatigue(HtmlPage& page, const Json& body) {
   if (!body.contains("fatigue")) return;
@@ -227,12 +262,14 @@ void add_fatigue(HtmlPage& page, const Json& body) {
                     number(place.at("endurance_Pa"), 1e-6, "{:.1f}"),
                     or_dash(place.at("safety_against_endurance"), 1, "{:.2f}"),
                     number(place.at("utilisation"), 100, "{:.0f}"), or_dash(place.at("life_h"), 1, "{:.3g}"),
-                    least_life(place)});
+                    least_life(place), moment_of(place, "from"), moment_of(place, "to")});
   }
   page.heading(3, "Fatigue");
   page.table({"place", "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation %", "life h",
-              "at least h"},
+              "at least h", "from", "to"},
              rows);
+  add_other_rules(page, fatigue.at("places"));
+  add_din_743(page, fatigue);
   if (fatigue.contains("welds")) add_welds(page, fatigue.at("welds"));
   for (const auto& line : fatigue.at("assumptions")) page.paragraph(line.get<std::string>());
 }

@@ -160,6 +160,28 @@ TEST(Fatigue, OfFilletsHasASecondOpinionByDin743) {
     EXPECT_NEAR(local, amplitude, 1e-9 * amplitude) << "bending alone alternates there";
   }
   EXPECT_NE(run.out.find("DIN 743 from nominal stresses"), std::string::npos) << run.out;
+  // The page has the first place's instants, what other rules say of it, and every fillet by DIN 743.
+  const auto page = results_test::bytes(directory / "out/report.html");
+  const auto& first = fatigue["places"][0];
+  const auto cell = [](const Json& value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f", value.get<double>());
+    return "<td class=\"number\">" + std::string(text) + "</td>";
+  };
+  std::string others;
+  for (const char* rule : {"findley", "goodman", "gerber", "soderberg"})
+    others += cell(first["safety_by"][rule]);
+  EXPECT_NE(page.find(others), std::string::npos) << others;
+  for (const auto& fillet : din)
+    EXPECT_NE(page.find(cell(fillet["safety_against_fatigue"]) + cell(fillet["safety_against_yielding"])),
+              std::string::npos)
+        << fillet["feature"];
+  for (const char* end : {"from", "to"}) {
+    char text[64];
+    std::snprintf(text, sizeof text, "<td>turn %d, %.0f deg</td>", first[end]["turn"].get<int>(),
+                  first[end]["drive_angle_rad"].get<double>() * 180 / M_PI);
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
 }
 
 namespace {
@@ -420,7 +442,15 @@ TEST(Fatigue, SharesInDamagePredictWholeRuns) {
   for (const auto& own : zone["channels"]) of_channels += own.get<double>();
   EXPECT_NEAR(of_channels, 1, 1e-12);
   const auto table = csv(directory / "out/shaft/fatigue.csv");
-  EXPECT_EQ(table.at("damage_share_pull").size(), shaft["fatigue"]["places"].size());
+  const auto places = summary(directory / "out")["bodies"]["shaft"]["fatigue"]["places"];  // of the last run
+  EXPECT_EQ(table.at("damage_share_pull").size(), places.size());
+  // The table's row is that of summary.json: shares of the amplitude are not those of the damage.
+  for (const std::string effect : {"pull", "twist", "press"})
+    EXPECT_EQ(table.at("amplitude_share_" + effect)[0],
+              places[0]["effect_share_of_amplitude"][effect].get<double>())
+        << effect;
+  EXPECT_EQ(table.at("damage_per_hour")[0], places[0]["damage_per_hour"].get<double>());
+  EXPECT_NEAR(table.at("damage_per_hour")[0] * table.at("life")[0], 1, 1e-12);
 }
 
 // The tensile strength of the part: K_d times that of the scene, by name in the output; nonsense is refused.
