@@ -32,6 +32,8 @@ using nlohmann::ordered_json;
 /// Between what the run states and what its files give: both are sums of the same terms in another order.
 constexpr double agreement = 1e-9;
 
+constexpr double to_MPa = 1e-6, to_deg = 180 / M_PI;
+
 /// A body of the run, with what its stress is superposed from.
 struct RunBody {
   std::string name;
@@ -324,18 +326,17 @@ std::vector<double> scaled(const Eigen::Ref<const Eigen::ArrayXd>& values, doubl
 
 void write_point_csv(const std::filesystem::path& file, const StressHistories& histories,
                      const StressHistory& history) {
-  constexpr double MPa = 1e-6;
   std::vector<CsvColumn> columns{{"time", "s", scaled(histories.time_s, 1)},
-                                 {"drive_angle", "deg", scaled(histories.drive_angle_rad, 180 / M_PI)}};
+                                 {"drive_angle", "deg", scaled(histories.drive_angle_rad, to_deg)}};
   const char* const components[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
   for (Index c = 0; c < 6; ++c)
-    columns.push_back({components[c], "MPa", scaled(history.stress_Pa.row(c).transpose(), MPa)});
-  columns.push_back({"von_mises", "MPa", scaled(history.von_mises_Pa(), MPa)});
-  columns.push_back({"signed_von_mises", "MPa", scaled(history.signed_von_mises_Pa(), MPa)});
+    columns.push_back({components[c], "MPa", scaled(history.stress_Pa.row(c).transpose(), to_MPa)});
+  columns.push_back({"von_mises", "MPa", scaled(history.von_mises_Pa(), to_MPa)});
+  columns.push_back({"signed_von_mises", "MPa", scaled(history.signed_von_mises_Pa(), to_MPa)});
   const auto principal_Pa = history.principal_Pa();
   for (Index c = 0; c < 3; ++c)
     columns.push_back(
-        {fmt::format("principal_{}", c + 1), "MPa", scaled(principal_Pa.row(c).transpose(), MPa)});
+        {fmt::format("principal_{}", c + 1), "MPa", scaled(principal_Pa.row(c).transpose(), to_MPa)});
   write_csv(file, columns);
 }
 
@@ -428,16 +429,20 @@ void write_stress_histories(const std::filesystem::path& directory, const Stress
       out.write(object, values.data(), {std::size_t(values.size())}, label);
     };
     write("/time", histories.time_s, {"s", "of each instant"});
-    write("/drive_angle", histories.drive_angle_rad, {"rad", "of the drive"});
+    write("/drive_angle", histories.drive_angle_rad * to_deg, {"deg", "of the drive"});
     for (std::size_t p = 0; p < names.size(); ++p) {
-      const auto& [point, stress_Pa] = histories.points[p];
+      const auto& point = histories.points[p].point;
+      const Eigen::ArrayXXd stress_MPa = histories.points[p].stress_Pa * to_MPa;
+      const Eigen::ArrayXXd principal_MPa = histories.points[p].principal_Pa() * to_MPa;
       const auto group = "/" + point.body + "/" + names[p].substr(point.body.size() + 1);
-      const std::vector<std::size_t> shape{std::size_t(stress_Pa.cols()), 6};
-      out.write(group + "/stress", stress_Pa.data(), shape,
-                {"Pa", "xx, yy, zz, xy, yz, xz in the body's frame"});
-      write(group + "/von_mises", histories.points[p].von_mises_Pa(), {"Pa", "von Mises stress"});
-      write(group + "/signed_von_mises", histories.points[p].signed_von_mises_Pa(),
-            {"Pa", "von Mises stress with the sign of the principal stress of largest size"});
+      const auto n_instants = std::size_t(stress_MPa.cols());
+      out.write(group + "/stress", stress_MPa.data(), {n_instants, 6},
+                {"MPa", "xx, yy, zz, xy, yz, xz in the body's frame"});
+      write(group + "/von_mises", histories.points[p].von_mises_Pa() * to_MPa, {"MPa", "von Mises stress"});
+      write(group + "/signed_von_mises", histories.points[p].signed_von_mises_Pa() * to_MPa,
+            {"MPa", "von Mises stress with the sign of the principal stress of largest size"});
+      out.write(group + "/principal", principal_MPa.data(), {n_instants, 3},
+                {"MPa", "principal stresses, falling"});
       out.attribute(group, "point", point.name);
       out.attribute(group, "feature", point.feature);
       for (std::size_t d = 0; d < 3; ++d)

@@ -47,6 +47,31 @@ std::vector<std::vector<double>> printed_by_python(const fs::path& directory,
   return rows_of(results_test::bytes(directory / "rows.txt"));
 }
 
+/// histories.h5 has the numbers of the table in its units, which its attributes name: red with Pa or radians.
+void expect_same_in_hdf5(const fs::path& directory, const std::string& node,
+                         const std::map<std::string, std::vector<double>>& table) {
+  const auto rows = printed_by_python(
+      directory,
+      {"import h5py", "f = h5py.File('h/histories.h5')", "g = f['shaft/node_" + node + "']",
+       "stresses = [g[n] for n in ('stress', 'von_mises', 'signed_von_mises', 'principal')]",
+       "units = [d.attrs['unit'] for d in [f['time'], f['drive_angle']] + stresses]",
+       "text = [u.decode() if isinstance(u, bytes) else str(u) for u in units]",
+       "print(int(text == ['s', 'deg', 'MPa', 'MPa', 'MPa', 'MPa']))", "for i in range(len(f['time'])):",
+       "  row = [f['time'][i], f['drive_angle'][i], *stresses[0][i], stresses[1][i], stresses[2][i], "
+       "*stresses[3][i]]",
+       "  print(*[repr(float(x)) for x in row])"});
+  ASSERT_EQ(rows.size(), 25u);
+  EXPECT_EQ(rows[0], std::vector<double>{1}) << "units";
+  const std::vector<std::string> columns = {
+      "time",      "drive_angle",      "xx",          "yy",          "zz",         "xy", "yz", "xz",
+      "von_mises", "signed_von_mises", "principal_1", "principal_2", "principal_3"};
+  for (std::size_t i = 0; i < 24; ++i) {
+    ASSERT_EQ(rows[i + 1].size(), columns.size());
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      EXPECT_EQ(rows[i + 1][c], table.at(columns[c])[i]) << columns[c] << i;
+  }
+}
+
 /// Runs the five lines on a small shaft by this model, and compares with what `history` writes.
 void expect_recombined(const std::string& method) {
   SCOPED_TRACE(method);
@@ -80,6 +105,7 @@ void expect_recombined(const std::string& method) {
     for (std::size_t c = 0; c < 6; ++c)  // both sum the same terms, in another order
       EXPECT_NEAR(rows[i + 1][c] / 1e6, table.at(components[c])[i], 1e-9 * scale_MPa) << components[c] << i;
   }
+  expect_same_in_hdf5(directory.path, node, table);
 }
 
 }  // namespace
