@@ -117,6 +117,63 @@ std::array<Vector3d, 2> across(const Vector3d& normal) {
   return {u, normal.cross(u)};
 }
 
+/// Directions of a half sphere: a spiral of equal areas from the pole to the equator.
+std::vector<Vector3d> spiral(int n) {
+  const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));
+  std::vector<Vector3d> result;
+  for (int i = 0; i < n; ++i) {
+    const double z = 1 - (i + 0.5) / n, r = std::sqrt(1 - z * z);
+    result.emplace_back(r * std::cos(golden * i), r * std::sin(golden * i), z);
+  }
+  return result;
+}
+
+/// A direction and others round it.
+std::vector<Vector3d> fan(const Vector3d& normal) {
+  std::vector<Vector3d> result{normal};
+  const auto [u, v] = across(normal);
+  for (const double tilt : {0.01, 0.04})
+    for (int i = 0; i < 8; ++i) {
+      const double angle = std::acos(-1.0) / 4 * i;
+      result.push_back((normal + tilt * (std::cos(angle) * u + std::sin(angle) * v)).normalized());
+    }
+  return result;
+}
+
+/// Longer paths are searched by their outermost points.
+constexpr Eigen::Index long_path = 2000;
+
+/// Of a long path the points with the largest normal stress on one of the planes, or farthest in one of
+/// sixteen directions of shear: what decides on planes near by. A short path as it is.
+StressPath outermost(const StressPath& history_Pa, const std::vector<Vector3d>& normals) {
+  if (history_Pa.cols() <= long_path) return history_Pa;
+  constexpr int n_lines = 8;
+  std::vector<Eigen::Index> chosen;
+  const auto choose = [&](const auto& values) {
+    Eigen::Index most = 0;
+    values.maxCoeff(&most);
+    chosen.push_back(most);
+  };
+  for (const auto& normal : normals) {
+    const auto [u, v] = across(normal);
+    const Eigen::RowVectorXd a = weights(normal, u).transpose() * history_Pa,
+                             b = weights(normal, v).transpose() * history_Pa,
+                             along = weights(normal, normal).transpose() * history_Pa;
+    choose(along);
+    for (int i = 0; i < n_lines; ++i) {
+      const double angle = std::acos(-1.0) / n_lines * i;
+      const Eigen::RowVectorXd line = std::cos(angle) * a + std::sin(angle) * b;
+      choose(line);
+      choose(-line);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  StressPath result(6, Eigen::Index(chosen.size()));
+  for (std::size_t i = 0; i < chosen.size(); ++i) result.col(Eigen::Index(i)) = history_Pa.col(chosen[i]);
+  return result;
+}
+
 /// Evaluates planes of one history, without new memory for each.
 class PlaneSearch {
 public:
@@ -200,15 +257,10 @@ private:
     return best;
   }
 
-  /// A spiral of equal areas from the pole to the equator.
   void look_everywhere() {
     constexpr int n_coarse = 1000;
-    const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));
     coarse_.reserve(n_coarse);
-    for (int i = 0; i < n_coarse; ++i) {
-      const double z = 1 - (i + 0.5) / n_coarse, r = std::sqrt(1 - z * z);
-      coarse_.push_back(at({r * std::cos(golden * i), r * std::sin(golden * i), z}));
-    }
+    for (const auto& normal : spiral(n_coarse)) coarse_.push_back(at(normal));
   }
 
   Eigen::Matrix<double, Eigen::Dynamic, 6> history_Pa_;
@@ -280,12 +332,14 @@ CriticalPlane stress_on_plane(const StressPath& history_Pa, const Eigen::Vector3
 
 CriticalPlane findley(const StressPath& history_Pa, const StressPath& finer_Pa,
                       const CriticalPlaneLimit& limit) {
-  const auto found = findley(history_Pa, limit);
+  require_search(history_Pa, limit);
   require_search(finer_Pa, limit);
   const double scale = finer_Pa.cwiseAbs().maxCoeff();
   if (scale == 0) return {};
-  PlaneSearch search(finer_Pa / scale, limit.normal_share);
-  return described(search.best_near(found.normal), limit, scale);
+  const auto found = findley(outermost(history_Pa, spiral(100)), limit);
+  const auto near_by = outermost(finer_Pa, fan(found.normal));
+  const auto best = PlaneSearch(near_by / scale, limit.normal_share).best_near(found.normal);
+  return stress_on_plane(finer_Pa, best.normal, limit);
 }
 
 CriticalPlane findley(const StressPath& history_Pa, const CriticalPlaneLimit& limit) {

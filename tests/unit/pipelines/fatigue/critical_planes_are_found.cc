@@ -177,4 +177,26 @@ TEST(CriticalPlane, AFinerPathHasTheCrest) {
   EXPECT_LT(findley(coarse, limit).equivalent_Pa, (1 - 2e-3) * expected);
 }
 
+// Long paths are searched by their outermost points: beside the search by all points the value is not larger
+// (both are lower bounds of the largest), and smaller by little. Turns red if directions of shear are left
+// out.
+TEST(CriticalPlane, OutermostPointsTellTheLongPath) {
+  const auto limit = findley_limit(300e6, 0.577 * 300e6);
+  std::mt19937 generator(7);
+  std::normal_distribution<> draw;
+  for (int example = 0; example < 6; ++example) {
+    StressPath path = StressPath::Zero(6, 2400);
+    for (int order : {1, 7, 31}) {
+      Eigen::Matrix<double, 6, 2> part;
+      for (auto& value : part.reshaped()) value = draw(generator);
+      for (int i = 0; i < 2400; ++i) {
+        const double t = 2 * M_PI * order * i / 2400;
+        path.col(i) += part * Eigen::Vector2d(std::cos(t), std::sin(t));
+      }
+    }
+    const double all = findley(path, limit).equivalent_Pa;
+    EXPECT_NEAR(findley(path, path, limit).equivalent_Pa, all, 1e-3 * all) << example;
+  }
+}
+
 }  // namespace
