@@ -24,7 +24,8 @@ struct LoadPeriod {
   double turns = 0;  ///< of the drive
 };
 
-/// The other rules beside FKM's: safety against endurance without j_D and reliability.
+/// The other rules beside FKM's: safety against endurance without j_D and reliability. Each is the least of
+/// FKM's worst node and of the place's nodes where one of Shigley's lines is used up most.
 struct SecondOpinions {
   double goodman = 0, gerber = 0, soderberg = 0;  ///< with FKM's endurance limit at zero mean
   double findley = 0;                             ///< critical plane; infinite without stress
