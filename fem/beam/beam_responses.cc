@@ -245,8 +245,14 @@ Eigen::ArrayXd shear_in_short_parts_Pa(const BeamSegment& segment, const BeamSec
 }  // namespace
 
 std::vector<double> near_load_error_Pa(const BeamShaft& shaft, const std::vector<UnitLoad>& loads,
-                                       const Eigen::ArrayXXd& factors, const std::vector<double>& z_m) {
+                                       const std::vector<std::vector<double>>& factors,
+                                       const std::vector<double>& z_m) {
   require_sizes(shaft);
+  const auto n_instants = factors.empty() ? 0 : factors.front().size();
+  Eigen::MatrixXd values(Eigen::Index(loads.size()), Eigen::Index(n_instants));
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    values.row(Eigen::Index(k)) =
+        Eigen::Map<const Eigen::RowVectorXd>(factors.at(k).data(), Eigen::Index(n_instants));
   constexpr double safety = 1.5;  // on sixty random shafts 1.0 was needed at most, on a stub axle 0.9
   const BeamLine line(shaft, loads, z_m);
   std::vector<WrenchAlong> internal;  // of the unit loads
@@ -260,19 +266,16 @@ std::vector<double> near_load_error_Pa(const BeamShaft& shaft, const std::vector
     const auto under_loads = [&](Eigen::Index column) -> WrenchAlong {
       WrenchAlong unit(6, Eigen::Index(loads.size()));
       for (std::size_t k = 0; k < loads.size(); ++k) unit.col(Eigen::Index(k)) = internal[k].col(column);
-      return unit * factors.matrix();
+      return unit * values;
     };
     const WrenchAlong here = under_loads(line.column_at(i_segment, z));
-    Eigen::ArrayXd entering_Pa = Eigen::ArrayXd::Zero(factors.cols());
+    Eigen::ArrayXd entering_Pa = Eigen::ArrayXd::Zero(values.cols());
     for (std::size_t k = 0; k < line.intervals().size(); ++k)
       for (int point = 0; point < BeamInterval::points; ++point) {
         const double nearness = 1 - std::abs(line.intervals()[k].z_m(point) - z) / d_m;
         if (nearness <= 0) continue;
         const WrenchAlong change = under_loads(Eigen::Index(k) * BeamInterval::points + point) - here;
-        const Eigen::ArrayXd change_Pa =
-            change.row(2).array().abs().transpose() / section.area_m2 +
-            std::sqrt(3.0) * segment.radius_m / section.polar_m4 * change.row(5).array().abs().transpose();
-        entering_Pa = entering_Pa.max(nearness * change_Pa);
+        entering_Pa = entering_Pa.max(nearness / section.area_m2 * change.row(2).array().abs().transpose());
       }
     const Eigen::ArrayXd sum_Pa = entering_Pa + shear_in_short_parts_Pa(segment, section, here);
     errors.push_back(safety * (sum_Pa.size() > 0 ? sum_Pa.maxCoeff() : 0));

@@ -108,16 +108,20 @@ double spin_stress_Pa(const fem::BeamShaft& shaft, const fem::Material& material
 double near_load_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads, const fem::Nodes& nodes,
                            const std::vector<double>& von_mises_Pa, const std::vector<char>& excluded,
                            double peak_Pa) {
+  double beyond_Pa = 0;
   std::map<double, double> largest_Pa;  // by the circles' z
   for (std::size_t i = 0; i < nodes.n; ++i)
-    if (!excluded[i]) {
+    if (excluded[i])  // the beam has no peak there, and what it says holds up to the border
+      beyond_Pa = std::max(beyond_Pa, von_mises_Pa[i] - peak_Pa);
+    else {
       auto& largest = largest_Pa[nodes.xyz_m[3 * i + 2]];
       largest = std::max(largest, von_mises_Pa[i]);
     }
   std::vector<double> z_m;
   for (const auto& circle : largest_Pa) z_m.push_back(circle.first);
-  const auto errors_Pa = fem::near_load_error_Pa(shaft, loads.unit_loads, loads.history.values, z_m);
-  double beyond_Pa = 0;
+  std::vector<std::vector<double>> factors;
+  for (const auto& row : loads.history.values.rowwise()) factors.emplace_back(row.begin(), row.end());
+  const auto errors_Pa = fem::near_load_error_Pa(shaft, loads.unit_loads, factors, z_m);
   for (std::size_t c = 0; c < z_m.size(); ++c)
     beyond_Pa = std::max(beyond_Pa, largest_Pa[z_m[c]] + errors_Pa[c] - peak_Pa);
   return beyond_Pa;
@@ -132,7 +136,7 @@ std::vector<ErrorEntry> beam_model_entries(const fem::BeamShaft& shaft, const Bo
   const auto add = [&](const char* source, const char* method, double value_Pa) {
     if (value_Pa > 0) entries.push_back({source, method, value_Pa});
   };
-  add("near_loads", "loads that enter, and bend, within a diameter, times 1.5",
+  add("near_loads", "axial loads that enter, loads that bend, within a diameter, times 1.5",
       near_load_stress_Pa(shaft, loads, nodes, von_mises_Pa, excluded, peak_Pa));
   add("ovalisation", "bored seats as rings, twice as much at a fillet",
       fillet_factor * ring_stress_Pa(shaft, loads));
