@@ -2,8 +2,10 @@
 // forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "kinetics/harmonics.h"
 #include "kinetics/load_table.h"
@@ -89,11 +91,14 @@ TEST(HardTime, ShockBetweenTheInstants) {
   samples.values = Eigen::ArrayXd::Ones(360);
   samples.values.segment(20, 5).setConstant(10);
   const kinetics::LoadTable table{100, {{"shock", "gear", "fx", "N", samples}}};
-  const auto loads = compute_loads(table, {"shock"}, {1, 8});
   bool is_told = false;
-  for (const auto& warning : loads.warnings)
-    is_told = is_told || warning.find("between the instants") != std::string::npos;
-  const double largest = loads.resultant("gear").total.row(0).maxCoeff();
+  try {
+    compute_loads(table, {"shock"}, {1, 8});
+  } catch (const kinetics::MachineRefused& refused) {
+    is_told = std::string(refused.what()).find("between the instants") != std::string::npos;
+  }
+  double largest = 0;
+  for (int i = 0; i < 8; ++i) largest = std::max(largest, samples.values[45 * i]);
   hard_cases::check({"time", "shock between two instants: not found and not told",
                      "eight instants pass it by", "largest value at the instants",
                      hard_cases::relative(largest, 10), is_told ? 0 : hard_cases::relative(largest, 10),
