@@ -243,7 +243,7 @@ TEST(AxisymmetricRun, ABeamKnowsThatAStubIsNoBeam) {
 // Thick and thin, short and long, pulled, bent and twisted: shafts that nobody chose for the beam. All sixty
 // of the promises are bounded; without `near_loads` one in seven is not.
 TEST(AxisymmetricRun, BeamsOfRandomShaftsAreWithinTheirErrors) {
-  const unsigned n_shafts = std::getenv("MILLSTRESS_RANDOM_BODIES") != nullptr ? 60 : 24;
+  const unsigned n_shafts = std::getenv("MILLSTRESS_RANDOM_BODIES") != nullptr ? 60 : 16;
   int n = 0, n_well_known = 0;
   for (unsigned seed = 1; seed <= n_shafts; ++seed) {
     SCOPED_TRACE(seed);
@@ -256,7 +256,7 @@ TEST(AxisymmetricRun, BeamsOfRandomShaftsAreWithinTheirErrors) {
     ++n;
     n_well_known += errors.total_Pa() < 0.3 * beam->peak.value_Pa;
   }
-  EXPECT_GT(n, 20);
+  EXPECT_GT(n, 12);
   EXPECT_GE(n_well_known, n / 8) << "an error that holds everything says nothing";
 }
 
