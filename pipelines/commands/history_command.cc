@@ -5,7 +5,7 @@
 #include "pipelines/commands/run_results.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/failure.h"
-#include "pipelines/report/stress_histories.h"
+#include "pipelines/report/stress_history_files.h"
 
 namespace pipelines {
 namespace {
