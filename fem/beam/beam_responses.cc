@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -210,77 +209,6 @@ UnitResponses beam_responses(const BeamShaft& shaft, const std::vector<UnitLoad>
       }
   }
   return r;
-}
-
-namespace {
-
-/// The thinnest of the segments that meet at a place.
-std::size_t segment_at(const BeamShaft& shaft, double z_m) {
-  const double tiny = 1e-9 * (shaft.segments.back().end_m - shaft.segments.front().begin_m);
-  std::optional<std::size_t> thinnest;
-  for (std::size_t i = 0; i < shaft.segments.size(); ++i) {
-    const auto& s = shaft.segments[i];
-    if (z_m > s.begin_m - tiny && z_m < s.end_m + tiny &&
-        (!thinnest || s.radius_m < shaft.segments[*thinnest].radius_m))
-      thinnest = i;
-  }
-  if (!thinnest) throw std::invalid_argument("beam: z = " + std::to_string(z_m) + " m is beside the shaft");
-  return *thinnest;
-}
-
-/// sqrt(3) rim_shear V / A at each instant, in the ratio of the diameter to the lever.
-Eigen::ArrayXd shear_in_short_parts_Pa(const BeamSegment& segment, const BeamSection& section,
-                                       const WrenchAlong& internal) {
-  Eigen::ArrayXd result(internal.cols());
-  for (Eigen::Index i = 0; i < internal.cols(); ++i) {
-    const Wrench6 w = internal.col(i);
-    const Eigen::Vector2d& c = section.centroid_m;
-    const double shear_N = w.head<2>().norm(), moment_Nm = std::hypot(w[3] - c[1] * w[2], w[4] + c[0] * w[2]);
-    const double over_lever = shear_N > 0 ? std::min(1.0, 2 * segment.radius_m * shear_N / moment_Nm) : 0;
-    result[i] = std::sqrt(3.0) * section.rim_shear * shear_N / section.area_m2 * over_lever;
-  }
-  return result;
-}
-
-}  // namespace
-
-std::vector<double> near_load_error_Pa(const BeamShaft& shaft, const std::vector<UnitLoad>& loads,
-                                       const std::vector<std::vector<double>>& factors,
-                                       const std::vector<double>& z_m) {
-  require_sizes(shaft);
-  const auto n_instants = factors.empty() ? 0 : factors.front().size();
-  Eigen::MatrixXd values(Eigen::Index(loads.size()), Eigen::Index(n_instants));
-  for (std::size_t k = 0; k < loads.size(); ++k)
-    values.row(Eigen::Index(k)) =
-        Eigen::Map<const Eigen::RowVectorXd>(factors.at(k).data(), Eigen::Index(n_instants));
-  constexpr double safety = 1.5;  // on sixty random shafts 1.0 was needed at most, on a stub axle 0.9
-  const BeamLine line(shaft, loads, z_m);
-  std::vector<WrenchAlong> internal;  // of the unit loads
-  for (const auto& load : loads) internal.push_back(line.internal(load));
-  std::vector<double> errors;
-  for (const double z : z_m) {
-    const auto i_segment = segment_at(shaft, z);
-    const auto& segment = shaft.segments[i_segment];
-    const auto section = beam_section(segment, shaft.material.poisson_ratio);
-    const double d_m = 2 * segment.radius_m;
-    const auto under_loads = [&](Eigen::Index column) -> WrenchAlong {
-      WrenchAlong unit(6, Eigen::Index(loads.size()));
-      for (std::size_t k = 0; k < loads.size(); ++k) unit.col(Eigen::Index(k)) = internal[k].col(column);
-      return unit * values;
-    };
-    const WrenchAlong here = under_loads(line.column_at(i_segment, z));
-    Eigen::ArrayXd entering_Pa = Eigen::ArrayXd::Zero(values.cols());
-    for (std::size_t k = 0; k < line.intervals().size(); ++k)
-      for (int point = 0; point < BeamInterval::points; ++point) {
-        const double nearness = 1 - std::abs(line.intervals()[k].z_m(point) - z) / d_m;
-        if (nearness <= 0) continue;
-        const WrenchAlong change = under_loads(Eigen::Index(k) * BeamInterval::points + point) - here;
-        entering_Pa = entering_Pa.max(nearness / section.area_m2 * change.row(2).array().abs().transpose());
-      }
-    const Eigen::ArrayXd sum_Pa = entering_Pa + shear_in_short_parts_Pa(segment, section, here);
-    errors.push_back(safety * (sum_Pa.size() > 0 ? sum_Pa.maxCoeff() : 0));
-  }
-  return errors;
 }
 
 double eccentricity_error(const BeamShaft& shaft) {

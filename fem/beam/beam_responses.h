@@ -28,20 +28,6 @@ namespace fem {
 /// without a step, an empty list of loads, a body force on a part of the shaft
 UnitResponses beam_responses(const BeamShaft& shaft, const std::vector<UnitLoad>& loads);
 
-/// What the surface stress near loads may be wrong by [Pa]: one and a half times the sum of two parts.
-///   - Axial loads enter through the surface. Within a diameter d of a place, the axial stress changes by D
-///     along the shaft; of that at the distance x the place feels D (1 - x / d).
-///   - Sections do not stay plane where the shear force V bends within less than a diameter: its largest von
-///     Mises stress, sqrt(3) rim_shear V / A, in the ratio of d to the lever M / V, at most 1. At a lever of
-///     five diameters that is 1 % of the bending stress.
-/// @param factors  of each load its values at the instants
-/// @param z_m      places on the shaft
-/// @return largest over the instants, for each place
-/// @throws std::invalid_argument as beam_responses, and for a place beside the shaft
-std::vector<double> near_load_error_Pa(const BeamShaft& shaft, const std::vector<UnitLoad>& loads,
-                                       const std::vector<std::vector<double>>& factors,
-                                       const std::vector<double>& z_m);
-
 /// Largest relative change of a fillet's bending factor when the shoulder is as high as it really is at an
 /// angle, instead of as high as with concentric segments. 0 without eccentric segments. It estimates, for
 /// peaks at fillets, what concentric shoulders cost (axisymmetric_responses.h), and for the beam, which takes

@@ -147,8 +147,7 @@ std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAna
                   rules.group().slope_normal, rules.group().knee_cycles));
   lines.emplace_back(
       "amplitude: half the von Mises stress of the difference of two instants; mean: signed von Mises stress "
-      "of "
-      "their middle, by FKM's Haigh diagram at constant stress ratio (F2)");
+      "of their middle, by FKM's Haigh diagram at constant stress ratio (F2)");
   const auto& second = rules.group().second_slope_normal;
   lines.push_back(fmt::format(
       "cycles by rainflow along the direction of most damage; Palmgren-Miner, damage sum 1, {}",

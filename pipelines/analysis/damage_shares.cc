@@ -16,10 +16,6 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 /// Places that are whole but for what instants times steps lose.
 constexpr double rounding_of_places = 1e-9;
 
-Index wrapped_place(Index place, Index n) {
-  return (place % n + n) % n;
-}
-
 Vector6 vector_of(const Stress& stress) {
   return Eigen::Map<const Vector6>(stress.data());
 }
@@ -63,7 +59,7 @@ DamageDerivative::DamageDerivative(const UnitStresses& unit_Pa, const ChannelHis
 void DamageDerivative::spread(const PlacesAround& around, const PlacesAround::Weights& weights,
                               const Vector6& by_stress) {
   for (Index i = 0; i < PlacesAround::n; ++i)
-    by_stress_.col(wrapped_place(around.first + i, by_stress_.cols())) += weights[i] * by_stress;
+    by_stress_.col(around.wrapped(i, by_stress_.cols())) += weights[i] * by_stress;
 }
 
 void DamageDerivative::add(double place, const Vector6& by_stress) {
@@ -84,7 +80,7 @@ void DamageDerivative::add_move(double place, const Vector6& form, const ByMove&
   const PlacesAround around(place);
   VectorXd slope = VectorXd::Zero(loads_.values.rows()), curvature = slope;
   for (Index i = 0; i < PlacesAround::n; ++i) {
-    const auto loads = course_->fine().matrix().col(wrapped_place(around.first + i, by_stress_.cols()));
+    const auto loads = course_->fine().matrix().col(around.wrapped(i, by_stress_.cols()));
     slope += around.slope[i] * loads;
     curvature += around.curvature[i] * loads;
   }

@@ -36,17 +36,11 @@ double ring_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads);
 /// @return largest over segments and instants [Pa]
 double spin_stress_Pa(const fem::BeamShaft& shaft, const fem::Material& material, const BodyLoads& loads);
 
-/// What a beam's peak may be too low by near loads (fem::near_load_error_Pa): by how much the
-/// largest stress of any circle with that error exceeds the peak.
-/// @param von_mises_Pa  largest at each of the nodes
-/// @param excluded      one per node: what stress does there does not count
-/// @return [Pa], not negative
-double near_load_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads, const fem::Nodes& nodes,
-                           const std::vector<double>& von_mises_Pa, const std::vector<char>& excluded,
-                           double peak_Pa);
-
 /// The entries of a beam's error that no mesh lowers: `model`, `near_loads`, `ovalisation`, `spin`; those
-/// that are zero are left out, but for the first.
+/// that are zero are left out, but for the first. `near_loads` is by how much the largest stress of any
+/// circle of nodes, with fem::near_load_error_Pa, exceeds the peak.
+/// @param von_mises_Pa  largest at each of the nodes
+/// @param excluded      one per node: no peak is looked for there
 std::vector<ErrorEntry> beam_model_entries(const fem::BeamShaft& shaft, const BodyLoads& loads,
                                            const fem::Nodes& nodes, const std::vector<double>& von_mises_Pa,
                                            const std::vector<char>& excluded, double peak_Pa);

@@ -10,7 +10,6 @@
 
 #include "pipelines/analysis/duty_result.h"
 #include "pipelines/analysis/error_text.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/report/damage_share_text.h"
 #include "pipelines/report/zone_text.h"
@@ -214,6 +213,15 @@ std::vector<RankedPlace> fatigue_ranking(const RunReport& report) {
   return ranking;
 }
 
+std::vector<std::size_t> rows_shown(const std::vector<std::string>& bodies, std::size_t most) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (i < most || std::find(bodies.begin(), bodies.begin() + std::ptrdiff_t(i), bodies[i]) ==
+                        bodies.begin() + std::ptrdiff_t(i))
+      rows.push_back(i);
+  return rows;
+}
+
 void print_shortest_lives(std::ostream& out, const RunReport& report) {
   constexpr std::size_t most = 5;
   const auto ranking = fatigue_ranking(report);
@@ -223,11 +231,9 @@ void print_shortest_lives(std::ostream& out, const RunReport& report) {
                          (report.duty != nullptr ? "over all blocks, " : "") + "shortest life first",
                      "life");
   std::vector<std::string> bodies;
-  for (std::size_t i = 0; i < ranking.size(); ++i) {
+  for (const auto& place : ranking) bodies.push_back(place.body);
+  for (const auto i : rows_shown(bodies, most)) {
     const auto& place = ranking[i];
-    const bool is_first = !contains(bodies, place.body);
-    if (is_first) bodies.push_back(place.body);
-    if (i >= most && !is_first) continue;
     const auto life = place.life_s || !place.utilisation
                           ? life_text(place.life_s)
                           : fmt::format("endures, {:.0f} % used", 100 * *place.utilisation);

@@ -28,7 +28,10 @@ struct RankedPlace {
 /// those that endure by falling utilisation. Empty where fewer than two bodies are judged.
 std::vector<RankedPlace> fatigue_ranking(const RunReport& report);
 
-/// The first of them, and the first of each body.
+/// Rows of a ranking that are shown: the first ones, and the first of each body.
+/// @param bodies  of each row
+std::vector<std::size_t> rows_shown(const std::vector<std::string>& bodies, std::size_t most);
+
 void print_shortest_lives(std::ostream& out, const RunReport& report);
 
 /// What `fatigue_ranking` has.

@@ -14,6 +14,7 @@
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/html_page.h"
 #include "pipelines/files/json_file.h"
+#include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/torsion_html.h"
 #include "pipelines/report/zone_text.h"
 
@@ -355,19 +356,15 @@ void add_duty_places(HtmlPage& page, const std::string& body, const Json& places
       rows);
 }
 
-/// The first places of all bodies, and the first of each body.
 void add_fatigue_ranking(HtmlPage& page, const Json& summary) {
   if (!summary.contains("fatigue_ranking")) return;
-  Rows rows;
+  const auto& ranking = summary.at("fatigue_ranking");
   std::vector<std::string> bodies;
-  std::size_t rank = 0;
-  for (const auto& place : summary.at("fatigue_ranking")) {
-    ++rank;
-    const auto body = place.at("body").get<std::string>();
-    const bool is_first = std::find(bodies.begin(), bodies.end(), body) == bodies.end();
-    if (is_first) bodies.push_back(body);
-    if (rank > n_rows_of_fatigue && !is_first) continue;
-    rows.push_back({fmt::format("{}", rank), body, place.at("feature").get<std::string>(),
+  for (const auto& place : ranking) bodies.push_back(place.at("body").get<std::string>());
+  Rows rows;
+  for (const auto i : rows_shown(bodies, n_rows_of_fatigue)) {
+    const auto& place = ranking.at(i);
+    rows.push_back({fmt::format("{}", i + 1), bodies[i], place.at("feature").get<std::string>(),
                     place.at("weld_toe").get<bool>() ? "weld toe" : "",
                     place.at("life_h").is_null() ? "endures" : number(place.at("life_h"), 1, "{:.3g}"),
                     or_dash(place.at("utilisation"), 100, "{:.0f}")});

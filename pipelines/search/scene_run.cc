@@ -1,12 +1,8 @@
 #include "pipelines/search/scene_run.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <memory>
 #include <new>
 #include <set>
@@ -35,13 +31,12 @@
 #include "pipelines/search/place_history.h"
 #include "pipelines/search/refinement.h"
 #include "pipelines/search/singular_edge.h"
+#include "pipelines/search/without_mesh.h"
 
 namespace pipelines {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -134,42 +129,14 @@ private:
     return is_search() ? search_mesh(i) : solve_once(i);
   }
 
-  /// Harmonics or a beam; while instants or pressure harmonics alone hold the tolerance back, anew with more
-  /// of them.
   BodyAnalysis search_without_mesh(std::size_t i) {
-    constexpr double least_gain = 0.75;
-    const double end_s = end_of(i);
-    double before_s = seconds_since(start_), before_share = std::numeric_limits<double>::infinity();
-    auto analysis = analyse(i);
-    while (tolerance() > 0) {
-      const auto stress = governing_stress(analysis);
-      const double of_loads_Pa = stress.errors.of("time_sampling") + stress.errors.of("pressure_harmonics");
-      const double rest_Pa = stress.errors.reducible_Pa() - of_loads_Pa,
-                   most_Pa = tolerance() * stress.value_Pa;
-      const double share = stress.value_Pa > 0 ? of_loads_Pa / stress.value_Pa : 0;
-      if (rest_Pa + of_loads_Pa <= most_Pa || rest_Pa > most_Pa || share > least_gain * before_share) break;
-      const double now_s = seconds_since(start_);
-      if (end_s > 0 && now_s + (now_s - before_s) > end_s) {
-        analysis.search.ended = "the time is up";
-        analysis.search.next_seconds = now_s - before_s;
-        break;
-      }
-      Scene next = run_.scene;
-      if (!refine_sampling_and_harmonics(next, i, stress, analysis.loads.history).possible) break;
-      before_s = now_s, before_share = share;
-      run_.scene = std::move(next);
-      exchange_mesh(i, MeshedBody(run_.loaded.meshed[i]));
-      auto steps = std::move(analysis.search.steps);
-      analysis = analyse(i);
-      prepend_steps(std::move(steps), analysis.search);
-    }
-    return analysis;
-  }
-
-  static void prepend_steps(std::vector<SearchStep> before, Search& search) {
-    before.insert(before.end(), std::make_move_iterator(search.steps.begin()),
-                  std::make_move_iterator(search.steps.end()));
-    search.steps = std::move(before);
+    return pipelines::search_without_mesh({run_.scene,
+                                           [&](Scene next) {
+                                             run_.scene = std::move(next);
+                                             exchange_mesh(i, MeshedBody(run_.loaded.meshed[i]));
+                                           },
+                                           [&] { return analyse(i); }, [&] { return seconds_since(start_); }},
+                                          i, tolerance(), end_of(i));
   }
 
   MeshedBody mesh(std::size_t i, const MeshedBody* coarse = nullptr) {
@@ -402,20 +369,8 @@ private:
   /// are left out by a distance fixed in the geometry, and the search goes on for the rest. On a concave edge
   /// the whole edge is left out: else the peak would only move along it.
   void leave_out(std::size_t i, BodyAnalysis& analysis) {
-    const auto& p = analysis.peak.position_m;
-    const auto& nodes = analysis.responses.nodes;
-    const double distance_m = share_left_out * diagonal_m(nodes);
-    auto edge = concave_edge_through(nodes, analysis.peak.node, distance_m);
-    const bool is_edge = !edge.empty();
-    if (!is_edge) edge = {{p, p}};
-    const meshes::SharpEdge spot{"stress grows without bound at " + analysis.peak.feature, distance_m,
-                                 std::move(edge)};
-    warnings_.push_back(
-        fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} mm "
-                    "around {}({:.1f}, "
-                    "{:.1f}, {:.1f}) mm are left out of the peak",
-                    analysis.scene.name, analysis.peak.feature, 1e3 * spot.distance_m,
-                    is_edge ? "the edge at " : "", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]));
+    const auto [spot, warning] = spot_without_bound(analysis);
+    warnings_.push_back(warning);
     run_.scene.bodies[i].singular.push_back(spot);
     run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
     BodyAnalysis before = std::move(analysis);

@@ -1,5 +1,7 @@
 #include "pipelines/search/singular_edge.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +9,8 @@
 #include <map>
 #include <set>
 #include <utility>
+
+#include "pipelines/search/peak_growth.h"
 
 namespace pipelines {
 namespace {
@@ -95,6 +99,21 @@ std::vector<std::array<std::array<double, 3>, 2>> concave_edge_through(const fem
     }
   }
   return segments;
+}
+
+SpotWithoutBound spot_without_bound(const BodyAnalysis& analysis) {
+  constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
+  const auto& p = analysis.peak.position_m;
+  const auto& nodes = analysis.responses.nodes;
+  const double distance_m = share_left_out * diagonal_m(nodes);
+  auto edge = concave_edge_through(nodes, analysis.peak.node, distance_m);
+  const bool is_edge = !edge.empty();
+  if (!is_edge) edge = {{p, p}};
+  return {{"stress grows without bound at " + analysis.peak.feature, distance_m, std::move(edge)},
+          fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} mm "
+                      "around {}({:.1f}, {:.1f}, {:.1f}) mm are left out of the peak",
+                      analysis.scene.name, analysis.peak.feature, 1e3 * distance_m,
+                      is_edge ? "the edge at " : "", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2])};
 }
 
 }  // namespace pipelines

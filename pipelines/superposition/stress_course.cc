@@ -112,7 +112,7 @@ ArrayXXd StressCourse::denser_Pa(Index n) const {
     const PlacesAround around(double(j) / double(n));
     for (Index p = 0; p < n_places; ++p)
       for (Index i = 0; i < n_local; ++i)
-        result.col(p * n + j) += around.value[i] * stress_Pa_.col(wrapped(p + around.first + i, n_places));
+        result.col(p * n + j) += around.value[i] * stress_Pa_.col(around.wrapped(p + i, n_places));
   }
   return result;
 }

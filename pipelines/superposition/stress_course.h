@@ -35,6 +35,11 @@ struct PlacesAround {
 
   explicit PlacesAround(double place);
 
+  /// The i-th of the places, of as many as the period has.
+  Eigen::Index wrapped(Eigen::Index i, Eigen::Index n_places) const {
+    return ((first + i) % n_places + n_places) % n_places;
+  }
+
   Eigen::Index first;               ///< the weights' places begin here and repeat with the period
   Weights value, slope, curvature;  ///< of the polynomial and its derivatives, by the step of the places
 };

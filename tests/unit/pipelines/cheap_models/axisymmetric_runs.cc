@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -14,7 +15,6 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
-#include "pipelines/common/refusal_of.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/scene/requested_method.h"
 #include "pipelines/scene/why_not.h"
@@ -240,23 +240,37 @@ TEST(AxisymmetricRun, ABeamKnowsThatAStubIsNoBeam) {
   EXPECT_GT(beam.peak.errors.of("near_loads"), 0.2 * beam.peak.value_Pa);
 }
 
-// Thick and thin, short and long, pulled, bent and twisted: shafts that nobody chose for the beam. All sixty
-// of the promises are bounded; without `near_loads` one in seven is not.
+// Thick and thin, short and long, pulled, bent and twisted: shafts that nobody chose for the beam. Without
+// `near_loads` one in eight is not bounded; MILLSTRESS_BEAMS draws more of them (fem/README.md).
 TEST(AxisymmetricRun, BeamsOfRandomShaftsAreWithinTheirErrors) {
-  const unsigned n_shafts = std::getenv("MILLSTRESS_RANDOM_BODIES") != nullptr ? 60 : 16;
-  int n = 0, n_well_known = 0;
+  const char* asked = std::getenv("MILLSTRESS_BEAMS");
+  const unsigned n_shafts = asked != nullptr ? unsigned(std::atoi(asked)) : 16;
+  int n = 0, n_well_known = 0, n_without = 0;
+  double most_needed = 0;
   for (unsigned seed = 1; seed <= n_shafts; ++seed) {
     SCOPED_TRACE(seed);
-    LoadedShaft shaft(scene_of(promises::random_shaft_scene(seed)));
-    std::optional<BodyAnalysis> beam;
-    if (!refusal_of([&] { beam = shaft.beam(); }).empty()) continue;
+    std::optional<Scene> scene;
+    try {
+      scene = scene_of(promises::random_shaft_scene(seed));
+    } catch (const std::exception&) {
+      continue;  // a drawing that cannot be
+    }
+    LoadedShaft shaft(std::move(*scene));
+    const auto beam = shaft.beam();
     const auto own = shaft.axisymmetric(0.05);
-    const auto& errors = beam->peak.errors;
-    EXPECT_NEAR(beam->peak.value_Pa, own.peak.value_Pa, errors.total_Pa() + own.peak.errors.total_Pa());
+    const auto& errors = beam.peak.errors;
+    const double off_Pa = std::abs(beam.peak.value_Pa - own.peak.value_Pa);
+    EXPECT_LE(off_Pa, errors.total_Pa() + own.peak.errors.total_Pa());
+    const double near_loads_Pa = errors.of("near_loads");
+    const double left_Pa = off_Pa - (errors.total_Pa() - near_loads_Pa) - own.peak.errors.total_Pa();
+    n_without += left_Pa <= 0;
+    if (left_Pa > 0) most_needed = std::max(most_needed, left_Pa / near_loads_Pa);
     ++n;
-    n_well_known += errors.total_Pa() < 0.3 * beam->peak.value_Pa;
+    n_well_known += errors.total_Pa() < 0.3 * beam.peak.value_Pa;
   }
-  EXPECT_GT(n, 12);
+  std::printf("%d shafts, %d bounded without near_loads, of which %.2f was needed at most\n", n, n_without,
+              most_needed);
+  EXPECT_GT(10 * n, 9 * int(n_shafts));
   EXPECT_GE(n_well_known, n / 8) << "an error that holds everything says nothing";
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "pipelines/superposition/stress_shares.h"
 #include "pipelines/superposition/superposition.h"
 #include "pipelines/superposition/walked_factors.h"
 
@@ -188,9 +189,15 @@ TEST(Superposition, EffectSharesAddUpToOne) {
   const auto p = random_problem(20, 6, 50);
   const auto envelope = pipelines::envelope(p.loads, p.responses, 1);
   for (std::size_t node = 0; node < 20; ++node) {
+    const auto exact = pipelines::shares_of_stress(pipelines::unit_stresses_at(p.responses, node), p.loads,
+                                                   envelope.von_mises.instant[node])
+                           .effects;
     double sum = 0;
-    for (std::size_t e = 0; e < 3; ++e) sum += envelope.effect_share[3 * node + e];
-    EXPECT_NEAR(sum, 1, 1e-5) << "rounding of single precision, of parts that cancel";
+    for (std::size_t e = 0; e < 3; ++e) {
+      sum += exact[e];
+      EXPECT_EQ(envelope.effect_share[3 * node + e], float(exact[e])) << "single precision, rounded once";
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
   }
 }
 

@@ -1,0 +1,45 @@
+#include "pipelines/search/without_mesh.h"
+
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "pipelines/analysis/governing_stress.h"
+#include "pipelines/search/refinement.h"
+
+namespace pipelines {
+
+void prepend_steps(std::vector<SearchStep> before, Search& search) {
+  before.insert(before.end(), std::make_move_iterator(search.steps.begin()),
+                std::make_move_iterator(search.steps.end()));
+  search.steps = std::move(before);
+}
+
+BodyAnalysis search_without_mesh(const RunOfBody& run, std::size_t i_body, double tolerance, double end_s) {
+  constexpr double least_gain = 0.75;
+  double before_s = run.seconds(), before_share = std::numeric_limits<double>::infinity();
+  auto analysis = run.analyse();
+  while (tolerance > 0) {
+    const auto stress = governing_stress(analysis);
+    const double of_loads_Pa = stress.errors.of("time_sampling") + stress.errors.of("pressure_harmonics");
+    const double rest_Pa = stress.errors.reducible_Pa() - of_loads_Pa, most_Pa = tolerance * stress.value_Pa;
+    const double share = stress.value_Pa > 0 ? of_loads_Pa / stress.value_Pa : 0;
+    if (rest_Pa + of_loads_Pa <= most_Pa || rest_Pa > most_Pa || share > least_gain * before_share) break;
+    const double now_s = run.seconds();
+    if (end_s > 0 && now_s + (now_s - before_s) > end_s) {
+      analysis.search.ended = "the time is up";
+      analysis.search.next_seconds = now_s - before_s;
+      break;
+    }
+    Scene next = run.scene;
+    if (!refine_sampling_and_harmonics(next, i_body, stress, analysis.loads.history).possible) break;
+    before_s = now_s, before_share = share;
+    run.take(std::move(next));
+    auto steps = std::move(analysis.search.steps);
+    analysis = run.analyse();
+    prepend_steps(std::move(steps), analysis.search);
+  }
+  return analysis;
+}
+
+}  // namespace pipelines
