@@ -24,7 +24,7 @@ constexpr double beam_safety = 3;
 /// What a fillet makes of stress that comes from a section going oval, at most: published factors in bending
 /// end there for fillets of a twentieth of the diameter.
 constexpr double fillet_factor = 2;
-/// What a shoulder adds to the stress of a cylinder that turns: 11 % at most on 500 random shafts.
+/// What a shoulder adds to the stress of a cylinder that turns, at most: of 498 random shafts one had 11 %.
 constexpr double spin_at_shoulders = 1.25;
 
 }  // namespace
