@@ -45,12 +45,16 @@ Fields sum_of_channels(const UnitResponses& responses, const std::vector<StressG
   return sum;
 }
 
-/// Faces where the dual stress has no traction: those without a load of the goals. A dual load at a surface
-/// acts on it.
-std::vector<BoundaryFace> faces_without_goal(const Grid& grid, const std::vector<StressGoal>& goals) {
+/// Faces where the dual stress has no traction: those without a load of the goals, or its image. A dual load
+/// at a surface acts on it.
+std::vector<BoundaryFace> faces_without_goal(const Grid& grid, const std::vector<StressGoal>& goals,
+                                             const MirroredHalf* half) {
   std::vector<char> counts(grid.n_nodes, 0);
   for (const auto& goal : goals)
-    for (const auto& part : goal.parts) counts[part.node] = 1;
+    for (const auto& part : goal.parts) {
+      counts[part.node] = 1;
+      if (half != nullptr) counts[std::size_t(half->plane().node[part.node])] = 1;
+    }
   std::vector<BoundaryFace> faces;
   for (const auto& face : grid.boundary) {
     const auto nodes = nodes_of_face(grid, std::size_t(face.cell), face.face);
@@ -61,8 +65,9 @@ std::vector<BoundaryFace> faces_without_goal(const Grid& grid, const std::vector
 }
 
 /// Energy norms of the recovery's error, cells x load cases [J^(1/2)].
-Eigen::MatrixXd error_norms(const Grid& grid, const PerCell<Lame>& elastic, const Fields& fields) {
-  const auto energies = energy_error(grid, elastic, fields.displacement, fields.stress);
+Eigen::MatrixXd error_norms(const Grid& grid, const PerCell<Lame>& elastic, const Fields& fields,
+                            const MirrorPlane* plane) {
+  const auto energies = energy_error(grid, elastic, fields.displacement, fields.stress, plane);
   const auto n_loads = Eigen::Index(energies.norm_sqrtJ.size());
   Eigen::MatrixXd norms(Eigen::Index(grid.n_cells()), n_loads);
   for (Eigen::Index c = 0; c < norms.rows(); ++c)
@@ -112,17 +117,20 @@ Eigen::VectorXd dual_load(const Grid& grid, const StressGoal& goal, const std::v
 Eigen::MatrixXd goal_errors(const Grid& grid, const CellsOfNodes& cells,
                             const std::vector<CylinderChart>& charts, const PerCell<Lame>& elastic,
                             const UnitResponses& responses, const std::vector<StressGoal>& goals,
-                            const Eigen::MatrixXd& dual) {
+                            const Eigen::MatrixXd& dual, const MirroredHalf* half) {
   const auto n_goals = Eigen::Index(goals.size()), n_nodes = Eigen::Index(grid.n_nodes);
   Fields of_dual{RowMajor(n_nodes, 3 * n_goals), RowMajor(n_nodes, 6 * n_goals)};
   for (Eigen::Index i = 0; i < n_nodes; ++i)
     for (Eigen::Index g = 0; g < n_goals; ++g)
       for (Eigen::Index d = 0; d < 3; ++d) of_dual.displacement(i, 3 * g + d) = dual(3 * i + d, g);
-  recover_stress(grid, cells, charts, faces_without_goal(grid, goals), elastic, false, of_dual.displacement,
-                 of_dual.stress);
+  recover_stress(grid, cells, charts, faces_without_goal(grid, goals, half), elastic, false,
+                 of_dual.displacement, of_dual.stress,
+                 half != nullptr ? NodeSelection(half->nodes()) : std::nullopt);
   set_hanging_rows(grid.hanging, of_dual.stress);
-  return error_norms(grid, elastic, sum_of_channels(responses, goals))
-      .cwiseProduct(error_norms(grid, elastic, of_dual));
+  if (half != nullptr) half->mirror_rows(half->signs_of_tensors(), of_dual.stress);
+  const auto* plane = half != nullptr ? &half->plane() : nullptr;
+  return error_norms(grid, elastic, sum_of_channels(responses, goals), plane)
+      .cwiseProduct(error_norms(grid, elastic, of_dual, plane));
 }
 
 }  // namespace fem

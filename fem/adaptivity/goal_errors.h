@@ -7,6 +7,7 @@
 
 #include "fem/mesh/grid.h"
 #include "fem/operators/stiffness.h"
+#include "fem/solvers/mirrored_halves.h"
 #include "fem/values/stress_goal.h"
 #include "fem/values/unit_responses.h"
 
@@ -24,10 +25,11 @@ Eigen::VectorXd dual_load(const Grid& grid, const StressGoal& goal, const std::v
 /// and Zhu). Their sum estimates the error of the goal from above where both recoveries are good; on the
 /// first mesh and on layers of cells that have just been made smaller it may be too small.
 /// @param dual  displacement, unknowns x goals, hanging nodes set
+/// @param half  if load cases and dual solutions are mirror images: half of the body tells of all
 /// @return cells x goals, in units of the goals
 Eigen::MatrixXd goal_errors(const Grid& grid, const CellsOfNodes& cells,
                             const std::vector<CylinderChart>& charts, const PerCell<Lame>& elastic,
                             const UnitResponses& responses, const std::vector<StressGoal>& goals,
-                            const Eigen::MatrixXd& dual);
+                            const Eigen::MatrixXd& dual, const MirroredHalf* half = nullptr);
 
 }  // namespace fem

@@ -20,6 +20,9 @@ using StepReport = std::function<void(double, const std::string&)>;  ///< as Pro
 struct BalancedLoads {
   Eigen::MatrixXd force;
   std::vector<std::int64_t> clamped;  ///< unknowns that clamps hold, ascending; none on a free body
+  /// Unknowns of a statically determinate support beside the clamps, ascending. A free body has that of
+  /// choose_supports.
+  std::vector<std::int64_t> supports{};
   Eigen::RowVectorXd norm, largest_entry;
 };
 
@@ -36,6 +39,7 @@ struct Solution {
   FactorSize factor{};
   double bytes = 0;  ///< taken by the solver
   int n_iterations = 0;
+  bool is_even = false;           ///< found on one half of the body, of which the other is the mirror image
   std::vector<RankWork> ranks{};  ///< as SolverReport
 };
 

@@ -29,6 +29,7 @@
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/iterative_on_ranks.h"
 #include "fem/solvers/iterative_solve.h"
+#include "fem/solvers/mirrored_halves.h"
 #include "fem/solvers/solver_prediction.h"
 #include "fem/stress/energy_error.h"
 #include "fem/stress/recovery_on_ranks.h"
@@ -56,6 +57,20 @@ struct Model::Impl {
   mutable std::shared_ptr<const FactorisedBody> factor{};
 
   PerCell<double> relative_density() const { return materials.density(body.material.density_kg_m3); }
+
+  /// Of a body of one material that is its own mirror image, and free; null for others. Looked for once.
+  const MirroredHalf* half() const {
+    if (!half_) {
+      half_.emplace();
+      if (materials.is_uniform() && body.clamps.empty())
+        if (auto plane = find_mirror_plane(grid, cells))
+          *half_ = std::make_unique<MirroredHalf>(grid, std::move(*plane));
+    }
+    return half_->get();
+  }
+
+private:
+  mutable std::optional<std::unique_ptr<const MirroredHalf>> half_{};
 };
 
 Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
@@ -180,10 +195,12 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
 /// By the solver that the report names; by the other one if the iterative one gives up, if the factor does
 /// not fit into memory, or if it turns out too expensive for cells of middling stretch; the report then
 /// tells.
+/// @param half  of a body that may be solved by halves, or null
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
-               const BalancedLoads& loads, SolverChoice choice, const Progress& progress,
-               SolverReport& report, MPI_Comm communicator, DirectSolveOptions direct) {
+               const MirroredHalf* half, const BalancedLoads& loads, SolverChoice choice,
+               const Progress& progress, SolverReport& report, MPI_Comm communicator,
+               DirectSolveOptions direct) {
   const bool alone = n_ranks(communicator) == 1;
   choice.coarse_level = report.coarse_level;
   const auto iterate = [&] {
@@ -199,12 +216,16 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     });
     return std::move(*solution);
   }
+  const auto factorise = [&](DirectSolveOptions options) {
+    return half != nullptr
+               ? solve_by_halves(*half, materials, loads, progress, std::move(options))
+               : solve_directly(grid, cells, colours, materials, loads, progress, std::move(options));
+  };
   direct.is_too_expensive = [&](const FactorSize& factor) {
     return is_too_expensive(factor, report, std::size_t(loads.force.cols()));
   };
   try {
-    if (auto solution = solve_directly(grid, cells, colours, materials, loads, progress, std::move(direct)))
-      return std::move(*solution);
+    if (auto solution = factorise(std::move(direct))) return std::move(*solution);
   } catch (const DoesNotFit&) {
     if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) throw;
     report.used = Solver::iterative;
@@ -216,7 +237,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
   report.used = Solver::iterative;
   report.reason += ", but the factor is expensive";
   if (auto solution = iterate()) return std::move(*solution);
-  return *solve_directly(grid, cells, colours, materials, loads, progress);
+  return *factorise({});
 }
 
 double memory_of_ranks(MPI_Comm communicator) {
@@ -255,9 +276,13 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   }
   DirectSolveOptions direct;
   direct.kept = choice.keep_factor ? &impl_->factor : nullptr;
-  if (responses.solver.used == Solver::direct &&
-      (n_ranks(impl_->communicator) == 1 || grid.hanging.n() > 0))  // on one thread, beside the loads
-    direct.plan = std::async(std::launch::async, [&] { return PlannedFactor(grid, impl_->cells); });
+  const bool alone = n_ranks(impl_->communicator) == 1 || grid.hanging.n() > 0;
+  const bool is_direct = responses.solver.used == Solver::direct && alone;
+  const MirroredHalf* half = is_direct && choice.by_halves ? impl_->half() : nullptr;
+  if (is_direct)  // on one thread, beside the loads
+    direct.plan = std::async(std::launch::async, [&] {
+      return half != nullptr ? PlannedFactor(half->grid(), half->cells()) : PlannedFactor(grid, impl_->cells);
+    });
   Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads,
                                        impl_->relative_density());
   const Eigen::MatrixXd applied = resultants(grid, force, Eigen::Vector3d::Zero());
@@ -273,8 +298,12 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const RigidBalance rigid(grid, impl_->integrals);
     BalancedLoads balanced = balance(rigid, clamped, std::move(force));
     move_to_masters(grid.hanging, balanced.force);
-    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, balanced, choice, report,
-                              responses.solver, impl_->communicator, std::move(direct));
+    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, half, balanced, choice,
+                              report, responses.solver, impl_->communicator, std::move(direct));
+    if (half != nullptr && responses.solver.used == Solver::direct)
+      responses.solver.reason += solution.is_even ? "; one half, of which the other is the mirror image"
+                                                  : "; half by half, the body being its own mirror image";
+    if (!solution.is_even) half = nullptr;
     responses.residual = responses.solver.relative_residual = solution.residual;
     responses.support_reaction = solution.support_reaction;
     responses.solver.rounding = solution.rounding;
@@ -307,9 +336,9 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
   const bool by_patches = recovery == Recovery::patch;
   const auto loaded = loaded_groups(loads, impl_->body);
-  if (n_ranks(impl_->communicator) == 1 || grid.hanging.n() > 0) {
-    recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches, displacement,
-                   stress);
+  if (alone) {
+    recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches, displacement, stress,
+                   half != nullptr ? NodeSelection(half->nodes()) : std::nullopt);
   } else {
     call_helpers(Task::recover_stress, impl_->communicator);
     together(impl_->communicator, [&] {
@@ -318,7 +347,10 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     });
   }
   set_hanging_rows(grid.hanging, stress);
-  responses.energy_error = energy_error(seen, elastic, displacement, stress);
+  if (half != nullptr) half->mirror_rows(half->signs_of_tensors(), stress);
+  responses.energy_error =
+      energy_error(seen, elastic, displacement, stress, half != nullptr ? &half->plane() : nullptr);
+  if (half != nullptr) responses.images = {half->plane().node, half->plane().cell};
   responses.nodes = export_nodes(seen, impl_->seen ? impl_->seen->volumes : impl_->integrals);
   respond_on_sections(seen, planes, responses);
   respond_on_rings(seen, impl_->body, responses);
@@ -342,21 +374,25 @@ std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& resp
   const RigidBalance rigid(grid, impl_->integrals);
   BalancedLoads loads = balance(rigid, clamped_unknowns(grid, impl_->body.clamps), std::move(force));
   move_to_masters(grid.hanging, loads.force);
+  // Of a dual solution the part that is mirrored alone meets errors that are.
+  const MirroredHalf* half = responses.images.node.empty() ? nullptr : impl_->half();
+  if (half != nullptr) half->make_even(loads.force);
   Eigen::MatrixXd dual;
-  if (impl_->factor)
+  if (impl_->factor && (half != nullptr || !impl_->factor->takes_even_loads_only()))
     dual = impl_->factor->solve(loads.force);
   else {
     DirectSolveOptions direct;
     direct.kept = &impl_->factor;
-    dual = solve_directly(
-               grid, impl_->cells, impl_->colours, impl_->materials, loads, [](double, const std::string&) {},
-               std::move(direct))
+    const auto silent = [](double, const std::string&) {};
+    dual = (half != nullptr ? solve_by_halves(*half, impl_->materials, loads, silent, std::move(direct))
+                            : solve_directly(grid, impl_->cells, impl_->colours, impl_->materials, loads,
+                                             silent, std::move(direct)))
                ->displacement;
   }
   set_hanging_unknowns(grid.hanging, dual);
   if (loads.clamped.empty()) rigid.remove_motion(dual);
-  const Eigen::MatrixXd errors =
-      goal_errors(grid, impl_->cells, impl_->body.cylinders, elastic, responses, goals, springs.apply(dual));
+  const Eigen::MatrixXd errors = goal_errors(grid, impl_->cells, impl_->body.cylinders, elastic, responses,
+                                             goals, springs.apply(dual), half);
   std::vector<std::vector<double>> result;
   for (Eigen::Index g = 0; g < n_goals; ++g) result.emplace_back(errors.col(g).begin(), errors.col(g).end());
   return result;

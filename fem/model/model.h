@@ -90,8 +90,8 @@ public:
                                Recovery recovery = Recovery::patch, const Progress& progress = {},
                                const SolverChoice& choice = {}) const;
 
-  /// What each cell contributes to the errors of stresses at places, estimated (adaptivity/goal_errors.h). One
-  /// more solve for each goal; by the factor of unit_responses where SolverChoice::keep_factor kept it.
+  /// What each cell contributes to the errors of stresses at places, estimated (adaptivity/goal_errors.h).
+  /// One more solve for each goal; by the factor of unit_responses where SolverChoice::keep_factor kept it.
   /// @param responses  of this model
   /// @return goal after goal, one value per cell [Pa]; their sum estimates the error of the goal
   /// @throws std::invalid_argument for tetrahedra, several materials, goals that do not fit the responses

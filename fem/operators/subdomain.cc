@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <numeric>
+#include <stdexcept>
 
 #include "fem/mesh/cell_order.h"
 #include "fem/values/cell_shares.h"
@@ -51,6 +52,19 @@ Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cell
   };
   take(grid.boundary, result.grid.boundary);
   take(grid.interfaces, result.grid.interfaces);
+  const auto& hanging = grid.hanging;
+  for (std::size_t i = 0; i < hanging.n(); ++i) {
+    const auto node = number[hanging.node[i]];
+    if (node < 0) continue;
+    result.grid.hanging.node.push_back(node);
+    for (auto k = hanging.begin[i]; k < hanging.begin[i + 1]; ++k) {
+      if (number[hanging.master[k]] < 0)
+        throw std::logic_error("a part of a mesh without the cells that its hanging nodes hang on");
+      result.grid.hanging.master.push_back(number[hanging.master[k]]);
+      result.grid.hanging.weight.push_back(hanging.weight[k]);
+    }
+    result.grid.hanging.begin.push_back(result.grid.hanging.master.size());
+  }
   return result;
 }
 

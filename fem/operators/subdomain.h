@@ -19,6 +19,7 @@ struct Subdomain {
   std::vector<std::int32_t> cell;  ///< likewise of each cell
 };
 /// @param cells  ascending
+/// @throws std::logic_error if a node hangs on one that is left out
 Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cells);
 Message& operator<<(Message& message, const Subdomain& subdomain);
 Message& operator>>(Message& message, Subdomain& subdomain);

@@ -73,14 +73,65 @@ void clear_rows(const std::vector<std::int64_t>& unknowns, Eigen::MatrixXd& vect
   for (const auto unknown : unknowns) vectors.row(unknown).setZero();
 }
 
-}  // namespace
+/// By one factor of the whole mesh.
+class OneFactor : public FactorisedBody {
+public:
+  /// @param place  of each node in the factor's order
+  /// @param held   unknowns of supports and clamps, in that order
+  OneFactor(std::unique_ptr<const CholmodFactor> factor, std::vector<std::int32_t> place,
+            std::vector<std::int64_t> held)
+      : factor_(std::move(factor)), place_(std::move(place)), held_(std::move(held)) {}
 
-Eigen::MatrixXd FactorisedBody::solve(const Eigen::MatrixXd& force) const {
-  Eigen::MatrixXd ordered = rows_in_order(force, place_);
-  clear_rows(held_, ordered);
-  factor_->solve_in_order(ordered);
-  return rows_of_mesh(ordered, place_);
-}
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& force) const override {
+    Eigen::MatrixXd ordered = rows_in_order(force, place_);
+    clear_rows(held_, ordered);
+    factor_->solve_in_order(ordered);
+    return rows_of_mesh(ordered, place_);
+  }
+
+private:
+  std::unique_ptr<const CholmodFactor> factor_;
+  std::vector<std::int32_t> place_;
+  std::vector<std::int64_t> held_;
+};
+
+/// Holds the body: in its clamps or, without them, in a statically determinate support, which carries
+/// nothing.
+class Holding {
+public:
+  Holding(const Grid& grid, const BalancedLoads& loads, const std::vector<std::int32_t>& place,
+          SymmetricMatrix& matrix)
+      : held_(in_order(loads.clamped, place)) {
+    if (!held_.empty()) clamp(held_, matrix);
+    std::vector<std::int64_t> chosen = loads.supports;
+    if (held_.empty()) {
+      const auto of_body = choose_supports(grid);
+      chosen.assign(of_body.begin(), of_body.end());
+    }
+    if (chosen.empty()) return;
+    supports_.emplace(in_order(chosen, place), matrix);
+    held_.insert(held_.end(), supports_->unknowns().begin(), supports_->unknowns().end());
+    std::sort(held_.begin(), held_.end());
+  }
+
+  const std::vector<std::int64_t>& unknowns() const noexcept { return held_; }
+
+  /// What the supports carry, relative to the largest entries of the loads.
+  double reaction(const Eigen::MatrixXd& force, const Eigen::MatrixXd& displacement,
+                  const BalancedLoads& loads) const {
+    if (!supports_) return 0;
+    Eigen::MatrixXd carried = supports_->images(displacement);
+    for (Eigen::Index i = 0; i < carried.rows(); ++i)
+      carried.row(i) -= force.row(Eigen::Index(supports_->unknowns()[std::size_t(i)]));
+    return carried.colwise().lpNorm<Eigen::Infinity>().cwiseQuotient(loads.largest_entry).maxCoeff();
+  }
+
+private:
+  std::vector<std::int64_t> held_;
+  std::optional<Supports> supports_;
+};
+
+}  // namespace
 
 std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
                                        const std::vector<std::vector<std::int32_t>>& colours,
@@ -100,15 +151,7 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
   factor.take_memory();
   SymmetricMatrix matrix = make_matrix(plan.graph);
   assemble_stiffness(grid, colours, plan.graph, materials.elastic(), matrix, plan.place);
-  const auto clamped = in_order(loads.clamped, plan.place);
-  std::optional<Supports> supports;
-  if (clamped.empty()) {
-    const auto chosen = choose_supports(grid);
-    supports.emplace(in_order({chosen.begin(), chosen.end()}, plan.place), matrix);
-  } else {
-    clamp(clamped, matrix);
-  }
-  const auto& held = supports ? supports->unknowns() : clamped;
+  const Holding holding(grid, loads, plan.place, matrix);
 
   progress(0.25, "factorise");
   std::optional<SerialBlas> serial;
@@ -120,10 +163,9 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
   solution.bytes = solution.factor.bytes;
 
   progress(0.75, "solve");
-  Eigen::MatrixXd free_force = rows_in_order(loads.force, plan.place);
-  Eigen::MatrixXd held_force(Eigen::Index(held.size()), free_force.cols());
-  for (std::size_t i = 0; i < held.size(); ++i) held_force.row(Eigen::Index(i)) = free_force.row(held[i]);
-  clear_rows(held, free_force);
+  const Eigen::MatrixXd force = rows_in_order(loads.force, plan.place);
+  Eigen::MatrixXd free_force = force;
+  clear_rows(holding.unknowns(), free_force);
   Eigen::MatrixXd displacement = free_force;
   factor.solve_in_order(displacement);
   Eigen::MatrixXd rest = free_force - multiply(matrix, displacement);
@@ -137,16 +179,11 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
     rest = free_force - multiply(matrix, displacement);
     solution.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
   }
-  if (supports)
-    solution.support_reaction = (supports->images(displacement) - held_force)
-                                    .colwise()
-                                    .lpNorm<Eigen::Infinity>()
-                                    .cwiseQuotient(loads.largest_entry)
-                                    .maxCoeff();
+  solution.support_reaction = holding.reaction(force, displacement, loads);
   solution.displacement = rows_of_mesh(displacement, plan.place);
   if (options.kept != nullptr)
     *options.kept =
-        std::make_shared<const FactorisedBody>(std::move(plan.factor), std::move(plan.place), held);
+        std::make_shared<OneFactor>(std::move(plan.factor), std::move(plan.place), holding.unknowns());
   return solution;
 }
 

@@ -28,19 +28,16 @@ struct PlannedFactor {
 /// The factor of a body's stiffness with its supports or clamps, for further loads.
 class FactorisedBody {
 public:
-  /// @param place  of each node in the factor's order
-  /// @param held   unknowns of supports and clamps, in that order
-  FactorisedBody(std::unique_ptr<const CholmodFactor> factor, std::vector<std::int32_t> place,
-                 std::vector<std::int64_t> held)
-      : factor_(std::move(factor)), place_(std::move(place)), held_(std::move(held)) {}
+  FactorisedBody() = default;
+  FactorisedBody(const FactorisedBody&) = delete;
+  FactorisedBody& operator=(const FactorisedBody&) = delete;
+  virtual ~FactorisedBody() = default;
 
   /// Displacements of loads without resultants, with some rigid motion.
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& force) const;
+  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& force) const = 0;
 
-private:
-  std::unique_ptr<const CholmodFactor> factor_;
-  std::vector<std::int32_t> place_;
-  std::vector<std::int64_t> held_;
+  /// Whether what is not mirrored of other loads is left out (mirrored_halves.h).
+  virtual bool takes_even_loads_only() const { return false; }
 };
 
 /// Of the stiffness, without computing it.

@@ -125,7 +125,7 @@ private:
 }  // namespace
 
 EnergyError energy_error(const Grid& grid, const PerCell<Lame>& elastic, const ConstBlock& displacement,
-                         const ConstBlock& stress) {
+                         const ConstBlock& stress, const MirrorPlane* plane) {
   const Tabulation at = energy_points(grid.shape());
   const Eigen::Index n_loads = stress.cols() / 6;
   // Squares of neither small nor large stresses may leave the range of numbers.
@@ -136,21 +136,32 @@ EnergyError energy_error(const Grid& grid, const PerCell<Lame>& elastic, const C
   }
   EnergyError result;
   result.of_cells.resize(grid.n_cells() * std::size_t(n_loads));
+  std::vector<std::size_t> counted;
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    if (plane == nullptr || std::size_t(plane->cell[c]) > c) counted.push_back(c);
   // Sums over blocks of fixed size, then over blocks: the same for every number of threads.
   constexpr std::size_t block = 256;
-  const std::size_t n_blocks = (grid.n_cells() + block - 1) / block;
+  const std::size_t n_blocks = (counted.size() + block - 1) / block;
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n_loads, n_loads);
   std::vector<Products> sums(n_blocks, Products{zero, zero});
   parallel_for(n_blocks, 1, [&](std::size_t begin, std::size_t end) {
     CellEnergies cells(grid, at, elastic, displacement, stress, scale);
     for (std::size_t b = begin; b < end; ++b)
-      for (std::size_t c = b * block; c < std::min((b + 1) * block, grid.n_cells()); ++c)
-        cells.add(c, sums[b], &result.of_cells[c * std::size_t(n_loads)]);
+      for (std::size_t i = b * block; i < std::min((b + 1) * block, counted.size()); ++i)
+        cells.add(counted[i], sums[b], &result.of_cells[counted[i] * std::size_t(n_loads)]);
   });
+  if (plane != nullptr)
+    for (const auto c : counted)
+      std::copy_n(&result.of_cells[c * std::size_t(n_loads)], n_loads,
+                  &result.of_cells[std::size_t(plane->cell[c]) * std::size_t(n_loads)]);
   Products total{zero, zero};
   for (const auto& part : sums) {
     total.energy += part.energy;
     total.error += part.error;
+  }
+  if (plane != nullptr) {
+    total.energy *= 2;
+    total.error *= 2;
   }
   // In units of the loads' own norms.
   const Eigen::VectorXd norm = total.energy.diagonal().cwiseSqrt();

@@ -2,6 +2,7 @@
 /// stress stands for the exact one. Internal to fem.
 #pragma once
 
+#include "fem/mesh/mirror_plane.h"
 #include "fem/stress/cell_stress.h"
 #include "fem/values/unit_responses.h"
 
@@ -9,7 +10,8 @@ namespace fem {
 
 /// @param displacement  n_nodes x 3 K
 /// @param stress        recovered, n_nodes x 6 K
+/// @param plane         if both are mirror images in it: half of the cells tell of all
 EnergyError energy_error(const Grid& grid, const PerCell<Lame>& elastic, const ConstBlock& displacement,
-                         const ConstBlock& stress);
+                         const ConstBlock& stress, const MirrorPlane* plane = nullptr);
 
 }  // namespace fem

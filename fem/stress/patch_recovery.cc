@@ -124,8 +124,8 @@ Shares shares_of(const Grid& grid, const CellsOfNodes& cells, const std::vector<
   return !interior.empty() ? interior : !substitutes.empty() ? substitutes : boundary;
 }
 
-/// The patches and their nodes; every node's weights sum to 1.
-std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
+/// The patches and their nodes; the weights of every selected node sum to 1.
+std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells, const NodeSelection& selection) {
   const auto centre = choose_centres(grid);
   const auto table = nodes_in_cell(grid.shape());
   std::vector<Patch> patches;
@@ -135,7 +135,9 @@ std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
       patch_of[i] = static_cast<std::int32_t>(patches.size());
       patches.push_back({static_cast<std::int32_t>(i), centre[i] == Centre::boundary, {}, {}});
     }
-  for (std::size_t i = 0; i < grid.n_nodes; ++i) {
+  const std::size_t n_selected = selection ? selection->size() : grid.n_nodes;
+  for (std::size_t s = 0; s < n_selected; ++s) {
+    const auto i = selection ? std::size_t((*selection)[s]) : s;
     const auto shares = shares_of(grid, cells, centre, table, static_cast<std::int32_t>(i));
     double sum = 0;
     for (const auto& share : shares) sum += share.second;
@@ -148,7 +150,7 @@ std::vector<Patch> make_patches(const Grid& grid, const CellsOfNodes& cells) {
       patch.weights.back() += weight / sum;
     }
   }
-  // A boundary corner for whose nodes all others stand in.
+  // A boundary corner for whose nodes all others stand in, or one far from what is selected.
   patches.erase(std::remove_if(patches.begin(), patches.end(), [](const auto& p) { return p.nodes.empty(); }),
                 patches.end());
   return patches;
@@ -230,9 +232,9 @@ private:
 
 void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const std::vector<CylinderChart>& charts,
                         const StressSamples& samples, const ConstBlock& values, Eigen::Ref<RowMajor> nodal,
-                        const PatchRule& rule) {
+                        const PatchRule& rule, const NodeSelection& selection) {
   const PatchGeometry geometry(grid, cells, samples, charts);
-  const auto patches = make_patches(grid, cells);
+  const auto patches = make_patches(grid, cells, selection);
   nodal.setZero();
 
   // Batches bound the memory of the operators. Inside a batch the operators are made in parallel; then they

@@ -64,13 +64,14 @@ void recover_share(MPI_Comm communicator, const RecoveryJob& job, const NodeExch
 
 void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
                     const std::vector<CylinderChart>& charts, const std::vector<int>& loaded_groups,
-                    bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress) {
+                    bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress,
+                    const NodeSelection& selection) {
   if (!by_patches) {
     average_stress(grid, cells, elastic, displacement, stress);
     return;
   }
   recover_stress(grid, cells, charts, free_faces(grid, loaded_groups), elastic,
-                 any_hardly_compresses(grid, elastic), displacement, stress);
+                 any_hardly_compresses(grid, elastic), displacement, stress, selection);
 }
 
 void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,

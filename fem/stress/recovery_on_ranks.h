@@ -7,7 +7,7 @@
 
 #include "fem/mesh/grid.h"
 #include "fem/operators/stiffness.h"
-#include "fem/stress/cell_stress.h"
+#include "fem/stress/stress_recovery.h"
 #include "fem/values/body.h"
 
 namespace fem {
@@ -17,7 +17,8 @@ namespace fem {
 /// @param stress  n_nodes x 6 K, overwritten
 void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
                     const std::vector<CylinderChart>& charts, const std::vector<int>& loaded_groups,
-                    bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress);
+                    bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress,
+                    const NodeSelection& selection = {});
 
 /// The same; every rank does the nodes that it counts, on its cells and as many layers around them as these
 /// nodes' patches reach: the same steps as on one rank. Called on rank 0, while the others are in

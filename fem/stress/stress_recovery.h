@@ -1,6 +1,8 @@
 /// Stress at the nodes. Internal to fem.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fem/mesh/grid.h"
@@ -23,6 +25,9 @@ struct PatchRule {
   bool widens_at_boundary = false;
 };
 
+/// Nodes whose stress is recovered, ascending; the others are left zero. None: all.
+using NodeSelection = std::optional<std::vector<std::int32_t>>;
+
 /// Superconvergent patch recovery (Zienkiewicz and Zhu, Int. J. Numer. Meth. Engng 33, 1992): around every
 /// interior corner a polynomial is fitted to the samples of its cells. A node's value is the mean of the fits
 /// around it, weighted with the trilinear hats of their corners; for a boundary corner stand the interior
@@ -37,7 +42,7 @@ struct PatchRule {
 /// @param nodal   n_nodes x columns, overwritten
 void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const std::vector<CylinderChart>& charts,
                         const StressSamples& samples, const ConstBlock& values, Eigen::Ref<RowMajor> nodal,
-                        const PatchRule& rule = {});
+                        const PatchRule& rule = {}, const NodeSelection& selection = {});
 
 /// Stress at the nodes by patches. Where cells hardly compress, lambda div u is recovered by itself
 /// (volumetric_stress.h), by fits one degree lower, and patches widen at the boundary.
@@ -46,6 +51,7 @@ void recover_by_patches(const Grid& grid, const CellsOfNodes& cells, const std::
 /// @param stress  n_nodes x 6 K, overwritten
 void recover_stress(const Grid& grid, const CellsOfNodes& cells, const std::vector<CylinderChart>& charts,
                     const std::vector<BoundaryFace>& free, const PerCell<Lame>& elastic,
-                    bool hardly_compresses, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress);
+                    bool hardly_compresses, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress,
+                    const NodeSelection& selection = {});
 
 }  // namespace fem

@@ -30,7 +30,8 @@ struct SolverChoice {
   int max_iterations = 100;           ///< of the iterative solver, per block of load cases
   CoarseLevel coarse_level = CoarseLevel::automatic;
   bool gave_up_before =
-      false;  ///< the iteration is known to stall on this mesh and material: not tried again
+      false;                 ///< the iteration is known to stall on this mesh and material: not tried again
+  bool by_halves = true;     ///< the direct solver takes bodies that are their own mirror image by halves
   bool keep_factor = false;  ///< of the direct solver, for Model::goal_errors_Pa
 };
 

@@ -98,6 +98,12 @@ struct EnergyNorms {
 /// Of the sum of all channels times their factors (K).
 EnergyNorms energy_norms(const EnergyError& channels, const std::vector<double>& factors);
 
+/// Where body and loads are mirror images of themselves: the image of each node and cell. The stress at a
+/// node's image is the mirrored one, to the last bit. Empty for other bodies.
+struct MirrorImages {
+  std::vector<std::int32_t> node, cell;
+};
+
 struct UnitResponses {
   std::vector<std::string> channels;  ///< K names, the order of all arrays
   Nodes nodes;
@@ -111,6 +117,7 @@ struct UnitResponses {
   std::vector<RimRing> rings;
   std::vector<std::array<double, 2>> ring_shear_Pa;  ///< n_rings x K; means of sigma_r_theta, sigma_theta_z
   EnergyError energy_error;                          ///< empty where no cells were solved (cheap models)
+  MirrorImages images;
   /// Largest support reaction over all unit loads, relative to the load vector's largest entry: must be
   /// round-off. 0 if clamps hold the body, or the iterative solver left it free.
   double support_reaction = 0;

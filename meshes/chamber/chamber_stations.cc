@@ -54,14 +54,23 @@ void add_columns_to_corners(const ChamberLayout& layout, BreakPoints& arcs) {
   }
 }
 
+bool is_symmetrical(const std::vector<double>& ascending, double tolerance_m) {
+  for (std::size_t i = 0; i < ascending.size(); ++i)
+    if (std::abs(ascending[i] + ascending[ascending.size() - 1 - i]) > tolerance_m) return false;
+  return true;
+}
+
 /// @param limit largest cell at a place, where it is below that of `size`
+/// @param even  the interval in the middle has an even number of cells
 std::vector<double> subdivide(const std::vector<double>& breaks, const AxialSize& size,
-                              const std::function<double(double)>& limit) {
+                              const std::function<double(double)>& limit, bool even) {
   std::vector<double> result = {breaks.front()};
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     AxialSize here = size;
     here.largest_m = std::min(size.largest_m, limit(0.5 * (breaks[i] + breaks[i + 1])));
-    const auto part = axial_stations(breaks[i], breaks[i + 1], here, 1);
+    auto part = axial_stations(breaks[i], breaks[i + 1], here, 1);
+    if (even && 2 * (i + 1) == breaks.size() && part.size() % 2 == 0)
+      part = axial_stations(breaks[i], breaks[i + 1], here, int(part.size()));
     result.insert(result.end(), part.begin() + 1, part.end());
   }
   return result;
@@ -94,11 +103,10 @@ double limit_under_plates(const ChamberLayout& layout, double arc_m) {
   return limit_m;
 }
 
-/// A chamber that is symmetrical in z gets stations that are so to the last bit.
+/// Stations that are symmetrical become so to the last bit.
 void make_symmetrical(std::vector<double>& stations, double tolerance_m) {
+  if (!is_symmetrical(stations, tolerance_m)) return;
   const std::size_t n = stations.size();
-  for (std::size_t i = 0; i < n; ++i)
-    if (std::abs(stations[i] + stations[n - 1 - i]) > tolerance_m) return;
   for (std::size_t i = 0; 2 * i < n; ++i) {
     const double half_m = 0.5 * (stations[n - 1 - i] - stations[i]);
     stations[i] = -half_m;
@@ -138,7 +146,9 @@ ChamberStations place_stations(const Chamber& chamber, const ChamberLayout& layo
                                   layout.toe_size_within(angle_rad, angle_rad)});
   }
   const auto unlimited = [](double) { return std::numeric_limits<double>::infinity(); };
-  result.z_m = subdivide(z_breaks.sorted(), along, unlimited);
+  // A chamber that is symmetrical in z has cell faces in its middle: the solver then takes one half of it.
+  const auto breaks_m = z_breaks.sorted();
+  result.z_m = subdivide(breaks_m, along, unlimited, is_symmetrical(breaks_m, 0.01 * layout.closest_m));
   make_symmetrical(result.z_m, 0.01 * layout.closest_m);
 
   std::vector<double> closed = arcs.sorted();
@@ -146,7 +156,7 @@ ChamberStations place_stations(const Chamber& chamber, const ChamberLayout& layo
   const auto limit = [&](double arc_m) {
     return std::min(limit_at_web(layout, arc_m), limit_under_plates(layout, arc_m));
   };
-  for (double arc_m : subdivide(closed, around, limit)) {
+  for (double arc_m : subdivide(closed, around, limit, false)) {
     if (arc_m >= period_m) arc_m -= period_m;
     result.angles_rad.push_back(arc_m / layout.tube_outer_m);
   }

@@ -47,10 +47,15 @@ constexpr int most_mendings = 10;
 /// A place with the goal of the search there.
 struct Goal {
   std::string feature;
+  std::vector<std::string> images;  ///< features that are its mirror images: the goal is theirs, too
   fem::StressGoal stress;
   std::vector<std::size_t> nodes;  ///< whose cells are cut at least
   bool is_toe = false;
   double value_Pa = 0;
+
+  bool is_at(const std::string& name) const {
+    return feature == name || std::find(images.begin(), images.end(), name) != images.end();
+  }
 
   /// The error, from the contributions of all cells.
   double error_Pa(const std::vector<double>& contributions_Pa) const {
@@ -75,7 +80,7 @@ std::vector<double> factors_at(const BodyAnalysis& analysis, std::int32_t instan
 }
 
 Goal goal_at(const BodyAnalysis& analysis, const HotSpotStress& spot) {
-  Goal goal{spot.name, {factors_at(analysis, spot.instant), {}}, {}, true};
+  Goal goal{spot.name, {}, {factors_at(analysis, spot.instant), {}}, {}, true};
   const auto point = stress_point(spot);
   Stress stress{};
   for (const auto& part : point.parts) {
@@ -109,7 +114,7 @@ std::vector<std::size_t> nodes_of(const BodyAnalysis& analysis, const std::strin
 
 Goal goal_at(const BodyAnalysis& analysis, const PlaceStress& place) {
   const auto instant = analysis.envelope.von_mises.instant[place.node];
-  Goal goal{place.feature, {factors_at(analysis, instant), {}}, {place.node}, false};
+  Goal goal{place.feature, {}, {factors_at(analysis, instant), {}}, {place.node}, false};
   double sum = 0;
   for (const auto node : nodes_of(analysis, place.feature)) {
     const auto stress = stress_at(analysis.responses, analysis.loads.history, node, instant);
@@ -157,18 +162,32 @@ std::vector<const HotSpotStress*> coarse_toes(const BodyAnalysis& analysis,
   return toes;
 }
 
+/// Whether nodes are the mirror images of others, one by one.
+bool are_images(const fem::MirrorImages& images, const std::vector<std::size_t>& nodes,
+                const std::vector<std::size_t>& others) {
+  return !images.node.empty() && std::equal(nodes.begin(), nodes.end(), others.begin(), others.end(),
+                                            [&](auto a, auto b) { return std::size_t(images.node[a]) == b; });
+}
+
 std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
   auto leading = places_that_may_lead(judged);
   std::stable_sort(leading.begin(), leading.end(), [](const auto* a, const auto* b) {
     return a->value_Pa + a->error_Pa > b->value_Pa + b->error_Pa;
   });
-  leading.resize(std::min(most_goals, leading.size()));
   std::vector<Goal> goals;
   for (const auto* place : leading) {
     const auto spot = std::find_if(analysis.hot_spots.begin(), analysis.hot_spots.end(),
                                    [&](const auto& s) { return s.name == place->feature; });
-    goals.push_back(spot != analysis.hot_spots.end() ? goal_at(analysis, *spot) : goal_at(analysis, *place));
-    goals.back().value_Pa = place->value_Pa;
+    const bool is_toe = spot != analysis.hot_spots.end();
+    Goal goal = is_toe ? goal_at(analysis, *spot) : goal_at(analysis, *place);
+    goal.value_Pa = place->value_Pa;
+    const auto known = std::find_if(goals.begin(), goals.end(), [&](const auto& other) {
+      return are_images(analysis.responses.images, other.nodes, goal.nodes);
+    });
+    if (known != goals.end())
+      known->images.push_back(goal.feature);
+    else if (goals.size() < most_goals)
+      goals.push_back(std::move(goal));
   }
   return goals;
 }
@@ -232,7 +251,7 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
   LocalRefinement result;
   for (const auto* toe : coarse_toes(analysis, judged)) {
     const bool is_goal =
-        std::any_of(goals.begin(), goals.end(), [&](const auto& goal) { return goal.feature == toe->name; });
+        std::any_of(goals.begin(), goals.end(), [&](const auto& goal) { return goal.is_at(toe->name); });
     for (const auto& part : toe->parts) {
       is_place[part.node] = 1;
       const double* x_m = &nodes.xyz_m[3 * part.node];
@@ -245,11 +264,19 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
     if (std::any_of(cell.begin(), cell.end(), [&](auto i) { return is_place[std::size_t(i)] != 0; }))
       marked[c] = 1;
   }
+  // The mesh stays its own mirror image.
+  const auto& images = analysis.responses.images.cell;
+  for (std::size_t c = 0; c < images.size(); ++c)
+    if (marked[c] != 0) marked[std::size_t(images[c])] = 1;
   for (std::size_t c = 0; c < marked.size(); ++c)
     if (marked[c] != 0) result.cells.push_back(std::int32_t(c));
   for (std::size_t g = 0; g < goals.size(); ++g) {
-    result.features.push_back(goals[g].feature);
-    result.goal_error_Pa.push_back(goals[g].error_Pa(errors_Pa[g]));
+    auto features = goals[g].images;
+    features.insert(features.begin(), goals[g].feature);
+    for (const auto& feature : features) {
+      result.features.push_back(feature);
+      result.goal_error_Pa.push_back(goals[g].error_Pa(errors_Pa[g]));
+    }
   }
   for (const auto& place : judged)
     if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < cells_that_converge)
