@@ -123,7 +123,9 @@ GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const
 }
 
 SolverReport Model::predict_solver(std::size_t n_loads, const SolverChoice& choice) const {
-  return fem::predict_solver(impl_->grid, impl_->cells, impl_->materials, n_loads, choice);
+  const bool by_halves = choice.by_halves && n_ranks(impl_->communicator) == 1;
+  return fem::predict_solver(impl_->grid, impl_->cells, impl_->materials, by_halves ? impl_->half() : nullptr,
+                             n_loads, choice);
 }
 
 std::vector<NaturalMode> Model::natural_frequencies(int n_modes) const {
@@ -195,11 +197,11 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
 /// By the solver that the report names; by the other one if the iterative one gives up, if the factor does
 /// not fit into memory, or if it turns out too expensive for cells of middling stretch; the report then
 /// tells.
-/// @param half  of a body that may be solved by halves, or null
+/// @param half_of_body  that of a body that is solved by halves, or null; not looked for before it is needed
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
-               const MirroredHalf* half, const BalancedLoads& loads, SolverChoice choice,
-               const Progress& progress, SolverReport& report, MPI_Comm communicator,
+               const std::function<const MirroredHalf*()>& half_of_body, const BalancedLoads& loads,
+               SolverChoice choice, const Progress& progress, SolverReport& report, MPI_Comm communicator,
                DirectSolveOptions direct) {
   const bool alone = n_ranks(communicator) == 1;
   choice.coarse_level = report.coarse_level;
@@ -217,6 +219,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     return std::move(*solution);
   }
   const auto factorise = [&](DirectSolveOptions options) {
+    const auto* half = half_of_body();
     return half != nullptr
                ? solve_by_halves(*half, materials, loads, progress, std::move(options))
                : solve_directly(grid, cells, colours, materials, loads, progress, std::move(options));
@@ -277,12 +280,14 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   DirectSolveOptions direct;
   direct.kept = choice.keep_factor ? &impl_->factor : nullptr;
   const bool alone = n_ranks(impl_->communicator) == 1 || grid.hanging.n() > 0;
-  const bool is_direct = responses.solver.used == Solver::direct && alone;
-  const MirroredHalf* half = is_direct && choice.by_halves ? impl_->half() : nullptr;
-  if (is_direct)  // on one thread, beside the loads
-    direct.plan = std::async(std::launch::async, [&] {
-      return half != nullptr ? PlannedFactor(half->grid(), half->cells()) : PlannedFactor(grid, impl_->cells);
+  const auto half_of_body = [&] { return alone && choice.by_halves ? impl_->half() : nullptr; };
+  if (responses.solver.used == Solver::direct && alone) {
+    const auto* planned = half_of_body();
+    direct.plan = std::async(std::launch::async, [&, planned] {  // beside the loads
+      return planned != nullptr ? PlannedFactor(planned->grid(), planned->cells())
+                                : PlannedFactor(grid, impl_->cells);
     });
+  }
   Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads,
                                        impl_->relative_density());
   const Eigen::MatrixXd applied = resultants(grid, force, Eigen::Vector3d::Zero());
@@ -290,6 +295,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   for (Eigen::Index k = 0; k < n_loads; ++k)
     for (int c = 0; c < 6; ++c) responses.resultants[k][c] = applied(c, k);
 
+  const MirroredHalf* half = nullptr;  // which tells of all
   {
     force.conservativeResize(Eigen::NoChange, n_loads + springs.unit_forces().cols());
     force.rightCols(springs.unit_forces().cols()) = springs.unit_forces();
@@ -298,12 +304,13 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const RigidBalance rigid(grid, impl_->integrals);
     BalancedLoads balanced = balance(rigid, clamped, std::move(force));
     move_to_masters(grid.hanging, balanced.force);
-    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, half, balanced, choice,
-                              report, responses.solver, impl_->communicator, std::move(direct));
-    if (half != nullptr && responses.solver.used == Solver::direct)
+    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, half_of_body, balanced,
+                              choice, report, responses.solver, impl_->communicator, std::move(direct));
+    if (responses.solver.used == Solver::direct && half_of_body() != nullptr) {
       responses.solver.reason += solution.is_even ? "; one half, of which the other is the mirror image"
                                                   : "; half by half, the body being its own mirror image";
-    if (!solution.is_even) half = nullptr;
+      if (solution.is_even) half = half_of_body();
+    }
     responses.residual = responses.solver.relative_residual = solution.residual;
     responses.support_reaction = solution.support_reaction;
     responses.solver.rounding = solution.rounding;

@@ -3,16 +3,26 @@
 #include "fem/common/memory.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/solvers/direct_solve.h"
+#include "fem/solvers/mirrored_halves.h"
 #include "fem/solvers/solver_prediction.h"
 
 namespace fem {
 
+namespace {
+
+FactorSize twice(const FactorSize& size) {
+  return {2 * size.n_dofs, 2 * size.entries, 2 * size.flops, 2 * size.bytes};
+}
+
+}  // namespace
+
 SolverReport predict_solver(const Grid& grid, const CellsOfNodes& cells, const CellMaterials& materials,
-                            std::size_t n_loads, const SolverChoice& choice) {
+                            const MirroredHalf* half, std::size_t n_loads, const SolverChoice& choice) {
   constexpr std::size_t most_analysed = 600'000;  // seconds
   auto report = choose_solver(grid, materials, n_loads, choice, physical_memory());
   if (report.used == Solver::direct && 3 * grid.n_nodes <= most_analysed) {
-    report.factor = analyse_factor(grid, cells);
+    report.factor =
+        half != nullptr ? twice(analyse_factor(half->grid(), half->cells())) : analyse_factor(grid, cells);
     report.predicted_direct = predict_direct(report.factor, n_loads);
     if (is_too_expensive(report.factor, report, n_loads)) report.used = Solver::iterative;
   }

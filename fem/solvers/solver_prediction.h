@@ -9,6 +9,8 @@
 
 namespace fem {
 
+class MirroredHalf;
+
 /// Ratio of the longest to the shortest of a cell's mean edge lengths along its three axes, for each cell;
 /// empty for tetrahedra.
 std::vector<double> aspects(const Grid& grid);
@@ -78,9 +80,10 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
 
 /// As choose_solver, with this machine's memory; where it is direct and small enough, after an analysis of
 /// the matrix. Solves nothing.
+/// @param half  of a body that is solved by halves, or null; loads are taken to have parts of both parities
 /// @throws DoesNotFit as choose_solver
 SolverReport predict_solver(const Grid& grid, const CellsOfNodes& cells, const CellMaterials& materials,
-                            std::size_t n_loads, const SolverChoice& choice);
+                            const MirroredHalf* half, std::size_t n_loads, const SolverChoice& choice);
 
 /// @param factor_bytes  known, not predicted: CHOLMOD's analysis of the matrix tells it before it factorises
 /// @param memory_bytes  that are left for it

@@ -5,6 +5,8 @@
 ///   solver_benchmarks <shaft.toml> fit [largest number of unknowns, default 700000]
 /// Twelve load cases at the same sizes, and with stretched cells at the smaller ones: the constants of
 /// fem/values/cost_constants.h, fitted anew.
+///   solver_benchmarks <vibratory_mill.toml> halves
+/// The scene's chamber whole and by halves.
 #include <unistd.h>
 
 #include <cstdio>
@@ -19,6 +21,7 @@
 #include "pipelines/scene/scene.h"
 #include "tests/benchmarks/benchmark_shaft.h"
 #include "tests/benchmarks/cost_fit.h"
+#include "tests/benchmarks/halves.h"
 #include "tests/benchmarks/operator_comparison.h"
 #include "tests/benchmarks/solver_comparison.h"
 #include "tests/benchmarks/solver_plot.h"
@@ -105,7 +108,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr,
                  "usage: solver_benchmarks <shaft.toml> [largest number of unknowns] [picture.svg] [largest "
                  "for the direct solver]\n       solver_benchmarks <shaft.toml> fit [largest number of "
-                 "unknowns]\n");
+                 "unknowns]\n       solver_benchmarks <vibratory_mill.toml> halves\n");
     return 2;
   }
   const fem::Environment environment(argc, argv, n_threads);
@@ -116,6 +119,8 @@ int main(int argc, char** argv) {
   try {
     if (argc > 2 && std::string(argv[2]) == "fit")
       fit(argv[1], argc > 3 ? std::size_t(std::atof(argv[3])) : most_when_unasked, directory);
+    else if (argc > 2 && std::string(argv[2]) == "halves")
+      measure::compare_halves(argv[1], directory);
     else
       run(argv[1], argc > 2 ? std::size_t(std::atof(argv[2])) : most_when_unasked,
           argc > 4 ? std::size_t(std::atof(argv[4])) : 100000000,
