@@ -173,7 +173,7 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
                                         MPI_Comm communicator) {
   std::string failure;
   try {
-    if (n_ranks(communicator) == 1) {
+    if (n_ranks(communicator) == 1 || grid.hanging.n() > 0) {
       if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure))
         return solution;
     } else {
@@ -385,16 +385,16 @@ std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& resp
   const MirroredHalf* half = responses.images.node.empty() ? nullptr : impl_->half();
   if (half != nullptr) half->make_even(loads.force);
   Eigen::MatrixXd dual;
-  if (impl_->factor && (half != nullptr || !impl_->factor->takes_even_loads_only()))
+  if (impl_->factor && (half != nullptr || !impl_->factor->takes_even_loads_only())) {
     dual = impl_->factor->solve(loads.force);
-  else {
+  } else {
+    SolverReport report = responses.solver;  // by the solver that they have
     DirectSolveOptions direct;
     direct.kept = &impl_->factor;
-    const auto silent = [](double, const std::string&) {};
-    dual = (half != nullptr ? solve_by_halves(*half, impl_->materials, loads, silent, std::move(direct))
-                            : solve_directly(grid, impl_->cells, impl_->colours, impl_->materials, loads,
-                                             silent, std::move(direct)))
-               ->displacement;
+    dual = solve(
+               grid, impl_->cells, impl_->colours, impl_->materials, [&] { return half; }, loads, {},
+               [](double, const std::string&) {}, report, impl_->communicator, std::move(direct))
+               .displacement;
   }
   set_hanging_unknowns(grid.hanging, dual);
   if (loads.clamped.empty()) rigid.remove_motion(dual);

@@ -10,6 +10,7 @@
 
 #include "fem/common/parallel.h"
 #include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/hanging_nodes.h"
 
 namespace fem {
 
@@ -67,16 +68,37 @@ std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
       }
   });
   std::vector<double> blocks(9 * grid.n_nodes, 0.0);
-  for (std::size_t k = 0; k < grid.n_cells(); ++k)
-    for (int i = 0; i < n_local; ++i) {
-      const double* h = &products[(k * n_local + i) * 6];
-      double* block = &blocks[9 * std::size_t(order.node_place[grid.nodes_of(order.cell[k])[i]])];
-      const Lame& own = elastic[order.cell[k]];
-      const double both = own.lambda_Pa + own.mu_Pa;
-      const double trace = own.mu_Pa * (h[0] + h[1] + h[2]);
-      const double full[9] = {h[0], h[3], h[5], h[3], h[1], h[4], h[5], h[4], h[2]};
-      for (int e = 0; e < 9; ++e) block[e] += both * full[e] + (e % 4 == 0 ? trace : 0.0);
+  const auto add = [&](std::int32_t cell, std::int32_t node, const double* h) {
+    double* block = &blocks[9 * std::size_t(order.node_place[node])];
+    const Lame& own = elastic[cell];
+    const double both = own.lambda_Pa + own.mu_Pa;
+    const double trace = own.mu_Pa * (h[0] + h[1] + h[2]);
+    const double full[9] = {h[0], h[3], h[5], h[3], h[1], h[4], h[5], h[4], h[2]};
+    for (int e = 0; e < 9; ++e) block[e] += both * full[e] + (e % 4 == 0 ? trace : 0.0);
+  };
+  const CellCouplings couplings(grid);
+  for (std::size_t k = 0; k < grid.n_cells(); ++k) {
+    const auto cell = order.cell[k];
+    if (couplings.is_plain(std::size_t(cell))) {
+      for (int i = 0; i < n_local; ++i) add(cell, grid.nodes_of(cell)[i], &products[(k * n_local + i) * 6]);
+      continue;
     }
+    // Gradients of the masters' shape functions, of which those of hanging nodes are part.
+    Eigen::MatrixXd gradient(3 * n_local, at.n_points);
+    for (int q = 0; q < at.n_points; ++q) {
+      const Eigen::Map<const Eigen::Matrix3d> to_space(
+          &metric[(k * at.n_points + q) * 9]);  // transposed here
+      for (int i = 0; i < n_local; ++i)
+        gradient.block<3, 1>(3 * i, q) = to_space * Eigen::Map<const Eigen::Vector3d>(
+                                                        at.gradient[std::size_t(q) * at.n_shapes + i].data());
+    }
+    couplings.couple(std::size_t(cell), 3, gradient);
+    for (int i = 0; i < couplings.n_nodes(std::size_t(cell)); ++i) {
+      const Eigen::Matrix3d own = gradient.middleRows<3>(3 * i) * gradient.middleRows<3>(3 * i).transpose();
+      const double h[6] = {own(0, 0), own(1, 1), own(2, 2), own(0, 1), own(1, 2), own(0, 2)};
+      add(cell, couplings.nodes(std::size_t(cell))[i], h);
+    }
+  }
   return blocks;
 }
 
@@ -89,6 +111,7 @@ ElasticOperator<T>::ElasticOperator(const Grid& grid, const CellOrder& order, co
       part_begin_(order.part_begin),
       has_own_targets_(targets == nullptr),
       targets_(targets ? std::move(targets) : std::make_shared<const AddTargets>(make_targets(grid, order))),
+      hanging_(grid.hanging, order.node_place),
       shared_(shared) {
   if constexpr (std::is_same_v<T, double>)
     metric_ = std::move(metric);
@@ -117,8 +140,9 @@ std::size_t ElasticOperator<T>::bytes() const noexcept {
 }
 
 template <typename T>
-void ElasticOperator<T>::apply(const Lanes& lanes, const BlockVector<T>& x, BlockVector<T>& y,
+void ElasticOperator<T>::apply(const Lanes& lanes, BlockVector<T>& x, BlockVector<T>& y,
                                BlockVector<T>& copies) const {
+  if (!hanging_.is_empty()) hanging_.set(lanes, x);
   parallel_for(part_begin_.size() - 1, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t part = first; part < last; ++part) {
       auto cells = cells_;
@@ -144,6 +168,7 @@ void ElasticOperator<T>::apply(const Lanes& lanes, const BlockVector<T>& x, Bloc
       for (std::size_t l = 0; l < per_node; ++l)
         to[targets_->copied[k] * per_node + l] += from[targets_->copy[k] * per_node + l];
   }
+  if (!hanging_.is_empty()) hanging_.move_to_masters(lanes, y);
   if (shared_ != nullptr) shared_->sum(lanes, y);
 }
 

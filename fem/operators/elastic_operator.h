@@ -8,6 +8,7 @@
 #include "fem/mesh/cell_order.h"
 #include "fem/mesh/grid.h"
 #include "fem/operators/block_vector.h"
+#include "fem/operators/hanging_in_blocks.h"
 #include "fem/operators/shared_nodes.h"
 #include "fem/operators/stiffness.h"
 #include "fem/values/body.h"
@@ -18,7 +19,7 @@ namespace fem {
 /// cells in the order of CellOrder, 9 numbers per point.
 std::vector<double> cell_metric(const Grid& grid, const CellOrder& order);
 
-/// The 3 x 3 diagonal blocks of K (n_nodes x 9), nodes in order; of these cells alone.
+/// The 3 x 3 diagonal blocks of K (n_nodes x 9), nodes in order; of these cells alone. Zero at hanging nodes.
 std::vector<double> diagonal_blocks(const Grid& grid, const CellOrder& order,
                                     const std::vector<double>& metric, const PerCell<Lame>& elastic);
 
@@ -40,9 +41,10 @@ public:
   /// Without the targets of another operator.
   std::size_t bytes() const noexcept;
 
-  /// @param x, y  nodes in order
+  /// @param x, y  nodes in order; hanging nodes of x are given the values that their masters fix, those of y
+  /// have none
   /// @param copies  work space of the operator: made by work_space for the same lanes
-  void apply(const Lanes& lanes, const BlockVector<T>& x, BlockVector<T>& y, BlockVector<T>& copies) const;
+  void apply(const Lanes& lanes, BlockVector<T>& x, BlockVector<T>& y, BlockVector<T>& copies) const;
   BlockVector<T> work_space(const Lanes& lanes) const { return {targets_->copy.size(), lanes}; }
 
 private:
@@ -52,6 +54,7 @@ private:
   bool has_own_targets_;
   std::shared_ptr<const AddTargets> targets_;
   std::vector<T> value_, derivative_, metric_, elastic_;
+  HangingInBlocks hanging_;
   const SharedNodes* shared_;
   kernel::CellRange<T> cells_;  // begin, end and pointers are set by apply
 };

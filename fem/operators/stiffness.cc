@@ -89,6 +89,16 @@ void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes
   }
 }
 
+void hold_hanging(const HangingNodes& hanging, SymmetricMatrix& matrix,
+                  const std::vector<std::int32_t>& place) {
+  const auto placed = [&](std::int32_t node) { return place.empty() ? node : place[std::size_t(node)]; };
+  for (std::size_t i = 0; i < hanging.n(); ++i) {
+    const auto master = 3 * std::int64_t(placed(hanging.master[hanging.begin[i]]));
+    const double size = matrix.value[std::size_t(matrix.column_begin[std::size_t(master)])];
+    add_diagonal_block(matrix, placed(hanging.node[i]), size * Eigen::Matrix3d::Identity());
+  }
+}
+
 void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
                         const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix,
                         const std::vector<std::int32_t>& place) {
@@ -110,13 +120,7 @@ void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int
         add_cell_stiffness(scaled, nodes.data(), elastic[cells[c]], graph, products, matrix);
       }
     });
-  // What hangs has equations of its own that say nothing; their size is that of the others.
-  const auto& hanging = grid.hanging;
-  for (std::size_t i = 0; i < hanging.n(); ++i) {
-    const auto master = 3 * std::int64_t(placed(hanging.master[hanging.begin[i]]));
-    const double size = matrix.value[std::size_t(matrix.column_begin[std::size_t(master)])];
-    add_diagonal_block(matrix, placed(hanging.node[i]), size * Eigen::Matrix3d::Identity());
-  }
+  hold_hanging(grid.hanging, matrix, place);
 }
 
 }  // namespace fem

@@ -29,6 +29,11 @@ void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int
                         const NodeGraph& graph, const PerCell<Lame>& elastic, SymmetricMatrix& matrix,
                         const std::vector<std::int32_t>& place = {});
 
+/// Gives hanging nodes a diagonal of the others' size: equations of their own that say nothing.
+/// @param place  as assemble_stiffness
+void hold_hanging(const HangingNodes& hanging, SymmetricMatrix& matrix,
+                  const std::vector<std::int32_t>& place = {});
+
 /// Adds one cell's stiffness to the matrix.
 /// @param scaled  gradients of the cell's shape functions times sqrt(JxW): three rows per node, one column
 /// per

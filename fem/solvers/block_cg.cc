@@ -129,7 +129,7 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
 }
 
 Eigen::ArrayXd subtract_image(const ElasticOperator<double>& stiffness, const kernel::Kernels& kernels,
-                              const Lanes& lanes, const BlockVector<double>& u, BlockVector<double>& r) {
+                              const Lanes& lanes, BlockVector<double>& u, BlockVector<double>& r) {
   const std::size_t n_nodes = stiffness.n_nodes();
   BlockVector<double> image(n_nodes, lanes);
   auto copies = stiffness.work_space(lanes);

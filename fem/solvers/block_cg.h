@@ -40,6 +40,6 @@ BlockCgResult solve_block(const ElasticOperator<double>& stiffness, const Polyno
 /// r -= K u: on entry the forces.
 /// @return |r|^2 per lane
 Eigen::ArrayXd subtract_image(const ElasticOperator<double>& stiffness, const kernel::Kernels& kernels,
-                              const Lanes& lanes, const BlockVector<double>& u, BlockVector<double>& r);
+                              const Lanes& lanes, BlockVector<double>& u, BlockVector<double>& r);
 
 }  // namespace fem

@@ -16,7 +16,9 @@ constexpr std::size_t nodes_at_once = 2048;  // nodes
 std::vector<float> invert(const std::vector<double>& blocks) {
   std::vector<float> result(blocks.size());
   for (std::size_t i = 0; i < blocks.size(); i += 9) {
-    const Eigen::Matrix3d inverse = Eigen::Map<const Eigen::Matrix3d>(&blocks[i]).inverse();
+    const Eigen::Map<const Eigen::Matrix3d> block(&blocks[i]);
+    const Eigen::Matrix3d inverse =
+        block.isZero(0) ? Eigen::Matrix3d(Eigen::Matrix3d::Zero()) : Eigen::Matrix3d(block.inverse());
     for (int e = 0; e < 9; ++e) result[i + e] = static_cast<float>(inverse.data()[e]);
   }
   return result;
@@ -114,7 +116,7 @@ void Chebyshev::smooth(const Lanes& lanes, const Apply& apply, const BlockVector
 }
 
 void Chebyshev::residual(const Lanes& lanes, const Apply& apply, const BlockVector<float>& b,
-                         const BlockVector<float>& x, WorkSpace& work) const {
+                         BlockVector<float>& x, WorkSpace& work) const {
   apply(lanes, x, work.image);
   parallel_for(n_nodes(), nodes_at_once, [&](std::size_t begin, std::size_t end) {
     kernels_->residual(lanes.view(), n_nodes(), begin, end, b.data(), work.image.data());

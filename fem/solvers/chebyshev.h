@@ -13,8 +13,8 @@ namespace fem {
 
 class Chebyshev {
 public:
-  /// y = K x
-  using Apply = std::function<void(const Lanes&, const BlockVector<float>& x, BlockVector<float>& y)>;
+  /// y = K x; may set hanging nodes of x, whose values K does not depend on.
+  using Apply = std::function<void(const Lanes&, BlockVector<float>& x, BlockVector<float>& y)>;
   struct Control {
     int n_steps = 5;
     float range = 20;  ///< largest eigenvalue over the smallest that is smoothed
@@ -25,7 +25,7 @@ public:
   };
 
   /// Estimates the largest eigenvalue from some columns of noise.
-  /// @param diagonal_blocks  n_nodes x 9
+  /// @param diagonal_blocks  n_nodes x 9; nodes whose block is zero stay as they are
   /// @param apply  called for lanes of its own choice
   /// @param shared  nodes that other ranks have, too; none: one rank
   Chebyshev(const std::vector<double>& diagonal_blocks, const Control& control, const Apply& apply,
@@ -42,8 +42,8 @@ public:
   void smooth(const Lanes& lanes, const Apply& apply, const BlockVector<float>& b, BlockVector<float>& x,
               bool from_zero, WorkSpace& work) const;
   /// work.image = b - K x
-  void residual(const Lanes& lanes, const Apply& apply, const BlockVector<float>& b,
-                const BlockVector<float>& x, WorkSpace& work) const;
+  void residual(const Lanes& lanes, const Apply& apply, const BlockVector<float>& b, BlockVector<float>& x,
+                WorkSpace& work) const;
 
 private:
   void find_largest_eigenvalue(const Apply& apply, const SharedNodes* shared);

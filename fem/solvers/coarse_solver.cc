@@ -19,7 +19,9 @@ CoarseSolver::CoarseSolver(const Grid& coarse, const NodeGraph& graph,
   supports_ = std::make_unique<Supports>(choose_supports(coarse), matrix);
   factor_ = std::make_unique<CholmodFactor>(graph, node_order.get());
   factor_->factorise(matrix);
-  without_rigid_ = WithoutModes(rigid_modes(coarse, Eigen::Vector3d::Zero()));
+  Eigen::MatrixXd rigid = rigid_modes(coarse, Eigen::Vector3d::Zero());
+  for (const auto node : coarse.hanging.node) rigid.middleRows<3>(3 * Eigen::Index(node)).setZero();
+  without_rigid_ = WithoutModes(rigid);
 }
 
 std::size_t CoarseSolver::bytes() const {

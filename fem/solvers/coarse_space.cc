@@ -1,14 +1,60 @@
 #include "fem/solvers/coarse_space.h"
 
+#include <algorithm>
+#include <functional>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "fem/common/parallel.h"
 #include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/hanging_nodes.h"
 
 namespace fem {
 
 namespace {
+
+using Weights = std::map<std::int32_t, double>;  // by corner
+
+/// Corners of cells in the middle of a larger cell's edge or face: nodes of its quadratic displacement, but
+/// in its trilinear one they hang on its corners, which may hang on those of a still larger one.
+HangingNodes hanging_corners(const Grid& grid, const Grid& coarse,
+                             const std::vector<std::int32_t>& coarse_of_node) {
+  HangingNodes hanging;
+  if (grid.hanging.n() == 0) return hanging;
+  const Tabulation nodes = nodes_in_cell(grid.shape());
+  const auto corners = corner_nodes(grid.shape());
+  std::map<std::int32_t, Weights> direct;
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (int i = 0; i < grid.nodes_per_cell(); ++i) {
+      const auto corner = coarse_of_node[std::size_t(grid.nodes_of(c)[i])];
+      if (corner < 0 || std::find(corners.begin(), corners.end(), i) != corners.end()) continue;
+      const auto hats = corner_hats(grid.shape(), nodes.point[std::size_t(i)]);
+      Weights& own = direct[corner];
+      own.clear();  // every larger cell beside it says the same
+      for (int k = 0; k < 8; ++k)
+        if (hats[k] > 1e-12) own[coarse.nodes_of(c)[k]] = hats[k];
+    }
+  const std::function<void(std::int32_t, double, Weights&)> resolve = [&](std::int32_t corner, double weight,
+                                                                          Weights& sum) {
+    const auto found = direct.find(corner);
+    if (found == direct.end())
+      sum[corner] += weight;
+    else
+      for (const auto& [master, own] : found->second) resolve(master, weight * own, sum);
+  };
+  for (const auto& known : direct) {
+    Weights masters;
+    resolve(known.first, 1, masters);
+    hanging.node.push_back(known.first);
+    for (const auto& [master, weight] : masters) {
+      hanging.master.push_back(master);
+      hanging.weight.push_back(weight);
+    }
+    hanging.begin.push_back(hanging.master.size());
+  }
+  return hanging;
+}
 
 /// The mesh of corners, numbered in the order of the fine nodes' places.
 Grid corner_grid(const Grid& grid, const CellOrder& order, std::vector<std::int32_t>& coarse_of_place) {
@@ -31,6 +77,9 @@ Grid corner_grid(const Grid& grid, const CellOrder& order, std::vector<std::int3
       for (int d = 0; d < 3; ++d) coarse.xyz_m[3 * std::size_t(which) + d] = grid.position(node)[d];
     }
   coarse.volume_id = grid.volume_id;
+  std::vector<std::int32_t> coarse_of_node(grid.n_nodes);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i) coarse_of_node[i] = coarse_of_place[order.node_place[i]];
+  coarse.hanging = hanging_corners(grid, coarse, coarse_of_node);
   return coarse;
 }
 
@@ -45,15 +94,27 @@ NodeMatrix make_interpolation(const Grid& grid, const CellOrder& order, const Gr
   for (std::size_t c = grid.n_cells(); c-- > 0;)
     for (int i = 0; i < n_local; ++i)
       row[order.node_place[grid.nodes_of(c)[i]]] = {static_cast<std::int32_t>(c), i};
+  const auto& hanging = coarse.hanging;
+  std::vector<std::int32_t> hangs(coarse.n_nodes, -1);
+  for (std::size_t i = 0; i < hanging.n(); ++i) hangs[std::size_t(hanging.node[i])] = std::int32_t(i);
   NodeMatrix matrix;
   matrix.begin.push_back(0);
   for (const auto& [cell, local] : row) {
     const auto hats = corner_hats(grid.shape(), nodes.point[local]);
-    for (int k = 0; k < 8; ++k)
-      if (hats[k] > 1e-12) {
-        matrix.column.push_back(coarse.nodes_of(cell)[k]);
-        matrix.weight.push_back(static_cast<float>(hats[k]));
-      }
+    Weights weights;
+    for (int k = 0; k < 8; ++k) {
+      if (!(hats[k] > 1e-12)) continue;
+      const auto corner = coarse.nodes_of(cell)[k];
+      if (const auto h = hangs[std::size_t(corner)]; h < 0)
+        weights[corner] += hats[k];
+      else
+        for (auto m = hanging.begin[std::size_t(h)]; m < hanging.begin[std::size_t(h) + 1]; ++m)
+          weights[hanging.master[m]] += hats[k] * hanging.weight[m];
+    }
+    for (const auto& [corner, weight] : weights) {
+      matrix.column.push_back(corner);
+      matrix.weight.push_back(static_cast<float>(weight));
+    }
     matrix.begin.push_back(static_cast<std::int64_t>(matrix.column.size()));
   }
   return matrix;
@@ -102,20 +163,25 @@ SymmetricMatrix assemble(const Grid& grid, const CellOrder& order, const std::ve
   const auto hats = hat_gradients(at);
   std::vector<std::size_t> place(grid.n_cells());
   for (std::size_t k = 0; k < order.cell.size(); ++k) place[order.cell[k]] = k;
+  const CellCouplings couplings(coarse);
   SymmetricMatrix matrix = make_matrix(graph);
   for (const auto& colour : colour_cells(coarse, cells))
     parallel_for(colour.size(), 16, [&](std::size_t begin, std::size_t end) {
-      Eigen::MatrixXd scaled(24, at.n_points), products;
+      Eigen::MatrixXd scaled, products;
       for (std::size_t c = begin; c < end; ++c) {
+        scaled.resize(24, at.n_points);
         const double* m = &metric[place[colour[c]] * at.n_points * 9];
         for (int q = 0; q < at.n_points; ++q) {
           const Eigen::Map<const Eigen::Matrix3d> to_space(m + 9 * q);  // row-major there: transposed here
           Eigen::Map<Eigen::Matrix<double, 3, 8>>(scaled.col(q).data()).noalias() =
               to_space.lazyProduct(hats[q]);
         }
-        add_cell_stiffness(scaled, coarse.nodes_of(colour[c]), elastic[colour[c]], graph, products, matrix);
+        couplings.couple(std::size_t(colour[c]), 3, scaled);
+        add_cell_stiffness(scaled, couplings.nodes(std::size_t(colour[c])), elastic[colour[c]], graph,
+                           products, matrix);
       }
     });
+  hold_hanging(coarse.hanging, matrix);
   return matrix;
 }
 

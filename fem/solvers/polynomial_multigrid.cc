@@ -24,7 +24,7 @@ PolynomialMultigrid::PolynomialMultigrid(const Grid& grid, const CellOrder& orde
   if (shared_ != nullptr) shared_->sum(diagonal, 9);
   smoother_ = std::make_unique<Chebyshev>(
       diagonal, polynomial_smoothing,
-      [&](const Lanes& lanes, const auto& x, auto& y) {
+      [&](const Lanes& lanes, auto& x, auto& y) {
         auto copies = operator_.work_space(lanes);
         operator_.apply(lanes, x, y, copies);
       },
@@ -46,7 +46,7 @@ std::size_t PolynomialMultigrid::bytes() const {
 void PolynomialMultigrid::apply(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
                                 WorkSpace& work) const {
   const std::size_t n_nodes = operator_.n_nodes(), n_coarse = coarse_.n_nodes();
-  const auto stiffness = [&](const Lanes& of, const auto& from, auto& to) {
+  const auto stiffness = [&](const Lanes& of, auto& from, auto& to) {
     operator_.apply(of, from, to, work.copies);
   };
   smoother_->smooth(lanes, stiffness, b, x, true, work.smoothing);

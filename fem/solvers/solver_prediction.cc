@@ -135,8 +135,8 @@ bool is_too_expensive(const FactorSize& factor, const SolverReport& report, std:
 
 bool may_be_iterated(const Grid& grid, const CellMaterials& materials, const SolverChoice& choice,
                      const SolverReport& report, double memory_bytes) {
-  return choice.solver == Solver::automatic && !report.gave_up && grid.hanging.n() == 0 &&
-         !grid.shape().is_tetrahedron() && grid.degree > 1 &&
+  return choice.solver == Solver::automatic && !report.gave_up &&
+         (grid.hanging.n() == 0 || grid.degree == 2) && !grid.shape().is_tetrahedron() && grid.degree > 1 &&
          materials.largest_poisson_ratio() <= most_incompressible && share_stretched(grid) <= 0.5 &&
          report.predicted_iterative.bytes < memory_bytes;
 }
@@ -171,8 +171,19 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
     return report;
   };
   if (grid.shape().is_tetrahedron()) return take(Solver::direct, "the body has tetrahedra");
-  if (grid.hanging.n() > 0) return take(Solver::direct, "the mesh is refined locally");
   if (grid.degree < 2) return take(Solver::direct, "cells of degree 1 have no coarser polynomials");
+  if (grid.hanging.n() > 0) {
+    report.coarse_level = CoarseLevel::factorised;  // aggregates know no hanging nodes
+    if (grid.degree > 2) return take(Solver::direct, "cubic cells are refined locally");
+    report.predicted_iterative =
+        predict_iterative(n_dofs, grid.degree, n_loads, report.largest_aspect, report.coarse_level);
+    if (choice.gave_up_before) {
+      report.gave_up = true;
+      return take(Solver::direct, "the iteration has given up on this mesh and material before");
+    }
+    return choice.solver == Solver::iterative ? take(Solver::iterative, "as asked for")
+                                              : take(Solver::direct, "the mesh is refined locally");
+  }
   if (report.coarse_level == CoarseLevel::automatic)
     report.coarse_level = cheaper_coarse_level(n_dofs, grid.degree, n_loads);
   report.predicted_iterative =
