@@ -16,8 +16,19 @@ constexpr double near_weight = 1.67, far_weight = -0.67;
 /// Of the meshed surface from the drawn one, in plate thicknesses: chords under arcs.
 constexpr double off_surface = 0.02;
 
+/// Of models without faces (plated_tube_responses) the points themselves are nodes.
+fem::PointOnBoundary node_at(const fem::Nodes& nodes, const std::array<double, 3>& p) {
+  for (std::size_t i = 0; i < nodes.n; ++i)
+    if (std::equal(p.begin(), p.end(), &nodes.xyz_m[3 * i])) return {0, {{i, 1.0}}};
+  return {};
+}
+
 fem::PointOnBoundary point_at(const fem::Nodes& nodes, const std::array<double, 3>& p,
                               const meshes::HotSpot& spot) {
+  if (nodes.faces.empty()) {
+    auto own = node_at(nodes, p);
+    if (!own.shares.empty()) return own;
+  }
   auto point = fem::point_on_boundary(nodes, p, off_surface * spot.thickness_m);
   if (!point.shares.empty()) return point;
   throw std::runtime_error("hot spot \"" + spot.name + "\": no face of the mesh holds its points");
@@ -99,7 +110,8 @@ std::vector<HotSpotStress> hot_spot_stresses(const std::vector<meshes::HotSpot>&
     add(point_at(responses.nodes, spot.far_m, spot).shares, far_weight, result.parts);
     const auto less = [](const auto& a, const auto& b) { return a.weight < b.weight; };
     result.near_node = std::max_element(near.shares.begin(), near.shares.end(), less)->node;
-    result.face_walls = face_at_toe_m(responses.nodes, near.face, spot) / spot.thickness_m;
+    if (!responses.nodes.faces.empty())
+      result.face_walls = face_at_toe_m(responses.nodes, near.face, spot) / spot.thickness_m;
     result.name = spot.name;
     result.toe_m = spot.toe_m;
     take_course(spot, unit_stress_at(responses, stress_point(result)), loads, result);

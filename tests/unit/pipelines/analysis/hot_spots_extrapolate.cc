@@ -51,6 +51,27 @@ pipelines::ChannelHistory history(const Eigen::ArrayXXd& values) {
   return loads;
 }
 
+// Of a tube with plates, the cheapest model of a chamber, the points are all there is.
+TEST(HotSpots, OfAModelWithoutFacesAreAtItsNodes) {
+  const Line line({tension(100e6)}, {tension(-2e9)});
+  fem::UnitResponses points;
+  points.channels = {"c0"};
+  for (const double share : {0.4, 1.0}) {
+    const auto p = line.at(share * thickness);
+    points.nodes.xyz_m.insert(points.nodes.xyz_m.end(), p.begin(), p.end());
+    ++points.nodes.n;
+    for (const double s : {100e6 - 2e9 * share * thickness, 0., 0., 0., 0., 0.})
+      points.stress_Pa.push_back(s);
+  }
+  Eigen::ArrayXXd one(1, 1);
+  one << 1;
+  const auto own = hot_spot_stresses({line.spot()}, points, history(one)),
+             meshed = hot_spot_stresses({line.spot()}, line.responses, history(one));
+  ASSERT_EQ(own.size(), 1u);
+  EXPECT_NEAR(own[0].von_mises_Pa, meshed[0].von_mises_Pa, 1e-9 * meshed[0].von_mises_Pa);
+  EXPECT_EQ(own[0].near_node, 0u);
+}
+
 // Constant fields exactly; linear ones but for the rounding of the weights: 1.67 x 0.4 - 0.67 x 1.0 = -0.002
 // thicknesses of the slope.
 TEST(HotSpots, LinearFieldIsExtrapolatedToTheToe) {
