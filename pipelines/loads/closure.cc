@@ -167,7 +167,8 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
   if (force_size < round_off * force_made_of_N) force_size = force_made_of_N;
   if (moment_size < round_off * moment_made_of_Nm) moment_size = moment_made_of_Nm;
   for (std::size_t c = 0; c < 3 && values.cols() > 0; ++c) {
-    // Effects that cancel each other leave the rounding of what they are by themselves.
+    // Effects that cancel each other leave the rounding of what they are by themselves, and a load that
+    // nearly balances itself (spin on a mesh that is not quite round) that of what it is made of.
     const auto relative = [](double residual, double own, double common, double made_of) {
       if (residual == 0) return 0.0;
       const double error = residual / (own > 1e-6 * common ? own : common);
@@ -175,9 +176,9 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
       return error > Closure::limit && is_rounding ? residual / made_of : error;
     };
     closure.force[c] = relative(largest(sums.cwiseAbs(), c), closure.force_scale_N[c], force_size,
-                                largest(sizes_of_effects, c));
+                                std::max(largest(sizes_of_effects, c), force_made_of_N));
     closure.moment[c] = relative(largest(sums.cwiseAbs(), c + 3), closure.moment_scale_Nm[c], moment_size,
-                                 largest(sizes_of_effects, c + 3));
+                                 std::max(largest(sizes_of_effects, c + 3), moment_made_of_Nm));
   }
   return closure;
 }
