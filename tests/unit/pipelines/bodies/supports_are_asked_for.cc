@@ -74,7 +74,7 @@ TEST(Supports, AForceOnTheFaceAtTheOriginCloses) {
 }
 
 // Spin on a mesh that is round but for 3e-10 of its first moment: what the support carries of it, 3e-4 N, is
-// off by 2e-9, which is round-off of the 1e5 N that spin is made of. Searches on refined meshes were refused
+// off by 1e-8, which is round-off of the 1e5 N that spin is made of. Searches on refined meshes were refused
 // for that.
 TEST(Supports, SpinThatNearlyBalancesItselfCloses) {
   LoadedBody body;
