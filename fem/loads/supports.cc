@@ -8,7 +8,7 @@
 
 namespace fem {
 
-std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
+std::vector<std::int32_t> free_corners(const Grid& grid) {
   std::vector<std::int32_t> corners;
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     for (const int i : corner_nodes(grid.shape())) corners.push_back(grid.nodes_of(c)[i]);
@@ -19,7 +19,11 @@ std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
       std::remove_if(corners.begin(), corners.end(),
                      [&](auto node) { return std::binary_search(hanging.begin(), hanging.end(), node); }),
       corners.end());
+  return corners;
+}
 
+std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
+  const auto corners = free_corners(grid);
   const auto at = [&](std::int32_t node) { return Eigen::Vector3d(grid.position(node)); };
   const auto farthest = [&](const auto& distance) {
     return *std::max_element(corners.begin(), corners.end(),

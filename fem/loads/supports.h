@@ -11,6 +11,9 @@
 
 namespace fem {
 
+/// Corners of cells that hang on no others, ascending.
+std::vector<std::int32_t> free_corners(const Grid& grid);
+
 /// The six unknowns of a 3-2-1 support: all of a corner A, two of the corner B farthest from A (across AB),
 /// one of the corner C farthest from the line AB (across the plane ABC). Ascending.
 std::array<std::int64_t, 6> choose_supports(const Grid& grid);

@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t rows_at_once = 256;
 
-/// Calls handle(values of a node in one group of lanes, how many there are).
+/// Calls handle(numbers of a node, values) for each group of lanes.
 template <typename T, typename Handle>
-void for_each_group(const Lanes& lanes, const BlockVector<T>& vector, const Handle& handle) {
+void for_each_group(const Lanes& lanes, BlockVector<T>& vector, const Handle& handle) {
   for (const auto& group : lanes.groups)
-    handle(3 * vector.n_nodes() * group.first_lane, 3 * std::size_t(group.width));
+    handle(3 * std::size_t(group.width), vector.data() + 3 * vector.n_nodes() * group.first_lane);
 }
 
 }  // namespace
@@ -25,7 +25,6 @@ HangingInBlocks::HangingInBlocks(const HangingNodes& hanging, const std::vector<
   std::map<std::int32_t, std::vector<std::pair<std::int32_t, double>>> by_master;
   for (std::size_t i = 0; i < hanging.n(); ++i) {
     const auto node = place[std::size_t(hanging.node[i])];
-    node_.push_back(node);
     of_masters_.row.push_back(node);
     for (auto k = hanging.begin[i]; k < hanging.begin[i + 1]; ++k) {
       const auto master = place[std::size_t(hanging.master[k])];
@@ -46,38 +45,37 @@ HangingInBlocks::HangingInBlocks(const HangingNodes& hanging, const std::vector<
 }
 
 template <typename T>
-void HangingInBlocks::set(const Lanes& lanes, BlockVector<T>& vector) const {
-  for_each_group(lanes, vector, [&](std::size_t first, std::size_t n) {
-    T* const values = vector.data() + first;
-    parallel_for(of_masters_.row.size(), rows_at_once, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        T* const to = values + std::size_t(of_masters_.row[i]) * n;
-        std::fill_n(to, n, T(0));
-        for (auto k = of_masters_.begin[i]; k < of_masters_.begin[i + 1]; ++k) {
-          const T* const from = values + std::size_t(of_masters_.column[k]) * n;
-          const T weight = T(of_masters_.weight[k]);
-          for (std::size_t l = 0; l < n; ++l) to[l] += weight * from[l];
-        }
+void HangingInBlocks::add(const Rows& rows, std::size_t n, T* values) {
+  parallel_for(rows.row.size(), rows_at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      T* const to = values + std::size_t(rows.row[i]) * n;
+      for (auto k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+        const T* const from = values + std::size_t(rows.column[k]) * n;
+        const T weight = T(rows.weight[k]);
+        for (std::size_t l = 0; l < n; ++l) to[l] += weight * from[l];
       }
-    });
+    }
+  });
+}
+
+template <typename T>
+void HangingInBlocks::clear_hanging(std::size_t n, T* values) const {
+  for (const auto node : of_masters_.row) std::fill_n(values + std::size_t(node) * n, n, T(0));
+}
+
+template <typename T>
+void HangingInBlocks::set(const Lanes& lanes, BlockVector<T>& vector) const {
+  for_each_group(lanes, vector, [&](std::size_t n, T* values) {
+    clear_hanging(n, values);
+    add(of_masters_, n, values);
   });
 }
 
 template <typename T>
 void HangingInBlocks::move_to_masters(const Lanes& lanes, BlockVector<T>& vector) const {
-  for_each_group(lanes, vector, [&](std::size_t first, std::size_t n) {
-    T* const values = vector.data() + first;
-    parallel_for(of_hanging_.row.size(), rows_at_once, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        T* const to = values + std::size_t(of_hanging_.row[i]) * n;
-        for (auto k = of_hanging_.begin[i]; k < of_hanging_.begin[i + 1]; ++k) {
-          const T* const from = values + std::size_t(of_hanging_.column[k]) * n;
-          const T weight = T(of_hanging_.weight[k]);
-          for (std::size_t l = 0; l < n; ++l) to[l] += weight * from[l];
-        }
-      }
-    });
-    for (const auto node : node_) std::fill_n(values + std::size_t(node) * n, n, T(0));
+  for_each_group(lanes, vector, [&](std::size_t n, T* values) {
+    add(of_hanging_, n, values);
+    clear_hanging(n, values);
   });
 }
 

@@ -15,7 +15,7 @@ public:
   /// @param place  of each node in block vectors
   HangingInBlocks(const HangingNodes& hanging, const std::vector<std::int32_t>& place);
 
-  bool is_empty() const noexcept { return node_.empty(); }
+  bool is_empty() const noexcept { return of_masters_.row.empty(); }
 
   /// Gives every hanging node the value that its masters fix.
   template <typename T>
@@ -34,7 +34,12 @@ private:
     std::vector<double> weight;
   };
 
-  std::vector<std::int32_t> node_;
+  /// Adds the products of the rows to the values of their nodes, of `n` numbers each.
+  template <typename T>
+  static void add(const Rows& rows, std::size_t n, T* values);
+  template <typename T>
+  void clear_hanging(std::size_t n, T* values) const;
+
   Rows of_masters_, of_hanging_;  ///< values at hanging nodes from masters; forces at masters from those
 };
 

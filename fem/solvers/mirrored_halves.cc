@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "fem/loads/supports.h"
+
 namespace fem {
 
 namespace {
@@ -114,19 +116,11 @@ std::vector<std::int64_t> MirroredHalf::held_by_plane(Parity parity) const {
 
 std::vector<std::int64_t> MirroredHalf::supports(Parity parity) const {
   const auto& grid = half_.grid;
-  std::vector<std::int32_t> corners;
-  for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (const int i : corner_nodes(grid.shape())) corners.push_back(grid.nodes_of(c)[i]);
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  const auto& hanging = grid.hanging.node;
+  auto corners = free_corners(grid);
   corners.erase(std::remove_if(corners.begin(), corners.end(),
-                               [&](auto node) {
-                                 return std::binary_search(hanging.begin(), hanging.end(), node) ||
-                                        plane_.holds(half_.node[std::size_t(node)]);
-                               }),
+                               [&](auto node) { return plane_.holds(half_.node[std::size_t(node)]); }),
                 corners.end());
-  // Both rigid motions of a parity look the same on all lines across the plane.
+  // The three rigid motions of a parity are the same all along a line across the plane.
   const int u = (plane_.axis + 1) % 3, v = (plane_.axis + 2) % 3;
   const auto at = [&](std::int32_t node) {
     return Eigen::Vector2d(grid.position(node)[u], grid.position(node)[v]);
@@ -151,12 +145,6 @@ std::vector<std::int64_t> MirroredHalf::supports(Parity parity) const {
   }
   std::sort(unknowns.begin(), unknowns.end());
   return unknowns;
-}
-
-std::vector<double> MirroredHalf::signs_of_vectors() const {
-  std::vector<double> signs(3, 1);
-  signs[std::size_t(plane_.axis)] = -1;
-  return signs;
 }
 
 std::vector<double> MirroredHalf::signs_of_tensors() const {

@@ -59,8 +59,7 @@ public:
     }
   }
 
-  /// Of vectors and of symmetric tensors (xx, yy, zz, xy, yz, xz), of an even displacement.
-  std::vector<double> signs_of_vectors() const;
+  /// Of symmetric tensors (xx, yy, zz, xy, yz, xz) of an even displacement.
   std::vector<double> signs_of_tensors() const;
 
   /// Nodes of the half, in the numbers of the whole.

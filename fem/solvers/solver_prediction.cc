@@ -172,19 +172,11 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
   };
   if (grid.shape().is_tetrahedron()) return take(Solver::direct, "the body has tetrahedra");
   if (grid.degree < 2) return take(Solver::direct, "cells of degree 1 have no coarser polynomials");
-  if (grid.hanging.n() > 0) {
+  const bool is_refined = grid.hanging.n() > 0;
+  if (is_refined && grid.degree > 2) return take(Solver::direct, "cubic cells are refined locally");
+  if (is_refined)
     report.coarse_level = CoarseLevel::factorised;  // aggregates know no hanging nodes
-    if (grid.degree > 2) return take(Solver::direct, "cubic cells are refined locally");
-    report.predicted_iterative =
-        predict_iterative(n_dofs, grid.degree, n_loads, report.largest_aspect, report.coarse_level);
-    if (choice.gave_up_before) {
-      report.gave_up = true;
-      return take(Solver::direct, "the iteration has given up on this mesh and material before");
-    }
-    return choice.solver == Solver::iterative ? take(Solver::iterative, "as asked for")
-                                              : take(Solver::direct, "the mesh is refined locally");
-  }
-  if (report.coarse_level == CoarseLevel::automatic)
+  else if (report.coarse_level == CoarseLevel::automatic)
     report.coarse_level = cheaper_coarse_level(n_dofs, grid.degree, n_loads);
   report.predicted_iterative =
       predict_iterative(n_dofs, grid.degree, n_loads, report.largest_aspect, report.coarse_level);
@@ -192,6 +184,8 @@ SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std
     report.gave_up = true;
     return take(Solver::direct, "the iteration has given up on this mesh and material before");
   }
+  if (is_refined && choice.solver != Solver::iterative)
+    return take(Solver::direct, "the mesh is refined locally");
   if (choice.solver != Solver::automatic) {
     take(choice.solver, "as asked for");
     if (report.predicted().bytes > memory_bytes)

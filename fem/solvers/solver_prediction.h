@@ -60,7 +60,6 @@ bool is_too_expensive(const FactorSize& factor, const SolverReport& report, std:
 /// @param memory_bytes  that are left
 bool may_be_iterated(const Grid& grid, const CellMaterials& materials, const SolverChoice& choice,
                      const SolverReport& report, double memory_bytes);
-inline constexpr int patience = 3;
 
 /// Whether the iterative solver is predicted to save enough to be worth an answer to its tolerance.
 bool saves_time(const SolverReport& report);

@@ -24,6 +24,10 @@ enum class CoarseLevel {
   aggregated,  ///< one more level of multigrid, of rigid bodies: cost grows as the unknowns
 };
 
+/// Times SolverChoice::max_iterations where there is no other way, or who asks has the time: thin walls and
+/// stretched cells take 90 to 200 steps.
+inline constexpr int patience = 3;
+
 struct SolverChoice {
   Solver solver = Solver::automatic;
   double relative_tolerance = 1e-10;  ///< of the iterative solver: |K u - f| / |f| of every load as applied

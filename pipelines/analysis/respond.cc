@@ -55,8 +55,7 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
   auto responses = clock.run("solve", [&] {
     fem::SolverChoice choice;
     choice.solver = body.solver;
-    // Who asks for it has time: walls of thin cells take 90 to 200 steps.
-    if (body.solver == fem::Solver::iterative) choice.max_iterations *= 3;
+    if (body.solver == fem::Solver::iterative) choice.max_iterations *= fem::patience;
     choice.keep_factor = options.keep_factor;
     choice.gave_up_before =
         !options.fresh &&

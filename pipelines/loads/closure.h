@@ -28,9 +28,9 @@ struct Closure {
 std::array<double, 6> wanted_resultant(const fem::UnitLoad& load, const std::vector<RegionMass>& regions);
 
 /// Closure with the resultants of the load vectors as the mesh has them.
-/// A component of the moment is scaled by the sum of |r x F| parts and couples of all channels. Of effects
-/// that cancel each other nearly, rounding alone is more than the limit of what they leave: up to 64
-/// roundings of the effects by themselves are judged by these.
+/// A component of the moment is scaled by the sum of |r x F| parts and couples of all channels. Where effects
+/// cancel each other nearly, or a load (spin) nearly balances itself, rounding alone is more than the limit
+/// of what is left: up to 64 roundings of what they are made of are judged by that.
 /// @param mesh_resultants  K rows: fx, fy, fz, mx, my, mz about the origin for one unit of each channel
 /// @throws std::invalid_argument if the two do not have the same channels, or a body force acts on an unknown
 /// region

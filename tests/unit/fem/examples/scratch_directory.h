@@ -12,7 +12,8 @@ class ScratchDirectory {
 public:
   ScratchDirectory() {
     // mkdtemp fills six letters X at the end.
-    std::string name = (std::filesystem::temp_directory_path() / "millstress-fem-").string() + std::string(6, 'X');
+    std::string name =
+        (std::filesystem::temp_directory_path() / "millstress-fem-").string() + std::string(6, 'X');
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary directory");
     path_ = name;
   }

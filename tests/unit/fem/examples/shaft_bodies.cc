@@ -120,6 +120,22 @@ std::array<double, 6> stress(const fem::UnitResponses& responses, const LoadCase
   return tensor;
 }
 
+double difference(const std::vector<double>& a, const std::vector<double>& b,
+                  const std::vector<std::size_t>& channels, std::size_t n_channels,
+                  std::size_t n_components) {
+  double worst = 0;
+  for (const auto k : channels) {
+    double largest = 0, scale = 0;
+    for (std::size_t i = k * n_components; i < a.size(); i += n_channels * n_components)
+      for (std::size_t c = 0; c < n_components; ++c) {
+        largest = std::max(largest, std::abs(a[i + c] - b[i + c]));
+        scale = std::max(scale, std::abs(b[i + c]));
+      }
+    worst = std::max(worst, largest / scale);
+  }
+  return worst;
+}
+
 fem::SectionResponse section(const fem::UnitResponses& responses, const LoadCase& sum, std::size_t plane) {
   fem::SectionResponse result;
   for (const auto& [channel, factor] : sum) {

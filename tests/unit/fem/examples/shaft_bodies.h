@@ -56,6 +56,11 @@ fem::UnitLoad resultant(const ShaftBody& body, const std::string& port,
 using LoadCase = std::vector<std::pair<std::string, double>>;
 std::array<double, 6> stress(const fem::UnitResponses& responses, const LoadCase& sum, std::size_t node);
 
+/// Of some channels the largest difference of two fields' entries over the largest entry of the second.
+/// @param a, b  n_nodes x n_channels x n_components
+double difference(const std::vector<double>& a, const std::vector<double>& b,
+                  const std::vector<std::size_t>& channels, std::size_t n_channels, std::size_t n_components);
+
 /// Resultant, rim shear, rigid motion of one plane in the load case.
 fem::SectionResponse section(const fem::UnitResponses& responses, const LoadCase& sum, std::size_t plane);
 

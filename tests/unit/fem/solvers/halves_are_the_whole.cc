@@ -34,23 +34,6 @@ std::vector<std::size_t> channels_with_response(const fem::UnitResponses& respon
   return channels;
 }
 
-/// Of these channels the largest difference of entries over the largest entry.
-double difference(const std::vector<double>& a, const std::vector<double>& b,
-                  const std::vector<std::size_t>& channels, std::size_t n_channels,
-                  std::size_t n_components) {
-  double worst = 0;
-  for (const auto k : channels) {
-    double largest = 0, scale = 0;
-    for (std::size_t i = k * n_components; i < a.size(); i += n_channels * n_components)
-      for (std::size_t c = 0; c < n_components; ++c) {
-        largest = std::max(largest, std::abs(a[i + c] - b[i + c]));
-        scale = std::max(scale, std::abs(b[i + c]));
-      }
-    worst = std::max(worst, largest / scale);
-  }
-  return worst;
-}
-
 struct Pair {
   std::shared_ptr<const fem::Model> model;
   fem::UnitResponses halves, whole;
@@ -74,8 +57,9 @@ void expect_same(const Pair& pair) {
   const std::size_t n = whole.channels.size();
   const auto channels = channels_with_response(whole);
   EXPECT_GE(channels.size() + 1, n);
-  EXPECT_LT(difference(halves.displacement_m, whole.displacement_m, channels, n, 3), same_solution);
-  EXPECT_LT(difference(halves.stress_Pa, whole.stress_Pa, channels, n, 6), same_solution);
+  EXPECT_LT(fem_tests::difference(halves.displacement_m, whole.displacement_m, channels, n, 3),
+            same_solution);
+  EXPECT_LT(fem_tests::difference(halves.stress_Pa, whole.stress_Pa, channels, n, 6), same_solution);
   EXPECT_LT(halves.residual, 1e-8);
   EXPECT_LT(halves.support_reaction, 1e-8);
   for (const auto k : channels)
