@@ -388,11 +388,13 @@ std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& resp
   if (impl_->factor && (half != nullptr || !impl_->factor->takes_even_loads_only())) {
     dual = impl_->factor->solve(loads.force);
   } else {
-    SolverReport report = responses.solver;  // by the solver that they have
+    SolverReport report = responses.solver;  // by the solver that they have, with as much patience as any has
+    SolverChoice choice;
+    choice.max_iterations *= patience;
     DirectSolveOptions direct;
     direct.kept = &impl_->factor;
     dual = solve(
-               grid, impl_->cells, impl_->colours, impl_->materials, [&] { return half; }, loads, {},
+               grid, impl_->cells, impl_->colours, impl_->materials, [&] { return half; }, loads, choice,
                [](double, const std::string&) {}, report, impl_->communicator, std::move(direct))
                .displacement;
   }

@@ -116,13 +116,20 @@ public:
 
   const std::vector<std::int64_t>& unknowns() const noexcept { return held_; }
 
+  /// Rows of the supported unknowns, in whose order reaction() takes their forces.
+  Eigen::MatrixXd supported_rows(const Eigen::MatrixXd& vectors) const {
+    const auto n = supports_ ? Eigen::Index(supports_->unknowns().size()) : 0;
+    Eigen::MatrixXd rows(n, vectors.cols());
+    for (Eigen::Index i = 0; i < n; ++i)
+      rows.row(i) = vectors.row(Eigen::Index(supports_->unknowns()[std::size_t(i)]));
+    return rows;
+  }
+
   /// What the supports carry, relative to the largest entries of the loads.
-  double reaction(const Eigen::MatrixXd& force, const Eigen::MatrixXd& displacement,
+  double reaction(const Eigen::MatrixXd& supported_force, const Eigen::MatrixXd& displacement,
                   const BalancedLoads& loads) const {
     if (!supports_) return 0;
-    Eigen::MatrixXd carried = supports_->images(displacement);
-    for (Eigen::Index i = 0; i < carried.rows(); ++i)
-      carried.row(i) -= force.row(Eigen::Index(supports_->unknowns()[std::size_t(i)]));
+    const Eigen::MatrixXd carried = supports_->images(displacement) - supported_force;
     return carried.colwise().lpNorm<Eigen::Infinity>().cwiseQuotient(loads.largest_entry).maxCoeff();
   }
 
@@ -163,8 +170,8 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
   solution.bytes = solution.factor.bytes;
 
   progress(0.75, "solve");
-  const Eigen::MatrixXd force = rows_in_order(loads.force, plan.place);
-  Eigen::MatrixXd free_force = force;
+  Eigen::MatrixXd free_force = rows_in_order(loads.force, plan.place);
+  const Eigen::MatrixXd supported_force = holding.supported_rows(free_force);
   clear_rows(holding.unknowns(), free_force);
   Eigen::MatrixXd displacement = free_force;
   factor.solve_in_order(displacement);
@@ -179,7 +186,7 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
     rest = free_force - multiply(matrix, displacement);
     solution.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
   }
-  solution.support_reaction = holding.reaction(force, displacement, loads);
+  solution.support_reaction = holding.reaction(supported_force, displacement, loads);
   solution.displacement = rows_of_mesh(displacement, plan.place);
   if (options.kept != nullptr)
     *options.kept =

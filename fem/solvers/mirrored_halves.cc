@@ -10,6 +10,7 @@ namespace fem {
 
 namespace {
 
+/// Of a load: a part of less is none, a hundredth of the residual that the solver accepts.
 constexpr double no_part = 1e-2 * acceptable_residual;
 
 std::vector<std::int32_t> cells_above(const Grid& whole, const MirrorPlane& plane) {
@@ -30,6 +31,21 @@ double sign_of(Parity parity, bool across) {
 Eigen::MatrixXd columns_of(const Eigen::MatrixXd& all, const std::vector<Eigen::Index>& which) {
   Eigen::MatrixXd result(all.rows(), Eigen::Index(which.size()));
   for (std::size_t k = 0; k < which.size(); ++k) result.col(Eigen::Index(k)) = all.col(which[k]);
+  return result;
+}
+
+/// Of the loads that have a part of one parity: which they are, and these parts on the half.
+struct PartLoads {
+  std::vector<Eigen::Index> columns;
+  Eigen::MatrixXd force;
+};
+
+PartLoads part_loads(const MirroredHalf& half, const BalancedLoads& loads, Parity parity) {
+  const Eigen::MatrixXd all = half.part(loads.force, parity);
+  PartLoads result;
+  for (Eigen::Index k = 0; k < all.cols(); ++k)
+    if (all.col(k).norm() > no_part * loads.norm[k]) result.columns.push_back(k);
+  result.force = columns_of(all, result.columns);
   return result;
 }
 
@@ -154,34 +170,25 @@ std::vector<double> MirroredHalf::signs_of_tensors() const {
   return signs;
 }
 
-std::array<std::vector<Eigen::Index>, 2> loads_with_parts(const MirroredHalf& half,
-                                                          const BalancedLoads& loads) {
-  std::array<std::vector<Eigen::Index>, 2> result;
-  for (const auto parity : {Parity::even, Parity::odd}) {
-    const Eigen::MatrixXd part = half.part(loads.force, parity);
-    for (Eigen::Index k = 0; k < part.cols(); ++k)
-      if (part.col(k).norm() > no_part * loads.norm[k]) result[std::size_t(parity)].push_back(k);
-  }
-  // What has no part at all (a load that its own balance takes away) belongs somewhere.
-  if (result[0].empty() && result[1].empty())
-    for (Eigen::Index k = 0; k < loads.force.cols(); ++k) result[0].push_back(k);
-  return result;
-}
-
 std::optional<Solution> solve_by_halves(const MirroredHalf& half, const CellMaterials& materials,
                                         const BalancedLoads& loads, const StepReport& progress,
                                         DirectSolveOptions options) {
-  const auto columns = loads_with_parts(half, loads);
-  const bool is_both = !columns[0].empty() && !columns[1].empty();
+  std::array<PartLoads, 2> parts{part_loads(half, loads, Parity::even), part_loads(half, loads, Parity::odd)};
+  // What has no part at all (loads that their own balance takes away) is even, too.
+  if (parts[0].columns.empty() && parts[1].columns.empty()) {
+    parts[0].columns.push_back(0);
+    parts[0].force = half.part(loads.force.leftCols(1), Parity::even);
+  }
+  const bool is_both = !parts[0].columns.empty() && !parts[1].columns.empty();
   const double n_parts = is_both ? 2 : 1;
   Solution solution;
   solution.displacement = Eigen::MatrixXd::Zero(loads.force.rows(), loads.force.cols());
   std::array<std::shared_ptr<const FactorisedBody>, 2> kept;
   for (const auto parity : {Parity::even, Parity::odd}) {
-    const auto& own = columns[std::size_t(parity)];
+    const auto& own = parts[std::size_t(parity)].columns;
     if (own.empty()) continue;
     BalancedLoads of_half;
-    of_half.force = columns_of(half.part(loads.force, parity), own);
+    of_half.force = std::move(parts[std::size_t(parity)].force);
     of_half.norm = columns_of(loads.norm, own);
     of_half.largest_entry = columns_of(loads.largest_entry, own);
     of_half.clamped = half.held_by_plane(parity);
@@ -213,7 +220,7 @@ std::optional<Solution> solve_by_halves(const MirroredHalf& half, const CellMate
     solution.factor.bytes += part->factor.bytes;
     solution.bytes += part->bytes;
   }
-  solution.is_even = columns[1].empty();
+  solution.is_even = parts[1].columns.empty();
   if (options.kept != nullptr) *options.kept = std::make_shared<FactorisedHalves>(half, std::move(kept));
   return solution;
 }

@@ -72,12 +72,7 @@ private:
   std::vector<std::vector<std::int32_t>> colours_;
 };
 
-/// Which loads have a part of each parity, by Parity. Less than a hundredth of the residual that the solver
-/// accepts is none.
-std::array<std::vector<Eigen::Index>, 2> loads_with_parts(const MirroredHalf& half,
-                                                          const BalancedLoads& loads);
-
-/// As solve_directly, one factorisation for each parity that the loads have.
+/// As solve_directly, one factorisation for each parity that the loads have a part of.
 /// @param options  its plan, if any, of half.grid(); the kept factor leaves out what has a parity that no
 /// load has
 std::optional<Solution> solve_by_halves(const MirroredHalf& half, const CellMaterials& materials,
