@@ -101,19 +101,32 @@ void tell(const Seen& seen, const char* kind) {
   EXPECT_GT(seen.n_hanging, 100u);
 }
 
+/// The first mesh that mesher and solver take, as searches begin: two cells on a quarter of a fillet are too
+/// few where a groove is hardly longer than its fillets, and eight sectors where a thick segment is far off
+/// the axis.
+meshes::BodyMesh first_mesh(const meshes::Shaft& shaft, bool lean, const std::filesystem::path& file) {
+  meshes::ShaftMeshControl control;
+  for (const auto& [n_cells, n_sectors] : {std::pair{2, 8}, {4, 8}, {4, 12}, {6, 16}}) try {
+      control.cells_per_fillet_quarter = n_cells;
+      control.n_sectors = n_sectors;
+      control.lean = lean && n_cells == 2;
+      auto mesh = meshes::build_shaft(shaft, control, file);
+      fem::read_grid(fem_tests::steel_body(mesh));
+      return mesh;
+    } catch (const meshes::MeshRefused&) {
+    } catch (const fem::MeshUnusable&) {
+    }
+  return meshes::build_shaft(shaft, {}, file);
+}
+
 void examine_shafts(const std::function<meshes::Shaft(std::mt19937&)>& draw, const char* kind) {
   const fem_tests::ScratchDirectory scratch;
   std::mt19937 random(20261123);
-  meshes::ShaftMeshControl control;
-  control.cells_per_fillet_quarter = 2;
-  control.n_sectors = 8;
-  control.min_scaled_jacobian = 0.01;  // refuse nothing: what is cut is judged here
   Seen seen;
   for (int i = 0; i < n_refined_bodies(); ++i) {
     const auto shaft = draw(random);
-    control.lean = i % 2 == 0;
     SCOPED_TRACE(std::to_string(i) + ": " + text(shaft));
-    ASSERT_NO_THROW(examine(meshes::build_shaft(shaft, control, scratch.path() / "shaft.msh"), random, seen));
+    ASSERT_NO_THROW(examine(first_mesh(shaft, i % 2 == 0, scratch.path() / "shaft.msh"), random, seen));
   }
   tell(seen, kind);
 }
