@@ -1,7 +1,10 @@
 #include "tests/benchmarks/operator_comparison.h"
 
+#include <algorithm>
 #include <cstdio>
-#include <random>
+#include <functional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "fem/mesh/mesh_reader.h"
@@ -14,7 +17,12 @@ namespace measure {
 
 namespace {
 
-constexpr int n_loads = 12, n_calls = 9;
+/// Twelve as in the solvers' comparison, where half of the second AVX-512 register is empty; sixteen fill
+/// two.
+constexpr int n_loads = 12, n_full_loads = 16, n_rounds = 40, n_calls = 4;
+/// Of the largest entry. Rounding: MatrixFree takes Jacobians for equal within 1024 eps = 2.3e-13 of their
+/// size, and batches of other widths find others alike.
+constexpr double same_product = 1e-12;
 
 /// Rows of the whole matrix, and the product with vectors that lie side by side.
 struct Csr {
@@ -54,14 +62,53 @@ struct Csr {
 };
 
 template <typename T>
-double ours_s(const fem::Grid& grid, const fem::Lame& elastic) {
-  const auto order = fem::order_cells(grid);
-  const fem::ElasticOperator<T> stiffness(grid, order, elastic, fem::cell_metric(grid, order));
-  const auto lanes = fem::spread_over_lanes<T>(n_loads, fem::kernel::kernels_for_this_machine());
-  fem::BlockVector<T> x(grid.n_nodes, lanes), y(grid.n_nodes, lanes);
-  fem::to_block(Eigen::MatrixXd::Random(3 * grid.n_nodes, n_loads).eval(), 0, order.node_place, lanes, x);
-  auto copies = stiffness.work_space(lanes);
-  return smallest_cpu_s([&] { stiffness.apply(lanes, x, y, copies); }, n_calls);
+struct Ours {
+  Ours(const fem::Grid& grid, const fem::Lame& elastic, const Eigen::MatrixXd& columns)
+      : order(fem::order_cells(grid)),
+        stiffness(grid, order, elastic, fem::cell_metric(grid, order)),
+        lanes(
+            fem::spread_over_lanes<T>(std::size_t(columns.cols()), fem::kernel::kernels_for_this_machine())),
+        x(grid.n_nodes, lanes),
+        y(grid.n_nodes, lanes),
+        copies(stiffness.work_space(lanes)) {
+    fem::to_block(columns, 0, order.node_place, lanes, x);
+  }
+  void apply() { stiffness.apply(lanes, x, y, copies); }
+
+  fem::CellOrder order;
+  fem::ElasticOperator<T> stiffness;
+  fem::Lanes lanes;
+  fem::BlockVector<T> x, y, copies;
+};
+
+/// Smallest CPU seconds of calls that take turns: other work on the machine meets all alike.
+std::vector<double> in_turns_s(const std::vector<std::function<void()>>& calls) {
+  std::vector<double> smallest(calls.size(), 1e300);
+  for (int round = 0; round < n_rounds; ++round)
+    for (std::size_t i = 0; i < calls.size(); ++i)
+      smallest[i] = std::min(smallest[i], smallest_cpu_s(calls[i], n_calls));
+  return smallest;
+}
+
+/// MatrixFree's y for the first load.
+/// @param unknowns  number in the product of each of ours
+Eigen::VectorXd first_load(MatrixFreeProduct& product, const std::vector<std::size_t>& unknowns,
+                           const Eigen::MatrixXd& x) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i) product.x()[unknowns[i]] = x(Eigen::Index(i), 0);
+  product.apply();
+  Eigen::VectorXd y(x.rows());
+  for (std::size_t i = 0; i < unknowns.size(); ++i) y[Eigen::Index(i)] = product.y()[unknowns[i]];
+  return y;
+}
+
+/// @throws std::runtime_error if they are too far apart
+double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const std::string& what) {
+  const double apart = (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+  if (apart < same_product) return apart;
+  char text[160];
+  std::snprintf(text, sizeof text, "K x of %s differ by %.1e of the largest entry: at most %.0e is rounding",
+                what.c_str(), apart, same_product);
+  throw std::runtime_error(text);
 }
 
 double csr_s(const fem::Grid& grid, const fem::Material& material) {
@@ -80,28 +127,52 @@ double csr_s(const fem::Grid& grid, const fem::Material& material) {
 void compare_operators(const char* name, const fem::Body& body, bool distorted) {
   const OneThread alone;
   auto grid = fem::read_grid(body);
-  if (distorted) {
-    std::mt19937 random(1);
-    const double size = grid.position(grid.nodes_of(0)[2])[2] - grid.position(grid.nodes_of(0)[0])[2];
-    std::uniform_real_distribution<double> shift(-0.01 * std::abs(size), 0.01 * std::abs(size));
-    for (auto& x : grid.xyz_m) x += shift(random);
-  }
+  const DealiiOperator other(body, distorted);
+  other.place_nodes(grid);
+  const auto unknowns = other.unknowns_of(grid);
   const auto elastic = fem::lame(body.material);
-  const double ours = ours_s<double>(grid, elastic), in_float = ours_s<float>(grid, elastic);
-  int n_lanes = 0;
-  double dealii = 0;
-  {
-    DealiiOperator other(body, distorted);
-    n_lanes = other.n_lanes();
-    dealii = n_loads * smallest_cpu_s([&] { other.apply(); }, n_calls);
-  }
-  const double sparse = csr_s(grid, body.material), rate = 3e-6 * double(grid.n_nodes) * n_loads;
-  std::printf("K x, %s: %zu unknowns, one thread, million unknowns/s per load case\n", name,
-              3 * grid.n_nodes);
-  std::printf(
-      "  ours, %d load cases %.0f (in float %.0f); MatrixFree, %d lane(s) %.1f; CSR, %d vectors %.1f\n",
-      n_loads, rate / ours, rate / in_float, n_lanes, rate / dealii, n_loads, rate / sparse);
-  std::printf("  ratio: %.2f of MatrixFree, %.2f of CSR\n", dealii / ours, sparse / ours);
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Random(Eigen::Index(unknowns.size()), n_full_loads);
+  const Eigen::MatrixXd x = all.leftCols(n_loads);
+  Ours<double> ours(grid, elastic, x);
+  Ours<float> in_float(grid, elastic, x);
+  Ours<double> full(grid, elastic, all);
+  Ours<float> full_in_float(grid, elastic, all);
+  auto products = other.wide();
+  products.insert(products.begin(), other.one_lane());
+
+  ours.apply();
+  Eigen::MatrixXd y(x.rows(), x.cols());
+  fem::from_block(ours.y, ours.lanes, ours.order.node_place, 0, y);
+  const auto with_one_lane = first_load(*products[0], unknowns, x);
+  const double from_ours = difference(with_one_lane, y.col(0), "MatrixFree with one lane and ours");
+  double from_one_lane = 0;
+  for (std::size_t i = 1; i < products.size(); ++i)
+    from_one_lane = std::max(
+        from_one_lane,
+        difference(first_load(*products[i], unknowns, x), with_one_lane,
+                   "MatrixFree with one lane and " + std::to_string(products[i]->n_lanes()) + " lanes"));
+
+  std::vector<std::function<void()>> calls{[&] { ours.apply(); }, [&] { in_float.apply(); },
+                                           [&] { full.apply(); }, [&] { full_in_float.apply(); }};
+  for (const auto& product : products) calls.emplace_back([&p = *product] { p.apply(); });
+  auto seconds = in_turns_s(calls);
+  for (int i = 0; i < 4; ++i) seconds[i] /= i < 2 ? n_loads : n_full_loads;  // per load, as MatrixFree's
+  const auto rate = [&](double per_load_s) { return 1e-6 * double(unknowns.size()) / per_load_s; };
+  const auto print_other = [&](const std::string& what, double per_load_s) {
+    std::printf("  %-31s %6.1f; ours is %.2f and %.2f times as fast\n", what.c_str(), rate(per_load_s),
+                per_load_s / seconds[0], per_load_s / seconds[2]);
+  };
+  std::printf("K x, %s: %zu unknowns, one thread, million unknowns/s per load case\n", name, unknowns.size());
+  std::printf("  ours, %d and %d load cases      %6.1f and %.1f (in float %.1f and %.1f)\n", n_loads,
+              n_full_loads, rate(seconds[0]), rate(seconds[2]), rate(seconds[1]), rate(seconds[3]));
+  for (std::size_t i = 0; i < products.size(); ++i)
+    print_other("deal.II's MatrixFree, " + std::to_string(products[i]->n_lanes()) + " lane(s)",
+                seconds[4 + i]);
+  if (products.back()->n_lanes() < 8)
+    std::printf("  MatrixFree with eight lanes: not here, the machine has no AVX-512\n");
+  print_other("CSR, " + std::to_string(n_loads) + " vectors", csr_s(grid, body.material) / n_loads);
+  std::printf("  largest differences of K x: one lane from ours %.1e, more lanes from one %.1e\n", from_ours,
+              from_one_lane);
   std::fflush(stdout);
 }
 

@@ -2,6 +2,8 @@
 /// iteratively, and the operator against deal.II's and a sparse matrix. Ratios of one run.
 ///   solver_benchmarks <shaft.toml> [largest number of unknowns, default 700000] [picture.svg]
 ///       [largest number for the direct solver, default: what fits into memory]
+///   solver_benchmarks <shaft.toml> operator
+/// The operator alone.
 ///   solver_benchmarks <shaft.toml> fit [largest number of unknowns, default 700000]
 /// Twelve load cases at the same sizes, and with stretched cells at the smaller ones: the constants of
 /// fem/values/cost_constants.h, fitted anew.
@@ -75,25 +77,32 @@ void fit(const char* scene_file, std::size_t most, const std::filesystem::path& 
   measure::print_fit(rows, n_loads);
 }
 
-void run(const char* scene_file, std::size_t most, std::size_t most_direct,
-         const std::filesystem::path& picture, const std::filesystem::path& directory) {
+void compare_operators(const char* scene_file, const std::filesystem::path& directory) {
   const auto scene = pipelines::read_scene(scene_file);
   const auto body_of = [&](const pipelines::BodyScene& part) {
-    const auto mesh = pipelines::build_mesh(part, directory / "shaft.msh");
-    return std::pair(pipelines::to_fem_body(mesh, part.material), measure::seat_loads(mesh));
+    return pipelines::to_fem_body(pipelines::build_mesh(part, directory / "shaft.msh"), part.material);
   };
-  const auto middle = body_of(extruded(measure::refined_shaft(scene, {4, 28}))).first;
+  const auto middle = body_of(extruded(measure::refined_shaft(scene, {4, 28})));
   measure::compare_operators("extruded", middle, false);
   measure::compare_operators("distorted", middle, true);
-  const auto whole = body_of(measure::refined_shaft(scene, {4, 28})).first;
+  const auto whole = body_of(measure::refined_shaft(scene, {4, 28}));
   measure::compare_operators("stepped shaft with fillets", whole, false);
+}
 
+void run(const char* scene_file, std::size_t most, std::size_t most_direct,
+         const std::filesystem::path& picture, const std::filesystem::path& directory) {
+  compare_operators(scene_file, directory);
+
+  const auto scene = pipelines::read_scene(scene_file);
   measure::print_heading();
   std::vector<measure::SolverRow> rows;
   for (const auto& size : sizes) {
     if (size.n_dofs > most) break;
-    const auto [body, loads] = body_of(measure::refined_shaft(scene, size.refinement));
-    rows.push_back(measure::compare_solvers(body, loads, size.n_dofs < small ? n_repeats_small : 1,
+    const auto part = measure::refined_shaft(scene, size.refinement);
+    const auto mesh = pipelines::build_mesh(part, directory / "shaft.msh");
+    const auto loads = measure::seat_loads(mesh);
+    rows.push_back(measure::compare_solvers(pipelines::to_fem_body(mesh, part.material), loads,
+                                            size.n_dofs < small ? n_repeats_small : 1,
                                             size.n_dofs <= most_direct));
     measure::print_row(rows.back(), loads.size());
   }
@@ -107,7 +116,8 @@ int main(int argc, char** argv) {
   if (argc < 2) {
     std::fprintf(stderr,
                  "usage: solver_benchmarks <shaft.toml> [largest number of unknowns] [picture.svg] [largest "
-                 "for the direct solver]\n       solver_benchmarks <shaft.toml> fit [largest number of "
+                 "for the direct solver]\n       solver_benchmarks <shaft.toml> operator\n       "
+                 "solver_benchmarks <shaft.toml> fit [largest number of "
                  "unknowns]\n       solver_benchmarks <vibratory_mill.toml> halves\n");
     return 2;
   }
@@ -119,6 +129,8 @@ int main(int argc, char** argv) {
   try {
     if (argc > 2 && std::string(argv[2]) == "fit")
       fit(argv[1], argc > 3 ? std::size_t(std::atof(argv[3])) : most_when_unasked, directory);
+    else if (argc > 2 && std::string(argv[2]) == "operator")
+      compare_operators(argv[1], directory);
     else if (argc > 2 && std::string(argv[2]) == "halves")
       measure::compare_halves(argv[1], directory);
     else
