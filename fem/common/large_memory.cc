@@ -24,16 +24,54 @@ std::mutex& lock() {
   return mutex;
 }
 
-/// Blocks that were given back, by rising size.
+/// Blocks that were given back, by rising size. No two of them touch.
 std::vector<Block>& kept() {
   static std::vector<Block> blocks;
   return blocks;
 }
 
+std::size_t sum_of_kept() {
+  std::size_t sum = 0;
+  for (const Block& block : kept()) sum += block.bytes;
+  return sum;
+}
+
+/// Bytes that arrays have at the moment, and the most that they have had at once.
+struct InUse {
+  std::size_t now = 0, most = 0;
+};
+
+InUse& in_use() {
+  static InUse bytes;
+  return bytes;
+}
+
+/// Joined with the kept blocks on both sides, which it was cut from or grown beside.
 void keep(Block block) {
   auto& blocks = kept();
+  for (auto other = blocks.begin(); other != blocks.end();) {
+    const bool is_before = other->begin + other->bytes == block.begin;
+    if (!is_before && block.begin + block.bytes != other->begin) {
+      ++other;
+      continue;
+    }
+    block = {is_before ? other->begin : block.begin, block.bytes + other->bytes};
+    other = blocks.erase(other);
+  }
   const auto is_smaller = [](const Block& a, const Block& b) { return a.bytes < b.bytes; };
   blocks.insert(std::upper_bound(blocks.begin(), blocks.end(), block, is_smaller), block);
+}
+
+/// Arrays of ever other sizes leave pieces that fit none. All that is kept and in use together is never more
+/// than was in use at once: the smallest pieces go.
+void drop_what_is_too_much() {
+  auto& blocks = kept();
+  std::size_t sum = in_use().now + sum_of_kept();
+  while (!blocks.empty() && sum > in_use().most) {
+    sum -= blocks.front().bytes;
+    munmap(blocks.front().begin, blocks.front().bytes);
+    blocks.erase(blocks.begin());
+  }
 }
 
 void unmap_kept() {
@@ -95,28 +133,32 @@ void* take(std::size_t bytes) {
     block = fresh(bytes);
   }
   if (block.begin == nullptr) throw std::bad_alloc();
+  in_use().now += bytes;
+  in_use().most = std::max(in_use().most, in_use().now);
+  drop_what_is_too_much();
   return block.begin;
 }
 
 void give_back(void* memory, std::size_t bytes) noexcept {
   const std::lock_guard<std::mutex> guard(lock());
+  bytes = whole_pages(bytes);
+  in_use().now -= bytes;
   try {
-    keep({static_cast<char*>(memory), whole_pages(bytes)});
+    keep({static_cast<char*>(memory), bytes});
   } catch (const std::bad_alloc&) {  // no place in the list
-    munmap(memory, whole_pages(bytes));
+    munmap(memory, bytes);
   }
 }
 
 std::size_t bytes_kept() {
   const std::lock_guard<std::mutex> guard(lock());
-  std::size_t sum = 0;
-  for (const Block& block : kept()) sum += block.bytes;
-  return sum;
+  return sum_of_kept();
 }
 
 void release_kept() {
   const std::lock_guard<std::mutex> guard(lock());
   unmap_kept();
+  in_use().most = in_use().now;
 }
 
 }  // namespace fem::large_memory

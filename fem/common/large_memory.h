@@ -1,5 +1,6 @@
 /// Arrays of hundreds of megabytes whose pages stay with the process when they end, for the next ones: a
-/// virtual machine takes two seconds to find a gigabyte anew.
+/// virtual machine takes two seconds to find a gigabyte anew. What is kept and in use together is never more
+/// than was in use at once.
 #pragma once
 
 #include <cstddef>

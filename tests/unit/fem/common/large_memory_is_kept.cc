@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <random>
 #include <thread>
 
 #include "fem/common/large_memory.h"
@@ -40,6 +41,7 @@ TEST(LargeMemory, IsKeptForTheNextArray) {
     EXPECT_EQ(fem::large_memory::bytes_kept(), 0u);
     EXPECT_TRUE(is_counted(second) && is_counted(third));
   }
+  EXPECT_EQ(static_cast<const void*>(counted(64 * megabyte).data()), place);  // of both, joined
   fem::release_free_memory();
   EXPECT_EQ(fem::large_memory::bytes_kept(), 0u);
 }
@@ -52,6 +54,33 @@ TEST(LargeMemory, Grows) {
     EXPECT_EQ(fem::large_memory::bytes_kept(), 0u) << megabytes;
   }
   fem::large_memory::release_kept();
+}
+
+// A search or a sweep asks for arrays of ever other sizes, some beside others: pieces that fit none must not
+// pile up.
+TEST(LargeMemory, IsNeverMoreThanWasInUseAtOnce) {
+  using namespace fem::large_memory;
+  release_kept();
+  std::mt19937 random(20261126);
+  std::vector<std::pair<void*, std::size_t>> arrays;
+  std::size_t in_use = 0, most = 0;
+  for (int step = 0; step < 2000; ++step) {
+    if (arrays.size() < 2 || (arrays.size() < 6 && random() % 2 == 0)) {
+      const std::size_t bytes = 2 * megabyte * (8 + random() % 100);  // whole huge pages
+      arrays.emplace_back(take(bytes), bytes);
+      in_use += bytes;
+      most = std::max(most, in_use);
+    } else {
+      const auto ended = arrays.begin() + random() % arrays.size();
+      give_back(ended->first, ended->second);
+      in_use -= ended->second;
+      arrays.erase(ended);
+    }
+    ASSERT_LE(in_use + bytes_kept(), most) << step;
+  }
+  for (const auto& [memory, bytes] : arrays) give_back(memory, bytes);
+  EXPECT_GT(bytes_kept(), most / 2);
+  release_kept();
 }
 
 TEST(LargeMemory, OfSmallArraysIsNot) {
