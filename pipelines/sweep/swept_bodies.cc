@@ -80,7 +80,14 @@ void SweptBodies::run(const std::vector<std::size_t>& points, std::vector<SweepR
     if (!rows[p].refused.empty()) continue;
     rows[p].refused = design_bodies(p, clock);
     if (!rows[p].refused.empty()) continue;
-    wait.push_back(p);
+    if (!has_a_mesh_of_its_own(p)) {
+      wait.push_back(p);
+      continue;
+    }
+    Scratch alone;
+    if (!clock.run("points", [&] { return body_row(p, rows[p], alone); }))
+      rows[p] = row_once_solved(p, clock);
+    forget_meshes_of(p);
   }
   std::vector<char> is_uncovered(wait.size(), 0);
   std::vector<Scratch> scratch{std::size_t(threads(options_.n_threads))};
@@ -100,6 +107,25 @@ SweepRow SweptBodies::row_once_solved(std::size_t p, StageClock& clock) {
   if (row.refused.empty() && !body_row(p, row, scratch))
     row.refused = "its loads do not fit the responses that were solved for it";
   return row;
+}
+
+bool SweptBodies::is_shared(std::size_t p, std::size_t b) const {
+  const auto shape_at = [&](std::size_t q) { return bodies_[b].solutions[of_point_[q][b]].shape; };
+  for (std::size_t q = 0; q < of_point_.size(); ++q)
+    if (q != p && !of_point_[q].empty() && shape_at(q) == shape_at(p)) return true;
+  return false;
+}
+
+bool SweptBodies::has_a_mesh_of_its_own(std::size_t p) const {
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (!is_shared(p, b)) return true;
+  return false;
+}
+
+/// Unit responses are hundreds of megabytes: what serves one point alone does not outlive its row.
+void SweptBodies::forget_meshes_of(std::size_t p) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (!is_shared(p, b)) solution_of(p, b).designs.clear();
 }
 
 /// Which of a point's bodies is at fault a refusal does not say: it holds for points that combine the same.
@@ -188,8 +214,10 @@ bool SweptBodies::needs_solution(std::size_t p, std::size_t b, const std::vector
                       [&](const auto& design) { return design->covers(loaded.body_loads[b]); });
 }
 
-/// @return false if a body's responses are not those of the point's loads
+/// @return false if a body's responses are not those of the point's loads, or are forgotten
 bool SweptBodies::body_row(std::size_t p, SweepRow& row, Scratch& scratch) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (solution_of(p, b).designs.empty()) return false;
   bool covered = true;
   row.refused = point_refusal([&] {
     Scene scene = read_(p);

@@ -33,7 +33,8 @@ public:
   const std::vector<std::size_t>& combination(std::size_t p) const { return of_point_[p]; }
 
   /// Fills rows[p] of all points. Points whose bodies are solved run at the same time; the others wait for a
-  /// design.
+  /// design. One with a mesh that no other point has runs as soon as that is solved, and the mesh is
+  /// forgotten.
   void run(const std::vector<std::size_t>& points, std::vector<SweepRow>& rows, StageClock& clock);
 
   /// Searches meshes for points that are known less well than a tolerance, the worst first; others that are
@@ -56,6 +57,10 @@ private:
   using Scratch = std::map<const BodyDesign*, BodyAnalysis>;
 
   Solution& solution_of(std::size_t p, std::size_t b) { return bodies_[b].solutions[of_point_[p][b]]; }
+  /// Whether another point has the same mesh of a body.
+  bool is_shared(std::size_t p, std::size_t b) const;
+  bool has_a_mesh_of_its_own(std::size_t p) const;
+  void forget_meshes_of(std::size_t p);
   std::string design_bodies(std::size_t p, StageClock& clock);
   const BodyDesign* searched_design(std::size_t b, std::size_t i_shape) const;
   void solve_for(std::size_t p, StageClock& clock);
