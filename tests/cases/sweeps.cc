@@ -2,6 +2,8 @@
 #include "tests/cases/program.h"
 #include "tests/cases/small_shaft.h"
 
+#include <sys/resource.h>
+
 #include <fstream>
 #include <map>
 #include <regex>
@@ -88,6 +90,23 @@ TEST(Sweeps, PointsOfAShaftAreRunsByThemselves) {
                 "--vary 'machine.charge.mass = 16..20 kg' --design latin-hypercube --points 2");
   ASSERT_EQ(points.size(), 2u);
   for (const auto& point : points) expect_same(point, alone(directory.path, "mill.toml", point), "shaft");
+}
+
+// Responses of one design are a hundred megabytes here. With all six kept it would be 1.6 times as much.
+TEST(Sweeps, OfManyDesignsTakeTheMemoryOfFew) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  const auto peak_kilobytes = [&](int n_designs) {
+    const auto points = points_of(
+        directory.path, "mill.toml --tolerance none --fresh --vary 'shaft.contour[1].length = 40..60 mm / " +
+                            std::to_string(n_designs) + "'");
+    EXPECT_EQ(points.size(), std::size_t(n_designs));
+    rusage children{};
+    getrusage(RUSAGE_CHILDREN, &children);
+    return double(children.ru_maxrss);  // of the largest so far
+  };
+  const double of_two = peak_kilobytes(2), of_six = peak_kilobytes(6);
+  EXPECT_LT(of_six, 1.15 * of_two);  // meshes of other lengths differ
 }
 
 // A beam writes no mesh, and a sweep no results of its points.
