@@ -92,7 +92,7 @@ TEST(Sweeps, PointsOfAShaftAreRunsByThemselves) {
   for (const auto& point : points) expect_same(point, alone(directory.path, "mill.toml", point), "shaft");
 }
 
-// Responses of one design are a hundred megabytes here. With all six kept it would be 1.6 times as much.
+// With the responses of all six kept it would be 1.3 times as much.
 TEST(Sweeps, OfManyDesignsTakeTheMemoryOfFew) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));
