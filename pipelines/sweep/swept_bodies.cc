@@ -80,14 +80,14 @@ void SweptBodies::run(const std::vector<std::size_t>& points, std::vector<SweepR
     if (!rows[p].refused.empty()) continue;
     rows[p].refused = design_bodies(p, clock);
     if (!rows[p].refused.empty()) continue;
-    if (!has_a_mesh_of_its_own(p)) {
+    if (!has_a_solution_of_its_own(p)) {
       wait.push_back(p);
       continue;
     }
     Scratch alone;
     if (!clock.run("points", [&] { return body_row(p, rows[p], alone); }))
       rows[p] = row_once_solved(p, clock);
-    forget_meshes_of(p);
+    forget_solutions_of(p);
   }
   std::vector<char> is_uncovered(wait.size(), 0);
   std::vector<Scratch> scratch{std::size_t(threads(options_.n_threads))};
@@ -109,23 +109,30 @@ SweepRow SweptBodies::row_once_solved(std::size_t p, StageClock& clock) {
   return row;
 }
 
-bool SweptBodies::is_shared(std::size_t p, std::size_t b) const {
-  const auto shape_at = [&](std::size_t q) { return bodies_[b].solutions[of_point_[q][b]].shape; };
-  for (std::size_t q = 0; q < of_point_.size(); ++q)
-    if (q != p && !of_point_[q].empty() && shape_at(q) == shape_at(p)) return true;
+bool SweptBodies::serves_others(std::size_t p, std::size_t b) const {
+  const auto& solutions = bodies_[b].solutions;
+  const auto own = of_point_[p][b];
+  const auto i_shape = solutions[own].shape;
+  const auto& designs = solutions[own].designs;
+  const bool has_searched_mesh = designs.empty() || searched_design(b, i_shape) == designs.front().get();
+  for (std::size_t q = 0; q < of_point_.size(); ++q) {
+    if (q == p || of_point_[q].empty()) continue;
+    const auto other = of_point_[q][b];
+    if (other == own || (has_searched_mesh && solutions[other].shape == i_shape)) return true;
+  }
   return false;
 }
 
-bool SweptBodies::has_a_mesh_of_its_own(std::size_t p) const {
+bool SweptBodies::has_a_solution_of_its_own(std::size_t p) const {
   for (std::size_t b = 0; b < bodies_.size(); ++b)
-    if (!is_shared(p, b)) return true;
+    if (!serves_others(p, b)) return true;
   return false;
 }
 
 /// Unit responses are hundreds of megabytes: what serves one point alone does not outlive its row.
-void SweptBodies::forget_meshes_of(std::size_t p) {
+void SweptBodies::forget_solutions_of(std::size_t p) {
   for (std::size_t b = 0; b < bodies_.size(); ++b)
-    if (!is_shared(p, b)) solution_of(p, b).designs.clear();
+    if (!serves_others(p, b)) solution_of(p, b).designs.clear();
 }
 
 /// Which of a point's bodies is at fault a refusal does not say: it holds for points that combine the same.

@@ -57,10 +57,10 @@ private:
   using Scratch = std::map<const BodyDesign*, BodyAnalysis>;
 
   Solution& solution_of(std::size_t p, std::size_t b) { return bodies_[b].solutions[of_point_[p][b]]; }
-  /// Whether another point has the same mesh of a body.
-  bool is_shared(std::size_t p, std::size_t b) const;
-  bool has_a_mesh_of_its_own(std::size_t p) const;
-  void forget_meshes_of(std::size_t p);
+  /// Whether another point has a point's solution of a body, or would be solved on its mesh.
+  bool serves_others(std::size_t p, std::size_t b) const;
+  bool has_a_solution_of_its_own(std::size_t p) const;
+  void forget_solutions_of(std::size_t p);
   std::string design_bodies(std::size_t p, StageClock& clock);
   const BodyDesign* searched_design(std::size_t b, std::size_t i_shape) const;
   void solve_for(std::size_t p, StageClock& clock);
