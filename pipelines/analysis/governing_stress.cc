@@ -43,7 +43,11 @@ ErrorBudget& errors_of_governing(BodyAnalysis& analysis) {
 }
 
 std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone) {
-  return zone.peak_node == analysis.peak.node ? analysis.peak.errors.numerical_Pa() : zone.error_Pa;
+  const auto& peak = analysis.peak;
+  if (zone.peak_node == peak.node) return peak.errors.reducible_Pa();
+  if (!zone.error_Pa || peak.value_Pa <= 0) return zone.error_Pa;
+  const double of_model_Pa = peak.errors.reducible_Pa() - peak.errors.numerical_Pa();  // of a cheap one
+  return *zone.error_Pa + of_model_Pa * zone.peak_Pa / peak.value_Pa;
 }
 
 double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot) {

@@ -34,8 +34,9 @@ GoverningStress governing_stress(const BodyAnalysis& analysis);
 /// The errors that governing_stress states.
 ErrorBudget& errors_of_governing(BodyAnalysis& analysis);
 
-/// Numerical error of a zone's peak: that of the body's peak, which a search may know better, or the zone's
-/// own estimate.
+/// Error of a zone's peak, all that a finer mesh or a more expensive model lowers: that of the body's peak,
+/// which a search may know better, or the zone's own estimate and the share that a cheap model adds to the
+/// body's peak.
 std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone);
 
 /// Numerical error of a hot spot: of the first one all that its error budget has; of others what is known of
