@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -56,44 +56,25 @@ std::vector<Dof> merge_same_places(const dealii::AffineConstraints<double>& hang
   return same;
 }
 
-/// The vertex nearest to a point, and the size of its smallest cell.
-struct NearestVertex {
-  double distance_m = std::numeric_limits<double>::infinity(), cell_size_m = 0;
-  unsigned index = 0;
-};
-
-NearestVertex nearest_vertex(const dealii::Triangulation<3>& mesh, const dealii::Point<3>& point) {
-  NearestVertex nearest;
-  for (const auto& cell : mesh.active_cell_iterators()) {
-    const double size_m = cell->diameter();
-    if (cell->center().distance(point) > size_m) continue;
-    for (const auto vertex : cell->vertex_indices()) {
-      const double distance_m = cell->vertex(vertex).distance(point);
-      const auto index = cell->vertex_index(vertex);
-      if (distance_m < nearest.distance_m)
-        nearest = {distance_m, size_m, index};
-      else if (index == nearest.index)
-        nearest.cell_size_m = std::min(nearest.cell_size_m, size_m);
-    }
-  }
-  return nearest;
-}
-
 /// Flags the cells that share the vertex nearest to one of the points. Nodes of the mesh before are a little
 /// off the vertices on hanging faces, and between them in cubic cells.
 void flag_cells_at(dealii::Triangulation<3>& mesh, const std::vector<std::array<double, 3>>& points_m) {
   constexpr double share_of_cell = 0.5;
-  std::set<unsigned> vertices;
-  for (const auto& point : points_m) {
-    const auto nearest = nearest_vertex(mesh, {point[0], point[1], point[2]});
-    if (!(nearest.distance_m <= share_of_cell * nearest.cell_size_m))
-      throw std::invalid_argument("refinements: no vertex lies at (" + std::to_string(point[0]) + ", " +
-                                  std::to_string(point[1]) + ", " + std::to_string(point[2]) + ") m");
-    vertices.insert(nearest.index);
+  std::map<unsigned, dealii::Point<3>> meant;  // by vertex
+  for (const auto& [x_m, y_m, z_m] : points_m) {
+    const dealii::Point<3> point(x_m, y_m, z_m);
+    meant.emplace(dealii::GridTools::find_closest_vertex(mesh, point), point);
   }
   for (const auto& cell : mesh.active_cell_iterators())
-    for (const auto vertex : cell->vertex_indices())
-      if (vertices.count(cell->vertex_index(vertex)) > 0) cell->set_refine_flag();
+    for (const auto vertex : cell->vertex_indices()) {
+      const auto found = meant.find(cell->vertex_index(vertex));
+      if (found == meant.end()) continue;
+      const auto& point = found->second;
+      if (cell->vertex(vertex).distance(point) > share_of_cell * cell->diameter())
+        throw std::invalid_argument("refinements: no vertex lies at (" + std::to_string(point[0]) + ", " +
+                                    std::to_string(point[1]) + ", " + std::to_string(point[2]) + ") m");
+      cell->set_refine_flag();
+    }
 }
 
 }  // namespace

@@ -8,6 +8,13 @@ bool hot_spot_governs(const BodyAnalysis& analysis) {
   return !analysis.hot_spots.empty() && analysis.hot_spots.front().von_mises_Pa > analysis.peak.value_Pa;
 }
 
+/// What a more expensive model than a beam or harmonics would lower, as a share of the body's peak; 0 of a
+/// solid.
+double share_of_cheap_model(const BodyAnalysis& analysis) {
+  const auto& peak = analysis.peak;
+  return peak.value_Pa > 0 ? (peak.errors.reducible_Pa() - peak.errors.numerical_Pa()) / peak.value_Pa : 0;
+}
+
 }  // namespace
 
 std::string GoverningStress::name() const {
@@ -43,11 +50,13 @@ ErrorBudget& errors_of_governing(BodyAnalysis& analysis) {
 }
 
 std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone) {
-  const auto& peak = analysis.peak;
-  if (zone.peak_node == peak.node) return peak.errors.reducible_Pa();
-  if (!zone.error_Pa || peak.value_Pa <= 0) return zone.error_Pa;
-  const double of_model_Pa = peak.errors.reducible_Pa() - peak.errors.numerical_Pa();  // of a cheap one
-  return *zone.error_Pa + of_model_Pa * zone.peak_Pa / peak.value_Pa;
+  if (zone.peak_node == analysis.peak.node) return analysis.peak.errors.reducible_Pa();
+  if (!zone.error_Pa) return std::nullopt;
+  return *zone.error_Pa + share_of_cheap_model(analysis) * zone.peak_Pa;
+}
+
+double error_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
+  return place.error_Pa + share_of_cheap_model(analysis) * place.value_Pa;
 }
 
 double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot) {

@@ -39,6 +39,10 @@ ErrorBudget& errors_of_governing(BodyAnalysis& analysis);
 /// body's peak.
 std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone);
 
+/// Error of a place as it is shown: its numerical one, and the share that a cheap model adds to the body's
+/// peak.
+double error_Pa(const BodyAnalysis& analysis, const PlaceStress& place);
+
 /// Numerical error of a hot spot: of the first one all that its error budget has; of others what is known of
 /// the place, or else the estimate of this mesh alone.
 double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot);

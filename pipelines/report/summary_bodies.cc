@@ -180,7 +180,7 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   for (const auto& place : analysis.place_stresses)
     json["places"].push_back(object({{"feature", place.feature},
                                      {"von_mises_Pa", number(place.value_Pa)},
-                                     {"error_Pa", number_or_none(place.error_Pa)},
+                                     {"error_Pa", number_or_none(error_Pa(analysis, place))},
                                      {"position_m", place.position_m}}));
   json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
   json["zones"] = zones_json(report, analysis);

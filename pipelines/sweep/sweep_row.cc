@@ -51,7 +51,7 @@ void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional
   if (torsion_Pa) add(".torsion.max_shear_stress", "Pa", *torsion_Pa);
   for (const auto& place : analysis.place_stresses) {
     add(".places." + place.feature, "Pa", place.value_Pa);
-    add(".places." + place.feature + ".error", "Pa", place.error_Pa);
+    add(".places." + place.feature + ".error", "Pa", error_Pa(analysis, place));
   }
   add(".closure.force", "", analysis.closure.worst_force());
   add(".closure.moment", "", analysis.closure.worst_moment());

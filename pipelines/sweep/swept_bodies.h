@@ -33,8 +33,8 @@ public:
   const std::vector<std::size_t>& combination(std::size_t p) const { return of_point_[p]; }
 
   /// Fills rows[p] of all points. Points whose bodies are solved run at the same time; the others wait for a
-  /// design. One with a mesh that no other point has runs as soon as that is solved, and the mesh is
-  /// forgotten.
+  /// design. One with a solution that serves no other point runs as soon as it is there, and
+  /// the solution is forgotten.
   void run(const std::vector<std::size_t>& points, std::vector<SweepRow>& rows, StageClock& clock);
 
   /// Searches meshes for points that are known less well than a tolerance, the worst first; others that are

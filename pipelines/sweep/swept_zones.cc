@@ -1,4 +1,5 @@
 #include "pipelines/sweep/swept_zones.h"
+#include "pipelines/analysis/governing_stress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/sweep/sweep_points.h"
 #include "pipelines/sweep/sweep_row.h"
 
@@ -119,7 +121,7 @@ std::vector<SweptZone> swept_zones(const BodyAnalysis& analysis) {
     swept.feature = zone.feature;
     swept.place = to_string(zone.place);
     swept.peak_Pa = zone.peak_Pa;
-    swept.error_Pa = zone.error_Pa.value_or(std::numeric_limits<double>::quiet_NaN());
+    swept.error_Pa = error_Pa(analysis, zone).value_or(std::numeric_limits<double>::quiet_NaN());
     swept.safety = zone.safety;
     swept.peak_m = zone.peak_m;
     swept.low_m.fill(std::numeric_limits<double>::max());

@@ -7,6 +7,8 @@
 #include <deal.II/base/vectorization.h>
 #include <immintrin.h>
 
+#include <cstring>
+
 namespace measure {
 
 #if defined(__AVX512F__)
@@ -63,16 +65,10 @@ public:
     return *this;
   }
 
+  DEAL_II_ALWAYS_INLINE void load(const double* from) { std::memcpy(&data, from, sizeof data); }
+  DEAL_II_ALWAYS_INLINE void store(double* to) const { std::memcpy(to, &data, sizeof data); }
+  DEAL_II_ALWAYS_INLINE void streaming_store(double* to) const { store(to); }
 #if defined(__AVX512F__)
-  DEAL_II_ALWAYS_INLINE void load(const double* from) {
-    data = _mm512_loadu_pd(from);
-  }
-  DEAL_II_ALWAYS_INLINE void store(double* to) const {
-    _mm512_storeu_pd(to, data);
-  }
-  DEAL_II_ALWAYS_INLINE void streaming_store(double* to) const {
-    _mm512_stream_pd(to, data);
-  }
   DEAL_II_ALWAYS_INLINE void gather(const double* base, const unsigned* offsets) {
     const __m256i at = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(offsets));
     data = _mm512_mask_i32gather_pd(Register{}, 0xFF, at, base, 8);
@@ -81,15 +77,6 @@ public:
     _mm512_i32scatter_pd(base, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(offsets)), data, 8);
   }
 #else
-  DEAL_II_ALWAYS_INLINE void load(const double* from) {
-    data = _mm256_loadu_pd(from);
-  }
-  DEAL_II_ALWAYS_INLINE void store(double* to) const {
-    _mm256_storeu_pd(to, data);
-  }
-  DEAL_II_ALWAYS_INLINE void streaming_store(double* to) const {
-    _mm256_stream_pd(to, data);
-  }
   DEAL_II_ALWAYS_INLINE void gather(const double* base, const unsigned* offsets) {
     const __m128i at = _mm_loadu_si128(reinterpret_cast<const __m128i*>(offsets));
     const __m256d all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));

@@ -251,13 +251,13 @@ TEST(Sweeps, PrintErrorsBesideTheirFigures) {
 }
 
 // The eccentric shaft as a body of revolution: 0.4 MPa by its mesh, 6 MPa since eccentric segments are taken
-// as concentric.
+// as concentric. Sweeps, zones and places state both.
 TEST(Sweeps, ErrorsOfCheapModelsHoldTheModels) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone({}));
   const std::string arguments = "mill.toml --set method=axisymmetric --tolerance '10 %'";
   const auto points =
-      points_of(directory.path, arguments + " -o swept --vary 'machine.drive.speed = 1350 rpm'");
+      points_of(directory.path, arguments + " --zones -o swept --vary 'machine.drive.speed = 1350 rpm'");
   const auto outcome =
       millstress(directory.path, "run " + arguments + " -o alone --set 'machine.drive.speed=1350 rpm'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -268,6 +268,14 @@ TEST(Sweeps, ErrorsOfCheapModelsHoldTheModels) {
     wanted_Pa += error.value(source, 0.0);
   EXPECT_GT(wanted_Pa, 5 * error["numerical"].get<double>());
   EXPECT_NEAR(figure(points[0], "bodies.shaft.governing.error"), wanted_Pa, 1e-6 * wanted_Pa);
+  EXPECT_NEAR(figure(points[0], "bodies.shaft.zones[1].peak.error"), wanted_Pa, 1e-6 * wanted_Pa);
+  const auto& zones = run["bodies"]["shaft"]["zones"];
+  EXPECT_NEAR(zones.at(0)["error_Pa"], wanted_Pa, 1e-6 * wanted_Pa);
+  // Of others the model's share alone is as large as that of the peak.
+  const double share =
+      (wanted_Pa - error["numerical"].get<double>()) / zones[0]["peak_von_mises_Pa"].get<double>();
+  for (const auto& place : run["bodies"]["shaft"]["places"])
+    EXPECT_GE(place["error_Pa"].get<double>(), 0.999 * share * place["von_mises_Pa"].get<double>()) << place;
 }
 
 // A point's zones are those of its run alone; those that the journal knows follow as before.

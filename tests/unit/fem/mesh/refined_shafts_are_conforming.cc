@@ -145,6 +145,12 @@ TEST(RefinedShafts, AreCutTwiceAtAPoint) {
   EXPECT_EQ(fem::read_grid(body).n_cells(), before.n_cells() + 7);
   body.refinements = {{{0}, {{at_m[0], at_m[1], at_m[2]}}}};
   EXPECT_EQ(fem::read_grid(body).n_cells(), before.n_cells() + 7 * (2 + n_neighbours));
+  const double* opposite_m = before.position(before.cell_nodes[before.nodes_per_cell() - 1]);
+  std::array<double, 3>
+      near_m{};  // a tenth of the cell inwards: the node of a cubic cell, or of a hanging face
+  for (std::size_t d = 0; d < 3; ++d) near_m[d] = at_m[d] + 0.1 * (opposite_m[d] - at_m[d]);
+  body.refinements = {{{0}, {near_m}}};
+  EXPECT_EQ(fem::read_grid(body).n_cells(), before.n_cells() + 7 * (2 + n_neighbours));
   body.refinements = {{{0}, {{1e3, 0, 0}}}};
   EXPECT_THROW(fem::read_grid(body), std::invalid_argument);
 }
