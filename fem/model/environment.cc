@@ -58,9 +58,13 @@ Environment::Environment(int&, char**&, int n_threads) {
     impl_ = std::make_unique<Impl>(n);
   } else if (n_threads > 0)
     dealii::MultithreadInfo::set_thread_limit(n);
-  set_blas_threads(static_cast<int>(dealii::MultithreadInfo::n_threads()));
+  set_blas_threads(Environment::n_threads());
 }
 
 Environment::~Environment() = default;
+
+int Environment::n_threads() {
+  return static_cast<int>(dealii::MultithreadInfo::n_threads());
+}
 
 }  // namespace fem

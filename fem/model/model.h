@@ -29,6 +29,8 @@ public:
   Environment(int& argc, char**& argv, int n_threads);
   ~Environment();
   Environment(const Environment&) = delete;
+  /// Of this rank.
+  static int n_threads();
   Environment& operator=(const Environment&) = delete;
 
 private:

@@ -9,7 +9,8 @@ namespace fem {
 
 namespace {
 
-void help(Task task, MPI_Comm communicator) {
+void help(Task task, MPI_Comm communicator, const std::function<void()>& own_work) {
+  if (task == Task::own_work) own_work();
   if (task == Task::tell_memory) memory_of_all_machines(communicator);
   if (task == Task::solve_directly) help_to_solve_directly(communicator);
   if (task == Task::solve_iteratively) help_to_solve_iteratively(communicator);
@@ -18,13 +19,13 @@ void help(Task task, MPI_Comm communicator) {
 
 }  // namespace
 
-int help_first_rank(MPI_Comm communicator) {
+int help_first_rank(MPI_Comm communicator, const std::function<void()>& own_work) {
   while (true) {
     const auto [task, exit_code] = wait_for_call(communicator);
     if (task == Task::end) return exit_code;
     const Task asked = task;  // structured bindings cannot be captured
     try {
-      together(communicator, [&] { help(asked, communicator); });
+      together(communicator, [&] { help(asked, communicator, own_work); });
     } catch (const FailedTogether&) {
       continue;  // rank 0 knows, and says what comes next
     }

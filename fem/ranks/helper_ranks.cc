@@ -12,6 +12,7 @@ namespace {
 
 constexpr int task_tag = 4;
 using Call = std::array<int, 2>;  // task, exit code
+bool others_work = false;         // on rank 0
 
 void tell(const Call& call, MPI_Comm communicator) {
   for (int r = 1; r < n_ranks(communicator); ++r)
@@ -32,7 +33,17 @@ HelperCall wait_for_call(MPI_Comm communicator) {
   return {Task(call[0]), call[1]};
 }
 
+void let_others_work(MPI_Comm communicator) {
+  others_work = true;
+  tell({int(Task::own_work), 0}, communicator);
+}
+
+void others_have_worked() {
+  others_work = false;
+}
+
 void dismiss_helpers(int exit_code, MPI_Comm communicator) {
+  if (others_work) MPI_Abort(communicator, exit_code);
   tell({int(Task::end), exit_code}, communicator);
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "fem/ranks/helper_ranks.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/files/content_hash.h"
 #include "pipelines/responses/iteration_memory.h"
 #include "pipelines/responses/response_files.h"
@@ -22,7 +22,7 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
 std::string key_of(const MeshedBody& meshed, const BodyLoads& loads,
                    const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
   auto key = response_key(meshed.body, meshed.mesh_hash, loads.unit_loads, planes, solver, n_threads);
-  if (const int n = fem::n_ranks(MPI_COMM_WORLD); n > 1) key += "ranks " + std::to_string(n) + '\n';
+  if (const int n = n_ranks_of_a_body(); n > 1) key += "ranks " + std::to_string(n) + '\n';
   return key;
 }
 

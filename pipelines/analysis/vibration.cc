@@ -9,6 +9,7 @@
 #include "fem/model/model.h"
 #include "kinetics/harmonics.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/superposition.h"
 
@@ -108,7 +109,7 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
                     const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa) {
   Vibration result;
   const auto held = held_body(body, meshed);
-  for (const auto& mode : fem::Model(held).natural_frequencies(body.natural_frequencies))
+  for (const auto& mode : fem::Model(held, ranks_of_a_body()).natural_frequencies(body.natural_frequencies))
     result.natural_frequencies_Hz.push_back(mode.frequency_Hz);
   const BodyKind& kind = kind_of(body);
   const auto ports = kind.supporting_ports(body);

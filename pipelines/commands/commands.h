@@ -17,7 +17,9 @@ namespace pipelines {
 /// it throws is no mistake of the command line.
 struct ChosenCommand {
   std::function<void(std::ostream& out)> run;
-  int n_threads = 0;  ///< that helper ranks use, too; 0: all cores
+  std::function<void()>
+      beside_first_rank;  ///< what the other MPI ranks do where `run` lets them; empty: nothing
+  int n_threads = 0;      ///< that helper ranks use, too; 0: all cores
 };
 
 /// The callback of a command: it is chosen, and will be carried out with its options.

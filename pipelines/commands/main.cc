@@ -34,7 +34,8 @@ void require_written_stdout() {
   throw pipelines::FileError("standard output cannot be written; is the disk full behind it?");
 }
 
-/// The program on this rank: rank 0 does what the arguments say, any other one helps it to solve.
+/// The program on this rank: rank 0 does what the arguments say, any other one helps it to solve or works
+/// beside it.
 int run(int argc, char** argv) {
   const bool first = fem::this_rank(MPI_COMM_WORLD) == 0;
   CLI::App app{"From the kinetics of a mill to stress zones in its shaft."};
@@ -59,7 +60,7 @@ int run(int argc, char** argv) {
   }
   if (!first) {
     const pipelines::FemEnvironment threads(chosen.n_threads);
-    return fem::help_first_rank();
+    return fem::help_first_rank(MPI_COMM_WORLD, chosen.beside_first_rank);
   }
   return guarded([&] {
     chosen.run(std::cout);

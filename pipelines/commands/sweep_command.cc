@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/ranks/helper_ranks.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/commands/option_value.h"
 #include "pipelines/commands/output_files.h"
@@ -23,6 +24,7 @@
 #include "pipelines/pictures/chart.h"
 #include "pipelines/responses/response_key.h"
 #include "pipelines/scene/scene_tree.h"
+#include "pipelines/sweep/points_on_ranks.h"
 #include "pipelines/sweep/sweep_files.h"
 #include "pipelines/sweep/sweep_journal.h"
 #include "pipelines/sweep/sweep_request.h"
@@ -353,56 +355,148 @@ std::size_t n_known_worse(const std::vector<SweepRow>& rows, double tolerance) {
   }));
 }
 
-void sweep(const SweepCommandOptions& options, std::ostream& out) {
-  if (started_on_several_ranks())
-    throw OptionError("sweep: runs on one rank, with --threads; start it without mpirun");
-  const auto tree = without_duty(read_scene_tree(options.scene));
-  const auto request = requested(options, read_sweep_request(options.scene, tree));
-  const auto plan = plan_sweep(request);
-  for (const auto& variation : plan.variations) require_swept(variation.key);
-  const auto directory = options.output.empty()
-                             ? std::filesystem::path("results") / (options.scene.stem().string() + "_sweep")
-                             : options.output;
-  const Scene first = [&] {  // for what all points have alike
+/// What a sweep is about, the same on all ranks.
+struct Sweep {
+  TomlNode tree;
+  SweepRequest request;
+  SweepPlan plan;
+  std::filesystem::path directory;
+  Scene first;  ///< for what all points have alike
+  RequestedAccuracy accuracy;
+  bool loads_only;
+
+  explicit Sweep(const SweepCommandOptions& options)
+      : tree(without_duty(read_scene_tree(options.scene))),
+        request(requested(options, read_sweep_request(options.scene, tree))),
+        plan(plan_sweep(request)),
+        directory(options.output.empty()
+                      ? std::filesystem::path("results") / (options.scene.stem().string() + "_sweep")
+                      : options.output) {
+    for (const auto& variation : plan.variations) require_swept(variation.key);
     try {
-      return read_scene(options.scene, tree, options.settings);
+      first = read_scene(options.scene, tree, options.settings);
     } catch (const SceneError&) {
       auto settings = options.settings;
       const auto& own = plan.points.front().settings;
       settings.insert(settings.end(), own.begin(), own.end());
-      return read_scene(options.scene, tree, settings);
+      first = read_scene(options.scene, tree, settings);
     }
-  }();
-  const auto accuracy = with_default(requested_search(options.tolerance, options.time_limit, first.accuracy));
-  StageClock clock(progress_on_stderr(options.verbosity()));
-  const bool loads_only = options.loads_only || first.bodies.empty();
-  SweepRun run({options.scene, tree, options.settings, directory, options.n_threads, loads_only,
-                options.fresh, request.zones, accuracy},
-               plan.points);
-  require_writable(output_files("-o", directory,
+    accuracy = with_default(requested_search(options.tolerance, options.time_limit, first.accuracy));
+    loads_only = options.loads_only || first.bodies.empty();
+  }
+
+  SweepOptions options(const SweepCommandOptions& asked, int n_threads, int rank) const {
+    return {asked.scene, tree,       asked.settings, directory,     rank,
+            n_threads,   loads_only, asked.fresh,    request.zones, accuracy};
+  }
+};
+
+/// By rank and point: whether the rank computes it. The same on all ranks.
+std::vector<std::vector<char>> points_of_ranks(const SweepRun& run) {
+  const int n_ranks = fem::n_ranks(MPI_COMM_WORLD);
+  const auto rank_of_point = deal_points(run.groups(n_ranks), n_ranks);
+  std::vector<std::vector<char>> is_own(std::size_t(n_ranks), std::vector<char>(rank_of_point.size(), 0));
+  for (std::size_t p = 0; p < rank_of_point.size(); ++p) is_own[std::size_t(rank_of_point[p])][p] = 1;
+  return is_own;
+}
+
+void tell_ranks(const std::vector<std::vector<char>>& points_of_ranks) {
+  std::string text = "millstress: points by rank:";
+  bool has_idle = false;
+  for (const auto& is_own : points_of_ranks) {
+    const auto n = std::count(is_own.begin(), is_own.end(), 1);
+    text += fmt::format(" {}", n);
+    has_idle = has_idle || n == 0;
+  }
+  std::cerr << text << (has_idle ? "; points that share their meshes stay on one rank" : "") << '\n';
+}
+
+/// Threads of this rank.
+int own_threads(const SweepCommandOptions& options) {
+  return options.n_threads > 0 || !started_on_several_ranks() ? options.n_threads
+                                                              : fem::Environment::n_threads();
+}
+
+/// The journal of a sweep, and the rows of a sweep before that it takes over.
+struct KnownRows {
+  SweepJournal journal;
+  std::vector<std::optional<SweepRow>> rows;
+
+  /// Once every point was read.
+  KnownRows(const SweepCommandOptions& options, const Sweep& sweep)
+      : journal(sweep.directory / "journal",
+                journal_key(options, sweep.accuracy, sweep.request.zones, options.n_threads)),
+        rows(options.fresh ? std::vector<std::optional<SweepRow>>(sweep.plan.points.size())
+                           : journal.known(sweep.plan)) {}
+};
+
+/// On every rank but the first, once that one has begun the journal.
+void sweep_beside_first_rank(const SweepCommandOptions& options) {
+  work_on_bodies_alone();
+  const Sweep sweep(options);
+  const int n_threads = own_threads(options), rank = fem::this_rank(MPI_COMM_WORLD);
+  SweepRun run(sweep.options(options, n_threads, rank), sweep.plan.points);
+  run.keep_points(points_of_ranks(run)[std::size_t(rank)]);
+  const FemEnvironment environment(n_threads);
+  RowsToFirstRank to_first(sweep.plan);
+  StageClock silent;
+  run.run(silent, KnownRows(options, sweep).rows,
+          [&](const auto& points, const auto& rows) { to_first.send(points, rows); });
+  to_first.end(run.n_improved_meshes());
+}
+
+/// The rows of all points, in the journal too; on rank 0.
+std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep& sweep, StageClock& clock) {
+  const auto& plan = sweep.plan;
+  const int n_threads = own_threads(options), n_ranks = fem::n_ranks(MPI_COMM_WORLD);
+  if (n_ranks > 1) work_on_bodies_alone();
+  SweepRun run(sweep.options(options, n_threads, 0), plan.points);
+  require_writable(output_files("-o", sweep.directory,
                                 {"sweep.csv", "sweep.h5", "zones.csv", "journal", "chart.png", "map.png"}));
   std::optional<FemEnvironment> environment;
-  if (!first.bodies.empty()) environment.emplace(options.n_threads);
+  if (!sweep.first.bodies.empty()) environment.emplace(n_threads);
 
-  SweepJournal journal(directory / "journal",
-                       journal_key(options, accuracy, request.zones, options.n_threads));
+  KnownRows known(options, sweep);
+  auto& journal = known.journal;
   journal.require_own();
-  auto known = options.fresh ? std::vector<std::optional<SweepRow>>(plan.points.size()) : journal.known(plan);
-  const auto n_known =
-      std::size_t(std::count_if(known.begin(), known.end(), [](const auto& row) { return row.has_value(); }));
-  if (!options.quiet) tell_forecast(run.forecast(), n_known, accuracy);
+  const auto n_known = std::size_t(
+      std::count_if(known.rows.begin(), known.rows.end(), [](const auto& row) { return row.has_value(); }));
+  if (!options.quiet) tell_forecast(run.forecast(), n_known, sweep.accuracy);
   if (run.has_chosen_effects())
     std::cerr
         << "millstress: effects = \"auto\" chooses by the point; a sweep has all of them on at every point\n";
-  journal.begin(plan, known);
-  auto rows = run.run(clock, std::move(known),
+  journal.begin(plan, known.rows);
+  const auto keep = [&](const std::vector<std::size_t>& points, const std::vector<SweepRow>& all) {
+    for (const auto p : points) journal.append(plan.points[p], all[p]);
+    journal.flush();
+  };
+  RowsOfOtherRanks others(plan, n_ranks);
+  std::vector<SweepRow> of_others(plan.points.size());
+  if (n_ranks > 1) {
+    const auto points = points_of_ranks(run);
+    if (!options.quiet) tell_ranks(points);
+    run.keep_points(points.front());
+    fem::let_others_work();
+  }
+  auto rows = run.run(clock, std::move(known.rows),
                       [&](const std::vector<std::size_t>& points, const std::vector<SweepRow>& all) {
-                        for (const auto p : points) journal.append(plan.points[p], all[p]);
-                        journal.flush();
+                        keep(points, all);
+                        others.take(of_others, keep);
                       });
-  if (const auto n = run.n_improved_meshes(); n > 0)
+  others.take_all(of_others, keep);
+  fem::others_have_worked();
+  for (const auto p : others.points()) rows[p] = std::move(of_others[p]);
+  if (const auto n = run.n_improved_meshes() + others.n_improved_meshes(); n > 0)
     std::cerr << fmt::format("millstress: {} more mesh{} searched for points that the first knew less well\n",
                              n, n == 1 ? " was" : "es were");
+  return rows;
+}
+
+void carry_out(const SweepCommandOptions& options, std::ostream& out) {
+  const Sweep sweep(options);
+  const auto& [tree, request, plan, directory, first, accuracy, loads_only] = sweep;
+  StageClock clock(progress_on_stderr(options.verbosity()));
+  auto rows = run_points(options, sweep, clock);
   const auto numbers = follow_zones(plan, rows);
   add_zone_figures(rows, numbers);
   clock.run("write", [&] {
@@ -472,7 +566,10 @@ void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_flag("--fresh", options->fresh, "reuse nothing of an earlier sweep");
   command->add_flag("--json", options->json, "print the rows as JSON instead of the table");
   add_threads_option(*command, options->n_threads, chosen);
-  command->callback(to_choose(chosen, options, sweep));
+  command->callback([options, choose = to_choose(chosen, options, carry_out), &chosen] {
+    choose();
+    chosen.beside_first_rank = [options] { sweep_beside_first_rank(*options); };
+  });
 }
 
 }  // namespace pipelines

@@ -2,12 +2,30 @@
 
 #include <cstdlib>
 
+#include "fem/ranks/helper_ranks.h"
+
 namespace pipelines {
+
+namespace {
+bool works_alone = false;
+}
 
 bool started_on_several_ranks() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"})  // Open MPI, MPICH, srun
     if (const char* size = std::getenv(name); size != nullptr && std::atoi(size) > 1) return true;
   return false;
+}
+
+MPI_Comm ranks_of_a_body() {
+  return works_alone ? MPI_COMM_SELF : MPI_COMM_WORLD;
+}
+
+int n_ranks_of_a_body() {
+  return fem::n_ranks(ranks_of_a_body());
+}
+
+void work_on_bodies_alone() {
+  works_alone = true;
 }
 
 }  // namespace pipelines

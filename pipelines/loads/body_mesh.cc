@@ -5,6 +5,7 @@
 #include "meshes/keyed_shaft/solid_shaft.h"
 #include "meshes/shaft/shaft.h"
 #include "meshes/values/refused.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/files/content_hash.h"
 #include "pipelines/scene/body_kind.h"
 
@@ -113,7 +114,7 @@ MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
   result.mesh_hash = coarse != nullptr
                          ? coarse->mesh_hash
                          : content_hash(file);  // once: reading it takes seconds where the mesh is large
-  result.model = std::make_shared<const fem::Model>(result.body);
+  result.model = std::make_shared<const fem::Model>(result.body, ranks_of_a_body());
   result.masses = result.model->mass_properties();
   result.geometry_error = result.model->geometry_error(round_ports(result.mesh));
   result.regions = kind.regions(result);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string_view>
 
 #include "pipelines/common/errors.h"
@@ -146,16 +147,46 @@ void SweepJournal::require_own() const {
 }
 
 std::vector<std::optional<SweepRow>> SweepJournal::known(const SweepPlan& plan) const {
-  std::vector<std::optional<SweepRow>> rows(plan.points.size());
   std::ifstream in(file_, std::ios::binary);
   std::string line;
-  if (!in || !std::getline(in, line) || checked(line) != key_) return rows;
+  if (!in || !std::getline(in, line) || checked(line) != key_)
+    return std::vector<std::optional<SweepRow>>(plan.points.size());
+  return read_rows(in, plan);
+}
+
+std::string SweepJournal::lines_of(const SweepPlan& plan, const std::vector<std::size_t>& points,
+                                   const std::vector<SweepRow>& rows) {
+  SweepJournal lines("", "");
+  for (const auto p : points)
+    if (rows[p].refused.empty())
+      lines.append(plan.points[p], rows[p]);
+    else
+      lines.pending_ += line_of('!' + JournalJson::array({plan.points[p].settings, rows[p].refused})
+                                          .dump(-1, ' ', false, JournalJson::error_handler_t::replace));
+  return std::move(lines.pending_);
+}
+
+std::vector<std::optional<SweepRow>> SweepJournal::rows_of(const std::string& lines, const SweepPlan& plan) {
+  std::istringstream in(lines);
+  return read_rows(in, plan);
+}
+
+std::vector<std::optional<SweepRow>> SweepJournal::read_rows(std::istream& in, const SweepPlan& plan) {
+  std::vector<std::optional<SweepRow>> rows(plan.points.size());
   std::map<std::vector<std::string>, std::vector<std::size_t>> points;  // by settings
   for (std::size_t p = 0; p < rows.size(); ++p) points[plan.points[p].settings].push_back(p);
   std::map<std::size_t, Columns> columns;  // by number: the line of some may be damaged
+  std::string line;
   while (std::getline(in, line)) {
     const auto text = checked(line);
     if (text.empty()) continue;
+    if (text.front() == '!') {
+      const auto json = JournalJson::parse(text.substr(1), nullptr, false);
+      if (!json.is_array() || json.size() != 2) continue;
+      if (const auto of_settings = points.find(json[0]); of_settings != points.end())
+        for (const auto p : of_settings->second) rows[p] = SweepRow{json[1], {}, {}};
+      continue;
+    }
     if (text.front() == '{') {
       const auto json = JournalJson::parse(text, nullptr, false);
       if (json.is_object() && json.contains("columns"))

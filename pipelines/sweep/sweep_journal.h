@@ -8,9 +8,12 @@
 ///   HASH N VALUES [SETTINGS, TEXTS]   a row: the bits of each figure in eleven digits of base 64, without
 ///                                     spaces, then lists of the settings and of the texts, and of the zones
 ///                                     where there are any
+/// Between processes also
+///   HASH ![SETTINGS, REASON]          a row that was refused
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,6 +43,12 @@ public:
   /// @throws FileError if it cannot be written
   void flush();
 
+  /// Rows as lines that another process can read, refused ones too.
+  static std::string lines_of(const SweepPlan& plan, const std::vector<std::size_t>& points,
+                              const std::vector<SweepRow>& rows);
+  /// @return the rows of such lines, by point
+  static std::vector<std::optional<SweepRow>> rows_of(const std::string& lines, const SweepPlan& plan);
+
 private:
   /// What rows have.
   struct Columns {
@@ -50,6 +59,7 @@ private:
     bool are_of(const SweepRow& row) const;
   };
 
+  static std::vector<std::optional<SweepRow>> read_rows(std::istream& in, const SweepPlan& plan);
   /// The number of a row's columns, from 1; notes those that are new.
   std::size_t number_of_columns(const SweepRow& row);
 

@@ -18,7 +18,7 @@ namespace pipelines {
 namespace {
 
 /// Rows that are handed on together: seconds of work on one core.
-constexpr std::size_t points_of_loads_at_once = 2000, points_of_bodies_at_once = 64;
+constexpr std::size_t points_of_loads_at_once = 2000, most_points_of_bodies_at_once = 64;
 
 /// The key of a setting, "KEY=VALUE".
 std::string key_of(const std::string& setting) {
@@ -110,6 +110,21 @@ public:
     return result;
   }
 
+  std::vector<std::size_t> groups(int n_shares) const {
+    std::vector<std::size_t> result;
+    std::map<std::vector<std::size_t>, std::size_t> known;  // by meshes
+    for (std::size_t p = 0; p < settings_.size(); ++p)
+      result.push_back(needs_bodies_ ? known.emplace(bodies_.meshes(p), known.size()).first->second
+                                     : p * std::size_t(n_shares) / settings_.size());
+    return result;
+  }
+
+  void keep_points(const std::vector<char>& is_own) {
+    is_own_ = is_own;
+    for (std::size_t p = 0; p < is_own.size(); ++p)
+      if (is_own[p] == 0) bodies_.leave_out(p);
+  }
+
   std::vector<SweepRow> run(StageClock& clock, std::vector<std::optional<SweepRow>> known,
                             const SweepListener& listener) {
     known.resize(settings_.size());
@@ -118,11 +133,11 @@ public:
     for (std::size_t p = 0; p < rows.size(); ++p) {
       if (known[p])
         rows[p] = std::move(*known[p]);
-      else
+      else if (is_own_.empty() || is_own_[p] != 0)
         open.push_back(p);
     }
     const bool with_bodies = needs_bodies_ && !options_.loads_only;
-    const std::size_t at_once = with_bodies ? points_of_bodies_at_once : points_of_loads_at_once;
+    const std::size_t at_once = with_bodies ? points_of_bodies_at_once() : points_of_loads_at_once;
     for (std::size_t begin = 0; begin < open.size(); begin += at_once) {
       const std::size_t end = std::min(open.size(), begin + at_once);
       std::vector<std::size_t> points(open.begin() + std::ptrdiff_t(begin),
@@ -152,6 +167,13 @@ public:
 
 private:
   int n_threads() const { return threads(options_.n_threads); }
+
+  /// As many as a solution serves, so that no solution's points are lost with the next one.
+  std::size_t points_of_bodies_at_once() const {
+    std::size_t n_solutions = 1;
+    for (const auto& body : bodies_.forecast()) n_solutions = std::max(n_solutions, body.n_solutions);
+    return std::clamp(settings_.size() / n_solutions, std::size_t(1), most_points_of_bodies_at_once);
+  }
 
   Scene read(std::size_t p, bool loads_follow = false) const {
     auto settings = options_.settings;
@@ -231,6 +253,7 @@ private:
   SweepOptions options_;
   std::vector<std::vector<std::string>> settings_;  ///< by point
   std::vector<std::string> refused_;                ///< by point: why it cannot be read
+  std::vector<char> is_own_;                        ///< by point; empty: all are
   SweptBodies bodies_;
   std::vector<BodyScene> accepted_;  ///< of the first point that can be read
   // By what a point's bodies share, SweptBodies::combination.
@@ -255,6 +278,14 @@ std::size_t SweepRun::n_improved_meshes() const {
 
 bool SweepRun::has_chosen_effects() const {
   return implementation_->has_chosen_effects();
+}
+
+std::vector<std::size_t> SweepRun::groups(int n_shares) const {
+  return implementation_->groups(n_shares);
+}
+
+void SweepRun::keep_points(const std::vector<char>& is_own) {
+  implementation_->keep_points(is_own);
 }
 
 std::vector<SweepRow> SweepRun::run(StageClock& clock, std::vector<std::optional<SweepRow>> known,

@@ -29,6 +29,13 @@ public:
   ~SweepRun();
 
   SweepForecast forecast() const;
+  /// Points of one number share their meshes, or are read one after the other. Numbers ascend from 0 in the
+  /// order of the points that first have them.
+  /// @param n_shares  how many groups there shall be where no mesh is shared
+  std::vector<std::size_t> groups(int n_shares) const;
+  /// Only these points are computed; run() leaves the rows of others as they are. Called once, before it.
+  /// @param is_own  by point
+  void keep_points(const std::vector<char>& is_own);
   /// Meshes that run() has searched beside those of the forecast, for points known less well.
   std::size_t n_improved_meshes() const;
   /// Effects that the program would choose (effects = "auto") are all on in a sweep.

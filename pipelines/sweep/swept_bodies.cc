@@ -73,6 +73,13 @@ void SweptBodies::sort_in(std::size_t p, const Scene& scene) {
   }
 }
 
+std::vector<std::size_t> SweptBodies::meshes(std::size_t p) const {
+  std::vector<std::size_t> result;
+  for (std::size_t b = 0; b < of_point_[p].size(); ++b)
+    result.push_back(bodies_[b].solutions[of_point_[p][b]].shape);
+  return result;
+}
+
 void SweptBodies::run(const std::vector<std::size_t>& points, std::vector<SweepRow>& rows,
                       StageClock& clock) {
   std::vector<std::size_t> wait;
@@ -202,7 +209,9 @@ SceneRunOptions SweptBodies::options_beside(const std::vector<const BodyDesign*>
 
 SceneRunOptions SweptBodies::run_options(const std::string& folder) const {
   SceneRunOptions options;
-  options.directory = options_.directory / "bodies" / folder;
+  options.directory = options_.directory / "bodies";
+  if (options_.rank > 0) options.directory /= "rank_" + std::to_string(options_.rank);
+  options.directory /= folder;
   options.n_threads = options_.n_threads;
   options.fresh = options_.fresh;
   options.accuracy = options_.accuracy;

@@ -29,6 +29,10 @@ public:
   std::vector<SweepForecast::Body> forecast() const;
   /// Meshes that improve() has searched.
   std::size_t n_improved_meshes() const { return n_improved_; }
+  /// By body the number of a point's mesh. Empty if the point was not sorted in.
+  std::vector<std::size_t> meshes(std::size_t p) const;
+  /// As if it had not been sorted in.
+  void leave_out(std::size_t p) { of_point_[p].clear(); }
   /// What a point shares: by body the number of its solution. Empty if the point was not sorted in.
   const std::vector<std::size_t>& combination(std::size_t p) const { return of_point_[p]; }
 
@@ -83,8 +87,8 @@ private:
   std::vector<SweptBody> bodies_;
   std::map<std::vector<std::size_t>, std::string> refused_;  ///< by combination: why; empty: not
   std::size_t n_improved_ = 0;
-  int n_folders_ = 0;
-  std::mutex cheap_;  ///< cheap models run one at a time: fem's threads are theirs
+  int n_folders_ = 0;  ///< of this rank
+  std::mutex cheap_;   ///< cheap models run one at a time: fem's threads are theirs
 };
 
 }  // namespace pipelines

@@ -132,3 +132,49 @@ TEST(SeveralRanks, EndTogetherWithOneMessage) {
   const auto misspelt = on_two_ranks(directory.path, "runn scene.toml");
   EXPECT_EQ(misspelt.exit_code, 2) << misspelt.err;
 }
+
+// Three designs at two speeds each, one of which no mesher takes: rank 1 has the second design.
+TEST(SeveralRanks, DealOutTheDesignsOfASweep) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", small_scene());
+  const std::string command =
+      "sweep scene.toml --threads 1 --tolerance none --vary \"shaft.contour[3].diameter = 12 mm, 14 mm, 0 "
+      "mm\" "
+      "--vary \"machine.speed = 600 rpm, 700 rpm\" -o ";
+  const auto one = millstress(directory.path, command + "one");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const auto two = on_two_ranks(directory.path, command + "two");
+  ASSERT_EQ(two.exit_code, 0) << two.err;
+  EXPECT_NE(two.err.find("points by rank: 4 2"), std::string::npos) << two.err;
+  EXPECT_EQ(count(two.out, "refused"), count(one.out, "refused"));
+  EXPECT_EQ(results_test::bytes(directory / "one/sweep.csv"),
+            results_test::bytes(directory / "two/sweep.csv"));
+  EXPECT_TRUE(fs::exists(directory / "two/bodies/rank_1"));
+
+  // Goes on where rank 1 has lost its rows.
+  const auto journal = results_test::bytes(directory / "two/journal");
+  std::string kept;
+  std::istringstream lines(journal);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("14 mm") == std::string::npos) kept += line + '\n';
+  ASSERT_LT(kept.size(), journal.size());
+  write(directory / "two/journal", kept);
+  const auto again = on_two_ranks(directory.path, command + "two");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.err.find("2 known from the sweep before"), std::string::npos) << again.err;
+  EXPECT_EQ(results_test::bytes(directory / "one/sweep.csv"),
+            results_test::bytes(directory / "two/sweep.csv"));
+}
+
+TEST(SeveralRanks, EndASweepThatOneOfThemCannotGoOnWith) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", small_scene());
+  fs::create_directories(directory / "out/bodies");
+  write(directory / "out/bodies/rank_1", "no directory");
+  const auto failed = on_two_ranks(directory.path,
+                                   "sweep scene.toml --threads 1 --tolerance none "
+                                   "--vary \"shaft.contour[3].diameter = 12 mm, 14 mm\" -o out");
+  EXPECT_EQ(failed.exit_code, 3) << failed.err;
+  EXPECT_EQ(count(failed.err, "rank 1: "), 1u) << failed.err;
+  EXPECT_EQ(failed.out, "");
+}

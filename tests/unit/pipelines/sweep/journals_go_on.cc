@@ -119,6 +119,14 @@ TEST_F(SweepJournals, GiveBackEveryBit) {
   EXPECT_EQ(lines().size(), 6u);  // the key, two kinds of columns, three rows
 }
 
+// As rows go from one process to another.
+TEST_F(SweepJournals, AsLinesKeepRefusedRowsToo) {
+  const auto lines = SweepJournal::lines_of(plan, {3, 0, 2}, rows);
+  const auto found = SweepJournal::rows_of(lines, plan);
+  for (const std::size_t p : {0, 2, 3}) expect_same(found[p], rows[p]);
+  EXPECT_FALSE(found[1]);
+}
+
 TEST_F(SweepJournals, BeginAgainWithWhatIsKnown) {
   auto again = of_key("key");
   again.begin(plan, known());
