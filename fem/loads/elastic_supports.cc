@@ -49,8 +49,9 @@ ElasticSupports::ElasticSupports(const Grid& grid, const std::vector<ElasticSupp
   if (!columns.empty()) closed_ = closing_forces(grid, forces_);
 }
 
-Eigen::MatrixXd ElasticSupports::apply(const Eigen::MatrixXd& displacement) const {
+Eigen::MatrixXd ElasticSupports::apply(Eigen::MatrixXd displacement) const {
   const auto n_springs = forces_.cols(), n_loads = displacement.cols() - n_springs;
+  if (n_springs == 0) return displacement;
   Eigen::MatrixXd result = displacement.leftCols(n_loads);
   if (closed_.cols() == 0) return result;
   const auto of_forces = displacement.rightCols(n_springs);

@@ -27,7 +27,7 @@ public:
 
   /// @param displacement  of the loads, then of the m unit forces, on the free body without rigid part
   /// @return of the loads with springs
-  Eigen::MatrixXd apply(const Eigen::MatrixXd& displacement) const;
+  Eigen::MatrixXd apply(Eigen::MatrixXd displacement) const;
 
 private:
   Eigen::MatrixXd forces_, closed_;  // closed_: N

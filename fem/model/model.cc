@@ -168,7 +168,7 @@ BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>
 
 /// Nothing if it gives up, which the report then tells.
 std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& materials,
-                                        const BalancedLoads& loads, const SolverChoice& choice,
+                                        BalancedLoads& loads, const SolverChoice& choice,
                                         const Progress& progress, SolverReport& report,
                                         MPI_Comm communicator) {
   std::string failure;
@@ -200,7 +200,7 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
 /// @param half_of_body  that of a body that is solved by halves, or null; not looked for before it is needed
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
-               const std::function<const MirroredHalf*()>& half_of_body, const BalancedLoads& loads,
+               const std::function<const MirroredHalf*()>& half_of_body, BalancedLoads& loads,
                SolverChoice choice, const Progress& progress, SolverReport& report, MPI_Comm communicator,
                DirectSolveOptions direct) {
   const bool alone = n_ranks(communicator) == 1;
@@ -304,8 +304,16 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const RigidBalance rigid(grid, impl_->integrals);
     BalancedLoads balanced = balance(rigid, clamped, std::move(force));
     move_to_masters(grid.hanging, balanced.force);
+    release_free_memory();
     Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, half_of_body, balanced,
                               choice, report, responses.solver, impl_->communicator, std::move(direct));
+    responses.solver.n_iterations = solution.n_iterations;
+    if (solution.factor.n_dofs > 0) {
+      responses.solver.factor = solution.factor;
+      responses.solver.predicted_direct =
+          predict_direct(solution.factor, static_cast<std::size_t>(balanced.force.cols()));
+    }
+    balanced = {};
     if (responses.solver.used == Solver::direct && half_of_body() != nullptr) {
       responses.solver.reason += solution.is_even ? "; one half, of which the other is the mirror image"
                                                   : "; half by half, the body being its own mirror image";
@@ -317,16 +325,10 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     responses.factor_gigabytes = solution.factor_gigabytes;
     responses.solver.used_bytes = solution.bytes;
     responses.solver.ranks = solution.ranks;
-    responses.solver.n_iterations = solution.n_iterations;
-    if (solution.factor.n_dofs > 0) {
-      responses.solver.factor = solution.factor;
-      responses.solver.predicted_direct =
-          predict_direct(solution.factor, static_cast<std::size_t>(balanced.force.cols()));
-    }
     set_hanging_unknowns(grid.hanging, solution.displacement);
     if (clamped.empty()) rigid.remove_motion(solution.displacement);
     solution.displacement.array().rowwise() *= scale.array().inverse();
-    const Eigen::MatrixXd displacement = springs.apply(solution.displacement);
+    const Eigen::MatrixXd displacement = springs.apply(std::move(solution.displacement));
     responses.displacement_m.resize(3 * seen.n_nodes * loads.size());
     for (std::size_t i = 0; i < seen.n_nodes; ++i) {
       const std::size_t node = i < grid.n_nodes ? i : std::size_t(impl_->seen->split.copy[i - grid.n_nodes]);
@@ -338,21 +340,22 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
 
   report(0.85, "recover");
   const auto elastic = impl_->materials.elastic();
-  responses.stress_Pa.resize(seen.n_nodes * n_loads * 6);
   const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), seen.n_nodes, 3 * n_loads);
-  Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
   const bool by_patches = recovery == Recovery::patch;
   const auto loaded = loaded_groups(loads, impl_->body);
   if (alone) {
+    responses.stress_Pa.resize(seen.n_nodes * n_loads * 6);
+    Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
     recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches, displacement, stress,
                    half != nullptr ? NodeSelection(half->nodes()) : std::nullopt);
   } else {
     call_helpers(Task::recover_stress, impl_->communicator);
     together(impl_->communicator, [&] {
       recover_stress_on_ranks(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches,
-                              displacement, stress, impl_->communicator);
+                              displacement, responses.stress_Pa, impl_->communicator);
     });
   }
+  Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
   set_hanging_rows(grid.hanging, stress);
   if (half != nullptr) half->mirror_rows(half->signs_of_tensors(), stress);
   responses.energy_error =

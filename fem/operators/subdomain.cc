@@ -29,14 +29,12 @@ Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cell
   result.grid.kind = grid.kind;
   result.grid.degree = grid.degree;
   std::vector<std::int32_t> number(grid.n_nodes, -1), place(grid.n_cells(), -1);
-  for (const auto c : cells)
-    for (int i = 0; i < grid.nodes_per_cell(); ++i) number[grid.nodes_of(c)[i]] = 0;
-  for (std::size_t node = 0; node < grid.n_nodes; ++node)
-    if (number[node] == 0) {
-      number[node] = static_cast<std::int32_t>(result.node.size());
-      result.node.push_back(static_cast<std::int32_t>(node));
-      result.grid.xyz_m.insert(result.grid.xyz_m.end(), grid.position(node), grid.position(node) + 3);
-    }
+  result.node = nodes_of_cells(grid, cells);
+  for (std::size_t i = 0; i < result.node.size(); ++i) {
+    number[result.node[i]] = static_cast<std::int32_t>(i);
+    const double* at = grid.position(result.node[i]);
+    result.grid.xyz_m.insert(result.grid.xyz_m.end(), at, at + 3);
+  }
   result.grid.n_nodes = result.node.size();
   for (const auto c : cells) {
     place[c] = static_cast<std::int32_t>(result.grid.volume_id.size());
@@ -129,16 +127,26 @@ std::vector<std::int32_t> with_layers(const Grid& grid, const CellsOfNodes& cell
   return all;
 }
 
-std::vector<std::vector<Neighbour>> find_neighbours(const std::vector<Subdomain>& subdomains,
-                                                    std::size_t n_nodes) {
+std::vector<std::int32_t> nodes_of_cells(const Grid& grid, const std::vector<std::int32_t>& cells) {
+  std::vector<char> is_there(grid.n_nodes, 0);
+  for (const auto c : cells)
+    for (int i = 0; i < grid.nodes_per_cell(); ++i) is_there[grid.nodes_of(c)[i]] = 1;
+  std::vector<std::int32_t> nodes;
+  for (std::size_t node = 0; node < grid.n_nodes; ++node)
+    if (is_there[node] != 0) nodes.push_back(static_cast<std::int32_t>(node));
+  return nodes;
+}
+
+std::vector<std::vector<Neighbour>> find_neighbours(
+    const std::vector<std::vector<std::int32_t>>& nodes_of_ranks, std::size_t n_nodes) {
   std::vector<std::vector<int>> ranks(n_nodes);
-  for (std::size_t r = 0; r < subdomains.size(); ++r)
-    for (const auto node : subdomains[r].node) ranks[node].push_back(static_cast<int>(r));
-  std::vector<std::vector<Neighbour>> result(subdomains.size());
-  for (std::size_t r = 0; r < subdomains.size(); ++r) {
-    std::vector<std::vector<std::int32_t>> with(subdomains.size());
-    for (std::size_t i = 0; i < subdomains[r].node.size(); ++i)
-      for (const int other : ranks[subdomains[r].node[i]])
+  for (std::size_t r = 0; r < nodes_of_ranks.size(); ++r)
+    for (const auto node : nodes_of_ranks[r]) ranks[node].push_back(static_cast<int>(r));
+  std::vector<std::vector<Neighbour>> result(nodes_of_ranks.size());
+  for (std::size_t r = 0; r < nodes_of_ranks.size(); ++r) {
+    std::vector<std::vector<std::int32_t>> with(nodes_of_ranks.size());
+    for (std::size_t i = 0; i < nodes_of_ranks[r].size(); ++i)
+      for (const int other : ranks[nodes_of_ranks[r][i]])
         if (other != int(r)) with[other].push_back(static_cast<std::int32_t>(i));
     for (std::size_t other = 0; other < with.size(); ++other)
       if (!with[other].empty()) result[r].push_back({static_cast<int>(other), std::move(with[other])});

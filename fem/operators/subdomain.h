@@ -30,6 +30,9 @@ std::vector<int> ranks_of_cells(const Grid& grid, int n_ranks);
 /// The rank that counts each node: the first of those of its cells.
 std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell);
 
+/// Numbers of the nodes of some cells, ascending.
+std::vector<std::int32_t> nodes_of_cells(const Grid& grid, const std::vector<std::int32_t>& cells);
+
 /// Cells of a rank, ascending.
 std::vector<std::int32_t> cells_of_rank(const std::vector<int>& rank_of_cell, int rank);
 
@@ -42,9 +45,10 @@ struct Neighbour {
   int rank = 0;
   std::vector<std::int32_t> nodes;  ///< numbers in the subdomain
 };
-/// Of every subdomain, ranks ascending.
-std::vector<std::vector<Neighbour>> find_neighbours(const std::vector<Subdomain>& subdomains,
-                                                    std::size_t n_nodes);
+/// Of every rank, ranks ascending.
+/// @param nodes_of_ranks  numbers in the body of the nodes of each rank's cells, ascending
+std::vector<std::vector<Neighbour>> find_neighbours(
+    const std::vector<std::vector<std::int32_t>>& nodes_of_ranks, std::size_t n_nodes);
 Message& operator<<(Message& message, const std::vector<Neighbour>& neighbours);
 Message& operator>>(Message& message, std::vector<Neighbour>& neighbours);
 

@@ -8,10 +8,12 @@ namespace fem {
 namespace {
 constexpr int message_tag = 1;
 constexpr std::size_t piece = std::size_t(1) << 30;  // MPI counts in int
+constexpr std::size_t piece_of_growth = std::size_t(1) << 20;
 }  // namespace
 
 void Message::put(const void* from, std::size_t n_bytes) {
   const auto* first = static_cast<const char*>(from);
+  if (n_bytes > piece_of_growth) bytes_.reserve(bytes_.size() + n_bytes);  // not twice of it
   bytes_.insert(bytes_.end(), first, first + n_bytes);
 }
 

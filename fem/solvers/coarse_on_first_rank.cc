@@ -1,6 +1,8 @@
 #include "fem/solvers/coarse_on_first_rank.h"
 
 #include <algorithm>
+#include <limits>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -13,18 +15,16 @@ namespace {
 
 constexpr int coarse_tag = 3;
 
-/// What a rank brings.
+/// What a rank brings, beside its matrix.
 struct Part {
   Grid grid;
   std::vector<std::int32_t> corner;
-  SymmetricMatrix matrix;
 };
 
-Part receive_part(int from, MPI_Comm communicator) {
-  Part part;
-  Message::receive(from, communicator) >> part.grid >> part.corner >> part.matrix.n >>
-      part.matrix.column_begin >> part.matrix.row >> part.matrix.value;
-  return part;
+SymmetricMatrix receive_matrix(int from, MPI_Comm communicator) {
+  SymmetricMatrix matrix;
+  Message::receive(from, communicator) >> matrix.n >> matrix.column_begin >> matrix.row >> matrix.value;
+  return matrix;
 }
 
 /// One mesh of the parts' cells; nodes in the order in which the parts have them.
@@ -79,25 +79,40 @@ CoarseOnFirstRank::CoarseOnFirstRank(MPI_Comm communicator, const Grid& coarse,
                                      const std::vector<std::int32_t>& corner, const SymmetricMatrix& matrix,
                                      CoarseLevel level, const kernel::Kernels& kernels)
     : communicator_(communicator) {
-  if (this_rank(communicator) != 0)
-    (Message() << coarse << corner << matrix.n << matrix.column_begin << matrix.row << matrix.value)
-        .send(0, communicator);
+  const bool is_first = this_rank(communicator) == 0;
   std::vector<Part> parts;
-  if (this_rank(communicator) == 0) {
-    parts.push_back({coarse, corner, matrix});
-    for (int r = 1; r < n_ranks(communicator); ++r) parts.push_back(receive_part(r, communicator));
+  if (is_first) {
+    parts.push_back({coarse, corner});
+    for (int r = 1; r < n_ranks(communicator); ++r) {
+      parts.emplace_back();
+      Message::receive(r, communicator) >> parts.back().grid >> parts.back().corner;
+    }
+  } else {
+    (Message() << coarse << corner).send(0, communicator);
+    (Message() << matrix.n << matrix.column_begin << matrix.row << matrix.value).send(0, communicator);
   }
-  agree(communicator, [&] {
-    if (parts.empty()) return;
+  int next = 1;  // whose matrix comes next: one after the other, since all have as much as their sum
+  const auto build = [&] {
     const Grid joined = join(parts, node_);
+    parts.clear();
     const NodeGraph graph = make_node_graph(joined, cells_of_nodes(joined));
     const auto assemble = [&] {
       SymmetricMatrix sum = make_matrix(graph);
-      for (std::size_t r = 0; r < parts.size(); ++r) add(parts[r].matrix, node_[r], sum);
-      parts.clear();
+      add(matrix, node_.front(), sum);
+      for (; next < n_ranks(communicator); ++next)
+        add(receive_matrix(next, communicator), node_[std::size_t(next)], sum);
       return sum;
     };
     solver_ = std::make_unique<CoarseSolver>(joined, graph, assemble, level, kernels);
+  };
+  agree(communicator, [&] {
+    if (!is_first) return;
+    try {
+      build();
+    } catch (...) {
+      for (; next < n_ranks(communicator); ++next) receive_matrix(next, communicator);  // they wait for that
+      throw;
+    }
   });
 }
 
@@ -108,14 +123,20 @@ CoarseOnFirstRank::WorkSpace CoarseOnFirstRank::work_space(const Lanes& lanes) c
 
 void CoarseOnFirstRank::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
                               WorkSpace& work) const {
-  const auto size = [&](std::size_t n_nodes) { return static_cast<int>(3 * n_nodes * lanes.n_lanes); };
+  const auto size = [&](std::size_t n_nodes) {
+    const std::size_t n = 3 * n_nodes * lanes.n_lanes;
+    if (n > std::size_t(std::numeric_limits<int>::max()))
+      throw SolveFailed("the trilinear level of one MPI rank has " + std::to_string(n) +
+                        " numbers, more than one message takes: start the program on more ranks");
+    return static_cast<int>(n);
+  };
   if (!solver_) {
     MPI_Send(b.data(), size(b.n_nodes()), MPI_FLOAT, 0, coarse_tag, communicator_);
     MPI_Recv(x.data(), size(x.n_nodes()), MPI_FLOAT, 0, coarse_tag, communicator_, MPI_STATUS_IGNORE);
     return;
   }
   const std::size_t n = solver_->n_nodes();
-  std::fill_n(work.force.data(), size(n), 0.0f);
+  std::fill_n(work.force.data(), 3 * n * lanes.n_lanes, 0.0f);
   std::vector<float> received;
   for (std::size_t r = 0; r < node_.size(); ++r) {
     const float* from = b.data();

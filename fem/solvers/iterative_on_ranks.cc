@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/common/memory.h"
 #include "fem/mesh/cell_order.h"
 #include "fem/operators/shared_nodes.h"
 #include "fem/operators/subdomain.h"
@@ -57,49 +58,71 @@ SharedNodes share_nodes(MPI_Comm communicator, const IterativeJob& job, const Ce
 }
 
 /// Called on all ranks.
+/// Rows of the nodes that this rank counts.
+Eigen::MatrixXd counted_rows(const IterativeJob& job, const Eigen::MatrixXd& all) {
+  Eigen::MatrixXd counted(3 * std::count(job.counted.begin(), job.counted.end(), 1), all.cols());
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < job.counted.size(); ++i)
+    if (job.counted[i] != 0) {
+      counted.middleRows<3>(row) = all.middleRows<3>(3 * Eigen::Index(i));
+      row += 3;
+    }
+  return counted;
+}
+
+/// @param force  on rank 0: of the body; kept there only if the iteration fails
 /// @return displacements of the nodes that this rank counts; their reports are those of the body
 std::optional<Solution> iterate_share(MPI_Comm communicator, const IterativeJob& job,
                                       const NodeExchange& all_nodes, const NodeExchange& counted_nodes,
-                                      const Eigen::MatrixXd& force, const StepReport& progress,
+                                      Eigen::MatrixXd& force, const StepReport& progress,
                                       std::string& failure) {
   CellOrder order = order_cells(job.part.grid);
   count_first(job.counted, order.node_place);
   const SharedNodes shared = share_nodes(communicator, job, order);
   BalancedLoads loads;
+  const auto n_rows = force.rows();
   loads.force = all_nodes.from_first(force, 3);
+  force.resize(0, 0);
   loads.norm = job.norm;
   loads.largest_entry = job.largest_entry;
-  auto solution = iterate(job.part.grid, order, cell_after_cell(job.elastic), job.modulus_Pa, loads,
-                          job.width, job.choice, progress, failure, &shared);
-  if (!solution) return std::nullopt;
-  Eigen::MatrixXd counted(3 * shared.n_counted(), force.cols() > 0 ? force.cols() : loads.force.cols());
-  Eigen::Index row = 0;
-  for (std::size_t i = 0; i < job.counted.size(); ++i)
-    if (job.counted[i] != 0) {
-      counted.middleRows<3>(row) = solution->displacement.middleRows<3>(3 * Eigen::Index(i));
-      row += 3;
-    }
+  const auto collect = [&](const Eigen::MatrixXd& own, Eigen::MatrixXd& whole) {
+    const auto counted = counted_rows(job, own);
+    whole = Eigen::MatrixXd::Zero(n_rows, n_rows > 0 ? own.cols() : 0);
+    counted_nodes.add_on_first(counted, 3, whole);
+  };
+  std::optional<Solution> solution;
+  try {
+    solution = iterate(job.part.grid, order, cell_after_cell(job.elastic), job.modulus_Pa, loads, job.width,
+                       job.choice, progress, failure, &shared);
+  } catch (const FailedTogether&) {
+    collect(loads.force, force);
+    throw;
+  }
+  if (!solution) {
+    collect(loads.force, force);
+    return std::nullopt;
+  }
+  loads.force.resize(0, 0);
   solution->ranks =
       gather_work(communicator, {job.part.grid.n_cells(), 3 * shared.n_counted(), solution->bytes});
-  solution->displacement = Eigen::MatrixXd::Zero(force.rows(), force.cols());
-  counted_nodes.add_on_first(counted, 3, solution->displacement);
+  const Eigen::MatrixXd own = std::move(solution->displacement);
+  collect(own, solution->displacement);
   return solution;
 }
 
 }  // namespace
 
 std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellMaterials& materials,
-                                                   const BalancedLoads& loads, const SolverChoice& choice,
+                                                   BalancedLoads& loads, const SolverChoice& choice,
                                                    const StepReport& progress, std::string& failure,
                                                    MPI_Comm communicator) {
   progress(0.05, "prepare multigrid");
   const int n = n_ranks(communicator);
   const auto rank_of_cell = ranks_of_cells(grid, n);
   const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
-  std::vector<Subdomain> parts;
-  for (int r = 0; r < n; ++r) parts.push_back(make_subdomain(grid, cells_of_rank(rank_of_cell, r)));
-  auto neighbours = find_neighbours(parts, grid.n_nodes);
-  std::vector<std::vector<std::int32_t>> nodes(n), counted_nodes(n);
+  std::vector<std::vector<std::int32_t>> nodes, counted_nodes(n);
+  for (int r = 0; r < n; ++r) nodes.push_back(nodes_of_cells(grid, cells_of_rank(rank_of_cell, r)));
+  auto neighbours = find_neighbours(nodes, grid.n_nodes);
   IterativeJob job;
   job.modulus_Pa = materials.largest_modulus_Pa();
   const auto elastic = materials.elastic(job.modulus_Pa);
@@ -108,7 +131,7 @@ std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellM
   job.norm = loads.norm;
   job.largest_entry = loads.largest_entry;
   for (int r = n - 1; r >= 0; --r) {
-    job.part = std::move(parts[r]);
+    job.part = make_subdomain(grid, cells_of_rank(rank_of_cell, r));
     job.elastic = elastic_of(job.part, elastic);
     job.neighbours = std::move(neighbours[r]);
     job.counted.clear();
@@ -116,11 +139,13 @@ std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellM
       job.counted.push_back(rank_of_node[node] == r ? 1 : 0);
       if (rank_of_node[node] == r) counted_nodes[r].push_back(node);
     }
-    nodes[r] = job.part.node;
     if (r == 0) continue;
-    Message message;
-    message << job;
-    message.send(r, communicator);
+    {
+      Message message;
+      message << job;
+      message.send(r, communicator);
+    }
+    release_free_memory();
   }
   auto solution = iterate_share(communicator, job, {communicator, nodes}, {communicator, counted_nodes},
                                 loads.force, progress, failure);
@@ -137,8 +162,9 @@ void help_to_solve_iteratively(MPI_Comm communicator) {
   message >> job;
   message = {};
   std::string failure;
+  Eigen::MatrixXd none;
   iterate_share(
-      communicator, job, {communicator, {}}, {communicator, {}}, {}, [](double, const auto&) {}, failure);
+      communicator, job, {communicator, {}}, {communicator, {}}, none, [](double, const auto&) {}, failure);
 }
 
 }  // namespace fem

@@ -39,9 +39,9 @@ Message& operator>>(Message& message, RecoveryJob& job) {
 }
 
 /// Called on all ranks.
-void recover_share(MPI_Comm communicator, const RecoveryJob& job, const NodeExchange& all_nodes,
-                   const NodeExchange& counted_nodes, const RowMajor& displacement,
-                   Eigen::Ref<RowMajor> stress) {
+/// @return of the nodes that this rank counts
+RowMajor recover_share(MPI_Comm communicator, const RecoveryJob& job, const NodeExchange& all_nodes,
+                       const ConstBlock& displacement) {
   const RowMajor own = all_nodes.from_first(displacement, 1);
   RowMajor counted;
   agree(communicator, [&] {
@@ -57,7 +57,7 @@ void recover_share(MPI_Comm communicator, const RecoveryJob& job, const NodeExch
     counted.resize(job.counted.size(), result.cols());
     for (std::size_t i = 0; i < job.counted.size(); ++i) counted.row(i) = result.row(job.counted[i]);
   });
-  counted_nodes.add_on_first(counted, 1, stress);
+  return counted;
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<L
 
 void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
                              const std::vector<CylinderChart>& charts, const std::vector<int>& loaded_groups,
-                             bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress,
+                             bool by_patches, const ConstBlock& displacement, std::vector<double>& stress_Pa,
                              MPI_Comm communicator) {
   const int n = n_ranks(communicator);
   const auto rank_of_cell = ranks_of_cells(grid, n);
@@ -102,9 +102,10 @@ void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const 
     message << job;
     message.send(r, communicator);
   }
-  stress.setZero();
-  recover_share(communicator, job, {communicator, nodes}, {communicator, counted_nodes}, displacement,
-                stress);
+  const RowMajor counted = recover_share(communicator, job, {communicator, nodes}, displacement);
+  stress_Pa.assign(grid.n_nodes * std::size_t(counted.cols()), 0);
+  Eigen::Map<RowMajor> stress(stress_Pa.data(), Eigen::Index(grid.n_nodes), counted.cols());
+  NodeExchange(communicator, std::move(counted_nodes)).add_on_first(counted, 1, stress);
 }
 
 void help_to_recover_stress(MPI_Comm communicator) {
@@ -112,8 +113,9 @@ void help_to_recover_stress(MPI_Comm communicator) {
   Message message = Message::receive(0, communicator);
   message >> job;
   message = {};
-  RowMajor none;
-  recover_share(communicator, job, {communicator, {}}, {communicator, {}}, none, none);
+  RowMajor none(0, 0);
+  const RowMajor counted = recover_share(communicator, job, {communicator, {}}, none);
+  NodeExchange(communicator, {}).add_on_first(counted, 1, none);
 }
 
 }  // namespace fem

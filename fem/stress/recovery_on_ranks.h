@@ -23,9 +23,10 @@ void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<L
 /// The same; every rank does the nodes that it counts, on its cells and as many layers around them as these
 /// nodes' patches reach: the same steps as on one rank. Called on rank 0, while the others are in
 /// help_to_recover_stress.
+/// @param stress_Pa  n_nodes x 6 K; made once the ranks have recovered
 void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
                              const std::vector<CylinderChart>& charts, const std::vector<int>& loaded_groups,
-                             bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress,
+                             bool by_patches, const ConstBlock& displacement, std::vector<double>& stress_Pa,
                              MPI_Comm communicator);
 void help_to_recover_stress(MPI_Comm communicator);
 

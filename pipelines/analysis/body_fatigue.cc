@@ -38,7 +38,7 @@ void take_life(const FatigueRules& rules, const CountedNode& counted, const Load
   place.damage_per_turn = damage / period.turns;
   if (damage > 0) place.life_s = period.duration_s / damage;
   if (const auto wanted = rules.scene().wanted_life_s)
-    place.life_safety = life_factor(curve, blocks, *wanted / period.duration_s);
+    place.life_safety = life_safety(curve, blocks, *wanted / period.duration_s);
   place.certainty =
       certainty_of(place.error_share,
                    beyond_curve(place.cycle.amplitude_Pa + std::abs(place.cycle.signed_mean_Pa),
@@ -277,7 +277,7 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
   if (damage > 0) weld.life_s = period.duration_s * damage_sum / damage;
   if (const auto wanted = analysis.scene.fatigue->wanted_life_s)
     weld.life_safety =
-        life_factor(weld_curve(place.detail, amplitude), ranges, *wanted / period.duration_s, damage_sum);
+        life_safety(weld_curve(place.detail, amplitude), ranges, *wanted / period.duration_s, damage_sum);
   weld.error_share = place.error_share + place.unresolved_share(course, toe);
   const auto curve = weld_curve(place.detail, amplitude);
   weld.damage_share = shares_in_damage(place, analysis.loads.history, course, toe, curve);

@@ -110,7 +110,7 @@ void take_damage(const CountedBlocks& counted, const CurveOf& curve_of, double d
   }
   if (place.damage_per_s > 0) place.life_s = damage_sum / place.damage_per_s;
   place.error_share += sampling_share(counted, place);
-  if (scene.wanted_life_s) place.life_safety = life_factor(curve, all, *scene.wanted_life_s, damage_sum);
+  if (scene.wanted_life_s) place.life_safety = life_safety(curve, all, *scene.wanted_life_s, damage_sum);
   place.certainty = certainty_of(
       place.error_share, beyond_curve(counted.largest_Pa(), scene.material.yield_strength_Pa, curve, all),
       [&](double factor) {

@@ -18,15 +18,31 @@ std::vector<StressBlock> scaled(std::vector<StressBlock> blocks, double factor) 
   return blocks;
 }
 
+namespace {
+
+double largest_amplitude_Pa(const std::vector<StressBlock>& blocks) {
+  double largest_Pa = 0;
+  for (const auto& block : blocks)
+    if (block.count > 0) largest_Pa = std::max(largest_Pa, block.amplitude_Pa);
+  return largest_Pa;
+}
+
+}  // namespace
+
+std::optional<double> life_safety(const SnCurve& curve, const std::vector<StressBlock>& blocks,
+                                  double repetitions, double damage_sum) {
+  const auto factor = life_factor(curve, blocks, repetitions, damage_sum);
+  if (!factor) return factor;
+  return std::min(*factor,
+                  endured_amplitude_Pa(curve, least_cycles_of_curves) / largest_amplitude_Pa(blocks));
+}
+
 std::string beyond_curve(double largest_Pa, double yield_Pa, const SnCurve& curve,
                          const std::vector<StressBlock>& blocks) {
   if (largest_Pa > yield_Pa)
     return fmt::format("amplitude plus mean, {:.4g} MPa, exceed the yield strength, {:.4g} MPa",
                        largest_Pa / 1e6, yield_Pa / 1e6);
-  double most_Pa = 0;
-  for (const auto& block : blocks)
-    if (block.count > 0) most_Pa = std::max(most_Pa, block.amplitude_Pa);
-  const auto cycles = cycles_to_failure(curve, most_Pa);
+  const auto cycles = cycles_to_failure(curve, largest_amplitude_Pa(blocks));
   if (cycles && *cycles < least_cycles_of_curves)
     return fmt::format("{:.2g} of its largest cycles are endured, and S-N curves begin at {:.0e}", *cycles,
                        least_cycles_of_curves);

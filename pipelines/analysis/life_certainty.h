@@ -43,6 +43,12 @@ std::vector<StressBlock> scaled(std::vector<StressBlock> blocks, double factor);
 std::string beyond_curve(double largest_Pa, double yield_Pa, const SnCurve& curve,
                          const std::vector<StressBlock>& blocks);
 
+/// The factor on all stresses with which a wanted life is reached (life_factor), at most the one that brings
+/// the largest cycle to where curves begin: elastic stress tells of no higher one.
+/// @param repetitions, damage_sum  as life_factor; none if nothing damages
+std::optional<double> life_safety(const SnCurve& curve, const std::vector<StressBlock>& blocks,
+                                  double repetitions, double damage_sum = 1);
+
 /// A sentence for the warnings.
 /// @param place   the first of so many
 /// @param beyond  its LifeCertainty::beyond

@@ -57,3 +57,13 @@ TEST(LifeCertainty, CurvesEndAtYieldAndAtTenThousandCycles) {
   EXPECT_NE(text(300e6, 1.001 * most).find("S-N curves begin at 1e+04"), std::string::npos);
   EXPECT_EQ(text(100e6, 80e6), "") << "endures";
 }
+
+// Wanted twice: a factor of 251.19 / 50 would bring 1e4 cycles, one of 100 (5e5)^(1/5) / 50 two of them.
+TEST(LifeCertainty, NoSafetyIsBeyondTheCurve) {
+  const std::vector<StressBlock> blocks{{50e6, 1}, {400e6, 0}};
+  const double most = 2 * std::pow(100, 0.2);
+  EXPECT_NEAR(*life_safety(falling, blocks, 2), most, 1e-12);
+  EXPECT_NEAR(*life_safety(falling, blocks, 1e4), most, 1e-12);
+  EXPECT_NEAR(*life_safety(falling, blocks, 3e4, 0.5), 2 * std::pow(1e6 / 6e4, 0.2), 1e-12);
+  EXPECT_FALSE(life_safety(falling, {{0, 1}}, 2));
+}
