@@ -2,11 +2,14 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <limits>
 #include <map>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -195,6 +198,21 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
   if (rows.size() > most_lines) out << fmt::format("  ... {} more in sweep.csv\n", rows.size() - most_lines);
 }
 
+/// As one word of a shell's command line.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of("\"$`\\!") == std::string::npos) return '"' + text + '"';
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+std::string quoted_if_needed(const std::string& text) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::strchr("_./-+=,:@%", c) != nullptr;
+  };
+  return std::all_of(text.begin(), text.end(), is_plain) ? text : quoted(text);
+}
+
 /// The point where each figure is largest, and how to look at it.
 void print_extremes(std::ostream& out, const SweepCommandOptions& options, const SweepPlan& plan,
                     const std::vector<SweepRow>& rows, const std::vector<std::string>& figures) {
@@ -209,9 +227,13 @@ void print_extremes(std::ostream& out, const SweepCommandOptions& options, const
                        scale_of(unit) * rows[*largest].figure(figure), shown_unit(unit));
     std::string settings;
     for (const auto* all : {&options.settings, &plan.points[*largest].settings})
-      for (const auto& setting : *all) settings += " --set \"" + setting + '"';
-    out << "  millstress " << (options.loads_only ? "loads " : "run ") << options.scene.string() << settings
-        << '\n';
+      for (const auto& setting : *all) settings += " --set " + quoted(setting);
+    if (!options.loads_only) {
+      if (!options.tolerance.empty()) settings += " --tolerance " + quoted(options.tolerance);
+      if (!options.time_limit.empty()) settings += " --time-limit " + quoted(options.time_limit);
+    }
+    out << "  millstress " << (options.loads_only ? "loads " : "run ")
+        << quoted_if_needed(options.scene.string()) << settings << '\n';
   }
 }
 
@@ -305,6 +327,23 @@ HeatMap heat_map(const std::string& title, const SweepPlan& plan, const std::vec
   map.y_values = labels(up);
   for (const auto& row : rows) map.figures.push_back(scale_of(unit) * row.figure(figure));
   return map;
+}
+
+/// Files of this or an earlier sweep's charts and maps in a directory.
+std::vector<std::string> charts_in(const std::filesystem::path& directory) {
+  static const std::regex of_sweep(R"((chart|map)(_[0-9]+)?\.(png|svg))");
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, none))
+    if (const auto name = entry.path().filename().string(); std::regex_match(name, of_sweep))
+      names.push_back(name);
+  return names;
+}
+
+/// Those of an earlier sweep that this one has not drawn are of other points.
+void remove_other_charts(const std::filesystem::path& directory, const std::vector<std::string>& drawn) {
+  for (const auto& name : charts_in(directory))
+    if (std::find(drawn.begin(), drawn.end(), name) == drawn.end()) std::filesystem::remove(directory / name);
 }
 
 /// @return the files that were written
@@ -451,8 +490,9 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
   const int n_threads = own_threads(options), n_ranks = fem::n_ranks(MPI_COMM_WORLD);
   if (n_ranks > 1) work_on_bodies_alone();
   SweepRun run(sweep.options(options, n_threads, 0), plan.points);
-  require_writable(output_files("-o", sweep.directory,
-                                {"sweep.csv", "sweep.h5", "zones.csv", "journal", "chart.png", "map.png"}));
+  auto outputs = charts_in(sweep.directory);
+  for (const char* name : {"sweep.csv", "sweep.h5", "zones.csv", "journal"}) outputs.emplace_back(name);
+  require_writable(output_files("-o", sweep.directory, outputs));
   std::optional<FemEnvironment> environment;
   if (!sweep.first.bodies.empty()) environment.emplace(n_threads);
 
@@ -510,6 +550,7 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   const auto figures = shown_figures(options.figures, rows);
   const auto charts = clock.run(
       "charts", [&] { return draw_charts(directory, first.title, plan, rows, figures, request.design); });
+  remove_other_charts(directory, charts);
   if (options.json) {
     out << sweep_json(plan, rows);
   } else {

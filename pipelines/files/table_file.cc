@@ -124,7 +124,7 @@ private:
     for (std::size_t c = 0; c < cells.size() && errors_.size() < most_errors; ++c) {
       double value = 0;
       const std::string& text = cells[c].text;
-      const char* const begin = text.c_str() + (text[0] == '+' ? 1 : 0);
+      const char* const begin = text.c_str() + (text[0] == '+' && text[1] != '-' ? 1 : 0);
       const char* const end = text.c_str() + text.size();
       const auto [stop, error] = std::from_chars(begin, end, value);
       if (error != std::errc() || stop != end || !std::isfinite(value))

@@ -297,7 +297,7 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
 }
 
 void add_loads(HtmlPage& page, const Json& summary) {
-  if (!summary.contains("loads")) return;  // a load table brings channels alone
+  if (!summary.contains("loads")) return;  // all are zero
   Rows rows;
   for (const auto& [name, load] : summary.at("loads").items())
     rows.push_back({name, number(load.at("max")), number(load.at("min")), number(load.at("mean")),

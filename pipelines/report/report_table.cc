@@ -7,6 +7,7 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/loads/load_figures.h"
 #include "pipelines/report/duty_report.h"
 #include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/results.h"
@@ -29,11 +30,11 @@ void print_loads(std::ostream& out, const RunReport& report) {
   for (const auto& quantity : report.loads.quantities)
     if (kind.is_headline(quantity.name))  // the rest is in summary.json
       print_load(out, quantity.name + " [" + quantity.unit + "]", quantity.values);
-  if (!kind.has_samples()) return;
-  for (const auto& resultant : report.loads.resultants)
-    for (const auto& [row, component] : {std::pair{0, ".fx [N]"}, {1, ".fy [N]"}, {2, ".torque [N m]"}})
-      if ((resultant.total.row(row) != 0).any())
-        print_load(out, resultant.role + component, resultant.total.row(row));
+  if (kind.has_samples())
+    for_each_component(report.loads,
+                       [&](const std::string& name, const std::string& unit, const Eigen::ArrayXd& values) {
+                         print_load(out, name + " [" + unit + "]", values);
+                       });
 }
 
 std::string when(const RunReport& report, std::int32_t instant) {

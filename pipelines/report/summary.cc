@@ -9,6 +9,7 @@
 #include "pipelines/common/statistics.h"
 #include "pipelines/common/version.h"
 #include "pipelines/files/content_hash.h"
+#include "pipelines/loads/load_figures.h"
 #include "pipelines/report/duty_report.h"
 #include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/summary_values.h"
@@ -91,16 +92,16 @@ std::string summary_json(const RunReport& report) {
       json["warnings"].push_back(analysis.scene.name + ": NOT KNOWN WELL: " + text);
   for (const auto* warnings : {&report.loads.warnings, &report.scene.warnings})
     for (const auto& warning : *warnings) json["warnings"].push_back(warning);
-  for (const auto& quantity : report.loads.quantities) {
-    if (!quantity.has_statistics) continue;
-    const auto s = statistics(quantity.values);
-    json["loads"][quantity.name] = object({{"max", number(s.max)},
-                                           {"min", number(s.min)},
-                                           {"mean", number(s.mean)},
-                                           {"rms", number(s.rms)},
-                                           {"unit", quantity.unit}});
-  }
   const Machine& machine = report.scene.machine;
+  for_each_load(kind_of(machine), report.loads,
+                [&](const std::string& name, const std::string& unit, const Eigen::ArrayXd& values) {
+                  const auto s = statistics(values);
+                  json["loads"][name] = object({{"max", number(s.max)},
+                                                {"min", number(s.min)},
+                                                {"mean", number(s.mean)},
+                                                {"rms", number(s.rms)},
+                                                {"unit", unit}});
+                });
   for (const double w : kind_of(machine).natural_frequencies_rad_s(machine))
     json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
   if (report.torsion != nullptr) {

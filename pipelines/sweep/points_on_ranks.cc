@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <limits>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -53,6 +55,9 @@ std::vector<int> deal_points(const std::vector<std::size_t>& group, int n_ranks)
 }
 
 void RowsToFirstRank::send(std::vector<char> bytes) {
+  if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
+    throw std::length_error("rows of " + std::to_string(bytes.size()) +
+                            " bytes are more than one message to rank 0 takes: sweep fewer points at once");
   auto& sent = sent_.emplace_back(Sent{std::move(bytes), MPI_REQUEST_NULL});
   MPI_Isend(sent.bytes.data(), int(sent.bytes.size()), MPI_BYTE, 0, rows_tag, MPI_COMM_WORLD, &sent.request);
 }

@@ -13,10 +13,9 @@
 
 namespace pipelines {
 
-/// The rank of each point. Points that share their meshes stay together.
-/// @param group     of each point: equal numbers stay together, in the order of the numbers from one rank to
-/// the
-///                  next
+/// The rank of each point: groups go to the ranks in turn, by ascending number, each as a whole.
+/// @param group    of each point
+/// @param n_ranks  at least 1
 std::vector<int> deal_points(const std::vector<std::size_t>& group, int n_ranks);
 
 /// On every rank but the first: rows on their way to rank 0, which may be long at its own points.

@@ -262,6 +262,8 @@ void SweepJournal::flush() {
   out << pending_;
   out.flush();
   if (!out) throw FileError(file_.string() + " cannot be written; is the disk full?");
+  out.close();
+  bring_to_disk(file_);
   pending_.clear();
 }
 

@@ -2,26 +2,27 @@
 
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/statistics.h"
-#include "pipelines/scene/machine_kind.h"
+#include "pipelines/loads/load_figures.h"
 
 namespace pipelines {
 
 void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHistory& loads,
                       const std::vector<BearingResult>& bearings) {
-  for (const auto& quantity : loads.quantities) {
-    if (!quantity.has_statistics) continue;
-    const auto s = statistics(quantity.values);
-    const auto add = [&](const char* what, double value) {
-      row.figures.add({"loads.", quantity.name, what}, quantity.unit, value);
-    };
-    add(".max", s.max);
-    add(".min", s.min);
-    add(".mean", s.mean);
-    add(".rms", s.rms);
-    add(".first", quantity.values[0]);
-  }
+  const MachineKind& kind = kind_of(scene.machine);
+  for_each_load(kind, loads,
+                [&](const std::string& name, const std::string& unit, const Eigen::ArrayXd& values) {
+                  const auto s = statistics(values);
+                  const auto add = [&](const char* what, double value) {
+                    row.figures.add({"loads.", name, what}, unit, value);
+                  };
+                  add(".max", s.max);
+                  add(".min", s.min);
+                  add(".mean", s.mean);
+                  add(".rms", s.rms);
+                  add(".first", values[0]);
+                });
   int mode = 0;
-  for (const double w : kind_of(scene.machine).natural_frequencies_rad_s(scene.machine))
+  for (const double w : kind.natural_frequencies_rad_s(scene.machine))
     row.figures.add({"torsion.natural_frequency_", std::to_string(++mode)}, "rad/s", w);
   for (const auto& bearing : bearings) {
     const auto add = [&](const char* figure, const char* unit, const std::optional<double>& value) {

@@ -24,7 +24,7 @@ struct SweepRow {
   double figure(const std::string& name) const { return figures.value(name); }
 };
 
-/// "loads.<name>.max", ".min", ".mean", ".rms" of every quantity with statistics, and ".first" at the first
+/// "loads.<name>.max", ".min", ".mean", ".rms" of every load (for_each_load), and ".first" at the first
 /// instant; natural frequencies of a drive train; bearings' equivalent loads and lives.
 /// @param scene  with the masses that it left to a mesh
 void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHistory& loads,

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <map>
+#include <set>
 
 #include "pipelines/analysis/respond.h"
 #include "pipelines/common/errors.h"
@@ -50,6 +52,14 @@ std::string names_of_bodies(const Scene& scene) {
   return names.empty() ? "no body" : names;
 }
 
+/// What a point has beside numbers, which name no file.
+std::string texts_of(const SweepPoint& point) {
+  std::string texts;
+  for (std::size_t v = 0; v < point.values.size(); ++v)
+    if (std::isnan(point.numbers[v])) texts += point.values[v] + '\n';
+  return texts;
+}
+
 /// effects = [...] as the scene has them on.
 std::string effects_setting(const Scene& scene) {
   std::string list;
@@ -72,8 +82,11 @@ public:
     std::exception_ptr first_failure;
     std::string first_bodies;
     std::size_t n_read = 0;
+    std::set<std::string> texts;
     for (std::size_t p = 0; p < settings_.size(); ++p) {
-      if (n_read > 0 && !needs_bodies_ && options_.loads_only) break;  // the rest is read when it is run
+      const bool names_other_files = texts.insert(texts_of(points[p])).second;
+      if (n_read > 0 && !needs_bodies_ && options_.loads_only && !names_other_files)
+        continue;  // it is read when it is run
       Scene scene;
       refused_[p] = point_refusal([&] {
         try {

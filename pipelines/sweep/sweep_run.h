@@ -23,7 +23,8 @@ using SweepListener =
 
 class SweepRun {
 public:
-  /// Reads every point.
+  /// Reads every point, but for those of the load stage alone that differ from others in numbers only. So all
+  /// files that points name are noted as inputs.
   /// @throws SceneError if no point can be read: what is wrong with the first
   SweepRun(SweepOptions options, const std::vector<SweepPoint>& points);
   ~SweepRun();

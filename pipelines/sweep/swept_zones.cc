@@ -1,5 +1,4 @@
 #include "pipelines/sweep/swept_zones.h"
-#include "pipelines/analysis/governing_stress.h"
 
 #include <algorithm>
 #include <cmath>

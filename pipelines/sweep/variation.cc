@@ -26,7 +26,8 @@ std::string without_blanks(const std::string& text) {
 /// The number that a text begins with, and what follows it; empty if it begins with none.
 std::optional<std::pair<double, std::string>> leading_number(const std::string& text) {
   double number = 0;
-  const char* const begin = text.data() + (text.rfind('+', 0) == 0 ? 1 : 0);
+  const bool has_plus = text.rfind('+', 0) == 0 && text.rfind("+-", 0) != 0;
+  const char* const begin = text.data() + (has_plus ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
   if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
   return std::pair(number, without_blanks(std::string(end, text.data() + text.size())));

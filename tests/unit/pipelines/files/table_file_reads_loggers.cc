@@ -59,6 +59,7 @@ TEST(TableFile, NamesEveryWrongCellAtItsPlace) {
   EXPECT_EQ(refusals("t [s],x [N]\n1,2\n3,4;5\n"), Places{"3:3 x = 4;5"});
   EXPECT_EQ(refusals("t [s],x [N]\n1,nan\n,2\n1e999,0x10\n"),
             (Places{"2:3 x = nan", "3:1 t = ", "4:1 t = 1e999", "4:7 x = 0x10"}));
+  EXPECT_EQ(refusals("t [s],x [N]\n1,+-5\n"), Places{"2:3 x = +-5"});
   EXPECT_EQ(refusals("t [s],x [N]\n1,2\n3\n"), Places{"3:1  = 3"});
   EXPECT_EQ(refusals("t [s],t [N]\n1,2\n"), Places{"1:7 t = t [N]"});
   EXPECT_EQ(refusals("t [s], \n1,2\n"), Places{"1:7  = "});
