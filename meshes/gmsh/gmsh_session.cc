@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <system_error>
+#include <utility>
 
 #include "meshes/values/refused.h"
 
@@ -21,17 +22,37 @@ GmshSession::~GmshSession() {
   }
 }
 
+namespace {
+
+/// A file that is gone when this is: renamed by then, or removed.
+class TemporaryFile {
+public:
+  explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
+  ~TemporaryFile() {
+    std::error_code ignored;  // after what is thrown already
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
 void write_msh_file(const std::filesystem::path& file, const std::function<void()>& fill_model) {
-  const std::filesystem::path temporary = file.string() + "." + std::to_string(::getpid()) + ".msh";
+  const TemporaryFile temporary(file.string() + "." + std::to_string(::getpid()) + ".msh");
   const std::string purpose = "writing " + file.string();
   with_gmsh(purpose, [&] {
     fill_model();
     gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
     gmsh::option::setNumber("Mesh.Binary", 0);
-    gmsh::write(temporary.string());
+    gmsh::write(temporary.path().string());
   });
   std::error_code error;
-  std::filesystem::rename(temporary, file, error);
+  std::filesystem::rename(temporary.path(), file, error);
   if (error)
     throw MeshRefused(purpose + ": " + error.message() + "; check that the directory exists and is writable");
 }

@@ -36,7 +36,8 @@ void with_gmsh(const std::string& purpose, Action action) {
   }
 }
 
-/// Fills a model in a session of its own and writes it as .msh 4.1, through a temporary name.
+/// Fills a model in a session of its own and writes it as .msh 4.1, through a temporary name; nothing is
+/// left under that name if this throws.
 /// @throws MeshRefused naming the file
 void write_msh_file(const std::filesystem::path& file, const std::function<void()>& fill_model);
 

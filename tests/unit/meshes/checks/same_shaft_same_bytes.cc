@@ -2,8 +2,10 @@
 
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 #include "meshes/shaft/shaft.h"
+#include "meshes/values/refused.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 
 namespace {
@@ -43,6 +45,16 @@ TEST(MshFile, LeavesNoTemporaryBesideItAndReplacesAnOldOne) {
   for (const auto& entry : std::filesystem::directory_iterator(file.parent_path()))
     n_files += entry.is_regular_file();
   EXPECT_EQ(n_files, 1);
+}
+
+TEST(MshFile, LeavesNoTemporaryWhereItCannotStand) {
+  const auto taken = temporary_msh("taken/shaft");
+  std::filesystem::create_directories(taken);  // no file replaces a directory
+  EXPECT_THROW(meshes::build_shaft(plain_cylinder(), {}, taken), meshes::MeshRefused);
+  std::vector<std::filesystem::path> left;
+  for (const auto& entry : std::filesystem::directory_iterator(taken.parent_path()))
+    left.push_back(entry.path());
+  EXPECT_EQ(left, std::vector{taken});
 }
 
 }  // namespace
