@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -17,8 +18,17 @@
 
 namespace fem {
 
+void refuse_large_graph(std::size_t n_pairs) {
+  constexpr auto most = std::size_t(std::numeric_limits<idx_t>::max()) / 2;
+  if (n_pairs > most)
+    throw DoesNotFit("the mesh has " + std::to_string(n_pairs) +
+                     " pairs of neighbouring nodes; METIS, which orders them for the factor, can count " +
+                     std::to_string(most) + ": mesh with larger cells, or take a lower degree");
+}
+
 std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
   static_assert(sizeof(idx_t) == sizeof(std::int32_t), "METIS with 32-bit indices is expected");
+  refuse_large_graph(graph.neighbour.size());
   idx_t n = static_cast<idx_t>(graph.n_nodes());
   std::vector<idx_t> begin(n + 1, 0);
   for (idx_t j = 0; j < n; ++j) {

@@ -12,8 +12,13 @@
 namespace fem {
 
 /// Nested dissection of the nodes: position p of the new order is node result[p].
-/// @throws SolveFailed if METIS fails
+/// @throws SolveFailed if METIS fails; DoesNotFit as refuse_large_graph
 std::vector<std::int32_t> order_nodes(const NodeGraph& graph);
+
+/// METIS counts each pair of neighbours twice, in 32 bits.
+/// @param n_pairs  of neighbours
+/// @throws DoesNotFit naming the pairs, how many can be counted, and the remedy
+void refuse_large_graph(std::size_t n_pairs);
 
 class CholmodFactor {
 public:

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "fem/solvers/cholmod_factor.h"
+#include "fem/values/errors.h"
 
 namespace {
 
@@ -90,6 +91,12 @@ TEST(CholmodFactor, OfADenseMatrixHasItsSize) {
     EXPECT_EQ(size.entries, n * n);
     EXPECT_EQ(size.flops, n * (n + 1) * (2 * n + 1) / 6);
   }
+}
+
+// Both directions of 2^30 pairs are one more than a signed number of 32 bits holds.
+TEST(CholmodFactor, RefusesMoreNeighboursThanMetisCounts) {
+  EXPECT_NO_THROW(fem::refuse_large_graph((std::size_t(1) << 30) - 1));
+  EXPECT_THROW(fem::refuse_large_graph(std::size_t(1) << 30), fem::DoesNotFit);
 }
 
 }  // namespace
