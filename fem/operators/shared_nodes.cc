@@ -12,6 +12,8 @@ namespace fem {
 namespace {
 
 constexpr int shared_nodes_tag = 2;
+/// MPI counts the bytes of a message in 31 bits.
+constexpr std::size_t values_per_message = std::size_t(1) << 27;
 
 /// Calls use(first of the node's numbers, how many) for each group of lanes.
 template <typename T, typename Use>
@@ -56,14 +58,16 @@ SharedNodes::SharedNodes(MPI_Comm communicator, std::vector<Neighbour> neighbour
 template <typename T>
 std::vector<std::vector<T>> SharedNodes::exchange(const std::vector<std::vector<T>>& sent) const {
   std::vector<std::vector<T>> received(neighbours_.size());
-  std::vector<MPI_Request> requests(2 * neighbours_.size());
+  std::vector<MPI_Request> requests;
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
     received[n].resize(sent[n].size());
-    const auto bytes = static_cast<int>(sent[n].size() * sizeof(T));
-    MPI_Irecv(received[n].data(), bytes, MPI_BYTE, neighbours_[n].rank, shared_nodes_tag, communicator_,
-              &requests[2 * n]);
-    MPI_Isend(sent[n].data(), bytes, MPI_BYTE, neighbours_[n].rank, shared_nodes_tag, communicator_,
-              &requests[2 * n + 1]);
+    for (std::size_t first = 0; first < sent[n].size(); first += values_per_message) {
+      const auto bytes = static_cast<int>(sizeof(T) * std::min(values_per_message, sent[n].size() - first));
+      MPI_Irecv(&received[n][first], bytes, MPI_BYTE, neighbours_[n].rank, shared_nodes_tag, communicator_,
+                &requests.emplace_back());
+      MPI_Isend(&sent[n][first], bytes, MPI_BYTE, neighbours_[n].rank, shared_nodes_tag, communicator_,
+                &requests.emplace_back());
+    }
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   return received;
