@@ -46,7 +46,7 @@ bool mpi_runs() {
 }
 }  // namespace
 
-Environment::Environment(int&, char**&, int n_threads) {
+Environment::Environment(int n_threads) {
   if (n_threads < 0)
     throw std::invalid_argument("threads = " + std::to_string(n_threads) +
                                 ": must be 0 (all cores) or positive");

@@ -21,12 +21,12 @@
 
 namespace fem {
 
-/// Starts MPI and the threads of deal.II; one object lives as long as the program uses fem. Further ones
-/// while it lives set the number of threads.
+/// Starts MPI, which takes up to half a second, and the threads of deal.II; one object lives as long as the
+/// program uses fem. Further ones while it lives set the number of threads.
 class Environment {
 public:
   /// @param n_threads of each rank; 0: all cores, shared among the ranks of a machine
-  Environment(int& argc, char**& argv, int n_threads);
+  explicit Environment(int n_threads);
   ~Environment();
   Environment(const Environment&) = delete;
   /// Of this rank.

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "fem/model/model.h"
 #include "pipelines/accuracy/accuracy.h"
 #include "pipelines/accuracy/accuracy_report.h"
 #include "pipelines/commands/option_value.h"
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/pictures/accuracy_chart.h"
 #include "pipelines/report/html_report.h"
@@ -70,7 +70,7 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
         "-o", directory,
         {body.name + ".txt", body.name + ".csv", body.name + "_gci.csv", body.name + ".png", "accuracy.h5"}));
   StageClock clock(progress_on_stderr(options.verbosity()));
-  const FemEnvironment environment(options.n_threads);
+  const fem::Environment environment(options.n_threads);
   std::vector<AccuracyStudy> studies;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& name = scene.bodies[i].name;

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "fem/loads/nodal_loads.h"
+#include "fem/model/model.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/calculix/calculix_model.h"
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
@@ -42,7 +42,7 @@ void calculix(const CalculixCommandOptions& options, std::ostream& out) {
   const auto directory = results_directory(options.output, scene);
   for (const auto& body : scene.bodies) require_writable(output_files("-o", directory, {body.name + ".inp"}));
   StageClock clock(progress_on_stderr(options.verbosity()));
-  const FemEnvironment environment(all_cores);
+  const fem::Environment environment(all_cores);
   const auto meshes = clock.run("mesh", [&] { return ScratchMeshes(scene); });
   const auto& meshed = meshes.bodies();
   scene = with_effects_chosen(scene, meshed, negligible_share(scene.accuracy.tolerance));

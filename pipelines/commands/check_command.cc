@@ -8,11 +8,11 @@
 #include <sstream>
 #include <utility>
 
+#include "fem/model/model.h"
 #include "meshes/shaft/shaft_checks.h"
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/commands/scene_options.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
@@ -145,7 +145,7 @@ void tell_what_takes_long(const Scene& scene) {
 void check_bodies(std::ostream& out, Scene scene) {
   require_blocks(scene);
   tell_what_takes_long(scene);
-  const FemEnvironment environment(all_cores);
+  const fem::Environment environment(all_cores);
   const ScratchMeshes meshes(scene);
   const auto& meshed = meshes.bodies();
   for (std::size_t i = 0; i < meshed.size(); ++i) require_toes(scene.bodies[i], meshed[i].mesh);

@@ -3,11 +3,11 @@
 #include <utility>
 #include <vector>
 
+#include "fem/model/model.h"
 #include "pipelines/calculix/calculix_cards.h"
 #include "pipelines/commands/option_value.h"
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
@@ -45,7 +45,7 @@ kinetics::LoadHistory loads_of(Scene& scene, StageClock& clock) {
     if (scene.bodies.empty()) scene = with_effects_chosen(std::move(scene), {}, limit);
     return clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   }
-  const FemEnvironment environment(all_cores);
+  const fem::Environment environment(all_cores);
   const auto meshed = clock.run("mesh", [&] { return ScratchMeshes(scene).bodies(); });
   scene = clock.run("effects", [&] { return with_effects_chosen(std::move(scene), meshed, limit); });
   const auto masses = agree_masses(scene, meshed);

@@ -8,7 +8,6 @@
 #include "pipelines/commands/commands.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/common/version.h"
 
@@ -59,7 +58,7 @@ int run(int argc, char** argv) {
     }
   }
   if (!first) {
-    const pipelines::FemEnvironment threads(chosen.n_threads);
+    const fem::Environment threads(chosen.n_threads);
     return fem::help_first_rank(MPI_COMM_WORLD, chosen.beside_first_rank);
   }
   return guarded([&] {
@@ -72,7 +71,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::optional<fem::Environment> ranks;
-  if (pipelines::started_on_several_ranks()) ranks.emplace(argc, argv, 0);
+  if (pipelines::started_on_several_ranks()) ranks.emplace(0);
   const int code = run(argc, argv);
   if (ranks && fem::this_rank(MPI_COMM_WORLD) == 0) fem::dismiss_helpers(code);
   return code;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/model/model.h"
 #include "fem/ranks/helper_ranks.h"
 #include "pipelines/accuracy/cost_calibration.h"
 #include "pipelines/accuracy/cost_forecast.h"
@@ -19,7 +20,6 @@
 #include "pipelines/commands/run_results.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/failure.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/replaceable.h"
@@ -259,7 +259,7 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   const auto& options = request.options;
   require_blocks(scene);
   const auto accuracy = with_default(request.accuracy);
-  const FemEnvironment environment(options.n_threads);
+  const fem::Environment environment(options.n_threads);
   StagedResults staged(request.directory, body_names(scene));
   warn_of_earlier(staged);
   SceneRunOptions run_options{request.directory, options.n_threads, options.fresh, true, accuracy};

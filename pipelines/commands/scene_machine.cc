@@ -1,7 +1,7 @@
 #include "pipelines/commands/scene_machine.h"
 
+#include "fem/model/model.h"
 #include "pipelines/commands/scene_options.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/loads/machine_masses.h"
 
@@ -9,7 +9,7 @@ namespace pipelines {
 
 Machine machine_with_masses(const Scene& scene) {
   if (scene.masses_from_mesh.empty()) return scene.machine;
-  const FemEnvironment environment(all_cores);
+  const fem::Environment environment(all_cores);
   return agree_masses(scene, ScratchMeshes(scene).bodies()).machine;
 }
 

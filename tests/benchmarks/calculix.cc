@@ -187,7 +187,7 @@ void measure_size(const Bench& bench, const Size& size, double most) {
 int run_part(int argc, char** argv) {
   if (argc != 7) return 2;
   const std::string name = argv[3];
-  const fem::Environment environment(argc, argv, measure::n_threads);
+  const fem::Environment environment(measure::n_threads);
   const measure::Work work{
       measure::refined_shaft(pipelines::read_scene(argv[1]), {std::atoi(argv[4]), std::atoi(argv[5])}),
       argv[6]};

@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
                  "unknowns]\n       solver_benchmarks <vibratory_mill.toml> halves\n");
     return 2;
   }
-  const fem::Environment environment(argc, argv, n_threads);
+  const fem::Environment environment(n_threads);
   const auto directory =
       std::filesystem::temp_directory_path() / ("solver_benchmarks_" + std::to_string(getpid()));
   std::filesystem::create_directory(directory);

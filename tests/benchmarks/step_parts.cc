@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fem/model/model.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/cheap_models/cheap_responses.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/search/scene_run.h"
 #include "tests/cases/step_shafts.h"
 
@@ -91,7 +91,7 @@ Outcome row(const StepShaft& shaft, const Reference& truth, const std::string& m
 }  // namespace
 
 int main(int argc, char** argv) {
-  const pipelines::FemEnvironment environment(0);
+  const fem::Environment environment(0);
   const auto directory = fs::temp_directory_path() / "millstress_step_parts";
   fs::create_directories(directory);
   double tolerance = 0;

@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
+#include "fem/model/model.h"
 #include "meshes/values/refused.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/scene/scene.h"
 #include "pipelines/search/refinement.h"
 #include "pipelines/search/scene_run.h"
@@ -114,7 +114,7 @@ Options options_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const Options options = options_of(argc, argv);
-  const FemEnvironment environment(2);
+  const fem::Environment environment(2);
   const fs::path directory =
       fs::temp_directory_path() / fmt::format("millstress_promises_{}_{}", options.first_seed, getpid());
   fs::create_directories(directory);

@@ -6,7 +6,7 @@
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   if (testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();  // listing needs no MPI
-  const fem::Environment environment(argc, argv, 0);
+  const fem::Environment environment(0);
   const fem::SerialBlas
       serial;  // its threads wait by yielding: beside a second test that costs ten times the seconds
   return RUN_ALL_TESTS();
