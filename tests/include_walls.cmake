@@ -1,9 +1,12 @@
 # Holds the walls between the folders: cmake -D ROOT=<source tree> -P include_walls.cmake
 # kinetics, meshes and fem never include each other or pipelines; headers of gmsh, deal.II and VTK stay in the .cc files of
-# the folder that owns them (internal headers of fem may use deal.II, its public ones may not). Inside a folder, a room
-# (subfolder) includes only rooms below it.
+# the folder that owns them (internal headers of fem may use deal.II, its public ones may not). pipelines includes only public
+# headers of fem. Inside a folder, a room (subfolder) includes only rooms below it.
 cmake_policy(VERSION 3.25)
-set(fem_public axisymmetric_responses beam_responses beam_shaft body cell_stress_at_node cost_constants cost_prediction errors fillet_factors meridian_body natural_mode nodal_loads plated_tube stress_goal submodel surface_stress solver_choice model unit_load unit_responses vtk_order)
+set(fem_public axisymmetric_responses beam_responses beam_shaft body body_nodes cell_shares cell_stress_at_node constants
+    cost_constants cost_prediction errors fillet_factors helper_ranks large_memory memory meridian_body model natural_mode
+    near_loads nodal_loads plated_tube region_volume solver_choice stress_goal submodel surface_stress tetrahedra_error
+    unit_load unit_responses vtk_order)
 set(faults "")
 
 # Adds a fault for every line of the files that matches.
@@ -43,6 +46,16 @@ foreach(name IN LISTS fem_public)
     continue()
   endif()
   forbid("[\"<](deal\\.II/|Eigen/|cholmod)" "public headers of fem are plain values" ${header})
+endforeach()
+file(GLOB_RECURSE files ${ROOT}/pipelines/*.h ${ROOT}/pipelines/*.cc)
+foreach(file IN LISTS files)
+  file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[\"<]fem/")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE ".*/([a-z0-9_]+)\\.h.*" "\\1" name "${line}")
+    if(NOT name IN_LIST fem_public)
+      list(APPEND faults "${file}: ${line}: this header of fem is not public")
+    endif()
+  endforeach()
 endforeach()
 
 # Rooms from the ground floor up: a room includes only itself and rooms before it.

@@ -1,1 +1,3 @@
 #include "pipelines/code.h"
+
+#include "fem/operators/symmetric_matrix.h"
