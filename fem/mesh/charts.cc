@@ -5,11 +5,13 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fem/values/constants.h"
+
 namespace fem {
 
 namespace {
 
-constexpr double two_pi = 6.283185307179586476925;
+constexpr double two_pi = 2 * pi;
 
 double positive_angle(double angle) {
   const double a = angle < 0 ? angle + two_pi : angle;

@@ -8,12 +8,13 @@
 #include <string>
 
 #include "fem/mesh/charts.h"
+#include "fem/values/constants.h"
 
 namespace fem {
 
 namespace {
 
-constexpr double two_pi = 6.283185307179586476925;
+constexpr double two_pi = 2 * pi;
 
 /// Means are taken in the chart's coordinates; the periods keep them from going the long way round.
 template <typename Chart>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/statics.h"
 
@@ -130,7 +131,7 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
     const ArrayXd own_torque = (section.by_statics.row(5) - (plane.axis_x_m * section.by_statics.row(1) -
                                                              plane.axis_y_m * section.by_statics.row(0)))
                                    .transpose();
-    section.beam_torsion_Pa = own_torque * (2 * r / (M_PI * (std::pow(r, 4) - std::pow(r_i, 4))));
+    section.beam_torsion_Pa = own_torque * (2 * r / (pi * (std::pow(r, 4) - std::pow(r_i, 4))));
 
     const ArrayXXd moved = over_the_cycle(motion, loads.history);
     line.z_m.push_back(plane.z_m);

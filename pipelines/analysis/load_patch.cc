@@ -5,6 +5,7 @@
 #include <map>
 
 #include "pipelines/analysis/stress_under_changed_loads.h"
+#include "pipelines/common/constants.h"
 
 namespace pipelines {
 namespace {
@@ -105,8 +106,8 @@ void enter(ErrorBudget& budget, double change_Pa, double unsolved_Pa) {
 }  // namespace
 
 PressurePattern with_contact(PressurePattern pattern, double factor) {
-  const double half_way = (pattern.half_angle_rad + M_PI) / 2;
-  const double most = pattern.kind == PressurePattern::Kind::uniform ? half_way : M_PI;
+  const double half_way = (pattern.half_angle_rad + pi) / 2;
+  const double most = pattern.kind == PressurePattern::Kind::uniform ? half_way : pi;
   pattern.half_angle_rad = std::min(factor * pattern.half_angle_rad, most);
   return pattern;
 }

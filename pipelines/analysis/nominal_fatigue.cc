@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/beam/fillet_factors.h"
+#include "pipelines/common/constants.h"
 
 namespace pipelines {
 namespace {
@@ -45,14 +46,14 @@ bool has_din_fillet(const meshes::Shaft& shaft) {
 DinLoad nominal_load(const SectionResult& section) {
   const auto& at = section.by_statics;
   const auto& plane = section.plane;
-  const double d = 2 * plane.radius_m, area_m2 = M_PI * d * d / 4, bending_m3 = M_PI * d * d * d / 32;
+  const double d = 2 * plane.radius_m, area_m2 = pi * d * d / 4, bending_m3 = pi * d * d * d / 32;
   const ArrayXd normal = at.row(2).transpose();
   const ArrayXd mx = at.row(3).transpose() - plane.axis_y_m * normal;
   const ArrayXd my = at.row(4).transpose() + plane.axis_x_m * normal;
   const ArrayXd torque = at.row(5).transpose() -
                          (plane.axis_x_m * at.row(1).transpose() - plane.axis_y_m * at.row(0).transpose());
   const auto along = [&](int i) -> ArrayXd {
-    const double angle = M_PI * i / n_directions;
+    const double angle = pi * i / n_directions;
     return std::cos(angle) * mx + std::sin(angle) * my;
   };
   double amplitude_Nm = 0, mean_Nm = 0;

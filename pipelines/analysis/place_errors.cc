@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "fem/submodel/submodel.h"
-#include "fem/values/constants.h"
 #include "pipelines/analysis/exclusion_border.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/submodels.h"
+#include "pipelines/common/constants.h"
 
 namespace pipelines {
 namespace {
@@ -73,8 +73,7 @@ double arc_at(const BodyAnalysis& analysis, const meshes::TorusChart& torus, std
     };
     for (std::size_t a = 0; a < std::size_t(nodes.shape().n_face_corners()); ++a)
       for (std::size_t b = 0; b < a; ++b)
-        largest_rad =
-            std::max(largest_rad, std::abs(std::remainder(angle_rad(a) - angle_rad(b), 2 * fem::pi)));
+        largest_rad = std::max(largest_rad, std::abs(std::remainder(angle_rad(a) - angle_rad(b), 2 * pi)));
   }
   return largest_rad;
 }
@@ -90,7 +89,7 @@ int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place) {
       for (const auto& torus : analysis.mesh.tori)
         if (feature.name == place.feature && torus.boundary_id == feature.boundary_id)
           if (const double arc_rad = arc_at(analysis, torus, place.node); arc_rad > 0)
-            return std::max(1, int(std::lround(fem::pi / 2 / arc_rad)));
+            return std::max(1, int(std::lround(pi / 2 / arc_rad)));
   return analysis.scene.shaft()->mesh.cells_at(int(fillet - names.begin()));
 }
 

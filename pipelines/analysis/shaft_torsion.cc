@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
@@ -91,7 +92,7 @@ Course course_of(const ArrayXd& values) {
 }
 
 double polar_modulus_m3(double diameter_m, double bore_m) {
-  return M_PI * (std::pow(diameter_m, 4) - std::pow(bore_m, 4)) / (16 * diameter_m);
+  return pi * (std::pow(diameter_m, 4) - std::pow(bore_m, 4)) / (16 * diameter_m);
 }
 
 ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa) {

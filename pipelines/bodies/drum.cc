@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "pipelines/bodies/planetary_fields.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/loads/mass_comparison.h"
 #include "pipelines/scene/effect_names.h"
@@ -69,7 +70,7 @@ public:
     return {trunnion_1, trunnion_2};
   }
   double spin_Hz(const Scene&, const BodyScene&, const kinetics::LoadHistory& loads) const override {
-    return std::abs(loads.quantity("drum_relative_speed").values.mean()) / (2 * M_PI);
+    return std::abs(loads.quantity("drum_relative_speed").values.mean()) / (2 * pi);
   }
 };
 

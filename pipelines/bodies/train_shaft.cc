@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/common/nearest_name.h"
@@ -227,7 +228,7 @@ public:
     return {bearings[0], bearings[1]};
   }
   double spin_Hz(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory&) const override {
-    return std::abs(mean_speed_of(scene, body)) / (2 * M_PI);
+    return std::abs(mean_speed_of(scene, body)) / (2 * pi);
   }
 };
 

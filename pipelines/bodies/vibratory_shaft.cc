@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/machine_masses.h"
 #include "pipelines/scene/effect_names.h"
@@ -86,7 +87,7 @@ public:
     return {bearing_1, bearing_2};
   }
   double spin_Hz(const Scene&, const BodyScene&, const kinetics::LoadHistory& loads) const override {
-    return std::abs(loads.speed_rad_s.mean()) / (2 * M_PI);
+    return std::abs(loads.speed_rad_s.mean()) / (2 * pi);
   }
 };
 

@@ -12,6 +12,7 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/common/stage_clock.h"
 
 namespace pipelines {
@@ -42,7 +43,7 @@ double between_nodes_around_Pa(const BodyAnalysis& analysis, int n_angles) {
   const auto at = [&](std::size_t node) {
     return von_mises_Pa(stress_at(analysis.responses, analysis.loads.history, node, analysis.peak.instant));
   };
-  const double step = 2 * M_PI / n_angles;
+  const double step = 2 * pi / n_angles;
   const auto& nodes = analysis.responses.nodes;
   const double before = at(turned_node(nodes, analysis.peak.node, -step)), here = at(analysis.peak.node),
                after = at(turned_node(nodes, analysis.peak.node, step));
@@ -75,7 +76,7 @@ double offset_axis_Pa(const BodyAnalysis& analysis) {
     const double offset_m = std::hypot(plane.axis_x_m, plane.axis_y_m);
     if (offset_m == 0) continue;
     const double r = plane.radius_m, r_i = plane.inner_radius_m;
-    const double second_m4 = M_PI / 4 * (std::pow(r, 4) - std::pow(r_i, 4));
+    const double second_m4 = pi / 4 * (std::pow(r, 4) - std::pow(r_i, 4));
     const double bending_Pa = section.by_statics.row(2).abs().maxCoeff() * offset_m * r / second_m4;
     const double shear_Pa =
         section.by_statics.topRows<2>().matrix().colwise().norm().maxCoeff() * offset_m * r / (2 * second_m4);

@@ -8,6 +8,7 @@
 #include "fem/beam/beam_responses.h"
 #include "fem/beam/near_loads.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
+#include "pipelines/common/constants.h"
 
 namespace pipelines {
 namespace {
@@ -77,7 +78,7 @@ double ring_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads) {
     const double ring =
         n == 0 ? surface.radius_m / wall_m : 6 * surface.radius_m * mean_m / ((n * n - 1) * wall_m * wall_m);
     auto& harmonic = seats[surface.boundary_id][n];
-    harmonic.per_N = ring * std::abs(pressure->coefficient) / (M_PI * surface.radius_m * surface.length_m);
+    harmonic.per_N = ring * std::abs(pressure->coefficient) / (pi * surface.radius_m * surface.length_m);
     const Eigen::ArrayXd values = loads.history.values.row(Eigen::Index(k)).transpose();
     if (harmonic.squares.size() == 0) harmonic.squares = Eigen::ArrayXd::Zero(values.size());
     harmonic.squares += values.square();  // cosine and sine

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 
 namespace pipelines {
@@ -217,7 +218,7 @@ double to_si(const std::string& quantity, const std::string& si_unit) {
     if (!ends_with(unit_text, "Hz") && !ends_with(unit_text, "hertz"))
       throw UnitError("\"" + unit_text + "\" does not say whether it counts turns or radians; write " +
                       example(si_unit));
-    turns_to_radians = 2 * 3.14159265358979323846;
+    turns_to_radians = 2 * pi;
   }
   Converter converter(ut_get_converter(unit.get(), wanted.get()));
   if (!converter) throw UnitError("cannot be converted to " + si_unit + "; write " + example(si_unit));

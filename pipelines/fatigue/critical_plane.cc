@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/fatigue/fatigue_input.h"
 
 namespace pipelines {
@@ -119,7 +120,7 @@ std::array<Vector3d, 2> across(const Vector3d& normal) {
 
 /// Directions of a half sphere: a spiral of equal areas from the pole to the equator.
 std::vector<Vector3d> spiral(int n) {
-  const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));
+  const double golden = pi * (3 - std::sqrt(5.0));
   std::vector<Vector3d> result;
   for (int i = 0; i < n; ++i) {
     const double z = 1 - (i + 0.5) / n, r = std::sqrt(1 - z * z);
@@ -134,7 +135,7 @@ std::vector<Vector3d> fan(const Vector3d& normal) {
   const auto [u, v] = across(normal);
   for (const double tilt : {0.01, 0.04})
     for (int i = 0; i < 8; ++i) {
-      const double angle = std::acos(-1.0) / 4 * i;
+      const double angle = pi / 4 * i;
       result.push_back((normal + tilt * (std::cos(angle) * u + std::sin(angle) * v)).normalized());
     }
   return result;
@@ -161,7 +162,7 @@ StressPath outermost(const StressPath& history_Pa, const std::vector<Vector3d>& 
                              along = weights(normal, normal).transpose() * history_Pa;
     choose(along);
     for (int i = 0; i < n_lines; ++i) {
-      const double angle = std::acos(-1.0) / n_lines * i;
+      const double angle = pi / n_lines * i;
       const Eigen::RowVectorXd line = std::cos(angle) * a + std::sin(angle) * b;
       choose(line);
       choose(-line);
@@ -247,7 +248,7 @@ private:
       const auto [u, v] = across(best.normal);
       const Plane from = best;
       for (int i = 0; i < 8; ++i) {
-        const double angle = std::acos(-1.0) / 4 * i;
+        const double angle = pi / 4 * i;
         const Vector3d beside = from.normal + step * (std::cos(angle) * u + std::sin(angle) * v);
         const Plane plane = at(beside.normalized());
         if (plane.value_Pa > best.value_Pa) best = plane;

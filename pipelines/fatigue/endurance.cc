@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/fatigue/fatigue_input.h"
 
 namespace pipelines {
@@ -19,7 +20,7 @@ double normal_deviate(double probability) {
   double z = 0;
   for (int i = 0; i < 60; ++i) {
     const double tail = std::erfc(z / std::sqrt(2.0)) / 2;
-    const double density = std::exp(-z * z / 2) / std::sqrt(2 * std::acos(-1.0));
+    const double density = std::exp(-z * z / 2) / std::sqrt(2 * pi);
     const double step = (tail - (1 - probability)) / density;
     z += std::min(step, 1.0);
     if (std::abs(step) < 1e-14) break;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/fatigue/fatigue_input.h"
 
 namespace pipelines {
@@ -44,7 +45,6 @@ CyclicStress shaft_stress(const ShaftLoad& load, double diameter_m) {
   require_finite_input("torque_mean_Nm", load.torque_mean_Nm);
   require_input_between("bending_notch_factor", load.bending_notch_factor, 1, 100);
   require_input_between("torsion_notch_factor", load.torsion_notch_factor, 1, 100);
-  const double pi = std::acos(-1.0);
   const double per_torque = 16 / (pi * diameter_m * diameter_m * diameter_m);
   const double of_bending = 2 * per_torque * load.bending_notch_factor;
   const double of_torsion = std::sqrt(3.0) * per_torque * load.torsion_notch_factor;

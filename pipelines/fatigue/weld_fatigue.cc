@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/fatigue/fatigue_input.h"
 
 namespace pipelines {
@@ -104,7 +105,7 @@ ToeStress toe_stress(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
   const SurfaceHistory history{history_between(history_Pa, u, u), history_between(history_Pa, v, v),
                                history_between(history_Pa, u, v),
                                weld_curve(detail, LoadAmplitude::variable)};
-  const double degree = std::acos(-1.0) / 180;
+  const double degree = pi / 180;
   constexpr int step = 3, n_steps = 20;  // of three degrees, to 60 either way
   constexpr double sector = n_steps * step;
   std::vector<double> range_Pa;  // one beyond both ends

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/nearest_name.h"
 
@@ -164,7 +165,7 @@ void LoadCollector::pressure(const std::string& port_name) {
   // beta is where the pressure is centred: opposite the force on an outer seat, along it inside a bore.
   ArrayXd beta(n_instants_);
   Array2Xd direction = Array2Xd::Zero(2, n_instants_);
-  const double turn = port.kind == meshes::Port::Kind::seat ? M_PI : 0;
+  const double turn = port.kind == meshes::Port::Kind::seat ? pi : 0;
   for (Index i = 0; i < n_instants_; ++i) {
     beta[i] = std::atan2(total(1, i), total(0, i)) + turn;
     const double magnitude = std::hypot(total(0, i), total(1, i));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipelines/common/constants.h"
+
 namespace pipelines {
 namespace {
 
@@ -115,7 +117,7 @@ struct LoadBelow {
       const double length = end - segment.begin_m, centre = 0.5 * (segment.begin_m + end);
       // The disc about its own, shifted axis, less the bore about the z axis.
       const auto add = [&](double diameter, double sign, double ex, double ey) {
-        const double radius = diameter / 2, mass = sign * density_kg_m3 * M_PI * radius * radius * length;
+        const double radius = diameter / 2, mass = sign * density_kg_m3 * pi * radius * radius * length;
         switch (load.field) {
           case Field::translation_x:
             return add_force(sum, {mass, 0, 0}, ex, ey, centre, z_m);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/scene/effect_names.h"
 
 namespace pipelines {
 namespace {
 
-constexpr double half_turn_rad = 3.14159265358979323846;
 constexpr double shortest_m = 1e-4, longest_m = 100;
 constexpr double least_ratio = 1e-3;  // of lengths that are built beside each other
 
@@ -49,8 +49,7 @@ void read_geometry(SceneTable geometry, PlanetaryMill& mill) {
 
 void read_charge(SceneTable charge, PlanetaryMill& mill) {
   mill.charge.bulk_density_kg_m3 = charge.quantity("bulk_density", "kg/m3", positive(3e4));
-  mill.charge.segment_angle_rad =
-      charge.quantity("segment_angle", "rad", between(-half_turn_rad, half_turn_rad));
+  mill.charge.segment_angle_rad = charge.quantity("segment_angle", "rad", between(-pi, pi));
   std::vector<std::string> given;
   for (const char* name : {"filling", "void", "half_angle"}) {
     charge.know(name);
@@ -64,7 +63,7 @@ void read_charge(SceneTable charge, PlanetaryMill& mill) {
   } else if (given.size() > 1) {
     charge.refuse(given[1], "says the same as " + given[0] + "; keep one of the two");
   } else if (given[0] == "half_angle") {
-    mill.charge.half_angle_rad = charge.quantity("half_angle", "rad", between(0, half_turn_rad));
+    mill.charge.half_angle_rad = charge.quantity("half_angle", "rad", between(0, pi));
   } else {
     (given[0] == "void" ? mill.charge.void_fraction : mill.charge.filling) =
         charge.quantity(given[0], "1", between(0, 1));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/scene/effect_names.h"
 
@@ -80,7 +81,7 @@ void read_charge_lag(SceneTable& charge, bool is_on, kinetics::VibratoryMill& mi
                                        " W; state less, or raise mass, eccentricity or speed");
     mill.charge_lag.grinding_power_W = power_W;
   } else {
-    mill.charge_lag.loss_angle_rad = lag.quantity("loss_angle", "rad", between(0, M_PI / 2));
+    mill.charge_lag.loss_angle_rad = lag.quantity("loss_angle", "rad", between(0, pi / 2));
   }
   lag.finish();
 }
@@ -140,7 +141,7 @@ std::optional<MillingSpace> read_chamber(SceneTable chamber, SceneTable charge,
                         shown(radius_m) + " m; make it smaller");
     } else if (mill.charge_offset_m < radius_m && length_m > 0) {
       const double volume_m3 =
-          largest_filling(mill.charge_offset_m, radius_m) * M_PI * radius_m * radius_m * length_m;
+          largest_filling(mill.charge_offset_m, radius_m) * pi * radius_m * radius_m * length_m;
       const double density_kg_m3 = mill.charge_mass_kg / volume_m3;
       if (density_kg_m3 > most_bulk_density_kg_m3)
         charge.refuse("mass", "does not fit: with its centre " + shown(mill.charge_offset_m) +
@@ -196,13 +197,13 @@ void read_springs(SceneTable& machine, const std::vector<std::string>& effects,
 double largest_filling(double offset_m, double radius_m) {
   // Centroid of the segment under a chord that subtends theta: 4 R sin^3(theta/2) / (3 (theta - sin theta));
   // it falls from R to 0 as theta grows to 2 pi.
-  double low = 1e-3, high = 2 * M_PI;  // below: cancellation, and a filling of 1e-10
+  double low = 1e-3, high = 2 * pi;  // below: cancellation, and a filling of 1e-10
   for (int i = 0; i < 60; ++i) {
     const double theta = (low + high) / 2;
     const double centroid = 4.0 / 3 * std::pow(std::sin(theta / 2), 3) / (theta - std::sin(theta));
     (centroid > offset_m / radius_m ? low : high) = theta;
   }
-  return (high - std::sin(high)) / (2 * M_PI);
+  return (high - std::sin(high)) / (2 * pi);
 }
 
 kinetics::Convention read_convention(SceneTable& machine) {

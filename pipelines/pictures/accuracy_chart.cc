@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "pipelines/accuracy/accuracy_report.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/pictures/picture_lines.h"
 #include "pipelines/pictures/picture_parts.h"
@@ -59,7 +60,7 @@ Axis axis_over(const std::vector<double>& values, double begin, double end) {
 std::vector<Pixel> polygon(double x, double y, double radius, int corners, double turned) {
   std::vector<Pixel> result;
   for (int i = 0; i < corners; ++i) {
-    const double angle = turned + 2 * M_PI * i / corners;
+    const double angle = turned + 2 * pi * i / corners;
     result.push_back({x + radius * std::cos(angle), y + radius * std::sin(angle)});
   }
   return result;
@@ -191,7 +192,7 @@ private:
       if (before) curve.line(x_.at(before->seconds), shown_y(*before), x, y);
       bars.line(x, y, x, estimate);
       bars.line(x - 6, estimate, x + 6, estimate);
-      marks.area(row.is_reference ? polygon(x, y, 1.4 * disc_radius, 4, M_PI / 4)
+      marks.area(row.is_reference ? polygon(x, y, 1.4 * disc_radius, 4, pi / 4)
                                   : polygon(x, y, disc_radius, 24, 0));
       before = &row;
     }
@@ -242,7 +243,7 @@ private:
     }
     ring.put(renderer_, ink, 2.5);
     entry("chosen for what is wanted");
-    square.area(polygon(x + 20, y, 1.4 * disc_radius, 4, M_PI / 4));
+    square.area(polygon(x + 20, y, 1.4 * disc_radius, 4, pi / 4));
     square.put(renderer_, ink, 1);
     entry("reference, at its estimate");
     y -= 20;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/pictures/chart.h"
 #include "pipelines/report/free_body_report.h"
 
@@ -76,7 +77,7 @@ public:
     std::vector<Vector2d> circle;
     constexpr int n = 120;
     for (int k = 0; k <= n && radius_m_ > 0; ++k) {
-      const double angle = 2 * M_PI * (k % n) / n;
+      const double angle = 2 * pi * (k % n) / n;
       circle.push_back(at_mm(centre_m_ + radius_m_ * Vector2d(std::cos(angle), std::sin(angle)), i));
     }
     return circle;
@@ -114,7 +115,7 @@ bool draw_free_body(const Scene& scene, const kinetics::FreeBody& body, Eigen::I
                                  drawing.at_mm(load.at_m.col(instant).matrix(), instant),
                                  drawing.along_mm(load, instant), drawing.head_mm()));
   }
-  const double turns = body.phi_rad[instant] / (2 * M_PI);
+  const double turns = body.phi_rad[instant] / (2 * pi);
   chart.title = fmt::format("{}: free body of the chamber at {:.4g} deg; {:g} mm for 1 kN", scene.title,
                             360 * (turns - std::floor(turns)), drawing.mm_per_kN());
   return write_chart(chart, file);

@@ -8,13 +8,14 @@
 
 #include "kinetics/harmonics.h"
 #include "kinetics/load_spectrum.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/pictures/chart.h"
 
 namespace pipelines {
 namespace {
 
 constexpr std::size_t most_resultants = 6;
-constexpr double rpm = 30 / M_PI;
+constexpr double rpm = 30 / pi;
 
 Eigen::ArrayXd force_of(const kinetics::Resultant& resultant) {
   return resultant.total.topRows<2>().matrix().colwise().norm().transpose().array();
@@ -60,7 +61,7 @@ LineChart histories(const std::string& title, const kinetics::LoadHistory& loads
                   {"angle of the drive [deg]", false},
                   {"force [N]", false},
                   {}};
-  const auto angle_deg = vector_of(loads.phi_rad * (180 / M_PI));
+  const auto angle_deg = vector_of(loads.phi_rad * (180 / pi));
   for (const auto* resultant : resultants)
     chart.curves.push_back({resultant->role, angle_deg, vector_of(force_of(*resultant)), {}, true});
   return chart;
@@ -166,7 +167,7 @@ std::vector<std::string> write_torsion_charts(const std::filesystem::path& direc
             ? fmt::format("{}order {:g}", line.excitation.empty() ? "" : line.excitation + ", ", line.order)
             : line.excitation;
     const Eigen::ArrayXd frequency_Hz =
-        table.line_frequency_rad_s.row(Eigen::Index(l)).transpose() / (2 * M_PI);
+        table.line_frequency_rad_s.row(Eigen::Index(l)).transpose() / (2 * pi);
     campbell.curves.push_back({name, speed_rpm, vector_of(frequency_Hz), {}, true});
   }
   // Modes far above all excitations would press these to the axis.
@@ -177,7 +178,7 @@ std::vector<std::string> write_torsion_charts(const std::filesystem::path& direc
     if (m > 0 && w > 3 * highest_rad_s) continue;
     campbell.curves.push_back({fmt::format("mode {}", m + 1),
                                speed_rpm,
-                               std::vector<double>(speed_rpm.size(), w / (2 * M_PI)),
+                               std::vector<double>(speed_rpm.size(), w / (2 * pi)),
                                {},
                                true});
   }
@@ -188,7 +189,7 @@ std::vector<std::string> write_torsion_charts(const std::filesystem::path& direc
                    {"reduced angle", false},
                    {}};
   for (Eigen::Index m = 0; m < std::min<Eigen::Index>(6, modes.reduced_shape.cols()); ++m) {
-    ChartCurve curve{fmt::format("{:.5g} Hz", modes.frequency_rad_s[m] / (2 * M_PI)), {}, {}, {}, true};
+    ChartCurve curve{fmt::format("{:.5g} Hz", modes.frequency_rad_s[m] / (2 * pi)), {}, {}, {}, true};
     for (Eigen::Index i = 0; i < modes.reduced_shape.rows(); ++i) {
       curve.x.push_back(double(i) + 1);
       curve.y.push_back(modes.reduced_shape(i, m));

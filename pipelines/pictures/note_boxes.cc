@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
+
 namespace pipelines {
 namespace {
 
@@ -33,7 +35,7 @@ std::vector<NoteBox> moved_apart(const std::vector<NoteBox>& boxes, double gap, 
     const double step = 0.5 * box.height;
     for (int ring = 1; ring <= most_rings && !is_free(best); ++ring)
       for (int d = 0; d < n_directions && !is_free(best); ++d) {
-        const double angle = 2 * M_PI * d / n_directions;
+        const double angle = 2 * pi * d / n_directions;
         NoteBox tried = box;
         tried.left += ring * step * std::cos(angle);
         tried.bottom += ring * step * std::sin(angle);

@@ -12,6 +12,7 @@
 
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/pictures/port_surface.h"
 
@@ -61,7 +62,7 @@ Colour port_colour(std::size_t i) {
   Colour colour;
   for (std::size_t c = 0; c < 3; ++c)
     colour[c] =
-        static_cast<unsigned char>(128 + 100 * std::cos(2 * M_PI * (0.618034 * double(i) + double(c) / 3)));
+        static_cast<unsigned char>(128 + 100 * std::cos(2 * pi * (0.618034 * double(i) + double(c) / 3)));
   return colour;
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/pictures/label_rows.h"
 #include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/pictures/picture_lines.h"
@@ -49,7 +50,7 @@ Panel make_panel(const PortBody& body, const PortView& view, int panel_width, in
 std::vector<Pixel> disc(double x, double y, double radius) {
   std::vector<Pixel> corners;
   for (int i = 0; i < 24; ++i)
-    corners.push_back({x + radius * std::cos(i * M_PI / 12), y + radius * std::sin(i * M_PI / 12)});
+    corners.push_back({x + radius * std::cos(i * pi / 12), y + radius * std::sin(i * pi / 12)});
   return corners;
 }
 

@@ -14,13 +14,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/pictures/picture_parts.h"
 
 namespace pipelines {
 namespace {
 
-constexpr double degree = M_PI / 180;
+constexpr double degree = pi / 180;
 
 /// From `near` turned towards `right`, then raised.
 View turned(const Vector& near, const Vector& right, double turn, double raise) {

@@ -9,6 +9,7 @@
 #include "fem/values/cell_shares.h"
 #include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/files/vtk_files.h"
 #include "pipelines/report/results.h"
@@ -129,7 +130,7 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
   const auto angles = [&](const std::vector<std::int32_t>& instants) {
     std::vector<double> degrees;
     for (const auto instant : instants)
-      degrees.push_back(moment_of(scene, loads, instant).angle_rad * 180 / M_PI);
+      degrees.push_back(moment_of(scene, loads, instant).angle_rad * 180 / pi);
     return degrees;
   };
   std::vector<double> safety;

@@ -10,6 +10,7 @@
 
 #include "pipelines/analysis/duty_result.h"
 #include "pipelines/analysis/error_text.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/report/damage_share_text.h"
 #include "pipelines/report/zone_text.h"
@@ -53,7 +54,7 @@ void print_welds(std::ostream& out, const BodyFatigue& fatigue, const std::vecto
     out << fmt::format(
         "  {:<40}{:>11}{:>9.1f} mm{:>13}{:>11.0f}{:>6.0f}  {}\n", weld.name, fixed(weld.range_Pa / 1e6, 1),
         1e3 * weld.thickness_m, fmt::format("{:.3g}, {:.2g}", weld.thickness_factor, weld.thickness_exponent),
-        weld.angle_rad * 180 / M_PI, weld.class_Pa / 1e6, life_text(weld.life_s, weld.certainty));
+        weld.angle_rad * 180 / pi, weld.class_Pa / 1e6, life_text(weld.life_s, weld.certainty));
   }
   const auto& first = fatigue.welds.front();
   if (!first.effect_share.empty())
@@ -152,7 +153,7 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
   const auto& first = fatigue.places.front();
   const auto at = [&](double instant) {
     const auto moment = moment_between(report.scene, report.loads, instant);
-    return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / M_PI);
+    return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / pi);
   };
   if (first.cycle.amplitude_Pa > 0)
     out << fmt::format(
@@ -404,7 +405,7 @@ void write_fatigue(const std::filesystem::path& file, const Scene& scene, const 
   }
   const auto angle = [&](double instant) {
     const auto moment = moment_between(scene, loads, instant);
-    return 2 * M_PI * (moment.turn - 1) + moment.angle_rad;
+    return 2 * pi * (moment.turn - 1) + moment.angle_rad;
   };
   columns.push_back(numbers("drive_angle_from", "rad", places, [&](const auto& p) { return angle(p.from); }));
   columns.push_back(numbers("drive_angle_to", "rad", places, [&](const auto& p) { return angle(p.to); }));

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <regex>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/vtk_arrows.h"
@@ -19,7 +20,7 @@ using Eigen::Index;
 using Point = std::array<double, 3>;
 
 double angle_in_turn_deg(double angle_rad) {
-  const double turns = angle_rad / (2 * M_PI);
+  const double turns = angle_rad / (2 * pi);
   return 360 * (turns - std::floor(turns));
 }
 
@@ -76,7 +77,7 @@ std::vector<std::vector<Point>> outlines(const Scene& scene, const kinetics::Fre
     constexpr int n = 72;
     lines.emplace_back();
     for (int k = 0; k <= n; ++k) {
-      const double angle = 2 * M_PI * (k % n) / n;
+      const double angle = 2 * pi * (k % n) / n;
       lines.back().push_back(
           in_space(body,
                    Eigen::Vector2d(mill.chamber_centre_m +

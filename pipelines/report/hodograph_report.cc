@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/loads/load_stage.h"
 
@@ -43,7 +44,7 @@ std::vector<DerivedFigure> derived_figures(const kinetics::PlanetaryMill& mill) 
   const auto body = kinetics::planetary_charge_body(mill);
   const bool is_consistent = mill.convention == kinetics::PlanetaryConvention::consistent;
   const double offset_rad_s = omega_rad_s * (is_consistent ? 1 : g.drum_speed_ratio);
-  const double area_m2 = M_PI * mill.drum_radius_m * mill.drum_radius_m * body.filling;
+  const double area_m2 = pi * mill.drum_radius_m * mill.drum_radius_m * body.filling;
   for (const DerivedFigure& figure :
        {DerivedFigure{"Phi_C_e", "N", "transport inertia of the charge, (10)",
                       body.mass_kg * omega_rad_s * omega_rad_s * g.carrier_m},
@@ -60,7 +61,7 @@ std::vector<DerivedFigure> derived_figures(const kinetics::PlanetaryMill& mill) 
 }
 
 double in_degrees(double angle_rad) {
-  const double angle = std::fmod(angle_rad * 180 / M_PI, 360);
+  const double angle = std::fmod(angle_rad * 180 / pi, 360);
   return angle < 0 ? angle + 360 : angle;
 }
 

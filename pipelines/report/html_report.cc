@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/html_page.h"
@@ -50,7 +51,7 @@ std::string where(const Json& at) {
 
 std::string moment(const Json& at) {
   return fmt::format("turn {}, {} deg", number(at.at("turn"), 1, "{:.0f}"),
-                     number(at.at("drive_angle_rad"), 57.29577951308232, "{:.0f}"));
+                     number(at.at("drive_angle_rad"), 180 / pi, "{:.0f}"));
 }
 
 std::string with_spaces(std::string name) {
@@ -402,7 +403,7 @@ void add_natural_frequencies(HtmlPage& page, const Json& summary) {
   Rows rows;
   for (const auto& frequency : summary.at("torsion").at("natural_frequencies"))
     rows.push_back({fmt::format("{}", rows.size() + 1), number(frequency.at("value")),
-                    number(frequency.at("value"), 60 / 6.283185307179586)});
+                    number(frequency.at("value"), 60 / (2 * pi))});
   page.heading(2, "Torsional natural frequencies");
   page.table({"mode", "rad/s", "per minute"}, rows);
 }

@@ -8,6 +8,7 @@
 
 #include "kinetics/spring_choice.h"
 #include "kinetics/torus_extremes.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/report/hodograph_report.h"
@@ -31,7 +32,7 @@ std::vector<std::string> warnings_of_loads(const Scene& scene) {
 }
 
 double degrees(double angle_rad) {
-  return angle_rad * 180 / M_PI;
+  return angle_rad * 180 / pi;
 }
 
 Json json_of(const kinetics::SpringChoice& choice) {
@@ -54,7 +55,7 @@ void print_choice(std::ostream& out, const std::string& aim, const kinetics::Spr
       aim, choice.stiffness_N_m / 1e3, choice.scale, choice.reaction_N, choice.reaction_given_N);
   for (const auto& r : choice.resonances)
     out << fmt::format("    resonance of the pitch at {:.4g} times, {:.4g} Hz{}\n", r.scale,
-                       r.frequency_rad_s / (2 * M_PI),
+                       r.frequency_rad_s / (2 * pi),
                        r.between_given_and_chosen ? ": between the given springs and these" : "");
   for (const auto& warning : choice.warnings) out << "    warning: " << warning << '\n';
 }

@@ -6,6 +6,7 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/loads/load_figures.h"
 #include "pipelines/report/duty_report.h"
@@ -39,7 +40,7 @@ void print_loads(std::ostream& out, const RunReport& report) {
 
 std::string when(const RunReport& report, std::int32_t instant) {
   const auto moment = moment_of(report.scene, report.loads, instant);
-  return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / M_PI);
+  return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / pi);
 }
 
 std::string where(const std::array<double, 3>& p) {

@@ -6,6 +6,7 @@
 #include <future>
 
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
@@ -220,8 +221,8 @@ Moment moment_between(const Scene& scene, const kinetics::LoadHistory& loads, do
   const auto before = Eigen::Index(instant);
   const double step = loads.phi_rad.size() > 1 ? loads.phi_rad[1] - loads.phi_rad[0] : 0;
   const double phi = loads.phi_rad[before] + (instant - double(before)) * step;
-  double angle = std::remainder(phi - M_PI, 2 * M_PI) + M_PI;
-  if (angle > 2 * M_PI - 1e-9) angle = 0;  // a whole turn that rounding leaves short of itself
+  double angle = std::remainder(phi - pi, 2 * pi) + pi;
+  if (angle > 2 * pi - 1e-9) angle = 0;  // a whole turn that rounding leaves short of itself
   return {int(before / scene.sampling.instants_per_turn) + 1, angle};
 }
 

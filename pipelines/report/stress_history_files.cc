@@ -10,6 +10,7 @@
 #include <ostream>
 #include <set>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/hdf5_file.h"
@@ -20,7 +21,7 @@ namespace {
 using Eigen::Index;
 using nlohmann::ordered_json;
 
-constexpr double to_MPa = 1e-6, to_deg = 180 / M_PI;
+constexpr double to_MPa = 1e-6, to_deg = 180 / pi;
 
 std::string group_of(const HistoryPoint& point) {
   std::string text;

@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/common/constants.h"
+
 namespace pipelines {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
 
-constexpr double two_pi = 6.283185307179586;
+constexpr double two_pi = 2 * pi;
 
 std::string text_of(const Json& value, double factor = 1, const char* format = "{:.4g}") {
   return value.is_number() ? fmt::format(fmt::runtime(format), factor * value.get<double>()) : "-";

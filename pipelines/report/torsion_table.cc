@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/report/published_torsion.h"
 #include "pipelines/report/torsion_json.h"
@@ -14,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Json = nlohmann::ordered_json;
 
-constexpr double two_pi = 2 * M_PI;
+constexpr double two_pi = 2 * pi;
 const char* const phase_sign =
     "phases, in the scene and in forced.csv as everywhere: amplitude cos(w t - phase), a lag is positive";
 constexpr double rpm = two_pi / 60;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/fatigue/weld_classes.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/machine_kind.h"
@@ -11,7 +12,7 @@
 namespace pipelines {
 namespace {
 
-constexpr double g_m_s2 = 9.81, rpm = 2 * M_PI / 60;
+constexpr double g_m_s2 = 9.81, rpm = 2 * pi / 60;
 constexpr double most_speed_rad_s = 3600 * rpm * (1 + 1e-3);
 constexpr double most_peripheral_m_s = 50, most_tolerance = 0.2, most_poisson_ratio = 0.49;
 

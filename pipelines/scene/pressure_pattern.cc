@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "pipelines/common/constants.h"
+
 namespace pipelines {
 namespace {
 
@@ -16,8 +18,8 @@ constexpr int n_summed = 4096;
 double sinc(int k, double a) {
   constexpr double pi_beyond_double = 1.2246467991473532e-16;
   if (k == 0) return a;
-  if (a <= M_PI / 2) return std::sin(k * a) / k;
-  return (k % 2 == 0 ? -1 : 1) * std::sin(k * ((M_PI - a) + pi_beyond_double)) / k;
+  if (a <= pi / 2) return std::sin(k * a) / k;
+  return (k % 2 == 0 ? -1 : 1) * std::sin(k * ((pi - a) + pi_beyond_double)) / k;
 }
 
 /// Integral over |t| < a of (cos t - cos a) cos(n t), n a up to 1.5: the closed form is the rest of terms
@@ -36,19 +38,19 @@ double narrow_cosine_integral(double a, int n) {
 /// (1/pi) integral over |t| < a of p(t) cos(n t), half of it for n = 0.
 double harmonic(const PressurePattern& pattern, int n) {
   const double a = pattern.half_angle_rad, half = n == 0 ? 0.5 : 1;
-  if (pattern.kind == PressurePattern::Kind::uniform) return half * 2 / M_PI * sinc(n, a);
-  if (std::max(1, n) * a <= 1.5) return half / M_PI * narrow_cosine_integral(a, n);
-  if (n == 0) return (std::sin(a) - a * std::cos(a)) / M_PI;
-  return (sinc(n - 1, a) - sinc(n + 1, a)) / (M_PI * n);  // by parts: fewer terms that cancel
+  if (pattern.kind == PressurePattern::Kind::uniform) return half * 2 / pi * sinc(n, a);
+  if (std::max(1, n) * a <= 1.5) return half / pi * narrow_cosine_integral(a, n);
+  if (n == 0) return (std::sin(a) - a * std::cos(a)) / pi;
+  return (sinc(n - 1, a) - sinc(n + 1, a)) / (pi * n);  // by parts: fewer terms that cancel
 }
 
 void refuse_impossible(const PressurePattern& pattern) {
   const bool uniform = pattern.kind == PressurePattern::Kind::uniform;
-  if (pattern.half_angle_rad > 0 && pattern.half_angle_rad <= M_PI &&
-      !(uniform && pattern.half_angle_rad > M_PI - 1e-9))
+  if (pattern.half_angle_rad > 0 && pattern.half_angle_rad <= pi &&
+      !(uniform && pattern.half_angle_rad > pi - 1e-9))
     return;
   throw std::invalid_argument("pressure over a half angle of " +
-                              std::to_string(pattern.half_angle_rad * 180 / M_PI) +
+                              std::to_string(pattern.half_angle_rad * 180 / pi) +
                               " degrees: must lie above 0 and " + (uniform ? "below" : "up to") + " 180");
 }
 
@@ -63,7 +65,7 @@ double pattern_coefficient(const PressurePattern& pattern, int n) {
 
 double pattern_value(const PressurePattern& pattern, double t_rad) {
   refuse_impossible(pattern);
-  const double t = std::abs(std::remainder(t_rad, 2 * M_PI)), a = pattern.half_angle_rad;
+  const double t = std::abs(std::remainder(t_rad, 2 * pi)), a = pattern.half_angle_rad;
   if (t >= a) return 0;
   const double p = pattern.kind == PressurePattern::Kind::uniform
                        ? 1
@@ -72,14 +74,14 @@ double pattern_value(const PressurePattern& pattern, double t_rad) {
 }
 
 double truncation_bound(const PressurePattern& pattern, int highest) {
-  const bool full = pattern.kind == PressurePattern::Kind::cosine && pattern.half_angle_rad > M_PI - 1e-9;
+  const bool full = pattern.kind == PressurePattern::Kind::cosine && pattern.half_angle_rad > pi - 1e-9;
   if (full) return 0;
   if (pattern.kind == PressurePattern::Kind::uniform) return std::numeric_limits<double>::infinity();
   double sum = 0;
   for (int n = highest + 1; n <= n_summed; ++n) sum += n == 1 ? 0 : std::abs(pattern_coefficient(pattern, n));
   // |p_n| <= (4 / pi) sin(a) ... / n^2: the kinks at +-a; the integral of 1/n^2 beyond n_summed is
   // 1/n_summed.
-  const double kink = 2 / M_PI * std::sin(pattern.half_angle_rad) / harmonic(pattern, 1);
+  const double kink = 2 / pi * std::sin(pattern.half_angle_rad) / harmonic(pattern, 1);
   return sum + 2 * std::abs(kink) / n_summed;
 }
 

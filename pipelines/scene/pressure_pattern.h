@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "pipelines/common/constants.h"
+
 namespace pipelines {
 
 /// p(t) for the angle t from the zone's centre; zero outside |t| < half_angle.
@@ -16,7 +18,7 @@ struct PressurePattern {
     uniform,  ///< a belt over its arc of wrap
   };
   Kind kind = Kind::cosine;
-  double half_angle_rad = 1.5707963267948966;  ///< (0, pi]; uniform: below pi, a full ring has no resultant
+  double half_angle_rad = pi / 2;  ///< (0, pi]; uniform: below pi, a full ring has no resultant
 };
 
 /// What a port's pressure looks like.

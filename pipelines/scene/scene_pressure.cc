@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/scene/scene_body_parts.h"
 
 namespace pipelines {
@@ -39,9 +40,9 @@ PressureModel read_pressure(SceneTable table, int usual_harmonics) {
     table.refuse("pattern", "unknown pattern; write \"cosine\" or \"uniform\"");
   const bool uniform = model.pattern.kind == PressurePattern::Kind::uniform;
   model.pattern.half_angle_rad = table.quantity_or(
-      "half_angle", "rad", {0, M_PI, true}, M_PI / 2,
+      "half_angle", "rad", {0, pi, true}, pi / 2,
       "of contact: 90 degrees is the half-cosine, less with clearance, more with interference");
-  if (uniform && model.pattern.half_angle_rad > M_PI * (1 - 1e-6))
+  if (uniform && model.pattern.half_angle_rad > pi * (1 - 1e-6))
     table.refuse("half_angle", "a uniform pressure all round has no resultant; write less than 180 deg");
   model.highest_harmonic = table.count_or("harmonics", 0, 64, usual_harmonics, "as pressure_harmonics");
   model.axial_profile = read_axial_profile(table);

@@ -1,3 +1,4 @@
+#include "pipelines/common/constants.h"
 #include "pipelines/scene/scene_body.h"
 
 #include <algorithm>
@@ -81,8 +82,7 @@ meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) 
                                      ": forces and moments on the shaft would not close; remove it here");
   table.know("eccentricity_angle");
   if (table.has("eccentricity_angle")) {
-    segment.eccentricity_angle_rad =
-        table.quantity("eccentricity_angle", "rad", between(-2 * M_PI, 2 * M_PI));
+    segment.eccentricity_angle_rad = table.quantity("eccentricity_angle", "rad", between(-2 * pi, 2 * pi));
     if (is_seat && segment.eccentricity_angle_rad != 0)
       table.refuse("eccentricity_angle", "the drive's eccentric lies along +x of the shaft; remove it here");
   }

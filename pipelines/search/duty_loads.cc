@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kinetics/run_up.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/same_body.h"
 #include "pipelines/loads/start_up_loads.h"
@@ -49,7 +50,7 @@ auto in_block(const DutyBlock& block, const Work& work) {
 /// From rest to the block's speed.
 kinetics::RunUp run_up_of(double duration_s, double speed_rad_s) {
   auto run = kinetics::ramp(0, speed_rad_s, duration_s);
-  const double turns_s = duration_s * speed_rad_s / (2 * M_PI);
+  const double turns_s = duration_s * speed_rad_s / (2 * pi);
   const double per_instant = std::max(4.0, std::ceil(steps_per_turn * turns_s / most_instants));
   if (per_instant > steps_per_turn / least_instants_per_turn)
     throw StageRefused(fmt::format(
@@ -119,7 +120,7 @@ void require_blocks(const Scene& scene) {
 DutyBlock with_short_start(DutyBlock block) {
   const double speed_rad_s = std::abs(kind_of(block.scene->machine).drive_speed_rad_s(block.scene->machine));
   if (block.start && block.start->duration_s && speed_rad_s > 0)
-    block.start->duration_s = std::min(*block.start->duration_s, 4 * M_PI / speed_rad_s);
+    block.start->duration_s = std::min(*block.start->duration_s, 4 * pi / speed_rad_s);
   return block;
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/search/peak_growth.h"
 
 namespace pipelines {
@@ -17,7 +18,7 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double smallest_kink_rad = 15 * 3.14159265358979323846 / 180;
+constexpr double smallest_kink_rad = 15 * pi / 180;
 
 Vector position(const fem::Nodes& nodes, std::int32_t node) {
   return Eigen::Map<const Vector>(&nodes.xyz_m[3 * std::size_t(node)]);

@@ -8,6 +8,7 @@
 #include <complex>
 #include <limits>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/superposition/cycle_extremes.h"
 
 namespace pipelines {
@@ -50,7 +51,7 @@ AmplitudeBound::AmplitudeBound(const FactorCourse& course, const Eigen::ArrayXd&
     for (Index l = 0; l < n_lines; ++l)
       for (Index i = 0; i < m; ++i) {
         const double angle =
-            2 * M_PI * std::fmod(course.orders()[l] * double(first + i), double(n)) / double(n);
+            2 * pi * std::fmod(course.orders()[l] * double(first + i), double(n)) / double(n);
         waves(l, i) = std::cos(angle);
         waves(n_lines + l, i) = -std::sin(angle);
       }

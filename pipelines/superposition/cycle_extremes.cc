@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/superposition/deviatoric_coordinates.h"
 
 namespace pipelines {
@@ -226,7 +227,7 @@ CycleExtreme extreme_of_polynomial(const FactorSpectrum& spectrum) {
   if (spectrum.lines.cols() < 2) return extreme;
   const auto square = squared_norm(spectrum.lines);
   const Index n = square.at.size();
-  const double step = 2 * M_PI / double(n);
+  const double step = 2 * pi / double(n);
   const auto place = [&](Index i) { return Crest{double(i) * step, square.at[(i + n) % n]}; };
   const Polynomial polynomial(square.lines);
   Index top = 0;
@@ -236,7 +237,7 @@ CycleExtreme extreme_of_polynomial(const FactorSpectrum& spectrum) {
   search_between(polynomial, place(top), place(top + 1), best);
   for (Index i = 0; i < n; ++i) search_between(polynomial, place(i), place(i + 1), best);
   extreme.value = std::sqrt(std::max(0.0, best.p));
-  extreme.instant = std::fmod(best.x / (2 * M_PI) + 1, 1.0) * n_instants;
+  extreme.instant = std::fmod(best.x / (2 * pi) + 1, 1.0) * n_instants;
   return extreme;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/superposition/cycle_extremes.h"
 #include "pipelines/superposition/factor_spectrum.h"
 
@@ -111,8 +112,8 @@ void FactorCourse::take_angles() {
   cosines_.resize(n);
   sines_.resize(n);
   for (Index j = 0; j < n; ++j) {
-    cosines_[j] = std::cos(M_PI * double(j) / double(n));
-    sines_[j] = std::sin(M_PI * double(j) / double(n));
+    cosines_[j] = std::cos(pi * double(j) / double(n));
+    sines_[j] = std::sin(pi * double(j) / double(n));
   }
 }
 
@@ -128,8 +129,8 @@ Eigen::VectorXd FactorCourse::weights_at(double instant) const {
   }
   // Dirichlet's kernel; of an even number of instants the line at n / 2 is its cosine. The angle of the j-th
   // instant after the nearest one is pi (beyond - j) / n: no difference of its sine is of two that are alike.
-  const double c = std::cos(M_PI * beyond / double(n)), s = std::sin(M_PI * beyond / double(n));
-  const double comb = std::sin(M_PI * beyond) / double(n);
+  const double c = std::cos(pi * beyond / double(n)), s = std::sin(pi * beyond / double(n));
+  const double comb = std::sin(pi * beyond) / double(n);
   const ArrayXd sine = s * cosines_ - c * sines_;
   ArrayXd kernel = n % 2 == 0 ? ArrayXd(comb * (c * cosines_ + s * sines_) / sine) : ArrayXd(comb / sine);
   for (Index j = 1; j < n; j += 2) kernel[j] = -kernel[j];
@@ -160,7 +161,7 @@ Eigen::MatrixXd FactorCourse::by_instant(const Eigen::MatrixXd& by_place) const 
 ArrayXd FactorCourse::missed_by(double n) const {
   ArrayXd missed = ArrayXd::Zero(values_.rows());
   for (Index h = 1; h < line_sizes_.cols(); ++h) {
-    const double away = M_PI * double(h) / n;
+    const double away = pi * double(h) / n;
     missed += line_sizes_.col(h) * std::min(2.0, away * away / 2);
   }
   return missed;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <unsupported/Eigen/FFT>
 
+#include "pipelines/common/constants.h"
+
 namespace pipelines {
 namespace {
 
@@ -28,7 +30,7 @@ double size_of(const Eigen::ArrayXcd& line) {
 double missed_by(const FactorSpectrum& spectrum, double n) {
   double missed = spectrum.unresolved() * double(spectrum.n_instants) / n;
   for (Index h = 1; h < spectrum.lines.cols(); ++h) {
-    const double away = M_PI * double(h) / n, size = line_size(spectrum, h);
+    const double away = pi * double(h) / n, size = line_size(spectrum, h);
     missed += size * std::min(2.0, away * away / 2);
     if (double(3 * h) >= n) missed += 8 * size;
   }

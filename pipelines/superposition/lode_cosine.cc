@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "pipelines/common/constants.h"
+
 namespace pipelines {
 namespace {
 
@@ -15,7 +17,7 @@ std::array<double, kernel::n_lode_terms> lode_polynomial() {
   for (std::size_t k = 0; k < n; ++k) {
     double coefficient = 0;
     for (std::size_t j = 0; j < n_points; ++j) {
-      const double angle = M_PI * (double(j) + 0.5) / double(n_points);
+      const double angle = pi * (double(j) + 0.5) / double(n_points);
       coefficient +=
           std::cos(2.0 / 3.0 * std::acos(0.5 + 0.5 * std::cos(angle))) * std::cos(double(k) * angle);
     }
