@@ -125,10 +125,12 @@ std::string brought_by(const Json& causes) {
 
 void add_zone_causes(HtmlPage& page, const Json& zones) {
   Rows rows;
+  std::size_t n = 0;
   for (const auto& zone : zones) {
+    ++n;
     if (!zone.contains("causes")) continue;
     const auto& amplitude = zone.at("causes").at("amplitude");
-    rows.push_back({fmt::format("{}", rows.size() + 1), MPa(zone.at("peak_von_mises_Pa")),
+    rows.push_back({fmt::format("{}", n), MPa(zone.at("peak_von_mises_Pa")),
                     brought_by(zone.at("causes").at("peak")), MPa(amplitude.at("value_Pa")),
                     brought_by(amplitude)});
     if (zone.at("causes").contains("damage"))
