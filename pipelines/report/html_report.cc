@@ -439,11 +439,12 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
   const auto& input = summary.at("input");
   HtmlPage page(input.at("title").get<std::string>());
   page.heading(1, input.at("title").get<std::string>());
-  page.paragraph(fmt::format(
-      "{}, {} turns of {} instants; scene {} ({}); millstress {}",
-      with_spaces(input.at("machine").get<std::string>()), number(input.at("turns"), 1, "{:.0f}"),
-      number(input.at("instants_per_turn"), 1, "{:.0f}"), input.at("scene").get<std::string>(),
-      input.at("hash").get<std::string>(), summary.at("program").at("version").get<std::string>()));
+  page.paragraph(fmt::format("{}, {} turn{} of {} instants; scene {} ({}); millstress {}",
+                             with_spaces(input.at("machine").get<std::string>()),
+                             number(input.at("turns"), 1, "{:.0f}"), input.at("turns") == 1 ? "" : "s",
+                             number(input.at("instants_per_turn"), 1, "{:.0f}"),
+                             input.at("scene").get<std::string>(), input.at("hash").get<std::string>(),
+                             summary.at("program").at("version").get<std::string>()));
   if (input.contains("settings"))
     for (const auto& setting : input.at("settings"))
       page.paragraph("Set on the command line: " + setting.get<std::string>());

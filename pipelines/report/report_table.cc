@@ -219,9 +219,9 @@ void print_bearings(std::ostream& out, const RunReport& report) {
 }  // namespace
 
 void print_report(std::ostream& out, const RunReport& report) {
-  out << fmt::format("\n{}: {} ({}), {} turns of {} instants\n", report.scene.title, report.loads.machine,
+  out << fmt::format("\n{}: {} ({}), {} turn{} of {} instants\n", report.scene.title, report.loads.machine,
                      report.loads.convention, report.scene.sampling.turns,
-                     report.scene.sampling.instants_per_turn);
+                     report.scene.sampling.turns == 1 ? "" : "s", report.scene.sampling.instants_per_turn);
   for (const auto& setting : report.scene.settings) out << "  set on the command line: " << setting << '\n';
   out << '\n';
   print_loads(out, report);

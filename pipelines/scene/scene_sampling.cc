@@ -31,7 +31,8 @@ kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneF
                                 " turns; extremes and means are those of the turns given");
   if (static_cast<double>(grid.turns) * grid.instants_per_turn > most_instants)
     sampling.refuse(sampling.has("instants_per_turn") ? "instants_per_turn" : "turns",
-                    std::to_string(grid.turns) + " turns of " + std::to_string(grid.instants_per_turn) +
+                    std::to_string(grid.turns) + (grid.turns == 1 ? " turn of " : " turns of ") +
+                        std::to_string(grid.instants_per_turn) +
                         " instants are more than 2 million; take fewer of either");
   sampling.finish();
   return grid;

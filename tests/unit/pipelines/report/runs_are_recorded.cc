@@ -126,6 +126,7 @@ TEST(RunRecord, IsBelievedBesideItsOwnResultsAlone) {
   write_text_file(zones, "zones");
   EXPECT_TRUE(is_there(at.path));
   const auto text = bytes(page);
+  EXPECT_NE(text.find(", 1 turn of 24 instants;"), std::string::npos) << text;
   write_text_file(page, text + " ");
   EXPECT_FALSE(is_there(at.path)) << "a changed page";
   write_text_file(page, text);
