@@ -159,11 +159,11 @@ void check_missed(const TableLoad& load, const SampledCourse& samples, const Arr
   if (missed <= too_much_missed * largest) return;
   const Index n = samples.angle_rad.size();
   const double step_rad = (samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1)).minCoeff();
-  throw MachineRefused(load.effect + "/" + name_of(load) + " is " +
-                       number(std::round(1000 * missed / largest) / 10) +
-                       " % larger between the instants than at them, " +
-                       std::to_string(grid.instants_per_turn) + " per turn; the samples are as dense as " +
-                       number(std::ceil(turn_rad / step_rad * (1 - 1e-9))) + ": take more instants per turn");
+  throw MachineRefused(
+      load.effect + "/" + name_of(load) + " is " + number(std::round(1000 * missed / largest) / 10) +
+      " % larger between the instants than at them, " + std::to_string(grid.instants_per_turn) +
+      " per turn; the closest samples correspond to " + number(std::ceil(turn_rad / step_rad * (1 - 1e-9))) +
+      " per turn: set sampling.instants_per_turn to at least that");
 }
 
 void post(const TableLoad& load, const ArrayXd& values, LoadHistory& history) {
