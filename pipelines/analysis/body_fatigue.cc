@@ -316,10 +316,6 @@ ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const BodyAn
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// The places of a list where the curve does not hold.
 template <typename Place, typename Name>
 void warn_beyond(const std::string& body, const std::vector<Place>& places, const Name& name,

@@ -37,7 +37,7 @@ void require_written_stdout() {
 /// beside it.
 int run(int argc, char** argv) {
   const bool first = fem::this_rank(MPI_COMM_WORLD) == 0;
-  CLI::App app{"From the kinetics of a mill to stress zones in its shaft."};
+  CLI::App app{"From the kinetics of a mill to stress zones in its shaft and chamber."};
   app.set_version_flag("--version", std::string("millstress ") + pipelines::version);
   app.require_subcommand(1);
   pipelines::ChosenCommand chosen;

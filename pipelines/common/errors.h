@@ -56,7 +56,7 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// A file, directory or data base that cannot be read or written; the message names it.
+/// A file, directory or database that cannot be read or written; the message names it.
 class FileError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;

@@ -172,7 +172,7 @@ struct Conversion {
   }
 };
 
-/// Of the texts that were read before: sweeps read a scene thousands of times. Not more than a scene has.
+/// Of the texts that were read before: sweeps read a scene thousands of times. Emptied beyond 1000 entries.
 std::map<std::pair<std::string, std::string>, Conversion>& known_conversions() {
   static std::map<std::pair<std::string, std::string>, Conversion> known;
   constexpr std::size_t most = 1000;

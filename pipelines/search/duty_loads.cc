@@ -18,7 +18,7 @@ namespace pipelines {
 namespace {
 
 /// Steps of a run-up in a turn at full speed (kinetics/run_up.h), and the instants that are kept of it: as
-/// many as tell peaks to 1 %, cos(pi / 20) = 0.988.
+/// many as tell peaks to 1.2 %, cos(pi / 20) = 0.988.
 constexpr double steps_per_turn = 400, least_instants_per_turn = 20;
 constexpr double most_instants = 20'000;
 
