@@ -212,15 +212,4 @@ StressCycle largest_cycle(const ArrayXXd& stress_Pa, double slack) {
   return cycle_between(at(pair.first), at(pair.second), pair.first, pair.second);
 }
 
-ArrayXd along_cycle_Pa(const ArrayXXd& stress_Pa, const StressCycle& cycle) {
-  ArrayXd along = ArrayXd::Zero(stress_Pa.cols());
-  if (!(cycle.amplitude_Pa > 0)) return along;
-  const auto& r = cycle.half_range_Pa;
-  const double mean = (r[0] + r[1] + r[2]) / 3;
-  for (Index c = 0; c < 6; ++c)
-    along += 1.5 / cycle.amplitude_Pa * (c < 3 ? r[std::size_t(c)] - mean : 2 * r[std::size_t(c)]) *
-             stress_Pa.row(c).transpose();
-  return along;
-}
-
 }  // namespace pipelines

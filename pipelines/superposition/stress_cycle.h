@@ -42,10 +42,4 @@ StressCycle largest_cycle(const Eigen::ArrayXXd& stress_Pa, double slack = 0);
 /// The cycle between two given instants.
 StressCycle cycle_between(const Stress& from, const Stress& to, Eigen::Index first, Eigen::Index second);
 
-/// The stress seen along the largest cycle: 3/2 s(t) : r / sigma_v(r) with r the cycle's deviatoric range, so
-/// that the values at both ends differ by twice the amplitude. This is the series that rainflow counts; for
-/// proportional stress it is von Mises stress with its sign.
-/// @return one value per instant [Pa]; zeros where nothing changes
-Eigen::ArrayXd along_cycle_Pa(const Eigen::ArrayXXd& stress_Pa, const StressCycle& cycle);
-
 }  // namespace pipelines
