@@ -218,10 +218,6 @@ std::vector<BodyScene> first_meshes(const BodyScene& body) {
   return meshes;
 }
 
-BodyScene coarsest(const BodyScene& body) {
-  return first_meshes(body).front();
-}
-
 BodyScene guided_by(const SecondModel& model, const BodyScene& body) {
   BodyScene result = body;
   if (!is_block_shaft(body) || model.places.empty()) return result;

@@ -31,9 +31,6 @@ KeptShare kept_share_of_own_error(const BodyScene& body);
 /// last.
 std::vector<BodyScene> first_meshes(const BodyScene& body);
 
-/// The first of them, whether the mesher takes it or not.
-BodyScene coarsest(const BodyScene& body);
-
 /// A shaft's first mesh with 6 cells on the fillets that a second model finds to be stressed most, 4 on those
 /// with more than half of that stress.
 BodyScene guided_by(const SecondModel& model, const BodyScene& body);

@@ -178,7 +178,7 @@ TEST(PlaceHistory, ARoughSecondModelIsALowerBoundOnly) {
 // Only the fillets that may lead get more cells, and only their stress is learnt from.
 TEST(Refine, FilletsThatMayLead) {
   Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/load_table.toml");
-  BodyScene body = coarsest(scene.bodies.front());
+  BodyScene body = first_meshes(scene.bodies.front()).front();
   const std::vector<PlaceStress> judged{place("fillet bearing_1/body", 30, 1),
                                         place("fillet body/bearing_2", 29, 3),
                                         place("fillet pulley_seat/bearing_1", 20, 2)};
@@ -197,7 +197,7 @@ TEST(Refine, FilletsThatMayLead) {
 // sectors.
 TEST(Refine, AroundAndAlongByThemselves) {
   Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/load_table.toml");
-  const BodyScene before = coarsest(scene.bodies.front());
+  const BodyScene before = first_meshes(scene.bodies.front()).front();
   const std::vector<PlaceStress> judged{place("seat", 30, 1)};
   BodyScene around = before, along = before;
   ASSERT_TRUE(refine_mesh(around, {}, judged, MeshPart::around));
@@ -214,7 +214,7 @@ TEST(Refine, AroundAndAlongByThemselves) {
 // A second model says beforehand which fillets lead; its own error makes it generous.
 TEST(Refine, TheFirstMeshIsGuided) {
   Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/load_table.toml");
-  const BodyScene body = coarsest(scene.bodies.front());
+  const BodyScene body = first_meshes(scene.bodies.front()).front();
   const SecondModel model{{place("fillet bearing_1/body", 30, 0.1), place("fillet body/bearing_2", 18, 0.1),
                            place("fillet pulley_seat/bearing_1", 5, 0.1)},
                           0};
