@@ -68,11 +68,6 @@ std::string shortest(double value) {
   return {text, std::to_chars(text, text + sizeof(text), value).ptr};
 }
 
-std::string to_csv(const std::vector<CsvColumn>& columns) {
-  std::string text = titles(columns);
-  return columns.empty() ? text : text + rows_text(columns, 0, n_rows(columns.front()));
-}
-
 void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns, int n_threads) {
   constexpr std::size_t rows_at_once = 1000;
   AtomicFile file(path);

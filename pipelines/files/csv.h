@@ -20,11 +20,9 @@ struct CsvColumn {
 /// The shortest text that reads back to the same double, independent of the locale.
 std::string shortest(double value);
 
-/// @throws std::invalid_argument naming the column if the columns are not of one length
-std::string to_csv(const std::vector<CsvColumn>& columns);
-
 /// @param n_threads  that format rows; the bytes are the same for any number
-/// @throws as to_csv; std::runtime_error naming the file if it cannot be written
+/// @throws std::invalid_argument naming the column if the columns are not of one length; FileError naming the
+/// file if it cannot be written
 void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns, int n_threads = 1);
 
 }  // namespace pipelines
