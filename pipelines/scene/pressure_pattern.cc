@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -11,8 +10,6 @@
 
 namespace pipelines {
 namespace {
-
-constexpr int n_summed = 4096;
 
 /// sin(k a) / k, a for k = 0. Beyond 90 degrees by the opening pi - a, of which k a would lose the digits.
 double sinc(int k, double a) {
@@ -61,37 +58,6 @@ double pattern_coefficient(const PressurePattern& pattern, int n) {
   if (n < 0) throw std::invalid_argument("harmonic " + std::to_string(n) + ": must not be negative");
   const double c = harmonic(pattern, n) / harmonic(pattern, 1);
   return std::abs(c) < 1e-14 ? 0 : c;  // what vanishes by symmetry leaves rounding
-}
-
-double pattern_value(const PressurePattern& pattern, double t_rad) {
-  refuse_impossible(pattern);
-  const double t = std::abs(std::remainder(t_rad, 2 * pi)), a = pattern.half_angle_rad;
-  if (t >= a) return 0;
-  const double p = pattern.kind == PressurePattern::Kind::uniform
-                       ? 1
-                       : 2 * std::sin((a + t) / 2) * std::sin((a - t) / 2);  // cos t - cos a
-  return p / harmonic(pattern, 1);
-}
-
-double truncation_bound(const PressurePattern& pattern, int highest) {
-  const bool full = pattern.kind == PressurePattern::Kind::cosine && pattern.half_angle_rad > pi - 1e-9;
-  if (full) return 0;
-  if (pattern.kind == PressurePattern::Kind::uniform) return std::numeric_limits<double>::infinity();
-  double sum = 0;
-  for (int n = highest + 1; n <= n_summed; ++n) sum += n == 1 ? 0 : std::abs(pattern_coefficient(pattern, n));
-  // |p_n| <= (4 / pi) sin(a) ... / n^2: the kinks at +-a; the integral of 1/n^2 beyond n_summed is
-  // 1/n_summed.
-  const double kink = 2 / pi * std::sin(pattern.half_angle_rad) / harmonic(pattern, 1);
-  return sum + 2 * std::abs(kink) / n_summed;
-}
-
-double truncation_rms(const PressurePattern& pattern, int highest) {
-  double sum = 0;
-  for (int n = highest + 1; n <= n_summed; ++n) {
-    const double c = n == 1 ? 0 : pattern_coefficient(pattern, n);
-    sum += n == 0 ? c * c : c * c / 2;
-  }
-  return std::sqrt(sum);
 }
 
 }  // namespace pipelines

@@ -32,14 +32,4 @@ struct PressureModel {
 /// @throws std::invalid_argument for n < 0 or a half angle out of range
 double pattern_coefficient(const PressurePattern& pattern, int n);
 
-/// p(t) / p_1, exactly.
-double pattern_value(const PressurePattern& pattern, double t_rad);
-
-/// Upper bound of what the harmonics above `highest` add anywhere, in units of p_1: the sum of their sizes,
-/// the tail beyond n = 4096 by its integral. Infinite for a pattern with jumps, whose sum does not converge.
-double truncation_bound(const PressurePattern& pattern, int highest);
-
-/// Root mean square over the circle of what the harmonics above `highest` add, in units of p_1 (Parseval).
-double truncation_rms(const PressurePattern& pattern, int highest);
-
 }  // namespace pipelines
