@@ -137,7 +137,7 @@ TEST(Accuracy, GridConvergenceIndexOfAFillet) {
   // That index covers what lies between nodes too. Without it, it bounds the error of the largest stress
   // there.
   const double between_nodes = study.attribute("grid_convergence_between_nodes_Pa");
-  EXPECT_GE(between_nodes, 0);
+  EXPECT_GT(between_nodes, 0.1e6) << "0.2 MPa on meshes of these sizes; nothing if nodes alone are looked at";
   EXPECT_LE(std::abs(value[finest] + between_nodes - known_Pa), index - between_nodes);
   EXPECT_LE(std::abs(extrapolated - known_Pa), std::abs(value[finest] - known_Pa));
 }
