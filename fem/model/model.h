@@ -109,7 +109,7 @@ public:
   /// @param n_modes  at least 1, at most a tenth of the unknowns that can vibrate: a mesh has no more to say
   /// @throws std::invalid_argument for another number, for clamps that leave a rigid motion, clamps together
   /// with elastic supports
-  /// @throws SolveFailed if the factorisation fails, or a mode leaves more than 1e-6 of its inertia
+  /// @throws SolveFailed if the factorisation fails, or a mode leaves more than 1e-4 of its inertia
   /// forces unbalanced and rounding does not explain it
   std::vector<NaturalMode> natural_frequencies(int n_modes) const;
 

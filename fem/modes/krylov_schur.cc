@@ -32,7 +32,7 @@ namespace {
 static_assert(std::is_same_v<PetscScalar, double>, "PETSc and SLEPc of real numbers in double precision");
 
 // |K^-1 M x - x / w^2| in the mass norm, over 1 / w^2. Inertia forces are left unbalanced by some ten times
-// that, 1e-6 of them at most are accepted (natural_frequencies.cc); squares of frequencies are off by its
+// that, 1e-4 of them at most are accepted (natural_frequencies.cc); squares of frequencies are off by its
 // square.
 constexpr double converged = 1e-10;
 constexpr int most_restarts = 100;      // of one search; shafts and chambers take 2 to 10

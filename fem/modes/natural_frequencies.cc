@@ -13,7 +13,9 @@ namespace fem {
 
 namespace {
 
-constexpr double acceptable_residual = 1e-6;
+// Squares of frequencies are off by the square of it. A slender bar of 40 diameters leaves 2e-6 by rounding
+// alone.
+constexpr double acceptable_residual = 1e-4;
 // Frequencies come from energies, whose share of that is its square.
 constexpr double most_rounding = 0.01;
 

@@ -21,7 +21,7 @@ std::string in_MPa(double value_Pa) {
 
 /// What helps against an assumption.
 std::string remedy_of_model(const std::string& source) {
-  if (source == "load_patches")
+  if (source == "load_patches" || source == "load_edges")
     return "give the seats' pressure as it is known (half_angle, harmonics); no mesh lowers it";
   if (source == "quasi_static")
     return "keep the natural frequencies away from the harmonics of the stress; no mesh lowers it";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "pipelines/analysis/load_edge.h"
 #include "pipelines/analysis/load_patch.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
@@ -125,7 +126,10 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
                         analysis.hot_spots, known.hot_spots);
     });
   clock.run("zones", [&] { estimate_error_of_largest_toe(analysis); });
-  clock.run("superpose", [&] { add_load_patch_error(analysis); });
+  clock.run("superpose", [&] {
+    add_load_patch_error(analysis);
+    add_load_edge_error(analysis);
+  });
   if (shaft != nullptr && meshed.mesh.sections.size() > 1)
     analysis.diagrams = clock.run("sections", [&] {
       return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,

@@ -41,9 +41,19 @@ fem::ElasticSupport pin(const meshes::Port& port, double stiffness_N_m) {
   return {surface, {stiffness_N_m, stiffness_N_m, 0}};
 }
 
-double amplification_at(double frequency_Hz, double f1_Hz) {
-  const double ratio = frequency_Hz / f1_Hz, rest = std::abs(1 - ratio * ratio);
+double amplification_at(double frequency_Hz, double natural_Hz) {
+  const double ratio = frequency_Hz / natural_Hz, rest = std::abs(1 - ratio * ratio);
   return std::min(1 / rest, resonance_peak);
+}
+
+/// By the frequency that changes most: which of the shapes a harmonic brings is not looked at.
+double amplification_at(double frequency_Hz, const std::vector<double>& natural_Hz) {
+  double most = 1;
+  for (const double natural : natural_Hz) {
+    const double own = amplification_at(frequency_Hz, natural);
+    if (std::abs(own - 1) > std::abs(most - 1)) most = own;
+  }
+  return most;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -55,9 +65,11 @@ std::string joined(const std::vector<std::string>& names) {
 }  // namespace
 
 DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
-                                           double spin_Hz, double f1_Hz) {
-  if (!(f1_Hz > 0))
-    throw std::invalid_argument(fmt::format("lowest natural frequency {} Hz: must be positive", f1_Hz));
+                                           double spin_Hz, const std::vector<double>& natural_Hz) {
+  if (natural_Hz.empty()) throw std::invalid_argument("no natural frequency is given");
+  for (const double natural : natural_Hz)
+    if (!(natural > 0))
+      throw std::invalid_argument(fmt::format("natural frequency {} Hz: must be positive", natural));
   double peak = 0;
   for (Eigen::Index i = 0; i < stress_Pa.cols(); ++i) {
     Stress s;
@@ -82,7 +94,7 @@ DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int
     line.order = double(k) / turns;
     line.frequency_Hz = line.order * turn_Hz + spin_Hz;
     line.share = std::hypot(von_mises_Pa(cosine[k]), von_mises_Pa(sine[k]));
-    line.amplification = amplification_at(line.frequency_Hz, f1_Hz);
+    line.amplification = amplification_at(line.frequency_Hz, natural_Hz);
     if (line.share > round_off) result.factor += line.share * std::abs(line.amplification - 1);
     if (line.share > significant) result.highest = line;
   }
@@ -117,19 +129,22 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
   const double period_s = (loads.time_s[1] - loads.time_s[0]) * scene.sampling.instants_per_turn;
   result.amplification =
       dynamic_amplification(peak_stress_Pa, scene.sampling.turns, 1 / period_s,
-                            kind.spin_Hz(scene, body, loads), result.natural_frequencies_Hz.front());
+                            kind.spin_Hz(scene, body, loads), result.natural_frequencies_Hz);
   return result;
 }
 
 std::string warning_of(const BodyScene& body, const Vibration& vibration) {
   const auto& dynamic = vibration.amplification;
-  if (!(dynamic.factor > amplification_limit)) return {};
+  const auto& natural_Hz = vibration.natural_frequencies_Hz;
+  const bool is_beyond = dynamic.highest.frequency_Hz > natural_Hz.back();
+  if (!(dynamic.factor > amplification_limit) && !is_beyond) return {};
   return fmt::format(
       "the {}'s lowest natural frequency is {:.4g} Hz ({}): resonance adds about {:.2g} % to its peak "
-      "stress, "
-      "which is computed without; the highest harmonic of weight is at {:.4g} Hz",
-      body.name, vibration.natural_frequencies_Hz.front(), vibration.held, 100 * (dynamic.factor - 1),
-      dynamic.highest.frequency_Hz);
+      "stress, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}",
+      body.name, natural_Hz.front(), vibration.held, 100 * (dynamic.factor - 1), dynamic.highest.frequency_Hz,
+      is_beyond ? fmt::format(", above the {} lowest natural frequencies: ask for more, which it may meet",
+                              natural_Hz.size())
+                : "");
 }
 
 }  // namespace pipelines

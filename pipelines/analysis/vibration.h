@@ -28,7 +28,7 @@ struct StressHarmonic {
   double order = 0;          ///< relative to the drive's turn, in the body's axes
   double frequency_Hz = 0;   ///< at which the body is shaken
   double share = 0;          ///< of the static peak
-  double amplification = 1;  ///< 1 / |1 - (f / f1)^2|, at most resonance_peak
+  double amplification = 1;  ///< 1 / |1 - (f / f_n)^2|, at most resonance_peak; of the f_n that changes most
 };
 
 struct DynamicAmplification {
@@ -43,7 +43,7 @@ struct Vibration {
   DynamicAmplification amplification;          ///< of the peak von Mises stress
 };
 
-/// Above it a run warns.
+/// Above it a run warns; where a harmonic of weight is above all frequencies that were computed, too.
 inline constexpr double amplification_limit = 1.02;
 
 /// What resonance adds to stresses computed quasi-statically.
@@ -55,10 +55,14 @@ inline constexpr double amplification_limit = 1.02;
 /// @param spin_Hz    of the body's axes against what holds it: a load that stands still in them then shakes
 ///                   the body once per turn, and a harmonic counts at its frequency plus this one, the higher
 ///                   of the two at which it may
-/// @param f1_Hz      lowest natural frequency
-/// @throws std::invalid_argument as kinetics::line_spectrum; unless f1_Hz is positive
+/// @param natural_Hz  natural frequencies. Every harmonic counts as if it were in the shape of the one that
+/// changes it
+///                    most: which shapes it brings is not looked at, so that beside a resonance the sum is a
+///                    bound
+/// @throws std::invalid_argument as kinetics::line_spectrum; without a frequency, or for one that is not
+/// positive
 DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
-                                           double spin_Hz, double f1_Hz);
+                                           double spin_Hz, const std::vector<double>& natural_Hz);
 
 /// The body held as the file's comment says; elastic feet are left out.
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed);

@@ -90,6 +90,10 @@ double missing_Pa(const std::vector<double>& values) {
   return std::max(safety * last / (std::exp2(order) - 1), hidden_share * before);
 }
 
+/// Inside, of a node's value: sections keep their points there. A seat that is tilted had 6.86 MPa at 16 mm
+/// from the axis, where the solid had 7.06 at 15 mm.
+constexpr double unseen_inside = 0.04;
+
 /// What a parabola through the nodes before and behind it on the half plane's surface adds to a node's value:
 /// points of one section are among those of the next, so that a change does not tell of what lies between.
 double between_points_Pa(const fem::Nodes& nodes, const std::vector<double>& value_Pa, std::size_t node) {
@@ -100,6 +104,7 @@ double between_points_Pa(const fem::Nodes& nodes, const std::vector<double>& val
     for (std::size_t i = 0; i < 4; ++i)
       if (std::size_t(face[i]) == node) beside.insert(face[along[i]]);
   }
+  if (beside.empty()) return unseen_inside * value_Pa[node];
   if (beside.size() != 2) return 0;
   const auto distance_m = [&](std::int32_t other) {
     const double *a = &nodes.xyz_m[3 * node], *b = &nodes.xyz_m[3 * std::size_t(other)];

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/model/model.h"
 #include "fem/ranks/helper_ranks.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/commands/option_value.h"
@@ -21,7 +22,6 @@
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
-#include "pipelines/common/fem_environment.h"
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/pictures/chart.h"
@@ -476,7 +476,7 @@ void sweep_beside_first_rank(const SweepCommandOptions& options) {
   const int n_threads = own_threads(options), rank = fem::this_rank(MPI_COMM_WORLD);
   SweepRun run(sweep.options(options, n_threads, rank), sweep.plan.points);
   run.keep_points(points_of_ranks(run)[std::size_t(rank)]);
-  const FemEnvironment environment(n_threads);
+  const fem::Environment environment(n_threads);
   RowsToFirstRank to_first(sweep.plan);
   StageClock silent;
   run.run(silent, KnownRows(options, sweep).rows,
@@ -493,7 +493,7 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
   auto outputs = charts_in(sweep.directory);
   for (const char* name : {"sweep.csv", "sweep.h5", "zones.csv", "journal"}) outputs.emplace_back(name);
   require_writable(output_files("-o", sweep.directory, outputs));
-  std::optional<FemEnvironment> environment;
+  std::optional<fem::Environment> environment;
   if (!sweep.first.bodies.empty()) environment.emplace(n_threads);
 
   KnownRows known(options, sweep);

@@ -259,6 +259,11 @@ ShaftShape read_shaft_shape(SceneTable& body, const ContourRules& rules, SceneFi
   for (std::size_t i = 0; i < contour.segments.size(); ++i) check_length(contour, i);
   shape.geometry = placed(contour, body, rules);
   shape.keyways = read_keyways(body);
+  for (const auto& keyway : shape.keyways)
+    findings.warnings.push_back(
+        "the keyway on \"" + keyway.segment +
+        "\" has sharp edges at its root: the stress there has no converged peak and is left "
+        "out; judge it by notch factors");
   if (shape.keyways.empty())
     shape.mesh = read_shaft_mesh(body.table_or_empty("mesh"));
   else
