@@ -56,20 +56,25 @@ EndPressure end_pressure(const fem::UnitLoad& load) {
 
 /// Largest pressure at the ends of every loaded seat, by boundary group.
 std::map<int, double> end_pressures_Pa(const BodyLoads& loads) {
-  std::map<std::pair<int, int>, ArrayXd> squares;  // by group and harmonic, over the instants
+  std::vector<std::pair<std::pair<int, int>, ArrayXd>> parts;  // by group and harmonic, over the instants
+  double size_Pa = 0;
   for (std::size_t k = 0; k < loads.unit_loads.size(); ++k) {
     const auto end = end_pressure(loads.unit_loads[k]);
     if (end.surface == nullptr || end.per_unit_Pa == 0) continue;
-    const ArrayXd own = end.per_unit_Pa * loads.history.values.row(Eigen::Index(k)).transpose();
-    auto& sum = squares.try_emplace({end.surface->boundary_id, end.harmonic}, ArrayXd::Zero(own.size()))
-                    .first->second;
-    sum += own.square();
+    parts.push_back({{end.surface->boundary_id, end.harmonic},
+                     end.per_unit_Pa * loads.history.values.row(Eigen::Index(k)).transpose()});
+    size_Pa = std::max(size_Pa, parts.back().second.abs().maxCoeff());
   }
+  if (size_Pa == 0) return {};
+  std::map<std::pair<int, int>, ArrayXd> squares;
+  for (const auto& [key, part] :
+       parts)  // squares of very small and large pressures leave the range of numbers
+    squares.try_emplace(key, ArrayXd::Zero(part.size())).first->second += (part / size_Pa).square();
   std::map<int, ArrayXd> sums;
   for (const auto& [key, square] : squares)
     sums.try_emplace(key.first, ArrayXd::Zero(square.size())).first->second += square.sqrt();
   std::map<int, double> largest;
-  for (const auto& [group, sum] : sums) largest[group] = sum.maxCoeff();
+  for (const auto& [group, sum] : sums) largest[group] = size_Pa * sum.maxCoeff();
   return largest;
 }
 
