@@ -304,7 +304,6 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const RigidBalance rigid(grid, impl_->integrals);
     BalancedLoads balanced = balance(rigid, clamped, std::move(force));
     move_to_masters(grid.hanging, balanced.force);
-    release_free_memory();
     Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, half_of_body, balanced,
                               choice, report, responses.solver, impl_->communicator, std::move(direct));
     responses.solver.n_iterations = solution.n_iterations;

@@ -55,12 +55,9 @@ inline constexpr double amplification_limit = 1.02;
 /// @param spin_Hz    of the body's axes against what holds it: a load that stands still in them then shakes
 ///                   the body once per turn, and a harmonic counts at its frequency plus this one, the higher
 ///                   of the two at which it may
-/// @param natural_Hz  natural frequencies. Every harmonic counts as if it were in the shape of the one that
-/// changes it
-///                    most: which shapes it brings is not looked at, so that beside a resonance the sum is a
-///                    bound
-/// @throws std::invalid_argument as kinetics::line_spectrum; without a frequency, or for one that is not
-/// positive
+/// @param natural_Hz  natural frequencies; every harmonic counts as if it were in the shape of the one that
+///                    changes it most, so that beside a resonance the sum is a bound
+/// @throws std::invalid_argument as kinetics::line_spectrum; without a frequency, or for one not positive
 DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
                                            double spin_Hz, const std::vector<double>& natural_Hz);
 

@@ -13,8 +13,8 @@
 
 namespace pipelines {
 
-/// The rank of each point: groups go to the ranks in turn, by ascending number, each as a whole.
-/// @param group    of each point
+/// The rank of each point: groups go to the ranks in turn, each as a whole.
+/// @param group    of each point, numbers from 0 without gaps (SweepRun::groups)
 /// @param n_ranks  at least 1
 std::vector<int> deal_points(const std::vector<std::size_t>& group, int n_ranks);
 

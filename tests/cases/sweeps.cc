@@ -1,6 +1,7 @@
 // Sweeps: every point is what a run by itself says, whatever is shared between points.
 #include "tests/cases/program.h"
 #include "tests/cases/small_shaft.h"
+#include "tests/cases/swept_points.h"
 
 #include <sys/resource.h>
 
@@ -12,19 +13,6 @@
 using namespace cases;
 
 namespace {
-
-/// A row's figures as sweep --json has them.
-nlohmann::json points_of(const fs::path& directory, const std::string& arguments,
-                         std::string* err = nullptr) {
-  const auto outcome = as_a_user(directory, "sweep " + arguments + " --json --threads 2");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  if (err != nullptr) *err = outcome.err;
-  return nlohmann::json::parse(outcome.out)["points"];
-}
-
-double figure(const nlohmann::json& point, const std::string& name) {
-  return point.at("figures").at(name).at("value");
-}
 
 /// The run of a point alone, on the same mesh.
 nlohmann::json alone(const fs::path& directory, const std::string& scene, const nlohmann::json& point) {
@@ -54,11 +42,6 @@ void expect_same(const nlohmann::json& point, const nlohmann::json& run, const s
   const double error = wanted["governing"]["error"]["numerical"];
   EXPECT_NEAR(figure(point, "bodies." + body + ".governing.error"), error, 1e-6 * error);
   for (const auto& [name, values] : run["loads"].items()) near("loads." + name + ".max", values["max"]);
-}
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 /// The columns of a file without quotes, by title.
@@ -305,14 +288,14 @@ TEST(Sweeps, FollowTheZonesOfTheirPoints) {
   }
   EXPECT_EQ(row, swept.at("point").size());
   EXPECT_GE(row, points.size());
-  const auto table = bytes_of(directory / "swept/zones.csv");
-  auto journal = bytes_of(directory / "swept/journal");
+  const auto table = results_test::bytes(directory / "swept/zones.csv");
+  auto journal = results_test::bytes(directory / "swept/journal");
   journal.resize(journal.size() - 20);
   write(directory / "swept/journal", journal);
   std::string err;
   points_of(directory.path, arguments, &err);
   EXPECT_NE(err.find("1 known from"), std::string::npos) << err;
-  EXPECT_EQ(bytes_of(directory / "swept/zones.csv"), table);
+  EXPECT_EQ(results_test::bytes(directory / "swept/zones.csv"), table);
   auto without_zones = arguments;
   without_zones.erase(without_zones.find("--zones"), 7);
   points_of(directory.path, without_zones);
@@ -386,94 +369,6 @@ pictures = false
   EXPECT_EQ(err.find("more mesh"), std::string::npos) << err;
 }
 
-// The last line of the journal is cut as by a kill, another is damaged: both are computed again, the others
-// not.
-TEST(Sweeps, ThatWereInterruptedGoOn) {
-  const results_test::Directory directory;
-  write(directory / "mill.toml", shaft_alone(coarse()));
-  const std::string arguments =
-      "mill.toml --loads -o swept --vary 'machine.drive.speed = 1200..1600 rpm / 9'";
-  std::string err;
-  points_of(directory.path, arguments, &err);
-  EXPECT_EQ(err.find("known from"), std::string::npos) << err;
-  const auto table = bytes_of(directory / "swept/sweep.csv");
-  auto journal = bytes_of(directory / "swept/journal");
-  journal.resize(journal.size() - 20);
-  const auto third = journal.find('\n', journal.find('\n') + 1) + 200;
-  journal[third] = journal[third] == '1' ? '2' : '1';
-  write(directory / "swept/journal", journal);
-  fs::remove(directory / "swept/sweep.csv");
-  points_of(directory.path, arguments, &err);
-  EXPECT_NE(err.find("7 known from"), std::string::npos) << err;
-  EXPECT_EQ(bytes_of(directory / "swept/sweep.csv"), table);
-  write(directory / "mill.toml", shaft_alone(coarse()) + "\n# changed\n");
-  points_of(directory.path, arguments, &err);
-  EXPECT_EQ(err.find("known from"), std::string::npos) << err;
-}
-
-// The journal's rows depend on every file that a point names, not on the first one's alone.
-TEST(Sweeps, SeeThatAFileOfALaterPointHasChanged) {
-  const results_test::Directory directory;
-  const auto samples = [&](const std::string& file, const std::string& force_N) {
-    std::string text = "angle [deg],seat.fx [N]\n";
-    for (int degree = 0; degree < 360; degree += 15) text += std::to_string(degree) + ',' + force_N + '\n';
-    write(directory / file, text);
-  };
-  samples("a.csv", "1");
-  samples("b.csv", "2");
-  write(directory / "loads.toml",
-        "title = \"loads\"\neffects = [\"pull\"]\n[machine]\ntype = \"load_table\"\nspeed = \"600 rpm\"\n"
-        "[[machine.files]]\neffect = \"pull\"\nfile = \"a.csv\"\n"
-        "[sampling]\ninstants_per_turn = 24\nturns = 1\n");
-  const std::string arguments =
-      "loads.toml --loads -o swept --vary 'machine.files[1].file = \"a.csv\", \"b.csv\"'";
-  std::string err;
-  const auto before = points_of(directory.path, arguments, &err);
-  ASSERT_EQ(before.size(), 2u) << err;
-  EXPECT_EQ(figure(before[1], "loads.seat.fx.max"), 2);
-  points_of(directory.path, arguments, &err);
-  EXPECT_NE(err.find("2 known from"), std::string::npos) << err;
-  samples("b.csv", "50");
-  const auto after = points_of(directory.path, arguments, &err);
-  EXPECT_EQ(err.find("known from"), std::string::npos) << err;
-  EXPECT_EQ(figure(after[1], "loads.seat.fx.max"), 50);
-}
-
-TEST(Sweeps, LeaveNoChartOfOtherPoints) {
-  const results_test::Directory directory;
-  write(directory / "mill.toml", shaft_alone(coarse()));
-  const std::string speeds = "mill.toml --loads -o swept --vary 'machine.drive.speed = 1400, 1500 rpm'";
-  points_of(directory.path, speeds + " --vary 'machine.charge.mass = 10, 20 kg'");
-  const bool draws = fs::exists(directory / "swept/map.svg");
-  write(directory / "swept/map_7.png", "of an earlier sweep");
-  write(directory / "swept/map_notes.txt", "the user's");
-  points_of(directory.path, speeds);
-  for (const auto& entry : fs::directory_iterator(directory / "swept"))
-    EXPECT_TRUE(entry.path().extension() == ".txt" || entry.path().filename().string().rfind("map", 0) != 0)
-        << entry.path();
-  EXPECT_TRUE(fs::exists(directory / "swept/map_notes.txt"));
-  EXPECT_EQ(fs::exists(directory / "swept/chart.svg"), draws);
-  fs::create_directory(directory / "swept/chart_3.svg");
-  const auto refused = as_a_user(directory.path, "sweep " + speeds);
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("chart_3.svg"), std::string::npos) << refused.err;
-}
-
-// A list of texts has quotes of its own.
-TEST(Sweeps, PrintACommandThatAShellTakes) {
-  const results_test::Directory directory;
-  write(directory / "a mill.toml", shaft_alone(coarse()));
-  const auto outcome = as_a_user(directory.path,
-                                 "sweep 'a mill.toml' --loads -o swept --vary "
-                                 "'machine.springs[1].stiffness = [\"14 kN/m\", \"27 kN/m\"], [\"15 kN/m\", "
-                                 "\"27 kN/m\"]' --figure loads.R_E.max");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto begin = outcome.out.find("  millstress loads ") + std::string("  millstress ").size();
-  const auto again =
-      as_a_user(directory.path, outcome.out.substr(begin, outcome.out.find('\n', begin) - begin));
-  EXPECT_EQ(again.exit_code, 0) << again.err;
-}
-
 TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));
@@ -489,21 +384,6 @@ TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
     const auto outcome = as_a_user(directory.path, "sweep mill.toml " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
-  }
-}
-
-TEST(Sweeps, ReplaceNothingThatIsNotTheirs) {
-  const results_test::Directory directory;
-  write(directory / "mill.toml", shaft_alone(coarse()));
-  for (const char* name : {"journal", "sweep.csv"}) {
-    fs::create_directories(directory / "mine");
-    write(directory / "mine" / name, "a diary\n");
-    const auto outcome = as_a_user(
-        directory.path, "sweep mill.toml --loads -o mine --vary 'machine.drive.speed = 1400, 1500 rpm'");
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.err.find("no sweep has written it"), std::string::npos) << outcome.err;
-    EXPECT_EQ(bytes_of(directory / "mine" / name), "a diary\n");
-    fs::remove_all(directory / "mine");
   }
 }
 
