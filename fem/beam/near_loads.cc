@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fem/beam/beam_statics.h"
+#include "fem/values/constants.h"
 
 namespace fem {
 namespace {
@@ -88,6 +89,41 @@ ArrayXd shear_in_short_parts_Pa(const BeamSegment& segment, const BeamSection& s
   return result;
 }
 
+const LoadSurface* seat_of(const UnitLoad& load) {
+  const LoadSurface* surface = nullptr;
+  if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape)) surface = &resultant->surface;
+  if (const auto* pressure = std::get_if<SeatPressure>(&load.shape)) surface = &pressure->surface;
+  return surface != nullptr && surface->kind == LoadSurface::Kind::seat ? surface : nullptr;
+}
+
+/// Largest tractions of a unit load on its seat (SurfaceResultant, SeatPressure).
+struct UnitTraction {
+  double around_Pa = 0, along_Pa = 0, pressure_Pa = 0;
+};
+
+UnitTraction unit_traction(const UnitLoad& load, const LoadSurface& seat) {
+  const double r = seat.radius_m, b = seat.length_m;
+  const double tangential = 1.5 / (2 * pi * r * b);
+  const double normal =
+      *std::max_element(seat.axial_profile.begin(), seat.axial_profile.end()) / (pi * r * b);
+  if (const auto* pressure = std::get_if<SeatPressure>(&load.shape))
+    return {0, 0, std::abs(pressure->coefficient) * normal};
+  using Component = SurfaceResultant::Component;
+  switch (std::get<SurfaceResultant>(load.shape).component) {
+    case Component::fx:
+    case Component::fy:
+      return {0, 0, normal};
+    case Component::fz:
+      return {0, tangential, 0};
+    case Component::mx:
+    case Component::my:
+      return {0, 0, 6 / (pi * r * b * b)};
+    case Component::torque:
+      return {tangential / r, 0, 0};
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<double> near_load_error_Pa(const BeamShaft& shaft, const std::vector<UnitLoad>& loads,
@@ -107,6 +143,34 @@ std::vector<double> near_load_error_Pa(const BeamShaft& shaft, const std::vector
     errors_Pa.push_back(safety * (sum_Pa.size() > 0 ? sum_Pa.maxCoeff() : 0));
   }
   return errors_Pa;
+}
+
+std::vector<SeatTraction> seat_tractions(const std::vector<UnitLoad>& loads,
+                                         const std::vector<std::vector<double>>& factors,
+                                         const std::vector<double>& z_m) {
+  std::vector<SeatTraction> tractions;
+  for (const double z : z_m) {
+    SeatTraction at;
+    const Index n_instants = factors.empty() ? 0 : Index(factors.front().size());
+    ArrayXd around_Pa = ArrayXd::Zero(n_instants), along_Pa = around_Pa, pressure_Pa = around_Pa;
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      const auto* seat = seat_of(loads[k]);
+      if (seat == nullptr) continue;
+      const double from_middle = std::abs(z - seat->centre_m[2]) / seat->length_m;
+      const auto size = Eigen::Map<const ArrayXd>(factors[k].data(), n_instants).abs();
+      const auto unit = unit_traction(loads[k], *seat);
+      const double tapered = std::max(0.0, 1 - from_middle * from_middle);
+      around_Pa += tapered * unit.around_Pa * size;
+      along_Pa += tapered * unit.along_Pa * size;
+      pressure_Pa += std::clamp(2 - 2 * from_middle, 0.0, 1.0) * unit.pressure_Pa * size;
+    }
+    if (n_instants > 0) {
+      at.shear_Pa = (around_Pa.square() + along_Pa.square()).sqrt().maxCoeff();
+      at.pressure_Pa = pressure_Pa.maxCoeff();
+    }
+    tractions.push_back(at);
+  }
+  return tractions;
 }
 
 }  // namespace fem

@@ -24,4 +24,18 @@ std::vector<double> near_load_error_Pa(const BeamShaft& shaft, const std::vector
                                        const std::vector<std::vector<double>>& factors,
                                        const std::vector<double>& z_m);
 
+/// The tractions by which loads enter seats: stress on the surface that beam theory does not have.
+struct SeatTraction {
+  double shear_Pa = 0;     ///< of torque and axial force
+  double pressure_Pa = 0;  ///< of lateral forces, moments and the harmonics of the pressure; all of one sign
+};
+
+/// The profiles of SurfaceResultant and SeatPressure, made twice as wide, since places beside a seat feel
+/// them, too.
+/// @param factors, z_m  as in near_load_error_Pa
+/// @return largest over the instants, for each place
+std::vector<SeatTraction> seat_tractions(const std::vector<UnitLoad>& loads,
+                                         const std::vector<std::vector<double>>& factors,
+                                         const std::vector<double>& z_m);
+
 }  // namespace fem

@@ -240,6 +240,22 @@ TEST(AxisymmetricRun, ABeamKnowsThatAStubIsNoBeam) {
   EXPECT_GT(beam.peak.errors.of("near_loads"), 0.2 * beam.peak.value_Pa);
 }
 
+// A torque enters a short seat by a traction that exceeds the shear it makes further in; a beam has the
+// latter alone.
+TEST(AxisymmetricRun, ABeamKnowsHowTorqueEnters) {
+  std::string text = overhung;
+  text.replace(text.find("left.fy"), 7, "left.torque");
+  text.replace(text.find("12 kN"), 5, "800 N m");
+  text.replace(text.find("length = \"18 mm\""), 16, "length = \"5 mm\"");
+  LoadedShaft shaft(scene_of(text));
+  const auto beam = shaft.beam();
+  const auto own = shaft.axisymmetric(0.05);
+  const auto& errors = beam.peak.errors;
+  EXPECT_GT(own.peak.value_Pa, beam.peak.value_Pa + errors.total_Pa() - errors.of("near_loads"));
+  EXPECT_NEAR(beam.peak.value_Pa, own.peak.value_Pa, errors.total_Pa());
+  EXPECT_LT(errors.total_Pa(), 1.5 * own.peak.value_Pa) << "an error that holds everything says nothing";
+}
+
 // Thick and thin, short and long, pulled, bent and twisted: shafts that nobody chose for the beam. Without
 // `near_loads` one in eight is not bounded; MILLSTRESS_BEAMS draws more of them (fem/README.md).
 TEST(AxisymmetricRun, BeamsOfRandomShaftsAreWithinTheirErrors) {
