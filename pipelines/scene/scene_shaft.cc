@@ -189,7 +189,7 @@ void check_shoulder(Contour& contour, std::size_t i, SceneFindings& findings) {
 
 /// The fillets of a segment, on the side of the smaller diameter, take their length from it; the loaded zone
 /// of a port stays centred in what the larger one leaves.
-void check_length(Contour& contour, std::size_t i) {
+void check_length(Contour& contour, std::size_t i, SceneFindings& findings) {
   const auto& segment = contour.segments[i];
   const auto carried = [&](std::size_t shoulder, std::size_t neighbour) {
     return segment.diameter_m < contour.segments[neighbour].diameter_m ? contour.fillets_m[shoulder] : 0;
@@ -197,7 +197,15 @@ void check_length(Contour& contour, std::size_t i) {
   const double left_m = i > 0 ? carried(i - 1, i - 1) : 0;
   const double right_m = i + 1 < contour.segments.size() ? carried(i, i + 1) : 0;
   const double taken_m = segment.is_port ? 2 * std::max(left_m, right_m) : left_m + right_m;
-  if (taken_m < segment.end_m || std::isnan(taken_m) || std::isnan(segment.end_m)) return;
+  if (taken_m < segment.end_m || std::isnan(taken_m) || std::isnan(segment.end_m)) {
+    if (segment.is_port && taken_m > segment.end_m / 2)
+      findings.warnings.push_back(
+          "the port \"" + segment.name + "\" is loaded over " + mm(segment.end_m - taken_m) + " of its " +
+          mm(segment.end_m) +
+          ": its fillets take their length at both of its ends; put a segment between port and "
+          "fillet if that is not meant");
+    return;
+  }
   auto& fillet = contour.fillet_tables[left_m > right_m ? i - 1 : i];
   fillet->refuse("fillet", "is too long for \"" + segment.name + "\", " + mm(segment.end_m) +
                                " long, of which " +
@@ -256,7 +264,7 @@ ShaftShape read_shaft_shape(SceneTable& body, const ContourRules& rules, SceneFi
   Contour contour = read_contour(body.tables("contour"), rules);
   if (body.is_present()) check_names(contour, body, rules);
   for (std::size_t i = 0; i + 1 < contour.segments.size(); ++i) check_shoulder(contour, i, findings);
-  for (std::size_t i = 0; i < contour.segments.size(); ++i) check_length(contour, i);
+  for (std::size_t i = 0; i < contour.segments.size(); ++i) check_length(contour, i, findings);
   shape.geometry = placed(contour, body, rules);
   shape.keyways = read_keyways(body);
   for (const auto& keyway : shape.keyways)

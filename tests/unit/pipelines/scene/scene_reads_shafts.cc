@@ -144,6 +144,20 @@ TEST(SceneTrainShaft, NeedsNoForces) {
   EXPECT_TRUE(has_default(scene, "shaft.axial_bearing", "\"bearing_1\""));
 }
 
+TEST(SceneTrainShaft, WarnsOfAPortThatAFilletShortensByMoreThanHalf) {
+  const auto with_fillet = [](const std::string& size) {
+    return edited::scene("root_peeler_shaft",
+                         {{"length = \"15 mm\" },\n  { fillet = \"1 mm\" },\n  { name",
+                           "length = \"15 mm\" },\n  { fillet = \"" + size + "\" },\n  { name"},
+                          {"diameter = \"30 mm\"", "diameter = \"40 mm\""}});
+  };
+  EXPECT_TRUE(with_fillet("3.7 mm").warnings.empty());
+  const auto warnings = with_fillet("3.8 mm").warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("\"bearing_1\" is loaded over 7.4 mm of its 15 mm"), std::string::npos)
+      << warnings[0];
+}
+
 const char* part_table = R"(
 [part]
 contour = [
