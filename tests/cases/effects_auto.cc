@@ -184,7 +184,8 @@ TEST(EffectsAuto, CheckAndLoadsDropTheSame) {
     return outcome.out.substr(begin, outcome.out.find_last_not_of('\n', end) + 1 - begin);
   };
   const std::vector<std::pair<std::string, Edits>> scenes{
-      {"root_peeler_shaft.toml", {{"cells_per_fillet_quarter = 4", "cells_per_fillet_quarter = 2\nsectors = 8"}}},
+      {"root_peeler_shaft.toml",
+       {{"cells_per_fillet_quarter = 4", "cells_per_fillet_quarter = 2\nsectors = 8"}}},
       {"planetary_mill.toml", small_drum},
       {"drive_train.toml", {}}};
   for (const auto& [name, edits] : scenes) {

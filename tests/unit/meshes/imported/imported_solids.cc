@@ -23,7 +23,7 @@ using meshes::ImportPort;
 using meshes::Port;
 namespace occ = gmsh::model::occ;
 using meshes::pi;
-constexpr int cells_around = 8;  // cells: coarse, for speed
+constexpr int cells_around = 10;  // cells: coarse, for speed
 
 /// Runs a construction in a session of its own and writes what it left.
 std::filesystem::path written(const std::string& name, const std::function<void()>& construct) {

@@ -37,7 +37,7 @@ meshes::Shaft eccentric_shaft() {
   return shaft;
 }
 
-constexpr int n_around = 8;  // cells: coarse, for speed
+constexpr int n_around = 10;  // cells: coarse, for speed
 SolidControl coarse() {
   SolidControl control;
   control.cells_per_circle = n_around;

@@ -210,7 +210,8 @@ TEST(AxisymmetricRun, PlacesAreThoseOfTheSolid) {
     ASSERT_TRUE(of_solid.count(place.feature)) << place.feature;
     std::printf("%-24s %8.3f +- %.3f MPa, solid %8.3f\n", place.feature.c_str(), place.value_Pa / 1e6,
                 place.error_Pa / 1e6, of_solid[place.feature] / 1e6);
-    // 12 sectors of quadratic cells, four on the fillet's quarter: 6 %. At seams the place's own error counts.
+    // 12 sectors of quadratic cells, four on the fillet's quarter: 6 %. At seams the place's own error
+    // counts.
     EXPECT_NEAR(of_solid[place.feature], place.value_Pa, 0.06 * place.value_Pa + place.error_Pa)
         << place.feature;
   }
