@@ -1,5 +1,5 @@
-# Run by ctest before it starts: one test per suite of an executable, named EXECUTABLE/SUITE. Programs that link deal.II take half
-# a second to start, so that hundreds of short tests would spend most of their time with starting.
+# Run by ctest before it starts: one test per eight suites of an executable, named EXECUTABLE/SUITE+SUITE+... Programs that link
+# deal.II take a third of a second to start, and most suites less to run.
 # NAME, EXECUTABLE, LABEL, LONG and DIRECTORY are set by the file that includes this one. Tests that fit the filter LONG are left
 # out of their suites and run one after the other as EXECUTABLE/long.
 if(NOT EXISTS "${EXECUTABLE}")
@@ -12,11 +12,23 @@ if(NOT outcome EQUAL 0)
   return()
 endif()
 string(REGEX MATCHALL "[^\n]+" lines "${listing}")
+set(suites)
 foreach(line IN LISTS lines)
   if(line MATCHES "^([A-Za-z0-9_/]+)\\.( |$)")
-    set(suite "${CMAKE_MATCH_1}")
-    add_test("${NAME}/${suite}" "${EXECUTABLE}" "--gtest_filter=${suite}.*-${LONG}")
-    set_tests_properties("${NAME}/${suite}" PROPERTIES LABELS "${LABEL}" TIMEOUT 900 WORKING_DIRECTORY "${DIRECTORY}")
+    list(APPEND suites "${CMAKE_MATCH_1}")
+  endif()
+endforeach()
+set(some)
+foreach(suite IN LISTS suites)
+  list(APPEND some "${suite}")
+  list(LENGTH some n)
+  list(GET suites -1 last)
+  if(n EQUAL 8 OR suite STREQUAL last)
+    string(REPLACE ";" "+" name "${some}")
+    string(REPLACE ";" ".*:" filter "${some}")
+    add_test("${NAME}/${name}" "${EXECUTABLE}" "--gtest_filter=${filter}.*-${LONG}")
+    set_tests_properties("${NAME}/${name}" PROPERTIES LABELS "${LABEL}" TIMEOUT 900 WORKING_DIRECTORY "${DIRECTORY}")
+    set(some)
   endif()
 endforeach()
 if(LONG)

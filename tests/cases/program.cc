@@ -49,6 +49,7 @@ Edits coarse() {
   return {{"cells_per_fillet_quarter = 8", "cells_per_fillet_quarter = 2"},
           {"sectors = 16", "sectors = 8"},
           {"snapshots = 24", "snapshots = 2"},
+          {"pictures = true", "pictures = false"},
           {"instants_per_turn = 120", "instants_per_turn = 24"}};
 }
 

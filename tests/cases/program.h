@@ -38,7 +38,7 @@ std::string shaft_alone(const Edits& edits);
 std::string chamber_alone(const Edits& edits);
 
 /// The default scene on the coarsest mesh that still has fillets: about 67 k unknowns, seconds instead of a
-/// minute. Its stresses are off by a third; what is tested on it does not depend on that.
+/// minute, and without pictures. Its stresses are off by a third; what is tested on it does not depend on that.
 Edits coarse();
 
 Edits operator+(Edits a, const Edits& b);

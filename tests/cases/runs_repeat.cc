@@ -50,7 +50,7 @@ std::vector<std::string> differing_figures(const fs::path& a, const fs::path& b,
 
 TEST(Runs, RepeatBitByBitFreshAndReused) {
   const results_test::Directory directory;
-  write(directory / "mill.toml", shaft_alone(coarse()));
+  write(directory / "mill.toml", shaft_alone(coarse() + Edits{{"pictures = false", "pictures = true"}}));
   for (const char* out : {"first", "second"})
     ASSERT_EQ(millstress(directory.path, std::string("run mill.toml --threads 2 -o ") + out).exit_code, 0);
   const auto first = contents(directory / "first");

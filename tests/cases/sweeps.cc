@@ -237,7 +237,8 @@ TEST(Sweeps, PrintErrorsBesideTheirFigures) {
 // as concentric. Sweeps, zones and places state both.
 TEST(Sweeps, ErrorsOfCheapModelsHoldTheModels) {
   const results_test::Directory directory;
-  write(directory / "mill.toml", shaft_alone({}));
+  write(directory / "mill.toml", shaft_alone({{"instants_per_turn = 120", "instants_per_turn = 24"},
+                                              {"pictures = true", "pictures = false"}}));
   const std::string arguments = "mill.toml --set method=axisymmetric --tolerance '10 %'";
   const auto points =
       points_of(directory.path, arguments + " --zones -o swept --vary 'machine.drive.speed = 1350 rpm'");

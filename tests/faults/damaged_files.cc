@@ -54,7 +54,7 @@ TEST_F(Flips, InWhatIsKeptChangeNoResult) {
              costs = directory_ / "cache/millstress/costs.json";
   ASSERT_EQ(run_next().exit_code, 0);
   ASSERT_TRUE(faults::fs::exists(costs));
-  const long n = asked_for(2, 100);
+  const long n = asked_for(1, 100);
   long n_told = 0;
   for (const auto& file : {responses, costs})
     for (long i = 0; i < n && !HasFailure(); ++i) {
@@ -99,7 +99,7 @@ TEST_F(Flips, ADiskThatIsFullAtAnySize) {
   prepare("solid");
   std::uintmax_t whole = 0;
   for (const auto& [name, bytes] : cases::contents(directory_ / "out")) whole += bytes.size();
-  const long n = asked_for(3, 10);
+  const long n = asked_for(2, 10);
   for (long i = 0; i < n && !HasFailure(); ++i) {
     restore();
     const auto room = long(double(whole) * double(i) / double(n));

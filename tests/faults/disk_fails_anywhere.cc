@@ -85,37 +85,37 @@ protected:
 
 TEST_F(Disk, AKillBeforeAnyOperationOfABeamLosesNothing) {
   prepare("beam");
-  try_points("kill", 6);
+  try_points("kill", 4);
 }
 
 TEST_F(Disk, AWriteTornByAKillLosesNothing) {
   prepare("beam");
-  try_points("torn", 3);
+  try_points("torn", 2);
 }
 
 TEST_F(Disk, OneFailureAnywhereIsToldAndLosesNothing) {
   prepare("beam");
-  try_points("once", 5);
+  try_points("once", 3);
 }
 
 TEST_F(Disk, FailureForGoodIsToldAndLosesNothing) {
   prepare("beam");
-  try_points("from", 4);
+  try_points("from", 3);
 }
 
 TEST_F(Disk, AWriteCutInHalfIsToldAndLosesNothing) {
   prepare("beam");
-  try_points("short", 3);
+  try_points("short", 2);
 }
 
 TEST_F(Disk, ASolidsFilesAreNoExceptionToKills) {
   prepare("solid");
-  try_points("kill", 2);
+  try_points("kill", 1);
 }
 
 TEST_F(Disk, ASolidsFilesAreNoExceptionToFailures) {
   prepare("solid");
-  try_points("from", 2);
+  try_points("from", 1);
 }
 
 }  // namespace

@@ -100,12 +100,12 @@ protected:
 
 TEST_F(Moments, AKillLosesNothing) {
   prepare("solid");
-  end_at_random(SIGKILL, 3);
+  end_at_random(SIGKILL, 2);
 }
 
 TEST_F(Moments, InterruptFromTheKeyboardLosesNothing) {
   prepare("solid");
-  end_at_random(SIGINT, 3);
+  end_at_random(SIGINT, 2);
 }
 
 TEST_F(Moments, OneRankThatIsKilledEndsTheRunAndLosesNothing) {
@@ -113,7 +113,7 @@ TEST_F(Moments, OneRankThatIsKilledEndsTheRunAndLosesNothing) {
   bits_repeat_ = false;
   prepare("solid");
   std::mt19937_64 random(23);
-  const long n = asked_for(2, 10);
+  const long n = asked_for(1, 10);
   for (long i = 0; i < n && !HasFailure(); ++i) {
     restore();
     const auto start = next_start();

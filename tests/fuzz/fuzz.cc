@@ -55,9 +55,10 @@ public:
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / 60;
     };
     for (int left = options_.n_cases; left > 0;) {
+      const int round = std::min(1000, left);
       for (const auto& kind : fuzz::kinds()) {
         if (options_.minutes > 0 && minutes() > options_.minutes) return;
-        left -= run_share(kind, left);
+        left -= run_share(kind, left, round);
       }
     }
   }
@@ -78,14 +79,13 @@ public:
   }
 
 private:
-  int run_share(const fuzz::Kind& kind, int left) {
+  int run_share(const fuzz::Kind& kind, int left, int round) {
     const bool alone = !options_.kind.empty();
     if (alone && options_.kind != kind.name) return 0;
     auto batch = options_.batch;
     auto& tally = tallies_[kind.name];
     batch.first = tally.n_cases;
-    batch.n_cases = alone ? std::min(left, 200)
-                          : std::max(1, kind.per_thousand * std::min(1000, options_.n_cases) / 1000);
+    batch.n_cases = alone ? std::min(left, 200) : std::max(1, kind.per_thousand * round / 1000);
     tally.add(fuzz::run_batch(kind, batch, place_));
     return batch.n_cases;
   }

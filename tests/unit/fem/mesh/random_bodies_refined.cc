@@ -1,6 +1,6 @@
 // Shafts, drums and chambers drawn at random, a twentieth of their cells cut at random: no cell is inverted,
 // what is rigid stays so, and a linear displacement is in equilibrium. MILLSTRESS_REFINED_BODIES says how
-// many of each kind (default 4).
+// many of each kind (default 3).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 int n_refined_bodies() {
   const char* asked = std::getenv("MILLSTRESS_REFINED_BODIES");
-  return asked != nullptr ? std::atoi(asked) : 4;
+  return asked != nullptr ? std::atoi(asked) : 3;
 }
 
 /// Reads the mesh with cells cut at random, and those beside them where that inverts cells; throws where one
