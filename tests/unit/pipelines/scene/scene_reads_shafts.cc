@@ -158,6 +158,19 @@ TEST(SceneTrainShaft, WarnsOfAPortThatAFilletShortensByMoreThanHalf) {
       << warnings[0];
 }
 
+TEST(SceneTrainShaft, WarnsOfTheRootOfAKeyway) {
+  const std::string bearings = "bearings = [\"bearing_1\", \"bearing_2\"]",
+                    keyway =
+                        "\nkeyways = [{ segment = \"pulley_seat\", width = \"8 mm\", depth = \"4 mm\", "
+                        "length = \"20 mm\", begin = \"10 mm\" }]";
+  const auto with_keyway = edited::scene(
+      "root_peeler_shaft",
+      {{bearings, bearings + keyway}, {"cells_per_fillet_quarter = 4", "cells_per_circle = 12"}});
+  ASSERT_EQ(with_keyway.warnings.size(), 1u);
+  EXPECT_NE(with_keyway.warnings[0].find("has sharp edges at its root"), std::string::npos)
+      << with_keyway.warnings[0];
+}
+
 const char* part_table = R"(
 [part]
 contour = [
