@@ -116,7 +116,8 @@ void add_load_edge_error(BodyAnalysis& analysis) {
     if (more_Pa <= 0) continue;
     for (const auto node : smooth_border(nodes, group))
       if (!analysis.places.excluded[std::size_t(node)])
-        beyond_Pa = std::max(beyond_Pa, value_Pa[std::size_t(node)] + more_Pa - analysis.peak.value_Pa);
+        beyond_Pa = std::max(beyond_Pa, std::max(value_Pa[std::size_t(node)], share_of_a_node * pressure_Pa) +
+                                            more_Pa - analysis.peak.value_Pa);
   }
   if (beyond_Pa > 0)
     analysis.peak.errors.set_model(
