@@ -123,4 +123,22 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
   return results;
 }
 
+std::vector<std::string> forces_along_bearings(const std::vector<BearingResult>& results,
+                                               const std::vector<const ChannelHistory*>& channels) {
+  // The least e of ISO 281, table 3, deep groove ball bearings: below F_a / F_r = e it is P = F_r.
+  constexpr double least_e = 0.19;
+  std::vector<std::string> sentences;
+  for (const auto& bearing : results)
+    for (const auto* body : channels) {
+      const auto along = channel(*body, bearing.load + ".fz");
+      if (!along || along->abs().maxCoeff() <= least_e * bearing.equivalent_load_N) continue;
+      sentences.push_back(
+          fmt::format("bearing \"{}\": the force along the shaft at {}, up to {:.4g} N, is not in its load "
+                      "of {:.4g} N; its "
+                      "life is that of the load across the shaft alone, and ISO 281 has factors for both",
+                      bearing.name, bearing.load, along->abs().maxCoeff(), bearing.equivalent_load_N));
+    }
+  return sentences;
+}
+
 }  // namespace pipelines
