@@ -100,6 +100,15 @@ TEST(SceneAxle, HasTheStub) {
   EXPECT_TRUE(has_default(silent, "axle.side", "\"plain\""));
 }
 
+// 500 W at a fifth of the speed would need a sine of 5 x 25. Red if what is off is refused for its value.
+TEST(SceneVibratoryMill, TakesAPowerBeyondTheLagThatIsOff) {
+  const edited::Edits slow{{"speed = \"151.844 rad/s\"", "speed = \"30 rad/s\""}};
+  EXPECT_THROW(edited::scene("vibratory_mill", slow), pipelines::SceneError);
+  auto off = slow;
+  off.emplace_back("  \"charge_lag\", ", "  #");
+  EXPECT_EQ(edited::scene("vibratory_mill", off).vibratory_mill().charge_lag.grinding_power_W, 500);
+}
+
 TEST(SceneTrainShaft, HasThePeelers) {
   const Scene scene = edited::scene("root_peeler_shaft", {});
   const auto& body = *scene.body("shaft");
