@@ -189,6 +189,26 @@ TEST(LoadStage, DriveTrainReproducesThePapersTables) {
     EXPECT_NE(run.out.find(printed), std::string::npos) << printed;
 }
 
+// 50 and 51.3 Hz beat once in 0.77 s; a turn takes 0.044 s. The largest torques are those of the window, a
+// sixth of the true ones here. Red if `torsion` says so less loudly than `loads`.
+TEST(LoadStage, TorsionWarnsOfItsWindow) {
+  const results_test::Directory directory;
+  const std::string line = "{ amplitude = \"3.744 N m\", frequency = \"50 Hz\", phase = \"0 deg\" }";
+  write(
+      directory / "beat.toml",
+      edited("drive_train.toml",
+             {{line, line + ", { amplitude = \"3.744 N m\", frequency = \"51.3 Hz\", phase = \"180 deg\" }"},
+              {"turns = 34", "turns = 1"}}));
+  const auto json = json_of(directory.path, "torsion beat.toml --json");
+  const std::string warning =
+      "the history covers 0.0441176470588 s, the vibration repeats after 10 s; extremes and means are those "
+      "of "
+      "the window";
+  EXPECT_EQ(json["warnings"], nlohmann::json::array({warning}));
+  const auto printed = millstress(directory.path, "torsion beat.toml").out;
+  EXPECT_NE(printed.find("warning: " + warning), std::string::npos) << printed;
+}
+
 // L10h from the equivalent load of the series that the program wrote: P = (mean F^p)^(1/p), L = (C/P)^p.
 TEST(LoadStage, BearingsGetALife) {
   const results_test::Directory directory;
