@@ -150,19 +150,40 @@ void warn(const ResamplingError& error, LoadHistory& history) {
                                "that much where the samples are that coarse");
 }
 
-/// Where the instants lie further apart than the samples, they may miss the largest one: nothing in their
-/// values tells, so that no error would hold it.
+/// Samples that end well before the next period begins: another speed, another number of turns, or a file cut
+/// short.
+void warn_of_gap(const TableLoad& load, const SampledCourse& samples, double period_rad,
+                 LoadHistory& history) {
+  constexpr double unusual = 2;
+  const Index n = samples.angle_rad.size();
+  const double usual_rad = (samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1)).maxCoeff();
+  const double gap_rad = period_rad - (samples.angle_rad[n - 1] - samples.angle_rad[0]);
+  if (gap_rad <= unusual * usual_rad) return;
+  const auto degrees = [](double angle_rad) { return number(std::round(1800 / M_PI * angle_rad) / 10); };
+  history.warnings.push_back(load.effect + "/" + name_of(load) + " has no sample over " + degrees(gap_rad) +
+                             " degrees where its period closes, and elsewhere one every " +
+                             degrees(usual_rad) +
+                             " degrees at least: what lies there is drawn from one end to the other; check "
+                             "speed, number of turns and "
+                             "the end of the file");
+}
+
+/// Where the instants lie further apart than the samples, they may miss the largest or the smallest one:
+/// nothing in their values tells, so that no error would hold it.
 void check_missed(const TableLoad& load, const SampledCourse& samples, const ArrayXd& values,
                   const TimeGrid& grid) {
-  const double largest = samples.values.head(n_of_period(samples, grid.turns * turn_rad)).abs().maxCoeff();
-  const double missed = largest - values.abs().maxCoeff();
+  const ArrayXd given = samples.values.head(n_of_period(samples, grid.turns * turn_rad));
+  const double largest = given.abs().maxCoeff();
+  const double above = given.maxCoeff() - values.maxCoeff(), below = values.minCoeff() - given.minCoeff();
+  const double missed = std::max(above, below);
   if (missed <= too_much_missed * largest) return;
   const Index n = samples.angle_rad.size();
   const double step_rad = (samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1)).minCoeff();
   throw MachineRefused(
-      load.effect + "/" + name_of(load) + " is " + number(std::round(1000 * missed / largest) / 10) +
-      " % larger between the instants than at them, " + std::to_string(grid.instants_per_turn) +
-      " per turn; the closest samples correspond to " + number(std::ceil(turn_rad / step_rad * (1 - 1e-9))) +
+      load.effect + "/" + name_of(load) + " is " + number(std::round(1000 * missed / largest) / 10) + " % " +
+      (above >= below ? "larger" : "smaller") + " between the instants than at them, " +
+      std::to_string(grid.instants_per_turn) + " per turn; the closest samples correspond to " +
+      number(std::ceil(turn_rad / step_rad * (1 - 1e-9))) +
       " per turn: set sampling.instants_per_turn to at least that");
 }
 
@@ -239,6 +260,7 @@ LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>
       post(load, values, history);
       if (const auto* samples = std::get_if<SampledCourse>(&load.course)) {
         warn(error_of(load, *samples, grid.turns * turn_rad), history);
+        warn_of_gap(load, *samples, grid.turns * turn_rad, history);
         check_missed(load, *samples, values, grid);
       }
     }

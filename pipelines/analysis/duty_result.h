@@ -42,6 +42,7 @@ struct DutyResult {
   std::map<std::string, std::vector<DutyPlace>> places;     ///< by body whose fatigue the scene asks for
   std::map<std::string, std::vector<std::string>> effects;  ///< of their shares, likewise
   std::vector<DutyBearing> bearings;
+  std::vector<std::string> warnings;  ///< of the blocks' loads, which the scene's own running does not have
 };
 
 /// @param blocks  with bearings

@@ -268,6 +268,7 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   std::optional<DutyResult> duty;
   if (run_options.duty) {
     duty = run_duty(scene, run, options.n_threads, clock);
+    for (const auto& sentence : duty->warnings) warn(run.loaded.loads, sentence);
     for (const auto& sentence : blocks_beyond_the_scene(*duty, run)) warn(run.loaded.loads, sentence);
     for (const auto& sentence : duty_lives_beyond_curves(*duty)) warn(run.loaded.loads, sentence);
   }

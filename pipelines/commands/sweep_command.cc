@@ -254,6 +254,13 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
         std::count_if(rows.begin(), rows.end(), [](const auto& row) { return !row.refused.empty(); });
     if (n_refused > 0)
       out << fmt::format("\n  {} of {} points were refused: the column says why\n", n_refused, rows.size());
+    const auto n_warned = std::count_if(rows.begin(), rows.end(),
+                                        [](const auto& row) { return row.figure("loads.warnings") > 0; });
+    if (n_warned > 0)
+      out << fmt::format(
+          "\n  {} of {} points have warnings, as many as the column loads.warnings says: `run` or "
+          "`loads` with a point's --set tells them\n",
+          n_warned, rows.size());
     out << "\n  sweep.csv, sweep.h5" << (request.zones ? ", zones.csv" : "");
     for (const auto& file : charts) out << ", " << file;
     out << " in " << directory.string() << '\n';

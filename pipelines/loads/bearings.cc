@@ -25,6 +25,18 @@ double speed_of(const BearingScene& bearing, const kinetics::LoadHistory& loads)
   return loads.speed_rad_s.abs().mean();
 }
 
+/// Of the drive from instant to instant, up to a factor: in a run-up the load counts by its turns.
+Eigen::ArrayXd turns_of(const kinetics::LoadHistory& loads) {
+  const Eigen::Index n = loads.n_instants();
+  const auto& speed = loads.speed_rad_s;
+  if (n < 2 || speed.maxCoeff() == speed.minCoeff()) return Eigen::ArrayXd::Ones(n);
+  const Eigen::ArrayXd step = loads.phi_rad.tail(n - 1) - loads.phi_rad.head(n - 1);
+  Eigen::ArrayXd turns = Eigen::ArrayXd::Zero(n);
+  turns.head(n - 1) += step / 2;
+  turns.tail(n - 1) += step / 2;
+  return turns;
+}
+
 BearingAnswers answers_of(const BearingScene& bearing, const BearingResult& result) {
   BearingAnswers answers;
   const double load_N = result.equivalent_load_N;
@@ -101,7 +113,7 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
     result.load = bearing.load;
     const Eigen::ArrayXd part = bearing.share * *force;
     result.largest_load_N = part.maxCoeff();
-    result.equivalent_load_N = kinetics::equivalent_load_N(part, bearing.element);
+    result.equivalent_load_N = kinetics::equivalent_load_N(part, turns_of(loads), bearing.element);
     result.speed_rad_s = speed_of(bearing, loads);
     result.life = kinetics::rating_life(bearing.dynamic_rating_N, result.equivalent_load_N, bearing.element,
                                         result.speed_rad_s);
@@ -109,6 +121,24 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
     results.push_back(std::move(result));
   }
   return results;
+}
+
+std::vector<std::string> forces_along_bearings(const std::vector<BearingResult>& results,
+                                               const std::vector<const ChannelHistory*>& channels) {
+  // The least e of ISO 281, table 3, deep groove ball bearings: below F_a / F_r = e it is P = F_r.
+  constexpr double least_e = 0.19;
+  std::vector<std::string> sentences;
+  for (const auto& bearing : results)
+    for (const auto* body : channels) {
+      const auto along = channel(*body, bearing.load + ".fz");
+      if (!along || along->abs().maxCoeff() <= least_e * bearing.equivalent_load_N) continue;
+      sentences.push_back(
+          fmt::format("bearing \"{}\": the force along the shaft at {}, up to {:.4g} N, is not in its load "
+                      "of {:.4g} N; its "
+                      "life is that of the load across the shaft alone, and ISO 281 has factors for both",
+                      bearing.name, bearing.load, along->abs().maxCoeff(), bearing.equivalent_load_N));
+    }
+  return sentences;
 }
 
 }  // namespace pipelines

@@ -46,4 +46,10 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
                                          const kinetics::LoadHistory& loads,
                                          const std::vector<const ChannelHistory*>& channels);
 
+/// Sentences on bearings whose port has a force along the shaft that ISO 281 would count: their loads are
+/// those across it.
+/// @param results  of bearing_lives with these channels
+std::vector<std::string> forces_along_bearings(const std::vector<BearingResult>& results,
+                                               const std::vector<const ChannelHistory*>& channels);
+
 }  // namespace pipelines

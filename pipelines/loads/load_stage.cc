@@ -1,5 +1,8 @@
 #include "pipelines/loads/load_stage.h"
 
+#include <algorithm>
+
+#include "pipelines/common/constants.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/finite_loads.h"
@@ -14,6 +17,27 @@ LoadedScene::LoadedScene(LoadedScene&&) noexcept = default;
 LoadedScene& LoadedScene::operator=(const LoadedScene&) = default;
 LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
 LoadedScene::~LoadedScene() = default;
+
+namespace {
+
+/// A bearing at a port of a body that turns has the body's speed, which a train's ratios tell from the
+/// drive's.
+std::vector<BearingScene> with_speeds(const Scene& scene, const LoadedScene& loaded) {
+  std::vector<BearingScene> bearings = scene.bearings;
+  for (auto& bearing : bearings)
+    for (std::size_t i = 0; i < scene.bodies.size() && !bearing.speed_rad_s; ++i) {
+      const auto& channels = loaded.body_loads[i].history.channels;
+      const bool carries = std::any_of(channels.begin(), channels.end(), [&](const Channel& channel) {
+        return channel.name == bearing.load + ".fx" || channel.name == bearing.load + ".fy";
+      });
+      const auto& body = scene.bodies[i];
+      const double spin_Hz = carries ? kind_of(body).spin_Hz(scene, body, loaded.loads) : 0;
+      if (spin_Hz > 0) bearing.speed_rad_s = 2 * pi * spin_Hz;
+    }
+  return bearings;
+}
+
+}  // namespace
 
 kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine) {
   return with_place(scene.machine_origin, [&] {
@@ -68,7 +92,9 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
     require_finite(loads);
     kind_of(body).report(scene, body, loads, result.loads);
   }
-  result.bearings = bearing_lives(scene.bearings, result.loads, result.channels());
+  result.bearings = bearing_lives(with_speeds(scene, result), result.loads, result.channels());
+  for (auto& sentence : forces_along_bearings(result.bearings, result.channels()))
+    result.loads.warnings.push_back(std::move(sentence));
   return result;
 }
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "kinetics/machine_refused.h"
 #include "pipelines/machines/drive_train_reader.h"
 #include "pipelines/machines/kinds.h"
@@ -32,6 +35,15 @@ void check_from_mesh(SceneTable& machine, const Scene& scene) {
   }
 }
 
+/// Across the shaft, in whose axes it goes round.
+bool has_force_in_space(const Scene& scene, const BodyScene& shaft) {
+  const auto& forces = std::get<TrainShaftOptions>(shaft.options).forces;
+  return std::any_of(forces.begin(), forces.end(), [&](const GivenForce& force) {
+    return !force.turns_with_shaft && (force.force_N[0] != 0 || force.force_N[1] != 0) &&
+           scene.has_effect(force.effect);
+  });
+}
+
 class DriveTrainKind : public MachineKind {
 public:
   std::string type() const override { return "drive_train"; }
@@ -55,7 +67,18 @@ public:
       machine.refuse_missing("", "the load stage refuses it: " + std::string(error.what()));
     }
   }
-  // The period is a turn of the reference shaft; excitations that do not fit are warned of by the load stage.
+  /// A turn of the reference shaft, or as many as bring a [shaft] round to forces that stand still in space;
+  /// excitations that do not fit are warned of by the load stage.
+  Period period(const Scene& scene, int most_turns, bool is_sound) const override {
+    const auto* shaft = scene.body("shaft");
+    if (!is_sound || shaft == nullptr || !has_force_in_space(scene, *shaft)) return {};
+    const auto& train = train_in(scene.machine);
+    const auto& inertia = std::get<TrainShaftOptions>(shaft->options).inertia;
+    const double ratio = kinetics::mean_speed_rad_s(train, inertia) / train.reference_speed_rad_s;
+    for (int q = 1; q <= most_turns; ++q)
+      if (std::abs(ratio - std::round(ratio * q) / q) <= 1e-9 * std::abs(ratio)) return {true, q};
+    return {true, 0};
+  }
   void doubt(const Scene& scene, Doubts& doubts) const override {
     doubts.speed("machine.reference", train_in(scene.machine).reference_speed_rad_s);
   }

@@ -74,7 +74,7 @@ void read_charge_lag(SceneTable& charge, bool is_on, kinetics::VibratoryMill& mi
     const double power_W = lag.quantity("grinding_power", "W", not_negative(1e9));
     const double most_W =
         mill.charge_mass_kg * std::pow(mill.eccentricity_m, 2) * std::pow(mill.speed_rad_s, 3);
-    if (power_W > most_W)
+    if (is_on && power_W > most_W)
       lag.refuse("grinding_power", "sin(eta) = P / (m ecc^2 omega^3) would be " + shown(power_W / most_W, 3) +
                                        ", above 1: this charge takes up at most " +
                                        shown(std::floor(most_W)) +

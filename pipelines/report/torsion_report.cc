@@ -28,6 +28,9 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
   report.campbell = kinetics::campbell_table(on, scene.torsion.slowest_rad_s, scene.torsion.fastest_rad_s,
                                              scene.torsion.n_speeds, scene.torsion.orders);
   const auto history = compute_loads(machine, effects, scene.sampling);
+  auto& warnings = report.forced.warnings;
+  for (const auto& warning : history.warnings)  // the largest torques are those of the window
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   for (std::size_t e = 0; e < on.elements.size(); ++e) {
     const auto& name = on.elements[e].name;
     const auto largest = [&](const std::string& quantity) {

@@ -20,7 +20,7 @@ kinetics::TimeGrid read_sampling(SceneTable sampling, const Scene& scene, SceneF
   else if (sampling.know("turns"); speeds_are_known)
     sampling.refuse_missing("turns",
                             "is missing, and the motion does not repeat within 1000 turns; add the number of "
-                            "turns to look at, or a machine.charge.turn_ratio with a small denominator");
+                            "turns to look at, or make the speeds' ratio one of small whole numbers");
   if (sampling.has("turns") && period > 0 && grid.turns % period != 0)
     findings.warnings.push_back("sampling.turns = " + std::to_string(grid.turns) +
                                 ": the motion repeats after " + std::to_string(period) +

@@ -61,14 +61,17 @@ kinetics::RunUp run_up_of(double duration_s, double speed_rad_s) {
   return run;
 }
 
+/// @param warnings  takes those of the start
 std::vector<BodyLoads> loads_of_start(const DutyBlock& block, Scene scene, const MassAgreement& masses,
-                                      const std::vector<MeshedBody>& meshed) {
+                                      const std::vector<MeshedBody>& meshed,
+                                      std::vector<std::string>& warnings) {
   if (!block.start) return {};
   const auto& kind = kind_of(scene.machine);
   if (block.start->duration_s)
     scene.run_up = run_up_of(*block.start->duration_s, std::abs(kind.drive_speed_rad_s(masses.machine)));
   const auto history = kind.start_up(scene, masses.machine);
   if (!history) return {};
+  for (const auto& warning : history->warnings) warnings.push_back("start-up: " + warning);
   std::vector<BodyLoads> result;
   for (std::size_t b = 0; b < meshed.size(); ++b) {
     result.push_back(
@@ -138,8 +141,9 @@ BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Sc
     result.loads = std::move(loaded.loads);
     result.running = std::move(loaded.body_loads);
     result.bearings = std::move(loaded.bearings);
-    result.starting =
-        clock.run("loads", [&] { return loads_of_start(block, scene, loaded.masses, loaded.meshed); });
+    result.warnings = result.loads.warnings;
+    result.starting = clock.run(
+        "loads", [&] { return loads_of_start(block, scene, loaded.masses, loaded.meshed, result.warnings); });
     return result;
   });
 }

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipelines/common/stage_clock.h"
@@ -17,6 +18,7 @@ struct BlockLoads {
   std::vector<BodyLoads> running;       ///< in the order of Scene::bodies
   std::vector<BodyLoads> starting;      ///< over one start; none: the block has none, or no transient in it
   std::vector<BearingResult> bearings;  ///< in the order of Scene::bearings
+  std::vector<std::string> warnings;    ///< of the loads in steady running and over a start
 };
 
 /// Refuses blocks that change a body, whose mesh and unit responses serve all of them, and starts too long to

@@ -80,6 +80,21 @@ BlockStress stress_of(const BodyAnalysis& analysis, const ServedBlock& block) {
   return stress;
 }
 
+/// A resonance, a window that does not close: what holds for the block alone.
+std::vector<std::string> warnings_of(const DutyBlock& block, const BlockLoads& loads, const Scene& scene,
+                                     const kinetics::LoadHistory& of_scene) {
+  std::vector<std::string> result;
+  for (const auto* list : {&block.scene->warnings, &loads.warnings})
+    for (const auto& warning : *list) {
+      const auto is_known = [&](const std::vector<std::string>& known) {
+        return std::find(known.begin(), known.end(), warning) != known.end();
+      };
+      if (!is_known(scene.warnings) && !is_known(of_scene.warnings))
+        result.push_back(fmt::format("block \"{}\": {}", block.name, warning));
+    }
+  return result;
+}
+
 LoadPeriod period_of(const kinetics::LoadHistory& loads, const Scene& scene) {
   const double step_s = loads.time_s.size() > 1 ? loads.time_s[1] - loads.time_s[0] : 0;
   return {step_s * double(loads.time_s.size()), double(scene.sampling.turns)};
@@ -97,6 +112,8 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
   for (const auto& block : run.scene.duty) {
     auto& own =
         loads.emplace_back(loads_of_block(block, as_read, run.scene, run.loaded.meshed, clock, needed));
+    for (auto& warning : warnings_of(block, own, as_read, run.loaded.loads))
+      result.warnings.push_back(std::move(warning));
     result.blocks.push_back({block.name,
                              block.share,
                              block.start ? block.start->per_day : 0,

@@ -35,6 +35,8 @@ void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHis
     add(".required_rating", "N", bearing.answers.required_rating_N);
     add(".static_safety", "", bearing.answers.static_safety);
   }
+  if (const auto n = scene.warnings.size() + loads.warnings.size(); n > 0)
+    row.figures.add({"loads", ".warnings"}, "", double(n));
 }
 
 void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional<double> torsion_Pa) {

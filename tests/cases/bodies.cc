@@ -193,6 +193,26 @@ TEST(Bodies, TrainShaftTakesItsInertiaFromTheMeshAndItsTorqueToTheDisc) {
   }
 }
 
+// The working shaft makes 510 rpm where the motor, the train's drive, makes 1360. Red if the bearing has the
+// motor's speed, and a life 2.67 times too short; of a fast shaft it would be too long.
+TEST(Bodies, ABearingOfATrainsShaftTurnsWithIt) {
+  const results_test::Directory directory;
+  auto scene = without("root_peeler_shaft.toml", "[shaft.fatigue]", "[shaft.mesh]");
+  scene = with_edits(scene, {{"turns = 272", "turns = 8"}, {"title =", "method = \"beam\"\ntitle ="}});
+  const std::string bearing =
+      "[[bearings]]\nload = \"bearing_1\"\ndynamic_rating = \"10 kN\"\nelement = \"ball\"\n";
+  const auto json = run(directory.path, scene + bearing + "name = \"own\"\n" + bearing +
+                                            "name = \"given\"\nspeed = \"1000 rpm\"\n");
+  const auto lives = json["bearings"];
+  const auto hours = [&](const char* name) { return lives[name]["L10h"]["value"].get<double>(); };
+  EXPECT_NEAR(hours("own") * 510, lives["own"]["L10"].get<double>() / 60, 1e-9 * hours("own") * 510);
+  EXPECT_NEAR(hours("own") * 510, hours("given") * 1000, 1e-9 * hours("own") * 510);
+  // The disc's weight acts along the shaft on it, 118 N beside 494 N across: no part of the life.
+  EXPECT_NE(json["warnings"].dump().find("the force along the shaft at bearing_1, up to 118 N"),
+            std::string::npos)
+      << json["warnings"];
+}
+
 TEST(Bodies, WithoutForcesATrainGivesTorsionOnly) {
   const results_test::Directory directory;
   const auto json =

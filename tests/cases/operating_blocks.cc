@@ -189,6 +189,31 @@ TEST(OperatingBlocks, AVibratoryMillsRunUpIsFollowed) {
   EXPECT_NEAR(most, at_once["start_amplitude_Pa"].get<double>(), 0.1 * most);
 }
 
+// A train's block beside a natural frequency, over a window that does not close. Red if the warnings of a
+// block's loads are lost, as they were, or if a block repeats those of the scene.
+TEST(OperatingBlocks, SayWhatTheirLoadsWarnOf) {
+  const results_test::Directory directory;
+  auto scene = edited("root_peeler_shaft.toml", {{"turns = 272", "turns = 34"},
+                                                 {"title =", "method = \"beam\"\ntitle ="},
+                                                 {"[shaft.fatigue]", ""},
+                                                 {"tensile_strength = \"580 MPa\"", ""},
+                                                 {"roughness = \"6.3 um\"", ""}});
+  scene += block("work", "50 %") + block("near", "10 %");
+  for (const char* excitation : {"1", "2"})
+    scene +=
+        std::string("set.\"machine.excitations[") + excitation + "].harmonics[1].frequency\" = \"83.4 Hz\"\n";
+  const auto warnings = run(directory.path, scene)["warnings"];
+  const auto with = [&](const std::string& begin, const std::string& part) {
+    return std::count_if(warnings.begin(), warnings.end(), [&](const auto& warning) {
+      const auto text = warning.template get<std::string>();
+      return text.rfind(begin, 0) == 0 && text.find(part) != std::string::npos;
+    });
+  };
+  EXPECT_EQ(with("block \"near\": ", "amplified up to 80."), 2) << warnings;
+  EXPECT_EQ(with("block \"near\": ", "the vibration repeats after"), 1) << warnings;
+  EXPECT_EQ(with("block \"work\": ", ""), 0) << warnings;
+}
+
 TEST(OperatingBlocks, AreComputedWhereTheyAreAskedForOnly) {
   const results_test::Directory directory;
   const auto json = run(directory.path, turning_shaft("100 N", fatigue));

@@ -162,6 +162,24 @@ TEST(Sweeps, OneRefusedPointIsToldAndKept) {
 
 // Red if a point of a load stage alone skips what the scene's reader finds by computing loads: which key it
 // is, and loads that are no force.
+// 34 turns of 1360 rpm are 75 periods of 50 Hz; of 1350 rpm they are 75.6, and extremes and means are those
+// of the window. Red if a sweep says nothing of what `loads` warns of.
+TEST(Sweeps, CountTheWarningsOfEachPoint) {
+  const results_test::Directory directory;
+  const auto sweep = [&](const std::string& options) {
+    const auto outcome = millstress(
+        directory.path, "sweep '" + shipped("drive_train.toml").string() +
+                            "' --vary 'machine.reference.speed = 1360, 1350 rpm' -o out" + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  const auto points = nlohmann::json::parse(sweep(" --json"))["points"];
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_FALSE(points[0]["figures"].contains("loads.warnings")) << points[0]["figures"]["loads.warnings"];
+  EXPECT_EQ(figure(points[1], "loads.warnings"), 1);
+  EXPECT_NE(sweep("").find("1 of 2 points have warnings"), std::string::npos);
+}
+
 TEST(Sweeps, RefuseAPointAsLoadsDoes) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));

@@ -134,6 +134,36 @@ TEST(LoadTable, InstantsThatMissTheLargestSampleAreRefused) {
       << "smooth: the error of time sampling tells";
 }
 
+// Red if sizes alone are compared: a drop from a level that is larger than its bottom was lost in silence,
+// and with it the range that a life follows from.
+TEST(LoadTable, InstantsThatMissTheSmallestSampleAreRefused) {
+  const auto drop = sampled(360, [](double phi) { return phi > 1.60 && phi < 1.65 ? -95.0 : 100.0; });
+  try {
+    loads_of(drop, 24);
+    FAIL();
+  } catch (const MachineRefused& refused) {
+    EXPECT_NE(std::string(refused.what()).find("is 195 % smaller between the instants"), std::string::npos)
+        << refused.what();
+  }
+  EXPECT_NEAR(loads_of(drop, 360).resultant("pulley_seat").total.row(0).minCoeff(), -95, 1e-8);
+}
+
+// Samples of less than the period. Red if the gap is bridged without a word: a file of half a turn was taken.
+TEST(LoadTable, SamplesThatEndBeforeTheirPeriodAreWarnedOf) {
+  auto cut = sampled(360, wave);
+  auto& samples = std::get<SampledCourse>(cut.course);
+  EXPECT_TRUE(loads_of(cut, 20).warnings.empty())
+      << "the last step is that from the last sample to the first";
+  samples.angle_rad.conservativeResize(350);
+  samples.values.conservativeResize(350);
+  const auto warnings = loads_of(cut, 20).warnings;
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(
+      warnings.back().find("no sample over 11 degrees where its period closes, and elsewhere one every 1"),
+      std::string::npos)
+      << warnings.back();
+}
+
 // A ramp does not close; a wave sampled eight times per turn is coarse. Both are stated with their size.
 TEST(LoadTable, StatesWhatMakingItPeriodicChanges) {
   const auto ramp = sampled(20, [](double phi) { return phi; });

@@ -100,6 +100,15 @@ TEST(SceneAxle, HasTheStub) {
   EXPECT_TRUE(has_default(silent, "axle.side", "\"plain\""));
 }
 
+// 500 W at a fifth of the speed would need a sine of 5 x 25. Red if what is off is refused for its value.
+TEST(SceneVibratoryMill, TakesAPowerBeyondTheLagThatIsOff) {
+  const edited::Edits slow{{"speed = \"151.844 rad/s\"", "speed = \"30 rad/s\""}};
+  EXPECT_THROW(edited::scene("vibratory_mill", slow), pipelines::SceneError);
+  auto off = slow;
+  off.emplace_back("  \"charge_lag\", ", "  #");
+  EXPECT_EQ(edited::scene("vibratory_mill", off).vibratory_mill().charge_lag.grinding_power_W, 500);
+}
+
 TEST(SceneTrainShaft, HasThePeelers) {
   const Scene scene = edited::scene("root_peeler_shaft", {});
   const auto& body = *scene.body("shaft");
@@ -123,6 +132,26 @@ TEST(SceneTrainShaft, HasThePeelers) {
   expect_same_size(segment(body, "disc_seat").end_m, 0.184);
   // Its own effects and its forces are no business of the train.
   EXPECT_EQ(scene.kinetics_effects(), (std::vector<std::string>{"motor_torque", "peeling_torque"}));
+}
+
+// The working shaft makes 3/8 of the motor's turn. Red if one turn of the motor is the period, in which a
+// belt's pull goes round 3/8 of the shaft: bending that reverses was stated as a seventh of its amplitude.
+TEST(SceneTrainShaft, GoesRoundToForcesThatStandStillInSpace) {
+  const std::pair<std::string, std::string> no_turns{"turns = 272  #", "#"};
+  const auto warning = [](const Scene& scene) { return scene.warnings.empty() ? "" : scene.warnings[0]; };
+  EXPECT_EQ(edited::scene("root_peeler_shaft", {no_turns}).sampling.turns, 8);
+  EXPECT_EQ(warning(edited::scene("root_peeler_shaft", {})), "") << "272 turns are 34 periods";
+  EXPECT_EQ(
+      warning(edited::scene("root_peeler_shaft", {{"turns = 272", "turns = 12"}})),
+      "sampling.turns = 12: the motion repeats after 8 turns; extremes and means are those of the turns "
+      "given");
+  EXPECT_EQ(edited::scene("root_peeler_shaft", {no_turns, {"ratio = 0.375", "ratio = -0.02"}}).sampling.turns,
+            50);
+  EXPECT_THROW(edited::scene("root_peeler_shaft", {no_turns, {"ratio = 0.375", "ratio = 0.37512345"}}),
+               pipelines::SceneError)
+      << "no period: turns are required";
+  // What turns with the shaft, acts along it or is off has no period.
+  EXPECT_EQ(edited::scene("root_peeler_shaft", {no_turns, {"\"belt_pull\", ", ""}}).sampling.turns, 1);
 }
 
 TEST(SceneTrainShaft, NeedsNoForces) {
