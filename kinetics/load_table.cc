@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinetics/constants.h"
 #include "kinetics/machine_refused.h"
 #include "kinetics/table/periodic_cubic.h"
 #include "kinetics/wrong_input.h"
@@ -13,7 +14,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double turn_rad = 2 * M_PI;
+constexpr double turn_rad = 2 * pi;
 constexpr double worth_a_warning = 0.01;
 constexpr double too_much_missed = 0.1;  // below, a smooth course is told by the error of time sampling
 
@@ -159,7 +160,7 @@ void warn_of_gap(const TableLoad& load, const SampledCourse& samples, double per
   const double usual_rad = (samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1)).maxCoeff();
   const double gap_rad = period_rad - (samples.angle_rad[n - 1] - samples.angle_rad[0]);
   if (gap_rad <= unusual * usual_rad) return;
-  const auto degrees = [](double angle_rad) { return number(std::round(1800 / M_PI * angle_rad) / 10); };
+  const auto degrees = [](double angle_rad) { return number(std::round(1800 / pi * angle_rad) / 10); };
   history.warnings.push_back(load.effect + "/" + name_of(load) + " has no sample over " + degrees(gap_rad) +
                              " degrees where its period closes, and elsewhere one every " +
                              degrees(usual_rad) +

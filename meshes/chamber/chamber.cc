@@ -48,7 +48,8 @@ BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control
   body.cylinders = cylinders_of(chamber, layout);
   body.regions = regions_of_chamber();
   body.sharp_edges = find_sharp_edges(mesh, surfaces.plates);
-  body.hot_spots = stations.hot_spots;
+  body.hot_spots = stations.hot_spots.hot_spots;
+  body.covered_toes = stations.hot_spots.covered;
   body.quality = measure_quality(mesh);
   require_quality(body.quality, control.min_scaled_jacobian);
   write_msh(mesh, group_names(surfaces), file);

@@ -19,8 +19,8 @@ namespace meshes {
 /// Regions: "structure", "exciter" (the housing). Sharp edges: the weld toes.
 /// Hot spots, on the tube's outside: around the tube from both edges of each plate at its mid-plane, and
 /// along it from both faces of each plate at its middle and one wall inside its edges. A path that another
-/// plate or flange covers or approaches within 0.4 walls is left out, and so is one whose points would come
-/// closer than 0.05 walls to another edge, station or point without meeting it.
+/// plate or flange covers or approaches within 0.4 walls is left out, and named in `covered_toes`. A point
+/// that would come closer than 0.05 walls to another edge, station or point moves there.
 /// One call at a time in a process: gmsh is global.
 /// @throws GeometryRefused with the offending numbers: sizes outside the ranges above, parts too close
 ///         to each other, edges or faces closer than 0.05 walls that do not coincide, bad controls

@@ -47,15 +47,14 @@ public:
     }
   }
 
-  std::vector<HotSpot> take() { return std::move(hot_spots_); }
+  ChamberHotSpots take() { return {std::move(hot_spots_), std::move(covered_)}; }
 
 private:
   void add_around(const Plate& plate, const std::string& name, double toe_m, double z_m, int direction) {
     const double wall_m = chamber_.tube.wall_m;
     double near_m = toe_m + direction * near_walls * wall_m, far_m = toe_m + direction * far_walls * wall_m;
-    if (!is_free(plate, far_m, z_m) || !arcs_.add_all_or_none({near_m, far_m})) return;
-    near_m = arcs_.add_or_snap(near_m);
-    far_m = arcs_.add_or_snap(far_m);
+    if (!is_free(plate, far_m, z_m)) return covered_.push_back(name);
+    place(arcs_, near_m, far_m);
     toe_m = arcs_.add_or_snap(toe_m);
     hot_spots_.push_back({name, wall_m, point(toe_m, z_m), point(near_m, z_m), point(far_m, z_m)});
   }
@@ -63,11 +62,16 @@ private:
   void add_along(const Plate& plate, const std::string& name, double arc_m, double toe_m, int direction) {
     const double wall_m = chamber_.tube.wall_m;
     double near_m = toe_m + direction * near_walls * wall_m, far_m = toe_m + direction * far_walls * wall_m;
-    if (!is_free(plate, arc_m, far_m) || !stations_.add_all_or_none({near_m, far_m})) return;
-    near_m = stations_.add_or_snap(near_m);
-    far_m = stations_.add_or_snap(far_m);
+    if (!is_free(plate, arc_m, far_m)) return covered_.push_back(name);
+    place(stations_, near_m, far_m);
     toe_m = stations_.add_or_snap(toe_m);
     hot_spots_.push_back({name, wall_m, point(arc_m, toe_m), point(arc_m, near_m), point(arc_m, far_m)});
+  }
+
+  /// Vertices at both points; an edge that is closer than cells can be short takes one's place.
+  static void place(BreakPoints& breaks, double& near_m, double& far_m) {
+    near_m = breaks.add_or_snap(near_m);
+    far_m = breaks.add_or_snap(far_m);
   }
 
   /// Whether no other plate and no flange covers the point of the tube's outside or comes close to it.
@@ -98,12 +102,13 @@ private:
   BreakPoints& arcs_;
   BreakPoints& stations_;
   std::vector<HotSpot> hot_spots_;
+  std::vector<std::string> covered_;
 };
 
 }  // namespace
 
-std::vector<HotSpot> place_hot_spots(const Chamber& chamber, const ChamberLayout& layout, BreakPoints& arcs,
-                                     BreakPoints& stations) {
+ChamberHotSpots place_hot_spots(const Chamber& chamber, const ChamberLayout& layout, BreakPoints& arcs,
+                                BreakPoints& stations) {
   HotSpots hot_spots(chamber, layout, arcs, stations);
   std::vector<PathPlaces> places;
   for (const Plate& plate : layout.plates) places.push_back(hot_spots.places_on(plate));

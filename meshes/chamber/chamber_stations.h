@@ -3,15 +3,15 @@
 
 #include <vector>
 
+#include "meshes/chamber/chamber_hot_spots.h"
 #include "meshes/chamber/chamber_layout.h"
-#include "meshes/values/body_mesh.h"
 
 namespace meshes {
 
 struct ChamberStations {
   std::vector<double> z_m;         ///< ascending
   std::vector<double> angles_rad;  ///< around the tube, ascending from 0 to below 2 pi
-  std::vector<HotSpot> hot_spots;  ///< all their points are on stations and angles
+  ChamberHotSpots hot_spots;       ///< all their points are on stations and angles
 };
 
 /// The wanted cell size: `begin_m` and `end_m` at the ends of a line, growing to `largest_m`.

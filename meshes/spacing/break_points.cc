@@ -60,18 +60,6 @@ double BreakPoints::add_or_snap(double at_m) {
   return points_.back().at_m;
 }
 
-bool BreakPoints::add_all_or_none(const std::vector<double>& at_m) {
-  for (const double at : at_m) {
-    const BreakPoint* near = nearest(at);
-    if (near && !meets(*near, at) && distance_m(near->at_m, at) < closest_m_) return false;
-  }
-  for (const double at : at_m) {
-    const BreakPoint* near = nearest(at);
-    if (!near || !meets(*near, at)) insert(at, "a point of a stress path");
-  }
-  return true;
-}
-
 std::vector<double> BreakPoints::sorted() const {
   std::vector<double> result;
   for (const BreakPoint& point : points_) result.push_back(point.at_m);

@@ -20,10 +20,6 @@ public:
   /// @return where it is
   double add_or_snap(double at_m);
 
-  /// All of the points, or none if one of them comes closer than closest_m to a break point without meeting
-  /// it.
-  bool add_all_or_none(const std::vector<double>& at_m);
-
   /// Ascending; from 0 to below the period if closed.
   std::vector<double> sorted() const;
 

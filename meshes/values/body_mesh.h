@@ -84,7 +84,8 @@ struct SharpEdge {
 };
 
 /// Where the structural hot-spot stress of a weld toe is read: vertices of the mesh on the plate's surface,
-/// at 0.4 and 1.0 plate thicknesses from the toe; the stress at the toe is 1.67 s(0.4 t) - 0.67 s(1.0 t).
+/// at 0.4 and 1.0 plate thicknesses from the toe or within 0.05 of that; the stress at the toe follows in a
+/// straight line, 1.67 s(0.4 t) - 0.67 s(1.0 t).
 struct HotSpot {
   std::string name;
   double thickness_m = 0;
@@ -111,6 +112,8 @@ struct BodyMesh {
   std::vector<Region> regions;         ///< empty: the whole body is one
   std::vector<SharpEdge> sharp_edges;
   std::vector<HotSpot> hot_spots;
+  std::vector<std::string>
+      covered_toes;  ///< names of hot spots that are not read: other plates are in the way
   MeshQuality quality;
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.

@@ -176,6 +176,10 @@ std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAna
         "cycle a period, {:.3g} and damage sum {:.3g} with several",
         one.slope, one.knee_cycles, *one.second_slope, *several.second_slope, damage_sum_of_spectra));
   }
+  if (!analysis.hot_spots.empty())
+    lines.emplace_back(
+        "  of webs and lugs on the tube; welds of webs on the housing, of lugs on pads and of flanges on the "
+        "tube are not judged");
   if (!analysis.hot_spots.empty() && scene.toes.type == "load-carrying")
     lines.emplace_back(
         "  load-carrying fillet welds: webs carry the load from the housings to the tube, lugs that of the "

@@ -4,10 +4,10 @@ namespace pipelines {
 namespace {
 
 /// 6 x instants.
-Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, std::size_t node) {
-  const auto n_channels = analysis.responses.channels.size();
-  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> unit(
-      &analysis.responses.stress_Pa[node * n_channels * 6], 6, Eigen::Index(n_channels));
+Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, const StressPoint& point) {
+  const auto unit_Pa = unit_stress_at(analysis.responses, point);
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> unit(unit_Pa.front().data(), 6,
+                                                                        Eigen::Index(unit_Pa.size()));
   return unit * analysis.loads.history.values.matrix();
 }
 
@@ -16,12 +16,18 @@ Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, std::size_t node
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
                    BodyAnalysis& analysis, StageClock& clock) {
   if (analysis.scene.natural_frequencies <= 0) return;
+  const auto* toe = analysis.hot_spots.empty() ? nullptr : &analysis.hot_spots.front();
   analysis.vibration = clock.run("natural frequencies", [&] {
-    return vibration(scene, analysis.scene, meshed, history, stress_over_cycle(analysis, analysis.peak.node));
+    return vibration(scene, analysis.scene, meshed, history,
+                     stress_over_cycle(analysis, {{{analysis.peak.node, 1}}, analysis.peak.instant}),
+                     toe != nullptr ? stress_over_cycle(analysis, stress_point(*toe)) : Eigen::ArrayXXd());
   });
-  const double more = analysis.vibration->amplification.factor - 1;
-  analysis.peak.errors.set_model(
-      {"quasi_static", "dynamic amplification of the harmonics of the peak", more * analysis.peak.value_Pa});
+  const auto enter = [](ErrorBudget& errors, const DynamicAmplification& dynamic, double value_Pa) {
+    errors.set_model({"quasi_static", "dynamic amplification of the harmonics of the stress",
+                      (dynamic.factor - 1) * value_Pa});
+  };
+  enter(analysis.peak.errors, analysis.vibration->amplification, analysis.peak.value_Pa);
+  if (toe != nullptr) enter(analysis.hot_spot_errors, analysis.vibration->at_hot_spot, toe->von_mises_Pa);
 }
 
 }  // namespace pipelines

@@ -6,7 +6,7 @@
 namespace pipelines {
 
 /// Natural frequencies and dynamic amplification, if the body asks for them; the latter also as an entry of
-/// the peak's budget.
+/// the budgets of the peak and of the largest hot-spot stress.
 /// @param history  of the load stage, that the analysis' loads were distributed from
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
                    BodyAnalysis& analysis, StageClock& clock);

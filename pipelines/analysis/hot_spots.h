@@ -1,6 +1,7 @@
 /// Structural hot-spot stress of weld toes: the notch itself has no converged stress, so the stress of the
 /// plate is extrapolated to it from 0.4 and 1.0 plate thicknesses: 1.67 s(0.4 t) - 0.67 s(1.0 t), each
-/// component (IIW, Recommendations for fatigue design of welded joints, type "a" toes, fine mesh).
+/// component, or the same straight line from vertices close to these points (IIW, Recommendations for fatigue
+/// design of welded joints, type "a" toes, fine mesh).
 #pragma once
 
 #include <memory>

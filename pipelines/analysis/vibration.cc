@@ -118,7 +118,8 @@ fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
 }
 
 Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                    const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa) {
+                    const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa,
+                    const Eigen::ArrayXXd& hot_spot_stress_Pa) {
   Vibration result;
   const auto held = held_body(body, meshed);
   for (const auto& mode : fem::Model(held, ranks_of_a_body()).natural_frequencies(body.natural_frequencies))
@@ -127,24 +128,38 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
   const auto ports = kind.supporting_ports(body);
   result.held = ports.empty() ? "free" : (kind.is_clamped() ? "held at " : "pinned at ") + joined(ports);
   const double period_s = (loads.time_s[1] - loads.time_s[0]) * scene.sampling.instants_per_turn;
-  result.amplification =
-      dynamic_amplification(peak_stress_Pa, scene.sampling.turns, 1 / period_s,
-                            kind.spin_Hz(scene, body, loads), result.natural_frequencies_Hz);
+  const auto amplification = [&](const Eigen::ArrayXXd& stress_Pa) {
+    return dynamic_amplification(stress_Pa, scene.sampling.turns, 1 / period_s,
+                                 kind.spin_Hz(scene, body, loads), result.natural_frequencies_Hz);
+  };
+  result.amplification = amplification(peak_stress_Pa);
+  if (hot_spot_stress_Pa.size() > 0) result.at_hot_spot = amplification(hot_spot_stress_Pa);
   return result;
 }
 
 std::string warning_of(const BodyScene& body, const Vibration& vibration) {
-  const auto& dynamic = vibration.amplification;
+  const bool is_toe = vibration.at_hot_spot.factor > vibration.amplification.factor;
+  const auto& dynamic = is_toe ? vibration.at_hot_spot : vibration.amplification;
   const auto& natural_Hz = vibration.natural_frequencies_Hz;
   const bool is_beyond = dynamic.highest.frequency_Hz > natural_Hz.back();
-  if (!(dynamic.factor > amplification_limit) && !is_beyond) return {};
+  double added_kg = 0;
+  for (const auto& added : body.added_masses) added_kg += added.mass_kg;
+  const std::string without =
+      added_kg > 0 ? fmt::format(
+                         "the {}'s natural frequencies are those of its mesh: its added masses of {:.4g} kg "
+                         "would lower them",
+                         body.name, added_kg)
+                   : "";
+  if (!(dynamic.factor > amplification_limit) && !is_beyond) return without;
   return fmt::format(
-      "the {}'s lowest natural frequency is {:.4g} Hz ({}): resonance adds about {:.2g} % to its peak "
-      "stress, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}",
-      body.name, natural_Hz.front(), vibration.held, 100 * (dynamic.factor - 1), dynamic.highest.frequency_Hz,
+      "the {}'s lowest natural frequency is {:.4g} Hz ({}): resonance adds about {:.2g} % to its {} "
+      "stress, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}{}",
+      body.name, natural_Hz.front(), vibration.held, 100 * (dynamic.factor - 1), is_toe ? "hot-spot" : "peak",
+      dynamic.highest.frequency_Hz,
       is_beyond ? fmt::format(", above the {} lowest natural frequencies: ask for more, which it may meet",
                               natural_Hz.size())
-                : "");
+                : "",
+      without.empty() ? "" : "; " + without);
 }
 
 }  // namespace pipelines

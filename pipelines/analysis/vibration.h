@@ -41,6 +41,7 @@ struct Vibration {
   std::vector<double> natural_frequencies_Hz;  ///< ascending, without free rigid motions
   std::string held;                            ///< "pinned at bearing_1, bearing_2" ...
   DynamicAmplification amplification;          ///< of the peak von Mises stress
+  DynamicAmplification at_hot_spot;            ///< of the largest hot-spot stress; factor 1 without weld toes
 };
 
 /// Above it a run warns; where a harmonic of weight is above all frequencies that were computed, too.
@@ -65,11 +66,14 @@ DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed);
 
 /// @param peak_stress_Pa  as for dynamic_amplification, at the place of the peak
+/// @param hot_spot_stress_Pa  likewise at the weld toe of the largest hot-spot stress; empty without one
 /// @throws fem::TooManyModes if the scene asks for more frequencies than the mesh has to say
 Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                    const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa);
+                    const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa,
+                    const Eigen::ArrayXXd& hot_spot_stress_Pa);
 
-/// A sentence for the user if the factor exceeds the limit; else empty.
+/// A sentence for the user if a factor exceeds the limit, and where added masses would lower the frequencies;
+/// else empty.
 std::string warning_of(const BodyScene& body, const Vibration& vibration);
 
 }  // namespace pipelines

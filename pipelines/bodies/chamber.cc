@@ -111,6 +111,26 @@ void check_guide_by_feet(SceneTable& table, const kinetics::VibratoryMill& mill)
                  "needs two springs, one beside the other, to pull and push by; write \"body\"");
 }
 
+/// A file's ports lie where the machine has its loads, or these do not balance.
+void require_places(const BodyScene& body, const kinetics::VibratoryMill& mill, const LoadedBody& loaded) {
+  constexpr double off = 1e-6;  // of the distance between the axes
+  const double allowed_m = off * mill.chamber_centre_m.norm();
+  const auto require = [&](const std::string& name, const std::string& key, const Eigen::Vector2d& wanted_m) {
+    for (const auto& port : loaded.ports)
+      if (port.name == name &&
+          std::hypot(port.axis_x_m - wanted_m[0], port.axis_y_m - wanted_m[1]) > allowed_m)
+        throw StageRefused(
+            fmt::format("{}: its port \"{}\" is at ({:.7g}, {:.7g}) mm, where {} is ({:.7g}, {:.7g}) "
+                        "mm: loads there would not balance; write the same place to both",
+                        body.origin, name, port.axis_x_m * 1e3, port.axis_y_m * 1e3, key, wanted_m[0] * 1e3,
+                        wanted_m[1] * 1e3));
+  };
+  require(bore, "the eccentric's axis", {0, 0});
+  require(wall, "machine.chamber.centre", mill.chamber_centre_m);
+  for (std::size_t i = 1; i <= mill.springs.size(); ++i)
+    require(foot(i), fmt::format("machine.springs[{}].position", i), mill.springs[i - 1].position_m);
+}
+
 class ChamberKind : public BodyKind {
 public:
   std::string machine_type() const override { return "vibratory_mill"; }
@@ -172,19 +192,22 @@ public:
     MassComparison comparison(body, result.figures);
     const double m1 = mill.structure_mass_kg;
     PlanarMass rest;
-    rest.mass_kg = comparison.compare("structure mass", "kg", m1, structure.mass_kg, open);
-    // The first moment as a whole: one small component is no mistake.
+    const auto& port = body.difference_port;
+    rest.mass_kg = comparison.compare("structure mass", "kg", m1, structure.mass_kg, open, port);
     const double sx = m1 * mill.structure_centre_m[0], sy = m1 * mill.structure_centre_m[1];
     rest.x_kg_m = sx - structure.x_kg_m;
     rest.y_kg_m = sy - structure.y_kg_m;
-    comparison.compare("structure first moment", "kg m", std::hypot(sx, sy),
-                       std::hypot(sx, sy) + std::hypot(rest.x_kg_m, rest.y_kg_m), open);
+    comparison.compare_moments("structure first moment", {sx, sy}, {structure.x_kg_m, structure.y_kg_m}, open,
+                               port);
     rest.polar_kg_m2 = comparison.compare("pitch inertia", "kg m2", mill.pitch_inertia_kg_m2,
-                                          structure.polar_kg_m2 + exciter.polar_kg_m2, open);
-    add_difference(attached.structure, body.difference_port, rest);
+                                          structure.polar_kg_m2 + exciter.polar_kg_m2, open, port);
+    add_difference(attached.structure, port, rest);
     PlanarMass rest_2;
     rest_2.mass_kg =
-        comparison.compare("exciter mass", "kg", mill.exciter_mass_kg, exciter.mass_kg, exciter_open);
+        comparison.compare("exciter mass", "kg", mill.exciter_mass_kg, exciter.mass_kg, exciter_open, bore);
+    comparison.compare_centre("exciter first moment", exciter, bore,
+                              "the exciter's centre is on the eccentric's axis; write moves_with = "
+                              "\"structure\" for added masses beside it");
     rest_2.x_kg_m = -exciter.x_kg_m;  // the load stage has its centre at E'
     rest_2.y_kg_m = -exciter.y_kg_m;
     add_difference(attached.exciter, bore, rest_2);
@@ -198,6 +221,7 @@ public:
   }
   BodyLoads distribute(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                        const LoadedBody& loaded, const MassAgreement& masses) const override {
+    require_places(body, scene.vibratory_mill(), loaded);
     const auto& attached = masses.attached.at(body.name);
     return distribute_chamber(history, std::get<kinetics::VibratoryMill>(masses.machine), loaded,
                               {scene.effects, attached.structure, attached.exciter,

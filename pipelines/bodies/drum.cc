@@ -56,7 +56,10 @@ public:
     if (open) mill.drum_mass_kg = drum.mass_kg;
     MassComparison comparison(body, result.figures);
     PlanarMass rest;
-    rest.mass_kg = comparison.compare("drum mass", "kg", mill.drum_mass_kg, drum.mass_kg, open);
+    rest.mass_kg =
+        comparison.compare("drum mass", "kg", mill.drum_mass_kg, drum.mass_kg, open, body.difference_port);
+    comparison.compare_centre("drum first moment", drum, body.difference_port,
+                              "the drum's centre is on its axis: balance it by another added mass");
     rest.x_kg_m = -drum.x_kg_m;  // the load stage has its centre on the axis
     rest.y_kg_m = -drum.y_kg_m;
     add_difference(attached, body.difference_port, rest);

@@ -191,7 +191,7 @@ public:
     MassComparison comparison(body, result.figures);
     PlanarMass rest;
     rest.polar_kg_m2 = comparison.compare("inertia of " + inertia->name, "kg m2", inertia->inertia_kg_m2,
-                                          shaft.polar_kg_m2, open);
+                                          shaft.polar_kg_m2, open, body.difference_port);
     // What of the inertia's force field a shaft out of centre leaves is no part of a torsional train.
     rest.x_kg_m = -shaft.x_kg_m;
     rest.y_kg_m = -shaft.y_kg_m;

@@ -132,10 +132,23 @@ void LoadCollector::enter(const meshes::Port& port, const char* component, Compo
   count(port.name, effect, centre_of(port), load);
 }
 
+/// Along z, from the middle of the port to where the resultant of its pressure acts.
+double LoadCollector::pressed_beside_m(const meshes::Port& port) const {
+  const auto model = body_.pressures.find(port.name);
+  if (port.kind == meshes::Port::Kind::face || model == body_.pressures.end()) return 0;
+  return middle_of(model->second.axial_profile) * (port.end_m - port.begin_m) / 2;
+}
+
 void LoadCollector::force(const std::string& port_name, const std::string& effect, const Array2Xd& force_N) {
   const auto& port = find(port_name);
   enter(port, "fx", Component::fx, effect, force_N.row(0).transpose());
   enter(port, "fy", Component::fy, effect, force_N.row(1).transpose());
+  if (const double z_m = pressed_beside_m(port); z_m != 0) {
+    Array2Xd couple(2, n_instants_);
+    couple.row(0) = -z_m * force_N.row(1);
+    couple.row(1) = z_m * force_N.row(0);
+    tilt(port_name, effect, couple);
+  }
   const auto [known, is_first] = forces_[port_name].try_emplace(effect, force_N);
   if (!is_first) known->second += force_N;
 }

@@ -72,7 +72,8 @@ public:
   LoadCollector(const LoadedBody& body, std::vector<std::string> effects, Eigen::Index n_instants,
                 double force_scale_N);
 
-  // Loads at a port, in the body's frame. Force through the port's own point, moments about it.
+  // Loads at a port, in the body's frame. Force through the port's own point, or beside it along z where the
+  // axial profile of its pressure has its middle; moments about the port's own point.
   // @throws StageRefused if the body has no such port
   void force(const std::string& port_name, const std::string& effect, const Eigen::Array2Xd& force_N);
   void axial_force(const std::string& port, const std::string& effect, const Eigen::ArrayXd& force_N);
@@ -95,9 +96,9 @@ public:
   double moment_scale_Nm() const;
   std::vector<std::string> effects() const { return effects_; }
 
-  /// Bearing forces at two ports by statics, effect by effect, moments about the first one's centre. Where
-  /// `resultant` holds an effect, that is the sum of its two reactions (and closing is then up to the load
-  /// stage); elsewhere they balance what was collected.
+  /// Bearing forces at two ports by statics, effect by effect, moments about the first one's centre of
+  /// pressure. Where `resultant` holds an effect, that is the sum of its two reactions (and closing is then
+  /// up to the load stage); elsewhere they balance what was collected.
   void react(const std::string& first, const std::string& second,
              const std::map<std::string, Eigen::Array2Xd>& resultant = {});
   // Whatever is left of that component about the port's own point, with the opposite sign, effect by effect.
@@ -115,6 +116,7 @@ private:
     std::map<std::size_t, Eigen::ArrayXd> parts;  // by effect
   };
   const meshes::Port& find(const std::string& port_name) const;
+  double pressed_beside_m(const meshes::Port& port) const;
   fem::LoadSurface surface_of(const meshes::Port& port) const;
   std::size_t index_of(const std::string& effect);
   void enter(const meshes::Port& port, const char* component, fem::SurfaceResultant::Component which,

@@ -8,8 +8,7 @@
 namespace pipelines {
 
 double MassFigure::share() const {
-  const double difference = std::abs(given - mesh);
-  return difference == 0 ? 0 : difference / std::max(std::abs(given), 1e-300);
+  return difference == 0 ? 0 : difference / std::max(reference, 1e-300);
 }
 
 MassAgreement agree_masses(const Scene& scene, const std::vector<MeshedBody>& bodies) {

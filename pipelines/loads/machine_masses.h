@@ -13,9 +13,12 @@ namespace pipelines {
 /// One figure of the load stage beside the same from mesh and added masses.
 struct MassFigure {
   std::string body, name, unit;  ///< "chamber", "structure mass", "kg"
-  double given = 0, mesh = 0;
-  bool from_mesh = false;  ///< the scene left it to the mesh
-  double share() const;    ///< |given - mesh| / |given|; 0 where both vanish
+  double given = 0, mesh = 0;    ///< sizes of vectors
+  double difference = 0;         ///< size of given - mesh
+  double reference = 0;          ///< what it is a share of
+  std::string port;              ///< that carries it
+  bool from_mesh = false;        ///< the scene left it to the mesh
+  double share() const;          ///< difference / reference; 0 where there is none
 };
 
 /// Masses that move with a body without being meshed, by body: what the scene adds and what is missing.

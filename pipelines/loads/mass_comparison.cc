@@ -1,6 +1,7 @@
 #include "pipelines/loads/mass_comparison.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "pipelines/common/errors.h"
@@ -9,7 +10,9 @@
 namespace pipelines {
 namespace {
 
-constexpr double largest_share = 0.2;  // a mesh that far off is another machine
+constexpr double largest_share = 0.2;        // a mesh that far off is another machine
+constexpr double rounding_of_meshes = 1e-4;  // of centres on an axis: the coarsest chamber's is 1e-6
+const char* const usual_remedy = "correct one of them, or leave the machine's out, so that the mesh gives it";
 
 }  // namespace
 
@@ -50,18 +53,37 @@ std::vector<AttachedMass> added_masses(const BodyScene& scene, const meshes::Bod
 }
 
 double MassComparison::compare(const std::string& name, const std::string& unit, double given, double mesh,
-                               bool from_mesh) {
-  figures_.push_back({body_, name, unit, given, mesh, from_mesh});
-  const double share = figures_.back().share();
-  if (share > largest_share) {
-    std::ostringstream text;
-    text << origin_ << ": the machine's " << name << " is " << given << ' ' << unit
-         << ", mesh and added masses give " << mesh << ' ' << unit << ": " << 100 * share
-         << " % apart, at most 20 % can be carried; correct one of "
-         << "them, or leave the machine's out, so that the mesh gives it";
-    throw StageRefused(text.str());
-  }
+                               bool from_mesh, const std::string& port) {
+  add({body_, name, unit, given, mesh, std::abs(given - mesh), std::abs(given), port, from_mesh},
+      usual_remedy);
   return given - mesh;
+}
+
+void MassComparison::compare_moments(const std::string& name, const std::array<double, 2>& given_kg_m,
+                                     const std::array<double, 2>& mesh_kg_m, bool from_mesh,
+                                     const std::string& port) {
+  const double given = std::hypot(given_kg_m[0], given_kg_m[1]);
+  add({body_, name, "kg m", given, std::hypot(mesh_kg_m[0], mesh_kg_m[1]),
+       std::hypot(given_kg_m[0] - mesh_kg_m[0], given_kg_m[1] - mesh_kg_m[1]), given, port, from_mesh},
+      usual_remedy);
+}
+
+void MassComparison::compare_centre(const std::string& name, const PlanarMass& part, const std::string& port,
+                                    const std::string& remedy) {
+  const double moment = std::hypot(part.x_kg_m, part.y_kg_m);
+  const double reference = std::sqrt(std::max(0.0, part.mass_kg * part.polar_kg_m2));
+  if (moment <= rounding_of_meshes * reference) return;
+  add({body_, name, "kg m", 0, moment, moment, reference, port, false}, remedy);
+}
+
+void MassComparison::add(const MassFigure& figure, const std::string& remedy) {
+  figures_.push_back(figure);
+  if (figure.share() <= largest_share) return;
+  std::ostringstream text;
+  text << origin_ << ": the machine's " << figure.name << " is " << figure.given << ' ' << figure.unit
+       << ", mesh and added masses give " << figure.mesh << ' ' << figure.unit << ": " << 100 * figure.share()
+       << " % apart, at most 20 % can be carried; " << remedy;
+  throw StageRefused(text.str());
 }
 
 void add_difference(std::vector<AttachedMass>& list, const std::string& port, const PlanarMass& rest) {

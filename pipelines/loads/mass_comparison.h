@@ -1,6 +1,7 @@
 /// What the kinds of bodies need to let the machine's masses and the mesh's agree.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,25 @@ public:
   MassComparison(const BodyScene& body, std::vector<MassFigure>& figures)
       : body_(body.name), origin_(body.origin), figures_(figures) {}
 
+  /// @param port  that carries the difference
   /// @return given - mesh
   /// @throws StageRefused with the body's place in the scene if they are more than 20 % apart
-  double compare(const std::string& name, const std::string& unit, double given, double mesh, bool from_mesh);
+  double compare(const std::string& name, const std::string& unit, double given, double mesh, bool from_mesh,
+                 const std::string& port);
+
+  /// First moments as a whole: one small component is no mistake.
+  /// @throws StageRefused likewise
+  void compare_moments(const std::string& name, const std::array<double, 2>& given_kg_m,
+                       const std::array<double, 2>& mesh_kg_m, bool from_mesh, const std::string& port);
+
+  /// A part whose centre the load stage has on its axis, beside its mass times radius of gyration.
+  /// @param remedy  how a centre off the axis can be given
+  /// @throws StageRefused likewise
+  void compare_centre(const std::string& name, const PlanarMass& part, const std::string& port,
+                      const std::string& remedy);
 
 private:
+  void add(const MassFigure& figure, const std::string& remedy);
   std::string body_, origin_;
   std::vector<MassFigure>& figures_;
 };

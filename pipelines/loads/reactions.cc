@@ -21,8 +21,12 @@ Wrench about(const Wrench& load, const Eigen::Vector3d& p) {
 
 void LoadCollector::react(const std::string& first, const std::string& second,
                           const std::map<std::string, Array2Xd>& resultant) {
-  const Eigen::Vector3d a = centre_of(find(first));
-  const double span_m = centre_of(find(second))[2] - a[2];
+  const auto pressed_at = [&](const std::string& name) {
+    const auto& port = find(name);
+    return Eigen::Vector3d(centre_of(port) + pressed_beside_m(port) * Eigen::Vector3d::UnitZ());
+  };
+  const Eigen::Vector3d a = pressed_at(first);
+  const double span_m = pressed_at(second)[2] - a[2];
   if (!(span_m != 0))
     throw StageRefused("bearings \"" + first + "\" and \"" + second +
                        "\" lie at the same place along the axis: they carry no tilting moment");

@@ -53,6 +53,19 @@ void refuse_impossible(const PressurePattern& pattern) {
 
 }  // namespace
 
+double middle_of(const std::vector<double>& axial_profile) {
+  if (axial_profile.size() < 2) return 0;
+  const double step = 2.0 / double(axial_profile.size() - 1);
+  double whole = 0, moment = 0;
+  for (std::size_t i = 0; i + 1 < axial_profile.size(); ++i) {  // straight lines
+    const double begin = -1 + double(i) * step, a = axial_profile[i], b = axial_profile[i + 1];
+    whole += (a + b) / 2;
+    moment += begin * (a + b) / 2 + step * (a + 2 * b) / 6;
+  }
+  const double middle = moment / whole;
+  return std::abs(middle) < 1e-12 ? 0 : middle;
+}
+
 double pattern_coefficient(const PressurePattern& pattern, int n) {
   refuse_impossible(pattern);
   if (n < 0) throw std::invalid_argument("harmonic " + std::to_string(n) + ": must not be negative");

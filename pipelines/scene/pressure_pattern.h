@@ -28,6 +28,10 @@ struct PressureModel {
   std::vector<double> axial_profile{1.0};  ///< as fem::LoadSurface::axial_profile
 };
 
+/// Where the resultant of such a profile acts, in half lengths of the seat from its middle; 0 of one that is
+/// symmetrical to rounding.
+double middle_of(const std::vector<double>& axial_profile);
+
 /// p_n / p_1 of the pattern's harmonics p(t) = sum of p_n cos(n t).
 /// @throws std::invalid_argument for n < 0 or a half angle out of range
 double pattern_coefficient(const PressurePattern& pattern, int n);

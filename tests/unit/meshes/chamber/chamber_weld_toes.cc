@@ -1,6 +1,7 @@
 /// Hot spots and sharp edges.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -137,6 +138,31 @@ TEST(HotSpots, AreLeftOutWhereAnotherPlateIsInTheWay) {
     has_other_end |= spot.name == "lug 2 front, back face, upper end";
   }
   EXPECT_TRUE(has_other_end);
+  const auto& covered = body.covered_toes;
+  EXPECT_EQ(std::count(covered.begin(), covered.end(), "lug 1 front, back face, upper end"), 1);
+}
+
+/// An edge that happens to run 0.04 mm from a point of a path takes its place: lugs of 43 mm instead of 40 mm
+/// end 5.96 mm from the web's lower toe, whose farther point is at 6 mm.
+TEST(HotSpots, AreReadBesideEdgesOfOtherPlates) {
+  auto chamber = laboratory_chamber();
+  chamber.lugs.width_m = 43e-3;
+  const double wall_m = chamber.tube.wall_m, closest_m = 0.05 * wall_m;
+  for (const bool lean : {false, true}) {
+    meshes::ChamberMeshControl control;
+    control.lean = lean;
+    const auto body = meshes::build_chamber(chamber, control, temporary_msh("beside_edges"));
+    EXPECT_EQ(body.hot_spots.size(), 48u);
+    EXPECT_TRUE(body.covered_toes.empty());
+    int n_moved = 0;
+    for (const auto& spot : body.hot_spots) {
+      EXPECT_NEAR(on_surface_m(chamber, spot.toe_m, spot.near_m), 0.4 * wall_m, 1e-12) << spot.name;
+      const double far_m = on_surface_m(chamber, spot.toe_m, spot.far_m);
+      EXPECT_NEAR(far_m, wall_m, closest_m) << spot.name;
+      n_moved += std::abs(far_m - wall_m) > 1e-12;
+    }
+    EXPECT_EQ(n_moved, 4);  // from the lower edges of both webs, and from those of the lugs that face them
+  }
 }
 
 std::map<std::string, meshes::SharpEdge> sharp_edges_of(const meshes::BodyMesh& body) {

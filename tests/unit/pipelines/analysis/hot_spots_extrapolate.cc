@@ -51,6 +51,17 @@ pipelines::ChannelHistory history(const Eigen::ArrayXXd& values) {
   return loads;
 }
 
+// A point that a vertex of the mesh has moved counts with its own distance: a linear field still ends at the
+// toe.
+TEST(HotSpots, OfPointsThatMovedAreExact) {
+  const Line line({tension(100e6)}, {tension(-2e9)});
+  auto moved = line.spot();
+  moved.far_m = line.at(0.96 * thickness);
+  const auto spots = hot_spot_stresses({moved}, line.responses, history(Eigen::ArrayXXd::Ones(1, 1)));
+  ASSERT_EQ(spots.size(), 1u);
+  EXPECT_NEAR(spots[0].von_mises_Pa, 100e6, 1e-9 * 100e6);
+}
+
 // Of a tube with plates, the cheapest model of a chamber, the points are all there is.
 TEST(HotSpots, OfAModelWithoutFacesAreAtItsNodes) {
   const Line line({tension(100e6)}, {tension(-2e9)});

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "pipelines/loads/machine_masses.h"
+#include "pipelines/scene/body_kind.h"
 #include "tests/unit/pipelines/examples/chamber_body.h"
 
 namespace {
@@ -149,6 +151,48 @@ TEST(Chamber, MissingFootIsNamed) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("spring_foot_2"), std::string::npos) << error.what();
   }
+}
+
+// A file's foot 0.5 mm beside the machine's spring would leave 0.5 N m open; what is off is said, not which
+// effect.
+TEST(Chamber, PortsElsewhereThanTheMachinesAreNamed) {
+  auto scene = laboratory::scene();
+  scene.effects = chamber::spec_effects();
+  const auto& body = *scene.body("chamber");
+  pipelines::MassAgreement masses{scene.machine, {}, {}};
+  masses.attached["chamber"];
+  const auto history = kinetics::compute_loads(chamber::mill(), scene.effects, {20, 72});
+  const auto refusal = [&](const pipelines::LoadedBody& loaded) -> std::string {
+    try {
+      kind_of(body).distribute(scene, body, history, loaded, masses);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  auto loaded = chamber::body();
+  EXPECT_EQ(refusal(loaded), "accepted");
+  loaded.ports.back().axis_y_m -= 0.5e-3;
+  const auto text = refusal(loaded);
+  EXPECT_NE(text.find("port \"spring_foot_2\" is at (460, -180.5) mm, where machine.springs[2].position is "
+                      "(460, -180) mm"),
+            std::string::npos)
+      << text;
+}
+
+// The charge at one end: a pressure that rises along the wall acts a sixth of its length beside the middle.
+TEST(Chamber, AChargeAtOneEndTiltsIt) {
+  auto body = chamber::body();
+  body.pressures["inner_wall"].axial_profile = {0, 1};
+  const auto result = chamber::distribute(chamber::spec_effects(), body);
+  expect_closed(result, "charge at the front");
+  const auto& wall = result.history.resultant("inner_wall").total;
+  EXPECT_LT(
+      bodies::largest(bodies::course(result.loads, "inner_wall.my") - wall.row(0).transpose() * 0.28 / 6),
+      1e-9);
+  EXPECT_LT(
+      bodies::largest(bodies::course(result.loads, "inner_wall.mx") + wall.row(1).transpose() * 0.28 / 6),
+      1e-9);
 }
 
 }  // namespace

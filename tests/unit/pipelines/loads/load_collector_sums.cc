@@ -190,6 +190,34 @@ TEST(LoadCollector, ReactsByAxialStatics) {
 }
 
 // With the axial force and the torque taken too, nothing is left in any of the six equations.
+// A pressure that rises in straight lines from nothing acts at two thirds of its seat: of a load and of a
+// bearing. By hand: the load at 0.05 + 0.1 * 2/3, the first bearing at -0.48 - 0.04 * 2/3, the second at 0.7.
+TEST(LoadCollector, LopsidedPressureActsWhereItIs) {
+  auto loaded = body();
+  loaded.pressures["seat"].axial_profile = {0, 1};
+  loaded.pressures["first"].axial_profile = {1, 0.5, 0};
+  loaded.pressures["second"].axial_profile = {0, 1, 0};
+  LoadCollector collector(loaded, {"a"}, n, 100);
+  Array2Xd f = Array2Xd::Zero(2, n);
+  f.row(0).setConstant(90);
+  f.row(1).setConstant(-30);
+  collector.force("seat", "a", f);
+  collector.react("first", "second");
+  const double z = 0.05 + 0.1 * 2 / 3, z_A = -0.48 - 0.04 * 2 / 3, on_second = -(z - z_A) / (0.7 - z_A);
+  const auto loads = collector.finish();
+  const auto largest_apart = [&](const char* channel, double wanted) {
+    return bodies::largest(bodies::part(loads, "a", channel) - wanted);
+  };
+  EXPECT_LT(largest_apart("second.fx", 90 * on_second), 1e-12);
+  EXPECT_LT(largest_apart("second.fy", -30 * on_second), 1e-12);
+  EXPECT_LT(largest_apart("first.fx", -90 * (1 + on_second)), 1e-12);
+  // About the middle of the seat, a sixth of its length from there.
+  EXPECT_LT(largest_apart("seat.my", 90 * 0.1 / 6), 1e-12);
+  EXPECT_LT(largest_apart("seat.mx", 30 * 0.1 / 6), 1e-12);
+  EXPECT_FALSE(bodies::has(loads, "second.my"));
+  EXPECT_LT(bodies::residual(loads, loaded.regions).middleRows<2>(3).abs().maxCoeff(), 1e-12 * 90);
+}
+
 TEST(LoadCollector, SupportsCloseAllSix) {
   std::mt19937 random(5);
   LoadCollector collector(body(), {"inertia"}, n, 100);

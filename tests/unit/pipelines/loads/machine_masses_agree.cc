@@ -122,6 +122,11 @@ TEST(MachineMasses, FiguresTellBothSides) {
   EXPECT_NEAR(figure(agreed, "structure mass").mesh, 29.1, 1e-12);
   EXPECT_EQ(figure(agreed, "structure mass").given, 30);
   EXPECT_NEAR(figure(agreed, "structure mass").share(), 0.03, 1e-14);
+  EXPECT_NEAR(figure(agreed, "structure first moment").mesh, std::hypot(30 * 0.26 - 0.5, 30 * 0.02 + 0.1),
+              1e-12);
+  EXPECT_EQ(figure(agreed, "structure first moment").port, "covers");
+  EXPECT_EQ(figure(agreed, "exciter mass").port, "housing_bore");
+  EXPECT_NEAR(figure(agreed, "exciter first moment").mesh, std::hypot(0.02, 0.01), 1e-12);
   EXPECT_NEAR(figure(agreed, "structure first moment").share(),
               std::hypot(0.5, 0.1) / (30 * std::hypot(0.26, 0.02)), 1e-13);
   EXPECT_NEAR(figure(agreed, "pitch inertia").share(), 0.05, 1e-13);
@@ -178,6 +183,27 @@ TEST(MachineMasses, MoreThanAFifthIsAnotherMachine) {
   meshed = perfect_mesh();
   meshed.regions[1].masses.mass_kg *= 2;
   EXPECT_NE(refusal(chamber_scene(), meshed).find("exciter mass"), std::string::npos);
+}
+
+/// The load stage has exciter and drum centred on their axes: a mass added beside one would have its moment
+/// cancelled. 3 kg at 0.15 m on an exciter of 0.9 + 5.1 kg.
+TEST(MachineMasses, AMassBesideItsAxisIsTold) {
+  auto scene = chamber_scene();
+  scene.masses_from_mesh = {"structure", "exciter"};
+  scene.bodies[0].added_masses[1].centre_m = {0, 0.15};
+  scene.bodies[0].added_masses[1].mass_kg = 3;
+  const std::string text = refusal(scene, perfect_mesh());
+  EXPECT_NE(text.find("exciter first moment is 0 kg m, mesh and added masses give 0.45 kg m"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("moves_with = \"structure\""), std::string::npos) << text;
+  scene.bodies[0].added_masses[1].region = "structure";
+  EXPECT_EQ(refusal(scene, perfect_mesh()), "accepted");
+
+  auto planetary = plain::scene("planetary_mill");
+  planetary.bodies[0].added_masses[0].centre_m = {0.02, 0};
+  const auto agreed = agree_masses(planetary, {plain::meshed(*planetary.body("drum"))});
+  EXPECT_NEAR(figure(agreed, "drum first moment").mesh, 21.1 * 0.02, 1e-6);
 }
 
 TEST(MachineMasses, AddedMassOnAnUnknownPlaceIsNamed) {
