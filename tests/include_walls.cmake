@@ -61,7 +61,7 @@ endforeach()
 # Rooms from the ground floor up: a room includes only itself and rooms before it.
 set(rooms_fem values common mesh ranks operators loads stress solvers submodel adaptivity modes beam axisymmetric model)
 set(rooms_meshes values gmsh spacing checks shaft chamber solids keyed_shaft imported)
-set(rooms_pipelines common files fatigue scene machines responses loads bodies superposition analysis calculix cheap_models report effects search accuracy sweep pictures commands)
+set(rooms_pipelines common files fatigue scene machines responses loads bodies superposition analysis life calculix cheap_models report effects search accuracy sweep pictures commands)
 foreach(folder fem meshes pipelines)
   set(above ${rooms_${folder}})
   foreach(room IN LISTS rooms_${folder})

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 
-#include "pipelines/analysis/duty_result.h"
+#include "pipelines/life/duty_result.h"
 #include "pipelines/report/summary_values.h"
 
 namespace pipelines {

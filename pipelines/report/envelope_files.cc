@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "fem/values/cell_shares.h"
-#include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/files/vtk_files.h"
+#include "pipelines/life/body_fatigue.h"
 #include "pipelines/report/results.h"
 
 namespace pipelines {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <ostream>
 
-#include "pipelines/analysis/duty_result.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/files/csv.h"
+#include "pipelines/life/duty_result.h"
 #include "pipelines/report/damage_share_text.h"
 #include "pipelines/report/zone_text.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/analysis/body_fatigue.h"
+#include "pipelines/life/body_fatigue.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary_values.h"
 

@@ -1,5 +1,5 @@
-#include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/life/body_fatigue.h"
 #include "pipelines/report/results.h"
 #include "pipelines/report/summary_values.h"
 #include "pipelines/report/zone_text.h"

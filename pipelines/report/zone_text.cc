@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/common/name_lists.h"
+#include "pipelines/life/body_fatigue.h"
 #include "pipelines/scene/effect_groups.h"
 #include "pipelines/superposition/zone_parts.h"
 

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "pipelines/analysis/duty_shares.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/hot_spots.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/served_loads.h"
 #include "pipelines/analysis/time_sampling.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/life/duty_shares.h"
 #include "pipelines/search/duty_loads.h"
 
 namespace pipelines {

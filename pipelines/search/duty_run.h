@@ -1,7 +1,7 @@
 /// The operating blocks of a scene on the bodies that a run has solved: one superposition for each block.
 #pragma once
 
-#include "pipelines/analysis/duty_result.h"
+#include "pipelines/life/duty_result.h"
 #include "pipelines/search/scene_run.h"
 
 namespace pipelines {

@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "pipelines/analysis/body_fatigue.h"
 #include "pipelines/analysis/body_vibration.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/place_errors.h"
@@ -24,6 +23,7 @@
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_bounds.h"
 #include "pipelines/effects/effect_choice.h"
+#include "pipelines/life/body_fatigue.h"
 #include "pipelines/report/body_files.h"
 #include "pipelines/search/duty_loads.h"
 #include "pipelines/search/first_model.h"

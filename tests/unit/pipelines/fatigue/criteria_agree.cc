@@ -13,9 +13,9 @@
 
 #include <cmath>
 
-#include "pipelines/analysis/fatigue_rules.h"
 #include "pipelines/fatigue/critical_plane.h"
 #include "pipelines/fatigue/mean_stress.h"
+#include "pipelines/life/fatigue_rules.h"
 #include "pipelines/superposition/stress_course.h"
 
 namespace {

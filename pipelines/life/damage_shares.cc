@@ -1,4 +1,4 @@
-#include "pipelines/analysis/damage_shares.h"
+#include "pipelines/life/damage_shares.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/analysis/duty_fatigue.h"
+#include "pipelines/life/duty_fatigue.h"
 #include "pipelines/loads/bearings.h"
 
 namespace pipelines {

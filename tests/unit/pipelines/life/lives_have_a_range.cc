@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipelines/analysis/life_certainty.h"
+#include "pipelines/life/life_certainty.h"
 
 using namespace pipelines;
 

@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/analysis/fatigue_places.h"
 #include "pipelines/analysis/weld_places.h"
+#include "pipelines/life/fatigue_places.h"
 
 namespace pipelines {
 

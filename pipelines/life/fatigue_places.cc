@@ -1,13 +1,13 @@
-#include "pipelines/analysis/fatigue_places.h"
+#include "pipelines/life/fatigue_places.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
-#include "pipelines/analysis/damage_direction.h"
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/analysis/time_sampling.h"
+#include "pipelines/life/damage_direction.h"
 #include "pipelines/superposition/cycle_extremes.h"
 #include "pipelines/superposition/nodal_cycles.h"
 #include "pipelines/superposition/stress_shares.h"

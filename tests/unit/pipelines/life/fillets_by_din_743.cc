@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "pipelines/analysis/nominal_fatigue.h"
+#include "pipelines/life/nominal_fatigue.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/analysis/damage_shares.h"
-#include "pipelines/analysis/duty_fatigue.h"
+#include "pipelines/life/damage_shares.h"
+#include "pipelines/life/duty_fatigue.h"
 
 namespace pipelines {
 

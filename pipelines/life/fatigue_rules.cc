@@ -1,4 +1,4 @@
-#include "pipelines/analysis/fatigue_rules.h"
+#include "pipelines/life/fatigue_rules.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "pipelines/analysis/nominal_fatigue.h"
+#include "pipelines/life/nominal_fatigue.h"
 
 #include <algorithm>
 #include <cmath>

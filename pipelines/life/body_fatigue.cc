@@ -1,4 +1,4 @@
-#include "pipelines/analysis/body_fatigue.h"
+#include "pipelines/life/body_fatigue.h"
 
 #include <fmt/core.h>
 
@@ -7,13 +7,13 @@
 #include <limits>
 #include <utility>
 
-#include "pipelines/analysis/damage_shares.h"
-#include "pipelines/analysis/fatigue_places.h"
-#include "pipelines/analysis/fatigue_rules.h"
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/fatigue/critical_plane.h"
+#include "pipelines/life/damage_shares.h"
+#include "pipelines/life/fatigue_places.h"
+#include "pipelines/life/fatigue_rules.h"
 #include "pipelines/superposition/stress_shares.h"
 
 namespace pipelines {

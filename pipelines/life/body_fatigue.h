@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
-#include "pipelines/analysis/life_certainty.h"
-#include "pipelines/analysis/nominal_fatigue.h"
+#include "pipelines/life/life_certainty.h"
+#include "pipelines/life/nominal_fatigue.h"
 #include "pipelines/superposition/nodal_cycles.h"
 
 namespace pipelines {

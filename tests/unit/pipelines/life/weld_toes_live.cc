@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "pipelines/analysis/body_fatigue.h"
+#include "pipelines/life/body_fatigue.h"
 #include "tests/unit/pipelines/examples/row_of_cells.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "pipelines/analysis/damage_direction.h"
+#include "pipelines/life/damage_direction.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "pipelines/analysis/duty_fatigue.h"
+#include "pipelines/life/duty_fatigue.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <set>
 
 #include "kinetics/load_spectrum.h"
-#include "pipelines/analysis/damage_direction.h"
-#include "pipelines/analysis/duty_shares.h"
-#include "pipelines/analysis/fatigue_places.h"
 #include "pipelines/analysis/time_sampling.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/common/parallel.h"
+#include "pipelines/life/damage_direction.h"
+#include "pipelines/life/duty_shares.h"
+#include "pipelines/life/fatigue_places.h"
 #include "pipelines/superposition/nodal_cycles.h"
 
 namespace pipelines {

@@ -1,4 +1,4 @@
-#include "pipelines/analysis/duty_result.h"
+#include "pipelines/life/duty_result.h"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "pipelines/analysis/duty_fatigue.h"
+#include "pipelines/life/duty_fatigue.h"
 #include "tests/unit/pipelines/examples/row_of_cells.h"
 
 namespace {

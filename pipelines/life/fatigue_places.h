@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
-#include "pipelines/analysis/fatigue_rules.h"
 #include "pipelines/analysis/stress_gradient.h"
+#include "pipelines/life/fatigue_rules.h"
 #include "pipelines/superposition/amplitude_bound.h"
 #include "pipelines/superposition/factor_course.h"
 

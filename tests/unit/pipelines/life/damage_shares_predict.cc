@@ -9,8 +9,8 @@
 #include <numeric>
 #include <random>
 
-#include "pipelines/analysis/duty_fatigue.h"
-#include "pipelines/analysis/duty_shares.h"
+#include "pipelines/life/duty_fatigue.h"
+#include "pipelines/life/duty_shares.h"
 #include "tests/unit/pipelines/examples/row_of_cells.h"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/analysis/body_fatigue.h"
+#include "pipelines/life/body_fatigue.h"
 
 namespace pipelines {
 

@@ -1,4 +1,4 @@
-#include "pipelines/analysis/duty_shares.h"
+#include "pipelines/life/duty_shares.h"
 
 #include <algorithm>
 #include <optional>

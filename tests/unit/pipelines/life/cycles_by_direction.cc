@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "pipelines/analysis/damage_direction.h"
-#include "pipelines/analysis/fatigue_rules.h"
+#include "pipelines/life/damage_direction.h"
+#include "pipelines/life/fatigue_rules.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "pipelines/analysis/life_certainty.h"
+#include "pipelines/life/life_certainty.h"
 
 #include <fmt/core.h>
 

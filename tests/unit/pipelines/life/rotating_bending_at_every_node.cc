@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/analysis/body_fatigue.h"
-#include "pipelines/analysis/fatigue_places.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/stage_clock.h"
+#include "pipelines/life/body_fatigue.h"
+#include "pipelines/life/fatigue_places.h"
 #include "pipelines/search/scene_run.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 #include "tests/unit/pipelines/examples/shared_environment.h"
