@@ -128,9 +128,11 @@ SolverReport Model::predict_solver(std::size_t n_loads, const SolverChoice& choi
                              n_loads, choice);
 }
 
-std::vector<NaturalMode> Model::natural_frequencies(int n_modes) const {
+std::vector<NaturalMode> Model::natural_frequencies(int n_modes,
+                                                    const std::vector<AttachedMass>& attached) const {
   auto modes = fem::natural_frequencies(
-      VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body, impl_->materials), n_modes);
+      VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body, impl_->materials, attached),
+      n_modes);
   for (auto& mode : modes)
     set_hanging_rows(impl_->grid.hanging,
                      Eigen::Map<NodeRows>(mode.shape.data(), Eigen::Index(impl_->grid.n_nodes), 3));

@@ -107,11 +107,13 @@ public:
   /// springs to the ground against its whole motion, rigid part included (unlike in unit_responses, where
   /// inertia carries that part). Rank 0 works alone. Same bits for the same body and number of threads.
   /// @param n_modes  at least 1, at most a tenth of the unknowns that can vibrate: a mesh has no more to say
+  /// @param attached  rigid masses that move with the mean motion of their surfaces; of these modes alone
   /// @throws std::invalid_argument for another number, for clamps that leave a rigid motion, clamps together
-  /// with elastic supports
+  /// with elastic supports, masses that are negative
   /// @throws SolveFailed if the factorisation fails, or a mode leaves more than 1e-4 of its inertia
   /// forces unbalanced and rounding does not explain it
-  std::vector<NaturalMode> natural_frequencies(int n_modes) const;
+  std::vector<NaturalMode> natural_frequencies(int n_modes,
+                                               const std::vector<AttachedMass>& attached = {}) const;
 
 private:
   struct Impl;

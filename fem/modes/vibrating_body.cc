@@ -13,9 +13,10 @@ namespace fem {
 
 VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
                              const std::vector<std::vector<std::int32_t>>& colours, const Body& body,
-                             const CellMaterials& materials)
+                             const CellMaterials& materials, const std::vector<AttachedMass>& attached)
     : graph_(make_node_graph(grid, cells)),
       mass_(grid, colours, graph_, materials.density_kg_m3()),
+      attached_(grid, attached),
       matrix_(make_matrix(graph_)),
       springs_(grid, body.elastic_supports),
       clamped_(clamped_unknowns(grid, body.clamps)) {
@@ -75,6 +76,12 @@ Eigen::Index VibratingBody::n_vibrating() const noexcept {
 Eigen::MatrixXd VibratingBody::unheld_motions() const {
   if (!clamped_.empty()) return Eigen::MatrixXd(n_unknowns(), 0);
   return rigid_.rightCols(rigid_.cols() - n_held_by_springs_);
+}
+
+Eigen::MatrixXd VibratingBody::mass(const Eigen::MatrixXd& motion) const {
+  Eigen::MatrixXd force = mass_ * motion;
+  attached_.add_to(motion, force);
+  return force;
 }
 
 void VibratingBody::clear_clamped(Eigen::MatrixXd& vectors) const {

@@ -10,6 +10,7 @@
 #include "fem/loads/elastic_supports.h"
 #include "fem/loads/supports.h"
 #include "fem/mesh/grid.h"
+#include "fem/modes/attached_masses.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/operators/mass_matrix.h"
 #include "fem/operators/symmetric_matrix.h"
@@ -18,8 +19,9 @@
 
 namespace fem {
 
-/// K u + W k W'u = f with M: W and k of the elastic supports, R the rigid motions (R'MR = I), Z those of them
-/// that nothing holds: none of a clamped body, all six of a free one without springs.
+/// K u + W k W'u = f with M, attached masses included: W and k of the elastic supports, R the rigid motions
+/// (R'MR = I), Z those of them that nothing holds: none of a clamped body, all six of a free one without
+/// springs.
 class VibratingBody {
 public:
   /// Assembles and factorises.
@@ -27,7 +29,7 @@ public:
   /// @throws SolveFailed if the factorisation fails
   VibratingBody(const Grid& grid, const CellsOfNodes& cells,
                 const std::vector<std::vector<std::int32_t>>& colours, const Body& body,
-                const CellMaterials& materials);
+                const CellMaterials& materials, const std::vector<AttachedMass>& attached);
 
   Eigen::Index n_unknowns() const noexcept { return static_cast<Eigen::Index>(matrix_.n); }
   /// Without the clamped unknowns and the rigid motions that nothing holds.
@@ -36,7 +38,7 @@ public:
   /// Z: rigid motions that nothing holds, orthonormal in the mass; none of a clamped body.
   Eigen::MatrixXd unheld_motions() const;
 
-  Eigen::MatrixXd mass(const Eigen::MatrixXd& motion) const { return mass_ * motion; }
+  Eigen::MatrixXd mass(const Eigen::MatrixXd& motion) const;
   /// Forces on the unknowns that are not clamped, zero on those that are.
   Eigen::MatrixXd stiffness(const Eigen::MatrixXd& motion) const;
   /// What rounding may leave of K times the rigid part of a motion, which is nothing: on soft springs the
@@ -53,6 +55,7 @@ private:
 
   NodeGraph graph_;
   MassMatrix mass_;
+  AttachedMasses attached_;
   SymmetricMatrix matrix_;
   ElasticSupports springs_;
   std::vector<std::int64_t> clamped_;

@@ -1,7 +1,10 @@
 /// Natural vibrations of a body. Plain values, no deal.II.
 #pragma once
 
+#include <array>
 #include <vector>
+
+#include "fem/values/unit_load.h"
 
 namespace fem {
 
@@ -12,6 +15,14 @@ struct NaturalMode {
   /// largest entry is positive. A repeated frequency's shapes are any orthogonal ones of theirs.
   std::vector<double> shape;
   double residual = 0;  ///< |K x - w^2 M x| / |w^2 M x|
+};
+
+/// A rigid mass that moves with a surface of the body without being meshed.
+struct AttachedMass {
+  LoadSurface surface;
+  double mass_kg = 0;
+  std::array<double, 3> offset_m{};       ///< of its centre from the surface's
+  std::array<double, 3> inertia_kg_m2{};  ///< about axes along x, y, z through its own centre
 };
 
 }  // namespace fem

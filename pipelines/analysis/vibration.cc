@@ -28,7 +28,7 @@ const meshes::Port& find(const std::vector<meshes::Port>& ports, const std::stri
   return *found;
 }
 
-fem::ElasticSupport pin(const meshes::Port& port, double stiffness_N_m) {
+fem::LoadSurface surface_of(const meshes::Port& port) {
   fem::LoadSurface surface;
   surface.kind =
       port.kind == meshes::Port::Kind::face ? fem::LoadSurface::Kind::face : fem::LoadSurface::Kind::seat;
@@ -38,7 +38,20 @@ fem::ElasticSupport pin(const meshes::Port& port, double stiffness_N_m) {
     surface.radius_m = port.radius_m;
     surface.length_m = port.end_m - port.begin_m;
   }
-  return {surface, {stiffness_N_m, stiffness_N_m, 0}};
+  return surface;
+}
+
+/// Added masses as discs across z: their inertia about x and y is half of the polar one.
+std::vector<fem::AttachedMass> attached_to(const BodyScene& scene, const meshes::BodyMesh& mesh) {
+  std::vector<fem::AttachedMass> result;
+  for (const auto& added : scene.added_masses) {
+    const double polar = added.polar_inertia_kg_m2;
+    result.push_back({surface_of(find(mesh.ports, added.port)),
+                      added.mass_kg,
+                      {added.centre_m[0], added.centre_m[1], 0},
+                      {polar / 2, polar / 2, polar}});
+  }
+  return result;
 }
 
 double amplification_at(double frequency_Hz, double natural_Hz) {
@@ -112,7 +125,8 @@ fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
       continue;
     }
     const double size_m = port.radius_m > 0 ? 2 * port.radius_m : std::cbrt(meshed.masses.volume_m3);
-    body.elastic_supports.push_back(pin(port, rigid * scene.material.youngs_modulus_Pa * size_m));
+    const double across_N_m = rigid * scene.material.youngs_modulus_Pa * size_m;
+    body.elastic_supports.push_back({surface_of(port), {across_N_m, across_N_m, 0}});
   }
   return body;
 }
@@ -122,7 +136,8 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
                     const Eigen::ArrayXXd& hot_spot_stress_Pa) {
   Vibration result;
   const auto held = held_body(body, meshed);
-  for (const auto& mode : fem::Model(held, ranks_of_a_body()).natural_frequencies(body.natural_frequencies))
+  for (const auto& mode : fem::Model(held, ranks_of_a_body())
+                              .natural_frequencies(body.natural_frequencies, attached_to(body, meshed.mesh)))
     result.natural_frequencies_Hz.push_back(mode.frequency_Hz);
   const BodyKind& kind = kind_of(body);
   const auto ports = kind.supporting_ports(body);
@@ -142,24 +157,15 @@ std::string warning_of(const BodyScene& body, const Vibration& vibration) {
   const auto& dynamic = is_toe ? vibration.at_hot_spot : vibration.amplification;
   const auto& natural_Hz = vibration.natural_frequencies_Hz;
   const bool is_beyond = dynamic.highest.frequency_Hz > natural_Hz.back();
-  double added_kg = 0;
-  for (const auto& added : body.added_masses) added_kg += added.mass_kg;
-  const std::string without =
-      added_kg > 0 ? fmt::format(
-                         "the {}'s natural frequencies are those of its mesh: its added masses of {:.4g} kg "
-                         "would lower them",
-                         body.name, added_kg)
-                   : "";
-  if (!(dynamic.factor > amplification_limit) && !is_beyond) return without;
+  if (!(dynamic.factor > amplification_limit) && !is_beyond) return {};
   return fmt::format(
       "the {}'s lowest natural frequency is {:.4g} Hz ({}): resonance adds about {:.2g} % to its {} "
-      "stress, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}{}",
+      "stress, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}",
       body.name, natural_Hz.front(), vibration.held, 100 * (dynamic.factor - 1), is_toe ? "hot-spot" : "peak",
       dynamic.highest.frequency_Hz,
       is_beyond ? fmt::format(", above the {} lowest natural frequencies: ask for more, which it may meet",
                               natural_Hz.size())
-                : "",
-      without.empty() ? "" : "; " + without);
+                : "");
 }
 
 }  // namespace pipelines

@@ -72,8 +72,7 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
                     const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa,
                     const Eigen::ArrayXXd& hot_spot_stress_Pa);
 
-/// A sentence for the user if a factor exceeds the limit, and where added masses would lower the frequencies;
-/// else empty.
+/// A sentence for the user if a factor exceeds the limit, or a harmonic the frequencies; else empty.
 std::string warning_of(const BodyScene& body, const Vibration& vibration);
 
 }  // namespace pipelines

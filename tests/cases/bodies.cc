@@ -72,7 +72,6 @@ TEST(Bodies, ChamberCarriesItsLoadsAndStatesItsMasses) {
   EXPECT_GT(f_Hz, 100);
   EXPECT_GT(chamber["hot_spots"][0]["error"].value("quasi_static", 0.0),
             0.5 * std::pow(24 / f_Hz, 2) * hot_spot);
-  EXPECT_NE(json["warnings"].dump().find("added masses of 6.94 kg"), std::string::npos);
   EXPECT_TRUE(fs::exists(directory / "out/chamber/hot_spots.csv"));
   // The load stage's spring forces are the feet's loads.
   const auto columns = csv(directory / "out/loads.csv");

@@ -71,6 +71,25 @@ TEST(NaturalFrequencies, OfASlenderShaftAreThoseOfABeam) {
   EXPECT_NEAR(shaft["natural_frequencies"][0]["value"].get<double>(), by_beam_Hz, 0.01 * by_beam_Hz);
 }
 
+// A mass beside the bearings swings on the shaft like one on a spring: four times as much at half the
+// frequency. The shaft's own, 0.4 kg, is beside them.
+TEST(NaturalFrequencies, KnowAddedMasses) {
+  const results_test::Directory directory;
+  const auto lowest_Hz = [&](const std::string& mass) {
+    write(directory / "scene.toml",
+          without("root_peeler_shaft.toml", "[shaft.fatigue]", "[shaft.mesh]") +
+              "\n[[shaft.added_masses]]\nname = \"disc\"\nport = \"disc_seat\"\nmass = \"" + mass + "\"\n");
+    const auto run =
+        millstress(directory.path,
+                   "run scene.toml -o out --set sampling.turns=8 --set sampling.instants_per_turn=24 "
+                   "--set shaft.natural_frequencies=1 --set results.pictures=false "
+                   "--set shaft.mesh.cells_per_fillet_quarter=2");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return summary(directory / "out")["bodies"]["shaft"]["natural_frequencies"][0]["value"].get<double>();
+  };
+  EXPECT_NEAR(lowest_Hz("20 kg") / lowest_Hz("80 kg"), 2, 0.02);
+}
+
 // One harmonic of all the stress at f: 1 / (1 - (f / f1)^2). Near a tenth of f1 that is 1 %, near a
 // fifth 4 %.
 TEST(NaturalFrequencies, AFastShaftIsWarnedOf) {

@@ -220,6 +220,53 @@ TEST_F(Vibrations, BarWithASpringAtItsEnd) {
   }
 }
 
+// With a mass that moves with one end and lies in the middle, the rigid rod bounces as sqrt(2 k / (m + M))
+// and pitches with both inertias: the end's motion carries the mass past half the rod.
+TEST_F(Vibrations, RigidBodyWithAnAttachedMass) {
+  const double k = 1e4, half = length_m / 2;
+  const fem::Model model(on_springs({"end_1", "end_2"}, {k, 2 * k, 4 * k}));
+  const auto mass = model.mass_properties();
+  const fem::AttachedMass disc{rod->ports.at("end_2"), 7.5, {0, 0, -half}, {0.11, 0.05, 0.3}};
+  const double m = mass.mass_kg,
+               across = mass.second_moments_kg_m2[0] + mass.second_moments_kg_m2[2] - m * half * half;
+  const auto f = [](double stiffness, double inertia) { return std::sqrt(stiffness / inertia) / (2 * pi); };
+  std::vector<double> expected = {f(2 * k, m + 7.5), f(4 * k, m + 7.5), f(8 * k, m + 7.5),
+                                  f(2 * k * half * half, across + 0.05),
+                                  f(4 * k * half * half, across + 0.11)};
+  std::sort(expected.begin(), expected.end());
+  const auto modes = model.natural_frequencies(5, {disc});
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(modes[i].frequency_Hz / expected[i], 1, 1e-3) << i;  // as without it
+}
+
+// Clamped at one end, with a disc at the other one, a rod turns at x tan x = J / J_disc, x = w L sqrt(rho /
+// G), and, as a bar without Poisson's ratio, stretches at x tan x = m / m_disc, x = w L sqrt(rho / E).
+TEST_F(Vibrations, ClampedRodWithADiscAtItsEnd) {
+  auto body = rod->body;
+  body.material.poisson_ratio = 0;
+  body.clamps = {{rod->ports.at("end_1").boundary_id, {true, true, true}}};
+  const fem::Model model(body);
+  const auto mass = model.mass_properties();
+  const double polar = mass.second_moments_kg_m2[0] + mass.second_moments_kg_m2[1];
+  const fem::AttachedMass disc{rod->ports.at("end_2"), 2 * mass.mass_kg, {}, {polar, polar, polar / 2}};
+  const auto root = [](double ratio) {
+    double low = 0, high = pi / 2;
+    while (high - low > 1e-14)
+      (((low + high) / 2) * std::tan((low + high) / 2) < ratio ? low : high) = (low + high) / 2;
+    return low;
+  };
+  const double wave_m_s = std::sqrt(206e9 / 7850);
+  const auto modes = model.natural_frequencies(6, {disc});
+  // Torsion: an octagon's J is beside its torsion constant by some 0.1 %. Stretching: cells alone, as above.
+  for (const auto& [expected_Hz, off] :
+       {std::pair(root(2) * wave_m_s / std::sqrt(2) / length_m / (2 * pi), 3e-3),
+        std::pair(root(0.5) * wave_m_s / length_m / (2 * pi), 3e-4)}) {
+    double nearest = 1;
+    for (const auto& mode : modes) nearest = std::min(nearest, std::abs(mode.frequency_Hz / expected_Hz - 1));
+    EXPECT_LT(nearest, off) << expected_Hz;
+  }
+}
+
 // The residual told is that of K and M as the test assembles them.
 TEST_F(Vibrations, ResidualIsThatOfTheMatrices) {
   const auto grid = fem::read_grid(rod->body);

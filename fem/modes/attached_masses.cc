@@ -1,0 +1,67 @@
+#include "fem/modes/attached_masses.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "fem/common/dense_algebra.h"
+#include "fem/loads/surface_loads.h"
+#include "fem/mesh/hanging_nodes.h"
+
+namespace fem {
+namespace {
+
+void refuse_impossible(const AttachedMass& mass) {
+  for (const double value :
+       {mass.mass_kg, mass.inertia_kg_m2[0], mass.inertia_kg_m2[1], mass.inertia_kg_m2[2]})
+    if (!(value >= 0) || !std::isfinite(value))
+      throw std::invalid_argument("attached mass: " + std::to_string(value) +
+                                  " must be zero or positive, as a mass and as an inertia");
+}
+
+/// About the centre of the surface: kinetic energy = 1/2 (v, w)' A (v, w).
+Eigen::Matrix<double, 6, 6> rigid_mass(const AttachedMass& mass) {
+  const Eigen::Vector3d d(mass.offset_m[0], mass.offset_m[1], mass.offset_m[2]);
+  Eigen::Matrix3d cross;  // d x
+  cross << 0, -d[2], d[1], d[2], 0, -d[0], -d[1], d[0], 0;
+  Eigen::Matrix<double, 6, 6> result = Eigen::Matrix<double, 6, 6>::Zero();
+  result.topLeftCorner<3, 3>().diagonal().setConstant(mass.mass_kg);
+  result.topRightCorner<3, 3>() = -mass.mass_kg * cross;
+  result.bottomLeftCorner<3, 3>() = mass.mass_kg * cross;
+  result.bottomRightCorner<3, 3>() = -mass.mass_kg * cross * cross;
+  for (int i = 0; i < 3; ++i) result(3 + i, 3 + i) += mass.inertia_kg_m2[std::size_t(i)];
+  return result;
+}
+
+}  // namespace
+
+AttachedMasses::AttachedMasses(const Grid& grid, const std::vector<AttachedMass>& masses) {
+  using Component = SurfaceResultant::Component;
+  const auto n = Eigen::Index(masses.size());
+  resultants_ = Eigen::MatrixXd::Zero(3 * Eigen::Index(grid.n_nodes), 6 * n);
+  mass_ = Eigen::MatrixXd::Zero(6 * n, 6 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& mass = masses[std::size_t(i)];
+    refuse_impossible(mass);
+    const LoadedSurface surface(grid, mass.surface);
+    int column = 0;
+    for (const auto component :
+         {Component::fx, Component::fy, Component::fz, Component::mx, Component::my, Component::torque}) {
+      const Eigen::VectorXd force = surface.resultant(component);
+      for (std::size_t k = 0; k < surface.nodes().size(); ++k)
+        resultants_.col(6 * i + column).segment<3>(3 * Eigen::Index(surface.nodes()[k])) =
+            force.segment<3>(3 * Eigen::Index(k));
+      ++column;
+    }
+    mass_.block<6, 6>(6 * i, 6 * i) = rigid_mass(mass);
+  }
+  move_to_masters(grid.hanging, resultants_);
+}
+
+void AttachedMasses::add_to(const Eigen::MatrixXd& motion, Eigen::MatrixXd& force) const {
+  if (mass_.size() == 0) return;
+  force += product(resultants_, mass_ * transposed_product(resultants_, motion));
+}
+
+}  // namespace fem
