@@ -74,7 +74,12 @@ public:
     if (!is_sound || shaft == nullptr || !has_force_in_space(scene, *shaft)) return {};
     const auto& train = train_in(scene.machine);
     const auto& inertia = std::get<TrainShaftOptions>(shaft->options).inertia;
-    const double ratio = kinetics::mean_speed_rad_s(train, inertia) / train.reference_speed_rad_s;
+    double ratio = 0;
+    try {
+      ratio = kinetics::mean_speed_rad_s(train, inertia) / train.reference_speed_rad_s;
+    } catch (const kinetics::MachineRefused&) {
+      return {};  // told where the load stage is rehearsed
+    }
     for (int q = 1; q <= most_turns; ++q)
       if (std::abs(ratio - std::round(ratio * q) / q) <= 1e-9 * std::abs(ratio)) return {true, q};
     return {true, 0};
