@@ -10,6 +10,12 @@ namespace meshes {
 /// @throws GeometryRefused "line 12: ..."
 void check_step_text(const std::string& text);
 
+/// Of a STEP file that states its lengths in another unit than mm: reading has them in mm already.
+/// @param text        of the file, whole by check_step_text
+/// @param scale_to_m  length of a mm of the file, as asked for [m]
+/// @throws GeometryRefused if it is no mm, since the part would be scaled once more
+void check_step_unit(const std::string& text, double scale_to_m);
+
 /// Of a .msh of version 2.2 or 4.1 in text form: counts, numbers of nodes and elements, types, and
 /// coordinates that are finite. Other versions and binary files are left to gmsh.
 /// @throws GeometryRefused "line 12: ..."

@@ -132,7 +132,12 @@ GeometryFormat format_of(const std::filesystem::path& file) {
 
 ModelMesh load_apart(const Import& import, double scale_to_m) {
   const std::string text = text_of(import.geometry);
-  format_of(import.geometry) == GeometryFormat::step ? check_step_text(text) : check_msh_text(text);
+  if (format_of(import.geometry) == GeometryFormat::step) {
+    check_step_text(text);
+    check_step_unit(text, scale_to_m);
+  } else {
+    check_msh_text(text);
+  }
   const double reading_s =
       import.time_limit_s > 0 ? import.time_limit_s : least_reading_s + s_per_byte * double(text.size());
   const auto end =

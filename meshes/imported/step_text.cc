@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -106,12 +107,51 @@ private:
   std::vector<Use> uses_;
 };
 
+/// The statement of the unit that the file's points are in, in one line; empty: not stated. Base units of
+/// conversions are length units too, so it is looked for by the number that global_unit_assigned_context of
+/// ISO 10303-41 has.
+std::string length_unit_of(const std::string& text) {
+  constexpr std::string_view context = "GLOBAL_UNIT_ASSIGNED_CONTEXT";
+  const auto at = text.find(context);
+  if (at == std::string::npos) return {};
+  const std::string units = text.substr(at, text.find(')', at) - at);
+  for (auto begin = units.find('#'); begin != std::string::npos; begin = units.find('#', begin + 1)) {
+    auto end = begin + 1;
+    while (end < units.size() && std::isdigit(static_cast<unsigned char>(units[end]))) ++end;
+    const std::string number = units.substr(begin, end - begin);
+    for (auto found = text.find(number); found != std::string::npos; found = text.find(number, found + 1)) {
+      auto after = found + number.size();
+      while (after < text.size() && std::isspace(static_cast<unsigned char>(text[after]))) ++after;
+      if (after >= text.size() || text[after] != '=') continue;
+      std::string statement = text.substr(found, text.find(';', found) - found);
+      std::replace_if(
+          statement.begin(), statement.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+      if (statement.find("LENGTH_UNIT") != std::string::npos) return statement;
+    }
+  }
+  return {};
+}
+
+bool is_millimetre(const std::string& statement) {
+  return statement.find("CONVERSION_BASED_UNIT") == std::string::npos &&
+         statement.find(".MILLI.") != std::string::npos;
+}
+
 }  // namespace
 
 void check_step_text(const std::string& text) {
   if (text.find("ISO-10303-21") == std::string::npos)
     refuse_step(1, "this is no STEP file: it does not begin with ISO-10303-21");
   StepText(text).check();
+}
+
+void check_step_unit(const std::string& text, double scale_to_m) {
+  if (std::abs(scale_to_m / 1e-3 - 1) < 1e-12) return;
+  const std::string statement = length_unit_of(text);
+  if (statement.empty() || is_millimetre(statement)) return;
+  throw GeometryRefused("it states its own length unit, " + statement +
+                        ", and is read by it: length_unit would scale the part once more; leave it out, "
+                        "or give \"1 mm\"");
 }
 
 }  // namespace meshes

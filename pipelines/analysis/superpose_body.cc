@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "pipelines/analysis/crest_elsewhere.h"
 #include "pipelines/analysis/load_edge.h"
 #include "pipelines/analysis/load_patch.h"
 #include "pipelines/analysis/place_errors.h"
@@ -127,6 +128,7 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
     });
   clock.run("zones", [&] { estimate_error_of_largest_toe(analysis); });
   clock.run("superpose", [&] {
+    add_crest_elsewhere(analysis, threads(n_threads));
     add_load_patch_error(analysis);
     add_load_edge_error(analysis);
   });

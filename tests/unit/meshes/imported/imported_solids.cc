@@ -190,6 +190,32 @@ TEST(Imported, WrongFilesAreRefused) {
   expect_words(refused(import), {"scale_to_m = -1"});
 }
 
+// Red without check_step_unit: the box was 25.4 times as long as drawn.
+TEST(Imported, AStepFileInInchesIsReadAsItStatesAndNotScaledOnceMore) {
+  const auto step = written("inch.step", [] {
+    occ::addBox(0, 0, 0, 1, 1, 1);
+    occ::synchronize();
+  });
+  std::ifstream in(step);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string mm = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );";
+  ASSERT_NE(text.find(mm), std::string::npos);
+  text.replace(text.find(mm), mm.size(),
+               "( CONVERSION_BASED_UNIT('INCH',#902)\nLENGTH_UNIT() NAMED_UNIT(#901) );\n#900 = " + mm +
+                   "\n#901 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);"
+                   "\n#902 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#900);");
+  std::ofstream(step, std::ios::trunc) << text;
+  auto import = import_of(step, {});
+  const auto file = temporary_msh("inch");
+  meshes::build_imported(import, file);
+  const double inch_m = 0.0254;
+  EXPECT_NEAR(read_tetrahedra(file).volume_m3, inch_m * inch_m * inch_m, 1e-12);  // rounding of the file
+  import.scale_to_m = inch_m;
+  expect_words(refused(import), {"inch.step", "states its own length unit", "'INCH'", "once more", "1 mm"});
+  import.scale_to_m = 1e-3;
+  EXPECT_NO_THROW(meshes::build_imported(import, file));
+}
+
 TEST(Imported, SolidsThatTouchAreOneBodyAndItsCornersAreSharp) {
   const auto step = written("l.step", [] {
     occ::addBox(0, 0, 0, 30, 10, 10);

@@ -1,0 +1,73 @@
+#include "pipelines/analysis/crest_elsewhere.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+#include "pipelines/analysis/time_sampling.h"
+#include "pipelines/superposition/cycle_extremes.h"
+#include "pipelines/superposition/factor_spectrum.h"
+#include "pipelines/superposition/superposition.h"
+
+namespace pipelines {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index per_period = 24, least_to_close = 16;
+constexpr double least_line = 0.01;  // of the largest channel of its unit
+
+/// Re sum_h c_h exp(2 pi j h i / n) at i = 0 .. n - 1.
+Eigen::ArrayXd series_of(const Eigen::ArrayXXcd& lines, Index n) {
+  Eigen::FFT<double> transform;
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(n), series(n);
+  spectrum.head(lines.cols()) = lines.row(0).matrix().transpose() * double(n);
+  transform.inv(series, spectrum);
+  return series.real().array();
+}
+
+}  // namespace
+
+ChannelHistory at_denser_instants(const ChannelHistory& loads, Index most) {
+  const Index n = loads.values.cols();
+  ChannelHistory denser{loads.body, loads.channels, {}, loads.values, {}};
+  if (n < 3 || n >= most || !can_be_transformed(n)) return denser;
+  std::map<std::string, double> largest;  // by unit
+  for (Index k = 0; k < loads.values.rows(); ++k) {
+    double& size = largest[loads.channels[std::size_t(k)].unit];
+    size = std::max(size, loads.values.row(k).abs().maxCoeff());
+  }
+  Index highest = 0;
+  std::vector<FactorSpectrum> spectra;
+  for (Index k = 0; k < loads.values.rows(); ++k) {
+    const double size = largest.at(loads.channels[std::size_t(k)].unit);
+    spectra.push_back(factor_spectrum(loads.values.row(k), 0));
+    for (Index h = 1; h < spectra.back().lines.cols(); ++h)
+      if (line_size(spectra.back(), h) > least_line * size) highest = std::max(highest, h);
+  }
+  const Index times = std::min((per_period * highest + n - 1) / n, most / n);
+  if (times < 2 || (n >= least_to_close && !is_closed(loads.values))) return denser;
+  denser.values.resize(loads.values.rows(), times * n);
+  for (Index k = 0; k < loads.values.rows(); ++k)
+    denser.values.row(k) = series_of(spectra[std::size_t(k)].lines, times * n).transpose();
+  return denser;
+}
+
+void add_crest_elsewhere(BodyAnalysis& analysis, int n_threads) {
+  const auto& history = analysis.loads.history;
+  const auto denser = at_denser_instants(history);
+  if (denser.values.cols() == history.values.cols()) return;
+  const auto crests = envelope(denser, analysis.responses, n_threads);
+  const auto node = peak_node(crests.von_mises.value_Pa, analysis.places);
+  auto& peak = analysis.peak;
+  if (node == peak.node) return;
+  const auto unit = unit_stress_at(analysis.responses, {{{node, 1.0}}, 0});
+  const double excess_Pa = analysis.envelope.von_mises.value_Pa[node] +
+                           time_sampling(unit, history.values).error_Pa() - peak.value_Pa;
+  if (excess_Pa > peak.errors.of("time_sampling"))
+    peak.errors.set_numerical({"time_sampling", "crest between the instants at another point", excess_Pa, 1});
+}
+
+}  // namespace pipelines

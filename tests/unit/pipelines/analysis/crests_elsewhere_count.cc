@@ -1,0 +1,64 @@
+// The largest stress between the instants may be at another point than the largest at an instant.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipelines/analysis/crest_elsewhere.h"
+#include "pipelines/superposition/superposition.h"
+
+using namespace pipelines;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int n_instants = 10;  // resolve order 3, and come no closer to its crests than 18 degrees
+
+/// A constant load, and one of order 3.
+ChannelHistory constant_and_third_order() {
+  ChannelHistory loads;
+  loads.channels = {{"a.fz", "N"}, {"b.fz", "N"}};
+  loads.values.resize(2, n_instants);
+  for (int i = 0; i < n_instants; ++i)
+    loads.values.col(i) << 1, std::cos(3 * 2 * pi * i / n_instants - pi / 10);
+  return loads;
+}
+
+// Red where the peak's own point alone is asked: it is constant, and the entry 0.
+TEST(CrestElsewhere, IsAnErrorOfThePeak) {
+  BodyAnalysis analysis;
+  analysis.loads.history = constant_and_third_order();
+  auto& responses = analysis.responses;
+  responses.channels = {"a.fz", "b.fz"};
+  responses.nodes.n = 3;
+  responses.stress_Pa.assign(3 * 2 * 6, 0.0);
+  responses.stress_Pa[0] = 100e6;                // node 0 by the constant load
+  responses.stress_Pa[(1 * 2 + 1) * 6] = 103e6;  // node 1 by the other; 98.0 MPa at the instants
+  responses.stress_Pa[(2 * 2 + 1) * 6] = 200e6;  // left out
+  analysis.places.excluded = {0, 0, 1};
+  analysis.envelope = envelope(analysis.loads.history, responses, 1);
+  analysis.peak.node = peak_node(analysis.envelope.von_mises.value_Pa, analysis.places);
+  analysis.peak.value_Pa = analysis.envelope.von_mises.value_Pa[analysis.peak.node];
+  analysis.peak.errors.set_numerical({"time_sampling", "", 0});
+  ASSERT_EQ(analysis.peak.node, 0u);
+  add_crest_elsewhere(analysis, 1);
+  EXPECT_NEAR(analysis.peak.errors.of("time_sampling"), 3e6, 1);  // rounding: order 3 is resolved
+}
+
+TEST(CrestElsewhere, DenserInstantsFollowTheFactors) {
+  const auto denser = at_denser_instants(constant_and_third_order());
+  const auto n = denser.values.cols();
+  ASSERT_GE(n, 24 * 3);
+  for (Eigen::Index i = 0; i < n; ++i)
+    EXPECT_NEAR(denser.values(1, i), std::cos(3 * 2 * pi * double(i) / double(n) - pi / 10), 1e-13);
+}
+
+TEST(CrestElsewhere, InstantsThatAreDenseOrOfAnOpenWindowStay) {
+  ChannelHistory loads;
+  loads.channels = {{"a.fz", "N"}};
+  loads.values = Eigen::ArrayXd::LinSpaced(240, 0, 2 * pi * 239 / 240).cos().transpose();
+  EXPECT_EQ(at_denser_instants(loads).values.cols(), 240);
+  loads.values = Eigen::ArrayXd::LinSpaced(20, 0, 1).transpose();
+  EXPECT_EQ(at_denser_instants(loads).values.cols(), 20);
+}
+
+}  // namespace
