@@ -77,6 +77,17 @@ TEST(WrongInput, OfTheCommandLineIsTold) {
   EXPECT_FALSE(fs::exists(directory / "results"));
 }
 
+TEST(WrongInput, AFolderInTheManifestsPlaceIsNamed) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
+  fs::remove(directory / "out/manifest.json");
+  fs::create_directory(directory / "out/manifest.json");
+  const auto run = millstress(directory.path, "run mill.toml -o out");
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_NE(run.err.find("manifest.json: is a directory"), std::string::npos) << run.err;
+}
+
 // What only a stage finds is told with the place in the scene, too.
 TEST(WrongInput, StagesNameThePlaceInTheScene) {
   const results_test::Directory directory;
