@@ -41,6 +41,8 @@ AccuracyOptions study_options_of(const AccuracyCommandOptions& options, const Sc
     if (scene.bodies.size() > 1 && options.body.empty())
       throw OptionError("--reference " + options.reference + ": of which body? Add --body");
     study.reference_Pa = option_in_si("--reference", options.reference, "Pa");
+    if (!(study.reference_Pa > 0))
+      throw OptionError("--reference " + options.reference + ": must be positive; write a stress above 0");
   }
   if (!options.body.empty() && scene.body(options.body) == nullptr)
     throw OptionError("--body " + options.body + ": the scene has no such body");

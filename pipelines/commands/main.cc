@@ -2,12 +2,15 @@
 #include <cstdio>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "fem/model/model.h"
 #include "fem/ranks/helper_ranks.h"
 #include "pipelines/commands/commands.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
+#include "pipelines/common/nearest_name.h"
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/common/version.h"
 
@@ -33,6 +36,29 @@ void require_written_stdout() {
   throw pipelines::FileError("standard output cannot be written; is the disk full behind it?");
 }
 
+/// A value that a script forgot must not mean the default.
+void refuse_empty_values(CLI::App& app) {
+  for (auto* command : app.get_subcommands([](CLI::App*) { return true; }))
+    for (auto* option : command->get_options())
+      if (option->get_type_size() > 0)
+        option->check([remedy = option->get_required() ? "" : ", or leave it out"](const std::string& value) {
+          return value.empty() ? std::string("is empty; give a value") + remedy : "";
+        });
+}
+
+/// Of a wrong command line: prints what is wrong with it.
+/// @return 0 for --help and --version
+int refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-' || !app.get_subcommands().empty()) return app.exit(error);
+  std::vector<std::string> names;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  const auto nearest = pipelines::nearest_name(argv[1], names);
+  std::cerr << "millstress: " << argv[1] << ": is no command"
+            << (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") << "; --help lists them\n";
+  return pipelines::scene_is_wrong;
+}
+
 /// The program on this rank: rank 0 does what the arguments say, any other one helps it to solve or works
 /// beside it.
 int run(int argc, char** argv) {
@@ -48,12 +74,13 @@ int run(int argc, char** argv) {
         pipelines::add_accuracy_command, pipelines::add_ports_command, pipelines::add_calculix_command,
         pipelines::add_report_command, pipelines::add_check_command, pipelines::add_init_command})
     add(app, chosen);
+  refuse_empty_values(app);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (first) {
-      if (app.exit(error) != 0) return pipelines::scene_is_wrong;
+      if (refuse(app, error, argc, argv) != 0) return pipelines::scene_is_wrong;
       return guarded(require_written_stdout);
     }
   }

@@ -1,6 +1,7 @@
 #include "pipelines/commands/option_value.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "pipelines/common/errors.h"
@@ -12,8 +13,8 @@ namespace {
 
 bool is_bare_number(const std::string& text) {
   char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return end != text.c_str() && *end == '\0';
+  const double number = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' && std::isfinite(number);
 }
 
 }  // namespace

@@ -30,11 +30,22 @@
 namespace pipelines {
 namespace {
 
+void refuse_without_use(bool is_given, const char* option, const char* why) {
+  if (is_given) throw OptionError(std::string(option) + ": has no use " + why + "; leave it out");
+}
+
 SweepRequest requested(const SweepCommandOptions& options, SweepRequest request) {
   if (!options.vary.empty()) request.vary = options.vary;
   if (!options.design.empty()) request.design = sweep_design(options.design);
   if (options.n_points > 0) request.n_points = options.n_points;
   if (options.seed >= 0) request.seed = std::uint64_t(options.seed);
+  const bool is_drawn = request.design == SweepDesign::latin_hypercube;
+  refuse_without_use(!is_drawn && options.n_points > 0, "--points", "without --design latin-hypercube");
+  refuse_without_use(!is_drawn && options.seed >= 0, "--seed", "without --design latin-hypercube");
+  constexpr const char* with_loads = "with --loads, which solves nothing";
+  refuse_without_use(options.loads_only && options.zones, "--zones", with_loads);
+  refuse_without_use(options.loads_only && !options.tolerance.empty(), "--tolerance", with_loads);
+  refuse_without_use(options.loads_only && !options.time_limit.empty(), "--time-limit", with_loads);
   request.zones = (request.zones || options.zones) && !options.loads_only;
   return request;
 }

@@ -40,10 +40,10 @@ bool stays_inside(const fs::path& name) {
 /// @return false if the manifest cannot be believed
 bool read_list(const fs::path& file, std::vector<ListedFile>& list) {
   const ManifestJson json = read_json_file(file);
+  if (!json.is_object() || !json.contains("files") || !json.contains("checksum")) return false;
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   if (text != text_of_manifest(json)) return false;  // spaces that are none any more mean nothing to JSON
-  if (!json.is_object() || !json.contains("files") || !json.contains("checksum")) return false;
   const auto& files = json.at("files");
   if (!files.is_object() || json.at("checksum") != list_checksum(files)) return false;
   for (const auto& [name, entry] : files.items()) {

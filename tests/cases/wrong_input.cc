@@ -51,6 +51,43 @@ TEST(WrongInput, IsNamedBeforeAnythingRuns) {
   EXPECT_FALSE(fs::exists(directory / "results"));
 }
 
+// A script's empty variable, a value without use, or a slip in the command is no wish for the default.
+TEST(WrongInput, OfTheCommandLineIsTold) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  const std::string sweep = "sweep mill.toml --vary 'machine.drive.speed = 1400, 1500 rpm' ";
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"run mill.toml --tolerance ''", "--tolerance: is empty"},
+      {"run mill.toml --time-limit ''", "--time-limit: is empty"},
+      {"run mill.toml --method ''", "--method: is empty"},
+      {"run mill.toml -o ''", "--output: is empty"},
+      {"run mill.toml --tolerance nan", "is not a finite number"},
+      {"rnu mill.toml", "rnu: is no command; did you mean \"run\"?"},
+      {"accuracy mill.toml --reference '0 MPa'", "--reference 0 MPa: must be positive"},
+      {sweep + "--points 3", "--points: has no use"},
+      {sweep + "--seed 3", "--seed: has no use"},
+      {sweep + "--loads --zones", "--zones: has no use"},
+      {sweep + "--loads --tolerance '5 %'", "--tolerance: has no use"},
+      {sweep + "--loads --time-limit '5 s'", "--time-limit: has no use"}};
+  for (const auto& [arguments, message] : wrong) {
+    const auto outcome = millstress(directory.path, arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << arguments << '\n' << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(directory / "results"));
+}
+
+TEST(WrongInput, AFolderInTheManifestsPlaceIsNamed) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
+  fs::remove(directory / "out/manifest.json");
+  fs::create_directory(directory / "out/manifest.json");
+  const auto run = millstress(directory.path, "run mill.toml -o out");
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_NE(run.err.find("manifest.json: is a directory"), std::string::npos) << run.err;
+}
+
 // What only a stage finds is told with the place in the scene, too.
 TEST(WrongInput, StagesNameThePlaceInTheScene) {
   const results_test::Directory directory;

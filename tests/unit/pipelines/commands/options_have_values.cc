@@ -39,6 +39,14 @@ TEST(Options, ABareTimeIsInSecondsAndOtherBareNumbersAreRefused) {
             std::string::npos);
 }
 
+TEST(Options, WhatIsNotFiniteIsToldSo) {
+  for (const char* text : {"nan", "inf", "1e400"})
+    for (const char* unit : {"1", "s", "Pa"})
+      EXPECT_NE(option_refusal([&] { option_in_si("--option", text, unit); }).find("is not a finite number"),
+                std::string::npos)
+          << text << ' ' << unit;
+}
+
 TEST(Options, OfASearchComeBeforeTheScenes) {
   const RequestedAccuracy scene{0.05, 60};
   EXPECT_EQ(requested_search("", "", scene).tolerance, 0.05);
