@@ -142,7 +142,7 @@ TEST(Histories, RefuseWhatIsNoPointAndFilesOfAnotherRun) {
   const results_test::Directory directory;
   write(directory / "scene.toml", bent_shaft());
   for (const char* at :
-       {"zone 0", "zone 99", "node 99999999", "nowhere", "1, 2 mm", "1, 2, 3", "shaft/other", ""}) {
+       {"zone 0", "zone 99", "node 99999999", "nowhere", "1, 2 mm", "1, 2, 3", "shaft/other"}) {
     const auto text = refusal(directory.path, "scene.toml -o h --at '" + std::string(at) + "'");
     EXPECT_NE(text.find("is no point of the run"), std::string::npos) << at << text;
     EXPECT_NE(text.find("middle"), std::string::npos) << "names those that are: " << text;
