@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "fem/stress/surface_stress.h"
+#include "pipelines/common/nearest_name.h"
 
 namespace pipelines {
 namespace {
@@ -143,6 +144,14 @@ std::vector<HotSpotStress> hot_spots_under(const std::vector<meshes::HotSpot>& d
   }
   sort_by_stress(spots);
   return spots;
+}
+
+std::string warning_of_covered(const meshes::BodyMesh& mesh) {
+  if (mesh.covered_toes.empty()) return {};
+  return "no hot-spot stress is read at " + listed(mesh.covered_toes) +
+         ", where another plate or a flange is closer than 1.4 walls to the toe: what these weld toes bear "
+         "is "
+         "not part of the results; leave more room to judge them";
 }
 
 }  // namespace pipelines

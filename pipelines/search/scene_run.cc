@@ -19,7 +19,6 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
-#include "pipelines/common/nearest_name.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_bounds.h"
 #include "pipelines/effects/effect_choice.h"
@@ -179,10 +178,8 @@ private:
     if (analysis.vibration)
       if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
         warnings_.push_back(warning);
-    if (const auto& covered = run_.loaded.meshed[i].mesh.covered_toes; !covered.empty())
-      warnings_.push_back(analysis.scene.name + ": no hot-spot stress is read at " + listed(covered) +
-                          ", where another plate or a flange is closer than 1.4 walls to the toe: what these "
-                          "weld toes bear is not part of the results; leave more room to judge them");
+    if (const auto warning = warning_of_covered(run_.loaded.meshed[i].mesh); !warning.empty())
+      warnings_.push_back(analysis.scene.name + ": " + warning);
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
     if (!is_without_mesh(i)) files_[i].finish(analysis, run_.loaded.meshed[i]);
     run_.loaded.meshed[i].model.reset();
