@@ -146,9 +146,9 @@ std::vector<HotSpotStress> hot_spots_under(const std::vector<meshes::HotSpot>& d
   return spots;
 }
 
-std::string warning_of_covered(const meshes::BodyMesh& mesh) {
+std::string warning_of_covered(const std::string& body, const meshes::BodyMesh& mesh) {
   if (mesh.covered_toes.empty()) return {};
-  return "no hot-spot stress is read at " + listed(mesh.covered_toes) +
+  return body + ": no hot-spot stress is read at " + listed(mesh.covered_toes) +
          ", where another plate or a flange is closer than 1.4 walls to the toe: what these weld toes bear "
          "is "
          "not part of the results; leave more room to judge them";

@@ -56,6 +56,6 @@ std::vector<HotSpotStress> hot_spots_under(const std::vector<meshes::HotSpot>& d
 void sort_by_stress(std::vector<HotSpotStress>& spots);
 
 /// A sentence for the user on weld toes without a hot-spot stress; empty where the mesh reads all of them.
-std::string warning_of_covered(const meshes::BodyMesh& mesh);
+std::string warning_of_covered(const std::string& body, const meshes::BodyMesh& mesh);
 
 }  // namespace pipelines

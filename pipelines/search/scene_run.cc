@@ -175,11 +175,9 @@ private:
       run_.kept_under[run_.scene.bodies[i].name + '/' + kept_responses_name(Method::solid)] =
           keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
     add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
-    if (analysis.vibration)
-      if (const auto warning = warning_of(analysis.scene, *analysis.vibration); !warning.empty())
-        warnings_.push_back(warning);
-    if (const auto warning = warning_of_covered(run_.loaded.meshed[i].mesh); !warning.empty())
-      warnings_.push_back(analysis.scene.name + ": " + warning);
+    for (auto& warning : {analysis.vibration ? warning_of(analysis.scene, *analysis.vibration) : "",
+                          warning_of_covered(analysis.scene.name, run_.loaded.meshed[i].mesh)})
+      if (!warning.empty()) warnings_.push_back(warning);
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
     if (!is_without_mesh(i)) files_[i].finish(analysis, run_.loaded.meshed[i]);
     run_.loaded.meshed[i].model.reset();
