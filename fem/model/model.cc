@@ -123,9 +123,8 @@ GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const
 }
 
 SolverReport Model::predict_solver(std::size_t n_loads, const SolverChoice& choice) const {
-  const bool by_halves = choice.by_halves && n_ranks(impl_->communicator) == 1;
-  return fem::predict_solver(impl_->grid, impl_->cells, impl_->materials, by_halves ? impl_->half() : nullptr,
-                             n_loads, choice);
+  return fem::predict_solver(impl_->grid, impl_->cells, impl_->materials,
+                             choice.by_halves ? impl_->half() : nullptr, n_loads, choice);
 }
 
 std::vector<NaturalMode> Model::natural_frequencies(int n_modes,
@@ -169,21 +168,21 @@ BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>
 }
 
 /// Nothing if it gives up, which the report then tells.
-std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& materials,
-                                        BalancedLoads& loads, const SolverChoice& choice,
-                                        const Progress& progress, SolverReport& report,
-                                        MPI_Comm communicator) {
+std::optional<Solution> try_iteratively(const Grid& grid, const CellsOfNodes& cells,
+                                        const CellMaterials& materials, BalancedLoads& loads,
+                                        const SolverChoice& choice, const Progress& progress,
+                                        SolverReport& report, MPI_Comm communicator) {
   std::string failure;
   try {
-    if (n_ranks(communicator) == 1 || grid.hanging.n() > 0) {
+    if (n_ranks(communicator) == 1) {
       if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure))
         return solution;
     } else {
       std::optional<Solution> solution;
       call_helpers(Task::solve_iteratively, communicator);
       together(communicator, [&] {
-        solution =
-            solve_iteratively_on_ranks(grid, materials, loads, choice, progress, failure, communicator);
+        solution = solve_iteratively_on_ranks(grid, cells, materials, loads, choice, progress, failure,
+                                              communicator);
       });
       if (solution) return solution;
     }
@@ -208,18 +207,20 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
   const bool alone = n_ranks(communicator) == 1;
   choice.coarse_level = report.coarse_level;
   const auto iterate = [&] {
-    return try_iteratively(grid, materials, loads, choice, progress, report, communicator);
+    return try_iteratively(grid, cells, materials, loads, choice, progress, report, communicator);
   };
   if (report.used == Solver::iterative)
     if (auto solution = iterate()) return std::move(*solution);
-  if (!alone && grid.hanging.n() == 0) {
+  const auto factorise_on_ranks = [&] {
     std::optional<Solution> solution;
     call_helpers(Task::solve_directly, communicator);
     together(communicator, [&] {
       solution = solve_directly_on_ranks(grid, cells, materials, loads, progress, communicator);
     });
     return std::move(*solution);
-  }
+  };
+  // A half has a quarter of the whole body's work at most: rank 0 factorises it alone.
+  if (!alone && half_of_body() == nullptr) return factorise_on_ranks();
   const auto factorise = [&](DirectSolveOptions options) {
     const auto* half = half_of_body();
     return half != nullptr
@@ -232,11 +233,15 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
   try {
     if (auto solution = factorise(std::move(direct))) return std::move(*solution);
   } catch (const DoesNotFit&) {
-    if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) throw;
+    if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) {
+      if (!alone) return factorise_on_ranks();
+      throw;
+    }
     report.used = Solver::iterative;
     report.reason += ", but the factor does not fit into memory";
     choice.max_iterations *= patience;
     if (auto solution = iterate()) return std::move(*solution);
+    if (!alone) return factorise_on_ranks();
     throw;
   }
   report.used = Solver::iterative;
@@ -281,9 +286,9 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   }
   DirectSolveOptions direct;
   direct.kept = choice.keep_factor ? &impl_->factor : nullptr;
-  const bool alone = n_ranks(impl_->communicator) == 1 || grid.hanging.n() > 0;
-  const auto half_of_body = [&] { return alone && choice.by_halves ? impl_->half() : nullptr; };
-  if (responses.solver.used == Solver::direct && alone) {
+  const bool alone = n_ranks(impl_->communicator) == 1;
+  const auto half_of_body = [&] { return choice.by_halves ? impl_->half() : nullptr; };
+  if (responses.solver.used == Solver::direct && (alone || half_of_body() != nullptr)) {
     const auto* planned = half_of_body();
     direct.plan = std::async(std::launch::async, [&, planned] {  // beside the loads
       return planned != nullptr ? PlannedFactor(planned->grid(), planned->cells())
@@ -344,7 +349,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), seen.n_nodes, 3 * n_loads);
   const bool by_patches = recovery == Recovery::patch;
   const auto loaded = loaded_groups(loads, impl_->body);
-  if (alone) {
+  if (alone || half != nullptr) {
     responses.stress_Pa.resize(seen.n_nodes * n_loads * 6);
     Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
     recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches, displacement, stress,

@@ -18,6 +18,11 @@ struct Lame {
 };
 Lame lame(const Material& material);
 
+/// Cells without stiffness are there for the nodes of others that hang on them (StiffnessShare).
+inline bool has_stiffness(const Lame& elastic) {
+  return elastic.mu_Pa > 0;
+}
+
 /// @throws std::invalid_argument unless youngs_modulus > 0, -1 < poisson_ratio < 0.5, density > 0
 void refuse_impossible(const Material& material);
 

@@ -97,6 +97,14 @@ std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_o
   return rank;
 }
 
+std::size_t n_unknowns_of_rank(const Grid& grid, const std::vector<int>& rank_of_node, int rank) {
+  const auto& hanging = grid.hanging.node;
+  const auto n_counted = std::count(rank_of_node.begin(), rank_of_node.end(), rank);
+  const auto n_hanging = std::count_if(hanging.begin(), hanging.end(),
+                                       [&](std::int32_t node) { return rank_of_node[node] == rank; });
+  return 3 * static_cast<std::size_t>(n_counted - n_hanging);
+}
+
 std::vector<std::int32_t> cells_of_rank(const std::vector<int>& rank_of_cell, int rank) {
   std::vector<std::int32_t> cells;
   for (std::size_t c = 0; c < rank_of_cell.size(); ++c)
@@ -125,6 +133,72 @@ std::vector<std::int32_t> with_layers(const Grid& grid, const CellsOfNodes& cell
   }
   std::sort(all.begin(), all.end());
   return all;
+}
+
+std::vector<std::int32_t> with_cells_hung_on(const Grid& grid, const CellsOfNodes& cells_of_nodes,
+                                             const std::vector<std::int32_t>& cells) {
+  const auto& hanging = grid.hanging;
+  if (hanging.n() == 0) return cells;
+  std::vector<std::int32_t> hangs(grid.n_nodes, -1);
+  for (std::size_t i = 0; i < hanging.n(); ++i) hangs[hanging.node[i]] = static_cast<std::int32_t>(i);
+  const auto corners = corner_nodes(grid.shape());
+  const auto is_corner_of = [&](std::int32_t cell, std::int32_t node) {
+    const auto* nodes = grid.nodes_of(cell);
+    return std::any_of(corners.begin(), corners.end(), [&](int i) { return nodes[i] == node; });
+  };
+  std::vector<char> taken(grid.n_cells(), 0), is_there(grid.n_nodes, 0);
+  std::vector<std::int32_t> all, masters;
+  const auto take = [&](std::int32_t cell) {
+    if (taken[cell] != 0) return;
+    taken[cell] = 1;
+    all.push_back(cell);
+  };
+  for (const auto cell : cells) take(cell);
+  std::size_t next = 0;
+  while (next < all.size()) {
+    for (; next < all.size(); ++next) {
+      const auto cell = all[next];
+      for (int i = 0; i < grid.nodes_per_cell(); ++i) {
+        const auto node = grid.nodes_of(cell)[i];
+        is_there[node] = 1;
+        if (const auto h = hangs[node]; h >= 0)
+          masters.insert(masters.end(), hanging.master.begin() + std::ptrdiff_t(hanging.begin[h]),
+                         hanging.master.begin() + std::ptrdiff_t(hanging.begin[h + 1]));
+      }
+      for (const int i : corners) {  // some lie in the middle of a larger cell's edge or face
+        const auto node = grid.nodes_of(cell)[i];
+        for (auto k = cells_of_nodes.begin[node]; k < cells_of_nodes.begin[node + 1]; ++k)
+          if (!is_corner_of(cells_of_nodes.cell[k], node)) take(cells_of_nodes.cell[k]);
+      }
+    }
+    for (const auto master : masters)
+      if (is_there[master] == 0) take(cells_of_nodes.cell[cells_of_nodes.begin[master]]);
+    masters.clear();
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+StiffnessShare share_of_rank(const Grid& grid, const CellsOfNodes& cells_of_nodes,
+                             const std::vector<int>& rank_of_cell, int rank, const PerCell<Lame>& elastic) {
+  StiffnessShare share;
+  share.part =
+      make_subdomain(grid, with_cells_hung_on(grid, cells_of_nodes, cells_of_rank(rank_of_cell, rank)));
+  for (const auto c : share.part.cell)
+    share.elastic.push_back(rank_of_cell[c] == rank ? elastic[c] : Lame{0, 0});
+  return share;
+}
+
+std::size_t StiffnessShare::n_own_cells() const {
+  return std::size_t(std::count_if(elastic.begin(), elastic.end(), has_stiffness));
+}
+
+Message& operator<<(Message& message, const StiffnessShare& share) {
+  return message << share.part << share.elastic;
+}
+
+Message& operator>>(Message& message, StiffnessShare& share) {
+  return message >> share.part >> share.elastic;
 }
 
 std::vector<std::int32_t> nodes_of_cells(const Grid& grid, const std::vector<std::int32_t>& cells) {

@@ -30,6 +30,9 @@ std::vector<int> ranks_of_cells(const Grid& grid, int n_ranks);
 /// The rank that counts each node: the first of those of its cells.
 std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell);
 
+/// Unknowns at the nodes that a rank counts; hanging nodes have none.
+std::size_t n_unknowns_of_rank(const Grid& grid, const std::vector<int>& rank_of_node, int rank);
+
 /// Numbers of the nodes of some cells, ascending.
 std::vector<std::int32_t> nodes_of_cells(const Grid& grid, const std::vector<std::int32_t>& cells);
 
@@ -39,6 +42,23 @@ std::vector<std::int32_t> cells_of_rank(const std::vector<int>& rank_of_cell, in
 /// Those cells, and so many layers of cells that touch them. Ascending.
 std::vector<std::int32_t> with_layers(const Grid& grid, const CellsOfNodes& cells_of_nodes,
                                       const std::vector<std::int32_t>& cells, int n_layers);
+
+/// Those cells, and of a mesh that is refined locally the larger ones that their nodes hang on, and what the
+/// nodes of these hang on in turn. Ascending.
+std::vector<std::int32_t> with_cells_hung_on(const Grid& grid, const CellsOfNodes& cells_of_nodes,
+                                             const std::vector<std::int32_t>& cells);
+
+/// The share of one rank in a body's stiffness: its cells, and those that their nodes hang on, which are
+/// there without stiffness of their own.
+struct StiffnessShare {
+  Subdomain part;
+  std::vector<Lame> elastic;  ///< of the part's cells; zero where another rank has the cell
+  std::size_t n_own_cells() const;
+};
+StiffnessShare share_of_rank(const Grid& grid, const CellsOfNodes& cells_of_nodes,
+                             const std::vector<int>& rank_of_cell, int rank, const PerCell<Lame>& elastic);
+Message& operator<<(Message& message, const StiffnessShare& share);
+Message& operator>>(Message& message, StiffnessShare& share);
 
 /// Nodes of one's own that another rank's cells have too, ascending in the body's numbers on both sides.
 struct Neighbour {

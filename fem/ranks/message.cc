@@ -25,12 +25,14 @@ void Message::get(void* to, std::size_t n_bytes) {
 
 Message& Message::operator<<(const Grid& grid) {
   return *this << grid.kind << grid.degree << grid.n_nodes << grid.xyz_m << grid.cell_nodes << grid.volume_id
-               << grid.boundary << grid.interfaces;
+               << grid.boundary << grid.interfaces << grid.hanging.node << grid.hanging.begin
+               << grid.hanging.master << grid.hanging.weight;
 }
 
 Message& Message::operator>>(Grid& grid) {
   return *this >> grid.kind >> grid.degree >> grid.n_nodes >> grid.xyz_m >> grid.cell_nodes >>
-         grid.volume_id >> grid.boundary >> grid.interfaces;
+         grid.volume_id >> grid.boundary >> grid.interfaces >> grid.hanging.node >> grid.hanging.begin >>
+         grid.hanging.master >> grid.hanging.weight;
 }
 
 void Message::send(int to, MPI_Comm communicator) const {

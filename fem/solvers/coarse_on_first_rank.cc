@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -33,6 +34,7 @@ Grid join(const std::vector<Part>& parts, std::vector<std::vector<std::int32_t>>
   grid.kind = parts.front().grid.kind;
   grid.degree = 1;
   std::unordered_map<std::int32_t, std::int32_t> number;
+  std::map<std::int32_t, std::vector<std::pair<std::int32_t, double>>> masters;  // of hanging corners
   for (const auto& part : parts) {
     auto& own = node.emplace_back();
     for (std::size_t i = 0; i < part.corner.size(); ++i) {
@@ -45,6 +47,21 @@ Grid join(const std::vector<Part>& parts, std::vector<std::vector<std::int32_t>>
     }
     for (const auto i : part.grid.cell_nodes) grid.cell_nodes.push_back(own[i]);
     grid.volume_id.insert(grid.volume_id.end(), part.grid.volume_id.begin(), part.grid.volume_id.end());
+    const auto& hanging = part.grid.hanging;
+    for (std::size_t i = 0; i < hanging.n(); ++i) {
+      auto& known = masters[own[hanging.node[i]]];
+      if (!known.empty()) continue;  // every part that has the corner says the same
+      for (auto k = hanging.begin[i]; k < hanging.begin[i + 1]; ++k)
+        known.emplace_back(own[hanging.master[k]], hanging.weight[k]);
+    }
+  }
+  for (const auto& [corner, known] : masters) {
+    grid.hanging.node.push_back(corner);
+    for (const auto& [master, weight] : known) {
+      grid.hanging.master.push_back(master);
+      grid.hanging.weight.push_back(weight);
+    }
+    grid.hanging.begin.push_back(grid.hanging.master.size());
   }
   return grid;
 }

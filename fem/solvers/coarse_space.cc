@@ -155,6 +155,20 @@ std::vector<Eigen::Matrix<double, 3, 8>> hat_gradients(const Tabulation& at) {
   return result;
 }
 
+/// The mesh of corners without the cells of other ranks, which these bring themselves.
+Grid cells_with_stiffness(Grid coarse, const PerCell<Lame>& elastic) {
+  std::vector<std::int32_t> nodes;
+  std::vector<int> volume_id;
+  for (std::size_t c = 0; c < coarse.n_cells(); ++c) {
+    if (!has_stiffness(elastic[std::int32_t(c)])) continue;
+    nodes.insert(nodes.end(), coarse.nodes_of(c), coarse.nodes_of(c) + 8);
+    volume_id.push_back(coarse.volume_id[c]);
+  }
+  coarse.cell_nodes = std::move(nodes);
+  coarse.volume_id = std::move(volume_id);
+  return coarse;
+}
+
 /// P'K P.
 SymmetricMatrix assemble(const Grid& grid, const CellOrder& order, const std::vector<double>& metric,
                          const PerCell<Lame>& elastic, const Grid& coarse, const CellsOfNodes& cells,
@@ -205,8 +219,8 @@ CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::ve
   std::vector<std::int32_t> corner;
   for (std::size_t place = 0; place < grid.n_nodes; ++place)
     if (coarse_of_place[place] >= 0) corner.push_back(shared->body_node()[place]);
-  on_first_rank_ = std::make_unique<CoarseOnFirstRank>(shared->communicator(), coarse, corner, stiffness(),
-                                                       level, kernels);
+  on_first_rank_ = std::make_unique<CoarseOnFirstRank>(
+      shared->communicator(), cells_with_stiffness(coarse, elastic), corner, stiffness(), level, kernels);
 }
 
 std::size_t CoarseSpace::bytes() const {

@@ -21,34 +21,33 @@ namespace {
 
 /// What a rank is given.
 struct DirectJob {
-  Subdomain part;
-  std::vector<Lame> elastic;
+  StiffnessShare share;
   std::int64_t n_unknowns = 0;     // of the body
   bool clamped = false;            // else supported
   std::vector<std::int64_t> held;  // unknowns of the part, ascending
 };
 
 Message& operator<<(Message& message, const DirectJob& job) {
-  return message << job.part << job.elastic << job.n_unknowns << job.clamped << job.held;
+  return message << job.share << job.n_unknowns << job.clamped << job.held;
 }
 
 Message& operator>>(Message& message, DirectJob& job) {
-  return message >> job.part >> job.elastic >> job.n_unknowns >> job.clamped >> job.held;
+  return message >> job.share >> job.n_unknowns >> job.clamped >> job.held;
 }
 
-DirectJob make_job(const Grid& grid, const std::vector<int>& rank_of_cell, int rank,
-                   const PerCell<Lame>& elastic, const BalancedLoads& loads) {
+DirectJob make_job(const Grid& grid, const CellsOfNodes& cells, const std::vector<int>& rank_of_cell,
+                   int rank, const PerCell<Lame>& elastic, const BalancedLoads& loads) {
   DirectJob job;
-  job.part = make_subdomain(grid, cells_of_rank(rank_of_cell, rank));
-  job.elastic = elastic_of(job.part, elastic);
+  job.share = share_of_rank(grid, cells, rank_of_cell, rank, elastic);
+  const auto& own = job.share.part.node;
   job.n_unknowns = static_cast<std::int64_t>(3 * grid.n_nodes);
   job.clamped = !loads.clamped.empty();
   const auto supports = choose_supports(grid);
   const auto held = job.clamped ? loads.clamped : std::vector<std::int64_t>(supports.begin(), supports.end());
   for (const auto unknown : held) {
-    const auto found = std::lower_bound(job.part.node.begin(), job.part.node.end(), unknown / 3);
-    if (found != job.part.node.end() && *found == unknown / 3)
-      job.held.push_back(3 * (found - job.part.node.begin()) + unknown % 3);
+    const auto found = std::lower_bound(own.begin(), own.end(), unknown / 3);
+    if (found != own.end() && *found == unknown / 3)
+      job.held.push_back(3 * (found - own.begin()) + unknown % 3);
   }
   return job;
 }
@@ -60,11 +59,11 @@ public:
       : communicator_(communicator), job_(std::move(job)), exchange_(std::move(exchange)) {}
 
   void assemble() {
-    const auto& grid = job_.part.grid;
+    const auto& grid = job_.share.part.grid;
     const auto cells = cells_of_nodes(grid);
     const NodeGraph graph = make_node_graph(grid, cells);
     matrix_ = make_matrix(graph);
-    assemble_stiffness(grid, colour_cells(grid, cells), graph, cell_after_cell(job_.elastic), matrix_);
+    assemble_stiffness(grid, colour_cells(grid, cells), graph, cell_after_cell(job_.share.elastic), matrix_);
     if (job_.clamped)
       clamp(job_.held, matrix_);
     else
@@ -72,8 +71,8 @@ public:
   }
 
   void factorise(const std::vector<std::int32_t>& node_order) {
-    factor_ =
-        std::make_unique<MumpsFactor>(communicator_, job_.n_unknowns, matrix_, job_.part.node, node_order);
+    factor_ = std::make_unique<MumpsFactor>(communicator_, job_.n_unknowns, matrix_, job_.share.part.node,
+                                            node_order);
   }
 
   /// @param columns  replaced on rank 0
@@ -98,7 +97,7 @@ public:
   /// Rank 0 gets that of all ranks, and the factor's bytes.
   std::vector<RankWork> work(std::size_t n_unknowns, double& factor_bytes) const {
     factor_bytes = sum_over_ranks(communicator_, Eigen::ArrayXd::Constant(1, factor_->bytes()))[0];
-    return gather_work(communicator_, {job_.part.grid.n_cells(), n_unknowns,
+    return gather_work(communicator_, {job_.share.n_own_cells(), n_unknowns,
                                        factor_->bytes() + 16.0 * double(matrix_.value.size())});
   }
 
@@ -135,11 +134,11 @@ Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, co
   std::vector<std::vector<std::int32_t>> nodes(n);
   DirectJob own;
   for (int r = n - 1; r >= 0; --r) {
-    DirectJob job = make_job(grid, rank_of_cell, r, elastic, loads);
-    nodes[r] = job.part.node;
+    DirectJob job = make_job(grid, cells, rank_of_cell, r, elastic, loads);
+    nodes[r] = job.share.part.node;
     if (r > 0) {
       Message message;
-      message << job << std::size_t(3 * std::count(rank_of_node.begin(), rank_of_node.end(), r));
+      message << job << n_unknowns_of_rank(grid, rank_of_node, r);
       message.send(r, communicator);
     } else {
       own = std::move(job);
@@ -193,7 +192,7 @@ Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, co
                                                   .cwiseQuotient(loads.largest_entry)
                                                   .maxCoeff());
   double factor_bytes = 0;
-  solution.ranks = share.work(3 * std::count(rank_of_node.begin(), rank_of_node.end(), 0), factor_bytes);
+  solution.ranks = share.work(n_unknowns_of_rank(grid, rank_of_node, 0), factor_bytes);
   for (const auto& work : solution.ranks) solution.bytes += work.bytes;
   solution.factor_gigabytes = 1e-9 * factor_bytes;
   return solution;

@@ -18,24 +18,24 @@ namespace {
 
 /// What a rank is given.
 struct IterativeJob {
-  Subdomain part;
-  std::vector<Lame> elastic;
+  StiffnessShare share;
   std::vector<char> counted;  // nodes that this rank counts
   std::vector<Neighbour> neighbours;
   double modulus_Pa = 1;
+  std::size_t n_unknowns = 0;  // of the nodes that this rank counts
   Eigen::Index width = 0;
   SolverChoice choice;
   Eigen::RowVectorXd norm, largest_entry;  // of the loads
 };
 
 Message& operator<<(Message& message, const IterativeJob& job) {
-  return message << job.part << job.elastic << job.counted << job.neighbours << job.modulus_Pa << job.width
-                 << job.choice << job.norm << job.largest_entry;
+  return message << job.share << job.counted << job.neighbours << job.modulus_Pa << job.n_unknowns
+                 << job.width << job.choice << job.norm << job.largest_entry;
 }
 
 Message& operator>>(Message& message, IterativeJob& job) {
-  return message >> job.part >> job.elastic >> job.counted >> job.neighbours >> job.modulus_Pa >> job.width >>
-         job.choice >> job.norm >> job.largest_entry;
+  return message >> job.share >> job.counted >> job.neighbours >> job.modulus_Pa >> job.n_unknowns >>
+         job.width >> job.choice >> job.norm >> job.largest_entry;
 }
 
 /// Moves the nodes that this rank counts to the front; their order stays.
@@ -51,8 +51,8 @@ SharedNodes share_nodes(MPI_Comm communicator, const IterativeJob& job, const Ce
   auto neighbours = job.neighbours;
   for (auto& neighbour : neighbours)
     for (auto& node : neighbour.nodes) node = order.node_place[node];
-  std::vector<std::int32_t> body_node(job.part.node.size());
-  for (std::size_t i = 0; i < body_node.size(); ++i) body_node[order.node_place[i]] = job.part.node[i];
+  std::vector<std::int32_t> body_node(job.share.part.node.size());
+  for (std::size_t i = 0; i < body_node.size(); ++i) body_node[order.node_place[i]] = job.share.part.node[i];
   const auto n_counted = std::count(job.counted.begin(), job.counted.end(), 1);
   return {communicator, std::move(neighbours), static_cast<std::size_t>(n_counted), std::move(body_node)};
 }
@@ -76,7 +76,7 @@ std::optional<Solution> iterate_share(MPI_Comm communicator, const IterativeJob&
                                       const NodeExchange& all_nodes, const NodeExchange& counted_nodes,
                                       Eigen::MatrixXd& force, const StepReport& progress,
                                       std::string& failure) {
-  CellOrder order = order_cells(job.part.grid);
+  CellOrder order = order_cells(job.share.part.grid);
   count_first(job.counted, order.node_place);
   const SharedNodes shared = share_nodes(communicator, job, order);
   BalancedLoads loads;
@@ -92,8 +92,8 @@ std::optional<Solution> iterate_share(MPI_Comm communicator, const IterativeJob&
   };
   std::optional<Solution> solution;
   try {
-    solution = iterate(job.part.grid, order, cell_after_cell(job.elastic), job.modulus_Pa, loads, job.width,
-                       job.choice, progress, failure, &shared);
+    solution = iterate(job.share.part.grid, order, cell_after_cell(job.share.elastic), job.modulus_Pa, loads,
+                       job.width, job.choice, progress, failure, &shared);
   } catch (const FailedTogether&) {
     collect(loads.force, force);
     throw;
@@ -103,8 +103,7 @@ std::optional<Solution> iterate_share(MPI_Comm communicator, const IterativeJob&
     return std::nullopt;
   }
   loads.force.resize(0, 0);
-  solution->ranks =
-      gather_work(communicator, {job.part.grid.n_cells(), 3 * shared.n_counted(), solution->bytes});
+  solution->ranks = gather_work(communicator, {job.share.n_own_cells(), job.n_unknowns, solution->bytes});
   const Eigen::MatrixXd own = std::move(solution->displacement);
   collect(own, solution->displacement);
   return solution;
@@ -112,16 +111,17 @@ std::optional<Solution> iterate_share(MPI_Comm communicator, const IterativeJob&
 
 }  // namespace
 
-std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellMaterials& materials,
-                                                   BalancedLoads& loads, const SolverChoice& choice,
-                                                   const StepReport& progress, std::string& failure,
-                                                   MPI_Comm communicator) {
+std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellsOfNodes& cells,
+                                                   const CellMaterials& materials, BalancedLoads& loads,
+                                                   const SolverChoice& choice, const StepReport& progress,
+                                                   std::string& failure, MPI_Comm communicator) {
   progress(0.05, "prepare multigrid");
   const int n = n_ranks(communicator);
   const auto rank_of_cell = ranks_of_cells(grid, n);
   const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
   std::vector<std::vector<std::int32_t>> nodes, counted_nodes(n);
-  for (int r = 0; r < n; ++r) nodes.push_back(nodes_of_cells(grid, cells_of_rank(rank_of_cell, r)));
+  for (int r = 0; r < n; ++r)
+    nodes.push_back(nodes_of_cells(grid, with_cells_hung_on(grid, cells, cells_of_rank(rank_of_cell, r))));
   auto neighbours = find_neighbours(nodes, grid.n_nodes);
   IterativeJob job;
   job.modulus_Pa = materials.largest_modulus_Pa();
@@ -131,11 +131,11 @@ std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellM
   job.norm = loads.norm;
   job.largest_entry = loads.largest_entry;
   for (int r = n - 1; r >= 0; --r) {
-    job.part = make_subdomain(grid, cells_of_rank(rank_of_cell, r));
-    job.elastic = elastic_of(job.part, elastic);
+    job.share = share_of_rank(grid, cells, rank_of_cell, r, elastic);
     job.neighbours = std::move(neighbours[r]);
+    job.n_unknowns = n_unknowns_of_rank(grid, rank_of_node, r);
     job.counted.clear();
-    for (const auto node : job.part.node) {
+    for (const auto node : job.share.part.node) {
       job.counted.push_back(rank_of_node[node] == r ? 1 : 0);
       if (rank_of_node[node] == r) counted_nodes[r].push_back(node);
     }

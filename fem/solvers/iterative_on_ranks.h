@@ -16,10 +16,10 @@ namespace fem {
 /// same number of ranks and threads. Called on rank 0, while the others are in help_to_solve_iteratively.
 /// @param loads  forces are given away: there again only if there is no solution
 /// @throws FailedTogether as CoarseOnFirstRank
-std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellMaterials& materials,
-                                                   BalancedLoads& loads, const SolverChoice& choice,
-                                                   const StepReport& progress, std::string& failure,
-                                                   MPI_Comm communicator);
+std::optional<Solution> solve_iteratively_on_ranks(const Grid& grid, const CellsOfNodes& cells,
+                                                   const CellMaterials& materials, BalancedLoads& loads,
+                                                   const SolverChoice& choice, const StepReport& progress,
+                                                   std::string& failure, MPI_Comm communicator);
 void help_to_solve_iteratively(MPI_Comm communicator);
 
 }  // namespace fem

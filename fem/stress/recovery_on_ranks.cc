@@ -88,7 +88,9 @@ void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const 
   job.by_patches = by_patches ? 1 : 0;
   job.hardly_compresses = any_hardly_compresses(grid, elastic) ? 1 : 0;  // somewhere in the body
   for (int r = n - 1; r >= 0; --r) {
-    job.part = make_subdomain(grid, with_layers(grid, cells, cells_of_rank(rank_of_cell, r), n_layers));
+    job.part = make_subdomain(
+        grid,
+        with_cells_hung_on(grid, cells, with_layers(grid, cells, cells_of_rank(rank_of_cell, r), n_layers)));
     job.elastic = elastic_of(job.part, elastic);
     nodes[r] = job.part.node;
     job.counted.clear();

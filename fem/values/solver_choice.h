@@ -13,7 +13,7 @@ enum class Solver {
   automatic,  ///< of those that suit the body and fit into memory: the iterative one if predicted to save
               ///< more than a second, else the direct one. Where few cells are stretched more than 1 : 12
               ///< and none more than 1 : 25 the analysis of the matrix decides
-  direct,     ///< sparse factorisation (CHOLMOD; on several MPI ranks MUMPS)
+  direct,     ///< sparse factorisation (CHOLMOD; on several MPI ranks MUMPS, but for halves)
   iterative,  ///< conjugate gradients with polynomial multigrid; the direct one if that does not converge
 };
 

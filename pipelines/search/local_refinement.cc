@@ -9,7 +9,6 @@
 #include "pipelines/analysis/error_budget.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/submodels.h"
-#include "pipelines/common/several_ranks.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {
@@ -229,7 +228,7 @@ std::vector<PlaceStress> with_goal_errors(std::vector<PlaceStress> judged, const
 bool is_refined_locally(const BodyScene& body) {
   const bool is_of_blocks = (body.shaft() != nullptr && body.shaft()->keyways.empty()) ||
                             std::holds_alternative<ChamberShape>(body.shape);
-  return is_of_blocks && body.degree > 1 && n_ranks_of_a_body() == 1;
+  return is_of_blocks && body.degree > 1;
 }
 
 LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,

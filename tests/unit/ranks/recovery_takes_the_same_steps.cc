@@ -38,6 +38,12 @@ TEST(Recovery, OfHexahedraWithCharts) {
   expect_same(fem::read_grid(shaft.body), shaft.body.cylinders, {shaft.ports.at("end_1").boundary_id});
 }
 
+TEST(Recovery, OfRefinedHexahedra) {
+  const auto shaft = fem_tests::eccentric_shaft(2);
+  const auto body = fem_tests::refined_at_random(shaft.body, 2, 0.05, 2);
+  expect_same(fem::read_grid(body), body.cylinders, {shaft.ports.at("end_1").boundary_id});
+}
+
 TEST(Recovery, OfTetrahedra) {
   const auto grid = fem_tests::tetrahedra_block({1, 1, 30}, [](const fem_tests::Point& x) {
     return fem_tests::Point(x[0], x[1] + 0.2 * x[2] * x[2], 30 * x[2]);

@@ -49,6 +49,7 @@ struct Ranks : testing::Test {
     fem::SolverChoice choice;
     choice.solver = solver;
     choice.relative_tolerance = 1e-12;
+    choice.by_halves = false;  // which rank 0 solves alone
     return fem::Model(body, communicator).unit_responses(loads, {}, fem::Recovery::patch, {}, choice);
   }
 
@@ -60,6 +61,8 @@ struct Ranks : testing::Test {
     EXPECT_EQ(one.solver.used, solver) << one.solver.reason;
     EXPECT_EQ(several.solver.used, solver) << several.solver.reason;
     EXPECT_TRUE(one.solver.ranks.empty());
+    EXPECT_LE(std::abs(several.solver.n_iterations - one.solver.n_iterations), 2)
+        << "the preconditioner is the same";
     const double displacement = difference(several.displacement_m, one.displacement_m, loads.size(), 3),
                  stress = difference(several.stress_Pa, one.stress_Pa, loads.size(), 6);
     std::cout << "  differences: displacement " << displacement << ", stress " << stress << '\n';
@@ -107,6 +110,63 @@ TEST_F(Ranks, HexahedraIteratively) {
   const auto shaft = fem_tests::eccentric_shaft(2);
   const auto responses = expect_same(shaft.body, some_loads(shaft), fem::Solver::iterative);
   EXPECT_GT(responses.solver.n_iterations, 4);
+}
+
+/// With hanging nodes wherever ranks meet, some of them on cells of other ranks, in chains over two levels.
+fem_tests::ShaftBody refined_shaft() {
+  auto shaft = fem_tests::eccentric_shaft(2);
+  shaft.body = fem_tests::refined_at_random(shaft.body, 2, 0.05, 1);
+  return shaft;
+}
+
+// Turns red: cells that others' nodes hang on without those that they hang on themselves.
+TEST_F(Ranks, RefinedHexahedraDirectly) {
+  const auto shaft = refined_shaft();
+  expect_same(shaft.body, some_loads(shaft), fem::Solver::direct);
+}
+
+// Turns red: stiffness of cells that are there for hanging nodes; corners that hang left out of the joined
+// trilinear level.
+TEST_F(Ranks, RefinedHexahedraIteratively) {
+  const auto shaft = refined_shaft();
+  expect_same(shaft.body, some_loads(shaft), fem::Solver::iterative);
+}
+
+// Every rank has all cells once, and of the nodes that its cells hang on every one.
+TEST_F(Ranks, SharesKnowWhatTheirNodesHangOn) {
+  const auto grid = fem::read_grid(refined_shaft().body);
+  const auto cells = fem::cells_of_nodes(grid);
+  for (const int n : {2, 3, 7}) {
+    const auto rank = fem::ranks_of_cells(grid, n);
+    std::size_t n_own = 0, n_there = 0;
+    for (int r = 0; r < n; ++r) {
+      const auto share =
+          fem::share_of_rank(grid, cells, rank, r, fem::cell_after_cell({grid.n_cells(), {1, 1}}));
+      n_own += share.n_own_cells();
+      n_there += share.part.cell.size();
+      for (const auto node : share.part.grid.hanging.master) EXPECT_GE(node, 0);
+    }
+    EXPECT_EQ(n_own, grid.n_cells());
+    EXPECT_GT(n_there, n_own);
+    EXPECT_LT(double(n_there), 1.5 * double(n_own)) << "few cells are there for others' nodes";
+  }
+}
+
+// By the factor of one half, on rank 0.
+TEST_F(Ranks, HalvesAreThoseOfOneRank) {
+  const auto shaft = fem_tests::mirrored_shaft();
+  fem::SolverChoice choice;
+  choice.solver = fem::Solver::direct;
+  const std::vector<fem::UnitLoad> loads{fem_tests::resultant(shaft, "bearing_1", Component::fy),
+                                         fem_tests::resultant(shaft, "bearing_2", Component::torque)};
+  const auto solve = [&](MPI_Comm communicator) {
+    return fem::Model(shaft.body, communicator).unit_responses(loads, {}, fem::Recovery::patch, {}, choice);
+  };
+  const auto one = solve(MPI_COMM_SELF), several = solve(MPI_COMM_WORLD);
+  ASSERT_NE(one.solver.reason.find("mirror image"), std::string::npos) << one.solver.reason;
+  EXPECT_EQ(several.displacement_m, one.displacement_m);
+  EXPECT_TRUE(several.solver.ranks.empty());
+  EXPECT_LT(difference(several.stress_Pa, one.stress_Pa, loads.size(), 6), same_answer);
 }
 
 // Four ranks have a quarter of it each, and nodes in the middle that all of them share.

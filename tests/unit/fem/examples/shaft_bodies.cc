@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
+#include "fem/mesh/mesh_reader.h"
 #include "fem/operators/stiffness.h"
 #include "meshes/shaft/half_section.h"
 #include "meshes/shaft/shaft.h"
@@ -101,6 +103,31 @@ ShaftBody eccentric_shaft(int cells_per_fillet_quarter) {
   control.cells_per_fillet_quarter = cells_per_fillet_quarter;
   control.n_sectors = 8;
   return build(small_eccentric_shaft(), control);
+}
+
+ShaftBody mirrored_shaft() {
+  meshes::Shaft shaft;
+  shaft.segments = {{"bearing_1", -0.06, -0.02, 0.03, 0, true},
+                    {"seat", -0.02, 0, 0.05, 0, true},
+                    {"rest", 0, 0.02, 0.05, 0, true},
+                    {"bearing_2", 0.02, 0.06, 0.03, 0, true}};
+  shaft.fillets_m = {0.003, 0, 0.003};
+  meshes::ShaftMeshControl control;
+  control.cells_per_fillet_quarter = 2;
+  control.n_sectors = 8;
+  return build(shaft, control);
+}
+
+fem::Body refined_at_random(fem::Body body, int n_cycles, double share, unsigned seed) {
+  std::mt19937 random(seed);
+  for (int cycle = 0; cycle < n_cycles; ++cycle) {
+    const auto n_cells = fem::read_grid(body).n_cells();
+    std::vector<std::int32_t> cut;
+    for (std::size_t c = 0; c < n_cells; ++c)
+      if (double(random()) < share * double(std::mt19937::max())) cut.push_back(std::int32_t(c));
+    body.refinements.push_back({cut});
+  }
+  return body;
 }
 
 fem::UnitLoad resultant(const ShaftBody& body, const std::string& port,

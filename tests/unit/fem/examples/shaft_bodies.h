@@ -48,6 +48,13 @@ ShaftBody rod(int n_sectors = 16);
 meshes::Shaft small_eccentric_shaft();
 ShaftBody eccentric_shaft(int cells_per_fillet_quarter = 4);
 
+/// Its own mirror image about z = 0: a seat in two parts between the ports bearing_1 and bearing_2, with faces
+/// of cells in its middle.
+ShaftBody mirrored_shaft();
+
+/// Cut locally: cycles of a share of the cells each, at random.
+fem::Body refined_at_random(fem::Body body, int n_cycles, double share, unsigned seed);
+
 /// One unit load named "<port>.<component>".
 fem::UnitLoad resultant(const ShaftBody& body, const std::string& port,
                         fem::SurfaceResultant::Component component);

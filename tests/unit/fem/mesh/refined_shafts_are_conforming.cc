@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/mesh_reader.h"
@@ -17,24 +16,11 @@ namespace {
 
 using Point = Eigen::Vector3d;
 
-/// Cycles that cut a share of the cells each.
-fem::Body refined_at_random(fem::Body body, int n_cycles, double share, unsigned seed) {
-  std::mt19937 random(seed);
-  for (int cycle = 0; cycle < n_cycles; ++cycle) {
-    const auto n_cells = fem::read_grid(body).n_cells();
-    std::vector<std::int32_t> cut;
-    for (std::size_t c = 0; c < n_cells; ++c)
-      if (double(random()) < share * double(std::mt19937::max())) cut.push_back(std::int32_t(c));
-    body.refinements.push_back({cut});
-  }
-  return body;
-}
-
 fem::Grid refined_shaft(int n_cycles, unsigned seed, int degree = 2) {
   const double share = degree == 2 ? 0.05 : 0.01;
   auto body = fem_tests::eccentric_shaft(2).body;
   body.degree = degree;
-  return fem::read_grid(refined_at_random(body, n_cycles, share, seed));
+  return fem::read_grid(fem_tests::refined_at_random(body, n_cycles, share, seed));
 }
 
 TEST(RefinedShafts, HangOnNodesThatDoNotHang) {
@@ -125,7 +111,7 @@ TEST(RefinedShafts, RecoverQuadraticFieldsExactly) {
 TEST(RefinedShafts, VibrateAsTheCoarseOnes) {
   auto body = fem_tests::eccentric_shaft(2).body;
   const auto coarse = fem::Model(body).natural_frequencies(3);
-  const auto fine = fem::Model(refined_at_random(body, 1, 0.1, 3)).natural_frequencies(3);
+  const auto fine = fem::Model(fem_tests::refined_at_random(body, 1, 0.1, 3)).natural_frequencies(3);
   for (std::size_t mode = 0; mode < 3; ++mode) {
     const double ratio = fine[mode].frequency_Hz / coarse[mode].frequency_Hz;
     EXPECT_LT(ratio, 1 + 1e-6) << mode;

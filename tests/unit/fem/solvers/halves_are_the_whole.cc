@@ -88,20 +88,6 @@ fem::Body with_cells_cut(fem::Body body, unsigned every) {
   return body;
 }
 
-/// With a seat in two parts between two equal bearings, and faces of cells in its middle.
-fem_tests::ShaftBody mirrored_shaft() {
-  meshes::Shaft shaft;
-  shaft.segments = {{"bearing_1", -0.06, -0.02, 0.03, 0, true},
-                    {"seat", -0.02, 0, 0.05, 0, true},
-                    {"rest", 0, 0.02, 0.05, 0, true},
-                    {"bearing_2", 0.02, 0.06, 0.03, 0, true}};
-  shaft.fillets_m = {0.003, 0, 0.003};
-  meshes::ShaftMeshControl control;
-  control.cells_per_fillet_quarter = 2;
-  control.n_sectors = 8;
-  return fem_tests::build(shaft, control);
-}
-
 /// Even ones, odd ones, and others.
 std::vector<fem::UnitLoad> loads_of(const fem_tests::ShaftBody& shaft) {
   return {fem_tests::resultant(shaft, "bearing_1", Component::fy),
@@ -145,7 +131,7 @@ Chamber chamber_of(const meshes::Chamber& shape, const std::filesystem::path& fi
 }
 
 TEST(Halves, OfShaftsUnderAnyLoadAreTheWhole) {
-  const auto shaft = mirrored_shaft();
+  const auto shaft = fem_tests::mirrored_shaft();
   const auto pair = solve(shaft.body, loads_of(shaft));
   expect_same(pair);
   EXPECT_TRUE(pair.halves.images.node.empty()) << "seat.fz is not mirrored";
@@ -154,13 +140,13 @@ TEST(Halves, OfShaftsUnderAnyLoadAreTheWhole) {
 }
 
 TEST(Halves, OfRefinedShaftsAreTheWhole) {
-  const auto shaft = mirrored_shaft();
+  const auto shaft = fem_tests::mirrored_shaft();
   const auto pair = solve(with_cells_cut(shaft.body, 12), loads_of(shaft));
   expect_same(pair);
 }
 
 TEST(Halves, OfShaftsOnSpringsAreTheWhole) {
-  auto shaft = mirrored_shaft();
+  auto shaft = fem_tests::mirrored_shaft();
   shaft.body.elastic_supports = {{shaft.ports.at("bearing_1"), {1e8, 2e8, 0}},
                                  {shaft.ports.at("seat"), {3e7, 3e7, 0}},
                                  {shaft.ports.at("bearing_2"), {1e8, 2e8, 0}}};
@@ -229,7 +215,7 @@ TEST(Halves, KnowTheErrorsOfGoals) {
 
 // Responses that are not mirrored need the part of dual solutions that a factor of one half leaves out.
 TEST(Halves, AFactorOfOneHalfIsNotTakenForOtherResponses) {
-  const auto shaft = mirrored_shaft();
+  const auto shaft = fem_tests::mirrored_shaft();
   const fem::Model model(shaft.body);
   fem::SolverChoice choice;
   choice.solver = fem::Solver::direct;
@@ -262,7 +248,7 @@ TEST(Halves, OfABodyThatIsNotMirroredDoNotExist) {
   EXPECT_TRUE(pair.halves.images.node.empty());
 
   // A mesh whose nodes are mirrored, all but one.
-  const auto shaft = mirrored_shaft();
+  const auto shaft = fem_tests::mirrored_shaft();
   auto grid = fem::read_grid(shaft.body);
   ASSERT_TRUE(plane_of(grid));
   grid.xyz_m[3 * 500 + 1] += 1e-7;
