@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "fem/common/elastic_kernel.h"
@@ -12,7 +13,8 @@ namespace {
 
 using Centres = std::vector<std::array<double, 3>>;
 
-void bisect(const Centres& centre, std::int32_t* begin, std::int32_t* end) {
+/// Brings the cells of the lower part of the longest extent before `middle`.
+void split(const Centres& centre, std::int32_t* begin, std::int32_t* middle, std::int32_t* end) {
   if (end - begin < 2) return;
   std::array<double, 3> low = centre[*begin], high = low;
   for (const auto* cell = begin; cell != end; ++cell)
@@ -23,34 +25,69 @@ void bisect(const Centres& centre, std::int32_t* begin, std::int32_t* end) {
   int axis = 0;
   for (int d = 1; d < 3; ++d)
     if (high[d] - low[d] > high[axis] - low[axis]) axis = d;
-  auto* middle = begin + (end - begin) / 2;
   std::nth_element(begin, middle, end, [&](std::int32_t a, std::int32_t b) {
     return centre[a][axis] != centre[b][axis] ? centre[a][axis] < centre[b][axis] : a < b;
   });
+}
+
+void bisect(const Centres& centre, std::int32_t* begin, std::int32_t* end) {
+  if (end - begin < 2) return;
+  auto* middle = begin + (end - begin) / 2;
+  split(centre, begin, middle, end);
   bisect(centre, begin, middle);
   bisect(centre, middle, end);
+}
+
+/// @param share  of each cell; those from `first` on are given to these
+void deal_out(const Centres& centre, std::int32_t* begin, std::int32_t* end,
+              const std::vector<double>& weights, std::size_t first, std::size_t last,
+              std::vector<int>& share) {
+  if (last - first == 1) {
+    for (const auto* cell = begin; cell != end; ++cell) share[std::size_t(*cell)] = int(first);
+    return;
+  }
+  const std::size_t between = (first + last) / 2;
+  const auto sum = [&](std::size_t from, std::size_t to) {
+    return std::accumulate(weights.begin() + std::ptrdiff_t(from), weights.begin() + std::ptrdiff_t(to), 0.0);
+  };
+  auto* middle = begin + std::lround(sum(first, between) / sum(first, last) * double(end - begin));
+  if (middle != end) split(centre, begin, middle, end);
+  deal_out(centre, begin, middle, weights, first, between, share);
+  deal_out(centre, middle, end, weights, between, last, share);
+}
+
+Centres corner_sums(const Grid& grid) {
+  Centres sum(grid.n_cells(), {0, 0, 0});
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (const int i : corner_nodes(grid.shape()))
+      for (int d = 0; d < 3; ++d) sum[c][d] += grid.position(grid.nodes_of(c)[i])[d];
+  return sum;
 }
 
 constexpr std::size_t n_parts_at_most = 16, cells_per_part = 200;
 
 }  // namespace
 
-std::vector<std::int32_t> bisect_cells(const std::vector<std::array<double, 3>>& corner_sum) {
+std::vector<int> deal_out_cells(const std::vector<std::array<double, 3>>& corner_sum,
+                                const std::vector<double>& weights) {
   std::vector<std::int32_t> cell(corner_sum.size());
   std::iota(cell.begin(), cell.end(), 0);
-  bisect(corner_sum, cell.data(), cell.data() + cell.size());
-  return cell;
+  std::vector<int> share(cell.size(), 0);
+  deal_out(corner_sum, cell.data(), cell.data() + cell.size(), weights, 0, weights.size(), share);
+  return share;
+}
+
+std::vector<int> deal_out_cells(const Grid& grid, const std::vector<double>& weights) {
+  return deal_out_cells(corner_sums(grid), weights);
 }
 
 CellOrder order_cells(const Grid& grid) {
   const std::size_t n_cells = grid.n_cells();
   const int n_local = grid.nodes_per_cell();
-  Centres centre(n_cells, {0, 0, 0});
-  for (std::size_t c = 0; c < n_cells; ++c)
-    for (const int i : corner_nodes(grid.shape()))
-      for (int d = 0; d < 3; ++d) centre[c][d] += grid.position(grid.nodes_of(c)[i])[d];
   CellOrder order;
-  order.cell = bisect_cells(centre);
+  order.cell.resize(n_cells);
+  std::iota(order.cell.begin(), order.cell.end(), 0);
+  bisect(corner_sums(grid), order.cell.data(), order.cell.data() + n_cells);
   order.node_place.assign(grid.n_nodes, -1);
   std::int32_t next = 0;
   for (const auto c : order.cell)

@@ -20,8 +20,12 @@ struct CellOrder {
 };
 CellOrder order_cells(const Grid& grid);
 
-/// That order of cells alone, by the sums of their corners' places.
-std::vector<std::int32_t> bisect_cells(const std::vector<std::array<double, 3>>& corner_sum);
+/// The share that each cell falls to: shares are halved by their number across the longest extent, again and
+/// again, and have cells as their weights.
+std::vector<int> deal_out_cells(const Grid& grid, const std::vector<double>& weights);
+/// By the sums of the cells' corners' places.
+std::vector<int> deal_out_cells(const std::vector<std::array<double, 3>>& corner_sum,
+                                const std::vector<double>& weights);
 
 /// Where the parts add to nodes, so that each part writes places of its own: the first part that meets a node
 /// writes to it, others to copies of it; coded as elastic_kernel.h wants it.

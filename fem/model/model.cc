@@ -270,6 +270,8 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   if (!clamped.empty() && !impl_->body.elastic_supports.empty())
     throw std::invalid_argument(
         "a body with clamps cannot have elastic supports, which act on a free body: leave one of them out");
+  const bool alone = n_ranks(impl_->communicator) == 1;
+  if (!alone) release_free_memory();  // of meshing
   UnitResponses responses;
   responses.n_dofs = n_dofs();
   for (const auto& load : loads) responses.channels.push_back(load.channel);
@@ -286,7 +288,6 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   }
   DirectSolveOptions direct;
   direct.kept = choice.keep_factor ? &impl_->factor : nullptr;
-  const bool alone = n_ranks(impl_->communicator) == 1;
   const auto half_of_body = [&] { return choice.by_halves ? impl_->half() : nullptr; };
   if (responses.solver.used == Solver::direct && (alone || half_of_body() != nullptr)) {
     const auto* planned = half_of_body();
@@ -345,6 +346,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   }
 
   report(0.85, "recover");
+  if (!alone) release_free_memory();
   const auto elastic = impl_->materials.elastic();
   const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), seen.n_nodes, 3 * n_loads);
   const bool by_patches = recovery == Recovery::patch;

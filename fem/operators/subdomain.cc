@@ -11,18 +11,6 @@
 
 namespace fem {
 
-namespace {
-
-/// The share of each cell: shares of equal number along an order.
-std::vector<int> cut(const std::vector<std::int32_t>& order, int n_shares) {
-  std::vector<int> share(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    share[order[k]] = static_cast<int>(k * std::size_t(n_shares) / order.size());
-  return share;
-}
-
-}  // namespace
-
 Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cells) {
   Subdomain result;
   result.cell = cells;
@@ -74,8 +62,8 @@ Message& operator>>(Message& message, Subdomain& subdomain) {
   return message >> subdomain.grid >> subdomain.node >> subdomain.cell;
 }
 
-std::vector<int> ranks_of_cells(const Grid& grid, int n_ranks) {
-  return cut(order_cells(grid).cell, n_ranks);
+std::vector<double> even_weights(int n_ranks) {
+  return std::vector<double>(std::size_t(n_ranks), 1.0);
 }
 
 std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares) {
@@ -84,7 +72,7 @@ std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares) {
   for (std::size_t c = 0; c < nodes.n_cells(); ++c)
     for (int i = 0; i < n_corners; ++i)
       for (int d = 0; d < 3; ++d) corner_sum[c][d] += nodes.xyz_m[3 * std::size_t(nodes.cell(c)[i]) + d];
-  return cut(bisect_cells(corner_sum), n_shares);
+  return deal_out_cells(corner_sum, even_weights(n_shares));
 }
 
 std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell) {

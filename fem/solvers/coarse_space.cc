@@ -219,18 +219,18 @@ CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::ve
   std::vector<std::int32_t> corner;
   for (std::size_t place = 0; place < grid.n_nodes; ++place)
     if (coarse_of_place[place] >= 0) corner.push_back(shared->body_node()[place]);
-  on_first_rank_ = std::make_unique<CoarseOnFirstRank>(
+  on_last_rank_ = std::make_unique<CoarseOnLastRank>(
       shared->communicator(), cells_with_stiffness(coarse, elastic), corner, stiffness(), level, kernels);
 }
 
 std::size_t CoarseSpace::bytes() const {
   const auto of = [](const NodeMatrix& m) { return 8 * (m.begin.size() + m.column.size()); };
-  return of(interpolation_) + of(restriction_) + (solver_ ? solver_->bytes() : on_first_rank_->bytes());
+  return of(interpolation_) + of(restriction_) + (solver_ ? solver_->bytes() : on_last_rank_->bytes());
 }
 
 CoarseSpace::WorkSpace CoarseSpace::work_space(const Lanes& lanes) const {
   if (solver_) return {solver_->work_space(lanes), {}};
-  return {{}, on_first_rank_->work_space(lanes)};
+  return {{}, on_last_rank_->work_space(lanes)};
 }
 
 void CoarseSpace::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
@@ -238,7 +238,7 @@ void CoarseSpace::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVe
   if (solver_)
     solver_->solve(lanes, b, x, work.alone);
   else
-    on_first_rank_->solve(lanes, b, x, work.on_first_rank);
+    on_last_rank_->solve(lanes, b, x, work.on_last_rank);
 }
 
 }  // namespace fem

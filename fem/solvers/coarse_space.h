@@ -12,7 +12,7 @@
 #include "fem/operators/block_vector.h"
 #include "fem/operators/shared_nodes.h"
 #include "fem/operators/stiffness.h"
-#include "fem/solvers/coarse_on_first_rank.h"
+#include "fem/solvers/coarse_on_last_rank.h"
 #include "fem/solvers/coarse_solver.h"
 #include "fem/values/solver_choice.h"
 
@@ -46,8 +46,8 @@ public:
 
   struct WorkSpace {
     CoarseSolver::WorkSpace alone;
-    CoarseOnFirstRank::WorkSpace on_first_rank;
-    std::size_t bytes() const { return alone.bytes() + on_first_rank.bytes(); }
+    CoarseOnLastRank::WorkSpace on_last_rank;
+    std::size_t bytes() const { return alone.bytes() + on_last_rank.bytes(); }
   };
   WorkSpace work_space(const Lanes& lanes) const;
 
@@ -58,7 +58,7 @@ private:
   std::size_t n_nodes_ = 0;
   NodeMatrix interpolation_, restriction_;
   std::unique_ptr<CoarseSolver> solver_;              // one rank
-  std::unique_ptr<CoarseOnFirstRank> on_first_rank_;  // several
+  std::unique_ptr<CoarseOnLastRank> on_last_rank_;  // several
 };
 
 }  // namespace fem

@@ -1,4 +1,5 @@
 #include "fem/solvers/direct_on_ranks.h"
+#include "fem/mesh/cell_order.h"
 
 #include <algorithm>
 #include <memory>
@@ -128,7 +129,7 @@ Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, co
                                  MPI_Comm communicator) {
   progress(0.05, "assemble");
   const int n = n_ranks(communicator);
-  const auto rank_of_cell = ranks_of_cells(grid, n);
+  const auto rank_of_cell = deal_out_cells(grid, even_weights(n));
   const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
   const auto elastic = materials.elastic();
   std::vector<std::vector<std::int32_t>> nodes(n);

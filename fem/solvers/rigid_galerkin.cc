@@ -14,6 +14,9 @@ using Block33 = Eigen::Map<const Eigen::Matrix<T, 3, 3, Eigen::RowMajor>>;
 using Matrix36 = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
 using Matrix66 = Eigen::Matrix<double, 6, 6>;
 
+/// A thread has the products of so many at hand.
+constexpr std::size_t aggregates_at_once = 512;
+
 /// Blocks of one row, gathered under their columns in any order.
 template <typename Block>
 class Row {
@@ -107,14 +110,14 @@ BlockMatrix<double> galerkin_product(const BlockMatrix<double>& stiffness,
   const auto block_of = [](const BlockMatrix<float>& m, std::int64_t k) -> Matrix36 {
     return Eigen::Map<const Eigen::Matrix<float, 3, 6, Eigen::RowMajor>>(m.at(k)).cast<double>();
   };
-  const auto image =
-      make_rows<double>(stiffness.n_rows(), interpolation.n_columns, [&](std::size_t i, Row<Matrix36>& row) {
-        for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k) {
-          const auto j = stiffness.column[k];
-          for (auto l = interpolation.begin[j]; l < interpolation.begin[j + 1]; ++l)
-            row[interpolation.column[l]] += Block33<double>(stiffness.at(k)) * block_of(interpolation, l);
-        }
-      });
+  /// K P in the row of a node.
+  const auto add_image = [&](std::size_t i, Row<Matrix36>& row) {
+    for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k) {
+      const auto j = stiffness.column[k];
+      for (auto l = interpolation.begin[j]; l < interpolation.begin[j + 1]; ++l)
+        row[interpolation.column[l]] += Block33<double>(stiffness.at(k)) * block_of(interpolation, l);
+    }
+  };
   const auto restriction = transpose(interpolation);  // blocks 6 x 3
   const std::size_t n = restriction.n_rows();
   struct BlockRow {
@@ -122,13 +125,20 @@ BlockMatrix<double> galerkin_product(const BlockMatrix<double>& stiffness,
     std::vector<Matrix66, Eigen::aligned_allocator<Matrix66>> block;
   };
   std::vector<BlockRow> rows(n);
-  parallel_for(n, 64, [&](std::size_t first, std::size_t last) {
+  const auto make_rows_of = [&](std::size_t first, std::size_t last) {
+    // K P of the nodes that these aggregates move, and no more: all of it takes twice the stiffness.
+    std::vector<std::int32_t> moved(restriction.column.begin() + restriction.begin[first],
+                                    restriction.column.begin() + restriction.begin[last]);
+    std::sort(moved.begin(), moved.end());
+    moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+    const auto image = make_rows<double>(
+        moved.size(), n, [&](std::size_t i, Row<Matrix36>& row) { add_image(std::size_t(moved[i]), row); });
     Row<Matrix66> sums(n);
     for (std::size_t a = first; a < last; ++a) {
       for (auto l = restriction.begin[a]; l < restriction.begin[a + 1]; ++l) {
         const Eigen::Matrix<double, 6, 3> p =
             Eigen::Map<const Eigen::Matrix<float, 6, 3, Eigen::RowMajor>>(restriction.at(l)).cast<double>();
-        const auto node = restriction.column[l];
+        const auto node = std::lower_bound(moved.begin(), moved.end(), restriction.column[l]) - moved.begin();
         for (auto k = image.begin[node]; k < image.begin[node + 1]; ++k)
           sums[image.column[k]].noalias() += p * Eigen::Map<const Matrix36>(image.at(k));
       }
@@ -139,6 +149,11 @@ BlockMatrix<double> galerkin_product(const BlockMatrix<double>& stiffness,
       for (const auto c : rows[a].column) rows[a].block.push_back(sums[c]);
       sums.clear();
     }
+  };
+  const std::size_t n_groups = (n + aggregates_at_once - 1) / aggregates_at_once;
+  parallel_for(n_groups, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t group = begin; group < end; ++group)
+      make_rows_of(group * aggregates_at_once, std::min(n, (group + 1) * aggregates_at_once));
   });
   BlockMatrix<double> result;
   result.n_columns = 2 * n;

@@ -1,7 +1,9 @@
 #include "fem/stress/recovery_on_ranks.h"
+#include "fem/mesh/cell_order.h"
 
 #include <utility>
 
+#include "fem/common/memory.h"
 #include "fem/operators/subdomain.h"
 #include "fem/ranks/node_exchange.h"
 #include "fem/ranks/ranks.h"
@@ -17,6 +19,13 @@ namespace {
 // in for them (2), whose patches (3; tetrahedra take up to two more) have to know their neighbours' place in
 // the body (1 more).
 constexpr int n_layers = 6;
+
+/// Rank 0 has the responses of the whole body: it leaves the work to the others where they are several.
+std::vector<double> weights_of_recovery(int n_ranks) {
+  auto weights = even_weights(n_ranks);
+  if (n_ranks > 2) weights.front() = 0;
+  return weights;
+}
 
 /// What a rank is given.
 struct RecoveryJob {
@@ -43,9 +52,10 @@ Message& operator>>(Message& message, RecoveryJob& job) {
 RowMajor recover_share(MPI_Comm communicator, const RecoveryJob& job, const NodeExchange& all_nodes,
                        const ConstBlock& displacement) {
   const RowMajor own = all_nodes.from_first(displacement, 1);
-  RowMajor counted;
+  RowMajor counted(0, 2 * own.cols());
   agree(communicator, [&] {
     const auto& grid = job.part.grid;
+    if (grid.n_cells() == 0) return;
     RowMajor result(grid.n_nodes, 2 * own.cols());
     const auto cells = cells_of_nodes(grid);
     const auto elastic = cell_after_cell(job.elastic);
@@ -79,7 +89,7 @@ void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const 
                              bool by_patches, const ConstBlock& displacement, std::vector<double>& stress_Pa,
                              MPI_Comm communicator) {
   const int n = n_ranks(communicator);
-  const auto rank_of_cell = ranks_of_cells(grid, n);
+  const auto rank_of_cell = deal_out_cells(grid, weights_of_recovery(n));
   const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
   std::vector<std::vector<std::int32_t>> nodes(n), counted_nodes(n);
   RecoveryJob job;
@@ -105,6 +115,8 @@ void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const 
     message.send(r, communicator);
   }
   const RowMajor counted = recover_share(communicator, job, {communicator, nodes}, displacement);
+  job = {};
+  release_free_memory();  // of the patches: the whole body's stress needs it
   stress_Pa.assign(grid.n_nodes * std::size_t(counted.cols()), 0);
   Eigen::Map<RowMajor> stress(stress_Pa.data(), Eigen::Index(grid.n_nodes), counted.cols());
   NodeExchange(communicator, std::move(counted_nodes)).add_on_first(counted, 1, stress);

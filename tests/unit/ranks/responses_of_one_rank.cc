@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 
+#include "fem/mesh/cell_order.h"
 #include "fem/mesh/mesh_reader.h"
 #include "fem/model/model.h"
 #include "fem/operators/subdomain.h"
@@ -61,8 +62,9 @@ struct Ranks : testing::Test {
     EXPECT_EQ(one.solver.used, solver) << one.solver.reason;
     EXPECT_EQ(several.solver.used, solver) << several.solver.reason;
     EXPECT_TRUE(one.solver.ranks.empty());
-    EXPECT_LE(std::abs(several.solver.n_iterations - one.solver.n_iterations), 2)
-        << "the preconditioner is the same";
+    EXPECT_LE(std::abs(several.solver.n_iterations - one.solver.n_iterations),
+              2 + one.solver.n_iterations / 10)
+        << "the preconditioner is the same but for rounding";
     const double displacement = difference(several.displacement_m, one.displacement_m, loads.size(), 3),
                  stress = difference(several.stress_Pa, one.stress_Pa, loads.size(), 6);
     std::cout << "  differences: displacement " << displacement << ", stress " << stress << '\n';
@@ -73,21 +75,25 @@ struct Ranks : testing::Test {
     return several;
   }
 
-  /// Every rank has its share: cells to one, unknowns to what the interfaces have, which go to the first of
-  /// their ranks: a third of a quarter of the disc.
+  /// Every rank has its share: unknowns to what the interfaces have, which go to the first of their ranks: a
+  /// third of a quarter of the disc. Cells to one for each halving: as many as the others, but for the rank
+  /// that has the trilinear level besides.
   static void expect_shares(const fem::UnitResponses& responses) {
     const auto& ranks = responses.solver.ranks;
     ASSERT_EQ(int(ranks.size()), number());
-    std::size_t unknowns = 0, most = 0, fewest = std::size_t(-1);
+    const bool iterated = responses.solver.used == fem::Solver::iterative;
+    const double n_others = number() - 1, of_last = iterated ? 0.6 : 1;
+    std::size_t unknowns = 0, cells = 0;
+    for (const auto& rank : ranks) cells += rank.n_cells;
+    EXPECT_EQ(cells, responses.nodes.n_cells()) << "every cell is counted once";
     for (const auto& rank : ranks) {
+      const double share = (&rank == &ranks.back() ? of_last : 1) / (n_others + of_last);
+      EXPECT_NEAR(double(rank.n_cells), share * double(cells), 2);
       unknowns += rank.n_unknowns;
-      most = std::max(most, rank.n_cells);
-      fewest = std::min(fewest, rank.n_cells);
       EXPECT_GT(rank.bytes, 0);
-      EXPECT_LT(double(rank.n_unknowns), 1.5 * double(responses.n_dofs) / number());
+      EXPECT_LT(double(rank.n_unknowns), 1.5 * share * double(responses.n_dofs));
     }
     EXPECT_EQ(unknowns, responses.n_dofs) << "every unknown is counted once";
-    EXPECT_LE(most - fewest, 1u);
   }
 };
 
@@ -137,7 +143,7 @@ TEST_F(Ranks, SharesKnowWhatTheirNodesHangOn) {
   const auto grid = fem::read_grid(refined_shaft().body);
   const auto cells = fem::cells_of_nodes(grid);
   for (const int n : {2, 3, 7}) {
-    const auto rank = fem::ranks_of_cells(grid, n);
+    const auto rank = fem::deal_out_cells(grid, fem::even_weights(n));
     std::size_t n_own = 0, n_there = 0;
     for (int r = 0; r < n; ++r) {
       const auto share =
@@ -177,7 +183,7 @@ TEST_F(Ranks, DiscIteratively) {
   control.n_sectors = 8;
   const auto disc = fem_tests::build(shaft, control);
   const auto grid = fem::read_grid(disc.body);
-  const auto rank = fem::ranks_of_cells(grid, number());
+  const auto rank = fem::deal_out_cells(grid, fem::even_weights(number()));
   std::vector<std::set<int>> at_node(grid.n_nodes);
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     for (int i = 0; i < grid.nodes_per_cell(); ++i) at_node[grid.nodes_of(c)[i]].insert(rank[c]);

@@ -1,4 +1,4 @@
-/// The coarse level of several MPI ranks, solved on rank 0. Internal to fem.
+/// The coarse level of several MPI ranks, solved on the last one. Internal to fem.
 #pragma once
 
 #include <memory>
@@ -9,17 +9,18 @@
 
 namespace fem {
 
-/// Rank 0 joins the corner meshes of all ranks and adds up their stiffness; forces are added up there, rank
-/// after rank, and displacements sent back. The trilinear level has an eighth of the unknowns of Q2 cells.
-/// Everything here is called on all ranks.
-class CoarseOnFirstRank {
+/// The last rank joins the corner meshes of all ranks and adds up their stiffness; forces are added up there,
+/// rank after rank, and displacements sent back. The trilinear level has an eighth of the unknowns of Q2
+/// cells. Rank 0 has the mesh and the responses of the whole body already. Everything here is called on all
+/// ranks.
+class CoarseOnLastRank {
 public:
   /// @param coarse  corners of this rank's cells
   /// @param corner  number in the body of each of them
   /// @param matrix  stiffness of this rank's cells
   /// @throws FailedTogether as CoarseSolver
-  CoarseOnFirstRank(MPI_Comm communicator, const Grid& coarse, const std::vector<std::int32_t>& corner,
-                    const SymmetricMatrix& matrix, CoarseLevel level, const kernel::Kernels& kernels);
+  CoarseOnLastRank(MPI_Comm communicator, const Grid& coarse, const std::vector<std::int32_t>& corner,
+                   const SymmetricMatrix& matrix, CoarseLevel level, const kernel::Kernels& kernels);
 
   struct WorkSpace {
     BlockVector<float> force, displacement;
@@ -35,8 +36,8 @@ public:
 
 private:
   MPI_Comm communicator_;
-  std::vector<std::vector<std::int32_t>> node_;  // rank 0: of each rank's corners in the joined mesh
-  std::unique_ptr<CoarseSolver> solver_;         // rank 0
+  std::vector<std::vector<std::int32_t>> node_;  // last rank: of each rank's corners in the joined mesh
+  std::unique_ptr<CoarseSolver> solver_;         // last rank
 };
 
 }  // namespace fem

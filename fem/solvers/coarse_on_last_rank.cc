@@ -1,4 +1,4 @@
-#include "fem/solvers/coarse_on_first_rank.h"
+#include "fem/solvers/coarse_on_last_rank.h"
 
 #include <algorithm>
 #include <limits>
@@ -92,54 +92,53 @@ void for_rows(const Lanes& lanes, const std::vector<std::int32_t>& node, std::si
 
 }  // namespace
 
-CoarseOnFirstRank::CoarseOnFirstRank(MPI_Comm communicator, const Grid& coarse,
-                                     const std::vector<std::int32_t>& corner, const SymmetricMatrix& matrix,
-                                     CoarseLevel level, const kernel::Kernels& kernels)
+CoarseOnLastRank::CoarseOnLastRank(MPI_Comm communicator, const Grid& coarse,
+                                   const std::vector<std::int32_t>& corner, const SymmetricMatrix& matrix,
+                                   CoarseLevel level, const kernel::Kernels& kernels)
     : communicator_(communicator) {
-  const bool is_first = this_rank(communicator) == 0;
+  const int last = n_ranks(communicator) - 1;
+  const bool is_last = this_rank(communicator) == last;
   std::vector<Part> parts;
-  if (is_first) {
+  if (is_last) {
+    parts.resize(std::size_t(last));
+    for (int r = 0; r < last; ++r)
+      Message::receive(r, communicator) >> parts[std::size_t(r)].grid >> parts[std::size_t(r)].corner;
     parts.push_back({coarse, corner});
-    for (int r = 1; r < n_ranks(communicator); ++r) {
-      parts.emplace_back();
-      Message::receive(r, communicator) >> parts.back().grid >> parts.back().corner;
-    }
   } else {
-    (Message() << coarse << corner).send(0, communicator);
-    (Message() << matrix.n << matrix.column_begin << matrix.row << matrix.value).send(0, communicator);
+    (Message() << coarse << corner).send(last, communicator);
+    (Message() << matrix.n << matrix.column_begin << matrix.row << matrix.value).send(last, communicator);
   }
-  int next = 1;  // whose matrix comes next: one after the other, since all have as much as their sum
+  int next = 0;  // whose matrix comes next: one after the other, since all have as much as their sum
   const auto build = [&] {
     const Grid joined = join(parts, node_);
     parts.clear();
     const NodeGraph graph = make_node_graph(joined, cells_of_nodes(joined));
     const auto assemble = [&] {
       SymmetricMatrix sum = make_matrix(graph);
-      add(matrix, node_.front(), sum);
-      for (; next < n_ranks(communicator); ++next)
-        add(receive_matrix(next, communicator), node_[std::size_t(next)], sum);
+      for (; next < last; ++next) add(receive_matrix(next, communicator), node_[std::size_t(next)], sum);
+      add(matrix, node_.back(), sum);
       return sum;
     };
     solver_ = std::make_unique<CoarseSolver>(joined, graph, assemble, level, kernels);
   };
   agree(communicator, [&] {
-    if (!is_first) return;
+    if (!is_last) return;
     try {
       build();
     } catch (...) {
-      for (; next < n_ranks(communicator); ++next) receive_matrix(next, communicator);  // they wait for that
+      for (; next < last; ++next) receive_matrix(next, communicator);  // they wait for that
       throw;
     }
   });
 }
 
-CoarseOnFirstRank::WorkSpace CoarseOnFirstRank::work_space(const Lanes& lanes) const {
+CoarseOnLastRank::WorkSpace CoarseOnLastRank::work_space(const Lanes& lanes) const {
   if (!solver_) return {};
   return {{solver_->n_nodes(), lanes}, {solver_->n_nodes(), lanes}, solver_->work_space(lanes)};
 }
 
-void CoarseOnFirstRank::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
-                              WorkSpace& work) const {
+void CoarseOnLastRank::solve(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x,
+                             WorkSpace& work) const {
   const auto size = [&](std::size_t n_nodes) {
     const std::size_t n = 3 * n_nodes * lanes.n_lanes;
     if (n > std::size_t(std::numeric_limits<int>::max()))
@@ -147,31 +146,34 @@ void CoarseOnFirstRank::solve(const Lanes& lanes, const BlockVector<float>& b, B
                         " numbers, more than one message takes: start the program on more ranks");
     return static_cast<int>(n);
   };
+  const int last = n_ranks(communicator_) - 1;
   if (!solver_) {
-    MPI_Send(b.data(), size(b.n_nodes()), MPI_FLOAT, 0, coarse_tag, communicator_);
-    MPI_Recv(x.data(), size(x.n_nodes()), MPI_FLOAT, 0, coarse_tag, communicator_, MPI_STATUS_IGNORE);
+    MPI_Send(b.data(), size(b.n_nodes()), MPI_FLOAT, last, coarse_tag, communicator_);
+    MPI_Recv(x.data(), size(x.n_nodes()), MPI_FLOAT, last, coarse_tag, communicator_, MPI_STATUS_IGNORE);
     return;
   }
   const std::size_t n = solver_->n_nodes();
   std::fill_n(work.force.data(), 3 * n * lanes.n_lanes, 0.0f);
   std::vector<float> received;
-  for (std::size_t r = 0; r < node_.size(); ++r) {
+  for (int r = 0; r <= last; ++r) {
+    const auto& node = node_[std::size_t(r)];
     const float* from = b.data();
-    if (r > 0) {
-      received.resize(size(node_[r].size()));
-      MPI_Recv(received.data(), size(node_[r].size()), MPI_FLOAT, int(r), coarse_tag, communicator_,
+    if (r < last) {
+      received.resize(size(node.size()));
+      MPI_Recv(received.data(), size(node.size()), MPI_FLOAT, r, coarse_tag, communicator_,
                MPI_STATUS_IGNORE);
       from = received.data();
     }
-    for_rows(lanes, node_[r], n, work.force.data(), from, [](float& to, float value) { to += value; });
+    for_rows(lanes, node, n, work.force.data(), from, [](float& to, float value) { to += value; });
   }
   solver_->solve(lanes, work.force, work.displacement, work.below);
   const float* whole = work.displacement.data();
-  for (std::size_t r = node_.size(); r-- > 0;) {
-    received.resize(size(node_[r].size()));
-    float* to = r > 0 ? received.data() : x.data();
-    for_rows(lanes, node_[r], n, whole, to, [](float value, float& own) { own = value; });
-    if (r > 0) MPI_Send(to, size(node_[r].size()), MPI_FLOAT, int(r), coarse_tag, communicator_);
+  for (int r = 0; r <= last; ++r) {
+    const auto& node = node_[std::size_t(r)];
+    received.resize(size(node.size()));
+    float* to = r < last ? received.data() : x.data();
+    for_rows(lanes, node, n, whole, to, [](float value, float& own) { own = value; });
+    if (r < last) MPI_Send(to, size(node.size()), MPI_FLOAT, r, coarse_tag, communicator_);
   }
 }
 
