@@ -6,6 +6,7 @@
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
+#include "pipelines/analysis/stress_under_changed_loads.h"
 #include "pipelines/analysis/time_sampling.h"
 #include "pipelines/superposition/cycle_extremes.h"
 #include "pipelines/superposition/factor_spectrum.h"
@@ -26,6 +27,39 @@ Eigen::ArrayXd series_of(const Eigen::ArrayXXcd& lines, Index n) {
   spectrum.head(lines.cols()) = lines.row(0).matrix().transpose() * double(n);
   transform.inv(series, spectrum);
   return series.real().array();
+}
+
+/// @param at_instants_Pa  largest stress at the point at an instant
+/// @param largest_Pa      that of the point with the errors
+void add_crest(const StressPoint& point, double at_instants_Pa, double largest_Pa,
+               const BodyAnalysis& analysis, ErrorBudget& errors) {
+  const auto unit = unit_stress_at(analysis.responses, point);
+  const double excess_Pa =
+      at_instants_Pa + time_sampling(unit, analysis.loads.history.values).error_Pa() - largest_Pa;
+  if (excess_Pa > errors.of("time_sampling"))
+    errors.set_numerical({"time_sampling", "crest between the instants at another point", excess_Pa, 1});
+}
+
+void add_crest_at_node(const ChannelHistory& denser, int n_threads, BodyAnalysis& analysis) {
+  const auto crests = envelope(denser, analysis.responses, n_threads);
+  const auto node = peak_node(crests.von_mises.value_Pa, analysis.places);
+  auto& peak = analysis.peak;
+  if (node != peak.node)
+    add_crest({{{node, 1.0}}, 0}, analysis.envelope.von_mises.value_Pa[node], peak.value_Pa, analysis,
+              peak.errors);
+}
+
+void add_crest_at_toe(const ChannelHistory& denser, BodyAnalysis& analysis) {
+  const auto& spots = analysis.hot_spots;
+  if (spots.empty()) return;
+  std::vector<double> crest_Pa;
+  for (const auto& spot : spots)
+    crest_Pa.push_back(largest_von_mises_Pa(
+        unit_stress_at(analysis.responses, stress_point(spot)).front().data(), denser.values));
+  const auto leads = std::size_t(std::max_element(crest_Pa.begin(), crest_Pa.end()) - crest_Pa.begin());
+  if (leads > 0)
+    add_crest(stress_point(spots[leads]), spots[leads].von_mises_Pa, spots.front().von_mises_Pa, analysis,
+              analysis.hot_spot_errors);
 }
 
 }  // namespace
@@ -56,18 +90,10 @@ ChannelHistory at_denser_instants(const ChannelHistory& loads, Index most) {
 }
 
 void add_crest_elsewhere(BodyAnalysis& analysis, int n_threads) {
-  const auto& history = analysis.loads.history;
-  const auto denser = at_denser_instants(history);
-  if (denser.values.cols() == history.values.cols()) return;
-  const auto crests = envelope(denser, analysis.responses, n_threads);
-  const auto node = peak_node(crests.von_mises.value_Pa, analysis.places);
-  auto& peak = analysis.peak;
-  if (node == peak.node) return;
-  const auto unit = unit_stress_at(analysis.responses, {{{node, 1.0}}, 0});
-  const double excess_Pa = analysis.envelope.von_mises.value_Pa[node] +
-                           time_sampling(unit, history.values).error_Pa() - peak.value_Pa;
-  if (excess_Pa > peak.errors.of("time_sampling"))
-    peak.errors.set_numerical({"time_sampling", "crest between the instants at another point", excess_Pa, 1});
+  const auto denser = at_denser_instants(analysis.loads.history);
+  if (denser.values.cols() == analysis.loads.history.values.cols()) return;
+  add_crest_at_node(denser, n_threads, analysis);
+  add_crest_at_toe(denser, analysis);
 }
 
 }  // namespace pipelines

@@ -40,7 +40,7 @@ TEST(Recovery, OfHexahedraWithCharts) {
 
 TEST(Recovery, OfRefinedHexahedra) {
   const auto shaft = fem_tests::eccentric_shaft(2);
-  const auto body = fem_tests::refined_at_random(shaft.body, 2, 0.05, 2);
+  const auto body = fem_tests::refined_at_random(shaft.body, 2, 0.02, 2);
   expect_same(fem::read_grid(body), body.cylinders, {shaft.ports.at("end_1").boundary_id});
 }
 

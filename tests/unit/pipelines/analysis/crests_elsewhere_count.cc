@@ -44,6 +44,32 @@ TEST(CrestElsewhere, IsAnErrorOfThePeak) {
   EXPECT_NEAR(analysis.peak.errors.of("time_sampling"), 3e6, 1);  // rounding: order 3 is resolved
 }
 
+// Red where the largest toe alone is asked.
+TEST(CrestElsewhere, IsAnErrorOfTheLargestToe) {
+  BodyAnalysis analysis;
+  analysis.loads.history = constant_and_third_order();
+  auto& responses = analysis.responses;
+  responses.channels = {"a.fz", "b.fz"};
+  responses.nodes.n = 3;
+  responses.stress_Pa.assign(3 * 2 * 6, 0.0);
+  responses.stress_Pa[0] = 100e6;                // node 0 by the constant load
+  responses.stress_Pa[(1 * 2 + 1) * 6] = 206e6;  // node 1 by the other: half of it at the second toe
+  analysis.places.excluded = {0, 1, 1};
+  analysis.envelope = envelope(analysis.loads.history, responses, 1);
+  analysis.peak.value_Pa = 100e6;
+  analysis.peak.errors.set_numerical({"time_sampling", "", 0});
+  analysis.hot_spot_errors.set_numerical({"time_sampling", "", 0});
+  HotSpotStress first, second;
+  first.parts = {{0, 1.0}};
+  first.von_mises_Pa = 100e6;
+  second.parts = {{1, 0.5}};
+  second.von_mises_Pa = 103e6 * std::cos(pi / 10);
+  analysis.hot_spots = {first, second};
+  add_crest_elsewhere(analysis, 1);
+  EXPECT_NEAR(analysis.hot_spot_errors.of("time_sampling"), 3e6, 1);
+  EXPECT_EQ(analysis.peak.errors.of("time_sampling"), 0) << "both are left out there";
+}
+
 TEST(CrestElsewhere, DenserInstantsFollowTheFactors) {
   const auto denser = at_denser_instants(constant_and_third_order());
   const auto n = denser.values.cols();
