@@ -131,6 +131,14 @@ TEST_F(Ranks, RefinedHexahedraDirectly) {
   expect_same(shaft.body, some_loads(shaft), fem::Solver::direct);
 }
 
+// Corners of cubic cells hang too, on edges that have no node in their middle.
+TEST_F(Ranks, RefinedCubicHexahedraDirectly) {
+  auto rod = fem_tests::rod(8);
+  rod.body.degree = 3;
+  rod.body = fem_tests::refined_at_random(rod.body, 1, 0.05, 3);
+  expect_same(rod.body, some_loads(rod), fem::Solver::direct);
+}
+
 // Turns red: stiffness of cells that are there for hanging nodes; corners that hang left out of the joined
 // trilinear level.
 TEST_F(Ranks, RefinedHexahedraIteratively) {
