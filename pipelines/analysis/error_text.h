@@ -11,6 +11,11 @@ namespace pipelines {
 /// With that many decimals; numbers that no column holds, or that would show as zero, with an exponent.
 std::string fixed(double value, int decimals);
 
+/// With one decimal, or as many as a small error has: else rounding would put the number outside of what is
+/// stated for it. A stress below 1 MPa has at least three digits.
+/// @param error_Pa  stated beside it; 0: none
+std::string stress_in_MPa(double value_Pa, double error_Pa);
+
 /// "105.2 MPa +- 1.3 (numerical) and +- 2.1 from load patches, which no mesh lowers". The numerical part is
 /// what a tolerance is compared with. Sources of the model below a thousandth of the stress are left out.
 std::string value_with_errors(double value_Pa, const ErrorBudget& errors);

@@ -135,7 +135,8 @@ void add_vibration(const Vibration& vibration, Json& json) {
   for (const double f : vibration.natural_frequencies_Hz)
     json["natural_frequencies"].push_back(figure(f, "Hz"));
   const auto& dynamic = vibration.amplification;
-  json["dynamic_amplification"] = figure(dynamic.factor, "1");
+  json["dynamic_amplification"] = figure(1 + vibration.to_peak.share, "1");
+  if (!vibration.to_peak.place.empty()) json["dynamic_amplification"]["place"] = vibration.to_peak.place;
   json["dynamic_amplification"]["held"] = vibration.held;
   json["dynamic_amplification"]["limit"] = amplification_limit;
   json["dynamic_amplification"]["highest_harmonic"] =
