@@ -6,6 +6,7 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/analysis/shaft_torsion.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/loads/load_figures.h"
@@ -178,9 +179,12 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
   const std::size_t p = analysis.principal_node;
   out << fmt::format("  largest principal stress {} MPa\n",
                      stress_in_MPa(analysis.envelope.principal.value_Pa[p], 0));
-  if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr)
-    out << fmt::format("  largest torsional stress {} MPa at {}, z = {:.1f} mm\n",
-                       fixed(ring->max_Pa / 1e6, 2), ring->feature, ring->z_m * 1e3);
+  if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr) {
+    const double error_Pa = ring_error_Pa(analysis, *ring);
+    out << fmt::format(
+        "  largest torsional stress {} MPa{} at {}, z = {:.1f} mm\n", fixed(ring->max_Pa / 1e6, 2),
+        std::isfinite(error_Pa) ? " +- " + fixed(error_Pa / 1e6, 2) : "", ring->feature, ring->z_m * 1e3);
+  }
 
   print_zones(out, report, analysis);
   if (analysis.vibration) print_vibration(out, *analysis.vibration);

@@ -5,6 +5,7 @@
 #include "pipelines/analysis/energy_errors.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/analysis/shaft_torsion.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/results.h"
@@ -117,6 +118,7 @@ Json torsion_json(const BodyAnalysis& analysis) {
   const auto ring = largest_torsion_ring(diagrams);
   json["max_shear_stress"] = figure(ring ? ring->max_Pa : 0.0, "Pa");
   if (ring) {
+    json["max_shear_stress"]["error"] = number_or_none(ring_error_Pa(analysis, *ring));
     json["max_shear_stress"]["feature"] = ring->feature;
     json["max_shear_stress"]["z_m"] = ring->z_m;
   }
