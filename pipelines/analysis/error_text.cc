@@ -75,6 +75,17 @@ std::string value_with_errors(double value_Pa, const ErrorBudget& errors) {
   return is_any ? text + ", which no mesh lowers" : text;
 }
 
+std::string corners_left_out(const BodyAnalysis& analysis) {
+  constexpr std::size_t told = 4;
+  if (!analysis.hot_spots.empty() || analysis.method == Method::beam) return {};
+  const auto& edges = analysis.mesh.sharp_edges;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(told, edges.size()); ++i)
+    text += fmt::format("{}{} ({:.2g} mm)", i > 0 ? ", " : "", edges[i].name, edges[i].distance_m * 1e3);
+  if (edges.size() > told) text += fmt::format(" and {} more", edges.size() - told);
+  return text;
+}
+
 std::string not_known_well(const GoverningStress& stress, const Search& search) {
   const double total_Pa = stress.errors.total_Pa();
   if (!(total_Pa > largest_plain_error * stress.value_Pa)) return {};

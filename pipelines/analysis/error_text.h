@@ -20,6 +20,11 @@ std::string stress_in_MPa(double value_Pa, double error_Pa);
 /// what a tolerance is compared with. Sources of the model below a thousandth of the stress are left out.
 std::string value_with_errors(double value_Pa, const ErrorBudget& errors);
 
+/// "bore cover_1/shell (9.2 mm), bore shell/cover_2 (9.2 mm)": the sharp corners of the model and within
+/// which distance they are left out, the first four. Empty where there are none, and of bodies whose corners
+/// are weld toes.
+std::string corners_left_out(const BodyAnalysis& analysis);
+
 /// "30.8 MPa +- 12.8 MPa (42 %): discretisation; remedy: --tolerance "5 %"" where the whole error exceeds
 /// largest_plain_error, with the largest source; else empty.
 /// @param search  how the mesh was found; its steps are empty if it was the scene's own

@@ -175,6 +175,8 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
                      analysis.closure.worst_moment());
   print_masses(out, report, analysis);
   print_peak(out, report, analysis);
+  if (const auto corners = corners_left_out(analysis); !corners.empty())
+    out << "  left out, since stress grows without bound at a sharp corner: " << corners << '\n';
   print_search(out, analysis.search);
   const std::size_t p = analysis.principal_node;
   out << fmt::format("  largest principal stress {} MPa\n",
