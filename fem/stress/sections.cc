@@ -186,8 +186,8 @@ constexpr int highest_left_out = 12;
 
 /// The weights changed by as little as lets a mean see nothing of the harmonics 1 to `highest`, sine and
 /// cosine; none where one of them would be negative. Half of the angle between neighbours alone leaves a
-/// twentieth of a lateral force's shear stress in the mean where gaps of 45 and 22.5 degrees meet: more than
-/// a small torque has.
+/// hundredth of a lateral force's shear stress in the mean where unlike gaps meet, which may be more than a
+/// small torque has.
 std::optional<std::vector<double>> without_harmonics(const std::vector<double>& angles_rad,
                                                      const std::vector<double>& weights, int highest) {
   constexpr double smallest_pivot = 1e-6;  // of 0.5 where nodes are even
