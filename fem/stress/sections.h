@@ -13,8 +13,9 @@ namespace fem {
 /// sigma_r_theta and sigma_theta_z at a point (x, y) from an axis along z; stress xx, yy, zz, xy, yz, xz.
 std::array<double, 2> rim_shear(double x_m, double y_m, const double* stress_Pa);
 
-/// What each node counts in a mean over a circle: half the angle between its neighbours, over the whole turn.
-/// Locally refined bodies have nodes at unlike distances.
+/// What each node counts in a mean over a circle, where locally refined bodies have nodes at unlike
+/// distances: about half the angle between its neighbours, over the whole turn, so that as many harmonics as
+/// can be, up to the twelfth, have no mean.
 /// @return nothing where nodes are farther apart than a quarter of the turn: they are on a part of the circle
 /// @param angles_rad  any order
 std::vector<double> weights_around(const std::vector<double>& angles_rad);

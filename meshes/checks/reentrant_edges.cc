@@ -23,6 +23,24 @@ Point unit_normal(const CellMesh& mesh, std::size_t face) {
   return n;
 }
 
+/// Pieces along the parabola through the ends of a curved edge and its middle, which they leave by less than
+/// a thousandth of the distance.
+void add_arc(const Point& from, const Point& middle, const Point& to, SharpEdge& edge) {
+  constexpr double off_arc = 1e-3;
+  constexpr int most = 64;
+  Point arrow{};
+  for (int d = 0; d < 3; ++d) arrow[d] = middle[d] - 0.5 * (from[d] + to[d]);
+  const double share = std::sqrt(dot(arrow, arrow)) / (off_arc * edge.distance_m);
+  const int n = share < 1 ? 1 : int(std::min(double(most), std::ceil(std::sqrt(share))));
+  const auto at = [&](int i) {
+    const double x = double(i) / n;
+    Point p{};
+    for (int d = 0; d < 3; ++d) p[d] = from[d] + x * (to[d] - from[d]) + 4 * x * (1 - x) * arrow[d];
+    return p;
+  };
+  for (int i = 0; i < n; ++i) edge.pieces.push_back({i == 0 ? from : at(i), i + 1 == n ? to : at(i + 1)});
+}
+
 }  // namespace
 
 std::vector<SharpEdge> reentrant_edges(const CellMesh& mesh, const std::map<int, std::string>& names,
@@ -45,7 +63,12 @@ std::vector<SharpEdge> reentrant_edges(const CellMesh& mesh, const std::map<int,
       SharpEdge& edge = found[pair.first + "/" + pair.second];
       edge.name = pair.first + "/" + pair.second;
       edge.distance_m = distance_m;
-      edge.pieces.push_back({mesh.points[a], mesh.points[b]});
+      const std::size_t between =
+          mesh.corners_per_face() + e;  // on the middle of the edge, where there is one
+      if (between < mesh.nodes_per_face())
+        add_arc(mesh.points[a], mesh.points[mesh.face(f)[between]], mesh.points[b], edge);
+      else
+        edge.pieces.push_back({mesh.points[a], mesh.points[b]});
     }
   std::vector<SharpEdge> edges;
   for (auto& [name, edge] : found) edges.push_back(std::move(edge));

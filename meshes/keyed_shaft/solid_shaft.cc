@@ -164,15 +164,16 @@ std::vector<Port> ports_of(const Shaft& shaft, const SolidLayout& layout, const 
 
 /// Corners of shoulders without a fillet are left out as block meshes leave them out, so that a keyway
 /// elsewhere does not change which stress is reported there.
-/// @param rounding_m  of coordinates
+/// @param rounding_m  of coordinates along the axis; pieces of an edge leave its circle as cells do
 void widen_at_shoulders(const SolidLayout& layout, double rounding_m, std::vector<SharpEdge>& edges) {
+  constexpr double off_arc = 1e-3;
   for (std::size_t i = 0; i + 1 < layout.segments.size(); ++i) {
     const auto &before = layout.segments[i], &after = layout.segments[i + 1];
     if (layout.fillets_m[i] > 0) continue;
     const auto& small = before.radius_m < after.radius_m ? before : after;
     const auto is_on_corner = [&](const std::array<double, 3>& p) {
       const double r_m = std::hypot(p[0] - small.axis_x_m, p[1] - small.axis_y_m);
-      return std::abs(p[2] - before.end_m) < rounding_m && std::abs(r_m - small.radius_m) < rounding_m;
+      return std::abs(p[2] - before.end_m) < rounding_m && std::abs(r_m - small.radius_m) < off_arc * r_m;
     };
     for (auto& edge : edges)
       if (std::all_of(edge.pieces.begin(), edge.pieces.end(),

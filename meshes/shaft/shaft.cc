@@ -81,7 +81,7 @@ BodyMesh description(const Shaft& shaft, const Blocks& blocks) {
   body.cylinders = cylinders_of(layout, surfaces);
   body.tori = tori_of(layout, surfaces);
   body.sections = sections_of(shaft, layout, meridian);
-  body.sharp_edges = sharp_edges_of(shaft, layout, disc);
+  body.sharp_edges = sharp_edges_of(shaft, layout);
   return body;
 }
 

@@ -1,11 +1,14 @@
 #include "meshes/shaft/shaft_surfaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace meshes {
 
 namespace {
+
+constexpr double off_circle = 1e-3;  // of the distance left out; nodes at that distance are kept to 2e-3
 
 /// Adds features with rising ids.
 class FeatureList {
@@ -122,14 +125,17 @@ std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const 
   return ports;
 }
 
-std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout, const Disc& disc) {
+std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout) {
   const auto circle = [&](const std::string& name, double z_m, double radius_m, double distance_m) {
     SharpEdge edge{name, distance_m, {}};
+    // Its arrow, r (1 - cos(pi / n)), is at most r (pi / n)^2 / 2.
+    const double pi = std::acos(-1.0), share = off_circle * distance_m / radius_m;
+    const int n = 4 * std::max(4, int(std::ceil(pi / std::sqrt(2 * share) / 4)));
     const auto at = [&](int j) -> std::array<double, 3> {
-      const auto& p = disc.points[j % disc.n_sectors];
-      return {radius_m * p[0], radius_m * p[1], z_m};
+      const double angle = 2 * pi * (j % n) / n;
+      return {radius_m * std::cos(angle), radius_m * std::sin(angle), z_m};
     };
-    for (int j = 0; j < disc.n_sectors; ++j) edge.pieces.push_back({at(j), at(j + 1)});
+    for (int j = 0; j < n; ++j) edge.pieces.push_back({at(j), at(j + 1)});
     return edge;
   };
   std::vector<SharpEdge> edges;

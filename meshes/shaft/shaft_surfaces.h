@@ -38,10 +38,10 @@ struct SurfaceTable {
 SurfaceTable name_surfaces(const Shaft& shaft, const ShaftLayout& layout);
 
 std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const SurfaceTable& surfaces);
-/// Circles in which the model has a sharp re-entrant corner, as polygons through the nodes on the disc's
-/// circle: outer shoulders without a fillet, within 0.1 of the smaller diameter, and bore steps, within the
-/// thickness of the wall of the wider bore.
-std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout, const Disc& disc);
+/// Circles in which the model has a sharp re-entrant corner: outer shoulders without a fillet, within 0.1 of
+/// the smaller diameter, and bore steps, within the thickness of the wall of the wider bore. As polygons that
+/// leave the circle by less than a thousandth of that distance, however few cells the mesh has around.
+std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout);
 
 std::vector<CylinderChart> cylinders_of(const ShaftLayout& layout, const SurfaceTable& surfaces);
 std::vector<TorusChart> tori_of(const ShaftLayout& layout, const SurfaceTable& surfaces);

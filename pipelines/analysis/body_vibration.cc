@@ -3,12 +3,13 @@
 namespace pipelines {
 namespace {
 
-/// 6 x instants.
-Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, const StressPoint& point) {
+/// @param name  of a feature or of a weld toe
+ShakenPlace shaken(const BodyAnalysis& analysis, const std::string& name, double value_Pa,
+                   const StressPoint& point) {
   const auto unit_Pa = unit_stress_at(analysis.responses, point);
-  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> unit(unit_Pa.front().data(), 6,
-                                                                        Eigen::Index(unit_Pa.size()));
-  return unit * analysis.loads.history.values.matrix();
+  return {name, value_Pa,
+          Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>>(unit_Pa.front().data(), 6,
+                                                                     Eigen::Index(unit_Pa.size()))};
 }
 
 }  // namespace
@@ -16,18 +17,28 @@ Eigen::ArrayXXd stress_over_cycle(const BodyAnalysis& analysis, const StressPoin
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
                    BodyAnalysis& analysis, StageClock& clock) {
   if (analysis.scene.natural_frequencies <= 0) return;
-  const auto* toe = analysis.hot_spots.empty() ? nullptr : &analysis.hot_spots.front();
   analysis.vibration = clock.run("natural frequencies", [&] {
-    return vibration(scene, analysis.scene, meshed, history,
-                     stress_over_cycle(analysis, {{{analysis.peak.node, 1}}, analysis.peak.instant}),
-                     toe != nullptr ? stress_over_cycle(analysis, stress_point(*toe)) : Eigen::ArrayXXd());
+    std::vector<ShakenPlace> places{shaken(analysis, analysis.peak.feature, analysis.peak.value_Pa,
+                                           {{{analysis.peak.node, 1}}, analysis.peak.instant})},
+        toes;
+    const auto& maximum = analysis.envelope.von_mises;
+    for (const auto& place : largest_by_feature(analysis.responses.nodes, maximum.value_Pa,
+                                                analysis.mesh.features, analysis.places))
+      places.push_back(
+          shaken(analysis, place.feature, place.value_Pa, {{{place.node, 1}}, maximum.instant[place.node]}));
+    for (const auto& toe : analysis.hot_spots)
+      toes.push_back(shaken(analysis, toe.name, toe.von_mises_Pa, stress_point(toe)));
+    return vibration(scene, analysis.scene, meshed, history, analysis.loads.history, places, toes);
   });
-  const auto enter = [](ErrorBudget& errors, const DynamicAmplification& dynamic, double value_Pa) {
-    errors.set_model({"quasi_static", "dynamic amplification of the harmonics of the stress",
-                      (dynamic.factor - 1) * value_Pa});
+  const auto enter = [](ErrorBudget& errors, const Vibration::Added& added, double value_Pa) {
+    errors.set_model({"quasi_static",
+                      "dynamic amplification of the harmonics of the stress" +
+                          (added.place.empty() ? "" : ", at another place: " + added.place),
+                      added.share * value_Pa});
   };
-  enter(analysis.peak.errors, analysis.vibration->amplification, analysis.peak.value_Pa);
-  if (toe != nullptr) enter(analysis.hot_spot_errors, analysis.vibration->at_hot_spot, toe->von_mises_Pa);
+  enter(analysis.peak.errors, analysis.vibration->to_peak, analysis.peak.value_Pa);
+  if (!analysis.hot_spots.empty())
+    enter(analysis.hot_spot_errors, analysis.vibration->to_hot_spot, analysis.hot_spots.front().von_mises_Pa);
 }
 
 }  // namespace pipelines

@@ -7,6 +7,7 @@
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/statics.h"
+#include "pipelines/superposition/zones.h"
 
 namespace pipelines {
 namespace {
@@ -69,6 +70,14 @@ void refer_to(ElasticLine& line, const std::vector<double>& z_m) {
   }
 }
 
+/// Nodes at that distance are kept, as those of the envelope.
+bool is_left_out(const TorsionRing& ring, const std::vector<meshes::SharpEdge>& edges) {
+  constexpr double within = 1 - 2e-3;
+  return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    return distance_m({ring.radius_m, 0, ring.z_m}, edge) <= within * edge.distance_m;
+  });
+}
+
 }  // namespace
 
 Array2Xd ring_shear_Pa(const ChannelHistory& loads, const fem::UnitResponses& responses, std::size_t ring) {
@@ -89,7 +98,7 @@ std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitRe
     TorsionRing ring;
     ring.z_m = responses.rings[r].z_m;
     ring.radius_m = responses.rings[r].radius_m;
-    ring.max_Pa = shear.maxCoeff(&ring.instant);
+    if (!is_left_out(ring, mesh.sharp_edges)) ring.max_Pa = shear.maxCoeff(&ring.instant);
     for (const auto& feature : mesh.features)
       if (feature.boundary_id == responses.rings[r].boundary_id) ring.feature = feature.name;
     rings.push_back(ring);

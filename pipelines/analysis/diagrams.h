@@ -70,7 +70,8 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
 Eigen::Array2Xd ring_shear_Pa(const ChannelHistory& loads, const fem::UnitResponses& responses,
                               std::size_t ring);
 
-/// Of all rings of the responses, in their order, which section_diagrams has as well.
+/// Of all rings of the responses, in their order, which section_diagrams has as well. Those that are left out
+/// beside sharp edges, where stress has no converged value, have none: 0.
 std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitResponses& responses,
                                        const meshes::BodyMesh& mesh);
 

@@ -50,8 +50,21 @@ std::string fixed(double value, int decimals) {
                                            : fmt::format("{:.3g}", value);
 }
 
+std::string stress_in_MPa(double value_Pa, double error_Pa) {
+  constexpr double shown = 0.05;  // with one decimal
+  constexpr int most_digits = 8, least_digits = 3;
+  const double error = error_Pa / 1e6, value = std::abs(value_Pa) / 1e6;
+  if (!(value > 0) || !std::isfinite(value)) return in_MPa(value_Pa);
+  const int before_point = int(std::floor(std::log10(value))) + 1;
+  const int wanted = error > 0 && error < shown ? int(std::ceil(-std::log10(error))) : 1;
+  const int decimals = std::min(std::max({wanted, value < 1 ? least_digits - before_point : 1, 1}),
+                                std::max(most_digits - before_point, 1));
+  return decimals > most_digits ? fmt::format("{:.3g}", value_Pa / 1e6) : fixed(value_Pa / 1e6, decimals);
+}
+
 std::string value_with_errors(double value_Pa, const ErrorBudget& errors) {
-  auto text = in_MPa(value_Pa) + " MPa +- " + in_MPa(errors.numerical_Pa()) + " (numerical)";
+  auto text = stress_in_MPa(value_Pa, errors.numerical_Pa()) + " MPa +- " + in_MPa(errors.numerical_Pa()) +
+              " (numerical)";
   bool is_any = false;
   for (const auto& entry : errors.model) {
     if (entry.value_Pa < negligible_share * value_Pa || entry.value_Pa == 0) continue;
@@ -60,6 +73,17 @@ std::string value_with_errors(double value_Pa, const ErrorBudget& errors) {
     is_any = true;
   }
   return is_any ? text + ", which no mesh lowers" : text;
+}
+
+std::string corners_left_out(const BodyAnalysis& analysis) {
+  constexpr std::size_t told = 4;
+  if (!analysis.hot_spots.empty() || analysis.method == Method::beam) return {};
+  const auto& edges = analysis.mesh.sharp_edges;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(told, edges.size()); ++i)
+    text += fmt::format("{}{} ({:.2g} mm)", i > 0 ? ", " : "", edges[i].name, edges[i].distance_m * 1e3);
+  if (edges.size() > told) text += fmt::format(" and {} more", edges.size() - told);
+  return text;
 }
 
 std::string not_known_well(const GoverningStress& stress, const Search& search) {
@@ -73,8 +97,8 @@ std::string not_known_well(const GoverningStress& stress, const Search& search) 
   const auto numerical = largest_of(stress.errors.numerical), model = largest_of(stress.errors.model);
   const bool is_model = smaller(numerical, model);
   return fmt::format(
-      "{} MPa +- {} MPa ({:.0f} %): {}; remedy: {}", in_MPa(stress.value_Pa), in_MPa(total_Pa),
-      100 * total_Pa / stress.value_Pa, in_words((is_model ? model : numerical).source),
+      "{} MPa +- {} MPa ({:.0f} %): {}; remedy: {}", stress_in_MPa(stress.value_Pa, total_Pa),
+      in_MPa(total_Pa), 100 * total_Pa / stress.value_Pa, in_words((is_model ? model : numerical).source),
       is_model ? remedy_of_model(model.source) : remedy_of_calculation(numerical.source, search));
 }
 

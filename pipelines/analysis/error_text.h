@@ -11,9 +11,19 @@ namespace pipelines {
 /// With that many decimals; numbers that no column holds, or that would show as zero, with an exponent.
 std::string fixed(double value, int decimals);
 
+/// With one decimal, or as many as a small error has: else rounding would put the number outside of what is
+/// stated for it. A stress below 1 MPa has at least three digits.
+/// @param error_Pa  stated beside it; 0: none
+std::string stress_in_MPa(double value_Pa, double error_Pa);
+
 /// "105.2 MPa +- 1.3 (numerical) and +- 2.1 from load patches, which no mesh lowers". The numerical part is
 /// what a tolerance is compared with. Sources of the model below a thousandth of the stress are left out.
 std::string value_with_errors(double value_Pa, const ErrorBudget& errors);
+
+/// "bore cover_1/shell (9.2 mm), bore shell/cover_2 (9.2 mm)": the sharp corners of the model and within
+/// which distance they are left out, the first four. Empty where there are none, and of bodies whose corners
+/// are weld toes.
+std::string corners_left_out(const BodyAnalysis& analysis);
 
 /// "30.8 MPa +- 12.8 MPa (42 %): discretisation; remedy: --tolerance "5 %"" where the whole error exceeds
 /// largest_plain_error, with the largest source; else empty.

@@ -86,6 +86,12 @@ std::optional<RingTorsion> largest_near(const BodyAnalysis& analysis, const std:
 
 }  // namespace
 
+double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
+  for (const auto& place : analysis.place_stresses)
+    if (place.feature == ring.feature) return place.error_Pa / std::sqrt(3);
+  return std::numeric_limits<double>::infinity();
+}
+
 Course course_of(const ArrayXd& values) {
   if (values.size() == 0) return {};
   return {values.mean(), (values.maxCoeff() - values.minCoeff()) / 2, values.abs().maxCoeff()};

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "fem/model/model.h"
 #include "kinetics/harmonics.h"
@@ -59,14 +61,53 @@ double amplification_at(double frequency_Hz, double natural_Hz) {
   return std::min(1 / rest, resonance_peak);
 }
 
-/// By the frequency that changes most: which of the shapes a harmonic brings is not looked at.
-double amplification_at(double frequency_Hz, const std::vector<double>& natural_Hz) {
-  double most = 1;
-  for (const double natural : natural_Hz) {
-    const double own = amplification_at(frequency_Hz, natural);
-    if (std::abs(own - 1) > std::abs(most - 1)) most = own;
+/// By the natural frequency, and the frequency in axes at rest, that change most: which of the shapes a
+/// harmonic brings, and which way it turns, is not looked at.
+/// @param f_Hz  in the body's axes
+StressHarmonic amplified(double f_Hz, double share, const std::vector<double>& spins_Hz,
+                         const std::vector<double>& natural_Hz) {
+  StressHarmonic line;
+  line.frequency_Hz = f_Hz + spins_Hz.back();
+  line.share = share;
+  for (const double spin : spins_Hz)
+    for (const double frequency : {f_Hz + spin, std::abs(f_Hz - spin)})
+      for (const double natural : natural_Hz) {
+        const double own = amplification_at(frequency, natural);
+        if (std::abs(own - 1) > std::abs(line.amplification - 1)) {
+          line.amplification = own;
+          line.frequency_Hz = frequency;
+        }
+      }
+  return line;
+}
+
+double added_share(const StressHarmonic& line) {
+  return line.share > round_off ? line.share * std::abs(line.amplification - 1) : 0;
+}
+
+Stress stress_of(const Eigen::Matrix<double, 6, 1>& column) {
+  Stress s;
+  for (Eigen::Index c = 0; c < 6; ++c) s[std::size_t(c)] = column[c];
+  return s;
+}
+
+/// Of the first place and the others.
+Vibration::Added added(const std::vector<ShakenPlace>& places,
+                       const std::vector<DynamicAmplification>& dynamic) {
+  Vibration::Added result;
+  for (std::size_t i = 0; i < places.size() && places[0].value_Pa > 0; ++i) {
+    const double share = dynamic[i].factor * (places[i].value_Pa / places[0].value_Pa) - 1;
+    if (share > result.share) result = {share, i == 0 ? "" : places[i].name};
   }
-  return most;
+  return result;
+}
+
+/// Whether a channel loads the body across its axis. Torques, forces along it, spin and pressure without a
+/// resultant make no difference between axes that turn and such that do not, or hardly any.
+bool is_across(const std::string& channel) {
+  const auto component = channel.substr(channel.rfind('.') + 1);
+  return component == "fx" || component == "fy" || component == "mx" || component == "my" ||
+         component == "ax" || component == "ay";
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -77,41 +118,64 @@ std::string joined(const std::vector<std::string>& names) {
 
 }  // namespace
 
-DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
-                                           double spin_Hz, const std::vector<double>& natural_Hz) {
+LoadLines::LoadLines(const Eigen::ArrayXXd& factors, const std::vector<bool>& across, int turns,
+                     double turn_Hz, std::vector<double> spins_Hz)
+    : across_(across), turns_(turns), turn_Hz_(turn_Hz), spins_Hz_(std::move(spins_Hz)) {
+  const int n_lines = int(factors.cols() / 2);
+  cosine_ = sine_ = Eigen::MatrixXd::Zero(factors.rows(), n_lines + 1);
+  for (Eigen::Index c = 0; c < factors.rows(); ++c) {
+    const auto spectrum = kinetics::line_spectrum(factors.row(c).transpose(), turns, n_lines);
+    cosine_(c, 0) = spectrum.mean;
+    for (Eigen::Index k = 1; k <= n_lines; ++k) {
+      const auto& line = spectrum.lines[std::size_t(k - 1)];
+      cosine_(c, k) = line.amplitude * std::cos(line.phase_rad);
+      sine_(c, k) = line.amplitude * std::sin(line.phase_rad);
+    }
+  }
+}
+
+DynamicAmplification LoadLines::amplification(const UnitStress& unit_Pa, double peak_Pa,
+                                              const std::vector<double>& natural_Hz) const {
   if (natural_Hz.empty()) throw std::invalid_argument("no natural frequency is given");
   for (const double natural : natural_Hz)
     if (!(natural > 0))
       throw std::invalid_argument(fmt::format("natural frequency {} Hz: must be positive", natural));
-  double peak = 0;
-  for (Eigen::Index i = 0; i < stress_Pa.cols(); ++i) {
-    Stress s;
-    for (Eigen::Index c = 0; c < 6; ++c) s[std::size_t(c)] = stress_Pa(c, i);
-    peak = std::max(peak, von_mises_Pa(s));
-  }
   DynamicAmplification result;
-  if (peak == 0) return result;
-  const int n_lines = int(stress_Pa.cols() / 2);
-  std::vector<Stress> cosine(std::size_t(n_lines) + 1), sine(std::size_t(n_lines) + 1);
-  for (Eigen::Index c = 0; c < 6; ++c) {
-    const auto spectrum = kinetics::line_spectrum(stress_Pa.row(c).transpose() / peak, turns, n_lines);
-    cosine[0][std::size_t(c)] = spectrum.mean;
-    for (std::size_t k = 1; k < cosine.size(); ++k) {
-      const auto& line = spectrum.lines[k - 1];
-      cosine[k][std::size_t(c)] = line.amplitude * std::cos(line.phase_rad);
-      sine[k][std::size_t(c)] = line.amplitude * std::sin(line.phase_rad);
-    }
-  }
-  for (std::size_t k = 0; k < cosine.size(); ++k) {
-    StressHarmonic line;
-    line.order = double(k) / turns;
-    line.frequency_Hz = line.order * turn_Hz + spin_Hz;
-    line.share = std::hypot(von_mises_Pa(cosine[k]), von_mises_Pa(sine[k]));
-    line.amplification = amplification_at(line.frequency_Hz, natural_Hz);
-    if (line.share > round_off) result.factor += line.share * std::abs(line.amplification - 1);
-    if (line.share > significant) result.highest = line;
+  if (peak_Pa == 0) return result;
+  const UnitStress unit = unit_Pa / peak_Pa;
+  UnitStress across = unit, along = unit;
+  for (Eigen::Index c = 0; c < unit.cols(); ++c) (across_[std::size_t(c)] ? along : across).col(c).setZero();
+  const std::array<UnitStress, 2> cosine{across * cosine_, along * cosine_},
+      sine{across * sine_, along * sine_};
+  const auto share = [](const auto& a, const auto& b) {
+    return std::hypot(von_mises_Pa(stress_of(a)), von_mises_Pa(stress_of(b)));
+  };
+  for (Eigen::Index k = 0; k < cosine_.cols(); ++k) {
+    const double order = double(k) / turns_, f_Hz = order * turn_Hz_;
+    const auto shaking = amplified(f_Hz, share(cosine[0].col(k), sine[0].col(k)), spins_Hz_, natural_Hz),
+               turning = amplified(f_Hz, share(cosine[1].col(k), sine[1].col(k)), {0}, natural_Hz);
+    result.factor += added_share(shaking) + added_share(turning);
+    const double together = share(cosine[0].col(k) + cosine[1].col(k), sine[0].col(k) + sine[1].col(k));
+    if (!(together > significant)) continue;
+    const bool shakes_more = added_share(shaking) > added_share(turning) ||
+                             (added_share(turning) == 0 && shaking.share > round_off);
+    result.highest = shakes_more ? shaking : turning;
+    result.highest.order = order;
+    result.highest.share = together;
+    result.highest_Hz = f_Hz + (shaking.share > significant ? spins_Hz_.back() : 0);
   }
   return result;
+}
+
+DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
+                                           double spin_Hz, const std::vector<double>& natural_Hz) {
+  double peak_Pa = 0;
+  for (Eigen::Index i = 0; i < stress_Pa.cols(); ++i)
+    peak_Pa = std::max(peak_Pa, von_mises_Pa(stress_of(stress_Pa.col(i).matrix())));
+  // Scaled: numbers of any size.
+  const Eigen::ArrayXXd shares = peak_Pa > 0 ? Eigen::ArrayXXd(stress_Pa / peak_Pa) : stress_Pa;
+  return LoadLines(shares, std::vector<bool>(6, true), turns, turn_Hz, {spin_Hz})
+      .amplification(Eigen::Matrix<double, 6, 6>::Identity(), peak_Pa > 0 ? 1 : 0, natural_Hz);
 }
 
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
@@ -132,8 +196,8 @@ fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
 }
 
 Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                    const kinetics::LoadHistory& loads, const Eigen::ArrayXXd& peak_stress_Pa,
-                    const Eigen::ArrayXXd& hot_spot_stress_Pa) {
+                    const kinetics::LoadHistory& loads, const ChannelHistory& channels,
+                    const std::vector<ShakenPlace>& places, const std::vector<ShakenPlace>& toes) {
   Vibration result;
   const auto held = held_body(body, meshed);
   for (const auto& mode : fem::Model(held, ranks_of_a_body())
@@ -143,26 +207,36 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
   const auto ports = kind.supporting_ports(body);
   result.held = ports.empty() ? "free" : (kind.is_clamped() ? "held at " : "pinned at ") + joined(ports);
   const double period_s = (loads.time_s[1] - loads.time_s[0]) * scene.sampling.instants_per_turn;
-  const auto amplification = [&](const Eigen::ArrayXXd& stress_Pa) {
-    return dynamic_amplification(stress_Pa, scene.sampling.turns, 1 / period_s,
-                                 kind.spin_Hz(scene, body, loads), result.natural_frequencies_Hz);
+  std::vector<bool> across;
+  for (const auto& channel : channels.channels) across.push_back(is_across(channel.name));
+  const LoadLines lines(channels.values, across, scene.sampling.turns, 1 / period_s,
+                        kind.spins_Hz(scene, body, loads));
+  const auto resonance = [&](const std::vector<ShakenPlace>& all) {
+    std::vector<DynamicAmplification> dynamic;
+    for (const auto& place : all)
+      dynamic.push_back(lines.amplification(place.unit_Pa, place.value_Pa, result.natural_frequencies_Hz));
+    return dynamic;
   };
-  result.amplification = amplification(peak_stress_Pa);
-  if (hot_spot_stress_Pa.size() > 0) result.at_hot_spot = amplification(hot_spot_stress_Pa);
+  const auto at_places = resonance(places), at_toes = resonance(toes);
+  if (!places.empty()) result.amplification = at_places.front();
+  if (!toes.empty()) result.at_hot_spot = at_toes.front();
+  result.to_peak = added(places, at_places);
+  result.to_hot_spot = added(toes, at_toes);
   return result;
 }
 
 std::string warning_of(const BodyScene& body, const Vibration& vibration) {
-  const bool is_toe = vibration.at_hot_spot.factor > vibration.amplification.factor;
+  const bool is_toe = vibration.to_hot_spot.share > vibration.to_peak.share;
   const auto& dynamic = is_toe ? vibration.at_hot_spot : vibration.amplification;
+  const auto& added = is_toe ? vibration.to_hot_spot : vibration.to_peak;
   const auto& natural_Hz = vibration.natural_frequencies_Hz;
-  const bool is_beyond = dynamic.highest.frequency_Hz > natural_Hz.back();
-  if (!(dynamic.factor > amplification_limit) && !is_beyond) return {};
+  const bool is_beyond = dynamic.highest_Hz > natural_Hz.back();
+  if (!(1 + added.share > amplification_limit) && !is_beyond) return {};
   return fmt::format(
       "the {}'s lowest natural frequency is {:.4g} Hz ({}): resonance adds about {:.2g} % to its {} "
-      "stress, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}",
-      body.name, natural_Hz.front(), vibration.held, 100 * (dynamic.factor - 1), is_toe ? "hot-spot" : "peak",
-      dynamic.highest.frequency_Hz,
+      "stress{}, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}",
+      body.name, natural_Hz.front(), vibration.held, 100 * added.share, is_toe ? "hot-spot" : "peak",
+      added.place.empty() ? "" : ", at another place: " + added.place, dynamic.highest_Hz,
       is_beyond ? fmt::format(", above the {} lowest natural frequencies: ask for more, which it may meet",
                               natural_Hz.size())
                 : "");

@@ -70,4 +70,9 @@ double BodyKind::spin_Hz(const Scene&, const BodyScene&, const kinetics::LoadHis
   return 0;
 }
 
+std::vector<double> BodyKind::spins_Hz(const Scene& scene, const BodyScene& body,
+                                       const kinetics::LoadHistory& loads) const {
+  return {spin_Hz(scene, body, loads)};
+}
+
 }  // namespace pipelines

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/closure.h"
 #include "pipelines/loads/machine_masses.h"
@@ -185,6 +186,12 @@ public:
   }
   std::vector<std::string> supporting_ports(const BodyScene& body) const override {
     return table_options(body).bearings;
+  }
+  /// Loads on a shaft may be along axes that turn with it; a part's are along its own.
+  std::vector<double> spins_Hz(const Scene&, const BodyScene& body,
+                               const kinetics::LoadHistory& loads) const override {
+    if (body.name != "shaft") return {0};
+    return {0, std::abs(loads.speed_rad_s.mean()) / (2 * pi)};
   }
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/common/parallel.h"
@@ -387,6 +388,10 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
   });
   fatigue.assumptions = assumptions_of(rules, analysis);
   fatigue.warnings = warnings_of(rules, analysis.scene.name, fatigue);
+  if (const auto corners = corners_left_out(analysis); !corners.empty())
+    fatigue.warnings.push_back(
+        fmt::format("{}: no fatigue is judged at sharp corners, where cracks may begin first: {}",
+                    analysis.scene.name, corners));
   return fatigue;
 }
 

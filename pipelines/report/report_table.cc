@@ -6,6 +6,7 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/analysis/shaft_torsion.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/loads/load_figures.h"
@@ -67,7 +68,8 @@ void print_hot_spots(std::ostream& out, const RunReport& report, const BodyAnaly
   constexpr std::size_t shown = 5;
   for (std::size_t i = 0; i < std::min(shown, analysis.hot_spots.size()); ++i) {
     const auto& spot = analysis.hot_spots[i];
-    out << fmt::format("  {:<40}{:>14.1f}{:>10}{:>20.1f}  {}\n", spot.name, spot.von_mises_Pa / 1e6,
+    out << fmt::format("  {:<40}{:>14}{:>10}{:>20.1f}  {}\n", spot.name,
+                       stress_in_MPa(spot.von_mises_Pa, error_Pa(analysis, spot)),
                        fixed(error_Pa(analysis, spot) / 1e6, 1),
                        (spot.max_normal_Pa - spot.min_normal_Pa) / 1e6, when(report, spot.instant));
   }
@@ -80,7 +82,7 @@ void print_search(std::ostream& out, const Search& search) {
   int n = 0;
   for (const auto& step : search.steps)
     out << fmt::format("    step {:<17}{:>9}{:>9.1f}%{:>11}{:>9.1f}  {}; {}\n", ++n,
-                       fixed(step.value_Pa / 1e6, 1),
+                       stress_in_MPa(step.value_Pa, step.errors.reducible_Pa()),
                        step.value_Pa > 0 ? 100 * step.errors.reducible_Pa() / step.value_Pa : 0.0,
                        step.n_dofs, step.seconds, step.errors.largest_reducible(), step.fineness);
   out << fmt::format("  {}: {}", search.met ? "ended" : "NOT MET", search.ended);
@@ -94,10 +96,11 @@ void print_vibration(std::ostream& out, const Vibration& vibration) {
   for (const double f : vibration.natural_frequencies_Hz) out << fmt::format("  {:.5g}", f);
   const auto& dynamic = vibration.amplification;
   out << fmt::format(
-      "   ({})\n  dynamic amplification    {:.4f} of the peak; harmonic {:.4g} at {:.4g} Hz: "
+      "   ({})\n  dynamic amplification    {:.4f} of the peak{}; harmonic {:.4g} at {:.4g} Hz: "
       "{:.3g} % of it, times {:.4f}\n",
-      vibration.held, dynamic.factor, dynamic.highest.order, dynamic.highest.frequency_Hz,
-      100 * dynamic.highest.share, dynamic.highest.amplification);
+      vibration.held, 1 + vibration.to_peak.share,
+      vibration.to_peak.place.empty() ? "" : ", at " + vibration.to_peak.place, dynamic.highest.order,
+      dynamic.highest.frequency_Hz, 100 * dynamic.highest.share, dynamic.highest.amplification);
 }
 
 /// What the body is judged by, first of all that it is not known well.
@@ -125,14 +128,15 @@ void print_peak(std::ostream& out, const RunReport& report, const BodyAnalysis& 
 void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   const auto& zones = analysis.zones.zones;
   out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>9}{:>13}  {:<20}{}\n",
-                     fixed(analysis.zones.level_Pa / 1e6, 1), "peak MPa", "+- MPa", "safety", "volume mm3",
+                     stress_in_MPa(analysis.zones.level_Pa, 0), "peak MPa", "+- MPa", "safety", "volume mm3",
                      "  moment", "where");
   for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i) {
     const auto error = error_Pa(analysis, zones[i]);
     out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13.1f}  {:<20}{}\n", i + 1, zones[i].feature,
-                       fixed(zones[i].peak_Pa / 1e6, 1), error ? fixed(*error / 1e6, 1) : "-",
-                       fixed(zones[i].safety, 2), zones[i].volume_m3 * 1e9,
-                       "  " + when(report, zones[i].instant), to_string(zones[i].place));
+                       stress_in_MPa(zones[i].peak_Pa, error.value_or(0)),
+                       error ? fixed(*error / 1e6, 1) : "-", fixed(zones[i].safety, 2),
+                       zones[i].volume_m3 * 1e9, "  " + when(report, zones[i].instant),
+                       to_string(zones[i].place));
     for (const auto& text : {causes_text(analysis, i), parts_text(zones[i])})
       if (!text.empty()) out << "       " << text << '\n';
   }
@@ -171,13 +175,18 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
                      analysis.closure.worst_moment());
   print_masses(out, report, analysis);
   print_peak(out, report, analysis);
+  if (const auto corners = corners_left_out(analysis); !corners.empty())
+    out << "  left out, since stress grows without bound at a sharp corner: " << corners << '\n';
   print_search(out, analysis.search);
   const std::size_t p = analysis.principal_node;
   out << fmt::format("  largest principal stress {} MPa\n",
-                     fixed(analysis.envelope.principal.value_Pa[p] / 1e6, 1));
-  if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr)
-    out << fmt::format("  largest torsional stress {} MPa at {}, z = {:.1f} mm\n",
-                       fixed(ring->max_Pa / 1e6, 2), ring->feature, ring->z_m * 1e3);
+                     stress_in_MPa(analysis.envelope.principal.value_Pa[p], 0));
+  if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr) {
+    const double error_Pa = ring_error_Pa(analysis, *ring);
+    out << fmt::format(
+        "  largest torsional stress {} MPa{} at {}, z = {:.1f} mm\n", fixed(ring->max_Pa / 1e6, 2),
+        std::isfinite(error_Pa) ? " +- " + fixed(error_Pa / 1e6, 2) : "", ring->feature, ring->z_m * 1e3);
+  }
 
   print_zones(out, report, analysis);
   if (analysis.vibration) print_vibration(out, *analysis.vibration);

@@ -5,6 +5,7 @@
 #include "pipelines/analysis/energy_errors.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/analysis/shaft_torsion.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/results.h"
@@ -117,6 +118,7 @@ Json torsion_json(const BodyAnalysis& analysis) {
   const auto ring = largest_torsion_ring(diagrams);
   json["max_shear_stress"] = figure(ring ? ring->max_Pa : 0.0, "Pa");
   if (ring) {
+    json["max_shear_stress"]["error"] = number_or_none(ring_error_Pa(analysis, *ring));
     json["max_shear_stress"]["feature"] = ring->feature;
     json["max_shear_stress"]["z_m"] = ring->z_m;
   }
@@ -135,7 +137,8 @@ void add_vibration(const Vibration& vibration, Json& json) {
   for (const double f : vibration.natural_frequencies_Hz)
     json["natural_frequencies"].push_back(figure(f, "Hz"));
   const auto& dynamic = vibration.amplification;
-  json["dynamic_amplification"] = figure(dynamic.factor, "1");
+  json["dynamic_amplification"] = figure(1 + vibration.to_peak.share, "1");
+  if (!vibration.to_peak.place.empty()) json["dynamic_amplification"]["place"] = vibration.to_peak.place;
   json["dynamic_amplification"]["held"] = vibration.held;
   json["dynamic_amplification"]["limit"] = amplification_limit;
   json["dynamic_amplification"]["highest_harmonic"] =

@@ -115,6 +115,9 @@ public:
   virtual bool is_clamped() const;
   /// Revolutions per second of the body's axes against what holds it; 0: they do not turn.
   virtual double spin_Hz(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& loads) const;
+  /// The same where the scene leaves it open: all that it may be, ascending; else that one.
+  virtual std::vector<double> spins_Hz(const Scene& scene, const BodyScene& body,
+                                       const kinetics::LoadHistory& loads) const;
 };
 
 /// In the order of BodyOptions.

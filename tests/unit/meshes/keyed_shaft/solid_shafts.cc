@@ -152,6 +152,9 @@ TEST(SolidShaft, LeavesOutAtShouldersWhatBlocksLeaveOut) {
   ASSERT_EQ(edges.size(), 2U);
   EXPECT_DOUBLE_EQ(edges[0].distance_m, blocks[0].distance_m);
   EXPECT_DOUBLE_EQ(edges[0].distance_m, 0.003);
+  // Chords of 16 cells around would run 0.3 mm inside the circle; 2 um are the parabolas'.
+  for (const auto& [from, to] : edges[0].pieces)
+    EXPECT_NEAR(std::hypot(from[0] + to[0], from[1] + to[1]) / 2, 0.015, 1e-5);
   EXPECT_NEAR(edges[1].distance_m, 0.01 * std::hypot(0.18, 0.05, 0.05), 1e-4);  // of the polygon's box
   control.exclusion_m = 0.001;
   for (const auto& edge :

@@ -90,6 +90,23 @@ TEST(ErrorText, SetsApartWhatNoMeshLowers) {
             "105.2 MPa +- 1.3 (numerical) and +- 2.1 from load patches, which no mesh lowers");
 }
 
+// A drum that spins slowly: 0.08907 MPa +- 8.98e-05 was shown as 0.1, which is outside of that.
+TEST(ErrorText, ShowsAsManyDigitsAsAreKnown) {
+  const auto text = [](double value_Pa, double error_Pa) {
+    ErrorBudget errors;
+    errors.set_numerical({"discretisation", "", error_Pa});
+    return value_with_errors(value_Pa, errors);
+  };
+  EXPECT_EQ(text(0.08907e6, 89.8), "0.08907 MPa +- 8.98e-05 (numerical)");
+  EXPECT_EQ(text(0.08907e6, 0.05e6), "0.0891 MPa +- 0.1 (numerical)");
+  EXPECT_EQ(text(43.1349e6, 0.012e6), "43.13 MPa +- 0.012 (numerical)");
+  EXPECT_EQ(text(43.1349e6, 0.06e6), "43.1 MPa +- 0.1 (numerical)");
+  EXPECT_EQ(text(431.349e6, 1e-3), "431.34900 MPa +- 1e-09 (numerical)");
+  EXPECT_EQ(text(0, 0), "0.0 MPa +- 0.0 (numerical)");
+  EXPECT_EQ(text(1e-6, 1e-9), "1e-12 MPa +- 1e-15 (numerical)");
+  EXPECT_EQ(text(2e13, 1e6), fixed(2e7, 1) + " MPa +- 1.0 (numerical)");
+}
+
 TEST(ErrorText, TellsWhatIsNotKnownWellAndWhatHelps) {
   GoverningStress stress;
   stress.value_Pa = 30.8e6;

@@ -68,6 +68,39 @@ TEST(Resonance, InTurningAxesEveryFrequencyIsHigherByTheSpin) {
   EXPECT_NEAR(d.highest.frequency_Hz, 20, 1e-12);
 }
 
+// What oscillates across axes that turn is, at rest, a force that runs forward at f + spin and one that runs
+// backward at f - spin. Here the latter meets the natural frequency; the former would have a third of its
+// stress.
+TEST(Resonance, InTurningAxesTheLowerFrequencyMayMeetIt) {
+  const auto stress = tension(0, {{3, 1e6}});
+  const auto d = dynamic_amplification(stress, turns, turn_Hz, 10, {20});
+  EXPECT_NEAR(d.factor, 1 + 1e6 / stress.row(2).abs().maxCoeff() * (pipelines::resonance_peak - 1), 1e-9);
+  EXPECT_NEAR(d.highest.frequency_Hz, 20, 1e-12);
+  EXPECT_NEAR(d.highest_Hz, 40, 1e-12);
+}
+
+// A torque is the same in axes that turn and at rest: at 30 Hz it meets the natural frequency there, and a
+// force does at 20 and 40 Hz. A load that stands still shakes nothing as a torque.
+TEST(Resonance, OfATorqueIsAtItsOwnFrequency) {
+  Eigen::ArrayXXd factors(2, n);
+  for (int i = 0; i < n; ++i) {
+    factors(0, i) = std::cos(2 * M_PI * turns * 3 * i / n);
+    factors(1, i) = 1;
+  }
+  const double peak = 2;
+  pipelines::UnitStress unit = pipelines::UnitStress::Zero(6, 2);
+  unit.row(2).setConstant(1);
+  const auto at = [&](bool across, double natural_Hz) {
+    return pipelines::LoadLines(factors, {across, false}, turns, turn_Hz, {10})
+        .amplification(unit, peak, {natural_Hz})
+        .factor;
+  };
+  const double most = 1 + 0.5 * (pipelines::resonance_peak - 1);
+  EXPECT_NEAR(at(false, 30), most, 1e-9);
+  for (const double natural_Hz : {20, 40}) EXPECT_NEAR(at(true, natural_Hz), most, 1e-9);
+  EXPECT_NEAR(at(true, 30), 1 + 0.5 * std::max(amplified(2. / 3), std::abs(1 / (16. / 9 - 1) - 1)), 1e-9);
+}
+
 TEST(Resonance, OfAConstantStressInAxesAtRestIsNone) {
   EXPECT_EQ(dynamic_amplification(tension(2e6, {}), turns, turn_Hz, 0, {100}).factor, 1);
 }
