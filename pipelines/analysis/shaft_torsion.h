@@ -51,8 +51,9 @@ std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis, const 
 Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 
 /// What the mean shear stress on a ring may be wrong by, for want of a finer mesh [Pa]: no component of shear
-/// is off by more than the von Mises stress of what the tensor is off by, over sqrt(3). Of the ring's place;
-/// infinite where none is judged.
+/// is off by more than the von Mises stress of what the tensor is off by, over sqrt(3). Estimated for the
+/// channels that twist the ring alone, since the mean sees nothing of bending and what that is off by.
+/// Without cells, of all that is judged at the ring's place; infinite where nothing is.
 double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring);
 
 }  // namespace pipelines
