@@ -13,6 +13,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/pictures/accuracy_chart.h"
+#include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/report/html_report.h"
 #include "pipelines/report/manifest.h"
 #include "pipelines/report/staged_results.h"
@@ -87,7 +88,7 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
     if (studies.back().grid) write_grid_csv(directory / (name + "_gci.csv"), *studies.back().grid);
     if (!write_accuracy_chart(studies.back(), scene.title + ": what accuracy costs in time",
                               directory / (name + ".png")))
-      std::cerr << "no chart: this machine offers no EGL (package libegl1); the CSV has the same figures\n";
+      std::cerr << "no chart: " << why_nothing_draws() << "; the CSV has the same figures\n";
     std::error_code ignored;
     std::filesystem::remove(study_options.directory, ignored);
   }

@@ -10,6 +10,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/loads/body_mesh.h"
+#include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/pictures/port_picture.h"
 #include "pipelines/pictures/port_surface.h"
 
@@ -48,8 +49,7 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
       return write_port_picture(vtu, scene.title + ": ports of the " + name, png,
                                 cut_through_bores(meshed[i].ports));
     });
-    if (!drawn)
-      std::cerr << "no picture: this machine offers no EGL (package libegl1); ports.vtu opens in ParaView\n";
+    if (!drawn) std::cerr << "no picture: " << why_nothing_draws() << "; ports.vtu opens in ParaView\n";
     out << fmt::format("{}: {} ports, {}{}\n", name, meshed[i].ports.size(), vtu.string(),
                        drawn ? ", " + png.string() : "");
   }

@@ -25,6 +25,7 @@
 #include "pipelines/files/replaceable.h"
 #include "pipelines/loads/load_files.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/pictures/picture.h"
 #include "pipelines/report/duty_report.h"
 #include "pipelines/report/envelope_files.h"
@@ -92,7 +93,7 @@ std::string draw(const std::filesystem::path& envelope, const std::filesystem::p
                        title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle",
                        "MPa", directory / "envelope.png", options)
              ? ""
-             : "no picture: this machine offers no EGL (package libegl1); envelope.vtu opens in ParaView";
+             : "no picture: " + why_nothing_draws() + "; envelope.vtu opens in ParaView";
 }
 
 /// What is asked for, and where the results go.

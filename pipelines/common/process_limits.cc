@@ -1,0 +1,49 @@
+#include "pipelines/common/process_limits.h"
+
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <string>
+
+#include "pipelines/common/errors.h"
+
+namespace pipelines {
+namespace {
+/// 256 kB do not suffice for Mesa's shaders, 1 MB does.
+constexpr rlim_t usual_stack_bytes = 8u << 20, least_stack_bytes = 1u << 20;
+}  // namespace
+
+void require_usable_stack() {
+  rlimit stack{};
+  if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= usual_stack_bytes) return;
+  stack.rlim_cur = std::min(stack.rlim_max, usual_stack_bytes);
+  setrlimit(RLIMIT_STACK, &stack);
+  getrlimit(RLIMIT_STACK, &stack);
+  if (stack.rlim_cur < least_stack_bytes)
+    throw OptionError("the stack of this process may have " + std::to_string(stack.rlim_cur >> 10) +
+                      " kB (ulimit -s), and 1024 are needed: raise that limit; 8192 are usual");
+  pthread_attr_t threads;  // they have what the limit was when the process began
+  if (pthread_attr_init(&threads) != 0) return;
+  if (pthread_attr_setstacksize(&threads, stack.rlim_cur) == 0) pthread_setattr_default_np(&threads);
+  pthread_attr_destroy(&threads);
+}
+
+bool memory_is_limited() {
+  for (const auto limit : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit memory{};
+    if (getrlimit(limit, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) return true;
+  }
+  return false;
+}
+
+bool memory_has_room_for(std::size_t bytes) {
+  if (!memory_is_limited()) return true;
+  void* const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) return false;
+  munmap(room, bytes);
+  return true;
+}
+
+}  // namespace pipelines
