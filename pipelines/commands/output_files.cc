@@ -3,9 +3,9 @@
 #include <iostream>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/loads/load_files.h"
-#include "pipelines/pictures/offscreen_window.h"
 
 namespace pipelines {
 namespace {

@@ -8,9 +8,9 @@
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/pictures/port_picture.h"
 #include "pipelines/pictures/port_surface.h"
 

@@ -9,8 +9,8 @@
 #include <regex>
 
 #include "pipelines/commands/sweep_table.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/pictures/chart.h"
-#include "pipelines/pictures/offscreen_window.h"
 
 namespace pipelines {
 namespace {

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include "pipelines/common/errors.h"
@@ -13,6 +14,8 @@ namespace pipelines {
 namespace {
 /// 256 kB do not suffice for Mesa's shaders, 1 MB does.
 constexpr rlim_t usual_stack_bytes = 8u << 20, least_stack_bytes = 1u << 20;
+/// Drawing failed with 300 MB left and went well with 1000.
+constexpr std::size_t bytes_to_draw = std::size_t{1} << 30;
 }  // namespace
 
 void require_usable_stack() {
@@ -38,12 +41,18 @@ bool memory_is_limited() {
   return false;
 }
 
-bool memory_has_room_for(std::size_t bytes) {
+bool has_memory_to_draw() {
   if (!memory_is_limited()) return true;
-  void* const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* const room = mmap(nullptr, bytes_to_draw, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (room == MAP_FAILED) return false;
-  munmap(room, bytes);
+  munmap(room, bytes_to_draw);
   return true;
+}
+
+std::string why_nothing_draws() {
+  return has_memory_to_draw() ? "this machine offers no EGL (package libegl1)"
+                              : "the memory that this process may have (ulimit -v or -d) has no " +
+                                    std::to_string(bytes_to_draw >> 20) + " MB left to draw in";
 }
 
 }  // namespace pipelines

@@ -1,7 +1,7 @@
 /// Limits that the process was started with, at which libraries would end it without a reason.
 #pragma once
 
-#include <cstddef>
+#include <string>
 
 namespace pipelines {
 
@@ -15,7 +15,10 @@ void require_usable_stack();
 /// does, and a process that ends in the usual way waits for that thread.
 bool memory_is_limited();
 
-/// Whether a limited process may still have so much memory; true without a limit.
-bool memory_has_room_for(std::size_t bytes);
+/// Whether a limited process may still have what a picture takes: the compiler of its shaders aborts without.
+bool has_memory_to_draw();
+
+/// Why there is no picture on this machine, or of this process.
+std::string why_nothing_draws();
 
 }  // namespace pipelines

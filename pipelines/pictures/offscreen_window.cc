@@ -9,16 +9,10 @@
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 
-#include <cstddef>
-
 #include "pipelines/common/process_limits.h"
 
 namespace pipelines {
 namespace {
-
-/// What Mesa's software renderer with its compiler (LLVM) asked for in pictures of up to 2 million pixels was
-/// below 600 MB.
-constexpr std::size_t bytes_to_draw = std::size_t{1} << 30;
 
 /// The EGL context; `context` is EGL_NO_CONTEXT if there is none.
 class SurfacelessContext {
@@ -98,17 +92,10 @@ vtkStandardNewMacro(OffscreenWindow);
 }  // namespace
 
 std::shared_ptr<vtkRenderWindow> make_offscreen_window() {
-  if (!memory_has_room_for(bytes_to_draw)) return nullptr;
+  if (!has_memory_to_draw()) return nullptr;
   const auto window = vtkSmartPointer<OffscreenWindow>::New();
   if (!window->works()) return nullptr;
   return {window.Get(), [window](vtkRenderWindow*) {}};  // the deleter holds VTK's own reference
-}
-
-std::string why_nothing_draws() {
-  return memory_has_room_for(bytes_to_draw)
-             ? "this machine offers no EGL (package libegl1)"
-             : "the memory that this process may have (ulimit -v or -d) has no " +
-                   std::to_string(bytes_to_draw >> 20) + " MB left to draw in";
 }
 
 }  // namespace pipelines

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 class vtkRenderWindow;
 
@@ -13,8 +12,5 @@ namespace pipelines {
 /// @return null if the machine has no such context or one older than OpenGL 3.2, or this process too little
 ///   memory for its shaders' compiler, which would abort
 std::shared_ptr<vtkRenderWindow> make_offscreen_window();
-
-/// Why there is no window.
-std::string why_nothing_draws();
 
 }  // namespace pipelines
