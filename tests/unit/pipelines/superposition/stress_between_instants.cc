@@ -143,9 +143,9 @@ TEST(AmplitudeBound, HoldsForRandomCourses) {
   }
 }
 
-// Windows that do not close, of orders that never meet: no two places differ by more than the knots say, none
-// is farther from the mean, and closer knots come within 5 % (pi h / 12)^2 / 2 of the 4.7th order at 128 a
-// turn.
+// Windows that do not close, of orders that never meet: no two places differ by more than the knots say, and
+// none is farther from the mean. With 32 knots a turn orders of 1, 1, 2.2 and 4.7 leave straight lines by
+// (pi h / 32)^2 / 2: 0.5, 0.5, 2.3 and 10.6 % of their parts, all at once by 14 % at most. Red without that.
 TEST(AmplitudeBound, AtKnotsHoldsForWindowsThatDoNotClose) {
   std::mt19937 random(54);
   std::normal_distribution<double> normal;
@@ -171,7 +171,7 @@ TEST(AmplitudeBound, AtKnotsHoldsForWindowsThatDoNotClose) {
       EXPECT_GE(most.ball.radius_Pa, radius_Pa) << trial << ", level " << level;
       EXPECT_NEAR(most.ball.mean_Pa, x.rowwise().mean().norm(), 1e-9 * radius_Pa);
     }
-    EXPECT_LE(bound.at_knots(unit, 1).amplitude_Pa, 1.05 * amplitude_Pa) << trial;
+    EXPECT_LE(bound.at_knots(unit, 1).amplitude_Pa, 1.14 * amplitude_Pa) << trial;
   }
 }
 
