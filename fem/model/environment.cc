@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fem/common/blas_kernels.h"
+#include "fem/common/blas_memory.h"
 #include "fem/common/parallel.h"
 #include "fem/model/model.h"
 
@@ -59,6 +60,7 @@ Environment::Environment(int n_threads) {
   } else if (n_threads > 0)
     dealii::MultithreadInfo::set_thread_limit(n);
   set_blas_threads(Environment::n_threads());
+  reserve_blas_memory(Environment::n_threads());
 }
 
 Environment::~Environment() = default;

@@ -11,6 +11,7 @@
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/pictures/accuracy_chart.h"
 #include "pipelines/report/html_report.h"
@@ -87,7 +88,7 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
     if (studies.back().grid) write_grid_csv(directory / (name + "_gci.csv"), *studies.back().grid);
     if (!write_accuracy_chart(studies.back(), scene.title + ": what accuracy costs in time",
                               directory / (name + ".png")))
-      std::cerr << "no chart: this machine offers no EGL (package libegl1); the CSV has the same figures\n";
+      std::cerr << "no chart: " << why_nothing_draws() << "; the CSV has the same figures\n";
     std::error_code ignored;
     std::filesystem::remove(study_options.directory, ignored);
   }

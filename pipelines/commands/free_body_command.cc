@@ -1,9 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "pipelines/commands/option_value.h"
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_machine.h"
 #include "pipelines/commands/scene_options.h"
+#include "pipelines/common/constants.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/pictures/free_body_chart.h"
 #include "pipelines/report/free_body_report.h"
 
@@ -16,8 +19,19 @@ struct FreeBodyCommandOptions : SceneOptions {
   bool json = false;
 };
 
+/// Turns of which a double still knows a millionth of a degree.
+constexpr double most_turns = 1e6;
+
+double angle_of(const std::string& at) {
+  const double angle_rad = option_in_si("--at", at, "rad");
+  if (std::abs(angle_rad) <= 2 * pi * most_turns) return angle_rad;
+  throw OptionError("--at " + at +
+                    ": is more than a million turns, where the angle within the turn gets lost; write it "
+                    "between 0 and 360 deg");
+}
+
 void show_free_body(const FreeBodyCommandOptions& options, std::ostream& out) {
-  const double angle_rad = option_in_si("--at", options.at, "rad");
+  const double angle_rad = angle_of(options.at);
   Scene scene = read_scene(options.scene, options.settings);
   scene.machine = machine_with_masses(scene);
   const auto body = free_body(scene);

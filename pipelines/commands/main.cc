@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/nearest_name.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/common/version.h"
 
@@ -97,9 +99,15 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const int fault = guarded(pipelines::require_usable_stack)) return fault;
   std::optional<fem::Environment> ranks;
   if (pipelines::started_on_several_ranks()) ranks.emplace(0);
   const int code = run(argc, argv);
   if (ranks && fem::this_rank(MPI_COMM_WORLD) == 0) fem::dismiss_helpers(code);
+  if (code == pipelines::mesh_or_solve_failed && !ranks && pipelines::memory_is_limited()) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    std::_Exit(code);
+  }
   return code;
 }

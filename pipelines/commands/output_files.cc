@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/loads/load_files.h"
 
@@ -48,7 +49,7 @@ void require_own_loads(const OutputFile& output) {
 
 void say_if_nothing_draws(const std::vector<std::string>& charts, bool can_draw) {
   if (charts.empty() && !can_draw)  // where there is nothing to draw, nothing is missing
-    std::cerr << "no charts: this machine offers no EGL (package libegl1); the tables have the figures\n";
+    std::cerr << "no charts: " << why_nothing_draws() << "; the tables have the figures\n";
 }
 
 void print_files(std::ostream& out, const std::filesystem::path& directory,

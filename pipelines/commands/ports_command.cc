@@ -8,6 +8,7 @@
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/pictures/port_picture.h"
@@ -48,8 +49,7 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
       return write_port_picture(vtu, scene.title + ": ports of the " + name, png,
                                 cut_through_bores(meshed[i].ports));
     });
-    if (!drawn)
-      std::cerr << "no picture: this machine offers no EGL (package libegl1); ports.vtu opens in ParaView\n";
+    if (!drawn) std::cerr << "no picture: " << why_nothing_draws() << "; ports.vtu opens in ParaView\n";
     out << fmt::format("{}: {} ports, {}{}\n", name, meshed[i].ports.size(), vtu.string(),
                        drawn ? ", " + png.string() : "");
   }

@@ -20,6 +20,7 @@
 #include "pipelines/commands/run_results.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/failure.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/replaceable.h"
@@ -92,7 +93,7 @@ std::string draw(const std::filesystem::path& envelope, const std::filesystem::p
                        title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle",
                        "MPa", directory / "envelope.png", options)
              ? ""
-             : "no picture: this machine offers no EGL (package libegl1); envelope.vtu opens in ParaView";
+             : "no picture: " + why_nothing_draws() + "; envelope.vtu opens in ParaView";
 }
 
 /// What is asked for, and where the results go.

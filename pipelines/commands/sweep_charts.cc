@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "pipelines/commands/sweep_table.h"
+#include "pipelines/common/process_limits.h"
 #include "pipelines/pictures/chart.h"
 
 namespace pipelines {
@@ -96,7 +97,7 @@ std::vector<std::string> draw_charts(const std::filesystem::path& directory, con
   std::vector<std::string> files;
   const auto draw = [&](const auto& chart, const std::string& name) {
     if (!write_chart(chart, directory / name)) {
-      std::cerr << "no chart: this machine offers no EGL (package libegl1); sweep.csv has the figures\n";
+      std::cerr << "no chart: " << why_nothing_draws() << "; sweep.csv has the figures\n";
       return;
     }
     files.push_back(name + ".png");

@@ -37,6 +37,7 @@ struct TomlEntry {
   std::string key;
   SourcePosition at;  ///< of the key
   TomlNode value;
+  bool is_set = false;  ///< not in the file: by --set, --vary or a block of [[duty]]
 };
 
 /// "a table", "a text", "a whole number" ...

@@ -291,7 +291,8 @@ private:
     return cycle.amplitude_Pa + std::abs(cycle.signed_mean_Pa);
   }
 
-  /// Those of FatiguePlaces::counted, or those of FatiguePlaces::stationary.
+  /// Those of FatiguePlaces::counted, or those of FatiguePlaces::stationary. The former compare places, by
+  /// damage: what the instants leave unresolved is not sought.
   enum class Directions { about, stationary };
 
   DutyPlace at(std::size_t node, double error_share, Directions kind, CountedBlocks& counted) const {
@@ -316,7 +317,7 @@ private:
     auto counted = places.counted(node, block.period.duration_s / block.share);
     if (kind == Directions::stationary) counted = places.stationary(node, counted);
     append(own.running, counted.blocks, block.running_per_s());
-    own.unresolved_share = places.unresolved_share(node, counted);
+    if (kind == Directions::stationary) own.unresolved_share = places.unresolved_share(node, counted);
     if (!counted.blocks.empty())
       derivatives.push_back([this, &places, &block, node, counted](const SnCurve& curve) {
         const auto stress = places.stress_of(node.node);
@@ -374,7 +375,7 @@ private:
                               in_start, in_running, equivalents_along(form_along(worst), limit), curve,
                               support);
     });
-    own.unresolved_start_share = block.starting == nullptr
+    own.unresolved_start_share = block.starting == nullptr || kind == Directions::about
                                      ? 0
                                      : start_sampling_share(unit_stresses_at(analysis_.responses, node.node),
                                                             block.starting->values, cycle.amplitude_Pa);

@@ -92,6 +92,7 @@ std::vector<FatigueNode> FatiguePlaces::worst_of(const std::vector<std::size_t>&
   for (const auto& [bound, node] : by_bound) {
     if (bound <= worst.utilisation) break;
     const auto unit = unit_stresses_at(analysis_.responses, node);
+    if (worst.utilisation > 0 && is_surely_within(worst.utilisation, unit)) continue;
     auto candidate = judged(node, bound_.stress_of(unit, of_search_), slack_of_search, worst.utilisation);
     if (candidate.utilisation > worst.utilisation) worst = candidate;
   }
@@ -123,17 +124,32 @@ double FatiguePlaces::most_amplitude_Pa(std::size_t node, const UnitStresses& un
   return std::min(of_channels_Pa, largest_Pa_[node] + missed_Pa);
 }
 
-/// Without support by the gradient. Two stresses of a ball of radius R that differ by twice A have their
-/// middle within sqrt(R^2 - A^2) of its centre. What is equivalent at R = -1 grows with the amplitude by one
-/// at least and with the mean by M at most, so that A < R may win by R (sqrt(1 + M^2) - 1), no more.
+/// Without support by the gradient. Two stresses of a ball of radius R that differ by twice a have their
+/// middle within sqrt(R^2 - a^2) of its centre. What is equivalent at R = -1 grows with the amplitude by one
+/// at least and with the mean by M at most. So a smaller than A, the largest, may win by
+/// M sqrt(R^2 - a^2) - (A - a), no more, of which the largest is at a = R / sqrt(1 + M^2), or at A below
+/// that.
+double FatiguePlaces::most_utilisation(const StressBall& ball, double amplitude_Pa) const {
+  const double R = ball.radius_Pa * (1 + off_the_polynomial),
+               A = std::min(amplitude_Pa * (1 + off_the_polynomial), R);
+  const auto limit = rules_.limit(0, {A, ball.mean_Pa});
+  const double M = limit.mean_stress_sensitivity, slope = std::hypot(1, M);
+  const double by_mean_Pa = A * slope < R ? M * std::sqrt(R * R - A * A) : R * slope - A;
+  return limit.utilisation + rules_.scene().safety / limit.reversed_Pa * by_mean_Pa;
+}
+
 double FatiguePlaces::most_utilisation(std::size_t node) const {
   const auto unit = unit_stresses_at(analysis_.responses, node);
   const auto ball = bound_.about_mean(unit);
-  const double radius_Pa = ball.radius_Pa * (1 + off_the_polynomial);
-  const auto limit = rules_.limit(0, {radius_Pa, ball.mean_Pa});
-  const double by_mean_Pa = radius_Pa * (std::hypot(1, limit.mean_stress_sensitivity) - 1);
-  return std::min(most_per_Pa_ * most_amplitude_Pa(node, unit),
-                  limit.utilisation + rules_.scene().safety / limit.reversed_Pa * by_mean_Pa);
+  return std::min(most_per_Pa_ * most_amplitude_Pa(node, unit), most_utilisation(ball, ball.radius_Pa));
+}
+
+bool FatiguePlaces::is_surely_within(double utilisation, const UnitStresses& unit_Pa) const {
+  for (std::size_t level = 0; level < AmplitudeBound::n_levels; ++level) {
+    const auto most = bound_.at_knots(unit_Pa, level);
+    if (most_utilisation(most.ball, most.amplitude_Pa) <= utilisation) return true;
+  }
+  return false;
 }
 
 /// In proportion: sum of h A_h^k over the orders, A_h the larger half axis of the deviator's ellipse.
@@ -150,7 +166,10 @@ double FatiguePlaces::harmonics_damage_about(std::size_t node) const {
   return damage;
 }
 
+/// Of instants alone there is no need to weigh all.
 Eigen::VectorXd FatiguePlaces::half_change(double from, double to) const {
+  const auto first = course_.instant_alone(from), second = course_.instant_alone(to);
+  if (first && second) return 0.5 * (loads_.values.col(*second) - loads_.values.col(*first)).matrix();
   return 0.5 * (loads_.values.matrix() * (course_.weights_at(to) - course_.weights_at(from)));
 }
 

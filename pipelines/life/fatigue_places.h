@@ -94,6 +94,9 @@ private:
                             const StressCourse& course) const;
   double most_utilisation(std::size_t node) const;
   double most_amplitude_Pa(std::size_t node, const UnitStresses& unit_Pa) const;
+  double most_utilisation(const StressBall& ball, double amplitude_Pa) const;
+  /// Whether a few places tell that a node's utilisation is no larger.
+  bool is_surely_within(double utilisation, const UnitStresses& unit_Pa) const;
   double harmonics_damage_about(std::size_t node) const;
   /// Half of the change of the loads, one of each channel.
   Eigen::VectorXd half_change(double from, double to) const;

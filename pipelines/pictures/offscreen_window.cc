@@ -9,6 +9,8 @@
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 
+#include "pipelines/common/process_limits.h"
+
 namespace pipelines {
 namespace {
 
@@ -90,6 +92,7 @@ vtkStandardNewMacro(OffscreenWindow);
 }  // namespace
 
 std::shared_ptr<vtkRenderWindow> make_offscreen_window() {
+  if (!has_memory_to_draw()) return nullptr;
   const auto window = vtkSmartPointer<OffscreenWindow>::New();
   if (!window->works()) return nullptr;
   return {window.Get(), [window](vtkRenderWindow*) {}};  // the deleter holds VTK's own reference

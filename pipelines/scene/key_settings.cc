@@ -192,7 +192,7 @@ private:
                                     [&](const TomlEntry& entry) { return entry.key == part.name; });
     if (found != entries.end()) return found->value;
     if (to_array) refuse("the scene has no " + up_to(i) + "; write the array in the scene, or set it whole");
-    entries.push_back({part.name, node_ ? node_->at : SourcePosition(), {}});
+    entries.push_back({part.name, node_ ? node_->at : SourcePosition(), {}, true});
     return entries.back().value;
   }
 

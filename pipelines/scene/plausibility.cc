@@ -19,6 +19,30 @@ constexpr double most_peripheral_m_s = 50, most_tolerance = 0.2, most_poisson_ra
 const char* const unit_of_speed =
     "a bare number is in rad/s and \"Hz\" counts turns per second; write \"... rpm\" if that is meant";
 
+/// Waves along a bar of solids: a third of polyethylene's and 1.25 times beryllium's, below.
+constexpr double least_wave_m_s = 300, most_wave_m_s = 16000;
+constexpr double least_yield_strain = 2e-5, most_yield_strain = 0.2;
+
+/// A modulus, density or strength that does not fit the others, by powers of ten mostly.
+void doubt_material(const BodyScene& body, Doubts& doubts) {
+  const auto& material = body.material;
+  const double wave_m_s = std::sqrt(material.youngs_modulus_Pa / material.density_kg_m3);
+  if (wave_m_s < least_wave_m_s || wave_m_s > most_wave_m_s)
+    doubts.texts.push_back(
+        fmt::format("{}.material: sound would run along a bar with youngs_modulus = {:.4g} GPa and density = "
+                    "{:.4g} kg/m3 at {:.3g} m/s; in solids it does at 920 (polyethylene) to 12870 m/s "
+                    "(beryllium), in steel at 5200: check both and their units (steel has 210e9 Pa and 7850 "
+                    "kg/m3)",
+                    body.name, material.youngs_modulus_Pa / 1e9, material.density_kg_m3, wave_m_s));
+  const double yield_strain = body.yield_strength_Pa / material.youngs_modulus_Pa;
+  if (yield_strain < least_yield_strain || yield_strain > most_yield_strain)
+    doubts.texts.push_back(
+        fmt::format("{}.material: yield_strength = {:.4g} MPa would be reached at a strain of {:.2g} with "
+                    "youngs_modulus = {:.4g} GPa; metals yield at 0.0002 to 0.02, plastics below 0.1: check "
+                    "both and their units",
+                    body.name, body.yield_strength_Pa / 1e6, yield_strain, material.youngs_modulus_Pa / 1e9));
+}
+
 /// The fastest seat of a shaft.
 void doubt_seats(const Scene& scene, const BodyScene& body, Doubts& doubts) {
   const auto speed_rad_s = kind_of(body).seat_speed_rad_s(scene, body);
@@ -80,6 +104,7 @@ std::vector<std::string> implausible(const Scene& scene) {
   for (const auto& body : scene.bodies) {
     doubt_seats(scene, body, doubts);
     doubt_classes(body, doubts);
+    doubt_material(body, doubts);
     if (body.material.poisson_ratio > most_poisson_ratio)
       doubts.texts.push_back(
           fmt::format("{}.material.poisson_ratio = {:g}: cells of degree 2 hardly keep the volume of such a "

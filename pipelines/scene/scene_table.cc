@@ -329,7 +329,8 @@ void SceneTable::finish() {
     if (!has(name)) free.push_back(name);
   for (const TomlEntry& entry : node_->entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-    const std::string nearest = nearest_name(entry.key, free);
+    // Who sets a key may well mean one that the file has.
+    const std::string nearest = nearest_name(entry.key, entry.is_set ? known_ : free);
     std::string remedy = "unknown key; known here: " + listed(known_);
     if (!nearest.empty()) {
       remedy = "unknown key; did you mean \"" + nearest + "\"?";

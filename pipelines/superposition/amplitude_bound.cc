@@ -26,8 +26,18 @@ constexpr double same_row = 1e-10;
 /// Of these alone copies are made.
 constexpr Index places_at_once = 4096;
 
+/// Places from knot to knot, by level.
+constexpr std::array<Index, AmplitudeBound::n_levels> places_per_knot = {16, 4};
+/// Of the largest cycle at the knots.
+constexpr double slack_at_knots = 1e-4;
+
 /// An eigenvalue in single steps of rounding.
 constexpr double rounding = 1e-12;
+
+/// Of each stress.
+Eigen::VectorXd von_mises_of_columns(const UnitStresses& stress_Pa) {
+  return deviatoric_coordinates(stress_Pa).matrix().colwise().norm().transpose();
+}
 
 double largest_eigenvalue(const Matrix5& matrix) {
   return Eigen::SelfAdjointEigenSolver<Matrix5>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[4];
@@ -62,6 +72,23 @@ AmplitudeBound::AmplitudeBound(const FactorCourse& course, const Eigen::ArrayXd&
     triangle.triangularView<Eigen::StrictlyLower>().setZero();
   }
   take_rows(fine, triangle, scale);
+  for (std::size_t level = 0; level < n_levels; ++level)
+    knots_[level] = knots_of(rows_, places_per_knot[level]);
+}
+
+AmplitudeBound::Knots AmplitudeBound::knots_of(const Eigen::MatrixXd& rows, Index every) {
+  const Index last = rows.cols() - 1, n = (last + every - 1) / every + 1;
+  Knots knots{Eigen::MatrixXd(rows.rows(), n), Eigen::VectorXd::Zero(rows.rows())};
+  for (Index i = 0; i < n; ++i) knots.rows.col(i) = rows.col(std::min(i * every, last));
+  for (Index i = 0; i + 1 < n; ++i) {
+    const Index first = i * every, width = std::min(every, last - first);
+    for (Index j = 1; j < width; ++j) {
+      const double share = double(j) / double(width);
+      const Eigen::VectorXd on_line = (1 - share) * knots.rows.col(i) + share * knots.rows.col(i + 1);
+      knots.off_line = knots.off_line.cwiseMax((rows.col(first + j) - on_line).cwiseAbs());
+    }
+  }
+  return knots;
 }
 
 /// Channels by pivots, the others as sums of these.
@@ -114,6 +141,21 @@ StressBall AmplitudeBound::about_mean(const UnitStresses& unit_Pa) const {
   }
   ball.radius_Pa += unit.colwise().norm().dot(rest_.matrix());
   return ball;
+}
+
+AmplitudeInBall AmplitudeBound::at_knots(const UnitStresses& unit_Pa, std::size_t level) const {
+  const Index n_rows = rows_.rows() - 1;  // the last one is the mean
+  const auto& knots = knots_[level];
+  const UnitStresses of_rows = unit_Pa * of_rows_.leftCols(n_rows);
+  const double off_line_Pa = von_mises_of_columns(of_rows).dot(knots.off_line.head(n_rows));
+  const Eigen::ArrayXXd about_mean = (of_rows * knots.rows.topRows(n_rows)).array();
+  AmplitudeInBall result;
+  result.ball.mean_Pa = von_mises_of_columns(unit_Pa * mean_)[0];
+  result.ball.radius_Pa = von_mises_of_columns(about_mean.matrix()).maxCoeff() + off_line_Pa;
+  const double at_knots_Pa =
+      largest_cycle(about_mean, slack_at_knots).amplitude_Pa * (1 + 2 * slack_at_knots);
+  result.amplitude_Pa = std::min(at_knots_Pa + off_line_Pa, result.ball.radius_Pa);
+  return result;
 }
 
 StressCourse AmplitudeBound::stress_of(const UnitStresses& unit_Pa, const FactorCourse& course) const {

@@ -9,9 +9,15 @@
 /// The least of several choices of w is taken: w_h as the longest half axis, which is exact for lines in one
 /// direction, as its square, which is exact for lines across each other, and one between them. It asks for
 /// five numbers a line, whatever the number of instants.
+///
+/// Lines of a window that does not close spread, and are never in step: there that bound is half as much
+/// again as the amplitude. So a second one looks at every few places and adds how far those between them
+/// leave the straight lines that connect them: distances are convex along these.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 
 #include "pipelines/superposition/factor_course.h"
 #include "pipelines/superposition/stress_course.h"
@@ -25,6 +31,12 @@ struct StressBall {
   double mean_Pa = 0;  ///< von Mises stress of the mean over the cycle
 };
 
+/// Of all stresses of a course no two differ by more than twice `amplitude_Pa`.
+struct AmplitudeInBall {
+  StressBall ball;
+  double amplitude_Pa = 0;
+};
+
 class AmplitudeBound {
 public:
   /// Of the stresses at all places of the course.
@@ -34,12 +46,24 @@ public:
   /// @param unit_Pa  of the place, a column for each channel
   StressBall about_mean(const UnitStresses& unit_Pa) const;
 
+  /// From every few of the places. Level 0 asks for a sixteenth of the time of stress_of and its largest
+  /// cycle, level 1 for a quarter, and is closer.
+  /// @param level  below n_levels
+  AmplitudeInBall at_knots(const UnitStresses& unit_Pa, std::size_t level) const;
+  static constexpr std::size_t n_levels = 2;
+
   /// Stress at the places from as few rows as the loads have that do not follow from each other, to 1e-10 of
   /// the largest channel.
   /// @param course  as at the beginning
   StressCourse stress_of(const UnitStresses& unit_Pa, const FactorCourse& course) const;
 
 private:
+  /// Every few of the places.
+  struct Knots {
+    Eigen::MatrixXd rows;      // as rows_, at these places
+    Eigen::VectorXd off_line;  // of each row: by how much it leaves straight lines between them at most
+  };
+  static Knots knots_of(const Eigen::MatrixXd& rows, Eigen::Index every);
   void take_rows(const Eigen::ArrayXXd& fine, const Eigen::MatrixXd& triangle, const Eigen::VectorXd& scale);
 
   Eigen::VectorXd mean_;     // of each channel
@@ -47,6 +71,7 @@ private:
   Eigen::ArrayXd rest_;      // of each channel: what mean and lines leave, at any place
   Eigen::MatrixXd rows_;     // of some channels without their means, and ones: rows x places
   Eigen::MatrixXd of_rows_;  // channels x rows
+  std::array<Knots, n_levels> knots_;
 };
 
 }  // namespace pipelines

@@ -117,16 +117,19 @@ void FactorCourse::take_angles() {
   }
 }
 
+std::optional<Index> FactorCourse::instant_alone(double instant) const {
+  const Index n = values_.cols();
+  const double nearest = std::round(instant);
+  if (is_polynomial_ && std::abs(instant - nearest) >= 1e-13 * double(n)) return std::nullopt;
+  return (Index(nearest) % n + n) % n;
+}
+
 Eigen::VectorXd FactorCourse::weights_at(double instant) const {
   const Index n = values_.cols();
+  if (const auto alone = instant_alone(instant)) return Eigen::VectorXd::Unit(n, *alone);
   const double nearest = std::round(instant), beyond = instant - nearest;
   const Index first = (Index(nearest) % n + n) % n;
   Eigen::VectorXd weights(n);
-  if (!is_polynomial_ || std::abs(beyond) < 1e-13 * double(n)) {
-    weights.setZero();
-    weights[first] = 1;
-    return weights;
-  }
   // Dirichlet's kernel; of an even number of instants the line at n / 2 is its cosine. The angle of the j-th
   // instant after the nearest one is pi (beyond - j) / n: no difference of its sine is of two that are alike.
   const double c = std::cos(pi * beyond / double(n)), s = std::sin(pi * beyond / double(n));

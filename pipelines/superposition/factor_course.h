@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace pipelines {
 
@@ -31,6 +32,9 @@ public:
   /// Weights of the instants for the value between them; of instants alone, of the nearest one.
   /// @param instant  i + share of the step to the next, 0 to n
   Eigen::VectorXd weights_at(double instant) const;
+
+  /// The instant that has all the weight there; none between instants of a polynomial.
+  std::optional<Eigen::Index> instant_alone(double instant) const;
 
   /// A sum over the places as one over the instants: of weights of places those of the instants, so that
   /// sum w(p) fine(p) = sum result(i) values(i).

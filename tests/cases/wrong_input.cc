@@ -64,6 +64,9 @@ TEST(WrongInput, OfTheCommandLineIsTold) {
       {"run mill.toml --tolerance nan", "is not a finite number"},
       {"rnu mill.toml", "rnu: is no command; did you mean \"run\"?"},
       {"accuracy mill.toml --reference '0 MPa'", "--reference 0 MPa: must be positive"},
+      {"check mill.toml --set machine.drive.sped='90 rpm'", "unknown key; did you mean \"speed\"?"},
+      {"check mill.toml --set shaft.matrial.density=7850", "shaft.matrial: unknown key; did you mean"},
+      {"free-body mill.toml --at '1e300 deg'", "--at 1e300 deg: is more than a million turns"},
       {sweep + "--points 3", "--points: has no use"},
       {sweep + "--seed 3", "--seed: has no use"},
       {sweep + "--loads --zones", "--zones: has no use"},
@@ -75,6 +78,26 @@ TEST(WrongInput, OfTheCommandLineIsTold) {
     EXPECT_NE(outcome.err.find(message), std::string::npos) << arguments << '\n' << outcome.err;
   }
   EXPECT_FALSE(fs::exists(directory / "results"));
+}
+
+// Libraries abort at such variables, and hang or end by a signal within such limits: all that is loaded takes
+// some 400 MB, and a block of OpenBLAS' 160.
+TEST(WrongInput, OfTheProcessItselfIsTold) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  for (const std::string threads : {"xx", "", "0", "-1", "1.5", "99999999999"}) {
+    const auto outcome = millstress(directory.path, "run mill.toml", "export DEAL_II_NUM_THREADS=" + threads);
+    EXPECT_EQ(outcome.exit_code, 2) << threads;
+    const std::string told = "millstress: DEAL_II_NUM_THREADS = \"" + threads + "\"";
+    EXPECT_EQ(outcome.err.rfind(told, 0), 0u) << outcome.err;
+  }
+  const auto small_stack = millstress(directory.path, "run mill.toml", "ulimit -s 256");
+  EXPECT_EQ(small_stack.exit_code, 2);
+  EXPECT_NE(small_stack.err.find("256 kB (ulimit -s)"), std::string::npos) << small_stack.err;
+  const auto little_memory = millstress(directory.path, "run mill.toml", "ulimit -v 800000");
+  EXPECT_EQ(little_memory.exit_code, 3);
+  EXPECT_NE(little_memory.err.find("781 MB of memory (ulimit -v or -d)"), std::string::npos)
+      << little_memory.err;
 }
 
 TEST(WrongInput, AFolderInTheManifestsPlaceIsNamed) {

@@ -70,4 +70,22 @@ TEST(Plausibility, ALooseToleranceIsDoubted) {
   EXPECT_TRUE(doubts_of("load_table.toml", "[machine]", "tolerance = 0.2\n[machine]").empty());
 }
 
+// Sound along a bar: sqrt(206e6 / 7850) = 162 m/s, sqrt(206e9 / 785) = 16199 m/s; strains: 275e6 / 206e6 =
+// 1.3, 1.5e6 / 206e9 = 7.3e-6.
+TEST(Plausibility, MaterialsWithAWrongPowerOfTenAreDoubted) {
+  const auto with = [](const std::string& key, const std::string& value) {
+    const auto scene = results_test::bytes(shipped_scenes() / "load_table.toml");
+    const auto at = scene.find(key + " = ");
+    EXPECT_NE(at, std::string::npos) << key;
+    return doubts_of("load_table.toml", scene.substr(at, scene.find('\n', at) - at), key + " = " + value);
+  };
+  const auto soft = with("youngs_modulus", "206e6");
+  EXPECT_TRUE(one_says(soft, "youngs_modulus = 0.206 GPa and density = 7850 kg/m3 at 162 m/s"));
+  EXPECT_TRUE(one_says(soft, "a strain of 1."));
+  EXPECT_TRUE(one_says(with("density", "785"), "at 1.62e+04 m/s"));
+  EXPECT_TRUE(one_says(with("yield_strength", "\"1.5 MPa\""), "a strain of 7.3e-06"));
+  EXPECT_TRUE(with("density", "2700").empty());
+  EXPECT_TRUE(with("youngs_modulus", "\"16 GPa\"").empty()) << "as soft as lead";
+}
+
 }  // namespace

@@ -1,0 +1,59 @@
+#include "fem/common/blas_memory.h"
+
+#include <fmt/core.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "fem/common/library_function.h"
+#include "fem/values/errors.h"
+
+namespace fem {
+
+namespace {
+
+/// BUFFER_SIZE of OpenBLAS on x86-64, and what allocators round it up to.
+constexpr std::size_t bytes_of_a_block = 160u << 20;
+/// Left for all else: without as much no body is solved.
+constexpr std::size_t bytes_besides = 64u << 20;
+
+/// The smaller limit; RLIM_INFINITY: none.
+rlim_t memory_limit_bytes() {
+  rlimit space{}, data{};
+  getrlimit(RLIMIT_AS, &space);
+  getrlimit(RLIMIT_DATA, &data);
+  return std::min(space.rlim_cur, data.rlim_cur);
+}
+
+bool has_room_for(std::size_t bytes) {
+  void* const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) return false;
+  munmap(room, bytes);
+  return true;
+}
+
+}  // namespace
+
+void reserve_blas_memory(int n_threads) {
+  const auto limit_bytes = memory_limit_bytes();
+  if (limit_bytes == RLIM_INFINITY) return;
+  const auto take = library_function<void*(int)>("blas_memory_alloc");
+  const auto give_back = library_function<void(void*)>("blas_memory_free");
+  if (take == nullptr || give_back == nullptr) return;
+  const auto n_blocks =
+      static_cast<std::size_t>(2 * n_threads - 1);  // the callers' and OpenBLAS' own threads'
+  const auto needed_bytes = n_blocks * bytes_of_a_block + bytes_besides;
+  if (!has_room_for(needed_bytes))
+    throw DoesNotFit(fmt::format(
+        "this process may have {} MB of memory (ulimit -v or -d), and to begin with {} MB more are "
+        "needed on {} threads: raise that limit, or take fewer threads (--threads)",
+        limit_bytes >> 20, needed_bytes >> 20, n_threads));
+  std::vector<void*> blocks;
+  for (int i = 0; i < n_threads; ++i) blocks.push_back(take(0));
+  for (void* const block : blocks) give_back(block);
+}
+
+}  // namespace fem
