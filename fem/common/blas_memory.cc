@@ -1,11 +1,11 @@
 #include "fem/common/blas_memory.h"
 
-#include <fmt/core.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "fem/common/library_function.h"
@@ -47,10 +47,11 @@ void reserve_blas_memory(int n_threads) {
       static_cast<std::size_t>(2 * n_threads - 1);  // the callers' and OpenBLAS' own threads'
   const auto needed_bytes = n_blocks * bytes_of_a_block + bytes_besides;
   if (!has_room_for(needed_bytes))
-    throw DoesNotFit(fmt::format(
-        "this process may have {} MB of memory (ulimit -v or -d), and to begin with {} MB more are "
-        "needed on {} threads: raise that limit, or take fewer threads (--threads)",
-        limit_bytes >> 20, needed_bytes >> 20, n_threads));
+    throw DoesNotFit("this process may have " + std::to_string(limit_bytes >> 20) +
+                     " MB of memory (ulimit -v or -d), and to begin with " +
+                     std::to_string(needed_bytes >> 20) + " MB more are needed on " +
+                     std::to_string(n_threads) +
+                     " threads: raise that limit, or take fewer threads (--threads)");
   std::vector<void*> blocks;
   for (int i = 0; i < n_threads; ++i) blocks.push_back(take(0));
   for (void* const block : blocks) give_back(block);
