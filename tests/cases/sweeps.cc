@@ -395,7 +395,7 @@ TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
   write(directory / "mill.toml", shaft_alone(coarse()));
   for (const auto& [arguments, said] :
        {std::pair<std::string, std::string>{"", "nothing is varied"},
-        {"--vary 'machine.drive.sped = 1, 2'", "unknown key; known here: eccentricity, speed"},
+        {"--vary 'machine.drive.sped = 1, 2'", "unknown key; did you mean \"speed\"?"},
         {"--vary 'machine.drive.speed = 1..2 rpm'", "how many values"},
         {"--vary 'machine.drive.speed = 1, 2 rpm' --design best", "is no design"},
         {"--vary 'shaft.fatigue.roughness = 6, 25 um'", "judges no fatigue"},
