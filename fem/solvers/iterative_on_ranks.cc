@@ -20,7 +20,7 @@ namespace {
 /// cells.
 std::vector<double> weights_of_iteration(int n_ranks) {
   auto weights = even_weights(n_ranks);
-  weights.back() = 0.5;
+  if (n_ranks > 2) weights.back() = 0.5;
   return weights;
 }
 
