@@ -219,7 +219,7 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
     });
     return std::move(*solution);
   };
-  // A half has a quarter of the whole body's work at most: rank 0 factorises it alone.
+  // Halves take a third of the work or less: rank 0 factorises them alone.
   if (!alone && half_of_body() == nullptr) return factorise_on_ranks();
   const auto factorise = [&](DirectSolveOptions options) {
     const auto* half = half_of_body();

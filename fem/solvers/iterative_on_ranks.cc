@@ -65,7 +65,6 @@ SharedNodes share_nodes(MPI_Comm communicator, const IterativeJob& job, const Ce
   return {communicator, std::move(neighbours), static_cast<std::size_t>(n_counted), std::move(body_node)};
 }
 
-/// Called on all ranks.
 /// Rows of the nodes that this rank counts.
 Eigen::MatrixXd counted_rows(const IterativeJob& job, const Eigen::MatrixXd& all) {
   Eigen::MatrixXd counted(3 * std::count(job.counted.begin(), job.counted.end(), 1), all.cols());
@@ -78,6 +77,7 @@ Eigen::MatrixXd counted_rows(const IterativeJob& job, const Eigen::MatrixXd& all
   return counted;
 }
 
+/// Called on all ranks.
 /// @param force  on rank 0: of the body; kept there only if the iteration fails
 /// @return displacements of the nodes that this rank counts; their reports are those of the body
 std::optional<Solution> iterate_share(MPI_Comm communicator, const IterativeJob& job,
