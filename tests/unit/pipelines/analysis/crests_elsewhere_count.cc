@@ -23,15 +23,22 @@ ChannelHistory constant_and_third_order() {
   return loads;
 }
 
-// Red where the peak's own point alone is asked: it is constant, and the entry 0.
-TEST(CrestElsewhere, IsAnErrorOfThePeak) {
+/// Three nodes, of which the constant load stresses the first with 100 MPa; nothing else stresses any.
+BodyAnalysis constant_at_one_node() {
   BodyAnalysis analysis;
   analysis.loads.history = constant_and_third_order();
   auto& responses = analysis.responses;
   responses.channels = {"a.fz", "b.fz"};
   responses.nodes.n = 3;
   responses.stress_Pa.assign(3 * 2 * 6, 0.0);
-  responses.stress_Pa[0] = 100e6;                // node 0 by the constant load
+  responses.stress_Pa[0] = 100e6;
+  return analysis;
+}
+
+// Red where the peak's own point alone is asked: it is constant, and the entry 0.
+TEST(CrestElsewhere, IsAnErrorOfThePeak) {
+  auto analysis = constant_at_one_node();
+  auto& responses = analysis.responses;
   responses.stress_Pa[(1 * 2 + 1) * 6] = 103e6;  // node 1 by the other; 98.0 MPa at the instants
   responses.stress_Pa[(2 * 2 + 1) * 6] = 200e6;  // left out
   analysis.places.excluded = {0, 0, 1};
@@ -46,13 +53,8 @@ TEST(CrestElsewhere, IsAnErrorOfThePeak) {
 
 // Red where the largest toe alone is asked.
 TEST(CrestElsewhere, IsAnErrorOfTheLargestToe) {
-  BodyAnalysis analysis;
-  analysis.loads.history = constant_and_third_order();
+  auto analysis = constant_at_one_node();
   auto& responses = analysis.responses;
-  responses.channels = {"a.fz", "b.fz"};
-  responses.nodes.n = 3;
-  responses.stress_Pa.assign(3 * 2 * 6, 0.0);
-  responses.stress_Pa[0] = 100e6;                // node 0 by the constant load
   responses.stress_Pa[(1 * 2 + 1) * 6] = 206e6;  // node 1 by the other: half of it at the second toe
   analysis.places.excluded = {0, 1, 1};
   analysis.envelope = envelope(analysis.loads.history, responses, 1);
