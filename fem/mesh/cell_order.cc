@@ -81,6 +81,10 @@ std::vector<int> deal_out_cells(const Grid& grid, const std::vector<double>& wei
   return deal_out_cells(corner_sums(grid), weights);
 }
 
+std::vector<double> even_weights(int n_shares) {
+  return std::vector<double>(std::size_t(n_shares), 1.0);
+}
+
 CellOrder order_cells(const Grid& grid) {
   const std::size_t n_cells = grid.n_cells();
   const int n_local = grid.nodes_per_cell();

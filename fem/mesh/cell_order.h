@@ -27,6 +27,9 @@ std::vector<int> deal_out_cells(const Grid& grid, const std::vector<double>& wei
 std::vector<int> deal_out_cells(const std::vector<std::array<double, 3>>& corner_sum,
                                 const std::vector<double>& weights);
 
+/// Of shares that are all alike.
+std::vector<double> even_weights(int n_shares);
+
 /// Where the parts add to nodes, so that each part writes places of its own: the first part that meets a node
 /// writes to it, others to copies of it; coded as elastic_kernel.h wants it.
 struct AddTargets {

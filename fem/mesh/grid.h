@@ -31,6 +31,16 @@ struct HangingNodes {
   std::vector<double> weight;         ///< sum to 1 at each node
 
   std::size_t n() const noexcept { return node.size(); }
+  /// @param masters  pairs of a master and its weight
+  template <typename Masters>
+  void add(std::int32_t hanging, const Masters& masters) {
+    node.push_back(hanging);
+    for (const auto& [of, share] : masters) {
+      master.push_back(of);
+      weight.push_back(share);
+    }
+    begin.push_back(master.size());
+  }
 };
 
 struct Grid {

@@ -62,10 +62,6 @@ Message& operator>>(Message& message, Subdomain& subdomain) {
   return message >> subdomain.grid >> subdomain.node >> subdomain.cell;
 }
 
-std::vector<double> even_weights(int n_ranks) {
-  return std::vector<double>(std::size_t(n_ranks), 1.0);
-}
-
 std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares) {
   const int n_corners = CellShape{nodes.kind, 2}.n_corners();  // the first nodes of VTK's cells
   std::vector<std::array<double, 3>> corner_sum(nodes.n_cells(), {0, 0, 0});

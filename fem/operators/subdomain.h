@@ -24,9 +24,6 @@ Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cell
 Message& operator<<(Message& message, const Subdomain& subdomain);
 Message& operator>>(Message& message, Subdomain& subdomain);
 
-/// Of the ranks, as deal_out_cells takes them.
-std::vector<double> even_weights(int n_ranks);
-
 /// The rank that counts each node: the first of those of its cells.
 std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell);
 

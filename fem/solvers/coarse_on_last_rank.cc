@@ -55,14 +55,7 @@ Grid join(const std::vector<Part>& parts, std::vector<std::vector<std::int32_t>>
         known.emplace_back(own[hanging.master[k]], hanging.weight[k]);
     }
   }
-  for (const auto& [corner, known] : masters) {
-    grid.hanging.node.push_back(corner);
-    for (const auto& [master, weight] : known) {
-      grid.hanging.master.push_back(master);
-      grid.hanging.weight.push_back(weight);
-    }
-    grid.hanging.begin.push_back(grid.hanging.master.size());
-  }
+  for (const auto& [corner, known] : masters) grid.hanging.add(corner, known);
   return grid;
 }
 

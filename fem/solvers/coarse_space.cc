@@ -46,12 +46,7 @@ HangingNodes hanging_corners(const Grid& grid, const Grid& coarse,
   for (const auto& known : direct) {
     Weights masters;
     resolve(known.first, 1, masters);
-    hanging.node.push_back(known.first);
-    for (const auto& [master, weight] : masters) {
-      hanging.master.push_back(master);
-      hanging.weight.push_back(weight);
-    }
-    hanging.begin.push_back(hanging.master.size());
+    hanging.add(known.first, masters);
   }
   return hanging;
 }
