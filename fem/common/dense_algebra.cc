@@ -56,9 +56,11 @@ MatrixXd solve_symmetric(const ConstMatrix& a, const ConstMatrix& b) {
   return Eigen::LDLT<MatrixXd>(a).solve(b);
 }
 
-std::optional<MatrixXd> solve_symmetric(const ConstMatrix& a, const ConstMatrix& b, double smallest_pivot) {
+std::optional<MatrixXd> solve_symmetric(const ConstMatrix& a, const ConstMatrix& b, double smallest) {
   const Eigen::LDLT<MatrixXd> factors(a);
-  if (!(factors.vectorD().minCoeff() > smallest_pivot)) return std::nullopt;
+  if (!(factors.vectorD().minCoeff() > smallest)) return std::nullopt;
+  const MatrixXd inverse = factors.solve(MatrixXd::Identity(a.rows(), a.cols()));
+  if (!(inverse.diagonal().maxCoeff() < 1 / smallest)) return std::nullopt;
   return factors.solve(b);
 }
 

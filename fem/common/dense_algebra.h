@@ -50,9 +50,10 @@ Eigen::MatrixXd orthonormal_by(const ConstMatrix& gram, const ConstMatrix& x);
 /// A^-1 b by LDL' with pivoting.
 /// @param a  symmetric, positive definite; its lower triangle is read
 Eigen::MatrixXd solve_symmetric(const ConstMatrix& a, const ConstMatrix& b);
-/// The same; none if a pivot is not larger than `smallest_pivot`.
-std::optional<Eigen::MatrixXd> solve_symmetric(const ConstMatrix& a, const ConstMatrix& b,
-                                               double smallest_pivot);
+/// The same; none unless all 1 / (A^-1)_ii are larger than `smallest`. In a matrix of scalar products that is
+/// the squared distance of each vector from the span of the others, whatever their order; pivots are at
+/// least that, and depend on the order.
+std::optional<Eigen::MatrixXd> solve_symmetric(const ConstMatrix& a, const ConstMatrix& b, double smallest);
 
 /// A^-1 b by LU with partial pivoting, A invertible.
 Eigen::MatrixXd solve(const ConstMatrix& a, const ConstMatrix& b);

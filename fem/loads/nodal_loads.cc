@@ -4,7 +4,7 @@
 
 #include "fem/loads/supports.h"
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/operators/nodes_export.h"
 #include "fem/operators/stiffness.h"
@@ -16,7 +16,7 @@ NodalLoads nodal_loads(const Body& body, const std::vector<UnitLoad>& loads) {
     throw std::invalid_argument(
         "nodal forces are those of a free body: leave out its clamps and elastic supports");
   refuse_impossible(body.material);
-  const Grid grid = read_grid(body);
+  const Grid grid = make_grid(body);
   const auto integrals = integrate_nodes(grid, colour_cells(grid, cells_of_nodes(grid)));
   Eigen::MatrixXd force = load_vectors(grid, integrals, body.material.density_kg_m3, loads);
   RigidBalance(grid, integrals).balance(force);

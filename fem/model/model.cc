@@ -12,11 +12,11 @@
 #include "fem/loads/clamps.h"
 #include "fem/loads/elastic_supports.h"
 #include "fem/loads/surface_loads.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/connected_pieces.h"
 #include "fem/mesh/geometry_distance.h"
 #include "fem/mesh/grid.h"
 #include "fem/mesh/hanging_nodes.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/modes/natural_frequencies.h"
 #include "fem/operators/cell_materials.h"
@@ -82,7 +82,7 @@ Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
   if (progress) progress(0, "read mesh");
   impl_->communicator = communicator;
   impl_->body = body;
-  impl_->grid = read_grid(body);
+  impl_->grid = make_grid(body);
   if (body.refinements.empty()) refuse_several_pieces(impl_->grid);
   impl_->materials = CellMaterials(impl_->grid, body);
   impl_->cells = cells_of_nodes(impl_->grid);

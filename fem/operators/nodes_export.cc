@@ -1,7 +1,7 @@
 #include "fem/operators/nodes_export.h"
 
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/operators/material_interfaces.h"
 #include "fem/values/body_nodes.h"
 #include "fem/values/vtk_order.h"
@@ -39,7 +39,7 @@ Nodes export_nodes(const Grid& grid) {
 }
 
 Nodes body_nodes(const Body& body) {
-  const Grid grid = read_grid(body);
+  const Grid grid = make_grid(body);
   return export_nodes(grid_of_stress(grid, CellMaterials(grid, body)));
 }
 

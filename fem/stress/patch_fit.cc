@@ -71,7 +71,7 @@ Eigen::MatrixXd fit_in(const Exponents& space, const Scaled& samples, const Scal
   // The squared sine between a basis function and the span of the others, on the samples. Below this they are
   // as good as dependent: errors of the samples could grow thirtyfold. Sound patches of shafts have 0.003 and
   // more.
-  constexpr double smallest_pivot = 1e-3;
+  constexpr double smallest_squared_sine = 1e-3;
   if (samples.first.cols() < static_cast<Eigen::Index>(space.size())) return {};
   Eigen::MatrixXd at_samples = basis(space, samples);
   if (weights.size() > 0) at_samples = weights.asDiagonal() * at_samples;
@@ -79,7 +79,7 @@ Eigen::MatrixXd fit_in(const Exponents& space, const Scaled& samples, const Scal
   if (!(norm.minCoeff() > 0)) return {};
   const Eigen::MatrixXd scaled = at_samples * norm.cwiseInverse().asDiagonal();
   const auto from_samples =
-      solve_symmetric(transposed_product(scaled, scaled), scaled.transpose(), smallest_pivot);
+      solve_symmetric(transposed_product(scaled, scaled), scaled.transpose(), smallest_squared_sine);
   if (!from_samples) return {};
   const Eigen::MatrixXd at_targets = basis(space, targets) * norm.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd fit = product(at_targets, *from_samples);

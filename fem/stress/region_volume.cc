@@ -32,24 +32,31 @@ std::vector<SubTetrahedron> pieces_of_tetrahedron() {
   return pieces;
 }
 
-/// Six around the diagonal of every box between nodes: one for each order of the axes.
+/// Six around each of the four diagonals of every box between nodes: one for each order of the axes. All four
+/// count a quarter, so that what is measured does not depend on how the cell is turned or mirrored.
 std::vector<SubTetrahedron> pieces_of_hexahedron(int degree) {
   const auto at = nodes_on_edge(degree);
   const std::array<int, 3> stride = {1, degree + 1, (degree + 1) * (degree + 1)};
+  const std::array<std::array<bool, 3>, 4> high_starts = {
+      {{false, false, false}, {true, false, false}, {false, true, false}, {false, false, true}}};
   std::vector<SubTetrahedron> pieces;
   for (int box = 0; box < degree * degree * degree; ++box) {
     const std::array<int, 3> low = {box % degree, box / degree % degree, box / (degree * degree)};
-    int first = 0;
     double volume = 1;
-    for (std::size_t d = 0; d < 3; ++d) {
-      first += stride[d] * low[d];
-      volume *= at[std::size_t(low[d]) + 1] - at[std::size_t(low[d])];
+    for (std::size_t d = 0; d < 3; ++d) volume *= at[std::size_t(low[d]) + 1] - at[std::size_t(low[d])];
+    for (const auto& starts_high : high_starts) {
+      int first = 0;
+      std::array<int, 3> step = stride;
+      for (std::size_t d = 0; d < 3; ++d) {
+        first += stride[d] * (low[d] + starts_high[d]);
+        if (starts_high[d]) step[d] = -step[d];
+      }
+      std::array<std::size_t, 3> axes = {0, 1, 2};
+      do {
+        const int second = first + step[axes[0]], third = second + step[axes[1]];
+        pieces.push_back({{first, second, third, third + step[axes[2]]}, volume / 24});
+      } while (std::next_permutation(axes.begin(), axes.end()));
     }
-    std::array<std::size_t, 3> axes = {0, 1, 2};
-    do {
-      const int second = first + stride[axes[0]], third = second + stride[axes[1]];
-      pieces.push_back({{first, second, third, third + stride[axes[2]]}, volume / 6});
-    } while (std::next_permutation(axes.begin(), axes.end()));
   }
   return pieces;
 }

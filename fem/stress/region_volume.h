@@ -8,11 +8,11 @@
 
 namespace fem {
 
-/// Every cell is split into tetrahedra between neighbouring nodes (8 of a quadratic tetrahedron, 6 k^3 of a
-/// hexahedron of degree k), in which the field is linear: the level cuts a plane off each of them. Their
-/// volumes, by the Jacobian at their corners, are positive wherever cells are not inverted, and sum to the
-/// cell's own. (The integrals of the nodes' shape functions, Nodes::volume_m3, do not measure regions: those
-/// of the corners of quadratic tetrahedra are negative.)
+/// Every cell is split into tetrahedra between neighbouring nodes (8 of a quadratic tetrahedron; 6 k^3 of a
+/// hexahedron of degree k in four ways, of which the mean counts), in which the field is linear: the level
+/// cuts a plane off each of them. Their volumes, by the Jacobian at their corners, are positive wherever
+/// cells are not inverted, and sum to the cell's own. (The integrals of the nodes' shape functions,
+/// Nodes::volume_m3, do not measure regions: those of the corners of quadratic tetrahedra are negative.)
 /// @param value     one per node
 /// @param left_out  one per node; of a tetrahedron with such nodes, their share of it is left out too
 /// @return the volume above the level in each cell [m^3]; empty without cells

@@ -190,7 +190,7 @@ constexpr int highest_left_out = 12;
 /// small torque has.
 std::optional<std::vector<double>> without_harmonics(const std::vector<double>& angles_rad,
                                                      const std::vector<double>& weights, int highest) {
-  constexpr double smallest_pivot = 1e-6;  // of 0.5 where nodes are even
+  constexpr double independent = 1e-6;  // of 0.5 where nodes are even
   const auto n = Eigen::Index(weights.size());
   Eigen::MatrixXd harmonics(n, 2 * highest + 1), wanted(2 * highest + 1, 1);
   wanted.setZero();
@@ -205,7 +205,7 @@ std::optional<std::vector<double>> without_harmonics(const std::vector<double>& 
   }
   const Eigen::MatrixXd scaled = before.asDiagonal() * harmonics;
   const Eigen::MatrixXd missing = wanted - transposed_product(harmonics, before);
-  const auto multipliers = solve_symmetric(transposed_product(harmonics, scaled), missing, smallest_pivot);
+  const auto multipliers = solve_symmetric(transposed_product(harmonics, scaled), missing, independent);
   if (!multipliers) return std::nullopt;
   const Eigen::VectorXd after = before + product(scaled, *multipliers);
   if (after.minCoeff() < 0) return std::nullopt;

@@ -1,14 +1,14 @@
-/// What fem needs to know of a body, as values: mesh file, surface charts, material. No deal.II in this
-/// header. Lengths in m; ids are the physical groups of the .msh.
+/// What fem needs to know of a body, as values: cells, surface charts, material. No deal.II in this header.
+/// Lengths in m; ids are those of the mesh.
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "fem/values/coarse_mesh.h"
 #include "fem/values/unit_load.h"
 
 namespace fem {
@@ -57,9 +57,9 @@ inline bool operator==(const RefinementCycle& a, const RefinementCycle& b) {
 }
 
 struct Body {
-  /// .msh 4.1 with physical groups: linear hexahedra, or quadratic tetrahedra (10 nodes, curved as they are;
-  /// no charts, degree 2)
-  std::filesystem::path mesh;
+  /// Linear hexahedra, or quadratic tetrahedra (no charts, degree 2). Shared: many bodies are made of one
+  /// mesh.
+  std::shared_ptr<const CoarseMesh> mesh;
   std::vector<CylinderChart> cylinders;
   std::vector<TorusChart> tori;
   Material material;

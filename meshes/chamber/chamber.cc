@@ -1,6 +1,6 @@
 #include "meshes/chamber/chamber.h"
 
-#include <sstream>
+#include <memory>
 
 #include "meshes/chamber/chamber_checks.h"
 #include "meshes/chamber/chamber_layout.h"
@@ -9,29 +9,11 @@
 #include "meshes/chamber/chamber_surfaces.h"
 #include "meshes/checks/quality.h"
 #include "meshes/checks/sharp_edges.h"
-#include "meshes/gmsh/msh_writer.h"
 #include "meshes/spacing/swept_plan.h"
-#include "meshes/values/refused.h"
 
 namespace meshes {
 
-namespace {
-
-void require_quality(const MeshQuality& quality, double wanted) {
-  if (quality.min_scaled_jacobian >= wanted) return;
-  std::ostringstream text;
-  text << "chamber mesh: the smallest scaled Jacobian is " << quality.min_scaled_jacobian
-       << " at (x, y, z) = (" << quality.worst_x_m * 1e3 << ", " << quality.worst_y_m * 1e3 << ", "
-       << quality.worst_z_m * 1e3 << ") mm, wanted " << wanted
-       << "; change the plate that lies there (lower webs, lugs as wide as their pads, feet further away), "
-          "or lower min_scaled_jacobian";
-  throw MeshRefused(text.str());
-}
-
-}  // namespace
-
-BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control,
-                       const std::filesystem::path& file) {
+BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control) {
   check_control(control);
   check_sizes(chamber);
   const ChamberLayout layout = lay_out(chamber, control);
@@ -42,7 +24,7 @@ BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control
   const HexMesh mesh = sweep(build_plan(chamber, layout, stations, surfaces, control), stations.z_m);
 
   BodyMesh body;
-  body.file = file;
+  body.groups = group_names(surfaces);
   body.ports = ports_of(chamber, surfaces);
   body.features = surfaces.features;
   body.cylinders = cylinders_of(chamber, layout);
@@ -51,8 +33,10 @@ BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control
   body.hot_spots = stations.hot_spots.hot_spots;
   body.covered_toes = stations.hot_spots.covered;
   body.quality = measure_quality(mesh);
-  require_quality(body.quality, control.min_scaled_jacobian);
-  write_msh(mesh, group_names(surfaces), file);
+  require_quality(body.quality, control.min_scaled_jacobian, "chamber mesh",
+                  "change the plate that lies there (lower webs, lugs as wide as their pads, feet further "
+                  "away), or lower min_scaled_jacobian");
+  body.cells = std::make_shared<const CellMesh>(to_cell_mesh(mesh));
   return body;
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <vector>
 
 #include "meshes/chamber/chamber_geometry.h"
@@ -12,7 +11,7 @@
 
 namespace meshes {
 
-/// Meshes the chamber and writes `file` (through a temporary name).
+/// Meshes the chamber.
 /// Ports: "housing_bore", "inner_wall" (the tube's whole inside), "spring_foot_1".. (the undersides of the
 /// foot's two pads; their topsides if the foot lies above the tube's axis) and "covers" (the flanges' outer
 /// faces, both ends).
@@ -21,12 +20,9 @@ namespace meshes {
 /// along it from both faces of each plate at its middle and one wall inside its edges. A path that another
 /// plate or flange covers or approaches within 0.4 walls is left out, and named in `covered_toes`. A point
 /// that would come closer than 0.05 walls to another edge, station or point moves there.
-/// One call at a time in a process: gmsh is global.
 /// @throws GeometryRefused with the offending numbers: sizes outside the ranges above, parts too close
 ///         to each other, edges or faces closer than 0.05 walls that do not coincide, bad controls
-/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian (place and value named),
-///         or the file cannot be written
-BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control,
-                       const std::filesystem::path& file);
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian (place and value named)
+BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control);
 
 }  // namespace meshes

@@ -6,7 +6,7 @@
 
 #include "meshes/chamber/chamber_layout.h"
 #include "meshes/checks/sharp_edges.h"
-#include "meshes/gmsh/msh_writer.h"
+#include "meshes/values/cell_mesh.h"
 
 namespace meshes {
 

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "meshes/checks/quality.h"
-#include "meshes/values/refused.h"
 #include "meshes/values/vectors.h"
 
 namespace meshes {
@@ -92,15 +90,6 @@ MeshQuality measure_quality(const CellMesh& mesh) {
       },
       quality);
   return quality;
-}
-
-void require_quality(const MeshQuality& quality, double wanted, const std::string& remedy) {
-  if (quality.min_scaled_jacobian >= wanted) return;
-  std::ostringstream text;
-  text << "mesh: the smallest scaled Jacobian is " << quality.min_scaled_jacobian << " at (x, y, z) = ("
-       << quality.worst_x_m * 1e3 << ", " << quality.worst_y_m * 1e3 << ", " << quality.worst_z_m * 1e3
-       << ") mm, wanted " << wanted << "; " << remedy;
-  throw MeshRefused(text.str());
 }
 
 }  // namespace meshes

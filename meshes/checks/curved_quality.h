@@ -1,7 +1,7 @@
 /// Quality of quadratic tetrahedra and linear hexahedra.
 #pragma once
 
-#include "meshes/gmsh/cell_mesh.h"
+#include "meshes/values/body_mesh.h"
 
 namespace meshes {
 
@@ -13,8 +13,5 @@ double scaled_jacobian(const CellMesh& mesh, std::size_t cell);
 
 /// Counts, the smallest and the median scaled Jacobian, where the worst cell lies, the largest aspect.
 MeshQuality measure_quality(const CellMesh& mesh);
-
-/// @throws MeshRefused naming value and place if the worst cell is below what is wanted
-void require_quality(const MeshQuality& quality, double wanted, const std::string& remedy);
 
 }  // namespace meshes

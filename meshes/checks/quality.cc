@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
+#include "meshes/values/refused.h"
 #include "meshes/values/vectors.h"
 
 namespace meshes {
@@ -58,6 +60,16 @@ void summarise(std::vector<double> values, const std::function<std::vector<Point
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   quality.median_scaled_jacobian = *middle;
+}
+
+void require_quality(const MeshQuality& quality, double wanted, const std::string& mesh,
+                     const std::string& remedy) {
+  if (quality.min_scaled_jacobian >= wanted) return;
+  std::ostringstream text;
+  text << mesh << ": the smallest scaled Jacobian is " << quality.min_scaled_jacobian << " at (x, y, z) = ("
+       << quality.worst_x_m * 1e3 << ", " << quality.worst_y_m * 1e3 << ", " << quality.worst_z_m * 1e3
+       << ") mm, wanted " << wanted << "; " << remedy;
+  throw MeshRefused(text.str());
 }
 
 MeshQuality measure_quality(const HexMesh& mesh) {

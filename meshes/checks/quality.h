@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "meshes/values/body_mesh.h"
@@ -22,6 +23,11 @@ double aspect(const HexMesh& mesh, const Hex& hex);
 /// @param corners_of  corner points of a cell
 void summarise(std::vector<double> values, const std::function<std::vector<Point>(std::size_t)>& corners_of,
                MeshQuality& quality);
+
+/// @param mesh, remedy  words for the message, which names value and place
+/// @throws MeshRefused if the smallest scaled Jacobian is less than wanted
+void require_quality(const MeshQuality& quality, double wanted, const std::string& mesh,
+                     const std::string& remedy);
 
 /// Counts, the largest aspect, the smallest and the median scaled Jacobian, and where the worst cell lies.
 MeshQuality measure_quality(const HexMesh& mesh);

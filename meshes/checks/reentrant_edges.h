@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/gmsh/cell_mesh.h"
+#include "meshes/values/cell_mesh.h"
 
 namespace meshes {
 

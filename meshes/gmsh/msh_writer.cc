@@ -29,41 +29,36 @@ void add_nodes(const std::vector<Point>& points, int volume_id) {
   gmsh::model::mesh::addNodes(3, volume_id, tags, coordinates);
 }
 
-void add_elements(const GroupedElements& elements, std::size_t& next_tag) {
-  for (const auto& [group, nodes] : elements.groups()) {
-    std::vector<std::size_t> tags(nodes.size() / elements.n_nodes());
+/// Elements of one of gmsh's types, each in the group with its id.
+void add_elements(int type, const std::vector<int>& nodes, const std::vector<int>& ids,
+                  std::size_t& next_tag) {
+  const std::size_t n_nodes = ids.empty() ? 0 : nodes.size() / ids.size();
+  std::map<int, std::vector<std::size_t>> of_group;  // gmsh counts nodes from 1
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    for (std::size_t k = 0; k < n_nodes; ++k)
+      of_group[ids[i]].push_back(std::size_t(nodes[i * n_nodes + k]) + 1);
+  for (const auto& [group, elements] : of_group) {
+    std::vector<std::size_t> tags(elements.size() / n_nodes);
     std::iota(tags.begin(), tags.end(), next_tag);
     next_tag += tags.size();
-    gmsh::model::mesh::addElementsByType(group, elements.type(), tags, nodes);
+    gmsh::model::mesh::addElementsByType(group, type, tags, elements);
   }
 }
 
 }  // namespace
 
-void GroupedElements::add(int group, const int* nodes, std::size_t n_nodes) {
-  n_nodes_ = n_nodes;
-  auto& of_group = groups_[group];
-  for (std::size_t i = 0; i < n_nodes; ++i) of_group.push_back(static_cast<std::size_t>(nodes[i]) + 1);
-}
-
-void write_msh(const std::vector<Point>& points, const GroupedElements& faces, const GroupedElements& cells,
-               const GroupNames& names, const std::filesystem::path& file) {
+void write_msh(const BodyMesh& body, const std::filesystem::path& file) {
+  const CellMesh& mesh = *body.cells;
+  const bool tetrahedra = mesh.kind == CellKind::tetrahedra;
   write_msh_file(file, [&] {
     gmsh::model::add("body");
-    add_groups(2, names.boundaries);
-    add_groups(3, names.volumes);
-    add_nodes(points, names.volumes.begin()->first);
+    add_groups(2, body.groups.boundaries);
+    add_groups(3, body.groups.volumes);
+    add_nodes(mesh.points, body.groups.volumes.begin()->first);
     std::size_t next_tag = 1;
-    add_elements(faces, next_tag);
-    add_elements(cells, next_tag);
+    add_elements(tetrahedra ? gmsh_triangle_6 : gmsh_quadrangle, mesh.faces, mesh.face_id, next_tag);
+    add_elements(tetrahedra ? gmsh_tetrahedron_10 : gmsh_hexahedron, mesh.cells, mesh.volume_id, next_tag);
   });
-}
-
-void write_msh(const HexMesh& mesh, const GroupNames& names, const std::filesystem::path& file) {
-  GroupedElements faces(gmsh_quadrangle), cells(gmsh_hexahedron);
-  for (const auto& quad : mesh.quads) faces.add(quad.boundary_id, quad.nodes.data(), quad.nodes.size());
-  for (const auto& hex : mesh.hexes) cells.add(hex.volume_id, hex.nodes.data(), hex.nodes.size());
-  write_msh(mesh.points, faces, cells, names, file);
 }
 
 }  // namespace meshes

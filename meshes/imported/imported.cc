@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "meshes/checks/curved_quality.h"
+#include "meshes/checks/quality.h"
 #include "meshes/checks/reentrant_edges.h"
 #include "meshes/imported/load_apart.h"
 #include "meshes/imported/port_selection.h"
@@ -51,23 +54,23 @@ std::string name_of_volume(const Piece& volume) {
 }
 
 /// Gives cells their ids, one group per volume of the model, and says so in the body.
-void name_volumes(ModelMesh& model, GroupNames& names, BodyMesh& body) {
+void name_volumes(ModelMesh& model, BodyMesh& body) {
   const bool grouped = std::any_of(model.volumes.begin(), model.volumes.end(),
                                    [](const Piece& volume) { return !volume.name.empty(); });
   for (std::size_t i = 0; i < model.volumes.size(); ++i) {
     const int id = 1 + int(i);
-    names.volumes[id] = name_of_volume(model.volumes[i]);
-    if (grouped && model.volumes.size() > 1) body.regions.push_back({names.volumes[id], {id}});
+    body.groups.volumes[id] = name_of_volume(model.volumes[i]);
+    if (grouped && model.volumes.size() > 1) body.regions.push_back({body.groups.volumes[id], {id}});
   }
   for (int& id : model.mesh.volume_id) id += 1;
 }
 
-void name_surfaces(const Import& import, ModelMesh& model, GroupNames& names, BodyMesh& body) {
+void name_surfaces(const Import& import, ModelMesh& model, BodyMesh& body) {
   const auto shapes = shapes_of(model.mesh, model.mesh.face_id, model.pieces.size());
   const auto port_of = assign_ports(import.ports, model, shapes);
   int next_id = 1 + int(model.volumes.size());
   const auto add = [&](const std::string& name, Feature::Kind kind, double begin_m, double end_m) {
-    names.boundaries[next_id] = name;
+    body.groups.boundaries[next_id] = name;
     body.features.push_back({name, kind, next_id, begin_m, end_m});
     return next_id++;
   };
@@ -96,7 +99,7 @@ void name_surfaces(const Import& import, ModelMesh& model, GroupNames& names, Bo
 }
 
 /// What it throws does not name the file.
-BodyMesh build_unnamed(const Import& import, const std::filesystem::path& file) {
+BodyMesh build_unnamed(const Import& import) {
   check_control(import.control);
   const double default_scale = format_of(import.geometry) == GeometryFormat::step ? 1e-3 : 1;
   const double scale_to_m = import.scale_to_m == 0 ? default_scale : import.scale_to_m;
@@ -105,27 +108,24 @@ BodyMesh build_unnamed(const Import& import, const std::filesystem::path& file) 
                           " must be positive: the length of the file's unit");
   ModelMesh model = load(import, scale_to_m);
   BodyMesh body;
-  GroupNames names;
-  body.file = file;
-  body.cells = model.mesh.kind;
-  name_surfaces(import, model, names, body);
-  name_volumes(model, names, body);
+  name_surfaces(import, model, body);
+  name_volumes(model, body);
   body.quality = measure_quality(model.mesh);
-  require_quality(body.quality, import.control.min_scaled_jacobian,
+  require_quality(body.quality, import.control.min_scaled_jacobian, "mesh",
                   "mesh finer there, repair the geometry, or lower min_scaled_jacobian");
   const double exclusion_m =
       import.control.exclusion_m > 0 ? import.control.exclusion_m : 0.01 * diagonal_m(model.mesh);
-  body.sharp_edges = reentrant_edges(model.mesh, names.boundaries, exclusion_m);
-  write_msh(model.mesh, names, file);
+  body.sharp_edges = reentrant_edges(model.mesh, body.groups.boundaries, exclusion_m);
+  body.cells = std::make_shared<const CellMesh>(std::move(model.mesh));
   return body;
 }
 
 }  // namespace
 
-BodyMesh build_imported(const Import& import, const std::filesystem::path& file) {
+BodyMesh build_imported(const Import& import) {
   const std::string name = "the geometry " + import.geometry.string() + ": ";
   try {
-    return build_unnamed(import, file);
+    return build_unnamed(import);
   } catch (const TooManyCells& error) {
     throw TooManyCells(error.control(), name + error.what());
   } catch (const GeometryRefused& error) {

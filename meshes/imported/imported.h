@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,7 +12,7 @@
 
 namespace meshes {
 
-/// Writes `file` (through a temporary name). STEP: solids that touch are one body. A .msh keeps its cells:
+/// STEP: solids that touch are one body. A .msh keeps its cells:
 /// tetrahedra are raised to second order, hexahedra lowered to first; its groups of surfaces are features,
 /// its groups of volumes regions if there are several. Every boundary face belongs to one feature: that of a
 /// port, or of its group, or "surface <n>", n the surface's number in the CAD. Sharp edges: where faces meet
@@ -24,8 +23,7 @@ namespace meshes {
 /// or has no solid, solids that do not touch, a port without surfaces (what there is, is listed), a surface
 /// that two ports claim, a seat or bore that is no cylinder, a surface that sticks out of the range of z
 /// @throws TooManyCells before anything is meshed, if memory cannot hold the cells asked for
-/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian, or the file cannot be
-/// written
-BodyMesh build_imported(const Import& import, const std::filesystem::path& file);
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian
+BodyMesh build_imported(const Import& import);
 
 }  // namespace meshes

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "meshes/checks/affordable.h"
 #include "meshes/checks/curved_quality.h"
+#include "meshes/checks/quality.h"
 #include "meshes/checks/reentrant_edges.h"
 #include "meshes/gmsh/gmsh_session.h"
 #include "meshes/keyed_shaft/solid_layout.h"
@@ -191,7 +194,7 @@ void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, c
 }
 
 BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways,
-                           const SolidControl& control, const std::filesystem::path& file) {
+                           const SolidControl& control) {
   check_solid_shaft(shaft, keyways, control);
   const SolidLayout layout = lay_out_solid(shaft);
   ModelMesh model;
@@ -204,23 +207,20 @@ BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyway
   const Surfaces surfaces(shaft, layout, keyways);
   assign(surfaces, model);
   BodyMesh body;
-  GroupNames names;
-  names.volumes[volume_id] = "shaft";
+  body.groups.volumes[volume_id] = "shaft";
   for (const auto& surface : surfaces.all) {
-    names.boundaries[surface.feature.boundary_id] = surface.feature.name;
+    body.groups.boundaries[surface.feature.boundary_id] = surface.feature.name;
     body.features.push_back(surface.feature);
   }
-  body.file = file;
-  body.cells = CellKind::tetrahedra;
   body.ports = ports_of(shaft, layout, surfaces);
   body.quality = measure_quality(model.mesh);
-  require_quality(body.quality, control.min_scaled_jacobian,
+  require_quality(body.quality, control.min_scaled_jacobian, "mesh",
                   "make the cells smaller there, change the keyway, or lower min_scaled_jacobian");
   const double diagonal = diagonal_m(model.mesh);
-  body.sharp_edges = reentrant_edges(model.mesh, names.boundaries,
+  body.sharp_edges = reentrant_edges(model.mesh, body.groups.boundaries,
                                      control.exclusion_m > 0 ? control.exclusion_m : 0.01 * diagonal);
   if (control.exclusion_m == 0) widen_at_shoulders(layout, 1e-6 * diagonal, body.sharp_edges);
-  write_msh(model.mesh, names, file);
+  body.cells = std::make_shared<const CellMesh>(std::move(model.mesh));
   return body;
 }
 

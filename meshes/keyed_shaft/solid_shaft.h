@@ -1,7 +1,6 @@
 /// Shafts with keyways, which no blocks can follow: solids meshed with quadratic tetrahedra.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,19 +15,17 @@ namespace meshes {
 /// @throws GeometryRefused as build_solid_shaft
 void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, const SolidControl& control);
 
-/// Meshes the shaft with its keyways and writes `file` (through a temporary name). Ports, and features of
-/// cylinders, fillets, shoulders, end faces and bores, are named and lie as build_shaft's; what a keyway
-/// leaves of a seat is the port. Keyway surfaces are "keyway <segment>", further ones on the segment "keyway
-/// <segment> 2" ... The bore has one diameter from end to end. Volume: "shaft". Sharp edges: shoulders
-/// without fillet and the floors of keyways.
+/// Meshes the shaft with its keyways. Ports, and features of cylinders, fillets, shoulders, end faces and
+/// bores, are named and lie as build_shaft's; what a keyway leaves of a seat is the port. Keyway surfaces are
+/// "keyway <segment>", further ones on the segment "keyway <segment> 2" ... The bore has one diameter from
+/// end to end. Volume: "shaft". Sharp edges: shoulders without fillet and the floors of keyways.
 /// @throws GeometryRefused with the offending numbers: as build_shaft for the shaft; a bore that is not
 /// the same everywhere; a keyway on no segment, wider than 0.6 of the diameter, shallower than its own edges
 /// or so deep that less than a tenth of the diameter is left to the axis or the bore, out of the bare
 /// cylinder of its segment (only square ends may run out at the shaft's ends), with round ends on less than
 /// its width, or one that meets another
-/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian, or the file cannot be
-/// written
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian
 BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways,
-                           const SolidControl& control, const std::filesystem::path& file);
+                           const SolidControl& control);
 
 }  // namespace meshes

@@ -15,7 +15,7 @@ struct HalfSection {
 };
 
 /// The blocks of build_shaft with the core filled down to the axis, and with its boundary ids. Eccentric
-/// segments are made concentric. Makes no file.
+/// segments are made concentric.
 /// @throws GeometryRefused as build_shaft
 HalfSection build_half_section(const Shaft& shaft, const ShaftMeshControl& control);
 

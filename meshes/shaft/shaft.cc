@@ -1,11 +1,10 @@
 #include "meshes/shaft/shaft.h"
 
 #include <algorithm>
-#include <sstream>
+#include <memory>
 #include <utility>
 
 #include "meshes/checks/quality.h"
-#include "meshes/gmsh/msh_writer.h"
 #include "meshes/shaft/meridian.h"
 #include "meshes/shaft/revolve.h"
 #include "meshes/shaft/shaft_checks.h"
@@ -13,7 +12,6 @@
 #include "meshes/shaft/shaft_layout.h"
 #include "meshes/shaft/shaft_surfaces.h"
 #include "meshes/spacing/disc.h"
-#include "meshes/values/refused.h"
 
 namespace meshes {
 
@@ -41,16 +39,6 @@ std::vector<SectionPlane> sections_of(const Shaft& shaft, const ShaftLayout& lay
                       shaft.segments[station.segment].name, plain, segment.bore_radius_m});
   }
   return planes;
-}
-
-void require_quality(const MeshQuality& quality, double wanted) {
-  if (quality.min_scaled_jacobian >= wanted) return;
-  std::ostringstream text;
-  text << "shaft mesh: the smallest scaled Jacobian is " << quality.min_scaled_jacobian << " at (x, y, z) = ("
-       << quality.worst_x_m * 1e3 << ", " << quality.worst_y_m * 1e3 << ", " << quality.worst_z_m * 1e3
-       << ") mm, wanted " << wanted
-       << "; change the fillet or the eccentricity there, or lower min_scaled_jacobian";
-  throw MeshRefused(text.str());
 }
 
 /// Everything but the cells of the whole body.
@@ -91,14 +79,15 @@ BodyMesh describe_shaft(const Shaft& shaft, const ShaftMeshControl& control) {
   return description(shaft, blocks_of(shaft, control));
 }
 
-BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file) {
+BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control) {
   const Blocks blocks = blocks_of(shaft, control);
   const HexMesh mesh = revolve(blocks.meridian, blocks.layout, blocks.surfaces, blocks.disc);
   BodyMesh body = description(shaft, blocks);
-  body.file = file;
+  body.groups = group_names(shaft, blocks.surfaces);
   body.quality = measure_quality(mesh);
-  require_quality(body.quality, control.min_scaled_jacobian);
-  write_msh(mesh, group_names(shaft, blocks.surfaces), file);
+  require_quality(body.quality, control.min_scaled_jacobian, "shaft mesh",
+                  "change the fillet or the eccentricity there, or lower min_scaled_jacobian");
+  body.cells = std::make_shared<const CellMesh>(to_cell_mesh(mesh));
   return body;
 }
 

@@ -2,7 +2,6 @@
 /// hexahedra; so are drums: shafts with a wide bore in the middle.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,7 @@
 
 namespace meshes {
 
-/// Meshes the shaft and writes `file` (through a temporary name).
+/// Meshes the shaft.
 /// Ports: every segment with is_port, the bore of every segment with bore_port (all of it), and the end faces
 /// "end_1" (smallest z) and "end_2", which are rings where the segment is bored.
 /// Features: besides those of the outside "bore <segment>", and "shoulder bore <left>/<right>" for the face
@@ -19,14 +18,13 @@ namespace meshes {
 /// meet at the end of the fan nearest to the shoulder's plane instead of in it. Volumes: "core" where the
 /// shaft is solid (without a chart) and "ring_<segment>". Sharp edges: every outer shoulder without a fillet
 /// ("<left>/<right>", within 0.1 of the smaller diameter) and every bore step ("bore <left>/<right>", within
-/// the thickness of the wall around the wider bore). One call at a time in a process: gmsh is global.
+/// the thickness of the wall around the wider bore).
 /// @throws GeometryRefused with the offending numbers: gaps, sizes that are not positive, repeated
 /// names,
 ///         a fillet that does not fit its step (eccentric: r < (D - d)/2 - ecc) or its segment's length,
 ///         a port without room, an eccentricity that leaves the neighbour outside or the shifted ring flat,
 ///         a bore, bore step or bore_port outside what is said at Shaft, bad controls
-/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian (place and value named),
-///         or the file cannot be written
-BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control, const std::filesystem::path& file);
+/// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian (place and value named)
+BodyMesh build_shaft(const Shaft& shaft, const ShaftMeshControl& control);
 
 }  // namespace meshes

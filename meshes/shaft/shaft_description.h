@@ -7,7 +7,7 @@
 namespace meshes {
 
 /// The tables of build_shaft without its cells: ports, features, charts, sections and sharp edges, with the
-/// same boundary ids. No file, no quality; gmsh is not asked.
+/// same boundary ids. No quality.
 /// @throws std::invalid_argument as build_shaft
 BodyMesh describe_shaft(const Shaft& shaft, const ShaftMeshControl& control);
 

@@ -1,7 +1,7 @@
 /// Delaunay leaves a few flat cells, and curving turns a few more inside out; moving inner nodes opens both.
 #pragma once
 
-#include "meshes/gmsh/cell_mesh.h"
+#include "meshes/values/cell_mesh.h"
 
 namespace meshes {
 

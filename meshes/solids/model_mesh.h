@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "meshes/gmsh/cell_mesh.h"
 #include "meshes/solids/solid_control.h"
+#include "meshes/values/cell_mesh.h"
 
 namespace meshes {
 

@@ -1,13 +1,14 @@
-/// A meshed body as a value: where the .msh lies, and the tables that give its groups a meaning.
-/// Lengths in m; z along the shaft; boundary and volume ids are the tags of the physical groups in the .msh,
-/// each used once over boundaries and volumes together.
+/// A meshed body as a value: its cells, and the tables that give their groups a meaning. Lengths in m; z
+/// along the shaft; each id of a group is used once over boundaries and volumes together.
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "meshes/values/cell_mesh.h"
 
 namespace meshes {
 
@@ -92,8 +93,6 @@ struct HotSpot {
   std::array<double, 3> toe_m{}, near_m{}, far_m{};
 };
 
-enum class CellKind { hexahedra, tetrahedra };
-
 struct MeshQuality {
   std::size_t n_cells = 0, n_vertices = 0;
   double min_scaled_jacobian = 0, median_scaled_jacobian = 0;
@@ -102,8 +101,8 @@ struct MeshQuality {
 };
 
 struct BodyMesh {
-  std::filesystem::path file;            ///< .msh, format 4.1, named physical groups
-  CellKind cells = CellKind::hexahedra;  ///< linear hexahedra, or quadratic tetrahedra (10 nodes)
+  std::shared_ptr<const CellMesh> cells;  ///< none: the body is only described
+  GroupNames groups;                      ///< names of the volumes and boundaries of `cells`
   std::vector<Port> ports;
   std::vector<Feature> features;
   std::vector<CylinderChart> cylinders;

@@ -1,12 +1,12 @@
-/// A finished mesh of linear hexahedra with group ids, before it is written. Lengths in m.
+/// A finished mesh of linear hexahedra with group ids, as the structured meshers make it. Lengths in m.
 #pragma once
 
 #include <array>
 #include <vector>
 
-namespace meshes {
+#include "meshes/values/cell_mesh.h"
 
-using Point = std::array<double, 3>;  ///< x, y, z in m
+namespace meshes {
 
 /// Nodes in gmsh's (and VTK's) order: a face counter-clockwise seen from inside, then the opposite one.
 struct Hex {
@@ -25,5 +25,8 @@ struct HexMesh {
   std::vector<Hex> hexes;
   std::vector<BoundaryQuad> quads;
 };
+
+/// The same as plain arrays, volume group after volume group.
+CellMesh to_cell_mesh(const HexMesh& mesh);
 
 }  // namespace meshes

@@ -10,7 +10,6 @@
 namespace pipelines {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double bench_tolerance = 0.05;
@@ -20,17 +19,14 @@ constexpr double bench_tolerance = 0.05;
 AccuracyBench::AccuracyBench(const Scene& scene, std::size_t body, const AccuracyOptions& options,
                              StageClock& clock)
     : scene_(scene), body_(body), options_(options), clock_(clock), start_(Clock::now()) {
-  fs::create_directories(scratch());
-  for (const auto& one : scene_.bodies)
-    meshed_.push_back(clock_.run(
-        "meshes", [&] { return mesh_body(one, scratch() / (one.name + ".msh"), springs_of(scene_)); }));
+  meshed_ = clock_.run("meshes", [&] { return mesh_bodies(scene_); });
   scene_ = with_effects_chosen(scene_, meshed_, negligible_share(tolerance()));
   scene_.method = Method::solid;
 }
 
 AccuracyBench::~AccuracyBench() {
   std::error_code ignored;
-  fs::remove_all(scratch(), ignored);
+  std::filesystem::remove_all(scratch(), ignored);
 }
 
 double AccuracyBench::tolerance() const {

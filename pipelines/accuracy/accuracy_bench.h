@@ -23,7 +23,7 @@ struct SolidRun {
 
 class AccuracyBench {
 public:
-  /// Meshes all bodies of the scene into scratch files, which go with this object.
+  /// Meshes all bodies of the scene. What its runs write goes with this object.
   AccuracyBench(const Scene& scene, std::size_t body, const AccuracyOptions& options, StageClock& clock);
   ~AccuracyBench();
   AccuracyBench(const AccuracyBench&) = delete;

@@ -11,7 +11,6 @@
 #include "fem/values/cost_constants.h"
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/common/refusal_of.h"
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/scene/requested_accuracy.h"
 #include "pipelines/search/refinement.h"
 #include "pipelines/search/second_model.h"
@@ -91,17 +90,16 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
   if (!can_be_refined(body)) return models;
   for (const double factor : even_factors)
     models.push_back(forecaster.finer(fmt::format("even mesh, cells 1/{:g}", factor), meshed, factor));
-  const AtomicFile scratch(scratch_target("millstress_forecast_" + body.name + ".msh"));
   const std::string first = "first of a search";
   const double tolerance = with_default({}).tolerance;
   std::string refused;
   for (const auto& candidate : first_meshes(body)) {  // as a search tries them
     refused = refusal_of([&] {
-      auto coarse = mesh_body(candidate, scratch.temporary(), loads.springs);
+      auto coarse = mesh_body(candidate, loads.springs);
       const auto model = loads.of_body
                              ? axisymmetric_second_model(candidate, coarse, *loads.of_body, tolerance, 1)
                              : std::nullopt;
-      if (model) coarse = mesh_body(guided_by(*model, candidate), scratch.temporary(), loads.springs);
+      if (model) coarse = mesh_body(guided_by(*model, candidate), loads.springs);
       models.push_back(forecaster.of(first, coarse));
     });
     if (refused.empty()) return models;

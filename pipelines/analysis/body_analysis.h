@@ -56,7 +56,6 @@ struct DroppedBounds {
   EffectBound together;  ///< its effect has no name
 };
 
-class AtomicFile;
 struct BodyFatigue;
 struct StartUpStress;
 
@@ -87,8 +86,6 @@ struct BodyAnalysis {
   std::shared_ptr<const BodyFatigue> fatigue;     ///< where the scene asks for it
   std::shared_ptr<const StartUpStress> start_up;  ///< where the scene asks for a start
   std::optional<DroppedBounds> dropped;           ///< where effects = "auto" has dropped any
-  /// The mesh file of a solid until write_body_results gives it its name; it goes with the last copy.
-  std::shared_ptr<AtomicFile> mesh_file;
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   BodyAnalysis();

@@ -21,7 +21,7 @@ std::vector<fem::SectionPlane> to_fem_planes(const std::vector<meshes::SectionPl
 
 std::string key_of(const MeshedBody& meshed, const BodyLoads& loads,
                    const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
-  auto key = response_key(meshed.body, meshed.mesh_hash, loads.unit_loads, planes, solver, n_threads);
+  auto key = response_key(meshed.body, loads.unit_loads, planes, solver, n_threads);
   if (const int n = n_ranks_of_a_body(); n > 1) key += "ranks " + std::to_string(n) + '\n';
   return key;
 }
@@ -58,13 +58,12 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
     if (body.solver == fem::Solver::iterative) choice.max_iterations *= fem::patience;
     choice.keep_factor = options.keep_factor;
     choice.gave_up_before =
-        !options.fresh &&
-        iteration_gave_up_before(options.directory, body_key(meshed.body, meshed.mesh_hash), tell);
+        !options.fresh && iteration_gave_up_before(options.directory, body_key(meshed.body), tell);
     return meshed.model->unit_responses(
         loads.unit_loads, planes, fem::Recovery::patch,
         [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
-  remember_iteration(options.directory, body_key(meshed.body, meshed.mesh_hash), responses.solver.gave_up);
+  remember_iteration(options.directory, body_key(meshed.body), responses.solver.gave_up);
   return {std::move(responses), false, std::move(warnings)};
 }
 

@@ -6,23 +6,16 @@
 #include "pipelines/responses/response_key.h"
 
 namespace pipelines {
-namespace {
-
-std::string text_of(const fem::UnitLoad& load) {
-  return response_key({}, "none", {load}, {}, fem::Solver::automatic, 0);
-}
-
-}  // namespace
 
 ServedLoads::ServedLoads(const BodyLoads& solved)
     : channels_(solved.history.channels), unit_loads_(solved.unit_loads) {
-  for (const auto& load : unit_loads_) texts_[load.channel] = text_of(load);
+  for (const auto& load : unit_loads_) texts_[load.channel] = load_key(load);
 }
 
 std::string ServedLoads::missing(const BodyLoads& loads) const {
   for (const auto& load : loads.unit_loads) {
     const auto own = texts_.find(load.channel);
-    if (own == texts_.end() || own->second != text_of(load)) return load.channel;
+    if (own == texts_.end() || own->second != load_key(load)) return load.channel;
   }
   return "";
 }

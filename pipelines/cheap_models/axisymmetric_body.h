@@ -20,7 +20,7 @@ BodyScene with_coarse_blocks(const BodyScene& body);
 /// @throws std::invalid_argument as meshes::build_half_section
 fem::MeridianBody meridian_body(const BodyScene& body, const meshes::BodyMesh& mesh);
 
-/// The body without cells: ports, features, sections and sharp edges, exact masses; no mesh file, no model.
+/// The body without cells and model: ports, features, sections and sharp edges, exact masses.
 /// Its sections are lines of the cells of the coarse blocks.
 /// @throws std::invalid_argument with the body's origin, as meshes::build_shaft
 MeshedBody describe_revolved(const BodyScene& body);

@@ -43,8 +43,7 @@ void calculix(const CalculixCommandOptions& options, std::ostream& out) {
   for (const auto& body : scene.bodies) require_writable(output_files("-o", directory, {body.name + ".inp"}));
   StageClock clock(progress_on_stderr(options.verbosity()));
   const fem::Environment environment(all_cores);
-  const auto meshes = clock.run("mesh", [&] { return ScratchMeshes(scene); });
-  const auto& meshed = meshes.bodies();
+  const auto meshed = clock.run("mesh", [&] { return mesh_bodies(scene); });
   scene = with_effects_chosen(scene, meshed, negligible_share(scene.accuracy.tolerance));
   const auto masses = agree_masses(scene, meshed);
   // Unit loads do not depend on the instants; one turn tells which there are.

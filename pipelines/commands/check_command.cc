@@ -146,8 +146,7 @@ void check_bodies(std::ostream& out, Scene scene) {
   require_blocks(scene);
   tell_what_takes_long(scene);
   const fem::Environment environment(all_cores);
-  const ScratchMeshes meshes(scene);
-  const auto& meshed = meshes.bodies();
+  const auto meshed = mesh_bodies(scene);
   for (std::size_t i = 0; i < meshed.size(); ++i) require_toes(scene.bodies[i], meshed[i].mesh);
   const auto masses = agree_masses(scene, meshed);
   const double limit = negligible_share(scene.accuracy.tolerance);

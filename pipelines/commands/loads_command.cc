@@ -46,7 +46,7 @@ kinetics::LoadHistory loads_of(Scene& scene, StageClock& clock) {
     return clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   }
   const fem::Environment environment(all_cores);
-  const auto meshed = clock.run("mesh", [&] { return ScratchMeshes(scene).bodies(); });
+  const auto meshed = clock.run("mesh", [&] { return mesh_bodies(scene); });
   scene = clock.run("effects", [&] { return with_effects_chosen(std::move(scene), meshed, limit); });
   const auto masses = agree_masses(scene, meshed);
   auto trial = clock.run("loads", [&] { return try_effects(scene, meshed, masses); });

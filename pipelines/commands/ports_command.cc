@@ -9,7 +9,6 @@
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/process_limits.h"
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/pictures/port_picture.h"
 #include "pipelines/pictures/port_surface.h"
@@ -36,9 +35,7 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
   std::vector<fem::Nodes> nodes;
   for (const auto& body : scene.bodies)
     clock.run("mesh", [&] {
-      const AtomicFile scratch(
-          scratch_target("millstress_ports_" + scene.file.stem().string() + "_" + body.name + ".msh"));
-      meshed.push_back(build_mesh(body, scratch.temporary()));
+      meshed.push_back(build_mesh(body));
       nodes.push_back(fem::body_nodes(to_fem_body(meshed.back(), body.material)));
     });
   for (std::size_t i = 0; i < meshed.size(); ++i) {

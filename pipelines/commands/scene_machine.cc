@@ -10,7 +10,7 @@ namespace pipelines {
 Machine machine_with_masses(const Scene& scene) {
   if (scene.masses_from_mesh.empty()) return scene.machine;
   const fem::Environment environment(all_cores);
-  return agree_masses(scene, ScratchMeshes(scene).bodies()).machine;
+  return agree_masses(scene, mesh_bodies(scene)).machine;
 }
 
 }  // namespace pipelines

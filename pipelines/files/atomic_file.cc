@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -81,15 +80,6 @@ std::filesystem::path partial_name(const std::filesystem::path& target) {
   return directory / (start + std::to_string(getpid()) + "-" + std::to_string(count++) + suffix);
 }
 
-std::filesystem::path scratch_target(const std::string& name) {
-  std::error_code error;
-  const auto directory = std::filesystem::temp_directory_path(error);
-  if (!error) return directory / name;
-  const char* given = std::getenv("TMPDIR");
-  throw OptionError(std::string("TMPDIR = ") + (given != nullptr ? given : "") +
-                    ": scratch files need a directory there: set TMPDIR to one");
-}
-
 void remove_partial_names(const std::filesystem::path& directory) {
   std::error_code ignored;
   const std::string host = "." + host_name() + ".";
@@ -128,12 +118,6 @@ void AtomicFile::commit(std::string_view end) {
   std::filesystem::rename(temporary_, target_);
   committed_ = true;
   bring_to_disk(directory_of(target_));
-}
-
-void AtomicFile::commit_as(std::filesystem::path target) {
-  target_ = std::move(target);
-  std::filesystem::create_directories(directory_of(target_));
-  commit();
 }
 
 void write_text_file(const std::filesystem::path& path, std::string_view content) {

@@ -32,9 +32,6 @@ public:
   /// @throws std::filesystem::filesystem_error if nothing was written or the target cannot be replaced
   void commit(std::string_view end = {});
 
-  /// The same under another name in the same file system, known only now. Makes its directory.
-  void commit_as(std::filesystem::path target);
-
 private:
   std::filesystem::path target_, temporary_;
   bool committed_ = false;
@@ -45,10 +42,6 @@ private:
 /// and makes the directory of the target.
 /// @throws std::filesystem::filesystem_error if the directory cannot be made
 std::filesystem::path partial_name(const std::filesystem::path& target);
-
-/// A target for files that only this run needs: in the directory that TMPDIR names, else in /tmp.
-/// @throws OptionError if that is no directory
-std::filesystem::path scratch_target(const std::string& name);
 
 /// Removes what processes of this machine that are gone have left in a directory under such names, whatever
 /// the target.

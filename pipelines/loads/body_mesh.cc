@@ -6,26 +6,29 @@
 #include "meshes/shaft/shaft.h"
 #include "meshes/values/refused.h"
 #include "pipelines/common/several_ranks.h"
-#include "pipelines/files/content_hash.h"
 #include "pipelines/scene/body_kind.h"
 
 namespace pipelines {
 namespace {
 
 struct Build {
-  const std::filesystem::path& file;
   meshes::BodyMesh operator()(const ShaftShape& shape) const {
-    return shape.keyways.empty()
-               ? meshes::build_shaft(shape.geometry, shape.mesh, file)
-               : meshes::build_solid_shaft(shape.geometry, shape.keyways, shape.solid, file);
+    return shape.keyways.empty() ? meshes::build_shaft(shape.geometry, shape.mesh)
+                                 : meshes::build_solid_shaft(shape.geometry, shape.keyways, shape.solid);
   }
   meshes::BodyMesh operator()(const ChamberShape& shape) const {
-    return meshes::build_chamber(shape.geometry, shape.mesh, file);
+    return meshes::build_chamber(shape.geometry, shape.mesh);
   }
-  meshes::BodyMesh operator()(const meshes::Import& shape) const {
-    return meshes::build_imported(shape, file);
-  }
+  meshes::BodyMesh operator()(const meshes::Import& shape) const { return meshes::build_imported(shape); }
 };
+
+/// The cells as fem takes them: it numbers and orders like the mesher.
+std::shared_ptr<const fem::CoarseMesh> to_fem_mesh(const meshes::CellMesh& cells) {
+  const bool tetrahedra = cells.kind == meshes::CellKind::tetrahedra;
+  return std::make_shared<const fem::CoarseMesh>(
+      fem::CoarseMesh{tetrahedra ? fem::CellKind::tetrahedra : fem::CellKind::hexahedra, cells.points,
+                      cells.cells, cells.volume_id, cells.faces, cells.face_id});
+}
 
 /// The springs' own stiffness at their feet; along the axis as across (the planar papers give none).
 std::vector<fem::ElasticSupport> elastic_feet(const meshes::BodyMesh& mesh,
@@ -72,9 +75,9 @@ MeshedBody& MeshedBody::operator=(const MeshedBody&) = default;
 MeshedBody& MeshedBody::operator=(MeshedBody&&) noexcept = default;
 MeshedBody::~MeshedBody() = default;
 
-meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file) {
+meshes::BodyMesh build_mesh(const BodyScene& body) {
   try {
-    return std::visit(Build{file}, body.shape);
+    return std::visit(Build{}, body.shape);
   } catch (const meshes::TooManyCells& error) {
     throw meshes::GeometryRefused(place_of(error.control(), body) + ": " + error.what());
   } catch (const meshes::GeometryRefused& error) {
@@ -86,7 +89,7 @@ meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& 
 
 fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& material) {
   fem::Body body;
-  body.mesh = mesh.file;
+  if (mesh.cells) body.mesh = to_fem_mesh(*mesh.cells);
   body.material = material;
   for (const auto& c : mesh.cylinders)
     body.cylinders.push_back(
@@ -96,14 +99,14 @@ fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& materia
   return body;
 }
 
-MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
-                     const std::vector<kinetics::Spring>& springs, const MeshedBody* coarse) {
+MeshedBody mesh_body(const BodyScene& body, const std::vector<kinetics::Spring>& springs,
+                     const MeshedBody* coarse) {
   const BodyKind& kind = kind_of(body);
   MeshedBody result;
   if (coarse != nullptr) {
     result.mesh = coarse->mesh;
   } else {
-    result.mesh = build_mesh(body, file);
+    result.mesh = build_mesh(body);
     auto& edges = result.mesh.sharp_edges;
     edges.insert(edges.end(), body.singular.begin(), body.singular.end());
   }
@@ -111,9 +114,6 @@ MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
   result.body.degree = body.degree;
   result.body.refinements = body.refinements;
   if (kind.has_elastic_feet(body)) result.body.elastic_supports = elastic_feet(result.mesh, springs);
-  result.mesh_hash = coarse != nullptr
-                         ? coarse->mesh_hash
-                         : content_hash(file);  // once: reading it takes seconds where the mesh is large
   result.model = std::make_shared<const fem::Model>(result.body, ranks_of_a_body());
   result.masses = result.model->mass_properties();
   result.geometry_error = result.model->geometry_error(round_ports(result.mesh));

@@ -1,9 +1,8 @@
 /// A body of the scene, meshed, with what it weighs.
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "fem/model/model.h"
 #include "kinetics/vibratory_mill.h"
@@ -15,8 +14,7 @@ namespace pipelines {
 
 struct MeshedBody {
   meshes::BodyMesh mesh;
-  fem::Body body;         ///< what the model was made of
-  std::string mesh_hash;  ///< content_hash of its mesh file; empty: it has none
+  fem::Body body;  ///< what the model was made of
   std::shared_ptr<const fem::Model> model;
   fem::MassProperties masses;  ///< of the whole mesh
   fem::GeometryError geometry_error;
@@ -32,15 +30,15 @@ struct MeshedBody {
   ~MeshedBody();
 };
 
-/// The mesh alone, written to `file`.
+/// The mesh alone.
 /// @throws meshes::GeometryRefused, meshes::MeshRefused as the mesher
-meshes::BodyMesh build_mesh(const BodyScene& body, const std::filesystem::path& file);
+meshes::BodyMesh build_mesh(const BodyScene& body);
 
 /// Mesh, model and masses.
 /// @param springs  of the machine, for elastic feet; empty otherwise
-/// @param coarse   the same body with fewer refinements, whose mesh file is taken over; none: it is meshed
-MeshedBody mesh_body(const BodyScene& body, const std::filesystem::path& file,
-                     const std::vector<kinetics::Spring>& springs, const MeshedBody* coarse = nullptr);
+/// @param coarse   the same body with fewer refinements, whose mesh is taken over; none: it is meshed
+MeshedBody mesh_body(const BodyScene& body, const std::vector<kinetics::Spring>& springs,
+                     const MeshedBody* coarse = nullptr);
 
 /// What fem needs of a mesh.
 fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& material);

@@ -51,19 +51,10 @@ std::vector<kinetics::Spring> springs_of(const Scene& scene) {
   return kind_of(scene.machine).springs(scene.machine);
 }
 
-std::vector<MeshedBody> mesh_bodies(const Scene& scene,
-                                    const std::vector<std::unique_ptr<AtomicFile>>& files) {
+std::vector<MeshedBody> mesh_bodies(const Scene& scene) {
   std::vector<MeshedBody> bodies;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    bodies.push_back(mesh_body(scene.bodies[i], files[i]->temporary(), springs_of(scene)));
+  for (const auto& body : scene.bodies) bodies.push_back(mesh_body(body, springs_of(scene)));
   return bodies;
-}
-
-ScratchMeshes::ScratchMeshes(const Scene& scene) {
-  for (const auto& body : scene.bodies)
-    files_.push_back(std::make_unique<AtomicFile>(
-        scratch_target("millstress_" + scene.file.stem().string() + "_" + body.name + ".msh")));
-  bodies_ = mesh_bodies(scene, files_);
 }
 
 BodyChannels LoadedScene::channels() const {

@@ -6,7 +6,6 @@
 
 #include "kinetics/load_history.h"
 #include "pipelines/common/stage_clock.h"
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/loads/bearings.h"
 #include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/load_files.h"
@@ -19,20 +18,8 @@ kinetics::LoadHistory load_stage(const Scene& scene, const Machine& machine);
 /// The springs of a vibratory mill; empty for other machines.
 std::vector<kinetics::Spring> springs_of(const Scene& scene);
 
-/// Meshes all bodies, each to a temporary name beside its place.
-std::vector<MeshedBody> mesh_bodies(const Scene& scene,
-                                    const std::vector<std::unique_ptr<AtomicFile>>& files);
-
-/// Meshes of all bodies for commands that solve nothing; the files are thrown away with this.
-class ScratchMeshes {
-public:
-  explicit ScratchMeshes(const Scene& scene);
-  const std::vector<MeshedBody>& bodies() const { return bodies_; }  ///< in the order of Scene::bodies
-
-private:
-  std::vector<std::unique_ptr<AtomicFile>> files_;
-  std::vector<MeshedBody> bodies_;
-};
+/// Meshes all bodies, in the order of Scene::bodies.
+std::vector<MeshedBody> mesh_bodies(const Scene& scene);
 
 /// A scene's bodies, meshed and loaded: ready to be solved.
 struct LoadedScene {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <future>
 
+#include "meshes/gmsh/msh_writer.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
@@ -235,9 +236,15 @@ void write_load_results(const path& directory, const kinetics::LoadHistory& load
   csv.get();
 }
 
+void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
+  AtomicFile target(file);
+  meshes::write_msh(mesh, target.temporary());
+  target.commit("$EndElements\n");  // gmsh does not tell that the disk was full
+}
+
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
                         const BodyAnalysis& analysis, int n_pieces, int n_threads) {
-  if (analysis.mesh_file) analysis.mesh_file->commit_as(directory / "mesh.msh");
+  if (analysis.method == Method::solid) write_mesh(directory / "mesh.msh", analysis.mesh);
   write_envelope_files(directory, scene, loads, analysis, n_pieces);
   write_cycle_files(directory, scene, loads, analysis, n_threads);
   write_zones(directory / "zones.csv", scene, loads, analysis);

@@ -63,19 +63,27 @@ const std::string& program_fingerprint() {
 
 namespace {
 
+template <typename Value>
+std::string hash_of(const std::vector<Value>& values) {
+  return fmt::format("{:016x}", XXH3_64bits(values.data(), sizeof(Value) * values.size()));
+}
+
+std::string hash_of(const fem::CoarseMesh& mesh) {
+  return std::to_string(int(mesh.kind)) + hash_of(mesh.points_m) + hash_of(mesh.cells) +
+         hash_of(mesh.volume_id) + hash_of(mesh.faces) + hash_of(mesh.face_id);
+}
+
 /// Of the cells that are cut in each cycle; empty if there is none.
 std::string hash_of(const std::vector<fem::RefinementCycle>& refinements) {
   std::string text;
-  for (const auto& [cells, again_at_m] : refinements)
-    text += fmt::format("{:016x}{:016x}", XXH3_64bits(cells.data(), sizeof(std::int32_t) * cells.size()),
-                        XXH3_64bits(again_at_m.data(), sizeof(again_at_m[0]) * again_at_m.size()));
+  for (const auto& [cells, again_at_m] : refinements) text += hash_of(cells) + hash_of(again_at_m);
   return text;
 }
 
-void describe(KeyText& key, const fem::Body& body, const std::string& mesh_hash) {
-  if (mesh_hash.empty()) throw std::logic_error("the mesh of " + body.mesh.string() + " has no hash");
+void describe(KeyText& key, const fem::Body& body) {
+  if (!body.mesh) throw std::logic_error("a body without a mesh has no key");
   key.line("program", program_fingerprint())
-      .line("mesh", mesh_hash)
+      .line("mesh", hash_of(*body.mesh))
       .line("degree", body.degree)
       .line("refinements", hash_of(body.refinements))
       .line("material", body.material.youngs_modulus_Pa, body.material.poisson_ratio,
@@ -90,19 +98,29 @@ void describe(KeyText& key, const fem::Body& body, const std::string& mesh_hash)
     key.line("torus", t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m);
 }
 
+void describe(KeyText& key, const fem::UnitLoad& load) {
+  key.line("load", load.channel);
+  std::visit(Describe{key}, load.shape);
+}
+
 }  // namespace
 
-std::string body_key(const fem::Body& body, const std::string& mesh_hash) {
+std::string body_key(const fem::Body& body) {
   KeyText key;
-  describe(key, body, mesh_hash);
+  describe(key, body);
   return key.text();
 }
 
-std::string response_key(const fem::Body& body, const std::string& mesh_hash,
-                         const std::vector<fem::UnitLoad>& loads,
+std::string load_key(const fem::UnitLoad& load) {
+  KeyText key;
+  describe(key, load);
+  return key.text();
+}
+
+std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
                          const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads) {
   KeyText key;
-  describe(key, body, mesh_hash);
+  describe(key, body);
   key.line("threads", n_threads).line("solver", int(solver));
   for (const auto& support : body.elastic_supports) {
     key.line("springs", support.stiffness_N_m[0], support.stiffness_N_m[1], support.stiffness_N_m[2]);
@@ -111,10 +129,7 @@ std::string response_key(const fem::Body& body, const std::string& mesh_hash,
   for (const auto& clamp : body.clamps)
     key.line("clamp", clamp.boundary_id, clamp.fixed[0], clamp.fixed[1], clamp.fixed[2],
              clamp.only_at_z_m ? shortest(*clamp.only_at_z_m) : "");
-  for (const auto& load : loads) {
-    key.line("load", load.channel);
-    std::visit(Describe{key}, load.shape);
-  }
+  for (const auto& load : loads) describe(key, load);
   for (const auto& p : planes) key.line("plane", p.z_m, p.radius_m, p.axis_x_m, p.axis_y_m, p.inner_radius_m);
   return key.text();
 }

@@ -11,18 +11,18 @@
 
 namespace pipelines {
 
-/// Program, content of the mesh file, charts, material, unit loads, section planes and choice of the solver.
+/// Program, mesh, charts, material, unit loads, section planes and choice of the solver.
 /// Two runs with equal keys have equal unit responses, bit for bit on the same machine.
-/// @param mesh_hash  content_hash of the body's mesh file
-/// @throws std::logic_error if it is empty: all meshes would have one key
-std::string response_key(const fem::Body& body, const std::string& mesh_hash,
-                         const std::vector<fem::UnitLoad>& loads,
+/// @throws std::logic_error for a body without a mesh: all of them would have one key
+std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
                          const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads);
 
-/// Program, content of the mesh file, charts and material: what decides whether the iterative solver
-/// converges.
-/// @param mesh_hash, @throws  as response_key
-std::string body_key(const fem::Body& body, const std::string& mesh_hash);
+/// Program, mesh, charts and material: what decides whether the iterative solver converges.
+/// @throws  as response_key
+std::string body_key(const fem::Body& body);
+
+/// A unit load as text: the same text, the same load to the last bit.
+std::string load_key(const fem::UnitLoad& load);
 
 /// Hash of the running program, so that another build never reuses the results of this one.
 const std::string& program_fingerprint();

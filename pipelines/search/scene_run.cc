@@ -23,7 +23,6 @@
 #include "pipelines/effects/effect_bounds.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/life/body_fatigue.h"
-#include "pipelines/report/body_files.h"
 #include "pipelines/search/duty_loads.h"
 #include "pipelines/search/first_model.h"
 #include "pipelines/search/local_refinement.h"
@@ -47,7 +46,6 @@ public:
   SceneRunner(const Scene& scene, const SceneRunOptions& options, StageClock& clock)
       : options_(options), clock_(clock), start_(Clock::now()), as_read_(scene) {
     run_.scene = scene;
-    for (const auto& body : scene.bodies) files_.emplace_back(options.directory / body.name);
   }
 
   SceneRun run() {
@@ -140,9 +138,8 @@ private:
   }
 
   MeshedBody mesh(std::size_t i, const MeshedBody* coarse = nullptr) {
-    return clock_.run("mesh", [&] {
-      return mesh_body(run_.scene.bodies[i], files_[i].mesh(), springs_of(run_.scene), coarse);
-    });
+    return clock_.run("mesh",
+                      [&] { return mesh_body(run_.scene.bodies[i], springs_of(run_.scene), coarse); });
   }
 
   void load(std::vector<MeshedBody> meshed) {
@@ -179,7 +176,6 @@ private:
                           warning_of_covered(analysis.scene.name, run_.loaded.meshed[i].mesh)})
       if (!warning.empty()) warnings_.push_back(warning);
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
-    if (!is_without_mesh(i)) files_[i].finish(analysis, run_.loaded.meshed[i]);
     run_.loaded.meshed[i].model.reset();
   }
 
@@ -447,7 +443,6 @@ private:
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);
-      after.mesh_file = std::move(before.mesh_file);
       take_place_errors(after, before.place_stresses, "as found by the body's search");
       bound_dropped_effects(run_.scene, i, run_.loaded, after);
     }
@@ -458,7 +453,6 @@ private:
   Clock::time_point start_;
   Scene as_read_;
   SceneRun run_;
-  std::vector<BodyFiles> files_;
   std::vector<Method> methods_;  // by body
   std::vector<std::string> warnings_;
 };

@@ -224,7 +224,8 @@ private:
       auto& mesh = meshes_[bodies_.combination(p)];
       auto& refused = refused_bodies_[bodies_.combination(p)];
       if (mesh || !refused.empty()) continue;
-      refused = point_refusal([&] { mesh = std::make_shared<const ScratchMeshes>(read(p)); });
+      refused = point_refusal(
+          [&] { mesh = std::make_shared<const std::vector<MeshedBody>>(mesh_bodies(read(p))); });
     }
   }
 
@@ -252,8 +253,7 @@ private:
   void add_loads(SweepRow& row, std::size_t p, bool loads_follow) const {
     Scene scene = read(p, loads_follow);
     std::vector<BearingScene> bearings;  // those at a port of a body need the body
-    if (needs_bodies_)
-      scene.machine = agree_masses(scene, meshes_.at(bodies_.combination(p))->bodies()).machine;
+    if (needs_bodies_) scene.machine = agree_masses(scene, *meshes_.at(bodies_.combination(p))).machine;
     const auto loads = load_stage(scene, scene.machine);
     for (const auto& bearing : scene.bearings)
       if (scene.bodies.empty() || force_of(bearing.load, loads, {}))
@@ -270,9 +270,9 @@ private:
   SweptBodies bodies_;
   std::vector<BodyScene> accepted_;  ///< of the first point that can be read
   // By what a point's bodies share, SweptBodies::combination.
-  std::map<std::vector<std::size_t>, std::shared_ptr<const ScratchMeshes>> meshes_;  ///< for masses
-  std::map<std::vector<std::size_t>, std::string> refused_bodies_;                   ///< why; empty: not
-  std::vector<SweepFigures> names_;  ///< of figures, by thread: empty rows
+  std::map<std::vector<std::size_t>, std::shared_ptr<const std::vector<MeshedBody>>> meshes_;  ///< for masses
+  std::map<std::vector<std::size_t>, std::string> refused_bodies_;  ///< why; empty: not
+  std::vector<SweepFigures> names_;                                 ///< of figures, by thread: empty rows
   bool needs_bodies_ = true, has_chosen_effects_ = false;
 };
 

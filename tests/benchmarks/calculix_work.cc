@@ -9,7 +9,7 @@
 
 #include "fem/loads/supports.h"
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
 #include "fem/operators/stiffness.h"
@@ -36,7 +36,7 @@ double cpu_s() {
 
 struct Meshed {
   explicit Meshed(const Work& work)
-      : mesh(pipelines::build_mesh(work.body, work.directory / "shaft.msh")),
+      : mesh(pipelines::build_mesh(work.body)),
         body(pipelines::to_fem_body(mesh, work.body.material)),
         loads(seat_loads(mesh)) {}
   meshes::BodyMesh mesh;
@@ -94,7 +94,7 @@ void solve(const Work& work, fem::Solver solver) {
 
 void factorise(const Work& work) {
   const Meshed meshed(work);
-  const auto grid = fem::read_grid(meshed.body);
+  const auto grid = fem::make_grid(meshed.body);
   const auto cells = fem::cells_of_nodes(grid);
   const auto colours = fem::colour_cells(grid, cells);
   const auto integrals = fem::integrate_nodes(grid, colours);

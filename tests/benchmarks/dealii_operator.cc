@@ -8,17 +8,16 @@
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <dlfcn.h>
 
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
 #include "fem/mesh/manifolds.h"
+#include "fem/mesh/triangulation.h"
 #include "fem/operators/stiffness.h"
 #include "tests/benchmarks/elastic_matrix_free.h"
 #include "tests/benchmarks/wide_matrix_free.h"
@@ -66,9 +65,7 @@ struct DealiiOperator::Impl {
 
 DealiiOperator::DealiiOperator(const fem::Body& body, bool distorted) : impl_(std::make_unique<Impl>()) {
   auto& o = *impl_;
-  dealii::GridIn<3> reader(o.mesh);
-  std::ifstream file(body.mesh);
-  reader.read_msh(file);
+  fem::triangulate(*body.mesh, o.mesh);
   fem::attach_charts(o.mesh, body.cylinders, body.tori);
   if (distorted) dealii::GridTools::distort_random(0.1, o.mesh, true, 1);
   o.unknowns.distribute_dofs(o.element);
@@ -88,7 +85,7 @@ void DealiiOperator::place_nodes(fem::Grid& grid) const {
   const dealii::MappingQ<3> mapping(matrix_free_degree);
   dealii::FEValues<3> values(mapping, scalar, dealii::Quadrature<3>(points),
                              dealii::update_quadrature_points);
-  auto node = grid.cell_nodes.begin();  // cells of both are in the order of the file
+  auto node = grid.cell_nodes.begin();  // cells of both are in the order of the mesh
   for (const auto& cell : impl_->mesh.active_cell_iterators()) {
     values.reinit(cell);
     for (const auto& point : values.get_quadrature_points()) {

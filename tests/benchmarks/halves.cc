@@ -75,7 +75,7 @@ void compare(const fem::Body& body, const std::vector<fem::UnitLoad>& loads, con
 
 }  // namespace
 
-void compare_halves(const std::filesystem::path& scene_file, const std::filesystem::path& directory) {
+void compare_halves(const std::filesystem::path& scene_file) {
   const auto scene = pipelines::read_scene(scene_file);
   const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), [](const auto& body) {
     return std::holds_alternative<pipelines::ChamberShape>(body.shape);
@@ -86,7 +86,7 @@ void compare_halves(const std::filesystem::path& scene_file, const std::filesyst
   for (const int cells_through_wall : {1, 2}) {
     auto part = *found;
     std::get<pipelines::ChamberShape>(part.shape).mesh.cells_through_wall = cells_through_wall;
-    const auto mesh = pipelines::build_mesh(part, directory / "chamber.msh");
+    const auto mesh = pipelines::build_mesh(part);
     const auto body = pipelines::to_fem_body(mesh, part.material);
     auto loads = mirrored_loads(mesh);
     compare(body, loads, "mirrored");

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/operators/elastic_operator.h"
 #include "fem/operators/stiffness.h"
 #include "tests/benchmarks/dealii_operator.h"
@@ -126,7 +126,7 @@ double csr_s(const fem::Grid& grid, const fem::Material& material) {
 
 void compare_operators(const char* name, const fem::Body& body, bool distorted) {
   const OneThread alone;
-  auto grid = fem::read_grid(body);
+  auto grid = fem::make_grid(body);
   const DealiiOperator other(body, distorted);
   other.place_nodes(grid);
   const auto unknowns = other.unknowns_of(grid);

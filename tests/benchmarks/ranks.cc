@@ -58,8 +58,7 @@ Solved solve(const char* scene_file, const measure::Refinement& refinement) {
   const auto directory =
       std::filesystem::temp_directory_path() / ("rank_benchmark_" + std::to_string(getpid()));
   std::filesystem::create_directories(directory);
-  const auto meshed =
-      pipelines::mesh_body(measure::refined_shaft(scene, refinement), directory / "shaft.msh", {});
+  const auto meshed = pipelines::mesh_body(measure::refined_shaft(scene, refinement), {});
   fem::SolverChoice choice;
   choice.solver = fem::Solver::iterative;
   const double start_s = measure::wall_s();

@@ -8,7 +8,7 @@
 #include "fem/common/memory.h"
 #include "fem/common/parallel.h"
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/iterative_solve.h"
@@ -39,7 +39,7 @@ std::pair<fem::Solution, SolverFigures> run(const fem::SolverCost& predicted, co
 
 SolverRow compare_solvers(const fem::Body& body, const std::vector<fem::UnitLoad>& unit_loads, int n_repeats,
                           bool with_direct) {
-  const auto grid = fem::read_grid(body);
+  const auto grid = fem::make_grid(body);
   const auto silent = [](double, const std::string&) {};
   fem::BalancedLoads loads;
   {

@@ -7,10 +7,10 @@
 ///   solver_benchmarks <shaft.toml> fit [largest number of unknowns, default 700000]
 /// Twelve load cases at the same sizes, and with stretched cells at the smaller ones: the constants of
 /// fem/values/cost_constants.h, fitted anew.
+///   solver_benchmarks <shaft.toml> triangulations
+/// Cells and numbers of nodes by deal.II's serial triangulation and by p4est's.
 ///   solver_benchmarks <vibratory_mill.toml> halves
 /// The scene's chamber whole and by halves.
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -27,6 +27,7 @@
 #include "tests/benchmarks/operator_comparison.h"
 #include "tests/benchmarks/solver_comparison.h"
 #include "tests/benchmarks/solver_plot.h"
+#include "tests/benchmarks/triangulations.h"
 
 namespace {
 
@@ -51,13 +52,13 @@ pipelines::BodyScene extruded(pipelines::BodyScene part) {
   return part;
 }
 
-void fit(const char* scene_file, std::size_t most, const std::filesystem::path& directory) {
+void fit(const char* scene_file, std::size_t most) {
   const auto scene = pipelines::read_scene(scene_file);
   std::vector<measure::SolverRow> rows;
   std::size_t n_loads = 0;
   const auto add = [&](const Size& size) {
     const auto part = measure::refined_shaft(scene, size.refinement);
-    const auto mesh = pipelines::build_mesh(part, directory / "shaft.msh");
+    const auto mesh = pipelines::build_mesh(part);
     const auto loads = measure::seat_loads(mesh);
     n_loads = loads.size();
     rows.push_back(measure::compare_solvers(pipelines::to_fem_body(mesh, part.material), loads,
@@ -77,10 +78,10 @@ void fit(const char* scene_file, std::size_t most, const std::filesystem::path& 
   measure::print_fit(rows, n_loads);
 }
 
-void compare_operators(const char* scene_file, const std::filesystem::path& directory) {
+void compare_operators(const char* scene_file) {
   const auto scene = pipelines::read_scene(scene_file);
   const auto body_of = [&](const pipelines::BodyScene& part) {
-    return pipelines::to_fem_body(pipelines::build_mesh(part, directory / "shaft.msh"), part.material);
+    return pipelines::to_fem_body(pipelines::build_mesh(part), part.material);
   };
   const auto middle = body_of(extruded(measure::refined_shaft(scene, {4, 28})));
   measure::compare_operators("extruded", middle, false);
@@ -90,8 +91,8 @@ void compare_operators(const char* scene_file, const std::filesystem::path& dire
 }
 
 void run(const char* scene_file, std::size_t most, std::size_t most_direct,
-         const std::filesystem::path& picture, const std::filesystem::path& directory) {
-  compare_operators(scene_file, directory);
+         const std::filesystem::path& picture) {
+  compare_operators(scene_file);
 
   const auto scene = pipelines::read_scene(scene_file);
   measure::print_heading();
@@ -99,7 +100,7 @@ void run(const char* scene_file, std::size_t most, std::size_t most_direct,
   for (const auto& size : sizes) {
     if (size.n_dofs > most) break;
     const auto part = measure::refined_shaft(scene, size.refinement);
-    const auto mesh = pipelines::build_mesh(part, directory / "shaft.msh");
+    const auto mesh = pipelines::build_mesh(part);
     const auto loads = measure::seat_loads(mesh);
     rows.push_back(measure::compare_solvers(pipelines::to_fem_body(mesh, part.material), loads,
                                             size.n_dofs < small ? n_repeats_small : 1,
@@ -118,29 +119,28 @@ int main(int argc, char** argv) {
                  "usage: solver_benchmarks <shaft.toml> [largest number of unknowns] [picture.svg] [largest "
                  "for the direct solver]\n       solver_benchmarks <shaft.toml> operator\n       "
                  "solver_benchmarks <shaft.toml> fit [largest number of "
-                 "unknowns]\n       solver_benchmarks <vibratory_mill.toml> halves\n");
+                 "unknowns]\n       solver_benchmarks <shaft.toml> triangulations\n       "
+                 "solver_benchmarks <vibratory_mill.toml> halves\n");
     return 2;
   }
   const fem::Environment environment(n_threads);
-  const auto directory =
-      std::filesystem::temp_directory_path() / ("solver_benchmarks_" + std::to_string(getpid()));
-  std::filesystem::create_directory(directory);
   int code = 0;
   try {
     if (argc > 2 && std::string(argv[2]) == "fit")
-      fit(argv[1], argc > 3 ? std::size_t(std::atof(argv[3])) : most_when_unasked, directory);
+      fit(argv[1], argc > 3 ? std::size_t(std::atof(argv[3])) : most_when_unasked);
     else if (argc > 2 && std::string(argv[2]) == "operator")
-      compare_operators(argv[1], directory);
+      compare_operators(argv[1]);
+    else if (argc > 2 && std::string(argv[2]) == "triangulations")
+      measure::compare_triangulations(argv[1]);
     else if (argc > 2 && std::string(argv[2]) == "halves")
-      measure::compare_halves(argv[1], directory);
+      measure::compare_halves(argv[1]);
     else
       run(argv[1], argc > 2 ? std::size_t(std::atof(argv[2])) : most_when_unasked,
           argc > 4 ? std::size_t(std::atof(argv[4])) : 100000000,
-          argc > 3 ? argv[3] : "results/benchmarks/solvers.svg", directory);
+          argc > 3 ? argv[3] : "results/benchmarks/solvers.svg");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     code = 1;
   }
-  std::filesystem::remove_all(directory);
   return code;
 }

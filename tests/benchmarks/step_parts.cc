@@ -35,7 +35,7 @@ Reference reference(const StepShaft& shaft, const fs::path& directory) {
   const auto scene = read(directory / "blocks.toml", step_shafts::scene_of_blocks(shaft));
   pipelines::StageClock clock;
   const auto& body = scene.bodies.at(0);
-  const auto meshed = pipelines::mesh_body(body, directory / "blocks.msh", {});
+  const auto meshed = pipelines::mesh_body(body, {});
   const auto loads = pipelines::load_bodies(scene, {meshed}, clock).body_loads.at(0);
   Reference result;
   for (const double fineness : {1.0, 2.0}) {

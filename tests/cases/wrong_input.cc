@@ -184,8 +184,8 @@ TEST(WrongInput, OutputThatCannotBeWrittenIsNamed) {
 }
 
 // MPI kept a directory in TMPDIR that all runs shared: one that ended took it from one that started, which
-// then failed. Where TMPDIR is no directory a run that needs none goes on, and one that does says so.
-TEST(WrongInput, TmpdirIsNoDirectory) {
+// then failed. Nothing needs TMPDIR to be a directory.
+TEST(WrongInput, TmpdirDoesNotMatter) {
   const results_test::Directory directory;
   write(directory / "file", "no directory\n");
   write(directory / "scene.toml", edited("shaft.toml", {}));
@@ -197,8 +197,7 @@ TEST(WrongInput, TmpdirIsNoDirectory) {
              check = millstress(directory.path, "check scene.toml");
   restored.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", restored.c_str(), 1);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(check.exit_code, 2) << check.err;
-  EXPECT_NE(check.err.find("TMPDIR = " + tmpdir), std::string::npos) << check.err;
+  EXPECT_EQ(check.exit_code, 0) << check.err;
 }
 
 TEST(WrongInput, ModelForCalculixNeedsAFreeBody) {

@@ -1,6 +1,7 @@
 /// STEP files and meshes: the checks of their text in this process, whole imports with gmsh in its child.
 #include <cmath>
 
+#include "meshes/gmsh/msh_writer.h"
 #include "meshes/imported/file_checks.h"
 #include "meshes/imported/imported.h"
 #include "meshes/values/refused.h"
@@ -39,7 +40,8 @@ meshes::Import import_of(const std::filesystem::path& file) {
 }
 
 std::string fault_of_import(const std::filesystem::path& file, const std::filesystem::path& mesh) {
-  const auto body = meshes::build_imported(import_of(file), mesh);
+  const auto body = meshes::build_imported(import_of(file));
+  meshes::write_msh(body, mesh);
   if (!std::isfinite(body.quality.min_scaled_jacobian) || !std::isfinite(body.quality.max_aspect))
     return "the quality is not finite";
   meshes::check_msh_text(read_bytes(mesh));  // what is written must pass as well

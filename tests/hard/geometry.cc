@@ -63,7 +63,7 @@ fem::Body ring(double inner, double outer, double offset, std::array<int, 3> cel
     return Point(r * std::cos(angle) + offset * c[0], r * std::sin(angle), height * c[2]);
   };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   fem::CylinderChart chart;
   chart.volume_id = verification::block_volume;
   chart.shift_x_m = offset;

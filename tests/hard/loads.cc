@@ -23,7 +23,7 @@ fem::Body tube(double density_kg_m3) {
     return Point(r * std::cos(angle), r * std::sin(angle), 0.2 * c[2]);
   };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   fem::CylinderChart chart;
   chart.volume_id = verification::block_volume;
   body.cylinders = {chart};

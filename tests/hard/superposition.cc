@@ -169,7 +169,7 @@ CancellingChannels carried_halves() {
   };
   block.volume = [](const std::array<int, 3>& cell) { return cell[2] < 20 ? 7 : 8; };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   body.material = {206e9, 0.3, 7850};
   using Field = fem::BodyForce::Field;
   return {"two halves of a slender rod",

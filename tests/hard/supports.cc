@@ -23,7 +23,7 @@ fem::Body sprung_rod(double stiffness_N_m) {
   block.cells = {1, 1, 8};
   block.map = [](const Point& c) { return Point(side * (c[0] - 0.5), side * (c[1] - 0.5), length * c[2]); };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   body.material = steel;
   for (const auto& [face, z] : {std::pair{verification::begin_3, 0.0}, {verification::end_3, length}})
     body.elastic_supports.push_back(

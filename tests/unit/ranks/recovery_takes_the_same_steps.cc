@@ -1,7 +1,7 @@
 // A rank recovers the stress of its nodes on a part of the mesh, and takes the same steps as on the whole.
 #include <gtest/gtest.h>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/ranks/helper_ranks.h"
 #include "fem/stress/recovery_on_ranks.h"
@@ -35,13 +35,13 @@ void expect_same(const fem::Grid& grid, const std::vector<fem::CylinderChart>& c
 
 TEST(Recovery, OfHexahedraWithCharts) {
   const auto shaft = fem_tests::eccentric_shaft(2);
-  expect_same(fem::read_grid(shaft.body), shaft.body.cylinders, {shaft.ports.at("end_1").boundary_id});
+  expect_same(fem::make_grid(shaft.body), shaft.body.cylinders, {shaft.ports.at("end_1").boundary_id});
 }
 
 TEST(Recovery, OfRefinedHexahedra) {
   const auto shaft = fem_tests::eccentric_shaft(2);
   const auto body = fem_tests::refined_at_random(shaft.body, 2, 0.02, 2);
-  expect_same(fem::read_grid(body), body.cylinders, {shaft.ports.at("end_1").boundary_id});
+  expect_same(fem::make_grid(body), body.cylinders, {shaft.ports.at("end_1").boundary_id});
 }
 
 TEST(Recovery, OfTetrahedra) {

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_order.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/model/model.h"
 #include "fem/operators/subdomain.h"
 #include "fem/ranks/helper_ranks.h"
@@ -153,7 +152,7 @@ TEST_F(Ranks, RefinedHexahedraIteratively) {
 
 // Every rank has all cells once, and of the nodes that its cells hang on every one.
 TEST_F(Ranks, SharesKnowWhatTheirNodesHangOn) {
-  const auto grid = fem::read_grid(refined_shaft().body);
+  const auto grid = fem::make_grid(refined_shaft().body);
   const auto cells = fem::cells_of_nodes(grid);
   for (const int n : {2, 3, 7}) {
     const auto rank = fem::deal_out_cells(grid, fem::even_weights(n));
@@ -195,7 +194,7 @@ TEST_F(Ranks, DiscIteratively) {
   meshes::ShaftMeshControl control;
   control.n_sectors = 8;
   const auto disc = fem_tests::build(shaft, control);
-  const auto grid = fem::read_grid(disc.body);
+  const auto grid = fem::make_grid(disc.body);
   const auto rank = fem::deal_out_cells(grid, fem::even_weights(number()));
   std::vector<std::set<int>> at_node(grid.n_nodes);
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
@@ -262,13 +261,11 @@ TEST_F(Ranks, TwoMaterials) {
 }
 
 TEST_F(Ranks, TetrahedraDirectly) {
-  const auto rod = fem_tests::rod();  // for its directory
   const auto grid = fem_tests::tetrahedra_block({2, 2, 8}, [](const fem_tests::Point& x) {
     return fem_tests::Point(x[0] + 0.05 * x[2] * x[2], x[1], 4 * x[2]);
   });
   fem::Body body;
-  body.mesh = rod.body.mesh.parent_path() / "block.msh";
-  std::ofstream(body.mesh) << fem_tests::as_msh(grid);
+  body.mesh = fem_tests::cells_of(grid);
   body.material = fem_tests::steel;
   std::vector<fem::UnitLoad> loads;
   for (const auto c : {Component::fx, Component::fz, Component::mx})

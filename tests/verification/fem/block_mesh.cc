@@ -1,23 +1,8 @@
 #include "tests/verification/fem/block_mesh.h"
 
-#include <fstream>
-#include <map>
-#include <string>
-
-#include "tests/unit/fem/examples/scratch_directory.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 
 namespace verification {
-
-namespace {
-
-std::filesystem::path next_file() {
-  static const fem_tests::ScratchDirectory scratch;
-  static int number = 0;
-  return scratch.path() / ("block_" + std::to_string(number++) + ".msh");
-}
-
-}  // namespace
 
 HexahedraMesh hexahedra(const Block& block) {
   const auto& n = block.cells;
@@ -51,49 +36,26 @@ HexahedraMesh hexahedra(const Block& block) {
   return mesh;
 }
 
-std::filesystem::path write(const HexahedraMesh& mesh) {
-  auto path = next_file();
-  std::ofstream out(path);
-  out.precision(17);
-  std::map<int, std::vector<std::size_t>> volumes;  // cells of each
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    volumes[mesh.volumes.empty() ? int(block_volume) : mesh.volumes[c]].push_back(c);
-  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 6 " << volumes.size() << "\n";
-  for (int side = begin_1; side <= end_3; ++side) out << side << " 0 0 0 1 1 1 1 " << side << " 0\n";
-  for (const auto& [volume, cells] : volumes) out << volume << " 0 0 0 1 1 1 1 " << volume << " 0\n";
-  out << "$EndEntities\n$Nodes\n1 " << mesh.nodes.size() << " 1 " << mesh.nodes.size() << "\n3 "
-      << volumes.begin()->first << " 0 " << mesh.nodes.size() << "\n";
-  for (std::size_t i = 1; i <= mesh.nodes.size(); ++i) out << i << "\n";
-  for (const auto& x : mesh.nodes) out << x[0] << " " << x[1] << " " << x[2] << "\n";
-  const auto n_elements = mesh.faces.size() + mesh.cells.size();
-  out << "$EndNodes\n$Elements\n"
-      << mesh.faces.size() + volumes.size() << " " << n_elements << " 1 " << n_elements << "\n";
-  std::size_t next = 1;
+Cells cells_of(const HexahedraMesh& mesh) {
+  fem::CoarseMesh cells;
+  for (const auto& x : mesh.nodes) cells.points_m.push_back({x[0], x[1], x[2]});
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    cells.cells.insert(cells.cells.end(), mesh.cells[c].begin(), mesh.cells[c].end());
+    cells.volume_id.push_back(mesh.volumes.empty() ? int(block_volume) : mesh.volumes[c]);
+  }
   for (const auto& [corners, side] : mesh.faces) {
-    out << "2 " << side << " 3 1\n" << next++;
-    for (const int i : corners) out << " " << i + 1;
-    out << "\n";
+    cells.faces.insert(cells.faces.end(), corners.begin(), corners.end());
+    cells.face_id.push_back(side);
   }
-  for (const auto& [volume, cells] : volumes) {
-    out << "3 " << volume << " 5 " << cells.size() << "\n";
-    for (const auto c : cells) {
-      out << next++;
-      for (const int i : mesh.cells[c]) out << " " << i + 1;
-      out << "\n";
-    }
-  }
-  out << "$EndElements\n";
-  return path;
+  return std::make_shared<const fem::CoarseMesh>(std::move(cells));
 }
 
-std::filesystem::path write_hexahedra(const Block& block) {
-  return write(hexahedra(block));
+Cells hexahedra_of(const Block& block) {
+  return cells_of(hexahedra(block));
 }
 
-std::filesystem::path write_tetrahedra(const Block& block) {
-  auto path = next_file();
-  std::ofstream(path) << fem_tests::as_msh(fem_tests::tetrahedra_block(block.cells, block.map));
-  return path;
+Cells tetrahedra_of(const Block& block) {
+  return fem_tests::cells_of(fem_tests::tetrahedra_block(block.cells, block.map));
 }
 
 }  // namespace verification

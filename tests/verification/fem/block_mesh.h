@@ -1,12 +1,14 @@
-/// Meshes that the verification cases write themselves: blocks of cells mapped from the unit cube.
+/// Meshes that the verification cases make themselves: blocks of cells mapped from the unit cube.
 #pragma once
 
 #include <Eigen/Dense>
 #include <array>
-#include <filesystem>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
+
+#include "fem/values/coarse_mesh.h"
 
 namespace verification {
 
@@ -34,10 +36,11 @@ struct HexahedraMesh {
 };
 HexahedraMesh hexahedra(const Block& block);
 
-/// As .msh 4.1, in a directory of this process, which goes when the process ends.
-std::filesystem::path write(const HexahedraMesh& mesh);
-std::filesystem::path write_hexahedra(const Block& block);
+/// The cells of a body.
+using Cells = std::shared_ptr<const fem::CoarseMesh>;
+Cells cells_of(const HexahedraMesh& mesh);
+Cells hexahedra_of(const Block& block);
 /// Six tetrahedra of 10 nodes for each cell; all nodes where the map has them.
-std::filesystem::path write_tetrahedra(const Block& block);
+Cells tetrahedra_of(const Block& block);
 
 }  // namespace verification

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cmath>
+#include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
-#include "tests/unit/fem/examples/scratch_directory.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 #include "tests/verification/fem/block_mesh.h"
 #include "tests/verification/fem/figures.h"
@@ -56,9 +57,9 @@ verification::HexahedraMesh together(verification::HexahedraMesh mesh,
   return mesh;
 }
 
-std::string refusal(const std::filesystem::path& file) {
+std::string refusal(const verification::Cells& cells) {
   fem::Body body;
-  body.mesh = file;
+  body.mesh = cells;
   body.material = {200e9, 0.3, 7850};
   try {
     fem::Model model(body);
@@ -74,19 +75,21 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
 
 TEST(BrokenMesh, InTwoPieces) {
   expect_words(
-      refusal(verification::write(together(cube({0, 0, 0}), cube({3, 0, 0}), true))),
+      refusal(verification::cells_of(together(cube({0, 0, 0}), cube({3, 0, 0}), true))),
       {"2 pieces", "8 cells near (0.25, 0.25, 0.25) m", "8 cells near (3.25, 0.25, 0.25) m", "join them"});
 }
 
 // What a mesher leaves of two solids that were never fragmented: they touch, and share no node.
 TEST(BrokenMesh, SideBySideWithoutCommonNodes) {
-  expect_words(refusal(verification::write(together(cube({0, 0, 0}), cube({1, 0, 0}), false))), {"2 pieces"});
+  expect_words(refusal(verification::cells_of(together(cube({0, 0, 0}), cube({1, 0, 0}), false))),
+               {"2 pieces"});
 }
 
 TEST(BrokenMesh, HingedAtAnEdgeOrACorner) {
-  expect_words(refusal(verification::write(together(cube({0, 0, 0}), cube({1, 1, 0}), true))),
+  expect_words(refusal(verification::cells_of(together(cube({0, 0, 0}), cube({1, 1, 0}), true))),
                {"2 pieces that share no face"});
-  expect_words(refusal(verification::write(together(cube({0, 0, 0}), cube({1, 1, 1}), true))), {"2 pieces"});
+  expect_words(refusal(verification::cells_of(together(cube({0, 0, 0}), cube({1, 1, 1}), true))),
+               {"2 pieces"});
 }
 
 TEST(BrokenMesh, ManyPiecesAreCountedAndTheLargestNamed) {
@@ -96,8 +99,8 @@ TEST(BrokenMesh, ManyPiecesAreCountedAndTheLargestNamed) {
     one.map = [k](const Point& c) { return Point(c + Point(0, 0, 4 * k)); };
     mesh = together(std::move(mesh), verification::hexahedra(one), true);
   }
-  expect_words(refusal(verification::write(mesh)), {"8 pieces", ": 8 cells near (0.25, 0.25, 0.25) m",
-                                                    "1 cells near (0.5, 0.5, 4.5) m", "and others"});
+  expect_words(refusal(verification::cells_of(mesh)), {"8 pieces", ": 8 cells near (0.25, 0.25, 0.25) m",
+                                                       "1 cells near (0.5, 0.5, 4.5) m", "and others"});
 }
 
 TEST(BrokenMesh, OfTetrahedraInTwoPieces) {
@@ -112,13 +115,34 @@ TEST(BrokenMesh, OfTetrahedraInTwoPieces) {
     grid.boundary.push_back(face);
   }
   grid.n_nodes += other.n_nodes;
-  const fem_tests::ScratchDirectory scratch;
-  std::ofstream(scratch.path() / "two.msh") << fem_tests::as_msh(grid);
-  expect_words(refusal(scratch.path() / "two.msh"), {"2 pieces", "6 cells near", "in volume 7"});
+  expect_words(refusal(fem_tests::cells_of(grid)), {"2 pieces", "6 cells near", "in volume 7"});
+}
+
+// What deal.II would read out of bounds, or not join.
+TEST(BrokenMesh, ArraysThatAreNoMesh) {
+  const auto changed = [](const std::function<void(fem::CoarseMesh&)>& change) {
+    auto mesh = *verification::cells_of(cube({0, 0, 0}));
+    change(mesh);
+    return refusal(std::make_shared<const fem::CoarseMesh>(std::move(mesh)));
+  };
+  EXPECT_EQ(changed([](auto&) {}), "accepted");
+  expect_words(changed([](auto& m) { m = {}; }), {"no cells"});
+  expect_words(changed([](auto& m) { m.cells.pop_back(); }), {"lengths do not fit"});
+  expect_words(changed([](auto& m) { m.faces.push_back(0); }), {"lengths do not fit"});
+  expect_words(changed([](auto& m) { m.cells[3] = 27; }), {"names the node 27 of 27"});
+  expect_words(changed([](auto& m) { m.faces[3] = -1; }), {"names the node -1"});
+  expect_words(changed([](auto& m) { m.points_m[3][2] = INFINITY; }), {"not finite"});
+  expect_words(changed([](auto& m) { m.face_id[0] = -1; }), {"negative id"});
+  expect_words(changed([](auto& m) {  // a face of the boundary that lies inside
+                 const int inside[] = {1, 4, 13, 10};
+                 m.faces.insert(m.faces.end(), inside, inside + 4);
+                 m.face_id.push_back(9);
+               }),
+               {"cannot be joined"});
 }
 
 TEST(BrokenMesh, JoinedCubesAreOnePiece) {
-  EXPECT_EQ(refusal(verification::write(together(cube({0, 0, 0}), cube({1, 0, 0}), true))), "accepted");
+  EXPECT_EQ(refusal(verification::cells_of(together(cube({0, 0, 0}), cube({1, 0, 0}), true))), "accepted");
 }
 
 // The middle node of the cube, cell after cell: flat, then beyond the opposite corner.
@@ -127,7 +151,7 @@ TEST(BrokenMesh, AFlatOrInvertedCellIsNamedWithItsPlace) {
     auto mesh = cube({0, 0, 0});
     for (auto& x : mesh.nodes)
       if ((x - Point(0.5, 0.5, 0.5)).norm() < 1e-12) x = Point(where, 0.5, 0.5);
-    const auto text = refusal(verification::write(mesh));
+    const auto text = refusal(verification::cells_of(mesh));
     expect_words(text,
                  {"inverted or degenerate cell in volume 7 (number ", ") near (", ") m", "refine the mesh"});
   }

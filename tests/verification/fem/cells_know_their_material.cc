@@ -27,7 +27,7 @@ fem::Body tube() {
   };
   block.volume = [](const std::array<int, 3>& c) { return c[2] < 2 ? soft_volume : hard_volume; };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   for (const int volume : {soft_volume, hard_volume}) {
     fem::CylinderChart chart;
     chart.volume_id = volume;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "tests/verification/fem/block_mesh.h"
 #include "tests/verification/fem/figures.h"
 
@@ -27,7 +27,7 @@ fem::Body membrane(Plane plane, double poisson_ratio, int degree, int n, Cells c
     return Point(48 * x, 44 * (x + y) - 28 * x * y, c[2]);
   };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   body.degree = degree;
   body.material = {1, poisson_ratio, 1};
   body.clamps = {{verification::begin_1, {true, true, false}}, {verification::begin_3, {false, false, true}}};
@@ -65,7 +65,7 @@ TEST(P21, NearlyIncompressible) {
 std::pair<verification::Solution, double> compliance(const fem::Body& body) {
   auto s = sheared(body);
   const auto side = verification::on_face(verification::end_1, {48, 52, 0.5}, Component::fy).surface;
-  const Eigen::VectorXd force = fem::unit_forces(fem::read_grid(body), side).col(1);
+  const Eigen::VectorXd force = fem::unit_forces(fem::make_grid(body), side).col(1);
   const double mean = force.dot(s.displacement_m.reshaped());
   return {std::move(s), mean};
 }

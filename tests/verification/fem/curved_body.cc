@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "fem/loads/clamps.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/solvers/cholmod_factor.h"
 #include "tests/verification/fem/block_mesh.h"
 #include "tests/verification/fem/field_errors.h"
@@ -33,7 +33,7 @@ fem::Body eccentric_ring(int degree, int n) {
     return Point(r * std::cos(angle) + c[0] * chart.shift_x_m, r * std::sin(angle), 1.5 * c[2]);
   };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   body.degree = degree;
   body.material = material;
   body.cylinders = {chart};
@@ -110,7 +110,7 @@ TEST_P(CurvedBody, DisplacementPPlus1AndStressP) {
   const int degree = GetParam(), n = degree == 1 ? 6 : degree == 2 ? 3 : 2;
   const auto errors = [&](int cells, verification::Solution& solution) {
     const auto start = std::chrono::steady_clock::now();
-    const auto grid = fem::read_grid(eccentric_ring(degree, cells));
+    const auto grid = fem::make_grid(eccentric_ring(degree, cells));
     solution.n_dofs = 3 * grid.n_nodes;
     const auto u = solve(grid);
     solution.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -24,7 +24,7 @@ inline fem::Body cylinder_quarter(const QuarterSizes& sizes) {
     return Point(r * std::cos(pi / 2 * c[1]), r * std::sin(pi / 2 * c[1]), sizes.height_m * c[2]);
   };
   fem::Body body;
-  body.mesh = write_hexahedra(block);
+  body.mesh = hexahedra_of(block);
   fem::CylinderChart chart;
   chart.volume_id = block_volume;
   body.cylinders = {chart};

@@ -26,7 +26,7 @@ inline fem::Body distorted_beam(const Point& size, const std::array<int, 3>& cel
     return Point(size[0] * (d[0] - 0.5), size[1] * (d[1] - 0.5), size[2] * d[2]);
   };
   fem::Body body;
-  body.mesh = write_hexahedra(block);
+  body.mesh = hexahedra_of(block);
   body.material = material;
   body.degree = degree;
   return body;

@@ -22,7 +22,7 @@ fem::Body quarter(double thickness_m, const std::array<int, 3>& cells) {
     return Point((2 + 1.25 * out) * std::cos(angle), (1 + 1.75 * out) * std::sin(angle), thickness_m * c[2]);
   };
   fem::Body body;
-  body.mesh = verification::write_tetrahedra(block);
+  body.mesh = verification::tetrahedra_of(block);
   body.material = {210e9, 0.3, 7850};
   body.clamps = {{verification::begin_2, {false, true, false}}, {verification::end_2, {true, false, false}}};
   return body;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "tests/verification/fem/plane_strain_cylinder.h"
 
 namespace {
@@ -22,7 +22,7 @@ struct Case {
 
 /// |exact - cells' stress| / |exact|, by s : strain with Hooke's law as e = ((1 + nu) s - nu tr s I) / E.
 double true_error(const fem::Body& body, const Field& exact, const verification::Solution& solution) {
-  const auto grid = fem::read_grid(body);
+  const auto grid = fem::make_grid(body);
   const auto at = fem::gauss_in_cell(grid.shape(), grid.degree + 2);
   const fem::RowMajor u = solution.displacement_m.transpose();
   fem::CellStress cell_stress(grid, at, fem::lame(body.material), u);

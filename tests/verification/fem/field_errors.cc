@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 
 namespace verification {
 
@@ -53,7 +53,7 @@ void expect_orders(const std::string& name, const Field& exact, const fem::Body&
                    const fem::Body& fine, const LoadCase& loads) {
   const auto errors = [&](const fem::Body& body, const Solution& solution) {
     const fem::RowMajor u = solution.displacement_m.transpose();
-    return field_errors(fem::read_grid(body), body.material, exact, u);
+    return field_errors(fem::make_grid(body), body.material, exact, u);
   };
   const auto first = solve(coarse, loads, fem::Recovery::average);
   const auto second = solve(fine, loads, fem::Recovery::average);

@@ -25,7 +25,7 @@ fem::Body bar(double jump) {
   block.map = [](const Point& q) { return Point(side * (q[0] - 0.5), side * (q[1] - 0.5), length * q[2]); };
   block.volume = [](const std::array<int, 3>& cell) { return cell[2] < 2 ? soft_volume : hard_volume; };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   body.material = soft(0);  // Poisson's ratio 0: sections stay as they are, and beam theory is exact
   body.material_of_volume = {{hard_volume, hard(jump, 0)}};
   return body;

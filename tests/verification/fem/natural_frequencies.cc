@@ -32,7 +32,7 @@ Vibration vibrate(const fem::Body& body, int n_modes) {
 
 fem::Body box(const std::array<int, 3>& cells, const std::function<Point(const Point&)>& map, int degree) {
   fem::Body body;
-  body.mesh = verification::write_hexahedra({cells, map});
+  body.mesh = verification::hexahedra_of({cells, map});
   body.degree = degree;
   body.material = nafems_steel;
   return body;

@@ -80,7 +80,7 @@ void expect_uniform(const std::string& cells, const fem::Body& body) {
 // at its Gauss points: fem refuses such cells.
 TEST(P15, ThePrintedPatchHasAFoldedCorner) {
   fem::Body body;
-  body.mesh = verification::write(seven_cells(printed));
+  body.mesh = verification::cells_of(seven_cells(printed));
   body.material = {1e6, 0.25, 1};
   EXPECT_THROW(fem::Model model(body), std::runtime_error);
 }
@@ -88,7 +88,7 @@ TEST(P15, ThePrintedPatchHasAFoldedCorner) {
 TEST(P15, DistortedHexahedra) {
   for (const int degree : {1, 2, 3}) {
     fem::Body body;
-    body.mesh = verification::write(seven_cells(moved));
+    body.mesh = verification::cells_of(seven_cells(moved));
     body.material = {1e6, 0.25, 1};
     body.degree = degree;
     expect_uniform("Q" + std::to_string(degree), body);
@@ -103,7 +103,7 @@ TEST(P15, CurvedTetrahedra) {
     return c + inside * Point(0.9, -0.7, 0.5);
   };
   fem::Body body;
-  body.mesh = verification::write_tetrahedra(block);
+  body.mesh = verification::tetrahedra_of(block);
   body.material = {1e6, 0.25, 1};
   expect_uniform("P2", body);
 }

@@ -34,9 +34,9 @@ struct PlaneStrainCylinder {
     };
     fem::Body body;
     if (kind == fem::CellKind::tetrahedra) {
-      body.mesh = write_tetrahedra(block);
+      body.mesh = tetrahedra_of(block);
     } else {
-      body.mesh = write_hexahedra(block);
+      body.mesh = hexahedra_of(block);
       fem::CylinderChart chart;
       chart.volume_id = block_volume;
       body.cylinders = {chart};

@@ -22,7 +22,7 @@ fem::Body roof(int degree, int n_around, int n_through, int n_along) {
     return Point(r * std::sin(angle), r * std::cos(angle), half_length * c[2]);
   };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   body.degree = degree;
   body.material = {4.32e8, 0, 360};
   fem::CylinderChart chart;

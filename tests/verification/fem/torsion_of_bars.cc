@@ -34,7 +34,7 @@ Torsion twist(const Section& section, int degree, int n) {
   block.cells = {n, n, n_along};
   block.map = [=](const Point& c) { return Point(x * c[0], y * c[1], length_m * c[2]); };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   body.material = steel;
   body.degree = degree;
   body.clamps = {{verification::begin_1, {false, true, true}},

@@ -40,7 +40,7 @@ inline fem::Body tube(bool whole, const fem::Material& inner, const fem::Materia
   };
   block.volume = [](const std::array<int, 3>& cell) { return cell[0] < n_inner ? soft_volume : hard_volume; };
   fem::Body body;
-  body.mesh = verification::write_hexahedra(block);
+  body.mesh = verification::hexahedra_of(block);
   for (const int volume : {soft_volume, hard_volume}) {
     fem::CylinderChart chart;
     chart.volume_id = volume;

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "fem/adaptivity/goal_errors.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
@@ -68,7 +68,7 @@ struct Bent {
 
 TEST(Goals, TheirDualLoadsDoTheWorkOfAUniformStress) {
   const auto body = fem_tests::eccentric_shaft(2).body;
-  const auto grid = fem::read_grid(body);
+  const auto grid = fem::make_grid(body);
   const auto integrals = fem::integrate_nodes(grid, fem::colour_cells(grid, fem::cells_of_nodes(grid)));
   const std::vector<double> volume_m3(integrals.col(0).begin(), integrals.col(0).end());
   const fem::StressGoal goal{{},

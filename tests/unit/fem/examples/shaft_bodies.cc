@@ -5,11 +5,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/operators/stiffness.h"
 #include "meshes/shaft/half_section.h"
 #include "meshes/shaft/shaft.h"
-#include "tests/unit/fem/examples/scratch_directory.h"
 
 namespace fem_tests {
 
@@ -23,9 +22,17 @@ std::size_t column(const fem::UnitResponses& responses, const std::string& chann
 
 }  // namespace
 
+std::shared_ptr<const fem::CoarseMesh> cells_of(const meshes::BodyMesh& mesh) {
+  const auto& cells = *mesh.cells;
+  const bool tetrahedra = cells.kind == meshes::CellKind::tetrahedra;
+  return std::make_shared<const fem::CoarseMesh>(
+      fem::CoarseMesh{tetrahedra ? fem::CellKind::tetrahedra : fem::CellKind::hexahedra, cells.points,
+                      cells.cells, cells.volume_id, cells.faces, cells.face_id});
+}
+
 fem::Body steel_body(const meshes::BodyMesh& mesh) {
   fem::Body body;
-  body.mesh = mesh.file;
+  body.mesh = cells_of(mesh);
   body.material = steel;
   for (const auto& c : mesh.cylinders)
     body.cylinders.push_back(
@@ -45,10 +52,7 @@ Eigen::MatrixXd stiffness_times(const fem::Grid& grid, Eigen::MatrixXd displacem
 }
 
 ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control) {
-  static const ScratchDirectory scratch;
-  static int number = 0;
-  const auto mesh =
-      meshes::build_shaft(shaft, control, scratch.path() / ("shaft_" + std::to_string(number++) + ".msh"));
+  const auto mesh = meshes::build_shaft(shaft, control);
   ShaftBody result;
   result.body = steel_body(mesh);
   for (const auto& p : mesh.ports) {
@@ -121,7 +125,7 @@ ShaftBody mirrored_shaft() {
 fem::Body refined_at_random(fem::Body body, int n_cycles, double share, unsigned seed) {
   std::mt19937 random(seed);
   for (int cycle = 0; cycle < n_cycles; ++cycle) {
-    const auto n_cells = fem::read_grid(body).n_cells();
+    const auto n_cells = fem::make_grid(body).n_cells();
     std::vector<std::int32_t> cut;
     for (std::size_t c = 0; c < n_cells; ++c)
       if (double(random()) < share * double(std::mt19937::max())) cut.push_back(std::int32_t(c));

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,10 +32,13 @@ struct ShaftBody {
 /// displacements those of the nodes they hang on.
 Eigen::MatrixXd stiffness_times(const fem::Grid& grid, Eigen::MatrixXd displacement);
 
+/// The cells of a mesh as fem takes them.
+std::shared_ptr<const fem::CoarseMesh> cells_of(const meshes::BodyMesh& mesh);
+
 /// A mesh with its surfaces, of steel.
 fem::Body steel_body(const meshes::BodyMesh& mesh);
 
-/// Meshes the shaft in a directory of this process, which goes when the process ends.
+/// Meshes the shaft.
 ShaftBody build(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control);
 
 /// The shaft's half section, with the boundary ids of build().
@@ -48,8 +51,8 @@ ShaftBody rod(int n_sectors = 16);
 meshes::Shaft small_eccentric_shaft();
 ShaftBody eccentric_shaft(int cells_per_fillet_quarter = 4);
 
-/// Its own mirror image about z = 0: a seat in two parts between the ports bearing_1 and bearing_2, with faces
-/// of cells in its middle.
+/// Its own mirror image about z = 0: a seat in two parts between the ports bearing_1 and bearing_2, with
+/// faces of cells in its middle.
 ShaftBody mirrored_shaft();
 
 /// Cut locally: cycles of a share of the cells each, at random.

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
-#include <sstream>
 
 #include "fem/mesh/cell_geometry.h"
 
@@ -106,42 +104,20 @@ fem::Grid irregular_cube(int n) {
   return grid;
 }
 
-std::string as_msh(const fem::Grid& grid) {
-  const auto tag = [](std::int32_t node) { return 5 * (100000 - node); };
-  std::set<int> groups;
-  for (const auto& face : grid.boundary) groups.insert(face.boundary_id);
-  std::ostringstream out;
-  out.precision(17);
-  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 " << groups.size() << " 1\n";
-  for (const int id : groups) out << id << " 0 0 0 1 1 1 1 " << id << " 0\n";
-  out << "7 0 0 0 1 1 1 1 7 0\n$EndEntities\n$Nodes\n1 " << grid.n_nodes << " 1 500000\n3 7 0 "
-      << grid.n_nodes << "\n";
-  for (std::size_t i = 0; i < grid.n_nodes; ++i) out << tag(static_cast<std::int32_t>(i)) << "\n";
+std::shared_ptr<const fem::CoarseMesh> cells_of(const fem::Grid& grid) {
+  fem::CoarseMesh mesh;
+  mesh.kind = fem::CellKind::tetrahedra;
+  mesh.points_m = {{-9, -9, -9}};
   for (std::size_t i = 0; i < grid.n_nodes; ++i)
-    out << grid.xyz_m[3 * i] << " " << grid.xyz_m[3 * i + 1] << " " << grid.xyz_m[3 * i + 2] << "\n";
-  const auto n_elements = grid.n_cells() + grid.boundary.size();
-  out << "$EndNodes\n$Elements\n" << groups.size() + 1 << " " << n_elements << " 1 " << n_elements << "\n";
-  std::size_t next = 1;
-  for (const int id : groups) {
-    out << "2 " << id << " 9 "
-        << std::count_if(grid.boundary.begin(), grid.boundary.end(),
-                         [id](const auto& face) { return face.boundary_id == id; })
-        << "\n";
-    for (const auto& face : grid.boundary) {
-      if (face.boundary_id != id) continue;
-      out << next++;
-      for (const auto node : fem::nodes_of_face(grid, face.cell, face.face)) out << " " << tag(node);
-      out << "\n";
-    }
+    mesh.points_m.push_back({grid.xyz_m[3 * i], grid.xyz_m[3 * i + 1], grid.xyz_m[3 * i + 2]});
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    for (const int i : {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}) mesh.cells.push_back(1 + grid.nodes_of(c)[i]);
+  mesh.volume_id = grid.volume_id;
+  for (const auto& face : grid.boundary) {
+    for (const auto node : fem::nodes_of_face(grid, face.cell, face.face)) mesh.faces.push_back(1 + node);
+    mesh.face_id.push_back(face.boundary_id);
   }
-  out << "3 7 11 " << grid.n_cells() << "\n";
-  for (std::size_t c = 0; c < grid.n_cells(); ++c) {
-    out << next++;
-    for (const int i : {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}) out << " " << tag(grid.nodes_of(c)[i]);
-    out << "\n";
-  }
-  out << "$EndElements\n";
-  return out.str();
+  return std::make_shared<const fem::CoarseMesh>(std::move(mesh));
 }
 
 }  // namespace fem_tests

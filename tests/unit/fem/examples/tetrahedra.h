@@ -4,9 +4,10 @@
 #include <Eigen/Dense>
 #include <array>
 #include <functional>
-#include <string>
+#include <memory>
 
 #include "fem/mesh/grid.h"
+#include "fem/values/coarse_mesh.h"
 
 namespace fem_tests {
 
@@ -22,8 +23,7 @@ fem::Grid tetrahedra_block(const std::array<int, 3>& n, const std::function<Poin
 /// The cube with straight edges and corners inside the cube moved at random by up to a fifth of a box.
 fem::Grid irregular_cube(int n);
 
-/// The grid as a .msh 4.1 file, as gmsh would write it: type 11 and 9, one entity per group, node tags that
-/// are neither consecutive nor ascending.
-std::string as_msh(const fem::Grid& grid);
+/// The grid as a mesher would hand it over, behind a point that no cell has.
+std::shared_ptr<const fem::CoarseMesh> cells_of(const fem::Grid& grid);
 
 }  // namespace fem_tests

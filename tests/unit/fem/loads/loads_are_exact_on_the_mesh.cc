@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {
@@ -16,7 +16,7 @@ constexpr std::array<Component, 6> all = {Component::fx, Component::fy, Componen
 struct Loads : testing::Test {
   static void SetUpTestSuite() {
     shaft = new fem_tests::ShaftBody(fem_tests::eccentric_shaft());
-    grid = new fem::Grid(fem::read_grid(shaft->body));
+    grid = new fem::Grid(fem::make_grid(shaft->body));
   }
   static void TearDownTestSuite() {
     delete grid;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/charts.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/rigid_modes.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
@@ -78,7 +78,7 @@ Distances distances(const fem::Grid& grid, int boundary_id, const Distance& dist
 // side.
 TEST(Charts, NodesLieOnSeatsAndFillets) {
   const auto shaft = fem_tests::eccentric_shaft();
-  const auto grid = fem::read_grid(shaft.body);
+  const auto grid = fem::make_grid(shaft.body);
   for (const auto& [name, port] : shaft.ports) {
     if (port.kind != fem::LoadSurface::Kind::seat) continue;
     const auto d = distances(grid, port.boundary_id, [&port = port](const Eigen::Vector3d& x) {
@@ -101,7 +101,7 @@ TEST(Charts, NodesLieOnSeatsAndFillets) {
 // Cells on both sides of a face place its nodes at the same points: the sum of all faces' area vectors of the
 // boundary vanishes only for a closed surface, and every cell's positions agree with the shared ones.
 TEST(Charts, BoundaryIsClosed) {
-  const auto grid = fem::read_grid(fem_tests::eccentric_shaft().body);
+  const auto grid = fem::make_grid(fem_tests::eccentric_shaft().body);
   const auto at = fem::gauss_on_face(grid.shape(), 4);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0, flux = 0;

@@ -9,13 +9,12 @@
 #include <functional>
 #include <random>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/values/errors.h"
 #include "meshes/chamber/chamber.h"
 #include "meshes/shaft/shaft.h"
 #include "meshes/values/refused.h"
-#include "tests/unit/fem/examples/scratch_directory.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 #include "tests/unit/meshes/examples/random_bodies.h"
@@ -31,7 +30,7 @@ int n_refined_bodies() {
 /// stays inverted.
 fem::Grid with_cells_cut(const meshes::BodyMesh& mesh, std::mt19937& random, int& n_mended) {
   auto body = fem_tests::steel_body(mesh);
-  const auto n_cells = fem::read_grid(body).n_cells();
+  const auto n_cells = fem::make_grid(body).n_cells();
   std::vector<std::int32_t> cut;
   for (std::size_t c = 0; c < n_cells; ++c)
     if (random() % 20 == 0) cut.push_back(std::int32_t(c));
@@ -39,7 +38,7 @@ fem::Grid with_cells_cut(const meshes::BodyMesh& mesh, std::mt19937& random, int
   body.refinements = {{cut}};
   while (true) {
     try {
-      return fem::read_grid(body);
+      return fem::make_grid(body);
     } catch (const fem::InvertedBesideLarger& inverted) {
       if (body.refinements.size() > 10) throw;
       body.refinements.push_back({inverted.larger()});
@@ -86,7 +85,7 @@ void examine(const meshes::BodyMesh& mesh, std::mt19937& random, Seen& seen) {
   const auto grid = with_cells_cut(mesh, random, seen.n_mended);
   const auto cut = relative_forces(grid);
   if (cut.rotation > rounding || cut.patch > rounding) {
-    const auto whole = relative_forces(fem::read_grid(fem_tests::steel_body(mesh)));
+    const auto whole = relative_forces(fem::make_grid(fem_tests::steel_body(mesh)));
     EXPECT_LT(cut.rotation, std::max(rounding, 3 * whole.rotation));
     EXPECT_LT(cut.patch, std::max(rounding, 3 * whole.patch));
   }
@@ -104,29 +103,28 @@ void tell(const Seen& seen, const char* kind) {
 /// The first mesh that mesher and solver take, as searches begin: two cells on a quarter of a fillet are too
 /// few where a groove is hardly longer than its fillets, and eight sectors where a thick segment is far off
 /// the axis.
-meshes::BodyMesh first_mesh(const meshes::Shaft& shaft, bool lean, const std::filesystem::path& file) {
+meshes::BodyMesh first_mesh(const meshes::Shaft& shaft, bool lean) {
   meshes::ShaftMeshControl control;
   for (const auto& [n_cells, n_sectors] : {std::pair{2, 8}, {4, 8}, {4, 12}, {6, 16}}) try {
       control.cells_per_fillet_quarter = n_cells;
       control.n_sectors = n_sectors;
       control.lean = lean && n_cells == 2;
-      auto mesh = meshes::build_shaft(shaft, control, file);
-      fem::read_grid(fem_tests::steel_body(mesh));
+      auto mesh = meshes::build_shaft(shaft, control);
+      fem::make_grid(fem_tests::steel_body(mesh));
       return mesh;
     } catch (const meshes::MeshRefused&) {
     } catch (const fem::MeshUnusable&) {
     }
-  return meshes::build_shaft(shaft, {}, file);
+  return meshes::build_shaft(shaft, {});
 }
 
 void examine_shafts(const std::function<meshes::Shaft(std::mt19937&)>& draw, const char* kind) {
-  const fem_tests::ScratchDirectory scratch;
   std::mt19937 random(20261123);
   Seen seen;
   for (int i = 0; i < n_refined_bodies(); ++i) {
     const auto shaft = draw(random);
     SCOPED_TRACE(std::to_string(i) + ": " + text(shaft));
-    ASSERT_NO_THROW(examine(first_mesh(shaft, i % 2 == 0, scratch.path() / "shaft.msh"), random, seen));
+    ASSERT_NO_THROW(examine(first_mesh(shaft, i % 2 == 0), random, seen));
   }
   tell(seen, kind);
 }
@@ -140,7 +138,6 @@ TEST(RefinedBodies, DrumsStayWhole) {
 }
 
 TEST(RefinedBodies, ChambersStayWhole) {
-  const fem_tests::ScratchDirectory scratch;
   std::mt19937 random(20261124);
   Seen seen;
   for (int n_meshed = 0; n_meshed < n_refined_bodies();) {
@@ -154,7 +151,7 @@ TEST(RefinedBodies, ChambersStayWhole) {
     control.lean = n_meshed % 2 == 1;
     meshes::BodyMesh mesh;
     try {
-      mesh = meshes::build_chamber(chamber, control, scratch.path() / "chamber.msh");
+      mesh = meshes::build_chamber(chamber, control);
     } catch (const meshes::GeometryRefused& refused) {  // parts in each other's way: the draw allows it
       continue;
     }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/hanging_nodes.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
 #include "fem/stress/stress_recovery.h"
@@ -20,7 +20,7 @@ fem::Grid refined_shaft(int n_cycles, unsigned seed, int degree = 2) {
   const double share = degree == 2 ? 0.05 : 0.01;
   auto body = fem_tests::eccentric_shaft(2).body;
   body.degree = degree;
-  return fem::read_grid(fem_tests::refined_at_random(body, n_cycles, share, seed));
+  return fem::make_grid(fem_tests::refined_at_random(body, n_cycles, share, seed));
 }
 
 TEST(RefinedShafts, HangOnNodesThatDoNotHang) {
@@ -122,34 +122,34 @@ TEST(RefinedShafts, VibrateAsTheCoarseOnes) {
 // In one cycle a cell is cut, then its piece at the point, and the neighbours there once.
 TEST(RefinedShafts, AreCutTwiceAtAPoint) {
   auto body = fem_tests::eccentric_shaft(2).body;
-  const auto before = fem::read_grid(body);
+  const auto before = fem::make_grid(body);
   const auto corner = before.cell_nodes[0];
   const double* at_m = before.position(corner);
   const auto n_neighbours =
       std::size_t(std::count(before.cell_nodes.begin(), before.cell_nodes.end(), corner)) - 1;
   body.refinements = {{{0}}};
-  EXPECT_EQ(fem::read_grid(body).n_cells(), before.n_cells() + 7);
+  EXPECT_EQ(fem::make_grid(body).n_cells(), before.n_cells() + 7);
   body.refinements = {{{0}, {{at_m[0], at_m[1], at_m[2]}}}};
-  EXPECT_EQ(fem::read_grid(body).n_cells(), before.n_cells() + 7 * (2 + n_neighbours));
+  EXPECT_EQ(fem::make_grid(body).n_cells(), before.n_cells() + 7 * (2 + n_neighbours));
   const double* opposite_m = before.position(before.cell_nodes[before.nodes_per_cell() - 1]);
   std::array<double, 3>
       near_m{};  // a tenth of the cell inwards: the node of a cubic cell, or of a hanging face
   for (std::size_t d = 0; d < 3; ++d) near_m[d] = at_m[d] + 0.1 * (opposite_m[d] - at_m[d]);
   body.refinements = {{{0}, {near_m}}};
-  EXPECT_EQ(fem::read_grid(body).n_cells(), before.n_cells() + 7 * (2 + n_neighbours));
+  EXPECT_EQ(fem::make_grid(body).n_cells(), before.n_cells() + 7 * (2 + n_neighbours));
   body.refinements = {{{0}, {{1e3, 0, 0}}}};
-  EXPECT_THROW(fem::read_grid(body), std::invalid_argument);
+  EXPECT_THROW(fem::make_grid(body), std::invalid_argument);
 }
 
 TEST(RefinedShafts, RefuseCellsThatAreNot) {
   auto body = fem_tests::eccentric_shaft(2).body;
   body.refinements = {{{-1}}};
-  EXPECT_THROW(fem::read_grid(body), std::invalid_argument);
+  EXPECT_THROW(fem::make_grid(body), std::invalid_argument);
   body.refinements = {{{1 << 30}}};
-  EXPECT_THROW(fem::read_grid(body), std::invalid_argument);
+  EXPECT_THROW(fem::make_grid(body), std::invalid_argument);
   body.refinements = {{{0}}};
   body.degree = 1;
-  EXPECT_THROW(fem::read_grid(body), std::invalid_argument);
+  EXPECT_THROW(fem::make_grid(body), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
-// Quadratic tetrahedra from the file to the responses.
+// Quadratic tetrahedra from the mesh to the responses.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
+#include <functional>
+#include <memory>
 
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
 #include "fem/stress/cell_stress_at_node.h"
@@ -20,36 +20,27 @@ using fem_tests::Point;
 using Component = fem::SurfaceResultant::Component;
 using fem::pi;
 
-/// A .msh in the directory for temporary files, which goes with the object.
-struct MeshFile {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("tetrahedra_" + std::to_string(::getpid()) + ".msh");
-  explicit MeshFile(const std::string& text) { std::ofstream(path) << text; }
-  ~MeshFile() { std::filesystem::remove(path); }
-  fem::Body body() const {
-    fem::Body body;
-    body.mesh = path;
-    body.material = {206e9, 0.3, 7850};
-    return body;
-  }
-};
+fem::Body steel_body(const std::shared_ptr<const fem::CoarseMesh>& cells) {
+  fem::Body body;
+  body.mesh = cells;
+  body.material = {206e9, 0.3, 7850};
+  return body;
+}
 
-std::string refusal(const std::string& text, const std::function<void(fem::Body&)>& change = {}) {
-  const MeshFile file(text);
-  auto body = file.body();
-  if (change) change(body);
+std::string refusal(const fem::Body& body) {
   try {
-    fem::read_grid(body);
+    fem::make_grid(body);
   } catch (const std::exception& error) {
     return error.what();
   }
   return "accepted";
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
+/// Of a cube's mesh with something changed.
+std::string refusal(const std::function<void(fem::CoarseMesh&)>& change) {
+  auto mesh = *fem_tests::cells_of(fem_tests::tetrahedra_cube(1, [](const Point& x) { return x; }));
+  change(mesh);
+  return refusal(steel_body(std::make_shared<const fem::CoarseMesh>(std::move(mesh))));
 }
 
 void expect_words(const std::string& text, const std::vector<std::string>& words) {
@@ -71,10 +62,9 @@ TEST(TetrahedraFaces, PointOutwardsWithMiddlesBetweenCorners) {
   }
 }
 
-TEST(TetrahedraFile, ComesBackAsItWas) {
+TEST(TetrahedraMesh, ComesBackAsItWas) {
   const auto written = fem_tests::tetrahedra_cube(2, bent);
-  const MeshFile file(fem_tests::as_msh(written));
-  const auto read = fem::read_grid(file.body());
+  const auto read = fem::make_grid(steel_body(fem_tests::cells_of(written)));
   EXPECT_EQ(read.kind, fem::CellKind::tetrahedra);
   EXPECT_EQ(read.xyz_m, written.xyz_m);
   EXPECT_EQ(read.cell_nodes, written.cell_nodes);
@@ -87,35 +77,36 @@ TEST(TetrahedraFile, ComesBackAsItWas) {
   }
 }
 
-TEST(TetrahedraFile, IsRefusedInWords) {
-  const auto text = fem_tests::as_msh(fem_tests::tetrahedra_cube(1, bent));
-  EXPECT_EQ(refusal(text), "accepted");
-  for (const double share : {0.1, 0.3, 0.6, 0.9})
-    expect_words(refusal(text.substr(0, std::size_t(share * double(text.size())))), {"cut off"});
-  expect_words(refusal(replaced(text, "3 7 11 6\n", "3 7 11 900\n")), {"$Elements", "damaged"});
-  const auto place = text.find('\n', text.find("$Nodes"));
-  const auto coordinate = text.find(" 0\n", place);
-  ASSERT_NE(coordinate, std::string::npos);
-  for (const char* wrong : {"nan", "inf", "1e999"})
-    expect_words(refusal(std::string(text).replace(coordinate + 1, 1, wrong)), {"$Nodes", "damaged"});
-  expect_words(refusal(replaced(text, "0 0 6 1\n1 0 0 0 1 1 1 1 1 0\n", "0 0 6 1\n1 0 0 0 1 1 1 0 0\n")),
-               {"surface near", "physical group"});
-  expect_words(refusal(replaced(text, "7 0 0 0 1 1 1 1 7 0\n", "7 0 0 0 1 1 1 0 0\n")),
-               {"volume 7", "no physical group"});
-  expect_words(refusal(replaced(text, "7 0 0 0 1 1 1 1 7 0\n", "7 0 0 0 1 1 1 2 7 8 0\n")),
-               {"volume 7", "several physical groups"});
-  expect_words(refusal(replaced(replaced(text, "$Elements\n7 18 1 18\n", "$Elements\n8 19 1 19\n"),
-                                "$EndElements", "3 7 4 1\n19 500000 499995 499990 499985\n$EndElements")),
-               {"4 nodes", "second order"});
-  expect_words(
-      refusal(replaced(replaced(text, "$Elements\n7 18 1 18\n", "$Elements\n8 19 1 19\n"), "$EndElements",
-                       "3 7 6 1\n19 500000 499995 499990 499985 499980 499975\n$EndElements")),
-      {"mixes tetrahedra", "type 6"});
-  expect_words(refusal(text, [](auto& b) { b.degree = 3; }), {"degree = 3", "must be 2"});
-  expect_words(refusal(text, [](auto& b) { b.cylinders.emplace_back(); }), {"charts are for hexahedra"});
-  expect_words(refusal(fem_tests::as_msh(
-                   fem_tests::tetrahedra_cube(1, [](const Point& x) { return Point(-x[0], x[1], x[2]); }))),
+TEST(TetrahedraMesh, IsRefusedInWords) {
+  EXPECT_EQ(refusal([](auto&) {}), "accepted");
+  expect_words(refusal([](auto& m) { m = {}; }), {"no cells"});
+  expect_words(refusal([](auto& m) { m.cells.pop_back(); }), {"lengths do not fit"});
+  expect_words(refusal([](auto& m) { m.face_id.pop_back(); }), {"lengths do not fit"});
+  expect_words(refusal([](auto& m) { m.cells[7] = int(m.points_m.size()); }), {"names the node 28 of 28"});
+  expect_words(refusal([](auto& m) { m.faces[2] = -1; }), {"names the node -1"});
+  expect_words(refusal([](auto& m) { m.points_m[5][1] = std::nan(""); }), {"not finite"});
+  expect_words(refusal([](auto& m) { m.volume_id[0] = -2; }), {"negative id"});
+  expect_words(refusal([](auto& m) {
+                 m.faces.resize(m.faces.size() - 6);
+                 m.face_id.pop_back();
+               }),
+               {"surface near", "in a group"});
+  expect_words(refusal([](auto& m) {
+                 for (auto& x : m.points_m) x[0] = -x[0];
+               }),
                {"inverted", "volume 7"});
+
+  const auto cells = fem_tests::cells_of(fem_tests::tetrahedra_cube(1, bent));
+  auto body = steel_body(cells);
+  body.degree = 3;
+  expect_words(refusal(body), {"degree = 3", "must be 2"});
+  body = steel_body(cells);
+  body.cylinders.emplace_back();
+  expect_words(refusal(body), {"charts are for hexahedra"});
+  body = steel_body(cells);
+  body.refinements.push_back({{0}});
+  expect_words(refusal(body), {"only hexahedra are refined"});
+  expect_words(refusal(steel_body(nullptr)), {"no mesh"});
 }
 
 // The surface's nodes lie on the sphere; parabolas between them leave its volume to the order 4.
@@ -147,7 +138,7 @@ struct Bar : testing::Test {
   static constexpr std::array<Component, 4> components = {Component::fz, Component::mx, Component::my,
                                                           Component::torque};
   void SetUp() override {
-    const MeshFile file(fem_tests::as_msh(fem_tests::tetrahedra_cube(
+    const auto body = steel_body(fem_tests::cells_of(fem_tests::tetrahedra_cube(
         3, [](const Point& x) { return Point(x[0] - 0.5, x[1] - 0.5, 3 * x[2]); })));
     std::vector<fem::UnitLoad> loads;
     for (int end = 0; end < 2; ++end)
@@ -160,7 +151,7 @@ struct Bar : testing::Test {
         loads.push_back(
             {"end_" + std::to_string(end) + "." + std::to_string(int(c)), fem::SurfaceResultant{surface, c}});
       }
-    responses = fem::Model(file.body()).unit_responses(loads, {});
+    responses = fem::Model(body).unit_responses(loads, {});
   }
   /// Component k of the stress at a node, +1 of a load at the upper end and -1 at the lower one.
   double stress(std::size_t node, std::size_t load, int k) const {

@@ -1,11 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <functional>
 
 #include "fem/loads/surface_loads.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/model/model.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
@@ -73,19 +72,8 @@ TEST_F(Refusals, MaterialsAndDegrees) {
   expect_words(refused([](auto& b) { b.tori.push_back({56, 0, 1, 0.1}); }), {"group 56", "no faces"});
 }
 
-TEST_F(Refusals, MeshesThatCannotBeRead) {
-  auto body = rod->body;
-  body.mesh = "/nonexistent/shaft.msh";
-  expect_words(message<std::runtime_error>([&] { fem::Model model(body); }), {"/nonexistent/shaft.msh"});
-  body.mesh = rod->body.mesh.parent_path() / "cut.msh";
-  std::ifstream whole(rod->body.mesh);
-  std::string text((std::istreambuf_iterator<char>(whole)), {});
-  std::ofstream(body.mesh) << text.substr(0, text.size() / 2);
-  expect_words(message<std::runtime_error>([&] { fem::Model model(body); }), {"cut.msh"});
-}
-
 TEST_F(Refusals, InvertedCells) {
-  auto grid = fem::read_grid(rod->body);
+  auto grid = fem::make_grid(rod->body);
   EXPECT_NO_THROW(fem::refuse_inverted_cells(grid));
   const auto corner = grid.nodes_of(5)[0], opposite = grid.nodes_of(5)[26];
   for (int d = 0; d < 3; ++d) grid.xyz_m[3 * corner + d] = 1.5 * grid.xyz_m[3 * opposite + d];
@@ -95,7 +83,7 @@ TEST_F(Refusals, InvertedCells) {
 
 TEST_F(Refusals, ASeatThatDoesNotGoRoundItsAxis) {
   auto half = rod->body;
-  auto grid = fem::read_grid(half);
+  auto grid = fem::make_grid(half);
   const auto& port = rod->ports.at("end_1");
   auto seat = port;  // a flat face cannot be a seat: its normal pressure has no force across the axis
   seat.kind = fem::LoadSurface::Kind::seat;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/model/model.h"
 #include "fem/stress/stress_recovery.h"
 #include "fem/values/vtk_order.h"
@@ -50,7 +50,7 @@ TEST_F(Responses, SupportsCarryRoundOff) {
 // Betti: the work of load j on response i is that of load i on response j. Responses have no rigid part in
 // the mass norm, so the balancing forces do no work on them and the loads as applied may be taken.
 TEST_F(Responses, Reciprocity) {
-  const auto grid = fem::read_grid(shaft->body);
+  const auto grid = fem::make_grid(shaft->body);
   const auto integrals = fem::integrate_nodes(grid, fem::colour_cells(grid, fem::cells_of_nodes(grid)));
   const auto force = fem::load_vectors(grid, integrals, 7850, loads);
   const auto n = static_cast<Eigen::Index>(loads.size());
@@ -72,7 +72,7 @@ TEST_F(Responses, Reciprocity) {
 }
 
 TEST_F(Responses, RigidMotionHasNoStress) {
-  const auto grid = fem::read_grid(shaft->body);
+  const auto grid = fem::make_grid(shaft->body);
   const Eigen::MatrixXd modes = fem::rigid_modes(grid, Eigen::Vector3d::Zero());
   fem::RowMajor u(grid.n_nodes, 18);
   for (Eigen::Index i = 0; i < modes.rows(); ++i)

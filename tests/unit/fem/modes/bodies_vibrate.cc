@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <random>
 
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/mesh/reference_cell.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
@@ -15,7 +14,6 @@
 #include "fem/operators/stiffness.h"
 #include "fem/values/body_nodes.h"
 #include "fem/values/constants.h"
-#include "tests/unit/fem/examples/scratch_directory.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 
@@ -107,7 +105,7 @@ TEST(Mass, IsExactOnBentCells) {
 TEST_F(Vibrations, ShapesAreOrthonormalInTheMass) {
   auto clamped = rod->body;
   clamped.clamps = {{rod->ports.at("end_1").boundary_id, {true, true, true}}};
-  const auto grid = fem::read_grid(rod->body);
+  const auto grid = fem::make_grid(rod->body);
   const auto mass = mass_matrix(grid, rod->body.material.density_kg_m3);
   for (const auto& modes : {*free_modes, fem::Model(clamped).natural_frequencies(5)}) {
     const Eigen::MatrixXd x = shapes(modes), gram = x.transpose() * (mass * x);
@@ -119,7 +117,7 @@ TEST_F(Vibrations, ShapesAreOrthonormalInTheMass) {
 
 // The shortest mode of all is a bending one; the rod's torsion is among the eight: n/(2 L) sqrt(G / rho).
 TEST_F(Vibrations, RigidMotionsAreLeftOut) {
-  const auto grid = fem::read_grid(rod->body);
+  const auto grid = fem::make_grid(rod->body);
   const auto mass = mass_matrix(grid, rod->body.material.density_kg_m3);
   const Eigen::MatrixXd rigid = fem::rigid_modes(grid, {0, 0, length_m / 2});
   const Eigen::MatrixXd along = rigid.transpose() * (mass * shapes(*free_modes));
@@ -269,7 +267,7 @@ TEST_F(Vibrations, ClampedRodWithADiscAtItsEnd) {
 
 // The residual told is that of K and M as the test assembles them.
 TEST_F(Vibrations, ResidualIsThatOfTheMatrices) {
-  const auto grid = fem::read_grid(rod->body);
+  const auto grid = fem::make_grid(rod->body);
   const auto cells = fem::cells_of_nodes(grid);
   const auto graph = fem::make_node_graph(grid, cells);
   auto stiffness = fem::make_matrix(graph);
@@ -290,12 +288,10 @@ TEST_F(Vibrations, ResidualIsThatOfTheMatrices) {
 // The first frequency of a wire 500 times as long as thick lies so far below the mesh's highest one that
 // rounding, eps L^4 / d^4 and more, leaves it without meaning.
 TEST_F(Vibrations, ModesLostInRoundingAreRefused) {
-  const fem_tests::ScratchDirectory scratch;
   fem::Body wire;
-  wire.mesh = scratch.path() / "wire.msh";
-  std::ofstream(wire.mesh) << fem_tests::as_msh(fem_tests::tetrahedra_block(
-      {1, 1, 20},
-      [](const Eigen::Vector3d& c) { return Eigen::Vector3d(0.002 * c[0], 0.002 * c[1], c[2]); }));
+  wire.mesh = fem_tests::cells_of(fem_tests::tetrahedra_block({1, 1, 20}, [](const Eigen::Vector3d& c) {
+    return Eigen::Vector3d(0.002 * c[0], 0.002 * c[1], c[2]);
+  }));
   wire.material = rod->body.material;
   wire.clamps = {{5, {true, true, true}}};
   try {

@@ -8,8 +8,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/model/model.h"
 #include "fem/modes/krylov_schur.h"
 #include "fem/operators/mass_matrix.h"
@@ -182,7 +182,7 @@ TEST(RepeatedModes, ErrorsOfSlepcAreSolveFailed) {
 
 /// w^2 of a free body by a dense solver, ascending, without the six rigid motions.
 VectorXd dense_squares(const fem::Body& body) {
-  const auto grid = fem::read_grid(body);
+  const auto grid = fem::make_grid(body);
   const auto cells = fem::cells_of_nodes(grid);
   const auto graph = fem::make_node_graph(grid, cells);
   const auto colours = fem::colour_cells(grid, cells);
@@ -215,7 +215,7 @@ void expect_those_of_a_dense_solver(const fem::Body& body, int n_modes, int repe
 
 TEST(RepeatedModes, OfACube) {
   fem::Body cube;
-  cube.mesh = verification::write_hexahedra({{2, 2, 2}, [](const Eigen::Vector3d& x) { return x; }});
+  cube.mesh = verification::hexahedra_of({{2, 2, 2}, [](const Eigen::Vector3d& x) { return x; }});
   cube.material = fem_tests::steel;
   expect_those_of_a_dense_solver(cube, 30, 3);
 }

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/operators/elastic_operator.h"
 #include "fem/solvers/coarse_space.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
@@ -31,11 +31,11 @@ struct Problem {
   /// @param n_cycles  of refinement: every seventh cell is cut
   explicit Problem(int degree, int n_cycles = 0, fem_tests::ShaftBody shaft = fem_tests::eccentric_shaft(2)) {
     shaft.body.degree = degree;
-    grid = fem::read_grid(shaft.body);
+    grid = fem::make_grid(shaft.body);
     for (int cycle = 0; cycle < n_cycles; ++cycle) {
       auto& cells_cut = shaft.body.refinements.emplace_back().cells;
       for (std::size_t c = 0; c < grid.n_cells(); c += 7) cells_cut.push_back(std::int32_t(c));
-      grid = fem::read_grid(shaft.body);
+      grid = fem::make_grid(shaft.body);
     }
     const auto cells = fem::cells_of_nodes(grid);
     const auto colours = fem::colour_cells(grid, cells);

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/operators/stiffness.h"
 #include "fem/solvers/aggregates.h"
@@ -21,7 +21,7 @@ struct Level {
   Level() {
     auto shaft = fem_tests::eccentric_shaft(2);
     shaft.body.degree = 1;
-    grid = fem::read_grid(shaft.body);
+    grid = fem::make_grid(shaft.body);
     const auto cells = fem::cells_of_nodes(grid);
     graph = fem::make_node_graph(grid, cells);
     matrix = fem::make_matrix(graph);
@@ -174,7 +174,7 @@ TEST(Aggregates, IterationsDoNotGrowWithTheMesh) {
   int first = 0;
   for (const int n_sectors : {8, 12, 20}) {
     const auto rod = slender_rod(n_sectors, 1);
-    const auto grid = fem::read_grid(rod.body);
+    const auto grid = fem::make_grid(rod.body);
     const auto exact = solve(rod, fem::CoarseLevel::factorised, grid),
                other = solve(rod, fem::CoarseLevel::aggregated, grid);
     ASSERT_EQ(other.failure + exact.failure, "");
@@ -189,7 +189,7 @@ TEST(Aggregates, IterationsDoNotGrowWithTheMesh) {
 
 TEST(Aggregates, StretchedCellsTakeAtMostHalfAsManyStepsAgain) {
   const auto rod = slender_rod(12, 2.5);
-  const auto grid = fem::read_grid(rod.body);
+  const auto grid = fem::make_grid(rod.body);
   const auto exact = solve(rod, fem::CoarseLevel::factorised, grid),
              other = solve(rod, fem::CoarseLevel::aggregated, grid);
   ASSERT_EQ(other.failure + exact.failure, "");
@@ -200,7 +200,7 @@ TEST(Aggregates, StretchedCellsTakeAtMostHalfAsManyStepsAgain) {
 // level that does so lets the residual grow again once it has fallen to some thousand times of it.
 TEST(Aggregates, ForcesThatDoNotQuiteBalanceAreMetDownToWhatCannotBe) {
   const auto rod = slender_rod(8, 1);
-  const auto grid = fem::read_grid(rod.body);
+  const auto grid = fem::make_grid(rod.body);
   for (const auto level : {fem::CoarseLevel::aggregated, fem::CoarseLevel::factorised}) {
     const auto answer = solve(rod, level, grid, 3e-12);
     EXPECT_EQ(answer.failure, "");
@@ -210,7 +210,7 @@ TEST(Aggregates, ForcesThatDoNotQuiteBalanceAreMetDownToWhatCannotBe) {
 
 TEST(Aggregates, RepeatBitForBit) {
   const auto rod = slender_rod(8, 1);
-  const auto grid = fem::read_grid(rod.body);
+  const auto grid = fem::make_grid(rod.body);
   EXPECT_EQ(solve(rod, fem::CoarseLevel::aggregated, grid).solution.displacement,
             solve(rod, fem::CoarseLevel::aggregated, grid).solution.displacement);
 }

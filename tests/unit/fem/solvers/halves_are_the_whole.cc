@@ -5,11 +5,10 @@
 #include <cmath>
 #include <random>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/model/model.h"
 #include "fem/solvers/mirrored_halves.h"
 #include "meshes/chamber/chamber.h"
-#include "tests/unit/fem/examples/scratch_directory.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 
@@ -75,7 +74,7 @@ std::optional<fem::MirrorPlane> plane_of(const fem::Grid& grid) {
 
 /// One cell in `every` drawn and cut, and their images.
 fem::Body with_cells_cut(fem::Body body, unsigned every) {
-  const auto plane = plane_of(fem::read_grid(body));
+  const auto plane = plane_of(fem::make_grid(body));
   if (!plane) throw std::logic_error("the body has no mirror plane");
   std::mt19937 random(7);
   std::vector<char> is_cut(plane->cell.size(), 0);
@@ -106,12 +105,12 @@ struct Chamber {
   std::vector<int> housing;  ///< volumes
 };
 
-Chamber chamber_of(const meshes::Chamber& shape, const std::filesystem::path& file) {
+Chamber chamber_of(const meshes::Chamber& shape) {
   meshes::ChamberMeshControl control;
   control.cells_through_wall = 1;
   control.toe_walls = 2;
   control.lean = true;
-  const auto mesh = meshes::build_chamber(shape, control, file);
+  const auto mesh = meshes::build_chamber(shape, control);
   Chamber chamber{fem_tests::steel_body(mesh), {}, {}};
   chamber.loads = {{"volume.omega2", fem::BodyForce{Field::spin}},
                    {"volume.alpha", fem::BodyForce{Field::rotation}}};
@@ -156,8 +155,7 @@ TEST(Halves, OfShaftsOnSpringsAreTheWhole) {
 // All of the laboratory chamber's loads are mirrored about its middle: one half is solved, and stress is
 // mirrored to the last bit.
 TEST(Halves, OfChambersAreSolvedOnce) {
-  const fem_tests::ScratchDirectory scratch;
-  const auto chamber = chamber_of(laboratory_chamber(), scratch.path() / "chamber.msh");
+  const auto chamber = chamber_of(laboratory_chamber());
   const auto pair = solve(with_cells_cut(chamber.body, 40), chamber.loads);
   expect_same(pair);
   const auto& images = pair.halves.images;
@@ -180,8 +178,7 @@ TEST(Halves, OfChambersAreSolvedOnce) {
 
 // A goal in the middle is as the factor of the whole body has it; one beside it shares itself with its image.
 TEST(Halves, KnowTheErrorsOfGoals) {
-  const fem_tests::ScratchDirectory scratch;
-  const auto chamber = chamber_of(laboratory_chamber(), scratch.path() / "chamber.msh");
+  const auto chamber = chamber_of(laboratory_chamber());
   const auto pair = solve(chamber.body, chamber.loads);
   const auto& nodes = pair.halves.nodes;
   const auto& images = pair.halves.images;
@@ -236,20 +233,19 @@ TEST(Halves, AFactorOfOneHalfIsNotTakenForOtherResponses) {
 }
 
 TEST(Halves, OfABodyThatIsNotMirroredDoNotExist) {
-  const fem_tests::ScratchDirectory scratch;
-  const auto chamber = chamber_of(lopsided_chamber(), scratch.path() / "chamber.msh");
-  EXPECT_FALSE(plane_of(fem::read_grid(chamber.body)));
+  const auto chamber = chamber_of(lopsided_chamber());
+  EXPECT_FALSE(plane_of(fem::make_grid(chamber.body)));
 
   // The plane cuts through cells: one factor of the whole body, whatever is asked for.
   const auto cut = fem_tests::eccentric_shaft(2);
-  EXPECT_FALSE(plane_of(fem::read_grid(cut.body)));
+  EXPECT_FALSE(plane_of(fem::make_grid(cut.body)));
   const auto pair = solve(cut.body, loads_of(cut));
   EXPECT_EQ(pair.halves.stress_Pa, pair.whole.stress_Pa);
   EXPECT_TRUE(pair.halves.images.node.empty());
 
   // A mesh whose nodes are mirrored, all but one.
   const auto shaft = fem_tests::mirrored_shaft();
-  auto grid = fem::read_grid(shaft.body);
+  auto grid = fem::make_grid(shaft.body);
   ASSERT_TRUE(plane_of(grid));
   grid.xyz_m[3 * 500 + 1] += 1e-7;
   EXPECT_FALSE(plane_of(grid));

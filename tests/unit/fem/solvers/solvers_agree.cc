@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 #include "fem/model/model.h"
 #include "fem/solvers/solver_prediction.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
@@ -58,7 +58,7 @@ TEST(Solvers, AgreeOnQuadraticCells) {
 /// Towards one end, cycle after cycle: the cells whose centres have a smaller z than the plane.
 fem::Body refined(fem::Body body, const std::vector<double>& planes_m) {
   for (const double plane_m : planes_m) {
-    const auto grid = fem::read_grid(body);
+    const auto grid = fem::make_grid(body);
     fem::RefinementCycle cycle;
     for (std::size_t c = 0; c < grid.n_cells(); ++c) {
       double z_m = 0;
@@ -76,7 +76,7 @@ TEST(Solvers, AgreeOnRefinedMeshes) {
   const auto even = fem_tests::rod(8);
   auto rod = even;
   rod.body = refined(even.body, {0.05, 0.02});
-  ASSERT_GT(fem::read_grid(rod.body).hanging.n(), 100u);
+  ASSERT_GT(fem::make_grid(rod.body).hanging.n(), 100u);
   expect_agreement(rod);
   const auto steps = solve(rod, iteratively).solver.n_iterations;
   EXPECT_LE(steps, 1.5 * solve(even, iteratively).solver.n_iterations);
@@ -169,7 +169,7 @@ TEST(Solvers, IterationRepeatsBitForBitAndScalesWithLoadAndModulus) {
 
 TEST(SolverChoice, FollowsPredictionMemoryAndKindOfCell) {
   auto body = fem_tests::rod(8);
-  const auto grid = fem::read_grid(body.body);
+  const auto grid = fem::make_grid(body.body);
   const auto steel = fem_tests::steel;
   const auto used = [&](double memory_bytes) {
     return fem::choose_solver(grid, steel, 12, {}, memory_bytes).used;
@@ -187,7 +187,7 @@ TEST(SolverChoice, FollowsPredictionMemoryAndKindOfCell) {
   EXPECT_EQ(fem::choose_solver(grid, fem::Material{206e9, 0.4999, 7850}, 12, {}, 1e12).used,
             fem::Solver::direct);
   body.body.degree = 1;
-  EXPECT_EQ(fem::choose_solver(fem::read_grid(body.body), steel, 12, {}, 1e12).used, fem::Solver::direct);
+  EXPECT_EQ(fem::choose_solver(fem::make_grid(body.body), steel, 12, {}, 1e12).used, fem::Solver::direct);
 }
 
 /// One cell of degree 2 with edges 1, 1 and `length`, in a mesh that claims so many nodes.

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
-#include "fem/mesh/mesh_reader.h"
 #include "fem/stress/stress_recovery.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
@@ -86,7 +86,7 @@ TEST(PatchRecovery, QuadraticFieldsAreExactOnSkewedAndCurvedCells) {
 // Corners of the core where three or five cells meet around an edge, fans, shifted rings, boundary nodes: all
 // of it.
 TEST(PatchRecovery, QuadraticFieldsAreExactOnAShaft) {
-  const auto grid = fem::read_grid(fem_tests::eccentric_shaft().body);
+  const auto grid = fem::make_grid(fem_tests::eccentric_shaft().body);
   const auto field = [](const Point& x) {
     const Point s = x / 0.06;
     return 1 + s[0] - 2 * s[1] * s[1] + 3 * s[0] * s[1] - s[2] * s[2] + s[1] * s[2];
@@ -177,7 +177,7 @@ TEST(PatchRecovery, SmoothFieldsConvergeOneOrderFasterThanAverages) {
 // 0 and 1, and linear in r. Around a curved surface 45 degrees wide, polynomials of x and y would not do.
 TEST(PatchRecovery, BeamStressesAreExactInRoundPatches) {
   const auto rod = fem_tests::rod(8);
-  const auto grid = fem::read_grid(rod.body);
+  const auto grid = fem::make_grid(rod.body);
   const auto cells = fem::cells_of_nodes(grid);
   const auto field = [](const Point& x) {
     return std::array<double, 6>{{0, 0, 1 + 40 * x[0] - 30 * x[1], 0, 50 * x[0], -50 * x[1]}};

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "fem/model/model.h"
 #include "fem/values/constants.h"
@@ -24,11 +23,8 @@ struct RodOfTetrahedra : testing::Test {
     meshes::SolidControl control;
     control.size_m = 0.012;
     control.cells_per_circle = 12;
-    const auto file = std::filesystem::path(testing::TempDir()) / "rod_of_tetrahedra.msh";
-    const auto mesh = meshes::build_solid_shaft(shaft, {}, control, file);
-    fem::Body body;
-    body.mesh = file;
-    body.material = fem_tests::steel;
+    const auto mesh = meshes::build_solid_shaft(shaft, {}, control);
+    const auto body = fem_tests::steel_body(mesh);
     std::vector<fem::UnitLoad> loads;
     for (const auto& port : mesh.ports) {
       if (port.kind != meshes::Port::Kind::face) continue;
@@ -43,7 +39,6 @@ struct RodOfTetrahedra : testing::Test {
     const fem::Model model(body);
     volume_m3 = model.mass_properties().volume_m3;
     responses = model.unit_responses(loads, {});
-    std::filesystem::remove(file);
   }
   /// Largest error at any node, relative to the largest exact stress.
   template <typename Exact>
@@ -86,14 +81,7 @@ double von_mises(const Tensor& s) {
 
 /// Largest von Mises stress on the fillet in tension and in bending.
 std::array<double, 2> peaks(const meshes::BodyMesh& mesh) {
-  fem::Body body;
-  body.mesh = mesh.file;
-  body.material = fem_tests::steel;
-  for (const auto& c : mesh.cylinders)
-    body.cylinders.push_back(
-        {c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m, c.axis_x_m, c.axis_y_m});
-  for (const auto& t : mesh.tori)
-    body.tori.push_back({t.boundary_id, t.centre_z_m, t.centre_radius_m, t.radius_m});
+  const auto body = fem_tests::steel_body(mesh);
   std::vector<fem::UnitLoad> loads;
   for (const auto& port : mesh.ports)
     for (const auto c : {Component::fz, Component::mx}) {
@@ -131,10 +119,8 @@ TEST(FilletOfTetrahedra, HasThePeakOfTheHexahedra) {
   meshes::SolidControl control;
   control.cells_per_circle = 12;
   control.size_m = 0.01;
-  const auto file = std::filesystem::path(testing::TempDir()) / "fillet_of_tetrahedra.msh";
-  const auto tetrahedra = peaks(meshes::build_solid_shaft(shaft, {}, control, file));
-  const auto hexahedra = peaks(meshes::build_shaft(shaft, {}, file));
-  std::filesystem::remove(file);
+  const auto tetrahedra = peaks(meshes::build_solid_shaft(shaft, {}, control));
+  const auto hexahedra = peaks(meshes::build_shaft(shaft, {}));
   EXPECT_NEAR(tetrahedra[0] / hexahedra[0], 1, 0.03);
   EXPECT_NEAR(tetrahedra[1] / hexahedra[1], 1, 0.07);
 }

@@ -16,13 +16,12 @@ namespace {
 /// thinnest polygons (0.3 mm in 0.5 m) multiply.
 const double mass_rounding = 1e-11;
 
-MeshFile meshed(const meshes::Chamber& chamber, const meshes::ChamberMeshControl& control,
-                const std::string& name) {
-  return read_mesh_file(meshes::build_chamber(chamber, control, temporary_msh(name)).file);
+MeshFile meshed(const meshes::Chamber& chamber, const meshes::ChamberMeshControl& control) {
+  return read_mesh_file(meshes::build_chamber(chamber, control));
 }
 
 void expect_polygonal_solids(const meshes::Chamber& chamber, const meshes::ChamberMeshControl& control) {
-  const MeshFile mesh = meshed(chamber, control, "solids");
+  const MeshFile mesh = meshed(chamber, control);
   const CircleAngles angles = angles_of(mesh, chamber);
   const auto expected = solid_sums(chamber, angles), measured = mesh_sums(mesh);
   const double reach_m = std::hypot(chamber.tube.axis_x_m, chamber.tube.axis_y_m);
@@ -77,7 +76,7 @@ TEST(ChamberSolids, ConvergeToTheRoundPartsWithSecondOrder) {
     meshes::ChamberMeshControl control;
     control.size_m = size_m;
     control.growth = 2;  // nearly all cells have the size
-    const auto sums = mesh_sums(meshed(chamber, control, "fine"));
+    const auto sums = mesh_sums(meshed(chamber, control));
     for (const std::string part : {"tube", "housing"}) {
       errors[part].push_back(1 - sums.at(part)[0] / round.at(part)[0]);
       EXPECT_GT(errors[part].back(), 0);
@@ -158,7 +157,7 @@ TEST(ChamberSolids, WeighWhatTheSpecificationSays) {
   EXPECT_NEAR(drawn.inertia_kg_m2, 2.835, 0.0005);
   EXPECT_NEAR(drawn.m2_kg, 6.00, 0.005);
 
-  const auto of_mesh = laboratory_masses(mesh_sums(meshed(laboratory_chamber(), {}, "masses")));
+  const auto of_mesh = laboratory_masses(mesh_sums(meshed(laboratory_chamber(), {})));
   const auto of_round = laboratory_masses(solid_sums(laboratory_chamber(), equal_angles(100000)));
   for (const auto& masses : {of_mesh, of_round}) {
     std::printf("m1 %.3f kg, l (%.4f, %.4f) m, I_E %.4f kg m2, m2 %.3f kg\n", masses.m1_kg, masses.l_x_m,

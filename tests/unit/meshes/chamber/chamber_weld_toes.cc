@@ -33,8 +33,8 @@ double on_surface_m(const meshes::Chamber& chamber, const Point& a, const Point&
 /// Points are vertices of "tube outside" (to the rounding of the file), the toe is on an edge that the plate
 /// shares with the tube, and the two others lie 0.4 and 1.0 walls away.
 void expect_hot_spots_in_place(const meshes::Chamber& chamber) {
-  const auto body = meshes::build_chamber(chamber, {}, temporary_msh("hot_spots"));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_chamber(chamber, {});
+  const MeshFile mesh = read_mesh_file(body);
   std::map<std::string, std::set<int>> groups;
   for (const auto& quad : mesh.quads)
     groups[mesh.boundary_names.at(quad.group)].insert(quad.nodes.begin(), quad.nodes.end());
@@ -78,12 +78,12 @@ double shortest_edge_m(const MeshFile& mesh, const Point& from) {
 TEST(FineToes, GetSmallCellsWhereTheyAre) {
   const auto chamber = laboratory_chamber();
   const double wall_m = chamber.tube.wall_m;
-  const auto usual = meshes::build_chamber(chamber, {}, temporary_msh("usual_toes"));
+  const auto usual = meshes::build_chamber(chamber, {});
   meshes::ChamberMeshControl control;
   control.cells_through_wall = 4;
   control.fine_toes = {{usual.hot_spots.front().toe_m, 0.1}};
-  const auto fine = meshes::build_chamber(chamber, control, temporary_msh("fine_toes"));
-  const MeshFile before = read_mesh_file(usual.file), after = read_mesh_file(fine.file);
+  const auto fine = meshes::build_chamber(chamber, control);
+  const MeshFile before = read_mesh_file(usual), after = read_mesh_file(fine);
   ASSERT_EQ(usual.hot_spots.size(), fine.hot_spots.size());
   for (std::size_t i = 0; i < usual.hot_spots.size(); ++i) {
     const auto& spot = usual.hot_spots[i];
@@ -106,7 +106,7 @@ TEST(HotSpots, AreVerticesAtTheWeldToes) {
 
 /// Eight for each of 2 webs and 4 lugs; names say where they are.
 TEST(HotSpots, OfTheLaboratoryAreComplete) {
-  const auto body = meshes::build_chamber(laboratory_chamber(), {}, temporary_msh("spots"));
+  const auto body = meshes::build_chamber(laboratory_chamber(), {});
   EXPECT_EQ(body.hot_spots.size(), 48u);
   std::map<std::string, meshes::HotSpot> spots;
   for (const auto& spot : body.hot_spots) spots[spot.name] = spot;
@@ -131,7 +131,7 @@ TEST(HotSpots, AreLeftOutWhereAnotherPlateIsInTheWay) {
   auto chamber = lopsided_chamber();
   chamber.webs.z_m = {-50e-3, 5e-3, 55e-3};
   chamber.lugs.z_m = 71e-3;  // faces at 60 and 67 mm
-  const auto body = meshes::build_chamber(chamber, {}, temporary_msh("in_the_way"));
+  const auto body = meshes::build_chamber(chamber, {});
   bool has_other_end = false;
   for (const auto& spot : body.hot_spots) {
     EXPECT_NE(spot.name, "lug 1 front, back face, upper end");
@@ -151,7 +151,7 @@ TEST(HotSpots, AreReadBesideEdgesOfOtherPlates) {
   for (const bool lean : {false, true}) {
     meshes::ChamberMeshControl control;
     control.lean = lean;
-    const auto body = meshes::build_chamber(chamber, control, temporary_msh("beside_edges"));
+    const auto body = meshes::build_chamber(chamber, control);
     EXPECT_EQ(body.hot_spots.size(), 48u);
     EXPECT_TRUE(body.covered_toes.empty());
     int n_moved = 0;
@@ -181,9 +181,9 @@ double length_m(const meshes::SharpEdge& edge) {
 /// turn by 8 to 14 degrees from cell to cell.
 TEST(SharpEdges, OfTheChamberAreItsWeldToes) {
   const auto chamber = laboratory_chamber();
-  const auto body = meshes::build_chamber(chamber, {}, temporary_msh("sharp"));
+  const auto body = meshes::build_chamber(chamber, {});
   const auto edges = sharp_edges_of(body);
-  const auto outlines = outlines_of(chamber, angles_of(read_mesh_file(body.file), chamber));
+  const auto outlines = outlines_of(chamber, angles_of(read_mesh_file(body), chamber));
   const auto polyline_m = [](const Corners& corners) {
     double sum = 0;
     for (std::size_t i = 0; i + 1 < corners.size(); ++i)
@@ -258,10 +258,10 @@ TEST(SharpEdges, AreFoundOnAnyMesh) {
 TEST(Chamber, IsLeanWithTheSameHotSpots) {
   const auto chamber = laboratory_chamber();
   meshes::ChamberMeshControl control;
-  const auto full = meshes::build_chamber(chamber, control, temporary_msh("full"));
+  const auto full = meshes::build_chamber(chamber, control);
   control.lean = true;
   control.toe_walls = meshes::ChamberMeshControl::lean_toe_walls;
-  const auto lean = meshes::build_chamber(chamber, control, temporary_msh("lean"));
+  const auto lean = meshes::build_chamber(chamber, control);
   EXPECT_LT(lean.quality.n_cells, full.quality.n_cells / 2);
   ASSERT_EQ(lean.hot_spots.size(), full.hot_spots.size());
   for (std::size_t i = 0; i < lean.hot_spots.size(); ++i) {

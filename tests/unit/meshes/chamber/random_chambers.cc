@@ -34,7 +34,7 @@ TEST(RandomChambers, AllMeshWithGoodCellsAndTheRightVolume) {
         control.lean ? meshes::ChamberMeshControl::lean_toe_walls : meshes::ChamberMeshControl().toe_walls;
     meshes::BodyMesh body;
     try {
-      body = meshes::build_chamber(chamber, control, temporary_msh("random_chamber"));
+      body = meshes::build_chamber(chamber, control);
     } catch (const std::invalid_argument& refused) {  // parts in each other's way: the draw allows it
       EXPECT_GT(std::string(refused.what()).size(), 40u);
       ASSERT_LT(++n_refused, 20 + 3 * n_chambers()) << refused.what();
@@ -46,7 +46,7 @@ TEST(RandomChambers, AllMeshWithGoodCellsAndTheRightVolume) {
     largest_aspect = std::max(largest_aspect, body.quality.max_aspect);
     most_cells = std::max(most_cells, body.quality.n_cells);
     n_hot_spots += body.hot_spots.size();
-    const MeshFile mesh = read_mesh_file(body.file);
+    const MeshFile mesh = read_mesh_file(body);
     const auto measured = mesh_sums(mesh);
     // Rounding of sums over 1e4 to 1e5 cells, and of 16 digits against the thinnest wall.
     for (const auto& [part, sums] : solid_sums(chamber, angles_of(mesh, chamber)))

@@ -39,8 +39,8 @@ void expect_product_cells(const meshes::Shaft& shaft, int n_sectors, const std::
   SCOPED_TRACE(name);
   meshes::ShaftMeshControl control;
   control.n_sectors = n_sectors;
-  const auto body = meshes::build_shaft(shaft, control, temporary_msh(name));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_shaft(shaft, control);
+  const MeshFile mesh = read_mesh_file(body);
   std::map<int, meshes::CylinderChart> charts;
   for (const auto& chart : body.cylinders) charts[chart.volume_id] = chart;
   ASSERT_EQ(charts.size(), shaft.segments.size());
@@ -79,7 +79,7 @@ TEST(Charts, MakeEachRingCellAProductOfMeridianAndAngle) {
 }
 
 TEST(Charts, BeginTheShiftAtTheTopOfTheFillet) {
-  const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("charts"));
+  const auto body = meshes::build_shaft(laboratory_shaft(), {});
   for (std::size_t i = 0; i < body.cylinders.size(); ++i) {
     const bool seat = i == 4;
     EXPECT_EQ(body.cylinders[i].shift_x_m, seat ? 0.004 : 0);
@@ -90,8 +90,8 @@ TEST(Charts, BeginTheShiftAtTheTopOfTheFillet) {
 }
 
 TEST(Charts, LeaveTheCoreStraightAndInsideTheSmallestRadius) {
-  const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("core"));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_shaft(laboratory_shaft(), {});
+  const MeshFile mesh = read_mesh_file(body);
   for (const auto& hex : mesh.hexes) {
     if (mesh.volume_names.at(hex.group) != "core") continue;
     for (const int node : hex.nodes) ASSERT_LT(std::hypot(mesh.x(node), mesh.y(node)), 0.0125);
@@ -100,8 +100,8 @@ TEST(Charts, LeaveTheCoreStraightAndInsideTheSmallestRadius) {
 
 /// Fem uses the ids of volumes and of boundaries as ids of charts: none may be used twice.
 TEST(Charts, HaveIdsThatNoOtherGroupUses) {
-  const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("ids"));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_shaft(laboratory_shaft(), {});
+  const MeshFile mesh = read_mesh_file(body);
   std::set<int> ids;
   for (const auto& group : mesh.volume_names) EXPECT_TRUE(ids.insert(group.first).second);
   for (const auto& group : mesh.boundary_names) EXPECT_TRUE(ids.insert(group.first).second);

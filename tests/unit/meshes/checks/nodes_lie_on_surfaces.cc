@@ -28,8 +28,8 @@ const meshes::ShaftSegment& segment_of(const meshes::Shaft& shaft, const std::st
 
 void expect_on_surfaces(const meshes::Shaft& shaft, const std::string& name) {
   SCOPED_TRACE(name);
-  const auto body = meshes::build_shaft(shaft, {}, temporary_msh(name));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_shaft(shaft, {});
+  const MeshFile mesh = read_mesh_file(body);
   const auto groups = nodes_by_group(mesh);
   const double size = shaft.segments.back().end_m - shaft.segments.front().begin_m;
   ASSERT_EQ(groups.size(), body.features.size());
@@ -81,7 +81,7 @@ TEST(BoundaryNodes, LieExactlyOnCylindersToriAndPlanes) {
 /// The tori of the tables against the drawing: centre one fillet away from the shoulder and from the small
 /// cylinder.
 TEST(BoundaryNodes, ToriAreThoseOfTheDrawing) {
-  const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("tori"));
+  const auto body = meshes::build_shaft(laboratory_shaft(), {});
   ASSERT_EQ(body.tori.size(), 7u);
   const double tiny = 1e-15;                            // sums of a few numbers below 1 m
   EXPECT_NEAR(body.tori[3].centre_z_m, -0.0325, tiny);  // 42 / 60, radius 2.5, on the left of the seat

@@ -12,8 +12,8 @@ namespace {
 void expect_full_discs(const meshes::Shaft& shaft, const std::string& name) {
   SCOPED_TRACE(name);
   const meshes::ShaftMeshControl control;
-  const auto body = meshes::build_shaft(shaft, control, temporary_msh(name));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_shaft(shaft, control);
+  const MeshFile mesh = read_mesh_file(body);
   const auto faces = count_faces(mesh);
   const double size = shaft.segments.back().end_m - shaft.segments.front().begin_m;
   const double in_plane = 1e-12 * size;  // planes are at least 1e-5 of the length apart
@@ -66,7 +66,7 @@ TEST(SectionPlanes, IncludeAPlainOneInEachLongSegment) {
   for (const double largest_cell_m : {0.0, 0.2}) {
     meshes::ShaftMeshControl control;
     control.largest_cell_m = largest_cell_m;
-    const auto body = meshes::build_shaft(shaft, control, temporary_msh("plain"));
+    const auto body = meshes::build_shaft(shaft, control);
     for (const auto& segment : shaft.segments) {
       int n_plain = 0;
       for (const auto& section : body.sections) n_plain += section.plain && section.segment == segment.name;
@@ -86,7 +86,7 @@ TEST(SectionPlanes, CrossAJointWithoutAShoulder) {
   shaft.segments = {{"free", 0, 0.1, 0.05, 0, false}, {"seat", 0.1, 0.2, 0.05, 0, true}};
   shaft.fillets_m = {0};
   expect_full_discs(shaft, "sections_flush");
-  const auto body = meshes::build_shaft(shaft, {}, temporary_msh("flush"));
+  const auto body = meshes::build_shaft(shaft, {});
   int n_at_joint = 0;
   for (const auto& section : body.sections) n_at_joint += std::abs(section.z_m - 0.1) < 1e-12;
   EXPECT_EQ(n_at_joint, 1);

@@ -24,8 +24,8 @@ void expect_circle(const meshes::SharpEdge& edge, double z_m, double radius_m, s
 }
 
 TEST(SharpEdges, AreTheSharpShoulders) {
-  EXPECT_TRUE(meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("no_edges")).sharp_edges.empty());
-  const auto body = meshes::build_shaft(sharp_eccentric_shaft(), {}, temporary_msh("edges"));
+  EXPECT_TRUE(meshes::build_shaft(laboratory_shaft(), {}).sharp_edges.empty());
+  const auto body = meshes::build_shaft(sharp_eccentric_shaft(), {});
   ASSERT_EQ(body.sharp_edges.size(), 2u);
   EXPECT_EQ(body.sharp_edges[0].name, "left/disc");
   EXPECT_DOUBLE_EQ(body.sharp_edges[0].distance_m, 0.004);  // a tenth of 40 mm
@@ -66,11 +66,11 @@ double farthest_m(const meshes::SharpEdge& edge, double z_m, double radius_m) {
 TEST(SharpEdges, AreCirclesHoweverFewCellsAreAround) {
   meshes::ShaftMeshControl control;
   control.n_sectors = 8;
-  const auto drum = meshes::build_shaft(planetary_drum(), control, temporary_msh("octagon"));
+  const auto drum = meshes::build_shaft(planetary_drum(), control);
   ASSERT_EQ(drum.sharp_edges.size(), 2u);
   for (const auto& edge : drum.sharp_edges)
     EXPECT_LT(farthest_m(edge, edge.pieces[0][0][2], 0.1), 1e-3 * edge.distance_m) << edge.name;
-  const auto shaft = meshes::build_shaft(sharp_eccentric_shaft(), control, temporary_msh("octagon"));
+  const auto shaft = meshes::build_shaft(sharp_eccentric_shaft(), control);
   ASSERT_EQ(shaft.sharp_edges.size(), 2u);
   EXPECT_LT(farthest_m(shaft.sharp_edges[0], 0.1, 0.02), 1e-3 * shaft.sharp_edges[0].distance_m);
 }
@@ -78,7 +78,7 @@ TEST(SharpEdges, AreCirclesHoweverFewCellsAreAround) {
 TEST(SharpEdges, AreTheBoreStepsWithinTheThicknessOfTheWall) {
   meshes::ShaftMeshControl control;
   control.n_sectors = 24;
-  const auto drum = meshes::build_shaft(planetary_drum(), control, temporary_msh("drum_edges"));
+  const auto drum = meshes::build_shaft(planetary_drum(), control);
   ASSERT_EQ(drum.sharp_edges.size(), 2u);
   EXPECT_EQ(drum.sharp_edges[0].name, "bore cover_1/shell");
   EXPECT_NEAR(drum.sharp_edges[0].distance_m, 0.008, 1e-15);
@@ -86,7 +86,7 @@ TEST(SharpEdges, AreTheBoreStepsWithinTheThicknessOfTheWall) {
   EXPECT_NEAR(drum.sharp_edges[0].pieces[0][0][2], -0.5, 1e-15);
   EXPECT_EQ(drum.sharp_edges[1].name, "bore shell/cover_2");
 
-  const auto flanged = meshes::build_shaft(stepped_bores()[1], control, temporary_msh("flanged_edges"));
+  const auto flanged = meshes::build_shaft(stepped_bores()[1], control);
   ASSERT_EQ(flanged.sharp_edges.size(), 2u);  // inside and outside at one plane
   EXPECT_EQ(flanged.sharp_edges[0].name, "pipe/thick");
   EXPECT_DOUBLE_EQ(flanged.sharp_edges[0].distance_m, 0.008);

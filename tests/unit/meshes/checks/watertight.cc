@@ -9,7 +9,7 @@ namespace {
 void expect_watertight(const meshes::Shaft& shaft, const meshes::ShaftMeshControl& control,
                        const std::string& name) {
   SCOPED_TRACE(name);
-  ::expect_watertight(meshes::build_shaft(shaft, control, temporary_msh(name)));
+  ::expect_watertight(meshes::build_shaft(shaft, control));
 }
 
 TEST(ShaftMesh, IsWatertightWithEveryFreeFaceInExactlyOneGroup) {

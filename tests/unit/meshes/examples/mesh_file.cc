@@ -3,9 +3,14 @@
 #include <gmsh.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "meshes/gmsh/gmsh_session.h"
+#include "meshes/gmsh/msh_writer.h"
+#include "tests/unit/meshes/examples/example_shafts.h"
 
 namespace {
 
@@ -41,7 +46,9 @@ void visit_elements(int dimension, int expected_type, const std::map<std::size_t
 
 }  // namespace
 
-MeshFile read_mesh_file(const std::filesystem::path& file) {
+MeshFile read_mesh_file(const meshes::BodyMesh& body) {
+  const auto file = temporary_msh("read_back");
+  meshes::write_msh(body, file);
   MeshFile mesh;
   meshes::with_gmsh("reading " + file.string(), [&] {
     gmsh::open(file.string());
@@ -62,7 +69,17 @@ MeshFile read_mesh_file(const std::filesystem::path& file) {
       mesh.quads.push_back({nodes, group});
     });
   });
+  std::filesystem::remove(file);
   return mesh;
+}
+
+std::string msh_bytes(const meshes::BodyMesh& body) {
+  const auto file = temporary_msh("bytes");
+  meshes::write_msh(body, file);
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::filesystem::remove(file);
+  return bytes;
 }
 
 std::array<double, 4> volume_and_moments(const MeshFile& mesh) {

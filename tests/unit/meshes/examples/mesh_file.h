@@ -1,11 +1,12 @@
-/// A .msh as gmsh reads it back, so that the tests judge the file and not the program's own tables.
+/// A body's .msh as gmsh reads it back, so that the tests judge the file and not the program's own tables.
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "meshes/values/body_mesh.h"
 
 struct MeshFile {
   struct Hex {
@@ -26,9 +27,13 @@ struct MeshFile {
   double z(int node) const { return points[node][2]; }
 };
 
+/// Writes the body and reads it back.
 /// @throws std::runtime_error if gmsh cannot read it, or if it holds anything but linear hexahedra and
 /// quadrangles
-MeshFile read_mesh_file(const std::filesystem::path& file);
+MeshFile read_mesh_file(const meshes::BodyMesh& body);
+
+/// The bytes of its file.
+std::string msh_bytes(const meshes::BodyMesh& body);
 
 /// Volume and its first moments (x, y, z) of the trilinear cells; exact up to rounding.
 std::array<double, 4> volume_and_moments(const MeshFile& mesh);

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "meshes/gmsh/gmsh_session.h"
+#include "meshes/gmsh/msh_writer.h"
+#include "tests/unit/meshes/examples/example_shafts.h"
 
 namespace {
 
@@ -61,13 +61,14 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& file) {
   return read;
 }
 
-double lost_by_parabolas(int n) {
-  return std::pow(std::acos(-1.0) / n, 4) / 30;
+TetrahedraFile read_tetrahedra(const meshes::BodyMesh& body) {
+  const auto file = temporary_msh("read_back");
+  meshes::write_msh(body, file);
+  return read_tetrahedra(file);
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+double lost_by_parabolas(int n) {
+  return std::pow(std::acos(-1.0) / n, 4) / 30;
 }
 
 void expect_words(const std::string& text, const std::vector<std::string>& words) {

@@ -1,4 +1,4 @@
-/// A .msh of quadratic tetrahedra as gmsh reads it back.
+/// The .msh of a body of quadratic tetrahedra as gmsh reads it back.
 #pragma once
 
 #include <array>
@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 #include <vector>
+
+#include "meshes/values/body_mesh.h"
 
 struct TetrahedraFile {
   double volume_m3 = 0;                     ///< by gmsh's own Jacobians and quadrature
@@ -19,11 +21,10 @@ struct TetrahedraFile {
 /// @throws std::runtime_error if gmsh cannot read it, or if it holds anything but tetrahedra of 10 nodes and
 /// triangles of 6
 TetrahedraFile read_tetrahedra(const std::filesystem::path& file);
+TetrahedraFile read_tetrahedra(const meshes::BodyMesh& body);
 
 /// What n parabolas through three points of the circle each leave of its area, relative: (pi/n)^4 / 30.
 double lost_by_parabolas(int n);
-
-std::string bytes_of(const std::filesystem::path& file);
 
 /// Words that the exception of an action must have; "accepted" if it throws none.
 template <typename Action>

@@ -29,7 +29,7 @@ double enclosed_volume(const MeshFile& mesh) {
 }  // namespace
 
 void expect_watertight(const meshes::BodyMesh& body) {
-  const MeshFile mesh = read_mesh_file(body.file);
+  const MeshFile mesh = read_mesh_file(body);
   const auto faces = count_faces(mesh);
 
   std::map<FaceKey, int> quads;

@@ -60,7 +60,7 @@ TEST(CellEstimates, AbsurdSizesOfStepAreRefusedBeforeMeshing) {
   import.geometry = file;
   import.control.size_m = 1e-9;
   try {
-    meshes::build_imported(import, temporary_msh("absurd"));
+    meshes::build_imported(import);
     ADD_FAILURE() << "meshed";
   } catch (const meshes::TooManyCells& error) {
     EXPECT_EQ(error.control(), "size_m");
@@ -74,7 +74,7 @@ TEST(CellEstimates, CellsOfShaftsAreEstimated) {
       meshes::ShaftMeshControl control;
       control.cells_per_fillet_quarter = cells;
       control.min_scaled_jacobian = 0.01;
-      const auto body = meshes::build_shaft(shaft, control, temporary_msh("estimated"));
+      const auto body = meshes::build_shaft(shaft, control);
       EXPECT_NEAR(meshes::estimated_cells(shaft, control) / double(body.quality.n_cells), 1,
                   0.2)  // rounded up to whole cells, column by column
           << shaft.segments.front().name << ' ' << cells;
@@ -92,18 +92,14 @@ TEST(CellEstimates, AbsurdCellsOfBlocksAreRefusedBeforeMeshing) {
   };
   meshes::ShaftMeshControl control;
   control.largest_cell_m = 1e-9;
-  const auto file = temporary_msh("absurd");
-  EXPECT_EQ(refused_control([&] { meshes::build_shaft(laboratory_shaft(), control, file); }),
-            "largest_cell_m");
+  EXPECT_EQ(refused_control([&] { meshes::build_shaft(laboratory_shaft(), control); }), "largest_cell_m");
   control = {};
   control.cells_per_fillet_quarter = 20'000;
-  EXPECT_EQ(refused_control([&] { meshes::build_shaft(laboratory_shaft(), control, file); }),
+  EXPECT_EQ(refused_control([&] { meshes::build_shaft(laboratory_shaft(), control); }),
             "cells_per_fillet_quarter");
   meshes::ChamberMeshControl of_chamber;
   of_chamber.size_m = 1e-9;
-  EXPECT_EQ(refused_control([&] { meshes::build_chamber(laboratory_chamber(), of_chamber, file); }),
-            "size_m");
-  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_EQ(refused_control([&] { meshes::build_chamber(laboratory_chamber(), of_chamber); }), "size_m");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "meshes/imported/imported.h"
 #include "meshes/values/constants.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
+#include "tests/unit/meshes/examples/mesh_file.h"
 #include "tests/unit/meshes/examples/tetrahedra_file.h"
 
 namespace {
@@ -84,7 +85,7 @@ Import import_of(const std::filesystem::path& geometry, const std::vector<Import
 
 std::string refused(Import import) {
   import.control.smallest_size_m = 0.006;  // a few hundred cells
-  return refusal_of([&] { meshes::build_imported(import, temporary_msh("refused")); });
+  return refusal_of([&] { meshes::build_imported(import); });
 }
 
 struct SteppedStep : testing::Test {
@@ -95,9 +96,8 @@ struct SteppedStep : testing::Test {
 };
 
 TEST_F(SteppedStep, IsFoundMeshedAndCurved) {
-  const auto file = temporary_msh("imported");
-  const auto body = meshes::build_imported(import_of(step, ports), file);
-  EXPECT_EQ(int(body.cells), int(meshes::CellKind::tetrahedra));
+  const auto body = meshes::build_imported(import_of(step, ports));
+  EXPECT_EQ(int(body.cells->kind), int(meshes::CellKind::tetrahedra));
   ASSERT_EQ(body.ports.size(), 3u);
   const auto expect = [&](std::size_t p, Port::Kind kind, double radius_m, double begin_m, double end_m) {
     EXPECT_EQ(int(body.ports[p].kind), int(kind));
@@ -114,7 +114,7 @@ TEST_F(SteppedStep, IsFoundMeshedAndCurved) {
   EXPECT_TRUE(body.regions.empty());
   EXPECT_TRUE(body.sharp_edges.empty());  // the fillet is none
 
-  const auto read = read_tetrahedra(file);
+  const auto read = read_tetrahedra(body);
   // Chords instead of parabolas would lose 6e-2.
   EXPECT_NEAR(read.volume_m3 / stepped_volume_m3(), 1, 1.2 * lost_by_parabolas(cells_around));
   EXPECT_NEAR(read.area_of.at("foot") / (1e-6 * pi * (400 - 25)), 1, 1.2 * lost_by_parabolas(cells_around));
@@ -131,11 +131,9 @@ TEST_F(SteppedStep, IsFoundMeshedAndCurved) {
 }
 
 TEST_F(SteppedStep, GivesTheSameBytesTwice) {
-  const auto first = temporary_msh("first"), second = temporary_msh("second");
-  meshes::build_imported(import_of(step, ports), first);
-  meshes::build_imported(import_of(step, {}), temporary_msh("between"));
-  meshes::build_imported(import_of(step, ports), second);
-  EXPECT_TRUE(bytes_of(first) == bytes_of(second));
+  const auto first = msh_bytes(meshes::build_imported(import_of(step, ports)));
+  msh_bytes(meshes::build_imported(import_of(step, {})));
+  EXPECT_TRUE(msh_bytes(meshes::build_imported(import_of(step, ports))) == first);
 }
 
 TEST_F(SteppedStep, WrongPortsAreRefusedWithWhatThereIs) {
@@ -206,14 +204,13 @@ TEST(Imported, AStepFileInInchesIsReadAsItStatesAndNotScaledOnceMore) {
                    "\n#902 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#900);");
   std::ofstream(step, std::ios::trunc) << text;
   auto import = import_of(step, {});
-  const auto file = temporary_msh("inch");
-  meshes::build_imported(import, file);
+  const auto body = meshes::build_imported(import);
   const double inch_m = 0.0254;
-  EXPECT_NEAR(read_tetrahedra(file).volume_m3, inch_m * inch_m * inch_m, 1e-12);  // rounding of the file
+  EXPECT_NEAR(read_tetrahedra(body).volume_m3, inch_m * inch_m * inch_m, 1e-12);  // rounding of the file
   import.scale_to_m = inch_m;
   expect_words(refused(import), {"inch.step", "states its own length unit", "'INCH'", "once more", "1 mm"});
   import.scale_to_m = 1e-3;
-  EXPECT_NO_THROW(meshes::build_imported(import, file));
+  EXPECT_NO_THROW(meshes::build_imported(import));
 }
 
 TEST(Imported, SolidsThatTouchAreOneBodyAndItsCornersAreSharp) {
@@ -222,9 +219,8 @@ TEST(Imported, SolidsThatTouchAreOneBodyAndItsCornersAreSharp) {
     occ::addBox(0, 10, 0, 10, 20, 10);
     occ::synchronize();
   });
-  const auto file = temporary_msh("l");
-  const auto body = meshes::build_imported(import_of(step, {}), file);
-  EXPECT_NEAR(read_tetrahedra(file).volume_m3, 5e-6, 1e-14);
+  const auto body = meshes::build_imported(import_of(step, {}));
+  EXPECT_NEAR(read_tetrahedra(body).volume_m3, 5e-6, 1e-14);
   ASSERT_EQ(body.sharp_edges.size(), 1u);  // the inner corner, 10 mm long at (10, 10)
   double length_m = 0;
   for (const auto& piece : body.sharp_edges[0].pieces) {
@@ -269,10 +265,9 @@ TEST(Imported, AMshWithGroupsGoesInAndOut) {
   for (const int order : {1, 2})
     for (const double version : {2.2, 4.1}) {
       const auto msh = written("grouped.msh", [&] { grouped_boxes(order, version, false); });
-      const auto file = temporary_msh("regrouped");
       const auto body =
-          meshes::build_imported(import_of(msh, {{"base", Port::Kind::face, GroupSelection{"foot"}}}), file);
-      const auto read = read_tetrahedra(file);
+          meshes::build_imported(import_of(msh, {{"base", Port::Kind::face, GroupSelection{"foot"}}}));
+      const auto read = read_tetrahedra(body);
       EXPECT_NEAR(read.volume_of.at("low"), 1, 1e-9);
       EXPECT_NEAR(read.volume_of.at("high"), 1, 1e-9);
       EXPECT_NEAR(read.area_of.at("base"), 1, 1e-9);
@@ -285,8 +280,7 @@ TEST(Imported, AMshWithGroupsGoesInAndOut) {
                    {"\"feet\"", "groups are", "foot", "sides"});
       auto in_mm = import_of(msh, {});
       in_mm.scale_to_m = 1e-3;
-      meshes::build_imported(in_mm, file);
-      EXPECT_NEAR(read_tetrahedra(file).volume_m3, 2e-9, 1e-17);
+      EXPECT_NEAR(read_tetrahedra(meshes::build_imported(in_mm)).volume_m3, 2e-9, 1e-17);
     }
 }
 
@@ -306,10 +300,9 @@ TEST(Imported, HexahedraPassThrough) {
   const auto msh = written("hexahedra.msh", [] { grouped_boxes(1, 4.1, true); });
   const auto probe = refusal_of([&] { read_tetrahedra(msh); });
   ASSERT_NE(probe.find("another type"), std::string::npos) << "gmsh made no hexahedra: " << probe;
-  const auto file = temporary_msh("hexahedra");
   const auto body =
-      meshes::build_imported(import_of(msh, {{"base", Port::Kind::face, GroupSelection{"foot"}}}), file);
-  EXPECT_EQ(int(body.cells), int(meshes::CellKind::hexahedra));
+      meshes::build_imported(import_of(msh, {{"base", Port::Kind::face, GroupSelection{"foot"}}}));
+  EXPECT_EQ(int(body.cells->kind), int(meshes::CellKind::hexahedra));
   EXPECT_EQ(body.regions.size(), 2u);
   EXPECT_NEAR(body.quality.min_scaled_jacobian, 1, 1e-9);
   EXPECT_EQ(body.features.size(), 2u);

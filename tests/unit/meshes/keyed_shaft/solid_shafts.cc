@@ -9,6 +9,7 @@
 #include "meshes/shaft/shaft.h"
 #include "meshes/values/constants.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
+#include "tests/unit/meshes/examples/mesh_file.h"
 #include "tests/unit/meshes/examples/shaft_volume.h"
 #include "tests/unit/meshes/examples/tetrahedra_file.h"
 
@@ -70,9 +71,8 @@ double slot_volume(double radius_m, const Keyway& key) {
 
 TEST(SolidShaft, WithoutKeywaysIsTheShaftOfTheBlocks) {
   for (const auto& shaft : {eccentric_shaft(), sharp_eccentric_shaft()}) {
-    const auto file = temporary_msh("solid");
-    const auto solid = meshes::build_solid_shaft(shaft, {}, coarse(), file);
-    const auto blocks = meshes::build_shaft(shaft, {}, temporary_msh("blocks"));
+    const auto solid = meshes::build_solid_shaft(shaft, {}, coarse());
+    const auto blocks = meshes::build_shaft(shaft, {});
     ASSERT_EQ(solid.ports.size(), blocks.ports.size());
     for (std::size_t p = 0; p < solid.ports.size(); ++p) {
       const auto &a = solid.ports[p], &b = blocks.ports[p];
@@ -89,7 +89,7 @@ TEST(SolidShaft, WithoutKeywaysIsTheShaftOfTheBlocks) {
       EXPECT_EQ(solid.features[f].name, blocks.features[f].name);
       EXPECT_EQ(int(solid.features[f].kind), int(blocks.features[f].kind));
     }
-    const auto read = read_tetrahedra(file);
+    const auto read = read_tetrahedra(solid);
     EXPECT_NEAR(read.volume_m3 / true_volume(shaft), 1, 1.2 * lost_by_parabolas(n_around));
     for (const auto& feature : solid.features) {
       EXPECT_GT(read.area_of.at(feature.name), 0) << feature.name;
@@ -104,9 +104,8 @@ TEST(SolidShaft, WithoutKeywaysIsTheShaftOfTheBlocks) {
 
 TEST(SolidShaft, NodesLieOnCylindersAndFillets) {
   const auto shaft = keyed_shaft();
-  const auto file = temporary_msh("surfaces");
-  meshes::build_solid_shaft(shaft, {{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true}}, coarse(), file);
-  const auto read = read_tetrahedra(file);
+  const auto read = read_tetrahedra(
+      meshes::build_solid_shaft(shaft, {{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true}}, coarse()));
   for (const auto& x : read.nodes_of.at("pulley")) ASSERT_NEAR(std::hypot(x[0], x[1]), 0.02, 1e-10);
   for (const auto& x : read.nodes_of.at("fillet pulley/body"))
     ASSERT_NEAR(std::hypot(std::hypot(x[0], x[1]) - 0.023, x[2] - 0.057), 0.003, 1e-10);
@@ -124,10 +123,9 @@ TEST(SolidShaft, KeywaysTakeTheirVolume) {
     const auto shaft = keyed_shaft(bore_m);
     const std::vector<Keyway> keys = {{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, round_ends},
                                       {"body", 0.014, 0.0055, 0.04, 0.08, -2, round_ends}};
-    const auto file = temporary_msh("keyed");
-    const auto body = meshes::build_solid_shaft(shaft, keys, coarse(), file);
+    const auto body = meshes::build_solid_shaft(shaft, keys, coarse());
     const double exact = true_volume(shaft) - slot_volume(0.02, keys[0]) - slot_volume(0.025, keys[1]);
-    EXPECT_NEAR(read_tetrahedra(file).volume_m3 / exact, 1, 1.2 * lost_by_parabolas(n_around));
+    EXPECT_NEAR(read_tetrahedra(body).volume_m3 / exact, 1, 1.2 * lost_by_parabolas(n_around));
     EXPECT_GT(body.quality.min_scaled_jacobian, 0.05);
     EXPECT_GT(body.quality.max_aspect, 1);
     // The floors' edges and the sharp shoulder are re-entrant, the edges at the surface are not.
@@ -145,10 +143,10 @@ TEST(SolidShaft, KeywaysTakeTheirVolume) {
 TEST(SolidShaft, LeavesOutAtShouldersWhatBlocksLeaveOut) {
   const auto shaft = keyed_shaft();
   const Keyway key{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true};
-  const auto blocks = meshes::build_shaft(shaft, {}, temporary_msh("blocks")).sharp_edges;
+  const auto blocks = meshes::build_shaft(shaft, {}).sharp_edges;
   ASSERT_EQ(blocks.size(), 1U);
   auto control = coarse();
-  const auto edges = meshes::build_solid_shaft(shaft, {key}, control, temporary_msh("keyed")).sharp_edges;
+  const auto edges = meshes::build_solid_shaft(shaft, {key}, control).sharp_edges;
   ASSERT_EQ(edges.size(), 2U);
   EXPECT_DOUBLE_EQ(edges[0].distance_m, blocks[0].distance_m);
   EXPECT_DOUBLE_EQ(edges[0].distance_m, 0.003);
@@ -157,35 +155,31 @@ TEST(SolidShaft, LeavesOutAtShouldersWhatBlocksLeaveOut) {
     EXPECT_NEAR(std::hypot(from[0] + to[0], from[1] + to[1]) / 2, 0.015, 1e-5);
   EXPECT_NEAR(edges[1].distance_m, 0.01 * std::hypot(0.18, 0.05, 0.05), 1e-4);  // of the polygon's box
   control.exclusion_m = 0.001;
-  for (const auto& edge :
-       meshes::build_solid_shaft(shaft, {key}, control, temporary_msh("asked")).sharp_edges)
+  for (const auto& edge : meshes::build_solid_shaft(shaft, {key}, control).sharp_edges)
     EXPECT_EQ(edge.distance_m, 0.001) << edge.name;
 }
 
 TEST(SolidShaft, AnOpenKeywayRunsOutAtTheEnd) {
   const auto shaft = plain_cylinder();  // 50 mm, 200 mm long
   const Keyway key{shaft.segments[0].name, 0.014, 0.0055, 0.05, shaft.segments[0].begin_m, 1, false};
-  const auto file = temporary_msh("open");
-  meshes::build_solid_shaft(shaft, {key}, coarse(), file);
-  EXPECT_NEAR(read_tetrahedra(file).volume_m3 / (true_volume(shaft) - slot_volume(0.025, key)), 1,
+  const auto body = meshes::build_solid_shaft(shaft, {key}, coarse());
+  EXPECT_NEAR(read_tetrahedra(body).volume_m3 / (true_volume(shaft) - slot_volume(0.025, key)), 1,
               1.2 * lost_by_parabolas(n_around));
 }
 
 TEST(SolidShaft, IsBitIdenticalWhenRepeated) {
   const std::vector<Keyway> keys = {{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true}};
-  const auto first = temporary_msh("first"), second = temporary_msh("second");
-  meshes::build_solid_shaft(keyed_shaft(), keys, coarse(), first);
-  meshes::build_solid_shaft(three_steps(), {}, coarse(), temporary_msh("between"));
-  meshes::build_solid_shaft(keyed_shaft(), keys, coarse(), second);
-  EXPECT_GT(bytes_of(first).size(), 100000u);
-  EXPECT_TRUE(bytes_of(first) == bytes_of(second));
+  const auto first = msh_bytes(meshes::build_solid_shaft(keyed_shaft(), keys, coarse()));
+  msh_bytes(meshes::build_solid_shaft(three_steps(), {}, coarse()));
+  EXPECT_GT(first.size(), 100000u);
+  EXPECT_TRUE(msh_bytes(meshes::build_solid_shaft(keyed_shaft(), keys, coarse())) == first);
 }
 
 TEST(SolidShaft, KeywaysThatDoNotFitAreRefused) {
   const auto refused = [](const std::function<void(Keyway&)>& change) {
     Keyway key{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true};
     change(key);
-    return refusal_of([&] { meshes::build_solid_shaft(keyed_shaft(), {key}, {}, temporary_msh("refused")); });
+    return refusal_of([&] { meshes::build_solid_shaft(keyed_shaft(), {key}, {}); });
   };
   expect_words(refused([](auto& k) { k.segment = "hub"; }), {"hub", "pulley, body, bearing"});
   expect_words(refused([](auto& k) { k.width_m = 0.025; }), {"width 25 mm", "60 %", "40 mm"});
@@ -199,13 +193,13 @@ TEST(SolidShaft, KeywaysThatDoNotFitAreRefused) {
   auto other = one;
   other.angle_rad = 0.8;
   expect_words(refusal_of([&] {
-                 meshes::build_solid_shaft(keyed_shaft(), {one, other}, {}, temporary_msh("r"));
+                 meshes::build_solid_shaft(keyed_shaft(), {one, other}, {});
                }),
                {"two keyways on pulley meet"});
   auto stepped = keyed_shaft(0.01);
   stepped.segments[1].bore_m = 0.012;
   stepped.fillets_m[0] = 0;  // a bore may step beside a sharp shoulder only
-  expect_words(refusal_of([&] { meshes::build_solid_shaft(stepped, {}, {}, temporary_msh("r")); }),
+  expect_words(refusal_of([&] { meshes::build_solid_shaft(stepped, {}, {}); }),
                {"bore of body", "one diameter"});
 }
 

@@ -21,7 +21,7 @@ TEST(LaboratoryShaft, MeshesWellAtEveryFineness) {
   for (const int cells : {2, 4, 8, 16}) {
     meshes::ShaftMeshControl control;
     control.cells_per_fillet_quarter = cells;
-    const auto quality = meshes::build_shaft(laboratory_shaft(), control, temporary_msh("quality")).quality;
+    const auto quality = meshes::build_shaft(laboratory_shaft(), control).quality;
     RecordProperty("cells_" + std::to_string(cells), static_cast<int>(quality.n_cells));
     RecordProperty("min_scaled_jacobian_" + std::to_string(cells),
                    std::to_string(quality.min_scaled_jacobian));
@@ -38,7 +38,7 @@ TEST(LaboratoryShaft, MeshesWellAtEveryFineness) {
 /// uniform pressure acts in the middle of the seat: a shift by half a fillet would add a moment.
 TEST(LaboratoryShaft, LoadsItsSeatsSymmetrically) {
   const auto shaft = laboratory_shaft();
-  const auto body = meshes::build_shaft(shaft, {}, temporary_msh("zones"));
+  const auto body = meshes::build_shaft(shaft, {});
   const double tiny = 1e-15;
   for (const auto& segment : shaft.segments) {
     if (!segment.is_port) continue;
@@ -53,8 +53,8 @@ TEST(LaboratoryShaft, LoadsItsSeatsSymmetrically) {
 
 /// Pressure needs a few cells along the axis to act on.
 TEST(LaboratoryShaft, HasAtLeastFourCellsAlongEachSeat) {
-  const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("seats"));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_shaft(laboratory_shaft(), {});
+  const MeshFile mesh = read_mesh_file(body);
   for (const auto& seat : body.ports) {
     if (seat.kind != meshes::Port::Kind::seat) continue;
     int n_faces = 0;
@@ -64,7 +64,7 @@ TEST(LaboratoryShaft, HasAtLeastFourCellsAlongEachSeat) {
 }
 
 TEST(LaboratoryShaft, OffersItsPortsWithTheirOwnAxes) {
-  const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("ports"));
+  const auto body = meshes::build_shaft(laboratory_shaft(), {});
   ASSERT_EQ(body.ports.size(), 8u);  // six seats and two ends
   for (const auto& p : body.ports) EXPECT_EQ(p.axis_x_m, p.name == "eccentric_seat" ? 0.004 : 0) << p.name;
   EXPECT_EQ(port(body, "end_1").begin_m, -0.2725);
@@ -74,8 +74,8 @@ TEST(LaboratoryShaft, OffersItsPortsWithTheirOwnAxes) {
 }
 
 TEST(LaboratoryShaft, NamesItsGroupsInTheFile) {
-  const auto body = meshes::build_shaft(laboratory_shaft(), {}, temporary_msh("names"));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_shaft(laboratory_shaft(), {});
+  const MeshFile mesh = read_mesh_file(body);
   EXPECT_EQ(mesh.volume_names.size(), 9u);
   EXPECT_EQ(mesh.volume_names.begin()->second, "core");
   EXPECT_EQ(mesh.volume_names.at(body.cylinders[4].volume_id), "ring_eccentric_seat");

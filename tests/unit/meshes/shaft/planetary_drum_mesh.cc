@@ -42,8 +42,8 @@ TEST(PlanetaryDrum, WeighsWhatTheSpecificationSays) {
   double previous = 0;
   for (const int sectors : {12, 24, 48}) {
     control.n_sectors = sectors;
-    const auto body = meshes::build_shaft(planetary_drum(), control, temporary_msh("drum_mass"));
-    const double error = expected_kg - 7850 * volume_and_moments(read_mesh_file(body.file))[0];
+    const auto body = meshes::build_shaft(planetary_drum(), control);
+    const double error = expected_kg - 7850 * volume_and_moments(read_mesh_file(body))[0];
     // A polygon lacks 2 pi^2 / (3 N^2) of its circle.
     EXPECT_NEAR(error / expected_kg, 2 * pi * pi / (3 * sectors * sectors), 2e-3);
     if (previous > 0) {
@@ -57,7 +57,7 @@ TEST(PlanetaryDrum, MeshesWellWithFewCells) {
   for (const int cells : {2, 4, 6, 8}) {
     auto control = drum_control();
     control.cells_per_fillet_quarter = cells;
-    const auto quality = meshes::build_shaft(planetary_drum(), control, temporary_msh("drum")).quality;
+    const auto quality = meshes::build_shaft(planetary_drum(), control).quality;
     EXPECT_GT(quality.min_scaled_jacobian, 0.6) << cells;
     EXPECT_GT(quality.median_scaled_jacobian, 0.95) << cells;
     if (cells == 6) {
@@ -69,8 +69,8 @@ TEST(PlanetaryDrum, MeshesWellWithFewCells) {
 /// Two cells through the wall, and a shell's bending at its ends resolved: beside the covers cells are
 /// shorter than the wall, in the middle not longer than four walls.
 TEST(PlanetaryDrum, DividesItsShellByItsWall) {
-  const auto body = meshes::build_shaft(planetary_drum(), drum_control(), temporary_msh("drum"));
-  const MeshFile mesh = read_mesh_file(body.file);
+  const auto body = meshes::build_shaft(planetary_drum(), drum_control());
+  const MeshFile mesh = read_mesh_file(body);
   int volume_id = 0;
   for (const auto& [id, name] : mesh.volume_names)
     if (name == "ring_shell") volume_id = id;
@@ -95,7 +95,7 @@ TEST(PlanetaryDrum, DividesItsShellByItsWall) {
 }
 
 TEST(PlanetaryDrum, OffersItsWallSeatsAndRingEndsAsPorts) {
-  const auto body = meshes::build_shaft(planetary_drum(), drum_control(), temporary_msh("drum"));
+  const auto body = meshes::build_shaft(planetary_drum(), drum_control());
   std::map<std::string, meshes::Port> ports;
   for (const auto& port : body.ports) ports[port.name] = port;
   ASSERT_EQ(ports.size(), 6u);  // three seats, the wall, two ends
@@ -106,7 +106,7 @@ TEST(PlanetaryDrum, OffersItsWallSeatsAndRingEndsAsPorts) {
   EXPECT_NEAR(wall.end_m, 0.5, 1e-15);
   EXPECT_EQ(ports.at("trunnion_1").kind, meshes::Port::Kind::seat);
 
-  const MeshFile mesh = read_mesh_file(body.file);
+  const MeshFile mesh = read_mesh_file(body);
   EXPECT_EQ(mesh.boundary_names.at(wall.boundary_id), "bore shell");
   EXPECT_EQ(mesh.volume_names.size(), 8u) << "no core: bored all through";
   double area = 0;  // of the end: a ring
@@ -128,7 +128,7 @@ TEST(Bores, MeetInThePlaneOfAFilletedShoulder) {
   for (const int cells : {2, 4, 8}) {
     meshes::ShaftMeshControl control;
     control.cells_per_fillet_quarter = cells;
-    const auto body = meshes::build_shaft(two_eccentrics(), control, temporary_msh("coolant"));
+    const auto body = meshes::build_shaft(two_eccentrics(), control);
     for (const auto& port : body.ports)
       if (port.name == "coolant") {
         EXPECT_NEAR(port.begin_m, cells == 2 ? 0.129 : 0.127, 1e-12);
@@ -149,7 +149,7 @@ TEST(OtherShafts, MeshWell) {
         meshes::ShaftMeshControl control;
         control.cells_per_fillet_quarter = cells;
         control.n_sectors = sectors;
-        const auto quality = meshes::build_shaft(shaft, control, temporary_msh("other")).quality;
+        const auto quality = meshes::build_shaft(shaft, control).quality;
         EXPECT_GT(quality.min_scaled_jacobian, 0.5) << shaft.segments.front().name << " " << cells;
         worst = std::min(worst, quality.min_scaled_jacobian);
       }

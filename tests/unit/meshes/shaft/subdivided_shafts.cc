@@ -39,9 +39,9 @@ TEST(LeanShafts, HaveFewerCellsAndTheSameSurfaces) {
     meshes::ShaftMeshControl control;
     control.cells_per_fillet_quarter = 4;
     control.n_sectors = 8;
-    const auto usual = meshes::build_shaft(shaft, control, temporary_msh("usual"));
+    const auto usual = meshes::build_shaft(shaft, control);
     control.lean = true;
-    const auto lean = meshes::build_shaft(shaft, control, temporary_msh("lean"));
+    const auto lean = meshes::build_shaft(shaft, control);
     EXPECT_LT(double(lean.quality.n_cells), 0.95 * double(usual.quality.n_cells));
     EXPECT_EQ(lean.ports.size(), usual.ports.size());
     EXPECT_EQ(lean.features.size(), usual.features.size());
@@ -87,9 +87,7 @@ TEST(Subdivision, OfStationsIsNested) {
 TEST(SubdividedShafts, HaveAsManyCellsAsTheirLevelSays) {
   for (const auto& shaft : shafts()) {
     SCOPED_TRACE(text(shaft));
-    const auto n_cells = [&](int n) {
-      return meshes::build_shaft(shaft, cut_into(n), temporary_msh("subdivided")).quality.n_cells;
-    };
+    const auto n_cells = [&](int n) { return meshes::build_shaft(shaft, cut_into(n)).quality.n_cells; };
     const std::size_t two = n_cells(2);
     EXPECT_EQ(two % 8, 0u);
     EXPECT_EQ(n_cells(3), two / 8 * 27);
@@ -105,8 +103,7 @@ TEST(SubdividedShafts, ShrinkAlikeOnEveryFaceAndInEveryPart) {
   for (const auto& shaft : shafts()) {
     SCOPED_TRACE(text(shaft));
     const auto counts = [&](int n) {
-      const auto mesh =
-          read_mesh_file(meshes::build_shaft(shaft, cut_into(n, 4), temporary_msh("subdivided")).file);
+      const auto mesh = read_mesh_file(meshes::build_shaft(shaft, cut_into(n, 4)));
       std::map<std::string, int> result;
       for (const auto& quad : mesh.quads) ++result[mesh.boundary_names.at(quad.group)];
       for (const auto& hex : mesh.hexes) ++result["volume " + mesh.volume_names.at(hex.group)];
@@ -123,11 +120,11 @@ TEST(SubdividedShafts, AreWatertightAndHaveTheRightVolume) {
   for (const auto& shaft : shafts())
     for (const auto& [n, cells, sectors] : {std::array{2, 2, 4}, {3, 2, 4}, {4, 2, 8}, {2, 4, 12}}) {
       SCOPED_TRACE(text(shaft));
-      const auto body = meshes::build_shaft(shaft, cut_into(n, cells, sectors), temporary_msh("subdivided"));
+      const auto body = meshes::build_shaft(shaft, cut_into(n, cells, sectors));
       expect_watertight(body);
       EXPECT_GT(body.quality.min_scaled_jacobian, 0.3);
       const double expected = polygonal_volume(shaft, n * cells, n * sectors);
-      EXPECT_NEAR(volume_and_moments(read_mesh_file(body.file))[0], expected, 1e-11 * expected);  // rounding
+      EXPECT_NEAR(volume_and_moments(read_mesh_file(body))[0], expected, 1e-11 * expected);  // rounding
     }
 }
 
@@ -138,7 +135,7 @@ TEST(SubdividedShafts, MeshWellWhateverTheShaft) {
     SCOPED_TRACE(std::to_string(trial) + ": " + text(shaft));
     auto control = cut_into(2 + trial % 3, trial % 4 == 3 ? 4 : 2, trial % 5 == 3 ? 8 : 4);
     control.min_scaled_jacobian = 0.01;  // refuse nothing: the test judges
-    const auto body = meshes::build_shaft(shaft, control, temporary_msh("subdivided"));
+    const auto body = meshes::build_shaft(shaft, control);
     EXPECT_GT(body.quality.min_scaled_jacobian, 0.3);
   }
 }

@@ -13,8 +13,7 @@ std::array<double, 4> meshed(const meshes::Shaft& shaft, int cells, int sectors)
   meshes::ShaftMeshControl control;
   control.cells_per_fillet_quarter = cells;
   control.n_sectors = sectors;
-  return volume_and_moments(
-      read_mesh_file(meshes::build_shaft(shaft, control, temporary_msh("volume")).file));
+  return volume_and_moments(read_mesh_file(meshes::build_shaft(shaft, control)));
 }
 
 /// 1e4 to 1e5 cells are summed, each right to about 1e-15 of itself; nodes pass through 16 decimal digits.

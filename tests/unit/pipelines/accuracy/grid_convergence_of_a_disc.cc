@@ -9,7 +9,6 @@
 #include "pipelines/accuracy/grid_convergence.h"
 #include "pipelines/accuracy/systematic_meshes.h"
 #include "pipelines/loads/body_mesh.h"
-#include "tests/unit/pipelines/examples/results_directory.h"
 #include "tests/unit/pipelines/examples/shared_environment.h"
 
 namespace {
@@ -51,7 +50,6 @@ double at_bore_Pa(const fem::UnitResponses& r) {
 
 TEST(GridConvergence, OfARotatingDiscBoundsItsError) {
   shared::start_fem();
-  const results_test::Directory directory;
   const fem::UnitLoad spin{"volume.spin", fem::BodyForce{fem::BodyForce::Field::spin, {}}};
   // rho w^2 / 4 ((3 + nu) b^2 + (1 - nu) a^2): 260.8 MPa. The thickness adds a mean of nothing and less than
   // 0.1 %.
@@ -62,7 +60,7 @@ TEST(GridConvergence, OfARotatingDiscBoundsItsError) {
     for (const int level : {2, 3, 4}) {
       auto body = pipelines::systematic_mesh(disc(), level);
       body.degree = degree;
-      const auto meshed = pipelines::mesh_body(body, directory / "disc.msh", {});
+      const auto meshed = pipelines::mesh_body(body, {});
       const auto responses = meshed.model->unit_responses({spin}, {});
       EXPECT_EQ(responses.nodes.degree, degree);
       series.push_back({pipelines::cell_size_m(responses.nodes), at_bore_Pa(responses)});

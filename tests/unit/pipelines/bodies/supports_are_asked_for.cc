@@ -29,7 +29,7 @@ std::string refusal_with(const std::string& old_text, const std::string& new_tex
   const auto scene = read_scene(directory / "scene.toml");
   StageClock silent;
   try {
-    load_bodies(scene, {mesh_body(scene.bodies.front(), directory / "mesh.msh", {})}, silent);
+    load_bodies(scene, {mesh_body(scene.bodies.front(), {})}, silent);
   } catch (const StageRefused& refused) {
     return refused.what();
   }

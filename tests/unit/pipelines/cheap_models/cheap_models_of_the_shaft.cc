@@ -11,7 +11,6 @@
 #include "pipelines/loads/statics.h"
 #include "pipelines/superposition/zones.h"
 #include "tests/unit/pipelines/examples/laboratory.h"
-#include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace {
 
@@ -23,9 +22,8 @@ const pipelines::BodyScene& shaft_of(const pipelines::Scene& scene) {
 }
 
 struct ShippedShaft : testing::Test {
-  results_test::Directory directory;
   pipelines::BodyScene body = shaft_of(laboratory::scene());
-  meshes::BodyMesh mesh = pipelines::build_mesh(body, directory / "shaft.msh");
+  meshes::BodyMesh mesh = pipelines::build_mesh(body);
 
   fem::UnitLoad load(const std::string& port, Component component, const char* name) const {
     const auto p =

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 
+#include "meshes/shaft/shaft.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/content_hash.h"
@@ -16,6 +17,7 @@
 #include "pipelines/files/kept_file.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/files/vtk_files.h"
+#include "pipelines/report/results.h"
 #include "tests/unit/pipelines/examples/results_bar.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 
@@ -139,6 +141,9 @@ TEST(FullDisk, IsToldByEveryKindOfFile) {
   const Directory at;
   const auto nodes = results_test::mapped_cube(3, 3, 3, results_test::quadratic_map);
   const std::vector<double> field(nodes.n, 1.25);
+  meshes::Shaft shaft;
+  shaft.segments = {{"rod", 0, 0.05, 0.05, 0, true}};
+  const auto rod = meshes::build_shaft(shaft, {});
   const std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> kinds{
       {"text", [&](const fs::path& file) { write_text_file(file, std::string(30000, 'x')); }},
       {"vtu",
@@ -147,6 +152,7 @@ TEST(FullDisk, IsToldByEveryKindOfFile) {
        }},
       {"surface vtu",
        [&](const fs::path& file) { write_surface_snapshot_vtu(file, nodes, {nodal_field("f", field)}); }},
+      {"mesh", [&](const fs::path& file) { write_mesh(file, rod); }},
       {"kept HDF5", [&](const fs::path& file) {
          AtomicFile atomic(file);
          Hdf5Writer out(atomic.temporary());

@@ -54,8 +54,8 @@ struct Shipped {
     for (const char* input : {"belt_pull.csv", "part.step"}) fs::copy(folder() / input, at / input);
     scene = read(scene_text("\"all\"")).value();
     shared::start_fem();
-    meshes = std::make_unique<ScratchMeshes>(scene);
-    masses = agree_masses(scene, meshes->bodies());
+    meshes = mesh_bodies(scene);
+    masses = agree_masses(scene, meshes);
   }
   static fs::path folder() { return fs::path(SOURCE_DIR) / "pipelines/scenes"; }
 
@@ -79,13 +79,13 @@ struct Shipped {
   results_test::Directory at;
   std::string text, refusal;
   Scene scene;  ///< with all effects
-  std::unique_ptr<ScratchMeshes> meshes;
+  std::vector<MeshedBody> meshes;
   MassAgreement masses;
 };
 
 /// By the test's own sums, not those of the choice.
 bool closes(const Scene& scene, const Shipped& shipped) {
-  const auto& meshed = shipped.meshes->bodies();
+  const auto& meshed = shipped.meshes;
   const auto trial = try_effects(scene, meshed, shipped.masses);
   bool all = true;
   for (std::size_t i = 0; i < meshed.size(); ++i) {
@@ -115,7 +115,7 @@ bool expect_closed_or_refused(Shipped& shipped, const Names& effects) {
     EXPECT_TRUE(cannot_run(shipped.scene, effects, shipped)) << "refused in vain: " << shipped.refusal;
     return false;
   }
-  const auto& meshed = shipped.meshes->bodies();
+  const auto& meshed = shipped.meshes;
   EXPECT_NO_THROW(require_equilibrium(*scene, meshed, shipped.masses,
                                       try_effects(*scene, meshed, shipped.masses).bodies));
   EXPECT_TRUE(closes(*scene, shipped));
@@ -152,7 +152,7 @@ TEST_P(ShippedEffects, ClosesWithEffectsChosen) {
   ASSERT_TRUE(open) << shipped.refusal;
   for (const double limit : {0.0005, 0.005, 0.05, 0.3, 0.9, 0.999}) {
     SCOPED_TRACE(limit);
-    const Scene chosen = with_effects_chosen(*open, shipped.meshes->bodies(), limit);
+    const Scene chosen = with_effects_chosen(*open, shipped.meshes, limit);
     EXPECT_TRUE(has_what_it_needs(chosen));
     EXPECT_TRUE(closes(chosen, shipped));
     EXPECT_EQ(chosen.effects.size() + chosen.effect_choice.dropped.size(), open->effects.size());

@@ -69,7 +69,7 @@ void expect_areas(const char* scene_name, const char* body_name, const Areas& ex
   const Directory at;
   const Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes" / scene_name);
   const BodyScene& body = *scene.body(body_name);
-  const auto mesh = build_mesh(body, at / "mesh.msh");
+  const auto mesh = build_mesh(body);
   write_port_surface(at / "ports.vtu", fem::body_nodes(to_fem_body(mesh, body.material)), mesh);
   auto ports = areas(at / "ports.vtu", port_fields::port, port_fields::port_names);
   const auto features = areas(at / "ports.vtu", port_fields::feature, port_fields::feature_names);

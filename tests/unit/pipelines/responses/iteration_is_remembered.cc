@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <memory>
+#include <utility>
 
-#include "pipelines/files/content_hash.h"
 #include "pipelines/responses/iteration_memory.h"
 #include "pipelines/responses/response_key.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
@@ -30,20 +33,35 @@ TEST(IterationMemory, LastsForOneBodyUntilItIsTakenBack) {
 }
 
 TEST(IterationMemory, KeyIsThatOfMeshAndMaterialAndBeginsTheResponsesKey) {
-  const results_test::Directory scratch;
+  fem::CoarseMesh mesh;
+  mesh.points_m = {{0, 0, 0}, {1, 0, 0}};
+  mesh.cells = {0, 1, 0, 1, 0, 1, 0, 1};
+  mesh.volume_id = {3};
   fem::Body body;
-  body.mesh = scratch.path / "a.msh";
-  std::ofstream(body.mesh) << "a mesh";
+  body.mesh = std::make_shared<const fem::CoarseMesh>(mesh);
   body.material = {206e9, 0.3, 7850};
-  const auto hash = pipelines::content_hash(body.mesh);
-  const auto key = pipelines::body_key(body, hash);
-  EXPECT_EQ(pipelines::response_key(body, hash, {}, {}, fem::Solver::direct, 2).rfind(key, 0), 0u);
+  const auto key = pipelines::body_key(body);
+  EXPECT_EQ(pipelines::response_key(body, {}, {}, fem::Solver::direct, 2).rfind(key, 0), 0u);
   auto other = body;
   other.material.poisson_ratio = 0.4;
-  EXPECT_NE(pipelines::body_key(other, hash), key);
-  std::ofstream(body.mesh) << "another mesh";
-  EXPECT_NE(pipelines::body_key(body, pipelines::content_hash(body.mesh)), key);
-  EXPECT_THROW(pipelines::body_key(body, ""), std::logic_error);
+  EXPECT_NE(pipelines::body_key(other), key);
+  // Every array counts, to the last bit.
+  const auto key_with = [&](const std::function<void(fem::CoarseMesh&)>& change) {
+    auto changed = mesh;
+    change(changed);
+    other = body;
+    other.mesh = std::make_shared<const fem::CoarseMesh>(std::move(changed));
+    return pipelines::body_key(other);
+  };
+  EXPECT_EQ(key_with([](auto&) {}), key);
+  EXPECT_NE(key_with([](auto& m) { m.kind = fem::CellKind::tetrahedra; }), key);
+  EXPECT_NE(key_with([](auto& m) { m.points_m[1][0] = std::nextafter(1.0, 2.0); }), key);
+  EXPECT_NE(key_with([](auto& m) { std::swap(m.cells[2], m.cells[3]); }), key);
+  EXPECT_NE(key_with([](auto& m) { m.volume_id = {4}; }), key);
+  EXPECT_NE(key_with([](auto& m) { m.faces = {0, 1, 0, 1}; }), key);
+  EXPECT_NE(key_with([](auto& m) { m.face_id = {1}; }), key);
+  other.mesh.reset();
+  EXPECT_THROW(pipelines::body_key(other), std::logic_error);
 }
 
 }  // namespace

@@ -1,79 +1,37 @@
-#include "fem/mesh/mesh_reader.h"
+#include "fem/mesh/body_grid.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/tria.h>
 
-#include <filesystem>
-#include <fstream>
-#include <istream>
 #include <stdexcept>
-#include <streambuf>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/local_refinement.h"
 #include "fem/mesh/manifolds.h"
-#include "fem/mesh/msh_file.h"
-#include "fem/mesh/tetrahedra_reader.h"
+#include "fem/mesh/tetrahedra_grid.h"
+#include "fem/mesh/triangulation.h"
 #include "fem/values/errors.h"
 
 namespace fem {
 
 namespace {
 
-/// deal.II's reader trusts the file: one that was cut off makes it write out of bounds.
-std::string read_whole(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code no_file;
-  const auto size = std::filesystem::file_size(path, no_file);
-  if (!file || no_file) throw MeshUnusable("cannot open the mesh file " + path.string());
-  std::string text(size, '\0');
-  if (!file.read(text.data(), static_cast<std::streamsize>(size)))
-    throw MeshUnusable("cannot read the mesh file " + path.string());
-  if (text.find("$EndElements") == std::string::npos)
-    throw MeshUnusable("the mesh file " + path.string() + " is cut off: it has no $EndElements");
-  return text;
-}
-
-/// Reads a text where it lies: a mesh may have a gigabyte, and a string stream would have it twice.
-class TextInPlace : public std::streambuf {
-public:
-  explicit TextInPlace(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
-};
-
-void read_mesh(const std::filesystem::path& path, std::string& content, dealii::Triangulation<3>& mesh) {
-  TextInPlace buffer(content);
-  std::istream text(&buffer);
-  dealii::GridIn<3> reader(mesh);
-  try {
-    reader.read_msh(text);  // the overload for file names would end the program's own gmsh session
-  } catch (const dealii::ExceptionBase& error) {
-    throw MeshUnusable("cannot read the mesh file " + path.string() +
-                       " (a .msh of linear hexahedra is expected): " + error.what());
-  }
-  if (!mesh.all_reference_cells_are_hyper_cube())
-    throw MeshUnusable("the mesh file " + path.string() + " has cells that are no hexahedra");
-}
-
-Grid read_tetrahedra(const Body& body, const std::string& text) {
+Grid grid_of_tetrahedra(const Body& body) {
+  const auto refuse = [](const std::string& what) {
+    throw std::invalid_argument("the mesh has quadratic tetrahedra: " + what);
+  };
   if (!body.cylinders.empty() || !body.tori.empty())
-    throw std::invalid_argument("the mesh file " + body.mesh.string() +
-                                " has quadratic tetrahedra, curved as they are: charts are for hexahedra");
-  if (!body.refinements.empty())
-    throw std::invalid_argument("the mesh file " + body.mesh.string() +
-                                " has tetrahedra: only hexahedra are refined locally");
-  if (body.degree != 2)
-    throw std::invalid_argument("degree = " + std::to_string(body.degree) +
-                                ": must be 2 for the quadratic tetrahedra of " + body.mesh.string());
-  Grid grid = tetrahedra_grid(parse_msh(text, body.mesh.string()), body.mesh.string());
+    refuse("they are curved as they are; charts are for hexahedra");
+  if (!body.refinements.empty()) refuse("only hexahedra are refined locally");
+  if (body.degree != 2) refuse("degree = " + std::to_string(body.degree) + " must be 2");
+  Grid grid = tetrahedra_grid(*body.mesh);
   refuse_inverted_cells(grid);
   return grid;
 }
@@ -91,14 +49,14 @@ void refuse_inverted(const dealii::Triangulation<3>& mesh, const Grid& grid) {
 
 }  // namespace
 
-Grid read_grid(const Body& body) {
+Grid make_grid(const Body& body) {
   if (body.degree < 1 || body.degree > 3)
     throw std::invalid_argument("degree = " + std::to_string(body.degree) + ": must be 1, 2 or 3");
-  std::string text = read_whole(body.mesh);
-  if (has_tetrahedra(element_types(text))) return read_tetrahedra(body, text);
+  if (!body.mesh) throw std::invalid_argument("the body has no mesh");
+  check_arrays(*body.mesh);
+  if (body.mesh->kind == CellKind::tetrahedra) return grid_of_tetrahedra(body);
   dealii::Triangulation<3> mesh(dealii::Triangulation<3>::limit_level_difference_at_vertices);
-  read_mesh(body.mesh, text, mesh);
-  text = std::string();  // the mesh has it all; what follows needs the memory
+  triangulate(*body.mesh, mesh);
   attach_charts(mesh, body.cylinders, body.tori);
   if (body.degree < 2 && !body.refinements.empty())
     throw std::invalid_argument(

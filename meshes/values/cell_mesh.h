@@ -1,20 +1,21 @@
-/// A finished mesh of one kind of cell with group ids, as it is written: quadratic tetrahedra, or linear
-/// hexahedra. Lengths in m. Nodes of cells and faces in gmsh's order; faces counter-clockwise seen from
+/// A finished mesh of one kind of cell with group ids, as values: what fem computes on and what is written
+/// as .msh. Lengths in m. Nodes of cells and faces in gmsh's order; faces counter-clockwise seen from
 /// outside.
 #pragma once
 
 #include <array>
-#include <filesystem>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "meshes/gmsh/msh_writer.h"
-#include "meshes/values/body_mesh.h"
-#include "meshes/values/hex_mesh.h"
-
 namespace meshes {
 
+using Point = std::array<double, 3>;  ///< x, y, z in m
+
+enum class CellKind { hexahedra, tetrahedra };
+
+/// Linear hexahedra (8 nodes), or quadratic tetrahedra (10 nodes).
 struct CellMesh {
   CellKind kind = CellKind::tetrahedra;
   std::vector<Point> points;
@@ -32,11 +33,12 @@ struct CellMesh {
   const int* face(std::size_t i) const { return faces.data() + i * nodes_per_face(); }
 };
 
+/// Names of the groups by id.
+struct GroupNames {
+  std::map<int, std::string> volumes, boundaries;
+};
+
 /// Local nodes of the faces of one cell, in the order above.
 const std::vector<std::vector<int>>& local_faces(CellKind kind);
-
-/// Writes to a temporary name beside `file`, then renames. The same mesh gives the same bytes.
-/// @throws MeshRefused if the directory is missing or the file cannot be written
-void write_msh(const CellMesh& mesh, const GroupNames& names, const std::filesystem::path& file);
 
 }  // namespace meshes
