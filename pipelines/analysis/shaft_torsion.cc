@@ -155,7 +155,9 @@ void take_torsion_by_harmonics(const BodyAnalysis& before, BodyAnalysis& after) 
   if (!before.diagrams || !before.diagrams->by_harmonics || !after.diagrams) return;
   const auto *ring_before = largest_torsion_ring(*before.diagrams),
              *ring_after = largest_torsion_ring(*after.diagrams);
-  if (ring_before == nullptr || ring_after == nullptr || !(ring_before->max_Pa > 0)) return;
+  if (ring_before == nullptr || ring_after == nullptr || !(ring_before->max_Pa > 0) ||
+      ring_before->feature != ring_after->feature)
+    return;
   const double ratio = ring_after->max_Pa / ring_before->max_Pa;
   const auto& known = *before.diagrams->by_harmonics;
   after.diagrams->by_harmonics = LargestTorsion{ratio * known.value_Pa, ratio * known.error_Pa};

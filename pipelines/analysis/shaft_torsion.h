@@ -61,8 +61,8 @@ Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 /// @param ring  largest_torsion_ring
 double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring);
 
-/// Diagrams::by_harmonics of an analysis for the same body under other loads that are nearly the same: with
-/// the same relative difference and error.
+/// Diagrams::by_harmonics of an analysis for the same mesh under other loads: with the same relative
+/// difference and error, as long as torsional stress is largest on the same feature.
 void take_torsion_by_harmonics(const BodyAnalysis& before, BodyAnalysis& after);
 
 }  // namespace pipelines
