@@ -1,14 +1,12 @@
 #include "fem/common/blas_memory.h"
 
-#include <sys/mman.h>
-#include <sys/resource.h>
-
-#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "fem/common/library_function.h"
+#include "fem/common/memory.h"
 #include "fem/values/errors.h"
 
 namespace fem {
@@ -20,26 +18,11 @@ constexpr std::size_t bytes_of_a_block = 160u << 20;
 /// Left for all else: without as much no body is solved.
 constexpr std::size_t bytes_besides = 64u << 20;
 
-/// The smaller limit; RLIM_INFINITY: none.
-rlim_t memory_limit_bytes() {
-  rlimit space{}, data{};
-  getrlimit(RLIMIT_AS, &space);
-  getrlimit(RLIMIT_DATA, &data);
-  return std::min(space.rlim_cur, data.rlim_cur);
-}
-
-bool has_room_for(std::size_t bytes) {
-  void* const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED) return false;
-  munmap(room, bytes);
-  return true;
-}
-
 }  // namespace
 
 void reserve_blas_memory(int n_threads) {
-  const auto limit_bytes = memory_limit_bytes();
-  if (limit_bytes == RLIM_INFINITY) return;
+  const double limit_bytes = limit_of_process();
+  if (std::isinf(limit_bytes)) return;
   const auto take = library_function<void*(int)>("blas_memory_alloc");
   const auto give_back = library_function<void(void*)>("blas_memory_free");
   if (take == nullptr || give_back == nullptr) return;
@@ -47,7 +30,7 @@ void reserve_blas_memory(int n_threads) {
       static_cast<std::size_t>(2 * n_threads - 1);  // the callers' and OpenBLAS' own threads'
   const auto needed_bytes = n_blocks * bytes_of_a_block + bytes_besides;
   if (!has_room_for(needed_bytes))
-    throw DoesNotFit("this process may have " + std::to_string(limit_bytes >> 20) +
+    throw DoesNotFit("this process may have " + std::to_string(static_cast<std::size_t>(limit_bytes) >> 20) +
                      " MB of memory (ulimit -v or -d), and to begin with " +
                      std::to_string(needed_bytes >> 20) + " MB more are needed on " +
                      std::to_string(n_threads) +

@@ -1,5 +1,6 @@
 #include "fem/common/memory.h"
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #ifdef MILLSTRESS_JEMALLOC
@@ -9,6 +10,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -42,17 +44,22 @@ struct Limit {
   double used = 0;           ///< by it, or by its group
 };
 
-Limit limit_of_process(int resource, const std::string& used_key) {
+Limit limit_on(int resource, const std::string& used_key) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
   return {static_cast<double>(limit.rlim_cur), 1024 * number_of("/proc/self/status", used_key, 0)};
 }
 
+/// On addresses and on data.
+std::array<Limit, 2> limits_of_process() {
+  return {limit_on(RLIMIT_AS, "VmSize:"), limit_on(RLIMIT_DATA, "VmData:")};
+}
+
 /// The tightest of the process' own limits and of its control group's with all above that.
 template <class Measure>
 double smallest_over_limits(const Measure& measure) {
-  double smallest = std::min(measure(limit_of_process(RLIMIT_AS, "VmSize:")),
-                             measure(limit_of_process(RLIMIT_DATA, "VmData:")));
+  double smallest = unlimited;
+  for (const auto& limit : limits_of_process()) smallest = std::min(smallest, measure(limit));
   const fs::path root = "/sys/fs/cgroup";
   std::string line, group;
   for (std::ifstream file("/proc/self/cgroup"); std::getline(file, line);)
@@ -67,6 +74,18 @@ double smallest_over_limits(const Measure& measure) {
 }
 
 }  // namespace
+
+double limit_of_process() {
+  const auto limits = limits_of_process();
+  return std::min(limits[0].bytes, limits[1].bytes);
+}
+
+bool has_room_for(std::size_t bytes) {
+  void* const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) return false;
+  munmap(room, bytes);
+  return true;
+}
 
 double physical_memory() {
   const double machine =

@@ -1,7 +1,15 @@
 /// How much memory there is, and how much of it is left.
 #pragma once
 
+#include <cstddef>
+
 namespace fem {
+
+/// The smaller of this process' own limits (ulimit -v, ulimit -d) [bytes]; infinite without any.
+double limit_of_process();
+
+/// Whether this process could have so many bytes more in one piece: its limits included.
+bool has_room_for(std::size_t bytes);
 
 /// What this process may have [bytes]: that of the machine, or less by its own limits (ulimit -v, ulimit -d)
 /// or by those of the control groups (version 2) that it is in.

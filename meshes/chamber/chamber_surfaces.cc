@@ -70,6 +70,15 @@ ChamberSurfaces name_surfaces(const Chamber& chamber, const ChamberLayout& layou
   surfaces.flange_2 = naming.add("flange 2", Kind::surface, inner_m, end_m, flange_m);
   surfaces.covers = naming.add("covers", Kind::surface, -end_m, end_m, flange_m);
   name_plates(chamber, layout, naming, surfaces);
+
+  const auto make_round = [&](int id, double radius_m, double axis_x_m, double axis_y_m) {
+    auto& plate = surfaces.plates.at(id);
+    plate = {plate.name, plate.thickness_m, radius_m, axis_x_m, axis_y_m};
+  };
+  make_round(surfaces.tube_outside, layout.tube_outer_m, chamber.tube.axis_x_m, chamber.tube.axis_y_m);
+  make_round(surfaces.inner_wall, chamber.tube.inner_radius_m, chamber.tube.axis_x_m, chamber.tube.axis_y_m);
+  make_round(surfaces.housing_outside, chamber.housing.outer_radius_m, 0, 0);
+  make_round(surfaces.housing_bore, chamber.housing.bore_radius_m, 0, 0);
   return surfaces;
 }
 

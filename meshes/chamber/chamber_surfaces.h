@@ -28,7 +28,7 @@ struct ChamberSurfaces {
   std::vector<int> webs;               ///< each in one group
   std::vector<int> lugs, pads, soles;  ///< per foot, front and back together
   std::vector<Feature> features;
-  std::map<int, PlateSurface> plates;  ///< name and thickness of every group
+  std::map<int, PlateSurface> plates;  ///< name, thickness and roundness of every group
 };
 
 ChamberSurfaces name_surfaces(const Chamber& chamber, const ChamberLayout& layout);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "meshes/values/constants.h"
 #include "meshes/values/vectors.h"
 
 namespace meshes {
@@ -40,6 +41,32 @@ double distance_on(const PlateSurface& plate, double smaller_m) {
   return std::min(plate.thickness_m, most * smaller_m);
 }
 
+bool is_on(const Point& p, const PlateSurface& surface) {
+  constexpr double rounding = 1e-9;
+  const double r_m = std::hypot(p[0] - surface.axis_x_m, p[1] - surface.axis_y_m);
+  return surface.radius_m > 0 && std::abs(r_m - surface.radius_m) <= rounding * surface.radius_m;
+}
+
+/// Along the cylinder that both ends are on: a chord's arrow, r (1 - cos(turn / 2 n)), is at most r (turn / 2
+/// n)^2 / 2.
+void add_pieces(const Point& from, const Point& to, const PlateSurface& surface, SharpEdge& edge) {
+  constexpr double off_arc = 5e-3;
+  const auto angle = [&](const Point& p) {
+    return std::atan2(p[1] - surface.axis_y_m, p[0] - surface.axis_x_m);
+  };
+  const double begin = angle(from), turn = std::remainder(angle(to) - begin, 2 * pi);
+  const double share = 2 * off_arc * edge.distance_m / surface.radius_m;
+  const int n = std::max(1, int(std::ceil(std::abs(turn) / 2 / std::sqrt(share))));
+  const auto at = [&](int i) -> Point {
+    if (i == 0 || i == n) return i == 0 ? from : to;
+    const double x = double(i) / n;
+    return {surface.axis_x_m + surface.radius_m * std::cos(begin + x * turn),
+            surface.axis_y_m + surface.radius_m * std::sin(begin + x * turn),
+            from[2] + x * (to[2] - from[2])};
+  };
+  for (int i = 0; i < n; ++i) edge.pieces.push_back({at(i), at(i + 1)});
+}
+
 }  // namespace
 
 std::vector<SharpEdge> find_sharp_edges(const HexMesh& mesh, const std::map<int, PlateSurface>& surfaces,
@@ -65,7 +92,14 @@ std::vector<SharpEdge> find_sharp_edges(const HexMesh& mesh, const std::map<int,
         edge.distance_m = std::min(low.thickness_m, high.thickness_m);
         edge.distance_on_m = {{ids.first, distance_on(low, edge.distance_m)},
                               {ids.second, distance_on(high, edge.distance_m)}};
-        edge.pieces.push_back({mesh.points[nodes.first], mesh.points[nodes.second]});
+        const Point &from = mesh.points[nodes.first], &to = mesh.points[nodes.second];
+        const auto* round = is_on(from, low) && is_on(to, low)     ? &low
+                            : is_on(from, high) && is_on(to, high) ? &high
+                                                                   : nullptr;
+        if (round != nullptr)
+          add_pieces(from, to, *round, edge);
+        else
+          edge.pieces.push_back({from, to});
       }
 
   std::vector<SharpEdge> result;

@@ -14,6 +14,8 @@ namespace meshes {
 struct PlateSurface {
   std::string name;
   double thickness_m = 0;
+  double radius_m = 0;  ///< of a cylinder along z; 0: flat, or not all of it round
+  double axis_x_m = 0, axis_y_m = 0;
 };
 
 constexpr double thirty_degrees_rad = 0.52359877559829887;
@@ -22,7 +24,8 @@ constexpr double thirty_degrees_rad = 0.52359877559829887;
 /// normals differ by more than `smallest_turn_rad`, and the material fills more than half a turn. One entry
 /// for each pair of groups, in the order of their ids, named "lug 1/tube outside" with the group of the
 /// larger id first; distance: the smaller thickness of the two, on the thicker plate's own surface that
-/// plate's thickness, at most twice the smaller one; pieces: the mesh edges.
+/// plate's thickness, at most twice the smaller one; pieces: the mesh edges, those on a cylinder along it to
+/// a two hundredth of that distance: finer chords cost more than they tell.
 /// @param surfaces by boundary id; groups that are missing have no sharp edges
 std::vector<SharpEdge> find_sharp_edges(const HexMesh& mesh, const std::map<int, PlateSurface>& surfaces,
                                         double smallest_turn_rad = thirty_degrees_rad);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "pipelines/common/constants.h"
@@ -70,12 +71,55 @@ void refer_to(ElasticLine& line, const std::vector<double>& z_m) {
   }
 }
 
+/// Distance of a ring to the nearest border of what is left out; negative within.
+double beyond_m(const TorsionRing& ring, const std::vector<meshes::SharpEdge>& edges) {
+  double least_m = std::numeric_limits<double>::max();
+  for (const auto& edge : edges)
+    least_m = std::min(least_m, distance_m({ring.radius_m, 0, ring.z_m}, edge) - edge.distance_m);
+  return least_m;
+}
+
 /// Nodes at that distance are kept, as those of the envelope.
 bool is_left_out(const TorsionRing& ring, const std::vector<meshes::SharpEdge>& edges) {
   constexpr double within = 1 - 2e-3;
   return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
     return distance_m({ring.radius_m, 0, ring.z_m}, edge) <= within * edge.distance_m;
   });
+}
+
+/// The nearest to a ring of those that are left out, or of those that are not; their number: there is none.
+std::size_t nearest_ring(const std::vector<TorsionRing>& rings, const TorsionRing& ring,
+                         const std::vector<char>& left_out, bool wanted) {
+  std::size_t nearest = rings.size();
+  double least_m = std::numeric_limits<double>::max();
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    const double away_m = std::hypot(rings[r].z_m - ring.z_m, rings[r].radius_m - ring.radius_m);
+    if ((left_out[r] != 0) != wanted || away_m >= least_m) continue;
+    least_m = away_m;
+    nearest = r;
+  }
+  return nearest;
+}
+
+/// Takes the stress of the rings beside sharp edges from them, and enters what it says of those next to them.
+void leave_out(const std::vector<meshes::SharpEdge>& edges, std::vector<TorsionRing>& rings) {
+  std::vector<char> left_out;
+  for (const auto& ring : rings) left_out.push_back(is_left_out(ring, edges));
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    if (!left_out[r]) continue;
+    const auto outside = nearest_ring(rings, rings[r], left_out, false);
+    if (outside == rings.size()) break;
+    auto& ring = rings[outside];
+    if (nearest_ring(rings, ring, left_out, true) != r) continue;
+    const double from_m = std::max(0.0, beyond_m(ring, edges)),
+                 to_m = std::min(0.0, beyond_m(rings[r], edges));
+    if (from_m > to_m) ring.rise_Pa = std::max(0.0, rings[r].max_Pa - ring.max_Pa) * from_m / (from_m - to_m);
+  }
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    if (left_out[r]) {
+      rings[r].max_Pa = 0;
+      rings[r].instant = 0;
+    }
 }
 
 }  // namespace
@@ -98,11 +142,12 @@ std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitRe
     TorsionRing ring;
     ring.z_m = responses.rings[r].z_m;
     ring.radius_m = responses.rings[r].radius_m;
-    if (!is_left_out(ring, mesh.sharp_edges)) ring.max_Pa = shear.maxCoeff(&ring.instant);
+    ring.max_Pa = shear.maxCoeff(&ring.instant);
     for (const auto& feature : mesh.features)
       if (feature.boundary_id == responses.rings[r].boundary_id) ring.feature = feature.name;
     rings.push_back(ring);
   }
+  if (!mesh.sharp_edges.empty()) leave_out(mesh.sharp_edges, rings);
   return rings;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,14 @@ struct TorsionRing {
   std::string feature;
   double max_Pa = 0;  ///< over the cycle, hypot of the mean sigma_r_theta and sigma_theta_z
   Eigen::Index instant = 0;
+  /// What it may be more up to the border of what is left out, where that is next to it: from the ring within
+  /// in a straight line, which is above a curve that steepens towards the corner.
+  double rise_Pa = 0;
+};
+
+/// The largest torsional stress of all rings by one model, and what that model's mesh makes it wrong by [Pa].
+struct LargestTorsion {
+  double value_Pa = 0, error_Pa = 0;
 };
 
 /// Elastic line at a seat's centre, interpolated between the sections around it.
@@ -51,6 +60,9 @@ struct SeatMotion {
 struct Diagrams {
   std::vector<SectionResult> sections;  ///< ascending z
   std::vector<TorsionRing> rings;
+  /// The same figure by sections that were refined until its error is known: those of the run itself, or of
+  /// harmonics beside a solid.
+  std::optional<LargestTorsion> by_harmonics;
   std::vector<SeatMotion> seats;
   /// max over planes and instants of |by_stress - by_statics| against the largest value of force, bending
   /// moment, torque.

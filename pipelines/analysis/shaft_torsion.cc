@@ -136,10 +136,31 @@ std::optional<double> error_of_twist_Pa(const BodyAnalysis& analysis, const Tors
 }  // namespace
 
 double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
-  if (const auto error_Pa = error_of_twist_Pa(analysis, ring)) return *error_Pa;
-  for (const auto& place : analysis.place_stresses)
-    if (place.feature == ring.feature) return place.error_Pa / std::sqrt(3);
-  return std::numeric_limits<double>::infinity();
+  const auto& other = analysis.diagrams->by_harmonics;
+  const double infinite = std::numeric_limits<double>::infinity();
+  if (analysis.method == Method::axisymmetric) return other ? other->error_Pa : infinite;
+  double rise_Pa = 0;
+  for (const auto& any : analysis.diagrams->rings)
+    rise_Pa = std::max(rise_Pa, any.max_Pa + any.rise_Pa - ring.max_Pa);
+  auto own_Pa = error_of_twist_Pa(analysis, ring);
+  if (own_Pa) *own_Pa += rise_Pa;
+  if (!other) return own_Pa.value_or(infinite);
+  const double difference_Pa = std::abs(ring.max_Pa - other->value_Pa),
+               most_Pa = difference_Pa + other->error_Pa;
+  const bool agree = own_Pa && difference_Pa <= *own_Pa + other->error_Pa;
+  return agree ? std::min(*own_Pa, most_Pa) : most_Pa;
+}
+
+void take_torsion_by_harmonics(const BodyAnalysis& before, BodyAnalysis& after) {
+  if (!before.diagrams || !before.diagrams->by_harmonics || !after.diagrams) return;
+  const auto *ring_before = largest_torsion_ring(*before.diagrams),
+             *ring_after = largest_torsion_ring(*after.diagrams);
+  if (ring_before == nullptr || ring_after == nullptr || !(ring_before->max_Pa > 0) ||
+      ring_before->feature != ring_after->feature)
+    return;
+  const double ratio = ring_after->max_Pa / ring_before->max_Pa;
+  const auto& known = *before.diagrams->by_harmonics;
+  after.diagrams->by_harmonics = LargestTorsion{ratio * known.value_Pa, ratio * known.error_Pa};
 }
 
 Course course_of(const ArrayXd& values) {

@@ -50,10 +50,19 @@ std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis, const 
 /// @param shear_Pa  ring_shear_Pa
 Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 
-/// What the mean shear stress on a ring may be wrong by, for want of a finer mesh [Pa]: no component of shear
-/// is off by more than the von Mises stress of what the tensor is off by, over sqrt(3). Estimated for the
-/// channels that twist the ring alone, since the mean sees nothing of bending and what that is off by.
-/// Without cells, of all that is judged at the ring's place; infinite where nothing is.
+/// What the largest torsional stress of the body may be wrong by, for want of a finer mesh [Pa]. On cells the
+/// smaller of two estimates:
+/// - at the ring's place for the channels that twist the ring alone, since the mean sees nothing of bending
+///   and what that is off by; no component of shear is off by more than the von Mises stress of what the
+///   tensor is off by, over sqrt(3). Beside what is left out at sharp edges, also TorsionRing::rise_Pa.
+/// - the difference to Diagrams::by_harmonics with its error; that one, too, where the models differ by more
+///   than both state.
+/// Of harmonics, their own error; infinite where nothing is known.
+/// @param ring  largest_torsion_ring
 double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring);
+
+/// Diagrams::by_harmonics of an analysis for the same mesh under other loads: with the same relative
+/// difference and error, as long as torsional stress is largest on the same feature.
+void take_torsion_by_harmonics(const BodyAnalysis& before, BodyAnalysis& after);
 
 }  // namespace pipelines

@@ -90,9 +90,23 @@ double missing_Pa(const std::vector<double>& values) {
   return std::max(safety * last / (std::exp2(order) - 1), hidden_share * before);
 }
 
+/// Of torsional stress on one section alone: largest error of 53 twisted shafts 0.31 %, but for what lies
+/// between rings.
+constexpr double error_of_one_section = 0.02;
+
 /// Inside, of a node's value: sections keep their points there. A seat that is tilted had 6.86 MPa at 16 mm
 /// from the axis, where the solid had 7.06 at 15 mm.
 constexpr double unseen_inside = 0.04;
+
+/// What the parabola through a point of a curve and those before and behind it adds to the point's value;
+/// nothing where one of these is higher.
+double above_points_Pa(double value_Pa, double before_Pa, double h1, double behind_Pa, double h2) {
+  const double slope_1 = (before_Pa - value_Pa) / h1, slope_2 = (behind_Pa - value_Pa) / h2;
+  if (slope_1 > 0 || slope_2 > 0) return 0;  // the place ends here: what is higher belongs to the next one
+  const double curvature = (slope_1 + slope_2) / (h1 + h2);
+  const double slope = (slope_2 * h1 - slope_1 * h2) / (h1 + h2);
+  return curvature < 0 ? slope * slope / (-4 * curvature) : 0;
+}
 
 /// What a parabola through the nodes before and behind it on the half plane's surface adds to a node's value:
 /// points of one section are among those of the next, so that a change does not tell of what lies between.
@@ -111,12 +125,54 @@ double between_points_Pa(const fem::Nodes& nodes, const std::vector<double>& val
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   };
   const double h1 = distance_m(*beside.begin()), h2 = distance_m(*beside.rbegin());
-  const double slope_1 = (value_Pa[std::size_t(*beside.begin())] - value_Pa[node]) / h1;
-  const double slope_2 = (value_Pa[std::size_t(*beside.rbegin())] - value_Pa[node]) / h2;
-  if (slope_1 > 0 || slope_2 > 0) return 0;  // the place ends here: what is higher belongs to the next one
-  const double curvature = (slope_1 + slope_2) / (h1 + h2);
-  const double slope = (slope_2 * h1 - slope_1 * h2) / (h1 + h2);
-  return curvature < 0 ? slope * slope / (-4 * curvature) : 0;
+  return above_points_Pa(value_Pa[node], value_Pa[std::size_t(*beside.begin())], h1,
+                         value_Pa[std::size_t(*beside.rbegin())], h2);
+}
+
+/// Of one step: the largest ring of a feature, and what lies between rings, or between them and the border of
+/// what is left out: by the parabola through its neighbours, and by TorsionRing::rise_Pa.
+struct FeatureTorsion {
+  double value_Pa = 0, between_Pa = 0;
+};
+
+double distance_m(const TorsionRing& a, const TorsionRing& b) {
+  return std::hypot(a.z_m - b.z_m, a.radius_m - b.radius_m);
+}
+
+/// The nearest ring of another feature; null: there is none.
+const TorsionRing* next_beyond(const std::vector<TorsionRing>& rings, const TorsionRing& end) {
+  const TorsionRing* nearest = nullptr;
+  for (const auto& ring : rings)
+    if (ring.feature != end.feature &&
+        (nearest == nullptr || distance_m(ring, end) < distance_m(*nearest, end)))
+      nearest = &ring;
+  return nearest;
+}
+
+/// Rings at seams count to both features, as nodes do.
+std::map<std::string, FeatureTorsion> torsion_by_feature(const std::vector<TorsionRing>& rings) {
+  std::map<std::string, std::vector<const TorsionRing*>> by_feature;  // ascending z: a bore's are apart
+  for (const auto& ring : rings) by_feature[ring.feature].push_back(&ring);
+  std::map<std::string, FeatureTorsion> result;
+  for (auto& [feature, own] : by_feature) {
+    const auto *first = next_beyond(rings, *own.front()), *last = next_beyond(rings, *own.back());
+    if (first != nullptr) own.insert(own.begin(), first);
+    if (last != nullptr) own.push_back(last);
+    const auto largest =
+        std::max_element(own.begin(), own.end(), [](auto* a, auto* b) { return a->max_Pa < b->max_Pa; });
+    const auto& here = **largest;
+    auto& torsion = result[feature];
+    torsion.value_Pa = here.max_Pa;
+    for (const auto* ring : own)
+      torsion.between_Pa = std::max(torsion.between_Pa, ring->max_Pa + ring->rise_Pa - here.max_Pa);
+    if (largest == own.begin() || largest + 1 == own.end()) continue;
+    const auto &before = **(largest - 1), &behind = **(largest + 1);
+    if (before.max_Pa == 0 || behind.max_Pa == 0) continue;  // left out beside a sharp edge
+    torsion.between_Pa =
+        std::max(torsion.between_Pa, above_points_Pa(here.max_Pa, before.max_Pa, distance_m(before, here),
+                                                     behind.max_Pa, distance_m(here, behind)));
+  }
+  return result;
 }
 
 }  // namespace
@@ -173,6 +229,7 @@ AxisymmetricStep AxisymmetricRefinement::next(StageClock& clock) {
                                 return 1e3 * least;
                               }());
   learn(step);
+  learn_torsion(step);
   ++n_steps_;
   add_circles(step);
   step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -186,6 +243,24 @@ void AxisymmetricRefinement::learn(AxisymmetricStep& step) {
     place.error_Pa = missing_Pa(values) +
                      between_points_Pa(step.responses.nodes, step.envelope.von_mises.value_Pa, place.node);
   }
+}
+
+/// Twist is the harmonic m = 0 alone: bending and what its section is wrong by have no part in it.
+void AxisymmetricRefinement::learn_torsion(AxisymmetricStep& step) {
+  double own_error_Pa = 0, most_Pa = 0;
+  for (const auto& [feature, now] :
+       torsion_by_feature(torsion_rings(*loads_, step.responses, meshed_->mesh))) {
+    if (now.value_Pa == 0) continue;  // not twisted, or no ring of it is outside what is left out
+    auto& values_Pa = torsion_Pa_[feature];
+    values_Pa.push_back(now.value_Pa);
+    const double error_Pa =
+        now.between_Pa + (values_Pa.size() < 2 ? error_of_one_section * now.value_Pa : missing_Pa(values_Pa));
+    most_Pa = std::max(most_Pa, now.value_Pa + error_Pa);
+    if (now.value_Pa < step.torsion.value_Pa) continue;
+    step.torsion.value_Pa = now.value_Pa;
+    own_error_Pa = error_Pa;
+  }
+  step.torsion.error_Pa = std::max(own_error_Pa, most_Pa - step.torsion.value_Pa);
 }
 
 /// Where a place could be the largest by its error, its largest stress gets a circle of its own.
@@ -206,8 +281,8 @@ bool AxisymmetricRefinement::is_met(const AxisymmetricStep& step, double target)
   return step.peak_error_Pa() <= target * step.peak().value_Pa;
 }
 
-std::vector<PlaceStress> axisymmetric_place_stresses(const BodyScene& body, const MeshedBody& meshed,
-                                                     const BodyLoads& loads, int n_threads, double target) {
+AxisymmetricStresses axisymmetric_stresses(const BodyScene& body, const MeshedBody& meshed,
+                                           const BodyLoads& loads, int n_threads, double target) {
   MeshedBody own = meshed;
   own.mesh.sections.clear();
   StageClock silent;
@@ -218,7 +293,7 @@ std::vector<PlaceStress> axisymmetric_place_stresses(const BodyScene& body, cons
     if (step.responses.n_dofs > most_unknowns) break;
     step = refinement.next(silent);
   }
-  return step.places;
+  return {std::move(step.places), step.torsion};
 }
 
 }  // namespace pipelines

@@ -18,6 +18,7 @@ struct AxisymmetricStep {
   Envelope envelope;
   NodePlaces node_places;
   std::vector<PlaceStress> places;  ///< with their errors; of the first step there are none yet
+  LargestTorsion torsion;           ///< likewise
   double seconds = 0;
 
   const PlaceStress& peak() const;
@@ -45,6 +46,7 @@ public:
 
 private:
   void learn(AxisymmetricStep& step);
+  void learn_torsion(AxisymmetricStep& step);
   void add_circles(const AxisymmetricStep& step);
 
   const MeshedBody* meshed_;
@@ -53,7 +55,7 @@ private:
   fem::MeridianBody section_;
   std::vector<fem::FineCircle> circles_;  // sizes of the first step
   std::vector<fem::SectionPlane> planes_;
-  std::map<std::string, std::vector<double>> values_Pa_;  // by feature, step after step
+  std::map<std::string, std::vector<double>> values_Pa_, torsion_Pa_;  // by feature, step after step
   int n_steps_ = 0;
 };
 

@@ -129,11 +129,15 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
   }
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
   const auto places = step.places;
+  auto torsion = step.torsion;
+  if (const auto beam = beam_shaft(body, own.mesh))
+    torsion.error_Pa += fem::eccentricity_error(*beam) * torsion.value_Pa;
   auto analysis = superpose_body(body, own, std::move(loads), std::move(step.responses), options.n_threads,
                                  clock, {std::move(step.envelope), {}});
   analysis.method = Method::axisymmetric;
   analysis.solve_s = solve.count();
   enter_errors(analysis, places);
+  if (analysis.diagrams) analysis.diagrams->by_harmonics = torsion;
   if (tolerance > 0) {
     search.steps.back().errors = analysis.peak.errors;
     search.met = analysis.peak.errors.reducible_Pa() <= tolerance * analysis.peak.value_Pa;

@@ -18,14 +18,19 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
                                   BodyLoads loads, const RunOptions& options, StageClock& clock,
                                   double tolerance = 0);
 
+/// What axisymmetric_stresses knows.
+struct AxisymmetricStresses {
+  std::vector<PlaceStress> places;
+  LargestTorsion torsion;  ///< of the last section: sections are not refined for its sake
+};
+
 /// By the axisymmetric model, refined until no place's error exceeds `target` of the largest value, or the
 /// step after would have more than about a million unknowns: the errors then say so. A second opinion on
 /// other models of the same loads: on concentric shafts values are within their errors of the elastic
 /// solution.
 /// @param meshed  features, ports, sharp edges and masses of whatever mesh the loads were made for
 /// @throws as analyse_axisymmetric
-std::vector<PlaceStress> axisymmetric_place_stresses(const BodyScene& body, const MeshedBody& meshed,
-                                                     const BodyLoads& loads, int n_threads,
-                                                     double target = 0.005);
+AxisymmetricStresses axisymmetric_stresses(const BodyScene& body, const MeshedBody& meshed,
+                                           const BodyLoads& loads, int n_threads, double target = 0.005);
 
 }  // namespace pipelines

@@ -1,13 +1,14 @@
 #include "pipelines/common/process_limits.h"
 
 #include <pthread.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
+#include "fem/common/memory.h"
 #include "pipelines/common/errors.h"
 
 namespace pipelines {
@@ -34,19 +35,11 @@ void require_usable_stack() {
 }
 
 bool memory_is_limited() {
-  for (const auto limit : {RLIMIT_AS, RLIMIT_DATA}) {
-    rlimit memory{};
-    if (getrlimit(limit, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) return true;
-  }
-  return false;
+  return std::isfinite(fem::limit_of_process());
 }
 
 bool has_memory_to_draw() {
-  if (!memory_is_limited()) return true;
-  void* const room = mmap(nullptr, bytes_to_draw, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED) return false;
-  munmap(room, bytes_to_draw);
-  return true;
+  return !memory_is_limited() || fem::has_room_for(bytes_to_draw);
 }
 
 std::string why_nothing_draws() {

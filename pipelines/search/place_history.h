@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/analysis/diagrams.h"
 #include "pipelines/analysis/place_stress.h"
 
 namespace pipelines {
@@ -38,6 +39,7 @@ struct SecondModel {
   /// What the model itself may be off by, relative; 0: it solves the same problem, and a difference is an
   /// error of either.
   double model_error = 0;
+  LargestTorsion torsion{};  ///< with what that model may be off by, too
 };
 
 /// Of what one mesh tells by itself of an error, the share that later meshes cannot take back, since two

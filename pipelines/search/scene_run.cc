@@ -12,6 +12,7 @@
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
+#include "pipelines/analysis/shaft_torsion.h"
 #include "pipelines/analysis/start_up_stress.h"
 #include "pipelines/analysis/submodels.h"
 #include "pipelines/analysis/superpose_body.h"
@@ -288,6 +289,8 @@ private:
                       state.history.second_model()
                           ? "changes of the stress with the mesh, and harmonics around the axis beside it"
                           : "changes of the stress with the mesh, or cells around");
+    if (analysis.diagrams && state.history.second_model())
+      analysis.diagrams->by_harmonics = state.history.second_model()->torsion;
     const auto stress = governing_stress(analysis);
     state.search.quantity = stress.name();
     state.search.steps.push_back(step_of(run_.scene, i, stress, analysis, seconds_since(state.step_start)));
@@ -443,6 +446,7 @@ private:
       after.responses_reused = before.responses_reused;
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);
+      take_torsion_by_harmonics(before, after);
       take_place_errors(after, before.place_stresses, "as found by the body's search");
       bound_dropped_effects(run_.scene, i, run_.loaded, after);
     }

@@ -32,7 +32,10 @@ std::optional<SecondModel> axisymmetric_second_model(const BodyScene& body, cons
   const bool is_guide = result.model_error > 0;
   const double accuracy =
       is_guide ? any_accuracy : std::clamp(share_of_tolerance * tolerance, best_accuracy, worst_accuracy);
-  result.places = axisymmetric_place_stresses(body, meshed, loads, n_threads, accuracy);
+  auto stresses = axisymmetric_stresses(body, meshed, loads, n_threads, accuracy);
+  result.places = std::move(stresses.places);
+  result.torsion = stresses.torsion;
+  result.torsion.error_Pa += result.model_error * result.torsion.value_Pa;
   for (auto& place : result.places)
     place.error_Pa =
         is_guide ? error_of_guide * place.value_Pa : place.error_Pa + between_angles * place.value_Pa;

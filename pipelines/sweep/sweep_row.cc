@@ -1,5 +1,7 @@
 #include "pipelines/sweep/sweep_row.h"
 
+#include <cmath>
+
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/loads/load_figures.h"
@@ -39,7 +41,8 @@ void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHis
     row.figures.add({"loads", ".warnings"}, "", double(n));
 }
 
-void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional<double> torsion_Pa) {
+void add_body_figures(SweepRow& row, const BodyAnalysis& analysis,
+                      const std::optional<LargestTorsion>& torsion) {
   const std::string body = "bodies." + analysis.scene.name;
   const auto stress = governing_stress(analysis);
   const auto add = [&](const std::string& name, const std::string& unit, double value) {
@@ -51,7 +54,10 @@ void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional
   add(".governing.instant", "", stress.instant);
   add(".peak_von_mises", "Pa", analysis.peak.value_Pa);
   if (!analysis.hot_spots.empty()) add(".hot_spot", "Pa", analysis.hot_spots.front().von_mises_Pa);
-  if (torsion_Pa) add(".torsion.max_shear_stress", "Pa", *torsion_Pa);
+  if (torsion) {
+    add(".torsion.max_shear_stress", "Pa", torsion->value_Pa);
+    if (std::isfinite(torsion->error_Pa)) add(".torsion.max_shear_stress.error", "Pa", torsion->error_Pa);
+  }
   for (const auto& place : analysis.place_stresses) {
     add(".places." + place.feature, "Pa", place.value_Pa);
     add(".places." + place.feature + ".error", "Pa", error_Pa(analysis, place));

@@ -32,7 +32,8 @@ void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHis
 
 /// "bodies.<name>": governing stress with its errors, safety, place, instant; peak, hot spot; the largest
 /// stress of every place that may govern; closure; zones where the analysis has them.
-/// @param torsion_Pa  largest torsional stress of a shaft, where it has one
-void add_body_figures(SweepRow& row, const BodyAnalysis& analysis, std::optional<double> torsion_Pa);
+/// @param torsion  largest torsional stress of a shaft, where it has one; its error where that is finite
+void add_body_figures(SweepRow& row, const BodyAnalysis& analysis,
+                      const std::optional<LargestTorsion>& torsion);
 
 }  // namespace pipelines

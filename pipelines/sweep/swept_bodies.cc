@@ -6,6 +6,7 @@
 #include <set>
 
 #include "pipelines/analysis/respond.h"
+#include "pipelines/analysis/shaft_torsion.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/loads/same_body.h"
@@ -20,13 +21,17 @@ Scene with_masses(Scene scene, const LoadedScene& loaded) {
   return scene;
 }
 
-/// Largest torsional stress of a parametric shaft.
-std::optional<double> torsion_Pa(const BodyScene& body, const BodyAnalysis& analysis) {
-  if (body.shaft() == nullptr) return std::nullopt;
-  const auto rings = torsion_rings(analysis.loads, analysis.responses, analysis.mesh);
-  const auto ring = std::max_element(rings.begin(), rings.end(),
-                                     [](const auto& a, const auto& b) { return a.max_Pa < b.max_Pa; });
-  return ring == rings.end() ? std::nullopt : std::optional(ring->max_Pa);
+/// Largest torsional stress of a parametric shaft, with its error as a run states it.
+/// @param searched  of a body under other loads: the one whose responses it has
+std::optional<LargestTorsion> torsion_of(BodyAnalysis& analysis, const BodyAnalysis& searched) {
+  if (analysis.scene.shaft() == nullptr) return std::nullopt;
+  if (!analysis.diagrams) {
+    analysis.diagrams.emplace().rings = torsion_rings(analysis.loads, analysis.responses, analysis.mesh);
+    take_torsion_by_harmonics(searched, analysis);
+  }
+  const auto* ring = largest_torsion_ring(*analysis.diagrams);
+  if (ring == nullptr) return std::nullopt;
+  return LargestTorsion{ring->max_Pa, ring_error_Pa(analysis, *ring)};
 }
 
 /// The error of a body's governing stress as a share of it; NaN without.
@@ -267,7 +272,7 @@ bool SweptBodies::body_row(std::size_t p, SweepRow& row, Scratch& scratch) {
         scratch.erase(design->get());  // what it was moved from is nothing to go on with
         throw;
       }
-      add_body_figures(whole, copy, torsion_Pa(scene.bodies[b], copy));
+      add_body_figures(whole, copy, torsion_of(copy, (*design)->analysis()));
       whole.texts.emplace_back("bodies." + scene.bodies[b].name + ".mesh", (*design)->searched_for());
     }
     row = std::move(whole);
@@ -285,8 +290,9 @@ void SweptBodies::add_cheap(SweepRow& row, Scene scene, std::size_t b, const Loa
   options.others = loaded.meshed;
   scene.method = method;
   StageClock silent;
-  const auto run = run_scene(scene, options, silent);
-  add_body_figures(row, run.analyses.front(), torsion_Pa(scene.bodies[b], run.analyses.front()));
+  auto run = run_scene(scene, options, silent);
+  auto& analysis = run.analyses.front();
+  add_body_figures(row, analysis, torsion_of(analysis, analysis));
 }
 
 bool SweptBodies::is_met_at_its_own_point(const std::vector<SweepRow>& rows, std::size_t p, std::size_t b,

@@ -34,8 +34,13 @@ void expect_same(const nlohmann::json& point, const nlohmann::json& run, const s
   };
   near("bodies." + body + ".governing", wanted["governing"]["value"]);
   near("bodies." + body + ".peak_von_mises", wanted["peak_von_mises"]["value"]);
-  if (wanted.contains("torsion"))
-    near("bodies." + body + ".torsion.max_shear_stress", wanted["torsion"]["max_shear_stress"]["value"]);
+  if (wanted.contains("torsion")) {
+    const std::string name = "bodies." + body + ".torsion.max_shear_stress";
+    near(name, wanted["torsion"]["max_shear_stress"]["value"]);
+    const double error_Pa = wanted["torsion"]["max_shear_stress"]["error"];
+    EXPECT_GT(error_Pa, 0);
+    EXPECT_NEAR(figure(point, name + ".error"), error_Pa, 1e-6 * error_Pa);
+  }
   near("bodies." + body + ".governing.safety", wanted["governing"]["safety_against_yield"]);
   EXPECT_EQ(point["texts"]["bodies." + body + ".governing.place"], wanted["governing"]["feature"]);
   // A single mesh states the same error of itself in both.

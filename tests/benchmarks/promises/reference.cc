@@ -29,7 +29,7 @@ Reference axisymmetric_reference(const Scene& scene, double wanted) {
   StageClock clock;
   const auto loaded = load_bodies(with_harmonics, {describe_revolved(body)}, clock);
   return by_places(
-      axisymmetric_place_stresses(body, loaded.meshed.front(), loaded.body_loads.front(), 2, wanted));
+      axisymmetric_stresses(body, loaded.meshed.front(), loaded.body_loads.front(), 2, wanted).places);
 }
 
 }  // namespace promises
