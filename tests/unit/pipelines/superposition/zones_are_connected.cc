@@ -64,10 +64,15 @@ TEST(Zones, SharpEdgesHoldNoPeak) {
   ASSERT_EQ(zones.zones.size(), 1u);
   EXPECT_EQ(zones.zones[0].peak_Pa, 10);
   EXPECT_EQ(zones.zone_of_node[0], 0);
-  // Half a layer of the three boxes between nodes that do not hold the origin. Of the six tetrahedra in the
-  // one that does, those with one and two more nodes at 10 count, by three of their four nodes.
-  const double one_below = 1 - 5. / 1000 * 5 / 10 * 5 / 10, two_below = 0.9937625;
-  EXPECT_NEAR(zones.zones[0].volume_m3, 3 * 0.5 + 2 * (one_below + two_below) / 6 * 3 / 4, 1e-13);
+  // Half a layer of the three boxes between nodes that do not hold the origin. The fourth is split along each
+  // diagonal; of a tetrahedron with the origin three of four nodes count. Shares above the level by how many
+  // nodes of the layer a tetrahedron has, without the origin and with it (1000 and one or two nodes at 10).
+  const double one = 1. / 8, two = 1. / 2, three = 7. / 8;
+  const double with_one = 0.75 * 0.9937625, with_two = 0.75 * (1 - 5. / 1000 * 5 / 10 * 5 / 10);
+  const double from_origin = 2 * with_one + 2 * with_two, from_opposite = 2 * one + 2 * two + 2 * with_two,
+               from_beside = 2 * one + two + with_one + three + with_two;  // twice
+  EXPECT_NEAR(zones.zones[0].volume_m3, 3 * 0.5 + (from_origin + from_opposite + 2 * from_beside) / 24,
+              1e-13);
 }
 
 // Distance is to the straight pieces, not to the lines through them (which pass (1, 1)) nor to the box around
