@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "fem/common/lagrange.h"
@@ -72,19 +73,17 @@ public:
         pieces_(nodes.shape().is_tetrahedron() ? pieces_of_tetrahedron()
                                                : pieces_of_hexahedron(nodes.degree)),
         determinant_(nodes.nodes_per_cell()),
+        volumes_(pieces_.size()),
         local_(nodes.nodes_per_cell()) {}
 
   /// Adds the cell's volume to its nodes'.
   void share_out(std::size_t cell, std::vector<double>& volume_of_node) {
     take(nodes_.cell(cell));
-    find_determinants();
-    std::vector<double> own(local_.size(), 0.0);
-    double sum = 0;
-    for (const auto& piece : pieces_)
-      for (const int corner : piece.nodes) own[std::size_t(corner)] += volume_of(piece) / 4;
-    for (const double v : own) sum += v;
-    const double scale = exact() / sum;
-    for (std::size_t i = 0; i < own.size(); ++i) volume_of_node[local_[i]] += scale * own[i];
+    const double whole = exact(), sum = measure_pieces(whole);
+    if (!(sum > 0)) return;
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      for (const int corner : pieces_[p].nodes)
+        volume_of_node[local_[std::size_t(corner)]] += whole * volumes_[p] / sum / 4;
   }
 
   double above(std::size_t cell, const std::vector<double>& value, double level,
@@ -95,11 +94,12 @@ public:
     if (n_in == 0) return 0;
     const double whole = exact();
     if (std::size_t(n_in) == local_.size()) return whole;
-    find_determinants();
-    double sum = 0, part = 0;
-    for (const auto& piece : pieces_) {
+    const double sum = measure_pieces(whole);
+    if (!(sum > 0)) return 0;
+    double part = 0;
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const auto& piece = pieces_[p];
       std::array<double, 4> beyond{};
-      const double volume = volume_of(piece);
       int n_kept = 0, n_kept_in = 0;
       for (std::size_t i = 0; i < 4; ++i) {
         const auto node = local_[std::size_t(piece.nodes[i])];
@@ -107,8 +107,7 @@ public:
         n_kept += left_out[node] == 0;
         n_kept_in += is_in(node);
       }
-      sum += volume;
-      if (n_kept_in > 0) part += volume * share_above_zero(beyond) * n_kept / 4;
+      if (n_kept_in > 0) part += volumes_[p] * share_above_zero(beyond) * n_kept / 4;
     }
     return whole * part / sum;
   }
@@ -120,15 +119,34 @@ private:
       local_[nodes_.shape().is_tetrahedron() ? v : std::size_t(order[v])] = std::size_t(cell[v]);
   }
 
-  /// Of the cell that was taken; cells that the level does not cut do without.
-  void find_determinants() {
+  /// Volumes of the pieces of the cell that was taken; cells that the level does not cut do without. A cell
+  /// that is turned from a triangle at the axis is a tetrahedron, and its Jacobian vanishes at all corners:
+  /// its pieces have the volumes between their corners.
+  /// @return their sum; 0: the cell has no volume
+  double measure_pieces(double whole) {
+    constexpr double collapsed = 1e-6;
     for (std::size_t i = 0; i < local_.size(); ++i) determinant_[i] = determinant(at_nodes_, int(i));
+    double sum = 0;
+    for (std::size_t p = 0; p < pieces_.size(); ++p) sum += volumes_[p] = volume_of(pieces_[p]);
+    if (sum > collapsed * whole) return sum;
+    sum = 0;
+    for (std::size_t p = 0; p < pieces_.size(); ++p) sum += volumes_[p] = volume_between_corners(pieces_[p]);
+    return sum;
   }
 
   double volume_of(const SubTetrahedron& piece) const {
     double sum = 0;
     for (const int corner : piece.nodes) sum += determinant_[std::size_t(corner)];
     return piece.reference_volume * sum / 4;
+  }
+
+  double volume_between_corners(const SubTetrahedron& piece) const {
+    const auto corner = [&](std::size_t i) {
+      return Eigen::Map<const Eigen::Vector3d>(&nodes_.xyz_m[3 * local_[std::size_t(piece.nodes[i])]]);
+    };
+    Eigen::Matrix3d edges;
+    for (std::size_t i = 0; i < 3; ++i) edges.col(Eigen::Index(i)) = corner(i + 1) - corner(0);
+    return std::abs(edges.determinant()) / 6;
   }
 
   double determinant(const Tabulation& at, int q) const {
@@ -150,7 +168,7 @@ private:
   const Nodes& nodes_;
   Tabulation at_nodes_, inside_;
   std::vector<SubTetrahedron> pieces_;
-  std::vector<double> determinant_;
+  std::vector<double> determinant_, volumes_;
   std::vector<std::size_t> local_;  // node of each local number
 };
 

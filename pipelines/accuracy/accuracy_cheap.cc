@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "fem/beam/beam_responses.h"
@@ -8,15 +9,13 @@
 #include "pipelines/cheap_models/chamber_tube.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/refusal_of.h"
-#include "pipelines/search/refinement.h"
 
 namespace pipelines {
 namespace {
 
 /// Cells become half as large from one size of harmonics to the next. Ends of loaded zones let stress
-/// converge with first order only: of a change d, d is missing still, and 2 d on the coarser mesh. As
-/// learn_from_change takes it:
-constexpr double finer_of_two = 2, first_of_two = 1.5, harmonics_order = 1;
+/// converge with first order only: of a change d, d is missing still.
+constexpr double size_ratio = 2, harmonics_order = 1;
 
 /// A cheap model's responses, and what the model itself is known to be off by.
 struct CheapModel {
@@ -89,14 +88,25 @@ std::optional<AccuracyRow> cheap_model(const std::string& name, AccuracyBench& b
   return row;
 }
 
-/// Each size learns from the one before; the first from the second.
+/// What the finest size misses: the last change, or half of the one before, since two sizes may agree by
+/// chance. One size alone tells nothing.
+double missing_of_finest_Pa(const std::vector<AccuracyRow>& rows) {
+  if (rows.size() < 2) return rows.back().value_Pa;
+  double missing_Pa = 0, share = 1 / (std::pow(size_ratio, harmonics_order) - 1);
+  for (std::size_t i = rows.size() - 1; i > 0; --i, share /= std::pow(size_ratio, harmonics_order))
+    missing_Pa = std::max(missing_Pa, share * std::abs(rows[i].value_Pa - rows[i - 1].value_Pa));
+  return missing_Pa;
+}
+
+/// Each size is off by its distance from the finest, and by what that misses.
 void learn_from_sizes(std::vector<AccuracyRow>& rows) {
+  if (rows.empty()) return;
+  const double finest_Pa = rows.back().value_Pa, missing_Pa = missing_of_finest_Pa(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     auto& row = rows[i];
-    const double other_Pa = rows[i > 0 ? i - 1 : std::min<std::size_t>(1, rows.size() - 1)].value_Pa;
-    row.errors.set_numerical({"discretisation", "", 0});
-    learn_from_change(row.errors, row.value_Pa - other_Pa, i > 0 ? finer_of_two : first_of_two, 3,
-                      harmonics_order);
+    row.errors.set_numerical({"discretisation",
+                              "distance from the finest section, and what the changes before say of that",
+                              std::abs(row.value_Pa - finest_Pa) + missing_Pa});
     if (i > 0) row.seconds += rows[i - 1].seconds;
   }
 }

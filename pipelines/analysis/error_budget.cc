@@ -16,8 +16,8 @@ namespace pipelines {
 namespace {
 
 /// What a finer model than harmonics or a beam would not leave out.
-constexpr std::array<const char*, 6> of_cheaper_models = {"model",       "near_loads",  "eccentric_segments",
-                                                          "offset_axis", "ovalisation", "spin"};
+constexpr std::array<const char*, 7> of_cheaper_models = {
+    "model", "beam_model", "near_loads", "eccentric_segments", "offset_axis", "ovalisation", "spin"};
 
 double sum_of(const std::vector<ErrorEntry>& entries) {
   double sum = 0;

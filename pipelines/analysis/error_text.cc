@@ -26,7 +26,7 @@ std::string remedy_of_model(const std::string& source) {
   if (source == "quasi_static")
     return "keep the natural frequencies away from the harmonics of the stress; no mesh lowers it";
   for (const char* of_cheap_model :
-       {"model", "near_loads", "ovalisation", "spin", "eccentric_segments", "offset_axis"})
+       {"model", "beam_model", "near_loads", "ovalisation", "spin", "eccentric_segments", "offset_axis"})
     if (source == of_cheap_model) return "--method solid";
   if (source == "dropped_effects") return "name the effects instead of effects = \"auto\"";
   return "no mesh lowers it";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "pipelines/analysis/crest_elsewhere.h"
 #include "pipelines/analysis/load_edge.h"
@@ -143,6 +144,8 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
 void add_zones(const ZoneRule& rule, BodyAnalysis& analysis) {
   analysis.zones = divided(zones_of(analysis, rule), analysis.responses.nodes, analysis.envelope.von_mises,
                            analysis.places);
+  if (analysis.method == Method::beam)  // its cells span from the surface to the axis
+    for (auto& zone : analysis.zones.zones) zone.volume_m3 = std::numeric_limits<double>::quiet_NaN();
   analysis.zone_causes = causes_of(analysis.zones, analysis.responses, analysis.loads.history);
   estimate_errors_shown(analysis, analysis.place_stresses);
   take_zone_errors(analysis);

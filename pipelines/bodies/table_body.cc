@@ -223,11 +223,13 @@ BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<s
   for (const auto& port : body.ports)
     if (std::find(bearings.begin(), bearings.end(), port.name) == bearings.end())
       collector.pressure(port.name);
+  // Along the axis first: off the axis of an eccentric port, that tilts the body, which the bearings then
+  // carry.
+  if (!options.axial_support.empty()) collector.react_axial(options.axial_support);
   if (bearings.size() == 2) {
     collector.react(bearings[0], bearings[1]);
     for (const auto& bearing : bearings) collector.pressure(bearing);
   }
-  if (!options.axial_support.empty()) collector.react_axial(options.axial_support);
   if (!options.torque_support.empty()) collector.react_torque(options.torque_support);
   return collector.finish();
 }

@@ -275,8 +275,10 @@ BodyLoads distribute_train_shaft(const kinetics::LoadHistory& loads, double mean
       collector.axial_force(force.port, force.effect, ArrayXd::Constant(n, force.force_N[2]));
   }
   if (!options.forces.empty()) {
-    collector.react(options.bearings[0], options.bearings[1]);
+    // Along the axis first: off the axis of an eccentric port, that tilts the shaft, which the bearings then
+    // carry.
     if (!options.axial_bearing.empty()) collector.react_axial(options.axial_bearing);
+    collector.react(options.bearings[0], options.bearings[1]);
     for (const auto& port : body.ports) collector.pressure(port.name);
   }
   return collector.finish();

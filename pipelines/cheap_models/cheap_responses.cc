@@ -149,12 +149,13 @@ std::vector<ErrorEntry> beam_model_entries(const fem::BeamShaft& shaft, const Bo
                                            const fem::Nodes& nodes, const std::vector<double>& von_mises_Pa,
                                            const std::vector<char>& excluded, double peak_Pa) {
   std::vector<ErrorEntry> entries{
-      {"model", "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
+      {"beam_model", "beam: spread of the fillets' published factors and eccentric shoulders, times 3",
        beam_safety * fem::beam_model_error(shaft) * peak_Pa}};
   const auto add = [&](const char* source, const char* method, double value_Pa) {
     if (value_Pa > 0) entries.push_back({source, method, value_Pa});
   };
-  add("near_loads", "tractions on seats; axial loads that enter, loads that bend, within a diameter, times 2.5",
+  add("near_loads",
+      "tractions on seats; axial loads that enter, loads that bend, within a diameter, times 2.5",
       near_load_stress_Pa(shaft, loads, nodes, von_mises_Pa, excluded, peak_Pa));
   add("ovalisation", "bored seats as rings, twice as much at a fillet",
       fillet_factor * ring_stress_Pa(shaft, loads));

@@ -92,8 +92,16 @@ public:
   }
   std::optional<kinetics::LoadHistory> start_up(const Scene& scene, const Machine& machine) const override {
     if (!scene.torsion.transient) return std::nullopt;
-    return kinetics::compute_transient_loads(train_in(machine), scene.kinetics_effects(),
-                                             transient_run(scene.torsion));
+    const auto effects = scene.kinetics_effects();
+    const auto train = kinetics::with_effects(train_in(machine), effects);
+    auto loads = kinetics::compute_transient_loads(train_in(machine), effects, transient_run(scene.torsion));
+    Eigen::ArrayXd largest_Nm(train.elements.size());
+    for (std::size_t e = 0; e < train.elements.size(); ++e)
+      largest_Nm[Eigen::Index(e)] =
+          loads.quantity(train.elements[e].name + ".torque").values.abs().maxCoeff();
+    if (const auto coarse = coarse_transient(train, scene.torsion, largest_Nm))
+      loads.warnings.push_back(*coarse);
+    return loads;
   }
   std::string why_no_run_up_of_given_duration() const override {
     return "a train's start is [machine.transient], which says how long it takes; leave it out";

@@ -132,11 +132,12 @@ void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis&
                      "  moment", "where");
   for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i) {
     const auto error = error_Pa(analysis, zones[i]);
-    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13.1f}  {:<20}{}\n", i + 1, zones[i].feature,
-                       stress_in_MPa(zones[i].peak_Pa, error.value_or(0)),
-                       error ? fixed(*error / 1e6, 1) : "-", fixed(zones[i].safety, 2),
-                       zones[i].volume_m3 * 1e9, "  " + when(report, zones[i].instant),
-                       to_string(zones[i].place));
+    out << fmt::format(
+        "  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13}  {:<20}{}\n", i + 1, zones[i].feature,
+        stress_in_MPa(zones[i].peak_Pa, error.value_or(0)), error ? fixed(*error / 1e6, 1) : "-",
+        fixed(zones[i].safety, 2),
+        std::isfinite(zones[i].volume_m3) ? fmt::format("{:.1f}", zones[i].volume_m3 * 1e9) : "-",
+        "  " + when(report, zones[i].instant), to_string(zones[i].place));
     for (const auto& text : {causes_text(analysis, i), parts_text(zones[i])})
       if (!text.empty()) out << "       " << text << '\n';
   }

@@ -55,7 +55,9 @@ void write_zones(const path& file, const Scene& scene, const kinetics::LoadHisto
   for (std::size_t c = 0; c < 3; ++c)
     columns.push_back(
         column(std::string(1, "xyz"[c]), "m", zones, [&](const Zone& z) { return z.peak_m[c]; }));
-  columns.push_back(column("volume", "m3", zones, [](const Zone& z) { return z.volume_m3; }));
+  columns.push_back(column("volume", "m3", zones, [](const Zone& z) {
+    return std::isfinite(z.volume_m3) ? shortest(z.volume_m3) : std::string();
+  }));
   columns.push_back(column("nodes", "", zones, [](const Zone& z) { return std::int64_t(z.n_nodes); }));
   for (std::size_t c = 0; c < 6; ++c)
     columns.push_back(

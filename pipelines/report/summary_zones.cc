@@ -64,7 +64,7 @@ Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
     Json entry = object({{"peak_von_mises_Pa", number(zone.peak_Pa)},
                          {"error_Pa", error ? number_or_none(*error) : Json(nullptr)},
                          {"safety_against_yield", number_or_none(zone.safety)},
-                         {"volume_m3", number(zone.volume_m3)},
+                         {"volume_m3", number_or_none(zone.volume_m3)},
                          {"nodes", zone.n_nodes}});
     entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
     if (json.size() < analysis.zone_causes.size())

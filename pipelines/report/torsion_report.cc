@@ -42,6 +42,9 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
   }
   if (scene.torsion.transient) {
     report.transient = kinetics::transient(on, transient_run(scene.torsion));
+    if (const auto coarse = coarse_transient(on, scene.torsion,
+                                             report.transient->motion.torque_Nm.abs().rowwise().maxCoeff()))
+      warnings.push_back(*coarse);
   }
   if (scene.torsion.published_tables) report.published = kinetics::published_tables(on);
   require_finite(report);

@@ -24,8 +24,7 @@ constexpr double most_instants = 20'000;
 
 Scene scene_of_block(const DutyBlock& block, const Scene& as_read, const Scene& found) {
   Scene scene = *block.scene;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    FoundBody(as_read.bodies[b], found, b).enter(scene, b);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) FoundBody(as_read, found, b).enter(scene, b);
   if (!scene.effect_choice.offered.empty()) {  // effects = "auto": as the scene's own running has them
     scene.effects = found.effects;
     scene.effect_choice = found.effect_choice;

@@ -4,10 +4,12 @@
 
 namespace pipelines {
 
-FoundBody::FoundBody(const BodyScene& as_read, const Scene& found, std::size_t i_body)
+FoundBody::FoundBody(const Scene& as_read, const Scene& found, std::size_t i_body)
     : body(found.bodies[i_body]),
-      added_harmonics(body.pressure_harmonics - as_read.pressure_harmonics),
-      instants_per_turn(found.sampling.instants_per_turn) {}
+      added_harmonics(body.pressure_harmonics - as_read.bodies[i_body].pressure_harmonics),
+      instants_per_turn(found.sampling.instants_per_turn > as_read.sampling.instants_per_turn
+                            ? found.sampling.instants_per_turn
+                            : 0) {}
 
 void FoundBody::enter(Scene& scene, std::size_t i_body) const {
   auto& other = scene.bodies[i_body];

@@ -6,15 +6,15 @@
 namespace pipelines {
 
 struct FoundBody {
-  BodyScene body;           ///< with the mesh that was found
-  int added_harmonics = 0;  ///< of seat pressure, beside those of the scene as read
-  int instants_per_turn = 0;
+  BodyScene body;             ///< with the mesh that was found
+  int added_harmonics = 0;    ///< of seat pressure, beside those of the scene as read
+  int instants_per_turn = 0;  ///< 0: the search asked for no more than the scene has
 
   /// @param as_read  before the search
-  /// @param found    of the same body, after it
-  FoundBody(const BodyScene& as_read, const Scene& found, std::size_t i_body);
+  /// @param found    after it
+  FoundBody(const Scene& as_read, const Scene& found, std::size_t i_body);
 
-  /// Puts mesh, harmonics and instants into another version of the scene.
+  /// Puts mesh, and the harmonics and instants that were added, into another version of the scene.
   void enter(Scene& scene, std::size_t i_body) const;
 };
 

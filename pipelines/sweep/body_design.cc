@@ -8,7 +8,7 @@
 
 namespace pipelines {
 
-BodyDesign::BodyDesign(const BodyScene& as_read, SceneRun& run, std::size_t i_body, std::string point)
+BodyDesign::BodyDesign(const Scene& as_read, SceneRun& run, std::size_t i_body, std::string point)
     : searched_for_(std::move(point)),
       found_(as_read, run.scene, i_body),
       meshed_(std::move(run.loaded.meshed[i_body])) {

@@ -22,10 +22,10 @@ struct PlaceShare {
 
 class BodyDesign {
 public:
-  /// @param as_read  the body before a search chose its mesh
+  /// @param as_read  the point before a search chose its mesh
   /// @param run      the body's analysis is moved out of it
   /// @param point    whose run it is, as searched_for() has it
-  BodyDesign(const BodyScene& as_read, SceneRun& run, std::size_t i_body, std::string point);
+  BodyDesign(const Scene& as_read, SceneRun& run, std::size_t i_body, std::string point);
 
   /// The shares of another design on the same mesh, which a search has found.
   void take_shares(const BodyDesign& searched) {

@@ -198,7 +198,7 @@ void SweptBodies::solve_for(std::size_t p, StageClock& clock) {
 /// @param searched  on whose mesh it is; null: on its own
 const BodyDesign* SweptBodies::keep_design(std::size_t p, std::size_t b, const Scene& before, SceneRun& run,
                                            const BodyDesign* searched) {
-  auto design = std::make_shared<BodyDesign>(before.bodies[b], run, b, names_[p]);
+  auto design = std::make_shared<BodyDesign>(before, run, b, names_[p]);
   if (searched != nullptr) design->take_shares(*searched);
   solution_of(p, b).designs.push_back(design);
   return design.get();

@@ -393,7 +393,15 @@ TEST(Fatigue, OfABeamStatesWhatIsNotKnown) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ((outcome.out + outcome.err).find("which is safe"), std::string::npos);
   EXPECT_EQ((outcome.out + outcome.err).find("known to nothing"), std::string::npos);
-  const auto governing = summary(directory / "out")["bodies"]["shaft"]["governing"];
+  const auto shaft = summary(directory / "out")["bodies"]["shaft"];
+  for (const auto& zone : shaft["zones"]) EXPECT_TRUE(zone["volume_m3"].is_null()) << zone;
+  const auto governing = shaft["governing"];
+  const auto& error = governing["error"];
+  EXPECT_NEAR(error["numerical"].get<double>() + error["model"].get<double>(), error["total"].get<double>(),
+              1e-9 * error["total"].get<double>());
+  EXPECT_NEAR(error["beam_model"].get<double>() + error.value("near_loads", 0.0) +
+                  error.value("ovalisation", 0.0) + error.value("spin", 0.0),
+              error["model"].get<double>(), 1e-9 * error["total"].get<double>());
   const double total = governing["error"]["total"].get<double>() / governing["value"].get<double>();
   char text[80];
   std::snprintf(text, sizeof text, "is known to %.2g %% only, all its errors together", 100 * total);

@@ -1,6 +1,7 @@
 /// The load stage as a product by itself: every machine through a scene, against the specifications' numbers.
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "tests/cases/program.h"
 #include "tests/cases/small_shaft.h"
@@ -207,6 +208,35 @@ TEST(LoadStage, TorsionWarnsOfItsWindow) {
   EXPECT_EQ(json["warnings"], nlohmann::json::array({warning}));
   const auto printed = millstress(directory.path, "torsion beat.toml").out;
   EXPECT_NE(printed.find("warning: " + warning), std::string::npos) << printed;
+}
+
+// Steps that do not follow the train's vibration, and stored instants that pass its peaks by, give any
+// torque; the energy balance closes all the same.
+TEST(LoadStage, TorsionWarnsOfCoarseTransients) {
+  const results_test::Directory directory;
+  write(directory / "train.toml", edited("drive_train.toml", {}));
+  const std::string command =
+      "torsion train.toml --json --set machine.transient.excitations=true --set machine.transient.";
+  const auto sound = json_of(directory.path, command + "store_every=4");
+  EXPECT_EQ(sound["warnings"], nlohmann::json::array());
+  const auto true_Nm = [&](const std::string& element) {
+    return sound["torsion"]["transient"]["largest_torque_Nm"][element].get<double>();
+  };
+  for (const char* coarse : {"step=0.008", "step=0.02", "store_every=1100"}) {
+    const auto json = json_of(directory.path, command + coarse);
+    ASSERT_EQ(json["warnings"].size(), 1u) << coarse;
+    const auto text = json["warnings"][0].get<std::string>();
+    std::smatch said;
+    ASSERT_TRUE(std::regex_search(text, said,
+                                  std::regex("largest torque of (\\S+) is (\\S+) N m by the steps .*, "
+                                             "(\\S+) N m by steps of")))
+        << text;
+    const std::string element = said[1];
+    const double given_Nm = json["torsion"]["transient"]["largest_torque_Nm"][element];
+    EXPECT_NEAR(std::stod(said[2]), given_Nm, 0.005 * given_Nm) << text;
+    EXPECT_NEAR(std::stod(said[3]), true_Nm(element), 0.02 * true_Nm(element)) << text;
+    EXPECT_GT(std::abs(given_Nm - true_Nm(element)), 0.05 * true_Nm(element)) << text;
+  }
 }
 
 // L10h from the equivalent load of the series that the program wrote: P = (mean F^p)^(1/p), L = (C/P)^p.

@@ -108,14 +108,15 @@ TEST(Sweeps, OfBeamsLeaveNoEmptyFolder) {
 }
 
 // An effect that is off has no channels, so that another set of unit loads would be solved; other sectors are
-// another mesh; the yield strength is no part of either.
+// another mesh; the yield strength is no part of either. A mesh takes no more instants to another point than
+// its search asked for beyond the scene's.
 TEST(Sweeps, EffectsMaterialsAndMeshesAreValuesLikeAnyOther) {
   const results_test::Directory directory;
   // Sweeps look for crests between the instants at the point that governs alone; of so many, runs do, too.
   write(directory / "mill.toml",
         with_edits(shaft_alone(coarse()), {{"instants_per_turn = 24", "instants_per_turn = 96"}}));
   for (const char* vary : {"effects.charge_lag = on, off' --vary 'shaft.material.yield_strength = 250 MPa",
-                           "shaft.mesh.sectors = 8, 12"}) {
+                           "shaft.mesh.sectors = 8, 12", "sampling.instants_per_turn = 100, 96"}) {
     const auto points =
         points_of(directory.path, std::string("mill.toml --tolerance none -o swept --vary '") + vary + "'");
     ASSERT_EQ(points.size(), 2u) << vary;

@@ -1,6 +1,7 @@
 // The volume of the part of a body above a level: closed forms on cells of every kind, straight and curved.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -79,6 +80,27 @@ TEST(RegionVolume, OfALinearFieldIsExactOnStraightCells) {
   const auto values = at_nodes(nodes, [](const double* x) { return 2 * x[0]; });
   for (const double level : {0.0, 0.2, 0.66, 1.3, 2.1})
     EXPECT_NEAR(above(nodes, values, level), level > 2 ? 0 : 1 - level / 2, 1e-13);
+}
+
+// A triangle with two corners on the axis, turned: a hexahedron of which two edges are one piece of the axis,
+// and two others are points. Its Jacobian vanishes at all eight corners.
+TEST(RegionVolume, OfACellThatIsATetrahedron) {
+  const std::array<std::array<double, 3>, 4> corners = {{{1, 0, 0.5}, {0, 1, 0.5}, {0, 0, 0}, {0, 0, 1}}};
+  for (const double factor : {1.0, 0.3e-3}) {
+    fem::Nodes nodes;
+    nodes.degree = 1;
+    nodes.n = 4;
+    for (const auto& corner : corners)
+      for (const double x : corner) nodes.xyz_m.push_back(factor * x);
+    nodes.cells = {0, 2, 3, 0, 1, 2, 3, 1};
+    const double whole = std::pow(factor, 3) / 6;
+    EXPECT_NEAR(above(nodes, {1, 1, 1, 1}, 0), whole, 1e-12 * whole);
+    for (const auto& values : {std::vector<double>{-1, -1, 0.5, -1}, {-1, -2, 3, 2}, {1, -3, 1, 1}}) {
+      const double share = fem::share_above_zero({values[0], values[1], values[2], values[3]});
+      EXPECT_NEAR(above(nodes, values, 0), share * whole, 1e-12 * whole);
+    }
+    for (const double v : fem::nodal_volumes_m3(nodes)) EXPECT_GT(v, 0);
+  }
 }
 
 // Whatever the field: what is above a level in a cell is neither negative nor more than the cell, and with

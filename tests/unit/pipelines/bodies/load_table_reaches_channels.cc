@@ -96,6 +96,21 @@ TEST(LoadTable, SupportsCloseEveryEffect) {
   }
 }
 
+// What carries forces along the axis beside it, as an eccentric seat, tilts the body, and the bearings hold
+// that.
+TEST(LoadTable, AnEccentricAxialSupportIsClosed) {
+  auto body = part();
+  body.ports[0] = bodies::port("disc", Kind::seat, 1, {0.1, 0.14}, 0.02, {0.003, -0.001});
+  auto options = supports();
+  options.axial_support = "disc";
+  for (const auto& effects : {std::vector<std::string>{"a", "b", "c"}, {"a"}}) {
+    const auto result = distribute_table(every_component(), effects, grid, body, options);
+    const auto closure = bodies::closure_of(result, body.regions);
+    EXPECT_LT(closure.worst_force(), bodies::round_off);
+    EXPECT_LT(closure.worst_moment(), bodies::round_off);
+  }
+}
+
 // Without a support its component stays open, and only that.
 TEST(LoadTable, MissingSupportLeavesItsComponent) {
   auto options = supports();

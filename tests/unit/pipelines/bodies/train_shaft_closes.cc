@@ -69,6 +69,16 @@ TEST(TrainShaft, ClosesAtEveryInstant) {
 }
 
 // T_34 drives, counter-clockwise; the disc holds back.
+// The weight along the axis, carried beside it, tilts the shaft.
+TEST(TrainShaft, ClosesWithAnEccentricAxialBearing) {
+  Peeler peeler;
+  for (auto& port : peeler.body.ports)
+    if (port.name == "pulley_seat") port.axis_x_m = 0.001;
+  peeler.options.axial_bearing = "pulley_seat";
+  const auto closure = bodies::closure_of(peeler.loads(), peeler.body.regions);
+  EXPECT_LT(std::hypot(closure.moment[0], closure.moment[1]), 1e-12);
+}
+
 TEST(TrainShaft, TorquesAreTheElements) {
   const Peeler peeler;
   const auto loads = peeler.loads();
