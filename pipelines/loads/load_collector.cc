@@ -105,7 +105,11 @@ void LoadCollector::add(const fem::UnitLoad& load, const std::string& unit, cons
   const auto [position, is_new] = index_.try_emplace(load.channel, channels_.size());
   if (is_new) channels_.push_back({load, unit, {}});
   const auto [part, is_first] = channels_[position->second].parts.try_emplace(index_of(effect), values);
-  if (!is_first) part->second += values;
+  if (is_first) return;
+  const double summed = std::max(largest(part->second), largest(values));
+  part->second += values;
+  // A load where it is carried: what is left of both is rounding, which would be solved and judged as a load.
+  if (largest(part->second) <= negligible * summed) part->second.setZero();
 }
 
 void LoadCollector::count(const std::string& place, const std::string& effect, const Eigen::Vector3d& p,
@@ -286,13 +290,18 @@ double LoadCollector::moment_scale_Nm() const {
 
 BodyLoads LoadCollector::finish() const {
   BodyLoads result;
-  const auto n_channels = Index(channels_.size());
+  std::vector<const Entry*> loading;
+  for (const auto& channel : channels_)
+    if (std::any_of(channel.parts.begin(), channel.parts.end(),
+                    [](const auto& part) { return largest(part.second) > 0; }))
+      loading.push_back(&channel);
+  const auto n_channels = Index(loading.size());
   result.history.body = body_.name;
   result.history.effects = effects_;
   result.history.by_effect.assign(effects_.size(), Eigen::ArrayXXd::Zero(n_channels, n_instants_));
   result.history.values = Eigen::ArrayXXd::Zero(n_channels, n_instants_);
   for (Index k = 0; k < n_channels; ++k) {
-    const auto& channel = channels_[std::size_t(k)];
+    const auto& channel = *loading[std::size_t(k)];
     result.history.channels.push_back({channel.load.channel, channel.unit});
     result.unit_loads.push_back(channel.load);
     for (const auto& [effect, values] : channel.parts) {

@@ -135,6 +135,24 @@ TEST(LoadTable, LoadOnABearingPressesOnce) {
   EXPECT_LT(bodies::largest(bodies::course(result, "left.p0c") - size), 1e-11 * bodies::largest(size));
 }
 
+// Rounding of what a load and its own reaction leave is no load: it would be solved, and have an amplitude
+// with shares.
+TEST(LoadTable, LoadsWhereTheyAreCarriedLeaveNothing) {
+  const LoadTable table{
+      53,
+      {load("a", "left", "fx", "N", 2279.82, 713.3), load("b", "right", "fy", "N", 0, 3131.7),
+       load("b", "left", "fz", "N", -118.1, 17), load("c", "right", "torque", "N m", 3.7, 1.1)}};
+  EXPECT_TRUE(loads(table).unit_loads.empty());
+  auto with_spin = table;
+  with_spin.loads.push_back(load("c", "volume", "spin", "rad2/s2", 2809));
+  auto body = part();
+  body.regions.front().masses.first_moment_kg_m = {0, 0, 0.3};
+  body.regions.front().masses.second_moments_kg_m2 = {2e-3, 3e-3, 0.05, 0, 0, 0};
+  const auto result = distribute_table(with_spin, {"a", "b", "c"}, grid, body, supports());
+  ASSERT_EQ(result.history.channels.size(), 1u);
+  EXPECT_EQ(result.history.channels.front().name, "volume.spin");
+}
+
 std::string refusal(const LoadTable& table) {
   try {
     loads(table);
