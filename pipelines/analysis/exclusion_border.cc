@@ -16,14 +16,15 @@ using NodeSpan = decltype(std::declval<const fem::Nodes&>().face(0));
 
 class Border {
 public:
-  Border(const BodyAnalysis& analysis, double largest_Pa) : analysis_(analysis), largest_Pa_(largest_Pa) {}
+  Border(const StressBesideEdges& body, double largest_Pa) : body_(body), largest_Pa_(largest_Pa) {}
 
   /// @param boundary_id  whose own distances count; none: inside the body
   void look_at(const NodeSpan& nodes, std::optional<int> boundary_id) {
-    const auto& excluded = analysis_.places.excluded;
+    const auto& excluded = body_.places.excluded;
+    const auto is_within = [&](auto node) { return excluded[std::size_t(node)] != 0; };
+    if (std::none_of(nodes.begin(), nodes.end(), is_within)) return;
     std::vector<std::size_t> within, outside;
-    for (const auto i : nodes) (excluded[std::size_t(i)] != 0 ? within : outside).push_back(std::size_t(i));
-    if (within.empty()) return;
+    for (const auto i : nodes) (is_within(i) ? within : outside).push_back(std::size_t(i));
     for (const auto node : outside) {
       const auto next = nearest(node, within);
       if (nearest(next, outside) == node)
@@ -35,7 +36,7 @@ public:
 
 private:
   std::array<double, 3> point_m(std::size_t node) const {
-    const double* x = &analysis_.responses.nodes.xyz_m[3 * node];
+    const double* x = &body_.nodes.xyz_m[3 * node];
     return {x[0], x[1], x[2]};
   }
 
@@ -51,7 +52,7 @@ private:
   }
 
   double on_border_Pa(std::size_t outside, std::size_t within, std::optional<int> boundary_id) const {
-    const auto& stress_Pa = analysis_.envelope.von_mises.value_Pa;
+    const auto& stress_Pa = body_.von_mises_Pa;
     const double rise_Pa = stress_Pa[within] - stress_Pa[outside];
     if (!(rise_Pa > 0) || stress_Pa[within] <= largest_Pa_) return stress_Pa[outside];
     const double from_m = std::max(0.0, beyond_m(outside, boundary_id)),
@@ -63,7 +64,7 @@ private:
   /// Distance to the nearest border; negative within.
   double beyond_m(std::size_t node, std::optional<int> boundary_id) const {
     double least_m = std::numeric_limits<double>::max();
-    for (const auto& edge : analysis_.mesh.sharp_edges) {
+    for (const auto& edge : body_.mesh.sharp_edges) {
       double border_m = edge.distance_m;
       if (boundary_id)
         if (const auto own = edge.distance_on_m.find(*boundary_id); own != edge.distance_on_m.end())
@@ -73,23 +74,30 @@ private:
     return least_m;
   }
 
-  const BodyAnalysis& analysis_;
+  const StressBesideEdges& body_;
   double largest_Pa_;
 };
 
 }  // namespace
 
-double rise_to_border_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
-  const auto& nodes = analysis.responses.nodes;
-  Border border(analysis, place.value_Pa);
+double rise_to_border_Pa(const StressBesideEdges& body, const PlaceStress& place) {
+  if (body.mesh.sharp_edges.empty()) return 0;
+  const auto& nodes = body.nodes;
+  Border border(body, place.value_Pa);
   if (place.feature == inside_the_body)
     for (std::size_t c = 0; c < nodes.n_cells(); ++c) border.look_at(nodes.cell(c), std::nullopt);
-  for (const auto& feature : analysis.mesh.features)
+  for (const auto& feature : body.mesh.features)
     if (feature.name == place.feature)
       for (std::size_t f = 0; f < nodes.n_faces(); ++f)
         if (nodes.face_boundary_id[f] == feature.boundary_id)
           border.look_at(nodes.face(f), feature.boundary_id);
   return border.largest_Pa() - place.value_Pa;
+}
+
+double rise_to_border_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
+  return rise_to_border_Pa(
+      {analysis.responses.nodes, analysis.envelope.von_mises.value_Pa, analysis.places, analysis.mesh},
+      place);
 }
 
 }  // namespace pipelines

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "fem/axisymmetric/axisymmetric_responses.h"
+#include "pipelines/analysis/exclusion_border.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
@@ -237,11 +238,13 @@ AxisymmetricStep AxisymmetricRefinement::next(StageClock& clock) {
 }
 
 void AxisymmetricRefinement::learn(AxisymmetricStep& step) {
+  const auto& nodes = step.responses.nodes;
+  const auto& von_mises_Pa = step.envelope.von_mises.value_Pa;
   for (auto& place : step.places) {
     auto& values = values_Pa_[place.feature];
     values.push_back(place.value_Pa);
-    place.error_Pa = missing_Pa(values) +
-                     between_points_Pa(step.responses.nodes, step.envelope.von_mises.value_Pa, place.node);
+    place.error_Pa = missing_Pa(values) + between_points_Pa(nodes, von_mises_Pa, place.node) +
+                     rise_to_border_Pa({nodes, von_mises_Pa, step.node_places, meshed_->mesh}, place);
   }
 }
 
