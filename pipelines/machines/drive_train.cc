@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "kinetics/machine_refused.h"
+#include "pipelines/machines/coarse_transient.h"
 #include "pipelines/machines/drive_train_reader.h"
 #include "pipelines/machines/kinds.h"
 #include "pipelines/scene/body_effects.h"

@@ -6,6 +6,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/common/finite.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/machines/coarse_transient.h"
 #include "pipelines/machines/drive_train_reader.h"
 #include "pipelines/report/published_torsion.h"
 
