@@ -243,8 +243,9 @@ void AxisymmetricRefinement::learn(AxisymmetricStep& step) {
   for (auto& place : step.places) {
     auto& values = values_Pa_[place.feature];
     values.push_back(place.value_Pa);
-    place.error_Pa = missing_Pa(values) + between_points_Pa(nodes, von_mises_Pa, place.node) +
-                     rise_to_border_Pa({nodes, von_mises_Pa, step.node_places, meshed_->mesh}, place);
+    place.error_Pa = missing_Pa(values) + between_points_Pa(nodes, von_mises_Pa, place.node);
+    if (place.feature != inside_the_body)  // has unseen_inside
+      place.error_Pa += rise_to_border_Pa({nodes, von_mises_Pa, step.node_places, meshed_->mesh}, place);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <sstream>
 
 #include "fem/model/model.h"
 #include "pipelines/analysis/place_stress.h"
@@ -384,7 +385,7 @@ TEST(AxisymmetricRun, TorsionOfACoarseSolidIsWithinItsError) {
   EXPECT_EQ(n_well_known, n) << "an error that holds everything says nothing";
 }
 
-/// Shafts drawn at random with a shoulder without a fillet, by their seeds: these, or all up to
+/// Shafts drawn at random whose shoulders have no fillets, by their seeds: these, or all up to
 /// MILLSTRESS_SHARP.
 std::vector<std::pair<unsigned, LoadedShaft>> sharp_shafts(std::vector<unsigned> seeds) {
   if (const char* asked = std::getenv("MILLSTRESS_SHARP")) {
@@ -392,12 +393,18 @@ std::vector<std::pair<unsigned, LoadedShaft>> sharp_shafts(std::vector<unsigned>
     std::iota(seeds.begin(), seeds.end(), 1U);
   }
   std::vector<std::pair<unsigned, LoadedShaft>> shafts;
-  for (const auto seed : seeds) try {
-      LoadedShaft shaft(scene_of(promises::random_shaft_scene(seed)));
+  for (const auto seed : seeds) {
+    std::istringstream drawn(promises::random_shaft_scene(seed));
+    std::string text;
+    for (std::string line; std::getline(drawn, line);)
+      if (line.find("fillet") == std::string::npos) text += line + '\n';
+    try {
+      LoadedShaft shaft(scene_of(text));
       if (!shaft.loaded.meshed[0].mesh.sharp_edges.empty()) shafts.emplace_back(seed, std::move(shaft));
     } catch (const std::exception&) {
-      continue;  // a drawing that cannot be
+      // a drawing that cannot be
     }
+  }
   return shafts;
 }
 
@@ -405,7 +412,7 @@ std::vector<std::pair<unsigned, LoadedShaft>> sharp_shafts(std::vector<unsigned>
 // have no point; points of one section are among those of the next, so that their changes do not tell.
 TEST(AxisymmetricRun, PlacesBesideSharpCornersAreWithinTheirErrors) {
   int n = 0, n_not_bounded = 0, n_well_known = 0;
-  for (auto& [seed, shaft] : sharp_shafts({5, 66})) {
+  for (auto& [seed, shaft] : sharp_shafts({2, 4})) {
     SCOPED_TRACE(seed);
     const auto usual = shaft.stresses(0.05).places, strict = shaft.stresses(0.001).places;
     std::map<std::string, PlaceStress> by_feature;
@@ -418,14 +425,13 @@ TEST(AxisymmetricRun, PlacesBesideSharpCornersAreWithinTheirErrors) {
       const auto known = by_feature.find(place.feature);
       if (known == by_feature.end() || place.value_Pa < 0.3 * largest_Pa) continue;
       const auto& reference = known->second;
-      const double off_Pa = reference.value_Pa - place.value_Pa;
+      const double off_Pa = std::abs(reference.value_Pa - place.value_Pa) - reference.error_Pa;
       std::printf("%3u %-16s %8.3f +- %.3f MPa, strict %8.3f +- %.3f\n", seed, place.feature.c_str(),
                   place.value_Pa / 1e6, place.error_Pa / 1e6, reference.value_Pa / 1e6,
                   reference.error_Pa / 1e6);
-      // What the strict section may be off by itself but for the border.
-      EXPECT_LE(std::abs(off_Pa), place.error_Pa + 0.002 * reference.value_Pa) << place.feature;
+      EXPECT_LE(off_Pa, place.error_Pa) << place.feature;
       ++n;
-      n_not_bounded += std::abs(off_Pa) > place.error_Pa + 0.002 * reference.value_Pa;
+      n_not_bounded += off_Pa > place.error_Pa;
       n_well_known += place.error_Pa < 0.1 * place.value_Pa;
     }
   }
