@@ -412,7 +412,7 @@ std::vector<std::pair<unsigned, LoadedShaft>> sharp_shafts(std::vector<unsigned>
 // have no point; points of one section are among those of the next, so that their changes do not tell.
 TEST(AxisymmetricRun, PlacesBesideSharpCornersAreWithinTheirErrors) {
   int n = 0, n_not_bounded = 0, n_well_known = 0;
-  for (auto& [seed, shaft] : sharp_shafts({2, 4})) {
+  for (auto& [seed, shaft] : sharp_shafts({4})) {
     SCOPED_TRACE(seed);
     const auto usual = shaft.stresses(0.05).places, strict = shaft.stresses(0.001).places;
     std::map<std::string, PlaceStress> by_feature;
