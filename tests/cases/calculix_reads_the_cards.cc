@@ -127,5 +127,5 @@ TEST(CalculixModel, HasAStepForEveryChannel) {
     EXPECT_NE(model.find("** " + channel + " = 1\n*STEP\n"), std::string::npos) << channel;
     ++n_steps;
   }
-  EXPECT_EQ(n_steps, 13);
+  EXPECT_EQ(n_steps, 12);
 }
