@@ -411,10 +411,12 @@ std::vector<std::pair<unsigned, LoadedShaft>> sharp_shafts(std::vector<unsigned>
 // Beside a sharp corner the largest stress is that on the border of what is left out, where a section need
 // have no point; points of one section are among those of the next, so that their changes do not tell.
 TEST(AxisymmetricRun, PlacesBesideSharpCornersAreWithinTheirErrors) {
+  const double strictest =
+      std::getenv("MILLSTRESS_SHARP") != nullptr ? 0.001 : 0.005;  // a quarter of the time
   int n = 0, n_not_bounded = 0, n_well_known = 0;
   for (auto& [seed, shaft] : sharp_shafts({4})) {
     SCOPED_TRACE(seed);
-    const auto usual = shaft.stresses(0.05).places, strict = shaft.stresses(0.001).places;
+    const auto usual = shaft.stresses(0.05).places, strict = shaft.stresses(strictest).places;
     std::map<std::string, PlaceStress> by_feature;
     double largest_Pa = 0;
     for (const auto& place : strict) {
