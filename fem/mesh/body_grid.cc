@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "fem/mesh/array_checks.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/local_refinement.h"

@@ -2,9 +2,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -17,33 +15,7 @@ namespace {
 /// gmsh's place of deal.II's lexicographic corner.
 constexpr std::array<int, 8> gmsh_corner = {0, 1, 3, 2, 4, 5, 7, 6};
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw MeshUnusable("the mesh " + what);
-}
-
-void check_nodes(const std::vector<int>& nodes, std::size_t n_nodes) {
-  for (const int node : nodes)
-    if (node < 0 || std::size_t(node) >= n_nodes)
-      refuse("names the node " + std::to_string(node) + " of " + std::to_string(n_nodes));
-}
-
 }  // namespace
-
-void check_arrays(const CoarseMesh& mesh) {
-  if (mesh.n_cells() == 0) refuse("has no cells");
-  if (mesh.cells.size() != mesh.n_cells() * mesh.nodes_per_cell() ||
-      mesh.faces.size() != mesh.n_faces() * mesh.nodes_per_face())
-    refuse("has arrays of nodes and of ids whose lengths do not fit");
-  check_nodes(mesh.cells, mesh.points_m.size());
-  check_nodes(mesh.faces, mesh.points_m.size());
-  for (const auto& point : mesh.points_m)
-    for (const double x_m : point)
-      if (!std::isfinite(x_m)) refuse("has a node whose place is not finite");
-  const auto is_negative = [](int id) { return id < 0; };
-  if (std::any_of(mesh.volume_id.begin(), mesh.volume_id.end(), is_negative) ||
-      std::any_of(mesh.face_id.begin(), mesh.face_id.end(), is_negative))
-    refuse("has a negative id of a group");
-}
 
 void triangulate(const CoarseMesh& mesh, dealii::Triangulation<3>& triangulation) {
   std::vector<dealii::Point<3>> points;
@@ -67,7 +39,7 @@ void triangulate(const CoarseMesh& mesh, dealii::Triangulation<3>& triangulation
     dealii::GridTools::consistently_order_cells(cells);
     triangulation.create_triangulation(points, cells, boundary);
   } catch (const dealii::ExceptionBase& error) {
-    refuse(std::string("cannot be joined to one body: ") + error.what());
+    throw MeshUnusable(std::string("the mesh cannot be joined to one body: ") + error.what());
   }
 }
 
