@@ -15,7 +15,7 @@ class PeakGrowth {
 public:
   /// @param ratio  of cell sizes from the step before to this one
   /// @return whether the stress there grows without bound (refinement.h); never for hot-spot stresses, which
-  /// are extrapolated past the toe, nor beside an edge that is left out already
+  /// are extrapolated past the toe, nor on a fillet, nor beside an edge that is left out already
   bool at(const BodyAnalysis& analysis, double ratio);
 
 private:

@@ -42,7 +42,7 @@ double bounded_by(const SecondModel& model, const PlaceStress& place, double err
   const double difference_Pa = std::abs(place.value_Pa - other->value_Pa),
                most_Pa = difference_Pa + other->error_Pa;
   const bool agree = difference_Pa <= error_Pa + other->error_Pa;
-  return agree ? std::min(error_Pa, most_Pa) : most_Pa;
+  return agree ? std::clamp(error_Pa, difference_Pa, most_Pa) : most_Pa;
 }
 
 }  // namespace

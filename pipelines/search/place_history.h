@@ -69,9 +69,10 @@ public:
   ///   exclusion distances. While a part has not been varied, at least what the mesh tells by itself; later
   ///   at least the kept share of it. Away from fillets, the fillets beside the place are a part as well:
   ///   their rows of cells run through to it.
-  /// - from a second model of the same problem: at most the difference with that model's error; and that much
-  ///   where the models differ by more than both state. A model with an error of its own bounds the error
-  ///   from below only, where its stress is larger.
+  /// - from a second model of the same problem: at least the difference, at most that with the model's error;
+  /// and
+  ///   the latter where the models differ by more than both state. A model with an error of its own bounds
+  ///   the error from below only, where its stress is larger.
   std::vector<PlaceStress> judged() const;
 
   /// The parts by what their refinement promises at a place: those that were never varied, then by their

@@ -9,6 +9,8 @@
 /// fem/values/cost_constants.h, fitted anew.
 ///   solver_benchmarks <shaft.toml> triangulations
 /// Cells and numbers of nodes by deal.II's serial triangulation and by p4est's.
+///   solver_benchmarks <shaft.toml> multigrid <vibratory_mill.toml>
+/// Our solvers beside deal.II's global-coarsening multigrid.
 ///   solver_benchmarks <vibratory_mill.toml> halves
 /// The scene's chamber whole and by halves.
 #include <cstdio>
@@ -24,6 +26,7 @@
 #include "tests/benchmarks/benchmark_shaft.h"
 #include "tests/benchmarks/cost_fit.h"
 #include "tests/benchmarks/halves.h"
+#include "tests/benchmarks/multigrid_comparison.h"
 #include "tests/benchmarks/operator_comparison.h"
 #include "tests/benchmarks/solver_comparison.h"
 #include "tests/benchmarks/solver_plot.h"
@@ -120,6 +123,7 @@ int main(int argc, char** argv) {
                  "for the direct solver]\n       solver_benchmarks <shaft.toml> operator\n       "
                  "solver_benchmarks <shaft.toml> fit [largest number of "
                  "unknowns]\n       solver_benchmarks <shaft.toml> triangulations\n       "
+                 "solver_benchmarks <shaft.toml> multigrid <vibratory_mill.toml>\n       "
                  "solver_benchmarks <vibratory_mill.toml> halves\n");
     return 2;
   }
@@ -132,6 +136,8 @@ int main(int argc, char** argv) {
       compare_operators(argv[1]);
     else if (argc > 2 && std::string(argv[2]) == "triangulations")
       measure::compare_triangulations(argv[1]);
+    else if (argc > 3 && std::string(argv[2]) == "multigrid")
+      measure::compare_multigrid(argv[1], argv[3]);
     else if (argc > 2 && std::string(argv[2]) == "halves")
       measure::compare_halves(argv[1]);
     else

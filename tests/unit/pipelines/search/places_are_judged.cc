@@ -142,10 +142,12 @@ TEST(PlaceHistory, KeepsMoreOfAMeshesOwnWordAfterOneChange) {
 // The same problem solved in another way: the difference is an error of one of the two.
 TEST(PlaceHistory, ASecondModelOfTheSameProblemBoundsTheErrorFromBothSides) {
   PlaceHistory history(parts_of_a_shaft);
-  history.add({place("fillet a/b", 100, 30), place("seat", 79, 1)}, std::nullopt);
-  history.compare_with({{place("fillet a/b", 104, 0.5), place("seat", 75, 0.5)}, 0});
+  history.add({place("fillet a/b", 100, 30), place("seat", 79, 1), place("groove", 100, 3.8)}, std::nullopt);
+  history.compare_with(
+      {{place("fillet a/b", 104, 0.5), place("seat", 75, 0.5), place("groove", 104, 0.5)}, 0});
   EXPECT_NEAR(error_of(history.judged(), "fillet a/b"), 4.5, 1e-12);  // not the 30 of a single mesh
   EXPECT_NEAR(error_of(history.judged(), "seat"), 4.5, 1e-12);        // not the 1
+  EXPECT_NEAR(error_of(history.judged(), "groove"), 4, 1e-12);        // not 3.8, though both errors reach
 }
 
 // Around and along were varied and moved nothing, but another model finds more: the fillets beside the place

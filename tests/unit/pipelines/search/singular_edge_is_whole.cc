@@ -108,9 +108,13 @@ TEST(SingularEdge, GoesAroundAShoulder) {
 }
 
 /// Whether a stress like r^-0.34, 1 mm from the origin, is said to grow without bound in three meshes.
-bool grows_beside(const std::vector<meshes::SharpEdge>& left_out) {
+/// @param fillets  names of features that are fillets
+bool grows_beside(const std::vector<meshes::SharpEdge>& left_out,
+                  const std::vector<std::string>& fillets = {}) {
   BodyAnalysis analysis;
   analysis.peak.position_m = {0, 0, 1e-3};
+  analysis.peak.feature = "fillet a/b";
+  for (const auto& name : fillets) analysis.mesh.features.push_back({name, meshes::Feature::Kind::fillet});
   analysis.mesh.sharp_edges = left_out;
   PeakGrowth growth;
   bool grows = false;
@@ -129,4 +133,11 @@ TEST(PeakGrowth, IsNotTakenForOneBesideAnEdgeThatIsLeftOut) {
   EXPECT_FALSE(grows_beside({{"edge", 0.6e-3, {{origin, along}}}}));
   EXPECT_TRUE(grows_beside({{"edge", 0.4e-3, {{origin, along}}}})) << "too far away";
   EXPECT_TRUE(grows_beside({{"spot", 0.6e-3, {{origin, origin}}}}));
+}
+
+// Two cells on a fillet's quarter, then four, then eight: 31, 37 and 42 MPa, of 44. It was left out as a
+// sharp corner, and the largest of what was left, 43.5 MPa beside it, was stated within 0.5 %.
+TEST(PeakGrowth, IsNotThatOfAFillet) {
+  EXPECT_FALSE(grows_beside({}, {"fillet a/b"}));
+  EXPECT_TRUE(grows_beside({}, {"fillet b/c"})) << "the peak is elsewhere";
 }
