@@ -78,6 +78,34 @@ private:
   double largest_Pa_;
 };
 
+/// The largest exclusion distance of the sharp edges beside a point; 0: none is near.
+double left_out_beside_m(const meshes::BodyMesh& mesh, const std::array<double, 3>& point_m) {
+  constexpr double beside = 1.5;  // of the exclusion distance
+  double left_out_m = 0;
+  for (const auto& edge : mesh.sharp_edges)
+    if (distance_m(point_m, edge) < beside * edge.distance_m)
+      left_out_m = std::max(left_out_m, edge.distance_m);
+  return left_out_m;
+}
+
+/// Of the faces at a node, in a half plane through the axis.
+double longest_face_m(const fem::Nodes& nodes, std::size_t node) {
+  double longest_m = 0;
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    if (std::find(face.begin(), face.end(), std::int32_t(node)) == face.end()) continue;
+    const auto extent_m = [&](const auto& coordinate) {
+      const auto [least, most] = std::minmax_element(
+          face.begin(), face.end(), [&](auto a, auto b) { return coordinate(a) < coordinate(b); });
+      return coordinate(*most) - coordinate(*least);
+    };
+    const auto at = [&](auto i) { return &nodes.xyz_m[3 * std::size_t(i)]; };
+    longest_m = std::max({longest_m, extent_m([&](auto i) { return at(i)[2]; }),
+                          extent_m([&](auto i) { return std::hypot(at(i)[0], at(i)[1]); })});
+  }
+  return longest_m;
+}
+
 }  // namespace
 
 double rise_to_border_Pa(const StressBesideEdges& body, const PlaceStress& place) {
@@ -98,6 +126,16 @@ double rise_to_border_Pa(const BodyAnalysis& analysis, const PlaceStress& place)
   return rise_to_border_Pa(
       {analysis.responses.nodes, analysis.envelope.von_mises.value_Pa, analysis.places, analysis.mesh},
       place);
+}
+
+bool is_at_border(const meshes::BodyMesh& mesh, const std::array<double, 3>& point_m) {
+  return left_out_beside_m(mesh, point_m) > 0;
+}
+
+double cells_to_border(const BodyAnalysis& analysis, const PlaceStress& place) {
+  const double left_out_m = left_out_beside_m(analysis.mesh, place.position_m);
+  const double face_m = left_out_m > 0 ? longest_face_m(analysis.responses.nodes, place.node) : 0;
+  return face_m > 0 ? left_out_m / face_m : 0;
 }
 
 }  // namespace pipelines

@@ -27,4 +27,11 @@ struct StressBesideEdges {
 double rise_to_border_Pa(const StressBesideEdges& body, const PlaceStress& place);
 double rise_to_border_Pa(const BodyAnalysis& analysis, const PlaceStress& place);
 
+/// Whether a sharp edge is so near that the cells there disturb the stress at the point.
+bool is_at_border(const meshes::BodyMesh& mesh, const std::array<double, 3>& point_m);
+
+/// How many cells of a shaft, as long as the largest at the place's maximum, would fit between a sharp edge
+/// beside it and the border of what is left out there; 0 where no edge is near or no face is at the maximum.
+double cells_to_border(const BodyAnalysis& analysis, const PlaceStress& place);
+
 }  // namespace pipelines

@@ -18,9 +18,21 @@ namespace {
 /// Of the largest stress: below it a place is taken to be as wrong as it can be.
 constexpr double worth_a_look = 0.4;
 
+/// Away from fillets a shaft may have a single cell through its wall. In a bored disc that spins, whose outer
+/// radius is four times the inner, the stress at the bore was off by 4.4 times what single cells differ by:
+/// discretisation_safety takes three.
+constexpr double safety_of_few_rows = 1.5;
+
 /// Relative error of a fillet's stress with so many cells on its quarter.
 double for_want_of_cells(int cells) {
   return cells < 4 ? 0.5 : cells < 6 ? 0.15 : 0.04;
+}
+
+/// Relative error of the stress on the border of what is left out around a sharp shoulder, by
+/// cells_to_border. Cells that touch the edge disturb those beside them: solids were 17 % too high with one
+/// cell, 5.5 % with 2.5, 1.2 % with 5, while the changes from mesh to mesh told of a third.
+double for_want_of_cells_to_border(double cells) {
+  return 0.2 / std::pow(cells, 1.25);
 }
 
 double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
@@ -98,6 +110,8 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
   auto places =
       largest_by_feature(analysis.responses.nodes, maximum.value_Pa, analysis.mesh.features, analysis.places);
   const double largest_Pa = governing_stress(analysis).value_Pa;
+  const bool is_of_blocks =
+      analysis.scene.shaft() != nullptr && !analysis.responses.nodes.shape().is_tetrahedron();
   for (auto& place : places) {
     if (place.value_Pa < worth_a_look * largest_Pa) {
       place.error_Pa = place.value_Pa;
@@ -108,6 +122,13 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
       const double wanting_Pa = for_want_of_cells(cells) * place.value_Pa;
       place.error_Pa = std::max(place.error_Pa, wanting_Pa);
       if (cells < cells_that_converge) place.least_error_Pa = wanting_Pa;
+    } else if (is_of_blocks) {
+      place.error_Pa *= safety_of_few_rows;
+    }
+    if (const double cells = is_of_blocks ? cells_to_border(analysis, place) : 0; cells > 0) {
+      const double wanting_Pa = for_want_of_cells_to_border(cells) * place.value_Pa;
+      place.error_Pa = std::max(place.error_Pa, wanting_Pa);
+      place.least_error_Pa = std::max(place.least_error_Pa, wanting_Pa);
     }
     const double rise_Pa = rise_to_border_Pa(analysis, place);
     place.error_Pa += rise_Pa;

@@ -15,9 +15,11 @@ constexpr int cells_that_converge = 6;
 
 /// The features of a body and its inside, and its weld toes by their hot-spot stress. The error of a place is
 /// that of self_estimate there; far below the largest stress it is the stress itself, which is cheaper and
-/// says enough. A fillet with few cells has an error that says so: half of its stress with 2 cells on its
-/// quarter, 15 % with 4, 4 % with more (the largest found on 60 random shafts, `tests/benchmarks/run
-/// promises`, are 31, 10 and 3 %). Below cells_that_converge it keeps that error, however well meshes agree.
+/// says enough. On shafts of blocks it counts half as much again away from fillets,
+/// and beside sharp shoulders cells that are large beside what is left out add an error that stays. A fillet
+/// with few cells has an error that says so: half of its stress with 2 cells on its quarter, 15 % with 4, 4 %
+/// with more (the largest found on 60 random shafts, `tests/benchmarks/run promises`, are 31, 10 and 3 %).
+/// Below cells_that_converge it keeps that error, however well meshes agree.
 /// @param with_submodels  of tetrahedra: whether submodels tell the errors of places that may lead
 std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool with_submodels = true);
 

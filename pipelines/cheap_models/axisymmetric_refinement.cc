@@ -19,10 +19,6 @@
 namespace pipelines {
 namespace {
 
-/// A second opinion that has so many unknowns takes no further step, of some 3 times as many: it would cost
-/// more than the solid that it stands beside (half a minute and more, on two cores).
-constexpr std::size_t most_unknowns = 400000;
-
 /// Cells of the first step: three on a fillet's quarter; a quarter of the radius at the ends of loaded seats
 /// and of the exclusion distance at sharp edges.
 constexpr double size_on_fillet = 0.5, size_at_seat = 0.25, size_at_sharp_edge = 0.25;
@@ -286,7 +282,8 @@ bool AxisymmetricRefinement::is_met(const AxisymmetricStep& step, double target)
 }
 
 AxisymmetricStresses axisymmetric_stresses(const BodyScene& body, const MeshedBody& meshed,
-                                           const BodyLoads& loads, int n_threads, double target) {
+                                           const BodyLoads& loads, int n_threads, double target,
+                                           std::size_t most_unknowns) {
   MeshedBody own = meshed;
   own.mesh.sections.clear();
   StageClock silent;

@@ -24,13 +24,18 @@ struct AxisymmetricStresses {
   LargestTorsion torsion;  ///< of the last section: sections are not refined for its sake
 };
 
-/// By the axisymmetric model, refined until no place's error exceeds `target` of the largest value, or the
-/// step after would have more than about a million unknowns: the errors then say so. A second opinion on
-/// other models of the same loads: on concentric shafts values are within their errors of the elastic
-/// solution.
-/// @param meshed  features, ports, sharp edges and masses of whatever mesh the loads were made for
+/// A section with so many unknowns is the last one of a second opinion: the next, with some 3 times as many,
+/// would cost more than the solid that it stands beside.
+constexpr std::size_t most_of_second_opinion = 150000;
+
+/// By the axisymmetric model, refined until no place's error exceeds `target` of the largest value, or a
+/// section has too many unknowns: the errors then say so. A second opinion on other models of the same loads:
+/// on concentric shafts values are within their errors of the elastic solution.
+/// @param meshed         features, ports, sharp edges and masses of whatever mesh the loads were made for
+/// @param most_unknowns  of a section that another one follows
 /// @throws as analyse_axisymmetric
 AxisymmetricStresses axisymmetric_stresses(const BodyScene& body, const MeshedBody& meshed,
-                                           const BodyLoads& loads, int n_threads, double target = 0.005);
+                                           const BodyLoads& loads, int n_threads, double target = 0.005,
+                                           std::size_t most_unknowns = most_of_second_opinion);
 
 }  // namespace pipelines

@@ -7,6 +7,7 @@
 
 #include "fem/values/errors.h"
 #include "pipelines/analysis/error_budget.h"
+#include "pipelines/analysis/exclusion_border.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/submodels.h"
 #include "pipelines/superposition/superposition.h"
@@ -191,6 +192,20 @@ std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<Place
   return goals;
 }
 
+/// Beside a sharp shoulder stress is too high where cells are large, and a single cut moves the maximum to
+/// the next large cell around the shaft: all nodes there that are nearly as high.
+std::vector<std::size_t> nodes_at_border(const BodyAnalysis& analysis, const PlaceStress& place) {
+  constexpr double nearly = 0.9;
+  std::vector<std::size_t> result;
+  for (const auto node : nodes_of(analysis, place.feature)) {
+    const double value_Pa = analysis.envelope.von_mises.value_Pa[node];
+    if (value_Pa < nearly * place.value_Pa) continue;
+    const double* x_m = &analysis.responses.nodes.xyz_m[3 * node];
+    if (is_at_border(analysis.mesh, {x_m[0], x_m[1], x_m[2]})) result.push_back(node);
+  }
+  return result;
+}
+
 /// @param allowed_Pa  error that a goal may have in the end
 double part_to_cut(double error_Pa, double allowed_Pa, bool is_toe) {
   if (!(error_Pa > 0)) return least_that_is_cut;
@@ -247,6 +262,10 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
         marked);
   for (const auto& goal : goals)
     for (const auto node : goal.nodes) is_place[node] = 1;
+  for (const auto* place : places_that_may_lead(judged))
+    if (analysis.scene.shaft() != nullptr && place->least_error_Pa > aim * (allowed_Pa - place->value_Pa) &&
+        is_at_border(analysis.mesh, place->position_m))
+      for (const auto node : nodes_at_border(analysis, *place)) is_place[node] = 1;
   LocalRefinement result;
   for (const auto* toe : coarse_toes(analysis, judged)) {
     const bool is_goal =

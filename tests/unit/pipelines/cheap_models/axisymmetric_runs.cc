@@ -90,7 +90,7 @@ struct LoadedShaft {
   }
   BodyAnalysis beam() { return analyse_beam(body(), loaded.meshed[0], loaded.body_loads[0], {"", 1}, clock); }
   AxisymmetricStresses stresses(double target) {
-    return axisymmetric_stresses(body(), loaded.meshed[0], loaded.body_loads[0], 1, target);
+    return axisymmetric_stresses(body(), loaded.meshed[0], loaded.body_loads[0], 1, target, 400000);
   }
 };
 
