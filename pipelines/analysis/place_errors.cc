@@ -18,10 +18,16 @@ namespace {
 /// Of the largest stress: below it a place is taken to be as wrong as it can be.
 constexpr double worth_a_look = 0.4;
 
-/// Away from fillets a shaft may have a single cell through its wall. In a bored disc that spins, whose outer
+/// A bored shaft may have a single cell through its wall. In a disc that spins, whose outer
 /// radius is four times the inner, the stress at the bore was off by 4.4 times what single cells differ by:
 /// discretisation_safety takes three.
 constexpr double safety_of_few_rows = 1.5;
+
+bool is_bore(const meshes::BodyMesh& mesh, const std::string& feature) {
+  return std::any_of(mesh.features.begin(), mesh.features.end(), [&](const auto& known) {
+    return known.name == feature && known.kind == meshes::Feature::Kind::bore;
+  });
+}
 
 /// Relative error of a fillet's stress with so many cells on its quarter.
 double for_want_of_cells(int cells) {
@@ -122,7 +128,7 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
       const double wanting_Pa = for_want_of_cells(cells) * place.value_Pa;
       place.error_Pa = std::max(place.error_Pa, wanting_Pa);
       if (cells < cells_that_converge) place.least_error_Pa = wanting_Pa;
-    } else if (is_of_blocks) {
+    } else if (is_of_blocks && is_bore(analysis.mesh, place.feature)) {
       place.error_Pa *= safety_of_few_rows;
     }
     if (const double cells = is_of_blocks ? cells_to_border(analysis, place) : 0; cells > 0) {

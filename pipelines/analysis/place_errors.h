@@ -15,7 +15,7 @@ constexpr int cells_that_converge = 6;
 
 /// The features of a body and its inside, and its weld toes by their hot-spot stress. The error of a place is
 /// that of self_estimate there; far below the largest stress it is the stress itself, which is cheaper and
-/// says enough. On shafts of blocks it counts half as much again away from fillets,
+/// says enough. On shafts of blocks it counts half as much again at bores,
 /// and beside sharp shoulders cells that are large beside what is left out add an error that stays. A fillet
 /// with few cells has an error that says so: half of its stress with 2 cells on its quarter, 15 % with 4, 4 %
 /// with more (the largest found on 60 random shafts, `tests/benchmarks/run promises`, are 31, 10 and 3 %).

@@ -25,7 +25,7 @@ struct MultigridControl {
   int smoother_degree = 5;
   double smoothing_range = 20;
   double relative_tolerance = 1e-10;  ///< of the residual, by that of the load
-  int max_steps = 400;
+  int max_steps = 200;
 };
 
 struct MultigridAnswer {
