@@ -73,6 +73,7 @@ Part cut_out(const UnitResponses& responses, const std::vector<std::int32_t>& ce
   std::map<std::vector<std::int32_t>, int> group;  // of the body's own surface, by its faces' corners
   for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
     const auto* corners = nodes.face(f).begin();  // VTK begins with them
+    if (!std::binary_search(node.begin(), node.end(), corners[0])) continue;
     group[sorted({corners, corners + places.size()})] = nodes.face_boundary_id[f];
   }
   const auto beyond = cells_beyond_faces(grid);
