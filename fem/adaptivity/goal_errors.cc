@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/hanging_nodes.h"
+#include "fem/operators/nodes_export.h"
 #include "fem/stress/energy_error.h"
 #include "fem/stress/stress_recovery.h"
 
@@ -25,24 +27,18 @@ struct Fields {
   RowMajor displacement, stress;
 };
 
-Fields sum_of_channels(const UnitResponses& responses, const std::vector<StressGoal>& goals) {
-  const auto n_nodes = Eigen::Index(responses.nodes.n), n_channels = Eigen::Index(responses.channels.size());
-  const auto n_goals = Eigen::Index(goals.size());
+Fields load_cases(const UnitResponses& responses, const std::vector<StressGoal>& goals) {
+  const auto n_channels = Eigen::Index(responses.channels.size()), n_goals = Eigen::Index(goals.size());
   Eigen::MatrixXd factors(n_channels, n_goals);
   for (Eigen::Index g = 0; g < n_goals; ++g) {
     if (Eigen::Index(goals[std::size_t(g)].factors.size()) != n_channels)
       throw std::invalid_argument("a stress goal needs one factor for every channel");
     factors.col(g) = Eigen::Map<const Eigen::VectorXd>(goals[std::size_t(g)].factors.data(), n_channels);
   }
-  Fields sum{RowMajor(n_nodes, 3 * n_goals), RowMajor(n_nodes, 6 * n_goals)};
-  for (Eigen::Index i = 0; i < n_nodes; ++i) {
-    const Eigen::Map<const Eigen::MatrixXd> u(&responses.displacement_m[std::size_t(3 * i * n_channels)], 3,
-                                              n_channels),
-        s(&responses.stress_Pa[std::size_t(6 * i * n_channels)], 6, n_channels);
-    Eigen::Map<Eigen::MatrixXd>(&sum.displacement(i, 0), 3, n_goals).noalias() = u * factors;
-    Eigen::Map<Eigen::MatrixXd>(&sum.stress(i, 0), 6, n_goals).noalias() = s * factors;
-  }
-  return sum;
+  std::vector<std::int32_t> all(responses.nodes.n);
+  std::iota(all.begin(), all.end(), 0);
+  return {sum_of_channels(responses.displacement_m, 3, all, factors),
+          sum_of_channels(responses.stress_Pa, 6, all, factors)};
 }
 
 /// Faces where the dual stress has no traction: those without a load of the goals, or its image. A dual load
@@ -129,7 +125,7 @@ Eigen::MatrixXd goal_errors(const Grid& grid, const CellsOfNodes& cells,
   set_hanging_rows(grid.hanging, of_dual.stress);
   if (half != nullptr) half->mirror_rows(half->signs_of_tensors(), of_dual.stress);
   const auto* plane = half != nullptr ? &half->plane() : nullptr;
-  return error_norms(grid, elastic, sum_of_channels(responses, goals), plane)
+  return error_norms(grid, elastic, load_cases(responses, goals), plane)
       .cwiseProduct(error_norms(grid, elastic, of_dual, plane));
 }
 

@@ -35,11 +35,7 @@ std::array<double, 6> wanted_resultant(BodyForce::Field field, const MassPropert
 
 HarmonicLoads::Basis HarmonicLoads::basis_of(const EccentricCylinder& cylinder) const {
   const double centre = (cylinder.begin_m + cylinder.end_m) / 2;
-  return basis(
-      points_between(cylinder.begin_m, cylinder.end_m), centre,
-      {[](const auto&) { return Vector3d(0, 0, 1); }, [](const auto& p) { return Vector3d(0, p.r_m, 0); },
-       [](const auto&) { return Vector3d(1, -1, 0); },
-       [=](const auto& p) { return Vector3d(p.z_m - centre, centre - p.z_m, -p.r_m); }});
+  return basis(points_between(cylinder.begin_m, cylinder.end_m), centre, rigid_tractions(centre));
 }
 
 HarmonicForces HarmonicLoads::forces_of(const BodyForce& load) const {

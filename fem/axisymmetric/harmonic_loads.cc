@@ -33,11 +33,14 @@ HarmonicLoads::HarmonicLoads(const MeridianGrid& grid, const MeridianBody& body)
     auto& mass = mass_modes_[std::size_t(m)];
     mass.resize(3 * grid.n_nodes(), 2);
     for (int k = 0; k < 2; ++k)
-      mass.col(k) = integrate(all, m, [&](const SectionPoint& p) -> Vector3d {
-        if (m == 0) return density * (k == 0 ? Vector3d(0, 0, 1) : Vector3d(0, p.r_m, 0));
-        return density * (k == 0 ? Vector3d(1, -1, 0) : Vector3d(p.z_m, -p.z_m, -p.r_m));
-      });
+      mass.col(k) = density * integrate(all, m, rigid_tractions(0)[std::size_t(2 * m + k)]);
   }
+}
+
+std::array<HarmonicLoads::Traction, 4> HarmonicLoads::rigid_tractions(double centre_z_m) {
+  return {[](const auto&) { return Vector3d(0, 0, 1); }, [](const auto& p) { return Vector3d(0, p.r_m, 0); },
+          [](const auto&) { return Vector3d(1, -1, 0); },
+          [=](const auto& p) { return Vector3d(p.z_m - centre_z_m, centre_z_m - p.z_m, -p.r_m); }};
 }
 
 Eigen::MatrixXd HarmonicLoads::modes(int m, double centre_z_m) const {
@@ -103,12 +106,7 @@ HarmonicLoads::Basis HarmonicLoads::basis(const std::vector<const SectionPoint*>
 HarmonicLoads::Basis HarmonicLoads::basis_of(const LoadSurface& surface) const {
   const auto points = points_of(surface);
   const double centre = surface.centre_m[2];
-  if (surface.kind == LoadSurface::Kind::face)
-    return basis(
-        points, centre,
-        {[](const auto&) { return Vector3d(0, 0, 1); }, [](const auto& p) { return Vector3d(0, p.r_m, 0); },
-         [](const auto&) { return Vector3d(1, -1, 0); },
-         [=](const auto& p) { return Vector3d(p.z_m - centre, centre - p.z_m, -p.r_m); }});
+  if (surface.kind == LoadSurface::Kind::face) return basis(points, centre, rigid_tractions(centre));
   const double half = surface.length_m / 2;
   const auto taper = [=](const SectionPoint& p) {
     const double zeta = (p.z_m - centre) / half;

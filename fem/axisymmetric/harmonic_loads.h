@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <array>
 #include <functional>
-#include <map>
 #include <vector>
 
 #include "fem/axisymmetric/meridian_grid.h"
@@ -51,6 +50,8 @@ private:
   };
   using Traction = std::function<Eigen::Vector3d(const SectionPoint&)>;
 
+  /// The rigid motions as tractions, in the order of Basis; tilting about a height.
+  static std::array<Traction, 4> rigid_tractions(double centre_z_m);
   std::vector<const SectionPoint*> points_of(const LoadSurface& surface) const;
   std::vector<const SectionPoint*> points_between(double begin_m, double end_m) const;
   Eigen::VectorXd integrate(const std::vector<const SectionPoint*>& points, int m,

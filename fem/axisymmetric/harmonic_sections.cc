@@ -6,19 +6,15 @@
 #include <string>
 #include <tuple>
 
+#include "fem/mesh/charts.h"
 #include "fem/values/constants.h"
 
 namespace fem {
 namespace {
 
-bool is_fillet(const MeridianBody& body, int boundary_id) {
-  return std::any_of(body.tori.begin(), body.tori.end(),
-                     [&](const auto& torus) { return torus.boundary_id == boundary_id; });
-}
-
 /// On curved surface about the z axis.
 bool has_rings(const SurfaceEdge& edge, const MeridianGrid& grid, const MeridianBody& body) {
-  if (is_fillet(body, edge.boundary_id)) return true;
+  if (is_fillet(body.tori, edge.boundary_id)) return true;
   const auto& a = grid.results[std::size_t(edge.result_points[0])];
   const auto& b = grid.results[std::size_t(edge.result_points[2])];
   if (std::abs(a.z_m - b.z_m) <= 1e-6 * std::abs(a.r_m - b.r_m)) return false;
@@ -53,7 +49,7 @@ HarmonicSections::HarmonicSections(const MeridianGrid& grid, const MeridianBody&
   std::map<int, std::pair<bool, int>> group;  // by point: not a fillet, id; the smallest wins
   for (const auto& edge : grid.edges) {
     if (!has_rings(edge, grid, body)) continue;
-    const std::pair<bool, int> candidate(!is_fillet(body, edge.boundary_id), edge.boundary_id);
+    const std::pair<bool, int> candidate(!is_fillet(body.tori, edge.boundary_id), edge.boundary_id);
     for (const int point : edge.result_points) {
       const auto known = group.emplace(point, candidate).first;
       known->second = std::min(known->second, candidate);

@@ -1,7 +1,6 @@
 /// What section planes and rings of the surface feel of the harmonics. Internal to fem.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "fem/axisymmetric/harmonic_strain.h"

@@ -4,6 +4,7 @@
 
 #include "fem/axisymmetric/harmonic_strain.h"
 #include "fem/common/dense_algebra.h"
+#include "fem/loads/clamps.h"
 
 namespace fem {
 namespace {
@@ -38,30 +39,31 @@ HarmonicSolver::HarmonicSolver(const MeridianGrid& grid, const HarmonicPattern& 
       matrix_(make_matrix(pattern.graph)),
       factor_(pattern.graph, pattern.order) {}
 
-std::vector<char> HarmonicSolver::held_unknowns(int m) const {
+std::vector<std::int64_t> HarmonicSolver::held_unknowns(int m) const {
   const auto& z = grid_->z_m;
-  std::vector<char> held(3 * z.size(), 0);
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    if (!grid_->on_axis[i]) continue;
-    held[3 * i] = m != 1;
-    held[3 * i + 1] = 1;  // at m = 1 the sum U + V, see assemble
-    held[3 * i + 2] = m != 0;
+  std::vector<std::int64_t> held;
+  const auto hold = [&](std::ptrdiff_t node, int component) { held.push_back(3 * node + component); };
+  for (int i = 0; i < grid_->n_nodes(); ++i) {
+    if (!grid_->on_axis[std::size_t(i)]) continue;
+    if (m != 1) hold(i, 0);
+    hold(i, 1);  // at m = 1 the sum U + V, see assemble
+    if (m != 0) hold(i, 2);
   }
-  const auto low = std::size_t(std::min_element(z.begin(), z.end()) - z.begin());
-  const auto high = std::size_t(std::max_element(z.begin(), z.end()) - z.begin());
+  const auto low = std::min_element(z.begin(), z.end()) - z.begin();
+  const auto high = std::max_element(z.begin(), z.end()) - z.begin();
   if (m == 0) {
-    held[3 * low + 2] = 1;
     const auto& r = grid_->r_m;
-    held[3 * std::size_t(std::max_element(r.begin(), r.end()) - r.begin()) + 1] = 1;
+    hold(low, 2);
+    hold(std::max_element(r.begin(), r.end()) - r.begin(), 1);
   } else if (m == 1) {
-    held[3 * low] = held[3 * high] = 1;
+    hold(low, 0);
+    hold(high, 0);
   }
   return held;
 }
 
-void HarmonicSolver::assemble(int m, const std::vector<char>& held) {
+void HarmonicSolver::assemble(int m, const std::vector<std::int64_t>& held) {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
-  const NodeGraph& graph = pattern_->graph;
   const auto elasticity = elasticity_matrix(material_);
   for (std::size_t c = 0; c < grid_->cell_nodes.size(); ++c) {
     const auto& nodes = grid_->cell_nodes[c];
@@ -80,25 +82,14 @@ void HarmonicSolver::assemble(int m, const std::vector<char>& held) {
     }
     const Eigen::MatrixXd stiffness = transposed_product(strain, stress);
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      for (std::size_t b = 0; b < nodes.size(); ++b) {
-        const std::int64_t row = nodes[a], column = nodes[b];
-        if (row < column) continue;
-        std::int64_t offset = 0;
-        if (row > column) {
-          const auto first = graph.neighbour.begin() + graph.begin[std::size_t(column)];
-          const auto last = graph.neighbour.begin() + graph.begin[std::size_t(column) + 1];
-          offset = 3 * (std::lower_bound(first, last, row) - first) + 3;
-        }
-        for (int d = 0; d < 3; ++d)
-          for (int e = row == column ? d : 0; e < 3; ++e)
-            if (!held[std::size_t(3 * row + e)] && !held[std::size_t(3 * column + d)])
-              matrix_
-                  .value[std::size_t(matrix_.column_begin[std::size_t(3 * column + d)] + offset + e - d)] +=
-                  stiffness(3 * Eigen::Index(a) + e, 3 * Eigen::Index(b) + d);
-      }
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        if (nodes[a] >= nodes[b])
+          add_block(pattern_->graph, nodes[a], nodes[b],
+                    stiffness.block<3, 3>(3 * Eigen::Index(a), 3 * Eigen::Index(b)), matrix_);
   }
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i]) matrix_.value[std::size_t(matrix_.column_begin[i])] = material_.youngs_modulus_Pa;
+  clamp(held, matrix_);
+  for (const auto i : held)
+    matrix_.value[std::size_t(matrix_.column_begin[std::size_t(i)])] = material_.youngs_modulus_Pa;
 }
 
 Eigen::MatrixXd HarmonicSolver::solve(int m, const Eigen::MatrixXd& force, double& residual) {
@@ -108,8 +99,7 @@ Eigen::MatrixXd HarmonicSolver::solve(int m, const Eigen::MatrixXd& force, doubl
   if (m == 1)
     for (int i = 0; i < grid_->n_nodes(); ++i)
       if (grid_->on_axis[std::size_t(i)]) f.row(3 * i) -= f.row(3 * i + 1);
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i]) f.row(Eigen::Index(i)).setZero();
+  clear_rows(held, f);
   factor_.factorise(matrix_);
   Eigen::MatrixXd u = factor_.solve(f);
   const Eigen::MatrixXd rest = multiply(matrix_, u) - f;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <memory>
+#include <cstdint>
 #include <vector>
 
 #include "fem/axisymmetric/meridian_grid.h"
@@ -34,8 +34,8 @@ public:
   Eigen::MatrixXd solve(int m, const Eigen::MatrixXd& force, double& residual);
 
 private:
-  void assemble(int m, const std::vector<char>& held);
-  std::vector<char> held_unknowns(int m) const;
+  void assemble(int m, const std::vector<std::int64_t>& held);
+  std::vector<std::int64_t> held_unknowns(int m) const;
 
   const MeridianGrid* grid_;
   Material material_;

@@ -9,17 +9,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/mesh/charts.h"
+
 namespace fem {
 namespace {
 
 using Cell = dealii::Triangulation<2>::active_cell_iterator;
 
 constexpr int most_cuts = 20;  // a millionth of the first cells: sizes below rounding end here
-
-bool is_arc(const MeridianBody& body, const MeridianEdge& edge) {
-  return std::any_of(body.tori.begin(), body.tori.end(),
-                     [&](const auto& torus) { return torus.boundary_id == edge.boundary_id; });
-}
 
 void create(const MeridianBody& body, dealii::Triangulation<2>& mesh) {
   std::vector<dealii::Point<2>> vertices;
@@ -36,8 +33,8 @@ void create(const MeridianBody& body, dealii::Triangulation<2>& mesh) {
     dealii::CellData<1> data(2);
     data.vertices = {unsigned(edge.ends[0]), unsigned(edge.ends[1])};
     data.boundary_id = dealii::types::boundary_id(edge.boundary_id);
-    data.manifold_id =
-        is_arc(body, edge) ? dealii::types::manifold_id(edge.boundary_id) : dealii::numbers::flat_manifold_id;
+    data.manifold_id = is_fillet(body.tori, edge.boundary_id) ? dealii::types::manifold_id(edge.boundary_id)
+                                                              : dealii::numbers::flat_manifold_id;
     sub.boundary_lines.push_back(data);
   }
   dealii::GridTools::consistently_order_cells(cells);

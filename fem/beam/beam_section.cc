@@ -1,7 +1,5 @@
 #include "fem/beam/beam_section.h"
 
-#include <cmath>
-
 #include "fem/values/constants.h"
 
 namespace fem {

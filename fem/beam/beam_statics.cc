@@ -6,6 +6,7 @@
 
 #include "fem/common/dense_algebra.h"
 #include "fem/loads/axial_profile.h"
+#include "fem/loads/surface_loads.h"
 
 namespace fem {
 namespace {
@@ -19,12 +20,6 @@ Wrench6 about_origin(const Eigen::Vector3d& force, const Eigen::Vector3d& at, co
   Wrench6 w;
   w << force, couple + at.cross(force);
   return w;
-}
-
-const LoadSurface* surface_of(const UnitLoad& load) {
-  if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape)) return &resultant->surface;
-  if (const auto* pressure = std::get_if<SeatPressure>(&load.shape)) return &pressure->surface;
-  return nullptr;
 }
 
 /// Force and moment per length of a seat's unit resultant at zeta in [-1, 1] of its half length.
@@ -67,20 +62,31 @@ Wrench6 on_face(const SurfaceResultant& load) {
   return about_origin(unit.head<3>(), {c[0], c[1], c[2]}, unit.tail<3>());
 }
 
-/// Integral from the first of evenly spaced values to each of them: by parabolas through three.
-template <typename Values>
-void accumulate(double length_m, const Values& value, WrenchAlong& sum, Index first, const Wrench6& start) {
+}  // namespace
+
+// Interval after interval, by parabolas through three of its points.
+template <typename PerLength>
+WrenchAlong BeamLine::integral(const PerLength& per_length) const {
   constexpr int n_pairs = (points - 1) / 2;  // the number of points is odd
-  const double h = length_m / n_pairs;
-  sum.col(first) = start;
-  for (Index i = first; i + 2 < first + points; i += 2) {
-    const Wrench6 a = value(i), b = value(i + 1), c = value(i + 2);
-    sum.col(i + 1) = sum.col(i) + h / 24 * (5 * a + 8 * b - c);
-    sum.col(i + 2) = sum.col(i) + h / 6 * (a + 4 * b + c);
+  WrenchAlong sum(6, Index(intervals_.size()) * points);
+  Wrench6 total = Wrench6::Zero();
+  for (std::size_t k = 0; k < intervals_.size(); ++k) {
+    const Index first = Index(k) * points;
+    const double h = (intervals_[k].end_m - intervals_[k].begin_m) / n_pairs;
+    sum.col(first) = total;
+    for (Index i = first; i + 2 < first + points; i += 2) {
+      const Wrench6 a = per_length(k, i), b = per_length(k, i + 1), c = per_length(k, i + 2);
+      sum.col(i + 1) = sum.col(i) + h / 24 * (5 * a + 8 * b - c);
+      sum.col(i + 2) = sum.col(i) + h / 6 * (a + 4 * b + c);
+    }
+    total = sum.col(first + points - 1);
   }
+  return sum;
 }
 
-}  // namespace
+double BeamLine::z_m(std::size_t interval, Index column) const {
+  return intervals_[interval].z_m(int(column % points));
+}
 
 BeamLine::BeamLine(const BeamShaft& shaft, const std::vector<UnitLoad>& loads, std::vector<double> breaks_m)
     : shaft_(&shaft) {
@@ -127,16 +133,7 @@ Eigen::Index BeamLine::column_at(std::size_t segment, double z_m) const {
 }
 
 Wrench6 BeamLine::sum(const WrenchAlong& per_length) const {
-  WrenchAlong along(6, per_length.cols());
-  Wrench6 total = Wrench6::Zero();
-  for (std::size_t k = 0; k < intervals_.size(); ++k) {
-    const Index first = Index(k) * points;
-    accumulate(
-        intervals_[k].end_m - intervals_[k].begin_m, [&](Index i) -> Wrench6 { return per_length.col(i); },
-        along, first, total);
-    total = along.col(first + points - 1);
-  }
-  return total;
+  return integral([&](std::size_t, Index i) { return per_length.col(i); }).rightCols<1>();
 }
 
 Wrench6 BeamLine::density(const UnitLoad& load, const BeamInterval& interval, double z_m) const {
@@ -168,17 +165,11 @@ Wrench6 BeamLine::density(const UnitLoad& load, const BeamInterval& interval, do
 WrenchAlong BeamLine::below(const UnitLoad& load) const {
   const auto* resultant = std::get_if<SurfaceResultant>(&load.shape);
   const bool is_face = resultant && resultant->surface.kind == LoadSurface::Kind::face;
-  WrenchAlong along(6, Index(intervals_.size()) * points);
-  Wrench6 total = Wrench6::Zero();
-  for (std::size_t k = 0; k < intervals_.size(); ++k) {
-    const auto& interval = intervals_[k];
-    const Index first = Index(k) * points;
-    const auto value = [&](Index i) { return density(load, interval, interval.z_m(int(i - first))); };
-    accumulate(interval.end_m - interval.begin_m, value, along, first, total);
-    total = along.col(first + points - 1);
-    if (is_face && (interval.begin_m + interval.end_m) / 2 > resultant->surface.centre_m[2])
-      along.middleCols<points>(first).colwise() += on_face(*resultant);
-  }
+  WrenchAlong along =
+      integral([&](std::size_t k, Index i) { return density(load, intervals_[k], z_m(k, i)); });
+  for (std::size_t k = 0; is_face && k < intervals_.size(); ++k)
+    if ((intervals_[k].begin_m + intervals_[k].end_m) / 2 > resultant->surface.centre_m[2])
+      along.middleCols<points>(Index(k) * points).colwise() += on_face(*resultant);
   return along;
 }
 
@@ -191,20 +182,14 @@ Wrench6 BeamLine::total(const UnitLoad& load) const {
 WrenchAlong BeamLine::internal(const UnitLoad& load) const {
   WrenchAlong along = below(load);
   const Wrench6 acceleration = -solve_symmetric(mass_, total(load));
-  Wrench6 inertia = Wrench6::Zero();
-  WrenchAlong balancing(6, along.cols());
-  for (std::size_t k = 0; k < intervals_.size(); ++k) {
-    const Index first = Index(k) * points;
-    const auto value = [&](Index i) -> Wrench6 { return mass_columns_.middleCols<6>(6 * i) * acceleration; };
-    accumulate(intervals_[k].end_m - intervals_[k].begin_m, value, balancing, first, inertia);
-    inertia = balancing.col(first + points - 1);
-    for (int i = 0; i < points; ++i) {
-      auto w = along.col(first + i);
-      w = -(w + balancing.col(first + i)).eval();
-      const double z = intervals_[k].z_m(i);
-      w[3] += z * w[1];
-      w[4] -= z * w[0];
-    }
+  const WrenchAlong balancing = integral(
+      [&](std::size_t, Index i) -> Wrench6 { return mass_columns_.middleCols<6>(6 * i) * acceleration; });
+  for (Index i = 0; i < along.cols(); ++i) {
+    auto w = along.col(i);
+    w = -(w + balancing.col(i)).eval();
+    const double z = z_m(std::size_t(i / points), i);
+    w[3] += z * w[1];
+    w[4] -= z * w[0];
   }
   return along;
 }
@@ -212,19 +197,10 @@ WrenchAlong BeamLine::internal(const UnitLoad& load) const {
 WrenchAlong BeamLine::motion(const WrenchAlong& internal) const {
   WrenchAlong motion = WrenchAlong::Zero(6, internal.cols());
   // Rotations first: translations follow from them.
-  for (int pass = 0; pass < 2; ++pass) {
-    WrenchAlong next(6, internal.cols());
-    Wrench6 start = Wrench6::Zero();
-    for (std::size_t k = 0; k < intervals_.size(); ++k) {
-      const Index first = Index(k) * points;
-      const auto value = [&](Index i) {
-        return strain_of_section(section(k), internal.col(i), motion.col(i), shaft_->material);
-      };
-      accumulate(intervals_[k].end_m - intervals_[k].begin_m, value, next, first, start);
-      start = next.col(first + points - 1);
-    }
-    motion = next;
-  }
+  for (int pass = 0; pass < 2; ++pass)
+    motion = integral([&](std::size_t k, Index i) {
+      return strain_of_section(section(k), internal.col(i), motion.col(i), shaft_->material);
+    });
   // About the origin as the mass matrix has it: U(0) = U(z) + Theta x (0 - z e_z).
   WrenchAlong momentum(6, internal.cols());
   const auto to_origin = [](const Wrench6& m, double z) {
@@ -233,7 +209,7 @@ WrenchAlong BeamLine::motion(const WrenchAlong& internal) const {
     o[1] += z * m[3];
     return o;
   };
-  const auto z_of = [&](Index i) { return intervals_[std::size_t(i / points)].z_m(int(i % points)); };
+  const auto z_of = [&](Index i) { return z_m(std::size_t(i / points), i); };
   for (Index i = 0; i < internal.cols(); ++i)
     momentum.col(i) = mass_columns_.middleCols<6>(6 * i) * to_origin(motion.col(i), z_of(i));
   const Wrench6 rigid = solve_symmetric(mass_, sum(momentum));

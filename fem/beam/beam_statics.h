@@ -44,9 +44,15 @@ public:
   WrenchAlong motion(const WrenchAlong& internal) const;
 
 private:
+  /// Integral from the left end to each point.
+  /// @param per_length  of an interval and a column
+  template <typename PerLength>
+  WrenchAlong integral(const PerLength& per_length) const;
+  double z_m(std::size_t interval, Eigen::Index column) const;
+
   WrenchAlong below(const UnitLoad& load) const;
   Wrench6 density(const UnitLoad& load, const BeamInterval& interval, double z_m) const;
-  Wrench6 sum(const WrenchAlong& per_length) const;
+  Wrench6 sum(const WrenchAlong& per_length) const;  // over the whole shaft
 
   const BeamShaft* shaft_;
   std::vector<BeamInterval> intervals_;

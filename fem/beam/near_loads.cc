@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fem/beam/beam_statics.h"
+#include "fem/loads/surface_loads.h"
 #include "fem/values/constants.h"
 
 namespace fem {
@@ -90,9 +91,7 @@ ArrayXd shear_in_short_parts_Pa(const BeamSegment& segment, const BeamSection& s
 }
 
 const LoadSurface* seat_of(const UnitLoad& load) {
-  const LoadSurface* surface = nullptr;
-  if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape)) surface = &resultant->surface;
-  if (const auto* pressure = std::get_if<SeatPressure>(&load.shape)) surface = &pressure->surface;
+  const auto* surface = surface_of(load);
   return surface != nullptr && surface->kind == LoadSurface::Kind::seat ? surface : nullptr;
 }
 

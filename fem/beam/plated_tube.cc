@@ -1,6 +1,5 @@
 #include "fem/beam/plated_tube.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>

@@ -95,4 +95,8 @@ void clamp(const std::vector<std::int64_t>& unknowns, SymmetricMatrix& matrix) {
       if (matrix.row[k] != j && (held[j] || held[matrix.row[k]])) matrix.value[k] = 0;
 }
 
+void clear_rows(const std::vector<std::int64_t>& unknowns, Eigen::MatrixXd& vectors) {
+  for (const auto unknown : unknowns) vectors.row(unknown).setZero();
+}
+
 }  // namespace fem

@@ -16,7 +16,9 @@ namespace fem {
 std::vector<std::int64_t> clamped_unknowns(const Grid& grid, const std::vector<Clamp>& clamps);
 
 /// Zeroes rows and columns of the unknowns and leaves their diagonal.
-/// @param unknowns  ascending
 void clamp(const std::vector<std::int64_t>& unknowns, SymmetricMatrix& matrix);
+
+/// Sets the rows of the unknowns to zero.
+void clear_rows(const std::vector<std::int64_t>& unknowns, Eigen::MatrixXd& vectors);
 
 }  // namespace fem

@@ -31,7 +31,7 @@ ElasticSupports::ElasticSupports(const Grid& grid, const std::vector<ElasticSupp
   std::vector<Eigen::VectorXd> columns;
   std::vector<double> stiffness;
   for (const auto& support : supports) {
-    const Eigen::MatrixXd unit = fem::unit_forces(grid, support.surface);
+    const Eigen::MatrixXd unit = unit_resultants(grid, support.surface);
     for (int d = 0; d < 3; ++d) {
       const double k = support.stiffness_N_m[d];
       if (!(k >= 0) || !std::isfinite(k))

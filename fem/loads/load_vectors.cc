@@ -47,11 +47,11 @@ public:
 
   void fill(const SurfaceResultant& load, Eigen::Ref<Eigen::VectorXd> column) {
     const auto& surface = find(load.surface);
-    scatter(surface, surface.resultant(load.component), column);
+    column = surface.on_body(surface.resultant(load.component));
   }
   void fill(const SeatPressure& load, Eigen::Ref<Eigen::VectorXd> column) {
     const auto& surface = find(load.surface);
-    scatter(surface, surface.pressure(load), column);
+    column = surface.on_body(surface.pressure(load));
   }
   void fill(const BodyForce& load, Eigen::Ref<Eigen::VectorXd> column) {
     column = body_force(integrals_over(load.volume_ids), density_kg_m3_, load.field);
@@ -69,11 +69,6 @@ private:
     auto [known, is_new] = regions_.try_emplace(volume_ids);
     if (is_new) known->second = integrate_nodes(grid_, volume_ids, relative_density_);
     return known->second;
-  }
-  static void scatter(const LoadedSurface& surface, const Eigen::VectorXd& force,
-                      Eigen::Ref<Eigen::VectorXd> column) {
-    for (std::size_t i = 0; i < surface.nodes().size(); ++i)
-      column.segment<3>(3 * std::size_t(surface.nodes()[i])) = force.segment<3>(3 * i);
   }
 
   const Grid& grid_;
@@ -111,25 +106,22 @@ std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads, const Body& b
   std::vector<int> groups;
   for (const auto& spring : body.elastic_supports) groups.push_back(spring.surface.boundary_id);
   for (const auto& clamp : body.clamps) groups.push_back(clamp.boundary_id);
-  for (const auto& load : loads) {
-    if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape))
-      groups.push_back(resultant->surface.boundary_id);
-    if (const auto* pressure = std::get_if<SeatPressure>(&load.shape))
-      groups.push_back(pressure->surface.boundary_id);
-  }
+  for (const auto& load : loads)
+    if (const auto* surface = surface_of(load)) groups.push_back(surface->boundary_id);
   return groups;
 }
 
-Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface) {
-  using Component = SurfaceResultant::Component;
+Eigen::MatrixXd unit_resultants(const Grid& grid, const LoadSurface& surface) {
   const LoadedSurface loaded(grid, surface);
-  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * grid.n_nodes, 3);
-  for (const auto component : {Component::fx, Component::fy, Component::fz}) {
-    const Eigen::VectorXd own = loaded.resultant(component);
-    for (std::size_t i = 0; i < loaded.nodes().size(); ++i)
-      force.block<3, 1>(3 * std::size_t(loaded.nodes()[i]), int(component)) = own.segment<3>(3 * i);
-  }
+  Eigen::MatrixXd force(3 * grid.n_nodes, 6);
+  for (int c = 0; c < 6; ++c) force.col(c) = loaded.on_body(loaded.resultant(SurfaceResultant::Component(c)));
   return force;
+}
+
+const LoadSurface* surface_of(const UnitLoad& load) {
+  if (const auto* resultant = std::get_if<SurfaceResultant>(&load.shape)) return &resultant->surface;
+  if (const auto* pressure = std::get_if<SeatPressure>(&load.shape)) return &pressure->surface;
+  return nullptr;
 }
 
 }  // namespace fem

@@ -49,36 +49,16 @@ std::array<std::int64_t, 6> choose_supports(const Grid& grid) {
 
 Supports::Supports(std::vector<std::int64_t> unknowns, SymmetricMatrix& matrix)
     : unknowns_(std::move(unknowns)), rows_(Eigen::MatrixXd::Zero(unknowns_.size(), matrix.n)) {
-  const auto n = static_cast<Eigen::Index>(unknowns_.size());
-  for (Eigen::Index s = 0; s < n; ++s) {
-    const auto unknown = unknowns_[s];
-    // The row left of the diagonal, spread over the columns before it ...
-    for (std::int64_t j = 0; j < unknown; ++j) {
-      const auto end = matrix.row.begin() + matrix.column_begin[j + 1];
-      const auto found = std::lower_bound(matrix.row.begin() + matrix.column_begin[j], end, unknown);
-      if (found == end || *found != unknown) continue;
-      rows_(s, j) = matrix.value[found - matrix.row.begin()];
+  std::vector<std::int32_t> place(std::size_t(matrix.n), -1);  // among the supported unknowns
+  for (std::size_t s = 0; s < unknowns_.size(); ++s) place[std::size_t(unknowns_[s])] = std::int32_t(s);
+  for (std::int64_t j = 0; j < matrix.n; ++j)
+    for (auto k = matrix.column_begin[j]; k < matrix.column_begin[j + 1]; ++k) {
+      const auto i = matrix.row[k];
+      if (place[i] < 0 && place[j] < 0) continue;
+      if (place[i] >= 0) rows_(place[i], j) = matrix.value[k];
+      if (place[j] >= 0) rows_(place[j], i) = matrix.value[k];
+      if (i != j) matrix.value[k] = 0;
     }
-    // ... and from the diagonal on the column itself.
-    for (auto k = matrix.column_begin[unknown]; k < matrix.column_begin[unknown + 1]; ++k)
-      rows_(s, matrix.row[k]) = matrix.value[k];
-  }
-  // Only then are they cleared: the rows of two supports cross.
-  for (Eigen::Index s = 0; s < n; ++s) {
-    const auto unknown = unknowns_[s];
-    for (std::int64_t j = 0; j < unknown; ++j) {
-      if (rows_(s, j) == 0) continue;
-      const auto begin = matrix.row.begin() + matrix.column_begin[j];
-      const auto found = std::lower_bound(begin, matrix.row.begin() + matrix.column_begin[j + 1], unknown);
-      matrix.value[found - matrix.row.begin()] = 0;
-    }
-    for (auto k = matrix.column_begin[unknown] + 1; k < matrix.column_begin[unknown + 1]; ++k)
-      matrix.value[k] = 0;
-  }
-}
-
-void Supports::clear(Eigen::MatrixXd& vectors) const {
-  for (const auto i : unknowns_) vectors.row(i).setZero();
 }
 
 Eigen::MatrixXd Supports::images(const Eigen::MatrixXd& displacement) const {

@@ -27,9 +27,6 @@ public:
   /// Of some of them: those that a part of the body has.
   Supports(std::vector<std::int64_t> unknowns, SymmetricMatrix& matrix);
 
-  /// Sets the supported rows to zero.
-  void clear(Eigen::MatrixXd& vectors) const;
-
   /// The supported rows, ascending.
   const std::vector<std::int64_t>& unknowns() const noexcept { return unknowns_; }
 

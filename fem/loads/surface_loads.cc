@@ -131,6 +131,13 @@ Eigen::VectorXd LoadedSurface::pressure(const SeatPressure& load) const {
   return force;
 }
 
+Eigen::VectorXd LoadedSurface::on_body(const Eigen::VectorXd& force) const {
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(3 * grid_->n_nodes);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    column.segment<3>(3 * std::size_t(nodes_[i])) = force.segment<3>(3 * i);
+  return column;
+}
+
 bool same_surface(const LoadSurface& a, const LoadSurface& b) {
   return a.kind == b.kind && a.boundary_id == b.boundary_id && a.centre_m == b.centre_m &&
          a.radius_m == b.radius_m && a.length_m == b.length_m && a.axial_profile == b.axial_profile;

@@ -13,13 +13,6 @@
 
 namespace fem {
 
-/// Nodal forces on the nodes of one surface: row 3 i + d belongs to component d of nodes[i]; one column per
-/// vector.
-struct SurfaceForces {
-  std::vector<std::int32_t> nodes;
-  Eigen::MatrixXd force;
-};
-
 /// A surface and its six exact unit resultants (fx, fy, fz, mx, my, torque about the surface's centre).
 class LoadedSurface {
 public:
@@ -30,13 +23,16 @@ public:
   const LoadSurface& surface() const noexcept { return surface_; }
   const std::vector<std::int32_t>& nodes() const noexcept { return nodes_; }
 
-  /// Unit resultant: force on the surface's nodes.
+  /// Forces on the surface's nodes: row 3 i + d belongs to component d of nodes()[i]. Here a unit resultant.
   Eigen::VectorXd resultant(SurfaceResultant::Component component) const;
 
   /// Harmonic of the seat pressure without its discrete resultants, unless it keeps them; `load.surface` is
   /// this one.
   /// @throws std::invalid_argument for harmonic 1 or a negative one, the sine of harmonic 0, or a face
   Eigen::VectorXd pressure(const SeatPressure& load) const;
+
+  /// The same forces as a column of the body's unknowns (3 n_nodes).
+  Eigen::VectorXd on_body(const Eigen::VectorXd& force) const;
 
 private:
   using Traction =
@@ -64,8 +60,11 @@ Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, d
                              const std::vector<UnitLoad>& loads,
                              const PerCell<double>& relative_density = 1.0);
 
-/// Unit resultants of a surface as columns (3 n_nodes x 3): fx, fy, fz.
-Eigen::MatrixXd unit_forces(const Grid& grid, const LoadSurface& surface);
+/// Unit resultants of a surface as columns (3 n_nodes x 6), in the order of SurfaceResultant::Component.
+Eigen::MatrixXd unit_resultants(const Grid& grid, const LoadSurface& surface);
+
+/// Where a load enters; null for a body force.
+const LoadSurface* surface_of(const UnitLoad& load);
 
 /// Boundary groups that any of the loads, springs or clamps acts on.
 std::vector<int> loaded_groups(const std::vector<UnitLoad>& loads, const Body& body);

@@ -13,12 +13,14 @@
 
 #include "fem/mesh/array_checks.h"
 #include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/connected_pieces.h"
 #include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/local_refinement.h"
 #include "fem/mesh/manifolds.h"
 #include "fem/mesh/tetrahedra_grid.h"
 #include "fem/mesh/triangulation.h"
 #include "fem/values/errors.h"
+#include "fem/values/vtk_order.h"
 
 namespace fem {
 
@@ -34,6 +36,20 @@ Grid grid_of_tetrahedra(const Body& body) {
   if (body.degree != 2) refuse("degree = " + std::to_string(body.degree) + " must be 2");
   Grid grid = tetrahedra_grid(*body.mesh);
   refuse_inverted_cells(grid);
+  refuse_several_pieces(grid);
+  return grid;
+}
+
+/// The cells before any refinement, without their surface.
+Grid linear_hexahedra(const CoarseMesh& mesh) {
+  Grid grid;
+  grid.degree = 1;
+  grid.n_nodes = mesh.points_m.size();
+  for (const auto& point : mesh.points_m) grid.xyz_m.insert(grid.xyz_m.end(), point.begin(), point.end());
+  for (std::size_t c = 0; c < mesh.n_cells(); ++c)
+    for (const int corner : vtk_linear_hexahedron_from_lexicographic)  // gmsh has VTK's order
+      grid.cell_nodes.push_back(mesh.cell(c)[corner]);
+  grid.volume_id = mesh.volume_id;
   return grid;
 }
 
@@ -56,6 +72,7 @@ Grid make_grid(const Body& body) {
   if (!body.mesh) throw std::invalid_argument("the body has no mesh");
   check_arrays(*body.mesh);
   if (body.mesh->kind == CellKind::tetrahedra) return grid_of_tetrahedra(body);
+  refuse_several_pieces(linear_hexahedra(*body.mesh));  // hanging faces match nowhere: before they are made
   dealii::Triangulation<3> mesh(dealii::Triangulation<3>::limit_level_difference_at_vertices);
   triangulate(*body.mesh, mesh);
   attach_charts(mesh, body.cylinders, body.tori);

@@ -8,8 +8,8 @@ namespace fem {
 
 /// The cells with their groups. Hexahedra: attaches the charts, refines, places the nodes of Q_k on the
 /// curved cells. Quadratic tetrahedra: nodes as they are.
-/// @throws MeshUnusable if the arrays are no mesh (check_arrays), a face of tetrahedra has no group, or cells
-/// are inverted
+/// @throws MeshUnusable if the arrays are no mesh (check_arrays), a face of tetrahedra has no group, cells
+/// are inverted, or the mesh is in several pieces
 /// @throws InvertedBesideLarger if body.refinements invert cells beside larger ones
 /// @throws std::invalid_argument without a mesh, for a chart without cells or faces, a degree outside 1 to 3,
 /// charts, refinements or another degree than 2 with tetrahedra

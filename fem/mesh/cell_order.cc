@@ -68,17 +68,12 @@ constexpr std::size_t n_parts_at_most = 16, cells_per_part = 200;
 
 }  // namespace
 
-std::vector<int> deal_out_cells(const std::vector<std::array<double, 3>>& corner_sum,
-                                const std::vector<double>& weights) {
-  std::vector<std::int32_t> cell(corner_sum.size());
+std::vector<int> deal_out_cells(const Grid& grid, const std::vector<double>& weights) {
+  std::vector<std::int32_t> cell(grid.n_cells());
   std::iota(cell.begin(), cell.end(), 0);
   std::vector<int> share(cell.size(), 0);
-  deal_out(corner_sum, cell.data(), cell.data() + cell.size(), weights, 0, weights.size(), share);
+  deal_out(corner_sums(grid), cell.data(), cell.data() + cell.size(), weights, 0, weights.size(), share);
   return share;
-}
-
-std::vector<int> deal_out_cells(const Grid& grid, const std::vector<double>& weights) {
-  return deal_out_cells(corner_sums(grid), weights);
 }
 
 std::vector<double> even_weights(int n_shares) {

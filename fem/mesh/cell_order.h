@@ -2,7 +2,6 @@
 /// fem.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,9 +22,6 @@ CellOrder order_cells(const Grid& grid);
 /// The share that each cell falls to: shares are halved by their number across the longest extent, again and
 /// again, and have cells as their weights.
 std::vector<int> deal_out_cells(const Grid& grid, const std::vector<double>& weights);
-/// By the sums of the cells' corners' places.
-std::vector<int> deal_out_cells(const std::vector<std::array<double, 3>>& corner_sum,
-                                const std::vector<double>& weights);
 
 /// Of shares that are all alike.
 std::vector<double> even_weights(int n_shares);

@@ -65,6 +65,11 @@ Coordinates push_forward(const TorusChart& chart, const Coordinates& chart_point
           chart.centre_z_m - chart_point[0] * std::sin(chart_point[2])};
 }
 
+bool is_fillet(const std::vector<TorusChart>& tori, int boundary_id) {
+  return std::any_of(tori.begin(), tori.end(),
+                     [&](const auto& torus) { return torus.boundary_id == boundary_id; });
+}
+
 void refuse_impossible(const CylinderChart& chart) {
   const double shift = std::hypot(chart.shift_x_m, chart.shift_y_m);
   if (shift == 0 || (chart.inner_radius_m >= 0 && shift < chart.outer_radius_m - chart.inner_radius_m))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "fem/values/body.h"
 
@@ -21,6 +22,9 @@ Coordinates push_forward(const CylinderChart& chart, const Coordinates& chart_po
 /// branch cut at angle 0.
 Coordinates pull_back(const TorusChart& chart, const Coordinates& point);
 Coordinates push_forward(const TorusChart& chart, const Coordinates& chart_point);
+
+/// Whether the boundary group is that of a torus.
+bool is_fillet(const std::vector<TorusChart>& tori, int boundary_id);
 
 /// @throws std::invalid_argument if a shifted chart has radii out of order or a shift not below their
 /// difference

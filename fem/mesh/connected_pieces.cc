@@ -18,26 +18,23 @@ namespace {
 struct Face {
   std::array<std::int32_t, 4> corners{};  // ascending; of a triangle the first is -1
   std::int32_t cell = 0;
+  int number = 0;  // in the cell
 };
 
 std::vector<Face> all_faces(const Grid& grid) {
   const auto places = face_corners(grid.shape());
   const int n_faces = grid.shape().n_faces();
-  std::vector<std::vector<int>> local;
+  std::vector<Face> faces;
+  faces.reserve(grid.n_cells() * std::size_t(n_faces));
   for (int f = 0; f < n_faces; ++f) {
     const auto nodes = face_nodes(grid.shape(), f);
-    auto& corners = local.emplace_back();
-    for (const int place : places) corners.push_back(nodes[place]);
-  }
-  std::vector<Face> faces;
-  faces.reserve(grid.n_cells() * n_faces);
-  for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (const auto& corners : local) {
-      Face face{{-1, -1, -1, -1}, static_cast<std::int32_t>(c)};
-      for (std::size_t k = 0; k < corners.size(); ++k) face.corners[k] = grid.nodes_of(c)[corners[k]];
+    for (std::size_t c = 0; c < grid.n_cells(); ++c) {
+      Face face{{-1, -1, -1, -1}, static_cast<std::int32_t>(c), f};
+      for (std::size_t k = 0; k < places.size(); ++k) face.corners[k] = grid.nodes_of(c)[nodes[places[k]]];
       std::sort(face.corners.begin(), face.corners.end());
       faces.push_back(face);
     }
+  }
   return faces;
 }
 
@@ -49,11 +46,11 @@ std::vector<std::int32_t> pieces_of_cells(const Grid& grid) {
     while (parent[c] != c) c = parent[c] = parent[parent[c]];
     return c;
   };
-  auto faces = all_faces(grid);
-  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.corners < b.corners; });
-  for (std::size_t k = 1; k < faces.size(); ++k)
-    if (faces[k].corners == faces[k - 1].corners) {
-      const auto a = root(faces[k - 1].cell), b = root(faces[k].cell);
+  const auto beyond = cells_beyond_faces(grid);
+  const auto n_faces = beyond.size() / grid.n_cells();
+  for (std::size_t k = 0; k < beyond.size(); ++k)
+    if (beyond[k] >= 0) {
+      const auto a = root(static_cast<std::int32_t>(k / n_faces)), b = root(beyond[k]);
       parent[std::max(a, b)] = std::min(a, b);
     }
   for (std::size_t c = 0; c < parent.size(); ++c) parent[c] = root(static_cast<std::int32_t>(c));
@@ -69,6 +66,18 @@ std::array<double, 3> centre(const Grid& grid, std::size_t cell) {
 }
 
 }  // namespace
+
+std::vector<std::int32_t> cells_beyond_faces(const Grid& grid) {
+  const auto n_faces = std::size_t(grid.shape().n_faces());
+  std::vector<std::int32_t> beyond(grid.n_cells() * n_faces, -1);
+  auto faces = all_faces(grid);
+  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.corners < b.corners; });
+  for (std::size_t k = 1; k < faces.size(); ++k)
+    if (faces[k].corners == faces[k - 1].corners)
+      for (const auto& [own, other] : {std::pair(faces[k], faces[k - 1]), std::pair(faces[k - 1], faces[k])})
+        beyond[std::size_t(own.cell) * n_faces + std::size_t(own.number)] = other.cell;
+  return beyond;
+}
 
 void refuse_several_pieces(const Grid& grid) {
   std::map<std::int32_t, std::size_t> n_cells;  // by the first cell of a piece

@@ -40,11 +40,6 @@ std::vector<int> corner_nodes(CellShape shape) {
   return nodes;
 }
 
-bool joined_by_edge(CellShape shape, int corner, int other) {
-  const int difference = corner ^ other;
-  return shape.is_tetrahedron() ? difference != 0 : difference == 1 || difference == 2 || difference == 4;
-}
-
 namespace {
 
 /// @param n_nodes_of, nodes_of  of each cell

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "fem/values/cell_shape.h"
@@ -31,12 +32,16 @@ struct HangingNodes {
   std::vector<double> weight;         ///< sum to 1 at each node
 
   std::size_t n() const noexcept { return node.size(); }
+  template <typename Self>
+  static auto members(Self& self) {
+    return std::tie(self.node, self.begin, self.master, self.weight);
+  }
   /// @param masters  pairs of a master and its weight
   template <typename Masters>
   void add(std::int32_t hanging, const Masters& masters) {
     node.push_back(hanging);
     for (const auto& [of, share] : masters) {
-      master.push_back(of);
+      master.push_back(std::int32_t(of));
       weight.push_back(share);
     }
     begin.push_back(master.size());
@@ -61,6 +66,13 @@ struct Grid {
   int nodes_per_face() const noexcept { return shape().nodes_per_face(); }
   const std::int32_t* nodes_of(std::size_t cell) const { return cell_nodes.data() + cell * nodes_per_cell(); }
   const double* position(std::int32_t node) const { return xyz_m.data() + 3 * std::size_t(node); }
+
+  /// For messages between ranks (ranks/message.h).
+  template <typename Self>
+  static auto members(Self& self) {
+    return std::tie(self.kind, self.degree, self.n_nodes, self.xyz_m, self.cell_nodes, self.volume_id,
+                    self.boundary, self.interfaces, self.hanging);
+  }
 };
 
 /// Local node numbers of a face. Hexahedra: lexicographic in two directions whose cross product points out of
@@ -74,8 +86,9 @@ std::vector<int> face_corners(CellShape shape);
 /// Local node numbers of the corners: 8 lexicographic ones, or 4.
 std::vector<int> corner_nodes(CellShape shape);
 
-/// Whether an edge joins two corners (by their places in corner_nodes).
-bool joined_by_edge(CellShape shape, int corner, int other);
+/// Corners at the ends of a tetrahedron's edges, in the order of their middle nodes 4 to 9.
+inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges = {
+    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
 /// Cells that contain a node, for all nodes: cells of node i are cell[begin[i]] .. cell[begin[i+1]-1],
 /// ascending.

@@ -29,7 +29,6 @@ class CellCouplings {
 public:
   explicit CellCouplings(const Grid& grid);
 
-  std::size_t n_cells() const noexcept { return grid_.n_cells(); }
   /// Whether none of the cell's nodes hangs.
   bool is_plain(std::size_t cell) const { return of_cell_[cell] < 0; }
   int n_nodes(std::size_t cell) const {

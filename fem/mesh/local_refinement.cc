@@ -12,36 +12,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/values/errors.h"
-
 namespace fem {
 
 namespace {
 
 using Dof = dealii::types::global_dof_index;
-
-/// Faces that match nowhere in a refined grid are hanging ones, so pieces are looked for before.
-void refuse_pieces(const dealii::Triangulation<3>& mesh) {
-  std::vector<char> is_reached(mesh.n_active_cells(), 0);
-  std::vector<dealii::Triangulation<3>::active_cell_iterator> open{mesh.begin_active()};
-  is_reached[mesh.begin_active()->active_cell_index()] = 1;
-  std::size_t n_reached = 1;
-  while (!open.empty()) {
-    const auto cell = open.back();
-    open.pop_back();
-    for (const auto face : cell->face_indices()) {
-      if (cell->at_boundary(face)) continue;
-      const auto neighbour = cell->neighbor(face);
-      auto& known = is_reached[neighbour->active_cell_index()];
-      if (known != 0) continue;
-      known = 1;
-      ++n_reached;
-      open.emplace_back(neighbour);
-    }
-  }
-  if (n_reached < mesh.n_active_cells())
-    throw MeshUnusable("the mesh is in several pieces that share no face: make a body of each");
-}
 
 /// The degree of freedom that stands for each one: a vertex in the middle of a larger cell's edge is the node
 /// which that cell has there.
@@ -80,8 +55,6 @@ void flag_cells_at(dealii::Triangulation<3>& mesh, const std::vector<std::array<
 }  // namespace
 
 void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<RefinementCycle>& cycles) {
-  if (cycles.empty()) return;
-  refuse_pieces(mesh);
   for (const auto& cycle : cycles) {
     std::vector<char> is_cut(mesh.n_active_cells(), 0);
     for (const auto cell : cycle.cells) {
@@ -132,17 +105,12 @@ NodeNumbers number_nodes(const dealii::DoFHandler<3>& space) {
   for (Dof i = 0; i < space.n_dofs(); ++i)
     if (same[i] == i) numbers.of_dof[i] = std::int32_t(numbers.n_nodes++);
   for (Dof i = 0; i < space.n_dofs(); ++i) numbers.of_dof[i] = numbers.of_dof[same[i]];
-  auto& hanging = numbers.hanging;
   for (Dof i = 0; i < space.n_dofs(); ++i) {
     if (same[i] != i || !constraints.is_constrained(i)) continue;
-    hanging.node.push_back(numbers.of_dof[i]);
     auto entries = *constraints.get_constraint_entries(i);
     std::sort(entries.begin(), entries.end());
-    for (const auto& [master, weight] : entries) {
-      hanging.master.push_back(numbers.of_dof[master]);
-      hanging.weight.push_back(weight);
-    }
-    hanging.begin.push_back(hanging.master.size());
+    for (auto& entry : entries) entry.first = Dof(numbers.of_dof[entry.first]);
+    numbers.hanging.add(numbers.of_dof[i], entries);
   }
   return numbers;
 }

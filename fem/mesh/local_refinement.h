@@ -15,7 +15,6 @@ namespace fem {
 /// Cuts cells into eight, cycle after cycle; more where levels would differ by more than one across a face,
 /// an edge or a vertex. New vertices lie on the manifolds.
 /// @throws std::invalid_argument for an index that is no cell, a point without vertex
-/// @throws MeshUnusable if the mesh is in several pieces
 void refine_locally(dealii::Triangulation<3>& mesh, const std::vector<RefinementCycle>& cycles);
 
 /// Larger cells that share a vertex with one of these, ascending.

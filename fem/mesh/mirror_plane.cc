@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 
 namespace fem {
@@ -31,55 +30,35 @@ Box box_around(const Grid& grid) {
   return box;
 }
 
-/// Finds the node at a point: nodes by small cubes of space.
+/// Finds the node at a point: nodes by their place along an oblique line, where hardly two of them meet.
 class NodesByPlace {
 public:
-  NodesByPlace(const Grid& grid, const Box& box, double tolerance_m)
-      : grid_(grid), low_(box.low), tolerance_m_(tolerance_m), cube_m_(1e3 * tolerance_m) {
-    nodes_.reserve(grid.n_nodes);
+  NodesByPlace(const Grid& grid, double tolerance_m) : grid_(grid), tolerance_m_(tolerance_m) {
     for (std::size_t i = 0; i < grid.n_nodes; ++i)
-      nodes_.emplace(key(cube_of({grid.xyz_m[3 * i], grid.xyz_m[3 * i + 1], grid.xyz_m[3 * i + 2]})),
-                     std::int32_t(i));
+      nodes_.emplace_back(along(grid.position(std::int32_t(i))), std::int32_t(i));
+    std::sort(nodes_.begin(), nodes_.end());
   }
 
   /// @return -1 where there is none
   std::int32_t at(const Point& x_m) const {
-    std::array<std::array<std::int64_t, 3>, 2> ends;
-    for (std::size_t e = 0; e < 2; ++e) {
-      Point moved = x_m;
-      for (double& x : moved) x += e == 0 ? -tolerance_m_ : tolerance_m_;
-      ends[e] = cube_of(moved);
+    const double place_m = along(x_m.data()),
+                 reach_m = 2 * tolerance_m_;  // the direction's components sum to 1.7
+    auto near = std::lower_bound(nodes_.begin(), nodes_.end(), std::pair(place_m - reach_m, 0));
+    for (; near != nodes_.end() && near->first <= place_m + reach_m; ++near) {
+      const double* own = grid_.position(near->second);
+      double distance_m = 0;
+      for (std::size_t d = 0; d < 3; ++d) distance_m = std::max(distance_m, std::abs(own[d] - x_m[d]));
+      if (distance_m <= tolerance_m_) return near->second;
     }
-    for (auto a = ends[0][0]; a <= ends[1][0]; ++a)
-      for (auto b = ends[0][1]; b <= ends[1][1]; ++b)
-        for (auto c = ends[0][2]; c <= ends[1][2]; ++c)
-          for (auto [k, end] = nodes_.equal_range(key({a, b, c})); k != end; ++k) {
-            const double* own = grid_.position(k->second);
-            double distance_m = 0;
-            for (std::size_t d = 0; d < 3; ++d) distance_m = std::max(distance_m, std::abs(own[d] - x_m[d]));
-            if (distance_m <= tolerance_m_) return k->second;
-          }
     return -1;
   }
 
 private:
-  std::array<std::int64_t, 3> cube_of(const Point& x_m) const {
-    std::array<std::int64_t, 3> cube{};
-    for (std::size_t d = 0; d < 3; ++d) cube[d] = std::int64_t(std::floor((x_m[d] - low_[d]) / cube_m_));
-    return cube;
-  }
-
-  /// Of unlike cubes some have the same key: points are compared besides.
-  static std::uint64_t key(const std::array<std::int64_t, 3>& cube) {
-    std::uint64_t key = 0;
-    for (const auto c : cube) key = 0x9e3779b97f4a7c15U * (key + std::uint64_t(c)) + (key >> 29U);
-    return key;
-  }
+  static double along(const double* x_m) { return 0.7321 * x_m[0] + 0.5197 * x_m[1] + 0.4404 * x_m[2]; }
 
   const Grid& grid_;
-  Point low_;
-  double tolerance_m_, cube_m_;
-  std::unordered_multimap<std::uint64_t, std::int32_t> nodes_;
+  double tolerance_m_;
+  std::vector<std::pair<double, std::int32_t>> nodes_;
 };
 
 /// No mesh has an image whose nodes do not balance about the plane: this rules out most.
@@ -142,7 +121,7 @@ std::optional<MirrorPlane> find_mirror_plane(const Grid& grid, const CellsOfNode
     plane.axis = axis;
     plane.place_m = (box.low[std::size_t(axis)] + box.high[std::size_t(axis)]) / 2;
     if (!balances(grid, axis, plane.place_m, tolerance_m)) continue;
-    if (!nodes) nodes.emplace(grid, box, tolerance_m);
+    if (!nodes) nodes.emplace(grid, tolerance_m);
     if (images_of_nodes(grid, *nodes, plane) && images_of_cells(grid, cells, tolerance_m, plane))
       return plane;
   }

@@ -2,30 +2,61 @@
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_tools.h>
 
-#include "fem/common/simplex.h"
+#include <memory>
+#include <numeric>
 
 namespace fem {
 
 namespace {
 
+/// deal.II's element, and its number of each of our shape functions.
 template <int dim>
-Tabulation tabulate(int degree, const std::vector<dealii::Point<dim>>& points,
+struct Element {
+  std::unique_ptr<const dealii::FiniteElement<dim>> functions;
+  std::vector<unsigned> number;
+};
+
+/// Edges of FE_SimplexP come in the order of grid.h.
+template <int dim>
+Element<dim> quadratic_simplex() {
+  Element<dim> element{std::make_unique<dealii::FE_SimplexP<dim>>(2), {}};
+  element.number.resize(element.functions->n_dofs_per_cell());
+  std::iota(element.number.begin(), element.number.end(), 0U);
+  return element;
+}
+
+template <int dim>
+Element<dim> tensor_product(unsigned degree) {
+  return {std::make_unique<dealii::FE_Q<dim>>(degree),
+          dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree)};
+}
+
+/// Cells and faces of tetrahedra and of degrees 1 to 3, made once.
+template <int dim>
+const Element<dim>& element_of(CellShape shape) {
+  static const std::array<Element<dim>, 4> elements{quadratic_simplex<dim>(), tensor_product<dim>(1),
+                                                    tensor_product<dim>(2), tensor_product<dim>(3)};
+  return elements.at(shape.is_tetrahedron() ? 0 : std::size_t(shape.degree));
+}
+
+template <int dim>
+Tabulation tabulate(CellShape shape, const std::vector<dealii::Point<dim>>& points,
                     const std::vector<double>& weights) {
-  const dealii::FE_Q<dim> element(degree);
-  const auto hierarchic = dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
+  const auto& [element, number] = element_of<dim>(shape);
   Tabulation t;
   t.n_points = static_cast<int>(points.size());
-  t.n_shapes = static_cast<int>(element.n_dofs_per_cell());
+  t.n_shapes = static_cast<int>(number.size());
   t.weight = weights;
   for (const auto& p : points) {
     std::array<double, 3> at{};
     for (int d = 0; d < dim; ++d) at[d] = p[d];
     t.point.push_back(at);
-    for (int i = 0; i < t.n_shapes; ++i) {
-      t.value.push_back(element.shape_value(hierarchic[i], p));
-      const auto gradient = element.shape_grad(hierarchic[i], p);
+    for (const auto i : number) {
+      t.value.push_back(element->shape_value(i, p));
+      const auto gradient = element->shape_grad(i, p);
       std::array<double, 3> g{};
       for (int d = 0; d < dim; ++d) g[d] = gradient[d];
       t.gradient.push_back(g);
@@ -34,47 +65,36 @@ Tabulation tabulate(int degree, const std::vector<dealii::Point<dim>>& points,
   return t;
 }
 
-Tabulation tabulate_simplex(std::vector<ShapeAt> (*shapes)(const std::array<double, 3>&),
-                            const std::vector<std::array<double, 3>>& points,
-                            const std::vector<double>& weights) {
-  Tabulation t;
-  t.n_points = static_cast<int>(points.size());
-  t.weight = weights;
-  t.point = points;
-  for (const auto& p : points) {
-    const auto at_point = shapes(p);
-    t.n_shapes = static_cast<int>(at_point.size());
-    for (const auto& s : at_point) {
-      t.value.push_back(s.value);
-      t.gradient.push_back(s.gradient);
-    }
-  }
-  return t;
+template <int dim>
+Tabulation tabulate(CellShape shape, const dealii::Quadrature<dim>& rule) {
+  return tabulate<dim>(shape, rule.get_points(), rule.get_weights());
 }
 
 template <int dim>
-Tabulation tabulate_simplex(const dealii::Quadrature<dim>& rule) {
-  std::vector<std::array<double, 3>> points;
-  for (const auto& p : rule.get_points()) {
-    std::array<double, 3> at{};
-    for (int d = 0; d < dim; ++d) at[d] = p[d];
-    points.push_back(at);
-  }
-  return tabulate_simplex(dim == 3 ? quadratic_tetrahedron : quadratic_triangle, points, rule.get_weights());
+std::vector<dealii::Point<dim>> to_dealii(const ReferencePoints& points) {
+  std::vector<dealii::Point<dim>> result(points.size());
+  for (std::size_t q = 0; q < points.size(); ++q)
+    for (int d = 0; d < dim; ++d) result[q][d] = points[q][d];
+  return result;
+}
+
+Tabulation at_nodes(CellShape shape) {
+  const auto& [element, number] = element_of<3>(shape);
+  std::vector<dealii::Point<3>> points;
+  for (const auto i : number) points.push_back(element->get_unit_support_points()[i]);
+  return tabulate<3>(shape, points, {});
 }
 
 }  // namespace
 
 Tabulation gauss_in_cell(CellShape shape, int n) {
-  if (shape.is_tetrahedron()) return tabulate_simplex<3>(dealii::QWitherdenVincentSimplex<3>(n));
-  const dealii::QGauss<3> quadrature(n);
-  return tabulate<3>(shape.degree, quadrature.get_points(), quadrature.get_weights());
+  if (shape.is_tetrahedron()) return tabulate<3>(shape, dealii::QWitherdenVincentSimplex<3>(n));
+  return tabulate<3>(shape, dealii::QGauss<3>(n));
 }
 
 Tabulation gauss_on_face(CellShape shape, int n) {
-  if (shape.is_tetrahedron()) return tabulate_simplex<2>(dealii::QWitherdenVincentSimplex<2>(n));
-  const dealii::QGauss<2> quadrature(n);
-  return tabulate<2>(shape.degree, quadrature.get_points(), quadrature.get_weights());
+  if (shape.is_tetrahedron()) return tabulate<2>(shape, dealii::QWitherdenVincentSimplex<2>(n));
+  return tabulate<2>(shape, dealii::QGauss<2>(n));
 }
 
 Tabulation moment_points_in_cell(CellShape shape) {
@@ -82,22 +102,29 @@ Tabulation moment_points_in_cell(CellShape shape) {
 }
 
 Tabulation stress_points_in_cell(CellShape shape) {
-  if (shape.is_tetrahedron()) return tabulate_simplex<3>(dealii::QGaussSimplex<3>(2));
+  if (shape.is_tetrahedron()) return tabulate<3>(shape, dealii::QGaussSimplex<3>(2));
   return gauss_in_cell(shape, shape.degree);
 }
 
 Tabulation stress_points_on_face(CellShape shape) {
-  if (shape.is_tetrahedron()) return tabulate_simplex<2>(dealii::QGaussSimplex<2>(2));
+  if (shape.is_tetrahedron()) return tabulate<2>(shape, dealii::QGaussSimplex<2>(2));
   return gauss_on_face(shape, shape.degree);
 }
 
-Tabulation nodes_in_cell(CellShape shape) {
-  if (shape.is_tetrahedron()) return tabulate_simplex(quadratic_tetrahedron, tetrahedron_nodes(), {});
-  const dealii::FE_Q<3> element(shape.degree);
-  const auto hierarchic = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(shape.degree);
-  std::vector<dealii::Point<3>> points;
-  for (const auto i : hierarchic) points.push_back(element.get_unit_support_points()[i]);
-  return tabulate<3>(shape.degree, points, {});
+const Tabulation& nodes_in_cell(CellShape shape) {
+  static const std::array<Tabulation, 4> tables{
+      at_nodes({CellKind::tetrahedra, 2}), at_nodes({CellKind::hexahedra, 1}),
+      at_nodes({CellKind::hexahedra, 2}), at_nodes({CellKind::hexahedra, 3})};
+  return tables.at(shape.is_tetrahedron() ? 0 : std::size_t(shape.degree));
+}
+
+Tabulation tabulate_in_cell(CellShape shape, const ReferencePoints& points,
+                            const std::vector<double>& weights) {
+  return tabulate<3>(shape, to_dealii<3>(points), weights);
+}
+
+Tabulation tabulate_on_face(CellShape shape, const ReferencePoints& points) {
+  return tabulate<2>(shape, to_dealii<2>(points), {});
 }
 
 std::vector<double> corner_hats(CellShape shape, const std::array<double, 3>& point) {

@@ -8,14 +8,16 @@
 
 namespace fem {
 
+using ReferencePoints = std::vector<std::array<double, 3>>;
+
 /// value[q][i], gradient[q][i][axis], weight[q] flattened; shape functions in the order
 /// of the nodes. Faces use axes 0 and 1 only.
 struct Tabulation {
   int n_points = 0, n_shapes = 0;
   std::vector<double> value;
   std::vector<std::array<double, 3>> gradient;
-  std::vector<double> weight;                ///< quadrature weights; empty for nodes
-  std::vector<std::array<double, 3>> point;  ///< in the reference cell
+  std::vector<double> weight;  ///< quadrature weights; empty for points that are no rule
+  ReferencePoints point;       ///< in the reference cell
 };
 
 /// Gauss points, n in each direction; on tetrahedra and triangles symmetric rules that are exact to the same
@@ -27,12 +29,18 @@ Tabulation gauss_on_face(CellShape shape, int n);
 /// k and 3 k - 1 in each direction; two of the former make 5 k - 1 in all. Tetrahedra: 2, 2 and 3.
 Tabulation moment_points_in_cell(CellShape shape);
 
-/// Where stress is sampled: the Gauss points of k in each direction; 4 in a tetrahedron, 3 on a triangle.
+/// Where stress is sampled: the Gauss points of k in each direction; in tetrahedra and triangles deal.II's
+/// rules of 6 and 4 points, which are not symmetric.
 Tabulation stress_points_in_cell(CellShape shape);
 Tabulation stress_points_on_face(CellShape shape);
 
 /// The nodes of the cell themselves.
-Tabulation nodes_in_cell(CellShape shape);
+const Tabulation& nodes_in_cell(CellShape shape);
+
+/// Any points, with weights if they are a rule.
+Tabulation tabulate_in_cell(CellShape shape, const ReferencePoints& points,
+                            const std::vector<double>& weights = {});
+Tabulation tabulate_on_face(CellShape shape, const ReferencePoints& points);
 
 /// Values of the corners' hat functions (trilinear, or linear on a tetrahedron) at a point of the reference
 /// cell.

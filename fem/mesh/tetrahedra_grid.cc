@@ -5,6 +5,8 @@
 #include <map>
 #include <sstream>
 
+#include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/connected_pieces.h"
 #include "fem/values/errors.h"
 
 namespace fem {
@@ -40,20 +42,12 @@ std::map<Corners, int> groups_of_faces(const CoarseMesh& mesh,
 }
 
 void add_boundary(const std::map<Corners, int>& groups, Grid& grid) {
-  const auto corners_of = [&](std::size_t cell, int face) {
-    const auto local = face_nodes(grid.shape(), face);
-    const auto* nodes = grid.nodes_of(cell);
-    return sorted({nodes[local[0]], nodes[local[1]], nodes[local[2]]});
-  };
-  std::vector<Corners> all;
-  for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (int f = 0; f < 4; ++f) all.push_back(corners_of(c, f));
-  std::sort(all.begin(), all.end());
+  const auto beyond = cells_beyond_faces(grid);
   for (std::size_t c = 0; c < grid.n_cells(); ++c)
     for (int f = 0; f < 4; ++f) {
-      const Corners corners = corners_of(c, f);
-      const auto range = std::equal_range(all.begin(), all.end(), corners);
-      if (range.second - range.first > 1) continue;
+      if (beyond[4 * c + std::size_t(f)] >= 0) continue;
+      const auto nodes = nodes_of_face(grid, c, f);
+      const Corners corners = sorted({nodes[0], nodes[1], nodes[2]});
       const auto group = groups.find(corners);
       if (group == groups.end()) refuse_bare_surface(grid.position(corners[0]));
       grid.boundary.push_back({static_cast<std::int32_t>(c), f, group->second});

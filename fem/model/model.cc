@@ -13,7 +13,6 @@
 #include "fem/loads/elastic_supports.h"
 #include "fem/loads/surface_loads.h"
 #include "fem/mesh/body_grid.h"
-#include "fem/mesh/connected_pieces.h"
 #include "fem/mesh/geometry_distance.h"
 #include "fem/mesh/grid.h"
 #include "fem/mesh/hanging_nodes.h"
@@ -83,7 +82,6 @@ Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
   impl_->communicator = communicator;
   impl_->body = body;
   impl_->grid = make_grid(body);
-  if (body.refinements.empty()) refuse_several_pieces(impl_->grid);
   impl_->materials = CellMaterials(impl_->grid, body);
   impl_->cells = cells_of_nodes(impl_->grid);
   impl_->colours = colour_cells(impl_->grid, impl_->cells);

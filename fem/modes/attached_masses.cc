@@ -37,23 +37,13 @@ Eigen::Matrix<double, 6, 6> rigid_mass(const AttachedMass& mass) {
 }  // namespace
 
 AttachedMasses::AttachedMasses(const Grid& grid, const std::vector<AttachedMass>& masses) {
-  using Component = SurfaceResultant::Component;
   const auto n = Eigen::Index(masses.size());
-  resultants_ = Eigen::MatrixXd::Zero(3 * Eigen::Index(grid.n_nodes), 6 * n);
+  resultants_.resize(3 * Eigen::Index(grid.n_nodes), 6 * n);
   mass_ = Eigen::MatrixXd::Zero(6 * n, 6 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& mass = masses[std::size_t(i)];
     refuse_impossible(mass);
-    const LoadedSurface surface(grid, mass.surface);
-    int column = 0;
-    for (const auto component :
-         {Component::fx, Component::fy, Component::fz, Component::mx, Component::my, Component::torque}) {
-      const Eigen::VectorXd force = surface.resultant(component);
-      for (std::size_t k = 0; k < surface.nodes().size(); ++k)
-        resultants_.col(6 * i + column).segment<3>(3 * Eigen::Index(surface.nodes()[k])) =
-            force.segment<3>(3 * Eigen::Index(k));
-      ++column;
-    }
+    resultants_.middleCols<6>(6 * i) = unit_resultants(grid, mass.surface);
     mass_.block<6, 6>(6 * i, 6 * i) = rigid_mass(mass);
   }
   move_to_masters(grid.hanging, resultants_);

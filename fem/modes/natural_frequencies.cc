@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <string>
 
 #include "fem/common/dense_algebra.h"
 #include "fem/modes/krylov_schur.h"

@@ -85,7 +85,7 @@ Eigen::MatrixXd VibratingBody::mass(const Eigen::MatrixXd& motion) const {
 }
 
 void VibratingBody::clear_clamped(Eigen::MatrixXd& vectors) const {
-  for (const auto unknown : clamped_) vectors.row(unknown).setZero();
+  clear_rows(clamped_, vectors);
 }
 
 Eigen::MatrixXd VibratingBody::stiffness(const Eigen::MatrixXd& motion) const {
@@ -110,7 +110,7 @@ double VibratingBody::rounding_of_rigid_part(const Eigen::VectorXd& motion) cons
 
 Eigen::MatrixXd VibratingBody::free_inverse(const Eigen::MatrixXd& force) const {
   Eigen::MatrixXd balanced = force - product(mass_rigid_, transposed_product(rigid_, force));
-  supports_->clear(balanced);
+  clear_rows(supports_->unknowns(), balanced);
   Eigen::MatrixXd motion = factor_->solve(balanced);
   motion -= product(rigid_, transposed_product(mass_rigid_, motion));
   return motion;

@@ -27,28 +27,15 @@ BlockMatrix<double> full_rows(const NodeGraph& graph, const SymmetricMatrix& mat
   result.block.resize(9 * result.column.size());
   // Column after column fills every row from the left: first what is below the diagonal of earlier columns.
   std::vector<std::int64_t> next(result.begin.begin(), result.begin.end() - 1);
-  const auto value = [&](std::size_t j, int c, std::int64_t place) {
-    return matrix.value[matrix.column_begin[3 * j + c] + place - c];
-  };
-  for (std::size_t j = 0; j < n; ++j) {
-    const auto diagonal = next[j]++;
-    result.column[diagonal] = static_cast<std::int32_t>(j);
-    for (int c = 0; c < 3; ++c)
-      for (int a = c; a < 3; ++a)
-        result.at(diagonal)[3 * a + c] = result.at(diagonal)[3 * c + a] = value(j, c, a);
-    for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) {
-      const auto i = graph.neighbour[k];
-      const auto right = next[j]++, left = next[i]++;
+  using Block = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+  for (std::size_t j = 0; j < n; ++j)
+    for_blocks_of(matrix, j, [&](std::int32_t i, const Eigen::Matrix3d& block) {
+      const auto right = next[j]++, left = std::size_t(i) == j ? right : next[i]++;
       result.column[right] = i;
       result.column[left] = static_cast<std::int32_t>(j);
-      for (int c = 0; c < 3; ++c)
-        for (int a = 0; a < 3; ++a) {
-          const double entry = value(j, c, 3 + 3 * (k - graph.begin[j]) + a);  // row (i, a), column (j, c)
-          result.at(left)[3 * a + c] = entry;
-          result.at(right)[3 * c + a] = entry;
-        }
-    }
-  }
+      Block(result.at(left)) = block;
+      Block(result.at(right)) = block.transpose();
+    });
   return result;
 }
 

@@ -31,6 +31,11 @@ inline kernel::BlockRows view(const BlockMatrix<float>& m) {
   return {m.height, m.width, m.begin.data(), m.column.data(), m.block.data()};
 }
 
+/// Of blocks of 1 x 1.
+inline kernel::NodeRows node_view(const BlockMatrix<float>& m) {
+  return {m.begin.data(), m.column.data(), m.block.data()};
+}
+
 /// Both triangles of the stiffness of a graph of nodes, in 3 x 3 blocks.
 BlockMatrix<double> full_rows(const NodeGraph& graph, const SymmetricMatrix& matrix);
 

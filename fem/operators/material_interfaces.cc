@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/connected_pieces.h"
 
 namespace fem {
 
@@ -25,35 +25,15 @@ std::map<std::int32_t, std::vector<int>> shared_nodes(const Grid& grid, const Ce
   return shared;
 }
 
-/// Whether a cell of another material holds all corners of the face.
-bool meets_another_material(const Grid& grid, const CellsOfNodes& cells, const CellMaterials& materials,
-                            std::size_t cell, const std::vector<std::int32_t>& corners) {
-  const auto first = std::size_t(corners[0]);
-  for (auto k = cells.begin[first]; k < cells.begin[first + 1]; ++k) {
-    const auto other = std::size_t(cells.cell[k]);
-    if (materials.kind(other) == materials.kind(cell)) continue;
-    const auto *begin = grid.nodes_of(other), *end = begin + grid.nodes_per_cell();
-    if (std::all_of(corners.begin(), corners.end(),
-                    [&](auto node) { return std::find(begin, end, node) != end; }))
-      return true;
-  }
-  return false;
-}
-
-std::vector<BoundaryFace> faces_between(const Grid& grid, const CellsOfNodes& cells,
-                                        const CellMaterials& materials,
-                                        const std::map<std::int32_t, std::vector<int>>& shared) {
+std::vector<BoundaryFace> faces_between(const Grid& grid, const CellMaterials& materials) {
   std::vector<BoundaryFace> faces;
-  const auto places = face_corners(grid.shape());
-  for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (int f = 0; f < grid.shape().n_faces(); ++f) {
-      const auto nodes = nodes_of_face(grid, c, f);
-      std::vector<std::int32_t> corners;
-      for (const int place : places) corners.push_back(nodes[place]);
-      if (std::all_of(corners.begin(), corners.end(), [&](auto node) { return shared.count(node) > 0; }) &&
-          meets_another_material(grid, cells, materials, c, corners))
-        faces.push_back({static_cast<std::int32_t>(c), f, 0});
-    }
+  const auto beyond = cells_beyond_faces(grid);
+  const int n_faces = grid.shape().n_faces();
+  for (std::size_t k = 0; k < beyond.size(); ++k) {
+    const auto cell = k / std::size_t(n_faces);
+    if (beyond[k] >= 0 && materials.kind(std::size_t(beyond[k])) != materials.kind(cell))
+      faces.push_back({static_cast<std::int32_t>(cell), static_cast<int>(k % std::size_t(n_faces)), 0});
+  }
   return faces;
 }
 
@@ -75,7 +55,7 @@ SplitGrid split_at_interfaces(const Grid& grid, const CellsOfNodes& cells, const
       if (const auto found = further.find({node, materials.kind(c)}); found != further.end())
         node = found->second;
     }
-  split.grid.interfaces = faces_between(grid, cells, materials, shared);
+  split.grid.interfaces = faces_between(grid, materials);
   return split;
 }
 

@@ -38,6 +38,18 @@ Nodes export_nodes(const Grid& grid) {
   return nodes;
 }
 
+NodeRows sum_of_channels(const std::vector<double>& of_channels, int n_components,
+                         const std::vector<std::int32_t>& nodes, const Eigen::MatrixXd& factors) {
+  NodeRows sum(Eigen::Index(nodes.size()), n_components * factors.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto first = std::size_t(nodes[i]) * std::size_t(n_components * factors.rows());
+    const Eigen::Map<const Eigen::MatrixXd> unit(&of_channels[first], n_components, factors.rows());
+    Eigen::Map<Eigen::MatrixXd>(&sum(Eigen::Index(i), 0), n_components, factors.cols()).noalias() =
+        unit * factors;
+  }
+  return sum;
+}
+
 Nodes body_nodes(const Body& body) {
   const Grid grid = make_grid(body);
   return export_nodes(grid_of_stress(grid, CellMaterials(grid, body)));

@@ -1,7 +1,11 @@
 /// The nodes and cells of the solution as plain arrays. Internal to fem.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "fem/mesh/grid.h"
+#include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/values/unit_responses.h"
 
@@ -12,5 +16,13 @@ Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals);
 
 /// The same without the nodes' volumes.
 Nodes export_nodes(const Grid& grid);
+
+/// Load cases, each the sum of all channels times their factors.
+/// @param of_channels   displacement (3 components) or stress (6) of UnitResponses
+/// @param nodes         at which they are wanted
+/// @param factors       channels x load cases
+/// @return nodes x (n_components per load case)
+NodeRows sum_of_channels(const std::vector<double>& of_channels, int n_components,
+                         const std::vector<std::int32_t>& nodes, const Eigen::MatrixXd& factors);
 
 }  // namespace fem

@@ -1,7 +1,6 @@
 #include "fem/operators/shared_nodes.h"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -39,7 +38,7 @@ SharedNodes::SharedNodes(MPI_Comm communicator, std::vector<Neighbour> neighbour
       n_counted_(n_counted),
       body_node_(std::move(body_node)) {
   const Eigen::ArrayXd counted = Eigen::ArrayXd::Constant(1, double(n_counted_));
-  n_in_body_ = static_cast<std::size_t>(fem::sum_over_ranks(communicator_, counted)[0]);
+  n_in_body_ = static_cast<std::size_t>(sum_over_ranks(communicator_, counted)[0]);
   std::map<std::int32_t, std::map<int, Source>> sources;  // by node, by rank
   for (std::size_t n = 0; n < neighbours_.size(); ++n)
     for (std::size_t k = 0; k < neighbours_[n].nodes.size(); ++k)
@@ -132,10 +131,6 @@ void SharedNodes::take_from_owner(const Lanes& lanes, BlockVector<T>& vector) co
       from += n;
     });
   }
-}
-
-Eigen::ArrayXd SharedNodes::sum_over_ranks(const Eigen::ArrayXd& mine) const {
-  return fem::sum_over_ranks(communicator_, mine);
 }
 
 template void SharedNodes::sum(const Lanes&, BlockVector<double>&) const;

@@ -23,7 +23,6 @@ public:
               std::vector<std::int32_t> body_node);
 
   MPI_Comm communicator() const noexcept { return communicator_; }
-  std::size_t n_nodes() const noexcept { return body_node_.size(); }
   std::size_t n_counted() const noexcept { return n_counted_; }
   std::size_t n_in_body() const noexcept { return n_in_body_; }
   const std::vector<std::int32_t>& body_node() const noexcept { return body_node_; }
@@ -36,8 +35,6 @@ public:
   /// What the rank that counts a node has there, on the others too.
   template <typename T>
   void take_from_owner(const Lanes& lanes, BlockVector<T>& vector) const;
-  /// Of numbers per lane that each rank has summed over the nodes it counts.
-  Eigen::ArrayXd sum_over_ranks(const Eigen::ArrayXd& mine) const;
 
 private:
   template <typename T>

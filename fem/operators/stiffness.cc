@@ -31,25 +31,6 @@ Eigen::Matrix3d elastic_block(const Lame& elastic, const Eigen::Matrix3d& h) {
   return k;
 }
 
-void add_block(const NodeGraph& graph, SymmetricMatrix& matrix, std::int32_t row_node,
-               std::int32_t column_node, const Eigen::Matrix3d& k) {
-  const auto begin = graph.neighbour.begin() + graph.begin[column_node];
-  const auto end = graph.neighbour.begin() + graph.begin[column_node + 1];
-  const auto place = std::lower_bound(begin, end, row_node) - begin;
-  for (int c = 0; c < 3; ++c) {
-    double* value =
-        matrix.value.data() + matrix.column_begin[3 * std::int64_t(column_node) + c] + 3 - c + 3 * place;
-    for (int a = 0; a < 3; ++a) value[a] += k(a, c);
-  }
-}
-
-void add_diagonal_block(SymmetricMatrix& matrix, std::int32_t node, const Eigen::Matrix3d& k) {
-  for (int c = 0; c < 3; ++c) {
-    double* value = matrix.value.data() + matrix.column_begin[3 * std::int64_t(node) + c];
-    for (int a = c; a < 3; ++a) value[a - c] += k(a, c);
-  }
-}
-
 }  // namespace
 
 Lame lame(const Material& material) {
@@ -78,24 +59,20 @@ void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes
   h.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
   for (int j = 0; j < n_local; ++j) {
     const Eigen::Matrix3d diagonal = h.block<3, 3>(3 * j, 3 * j).selfadjointView<Eigen::Lower>();
-    add_diagonal_block(matrix, nodes[j], elastic_block(elastic, diagonal));
-    for (int i = j + 1; i < n_local; ++i) {
-      const Eigen::Matrix3d k = elastic_block(elastic, h.block<3, 3>(3 * i, 3 * j));
-      if (nodes[i] > nodes[j])
-        add_block(graph, matrix, nodes[i], nodes[j], k);
-      else
-        add_block(graph, matrix, nodes[j], nodes[i], k.transpose());
-    }
+    add_block(graph, nodes[j], nodes[j], elastic_block(elastic, diagonal), matrix);
+    for (int i = j + 1; i < n_local; ++i)
+      add_block(graph, nodes[i], nodes[j], elastic_block(elastic, h.block<3, 3>(3 * i, 3 * j)), matrix);
   }
 }
 
-void hold_hanging(const HangingNodes& hanging, SymmetricMatrix& matrix,
+void hold_hanging(const HangingNodes& hanging, const NodeGraph& graph, SymmetricMatrix& matrix,
                   const std::vector<std::int32_t>& place) {
   const auto placed = [&](std::int32_t node) { return place.empty() ? node : place[std::size_t(node)]; };
   for (std::size_t i = 0; i < hanging.n(); ++i) {
     const auto master = 3 * std::int64_t(placed(hanging.master[hanging.begin[i]]));
     const double size = matrix.value[std::size_t(matrix.column_begin[std::size_t(master)])];
-    add_diagonal_block(matrix, placed(hanging.node[i]), size * Eigen::Matrix3d::Identity());
+    const auto node = placed(hanging.node[i]);
+    add_block(graph, node, node, size * Eigen::Matrix3d::Identity(), matrix);
   }
 }
 
@@ -120,7 +97,7 @@ void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int
         add_cell_stiffness(scaled, nodes.data(), elastic[cells[c]], graph, products, matrix);
       }
     });
-  hold_hanging(grid.hanging, matrix, place);
+  hold_hanging(grid.hanging, graph, matrix, place);
 }
 
 }  // namespace fem

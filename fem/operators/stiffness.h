@@ -1,4 +1,4 @@
-/// Stiffness of isotropic linear elasticity on isoparametric hexahedra. Internal to fem.
+/// Stiffness of isotropic linear elasticity on isoparametric cells. Internal to fem.
 #pragma once
 
 #include <Eigen/Dense>
@@ -36,13 +36,12 @@ void assemble_stiffness(const Grid& grid, const std::vector<std::vector<std::int
 
 /// Gives hanging nodes a diagonal of the others' size: equations of their own that say nothing.
 /// @param place  as assemble_stiffness
-void hold_hanging(const HangingNodes& hanging, SymmetricMatrix& matrix,
+void hold_hanging(const HangingNodes& hanging, const NodeGraph& graph, SymmetricMatrix& matrix,
                   const std::vector<std::int32_t>& place = {});
 
 /// Adds one cell's stiffness to the matrix.
 /// @param scaled  gradients of the cell's shape functions times sqrt(JxW): three rows per node, one column
-/// per
-///                quadrature point
+///                per quadrature point
 /// @param nodes   of the cell
 /// @param products  work space
 void add_cell_stiffness(const Eigen::MatrixXd& scaled, const std::int32_t* nodes, const Lame& elastic,

@@ -1,13 +1,13 @@
 #include "fem/operators/subdomain.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
 
 #include "fem/mesh/cell_order.h"
 #include "fem/values/cell_shares.h"
+#include "fem/values/vtk_order.h"
 
 namespace fem {
 
@@ -42,33 +42,55 @@ Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cell
   for (std::size_t i = 0; i < hanging.n(); ++i) {
     const auto node = number[hanging.node[i]];
     if (node < 0) continue;
-    result.grid.hanging.node.push_back(node);
+    std::vector<std::pair<std::int32_t, double>> masters;
     for (auto k = hanging.begin[i]; k < hanging.begin[i + 1]; ++k) {
       if (number[hanging.master[k]] < 0)
         throw std::logic_error("a part of a mesh without the cells that its hanging nodes hang on");
-      result.grid.hanging.master.push_back(number[hanging.master[k]]);
-      result.grid.hanging.weight.push_back(hanging.weight[k]);
+      masters.emplace_back(number[hanging.master[k]], hanging.weight[k]);
     }
-    result.grid.hanging.begin.push_back(result.grid.hanging.master.size());
+    result.grid.hanging.add(node, masters);
   }
   return result;
 }
 
-Message& operator<<(Message& message, const Subdomain& subdomain) {
-  return message << subdomain.grid << subdomain.node << subdomain.cell;
+Subdomain make_subdomain(const Nodes& nodes, const std::vector<std::int32_t>& cells) {
+  const std::size_t n_local = nodes.nodes_per_cell();
+  Subdomain result;
+  result.cell = cells;
+  result.node.reserve(cells.size() * n_local);
+  for (const auto c : cells)
+    result.node.insert(result.node.end(), nodes.cell(std::size_t(c)).begin(),
+                       nodes.cell(std::size_t(c)).end());
+  std::sort(result.node.begin(), result.node.end());
+  result.node.erase(std::unique(result.node.begin(), result.node.end()), result.node.end());
+  auto& grid = result.grid;
+  grid.kind = nodes.kind;
+  grid.degree = nodes.degree;
+  grid.n_nodes = result.node.size();
+  for (const auto node : result.node)
+    grid.xyz_m.insert(grid.xyz_m.end(), &nodes.xyz_m[3 * std::size_t(node)],
+                      &nodes.xyz_m[3 * std::size_t(node)] + 3);
+  grid.cell_nodes.resize(cells.size() * n_local);
+  const int* order = vtk_hexahedron_order(nodes.degree);
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (std::size_t v = 0; v < n_local; ++v) {
+      const auto node = nodes.cell(std::size_t(cells[c]))[v];
+      grid.cell_nodes[c * n_local + (nodes.shape().is_tetrahedron() ? v : std::size_t(order[v]))] =
+          std::int32_t(std::lower_bound(result.node.begin(), result.node.end(), node) - result.node.begin());
+    }
+  for (const auto c : cells)
+    grid.volume_id.push_back(nodes.cell_volume_id.empty() ? 0 : nodes.cell_volume_id[std::size_t(c)]);
+  return result;
 }
 
-Message& operator>>(Message& message, Subdomain& subdomain) {
-  return message >> subdomain.grid >> subdomain.node >> subdomain.cell;
+Subdomain make_subdomain(const Nodes& nodes) {
+  std::vector<std::int32_t> all(nodes.n_cells());
+  std::iota(all.begin(), all.end(), 0);
+  return make_subdomain(nodes, all);
 }
 
 std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares) {
-  const int n_corners = CellShape{nodes.kind, 2}.n_corners();  // the first nodes of VTK's cells
-  std::vector<std::array<double, 3>> corner_sum(nodes.n_cells(), {0, 0, 0});
-  for (std::size_t c = 0; c < nodes.n_cells(); ++c)
-    for (int i = 0; i < n_corners; ++i)
-      for (int d = 0; d < 3; ++d) corner_sum[c][d] += nodes.xyz_m[3 * std::size_t(nodes.cell(c)[i]) + d];
-  return deal_out_cells(corner_sum, even_weights(n_shares));
+  return deal_out_cells(make_subdomain(nodes).grid, even_weights(n_shares));
 }
 
 std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell) {
@@ -177,14 +199,6 @@ std::size_t StiffnessShare::n_own_cells() const {
   return std::size_t(std::count_if(elastic.begin(), elastic.end(), has_stiffness));
 }
 
-Message& operator<<(Message& message, const StiffnessShare& share) {
-  return message << share.part << share.elastic;
-}
-
-Message& operator>>(Message& message, StiffnessShare& share) {
-  return message >> share.part >> share.elastic;
-}
-
 std::vector<std::int32_t> nodes_of_cells(const Grid& grid, const std::vector<std::int32_t>& cells) {
   std::vector<char> is_there(grid.n_nodes, 0);
   for (const auto c : cells)
@@ -210,20 +224,6 @@ std::vector<std::vector<Neighbour>> find_neighbours(
       if (!with[other].empty()) result[r].push_back({static_cast<int>(other), std::move(with[other])});
   }
   return result;
-}
-
-Message& operator<<(Message& message, const std::vector<Neighbour>& neighbours) {
-  message << neighbours.size();
-  for (const auto& neighbour : neighbours) message << neighbour.rank << neighbour.nodes;
-  return message;
-}
-
-Message& operator>>(Message& message, std::vector<Neighbour>& neighbours) {
-  std::size_t n = 0;
-  message >> n;
-  neighbours.resize(n);
-  for (auto& neighbour : neighbours) message >> neighbour.rank >> neighbour.nodes;
-  return message;
 }
 
 std::vector<Lame> elastic_of(const Subdomain& subdomain, const PerCell<Lame>& elastic) {

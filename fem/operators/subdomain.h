@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "fem/mesh/grid.h"
 #include "fem/operators/stiffness.h"
-#include "fem/ranks/message.h"
 #include "fem/values/per_cell.h"
+#include "fem/values/unit_responses.h"
 
 namespace fem {
 
@@ -17,12 +18,19 @@ struct Subdomain {
   Grid grid;
   std::vector<std::int32_t> node;  ///< number in the body of each node, ascending
   std::vector<std::int32_t> cell;  ///< likewise of each cell
+
+  template <typename Self>
+  static auto members(Self& self) {
+    return std::tie(self.grid, self.node, self.cell);
+  }
 };
 /// @param cells  ascending
 /// @throws std::logic_error if a node hangs on one that is left out
 Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cells);
-Message& operator<<(Message& message, const Subdomain& subdomain);
-Message& operator>>(Message& message, Subdomain& subdomain);
+/// The same of a solution's cells, without their faces.
+Subdomain make_subdomain(const Nodes& nodes, const std::vector<std::int32_t>& cells);
+/// All of them; nodes that no cell has are left out.
+Subdomain make_subdomain(const Nodes& nodes);
 
 /// The rank that counts each node: the first of those of its cells.
 std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell);
@@ -51,23 +59,29 @@ struct StiffnessShare {
   Subdomain part;
   std::vector<Lame> elastic;  ///< of the part's cells; zero where another rank has the cell
   std::size_t n_own_cells() const;
+
+  template <typename Self>
+  static auto members(Self& self) {
+    return std::tie(self.part, self.elastic);
+  }
 };
 StiffnessShare share_of_rank(const Grid& grid, const CellsOfNodes& cells_of_nodes,
                              const std::vector<int>& rank_of_cell, int rank, const PerCell<Lame>& elastic);
-Message& operator<<(Message& message, const StiffnessShare& share);
-Message& operator>>(Message& message, StiffnessShare& share);
 
 /// Nodes of one's own that another rank's cells have too, ascending in the body's numbers on both sides.
 struct Neighbour {
   int rank = 0;
   std::vector<std::int32_t> nodes;  ///< numbers in the subdomain
+
+  template <typename Self>
+  static auto members(Self& self) {
+    return std::tie(self.rank, self.nodes);
+  }
 };
 /// Of every rank, ranks ascending.
 /// @param nodes_of_ranks  numbers in the body of the nodes of each rank's cells, ascending
 std::vector<std::vector<Neighbour>> find_neighbours(
     const std::vector<std::vector<std::int32_t>>& nodes_of_ranks, std::size_t n_nodes);
-Message& operator<<(Message& message, const std::vector<Neighbour>& neighbours);
-Message& operator>>(Message& message, std::vector<Neighbour>& neighbours);
 
 /// Lame's constants of a subdomain's cells, one after another.
 std::vector<Lame> elastic_of(const Subdomain& subdomain, const PerCell<Lame>& elastic);

@@ -120,77 +120,48 @@ SymmetricMatrix make_matrix(const NodeGraph& graph) {
   return matrix;
 }
 
+void add_block(const NodeGraph& graph, std::int32_t row_node, std::int32_t column_node,
+               const Eigen::Matrix3d& block, SymmetricMatrix& matrix) {
+  if (row_node < column_node) return add_block(graph, column_node, row_node, block.transpose(), matrix);
+  const auto column = [&](int c) {
+    return matrix.value.data() + matrix.column_begin[3 * std::int64_t(column_node) + c];
+  };
+  if (row_node == column_node) {
+    for (int c = 0; c < 3; ++c)
+      for (int a = c; a < 3; ++a) column(c)[a - c] += block(a, c);
+    return;
+  }
+  const auto begin = graph.neighbour.begin() + graph.begin[column_node];
+  const auto end = graph.neighbour.begin() + graph.begin[column_node + 1];
+  const auto place = std::lower_bound(begin, end, row_node) - begin;
+  for (int c = 0; c < 3; ++c)
+    for (int a = 0; a < 3; ++a) column(c)[3 - c + 3 * place + a] += block(a, c);
+}
+
 namespace {
 
-/// A 3 x 3 block below the diagonal of a matrix that is put into another order.
-struct MovedBlock {
-  std::int32_t row;     // its node's, in the new order
-  std::int32_t column;  // node whose columns of the given matrix hold it
-  std::int64_t number;  // among the blocks below that node's own
-  bool is_transposed;
-};
-
-/// Blocks of each column in the new order, rows ascending.
-struct MovedBlocks {
-  std::vector<std::int64_t> begin;
-  std::vector<MovedBlock> block;
-};
-
-MovedBlocks move_blocks(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& place) {
-  const std::size_t n_nodes = place.size();
-  const auto for_each_block = [&](const auto& take) {
-    for (std::size_t j = 0; j < n_nodes; ++j) {
-      const auto first = matrix.column_begin[3 * j];
-      const auto n_below = (matrix.column_begin[3 * j + 1] - first) / 3 - 1;
-      for (std::int64_t b = 0; b < n_below; ++b)
-        take(j, b, place[j], place[std::size_t(matrix.row[std::size_t(first + 3 + 3 * b)] / 3)]);
-    }
-  };
-  MovedBlocks moved;
-  moved.begin.assign(n_nodes + 1, 0);
-  for_each_block([&](std::size_t, std::int64_t, std::int32_t own, std::int32_t other) {
-    ++moved.begin[std::size_t(std::min(own, other)) + 1];
-  });
-  for (std::size_t p = 0; p < n_nodes; ++p) moved.begin[p + 1] += moved.begin[p];
-  moved.block.resize(std::size_t(moved.begin.back()));
-  std::vector<std::int64_t> next(moved.begin.begin(), moved.begin.end() - 1);
-  for_each_block([&](std::size_t j, std::int64_t b, std::int32_t own, std::int32_t other) {
-    const auto at = next[std::size_t(std::min(own, other))]++;
-    moved.block[std::size_t(at)] = {std::max(own, other), std::int32_t(j), b, other < own};
-  });
-  parallel_for(n_nodes, 500, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      std::sort(moved.block.begin() + moved.begin[p], moved.block.begin() + moved.begin[p + 1],
-                [](const MovedBlock& a, const MovedBlock& b) { return a.row < b.row; });
-  });
-  return moved;
+NodeGraph graph_of(const SymmetricMatrix& matrix) {
+  NodeGraph graph;
+  graph.begin.push_back(0);
+  for (std::int64_t j = 0; j < matrix.n; j += 3) {
+    for (auto k = matrix.column_begin[j] + 3; k < matrix.column_begin[j + 1]; k += 3)
+      graph.neighbour.push_back(std::int32_t(matrix.row[k] / 3));
+    graph.begin.push_back(std::int64_t(graph.neighbour.size()));
+  }
+  return graph;
 }
 
 }  // namespace
 
 SymmetricMatrix permuted(const SymmetricMatrix& matrix, const std::vector<std::int32_t>& order) {
-  const std::size_t n_nodes = order.size();
-  const MovedBlocks moved = move_blocks(matrix, places_in(order));
-  NodeGraph graph;
-  graph.begin = moved.begin;
-  graph.neighbour.reserve(moved.block.size());
-  for (const auto& block : moved.block) graph.neighbour.push_back(block.row);
-  SymmetricMatrix result = make_matrix(graph);
-  parallel_for(n_nodes, 500, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      for (int c = 0; c < 3; ++c) {
-        auto* to = result.value.data() + result.column_begin[3 * p + c];
-        const auto* diagonal = matrix.value.data() + matrix.column_begin[3 * std::size_t(order[p]) + c];
-        for (int a = c; a < 3; ++a) *to++ = *diagonal++;
-        for (auto k = moved.begin[p]; k < moved.begin[p + 1]; ++k) {
-          const MovedBlock& block = moved.block[std::size_t(k)];
-          for (int a = 0; a < 3; ++a) {
-            const int row = block.is_transposed ? c : a, column = block.is_transposed ? a : c;
-            *to++ = matrix.value[matrix.column_begin[3 * std::size_t(block.column) + column] + 3 - column +
-                                 3 * block.number + row];
-          }
-        }
-      }
+  const NodeGraph in_order = permuted(graph_of(matrix), order);
+  const auto place = places_in(order);
+  SymmetricMatrix result = make_matrix(in_order);
+  parallel_for(order.size(), 500, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j)
+      for_blocks_of(matrix, j, [&](std::int32_t i, const Eigen::Matrix3d& block) {
+        add_block(in_order, place[i], place[j], block, result);
+      });
   });
   return result;
 }

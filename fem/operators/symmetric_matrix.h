@@ -36,8 +36,29 @@ struct SymmetricMatrix {
   LargeVector<double> value;
 };
 
+/// Calls take(row node, block) for the blocks of a node's columns, rows ascending; the first one, of the node
+/// itself, is symmetric.
+template <typename Take>
+void for_blocks_of(const SymmetricMatrix& matrix, std::size_t node, const Take& take) {
+  const auto column = [&](int c) { return std::size_t(matrix.column_begin[3 * node + std::size_t(c)]); };
+  Eigen::Matrix3d block;
+  for (int c = 0; c < 3; ++c)
+    for (int a = c; a < 3; ++a) block(a, c) = block(c, a) = matrix.value[column(c) + std::size_t(a - c)];
+  take(std::int32_t(node), block);
+  for (std::size_t k = 3; column(0) + k < column(1); k += 3) {
+    for (int c = 0; c < 3; ++c)
+      for (int a = 0; a < 3; ++a) block(a, c) = matrix.value[column(c) + k + std::size_t(a) - std::size_t(c)];
+    take(std::int32_t(matrix.row[column(0) + k] / 3), block);
+  }
+}
+
 /// The matrix of a graph, filled with zeros, on all threads.
 SymmetricMatrix make_matrix(const NodeGraph& graph);
+
+/// Adds a block to the rows of one node and the columns of another, and its transpose to the rows of this and
+/// the columns of that. Of a node with itself: symmetric.
+void add_block(const NodeGraph& graph, std::int32_t row_node, std::int32_t column_node,
+               const Eigen::Matrix3d& block, SymmetricMatrix& matrix);
 
 /// Three rows per node in another order of nodes, and back, on all threads.
 /// @param place  of each node in that order

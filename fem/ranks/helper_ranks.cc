@@ -1,6 +1,5 @@
 #include "fem/ranks/helper_ranks.h"
 
-#include <array>
 #include <chrono>
 #include <thread>
 
@@ -11,12 +10,11 @@ namespace fem {
 namespace {
 
 constexpr int task_tag = 4;
-using Call = std::array<int, 2>;  // task, exit code
-bool others_work = false;         // on rank 0
+bool others_work = false;  // on rank 0
 
-void tell(const Call& call, MPI_Comm communicator) {
+void tell(const HelperCall& call, MPI_Comm communicator) {
   for (int r = 1; r < n_ranks(communicator); ++r)
-    MPI_Send(call.data(), 2, MPI_INT, r, task_tag, communicator);
+    MPI_Send(&call, sizeof call, MPI_BYTE, r, task_tag, communicator);
 }
 
 }  // namespace
@@ -28,14 +26,14 @@ HelperCall wait_for_call(MPI_Comm communicator) {
     if (is_there != 0) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  Call call{};
-  MPI_Recv(call.data(), 2, MPI_INT, 0, task_tag, communicator, MPI_STATUS_IGNORE);
-  return {Task(call[0]), call[1]};
+  HelperCall call;
+  MPI_Recv(&call, sizeof call, MPI_BYTE, 0, task_tag, communicator, MPI_STATUS_IGNORE);
+  return call;
 }
 
 void let_others_work(MPI_Comm communicator) {
   others_work = true;
-  tell({int(Task::own_work), 0}, communicator);
+  tell({Task::own_work, 0}, communicator);
 }
 
 void others_have_worked() {
@@ -44,11 +42,11 @@ void others_have_worked() {
 
 void dismiss_helpers(int exit_code, MPI_Comm communicator) {
   if (others_work) MPI_Abort(communicator, exit_code);
-  tell({int(Task::end), exit_code}, communicator);
+  tell({Task::end, exit_code}, communicator);
 }
 
 void call_helpers(Task task, MPI_Comm communicator) {
-  tell({int(task), 0}, communicator);
+  tell({task, 0}, communicator);
 }
 
 }  // namespace fem

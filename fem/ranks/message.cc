@@ -1,6 +1,7 @@
 #include "fem/ranks/message.h"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 namespace fem {
@@ -21,18 +22,6 @@ void Message::get(void* to, std::size_t n_bytes) {
   if (bytes_.size() - read_ < n_bytes) throw std::logic_error("a message between ranks is too short");
   if (n_bytes > 0) std::memcpy(to, bytes_.data() + read_, n_bytes);
   read_ += n_bytes;
-}
-
-Message& Message::operator<<(const Grid& grid) {
-  return *this << grid.kind << grid.degree << grid.n_nodes << grid.xyz_m << grid.cell_nodes << grid.volume_id
-               << grid.boundary << grid.interfaces << grid.hanging.node << grid.hanging.begin
-               << grid.hanging.master << grid.hanging.weight;
-}
-
-Message& Message::operator>>(Grid& grid) {
-  return *this >> grid.kind >> grid.degree >> grid.n_nodes >> grid.xyz_m >> grid.cell_nodes >>
-         grid.volume_id >> grid.boundary >> grid.interfaces >> grid.hanging.node >> grid.hanging.begin >>
-         grid.hanging.master >> grid.hanging.weight;
 }
 
 void Message::send(int to, MPI_Comm communicator) const {

@@ -4,29 +4,43 @@
 #include <mpi.h>
 
 #include <Eigen/Dense>
-#include <cstring>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
-
-#include "fem/mesh/grid.h"
 
 namespace fem {
 
-/// A sequence of values: what is put in comes out in the same order. Numbers, plain structs, lists of them,
-/// matrices and meshes. Both ranks run the same program on the same kind of machine.
+/// Whether a struct lists its members for messages:
+///   template <typename Self>
+///   static auto members(Self& self) { return std::tie(self.a, self.b); }
+template <typename T, typename = void>
+struct ListsMembers : std::false_type {};
+template <typename T>
+struct ListsMembers<T, std::void_t<decltype(T::members(std::declval<T&>()))>> : std::true_type {};
+
+/// A sequence of values: what is put in comes out in the same order. Numbers, plain structs, structs that
+/// list their members, lists of them, and matrices. Both ranks run the same program on the same kind of
+/// machine.
 class Message {
 public:
   template <typename T>
   Message& operator<<(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    put(&value, sizeof value);
+    if constexpr (ListsMembers<T>::value) {
+      std::apply([&](const auto&... member) { (*this << ... << member); }, T::members(value));
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      put(&value, sizeof value);
+    }
     return *this;
   }
   template <typename T, typename Allocator>
   Message& operator<<(const std::vector<T, Allocator>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
     *this << values.size();
-    put(values.data(), values.size() * sizeof(T));
+    if constexpr (std::is_trivially_copyable_v<T>)
+      put(values.data(), values.size() * sizeof(T));
+    else
+      for (const auto& value : values) *this << value;
     return *this;
   }
   template <int rows, int columns, int order>
@@ -35,12 +49,15 @@ public:
     put(matrix.data(), std::size_t(matrix.size()) * sizeof(double));
     return *this;
   }
-  Message& operator<<(const Grid& grid);
 
   template <typename T>
   Message& operator>>(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    get(&value, sizeof value);
+    if constexpr (ListsMembers<T>::value) {
+      std::apply([&](auto&... member) { (*this >> ... >> member); }, T::members(value));
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      get(&value, sizeof value);
+    }
     return *this;
   }
   template <typename T, typename Allocator>
@@ -48,7 +65,10 @@ public:
     std::size_t n = 0;
     *this >> n;
     values.resize(n);
-    get(values.data(), n * sizeof(T));
+    if constexpr (std::is_trivially_copyable_v<T>)
+      get(values.data(), n * sizeof(T));
+    else
+      for (auto& value : values) *this >> value;
     return *this;
   }
   template <int rows, int columns, int order>
@@ -59,7 +79,6 @@ public:
     get(matrix.data(), std::size_t(matrix.size()) * sizeof(double));
     return *this;
   }
-  Message& operator>>(Grid& grid);
 
   void send(int to, MPI_Comm communicator) const;
   static Message receive(int from, MPI_Comm communicator);

@@ -8,7 +8,6 @@
 
 #include <Eigen/Dense>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "fem/ranks/helper_ranks.h"

@@ -14,7 +14,6 @@ namespace fem {
 namespace {
 
 constexpr double strong = 0.08;
-constexpr Chebyshev::Control aggregate_smoothing{5, 20};
 constexpr std::size_t small = 800;         // aggregates: factorised and solved in no time
 constexpr std::size_t rows_at_once = 512;  // nodes
 
@@ -44,7 +43,7 @@ void AggregationMultigrid::build(BlockMatrix<double> stiffness, const std::vecto
     Level level;
     level.stiffness = to_float(stiffness);
     level.smoother = std::make_unique<Chebyshev>(
-        diagonal(stiffness), aggregate_smoothing,
+        diagonal(stiffness),
         [&](const Lanes& lanes, const auto& x, auto& y) { multiply(level.stiffness, false, lanes, x, y); },
         *kernels_);
     const auto aggregates = aggregate_nodes(stiffness, siblings, strong);
@@ -81,13 +80,6 @@ std::size_t AggregationMultigrid::WorkSpace::bytes() const {
   std::size_t sum = 0;
   for (const auto& l : level) sum += l.smoothing.bytes() + l.force_below.bytes() + l.below.bytes();
   return sum;
-}
-
-std::vector<std::size_t> AggregationMultigrid::n_nodes() const {
-  std::vector<std::size_t> result;
-  for (const auto& level : levels_) result.push_back(level.stiffness.n_rows());
-  result.push_back(last_place_.size());
-  return result;
 }
 
 std::size_t AggregationMultigrid::bytes() const {

@@ -34,8 +34,6 @@ public:
   /// x = V b, one V-cycle: symmetric and positive on balanced forces.
   void apply(const Lanes& lanes, const BlockVector<float>& b, BlockVector<float>& x, WorkSpace& work) const;
 
-  /// Of all levels from the one given, which is the first; aggregates count as two.
-  std::vector<std::size_t> n_nodes() const;
   std::size_t bytes() const;
 
 private:

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fem/common/parallel.h"
+#include "fem/ranks/ranks.h"
 
 namespace fem {
 
@@ -33,7 +34,7 @@ std::array<Eigen::ArrayXd, n> sum_over_nodes(std::size_t n_nodes, const SharedNo
   if (shared != nullptr) {
     Eigen::ArrayXd elsewhere(n * n_lanes);
     if (n_counted < n_nodes) body(n_counted, n_nodes, elsewhere.data());
-    total = shared->sum_over_ranks(total);
+    total = sum_over_ranks(shared->communicator(), total);
   }
   std::array<Eigen::ArrayXd, n> result;
   for (int i = 0; i < n; ++i) result[i] = total.segment(i * n_lanes, n_lanes);

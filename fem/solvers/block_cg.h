@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <vector>
 
 #include "fem/operators/block_vector.h"
 #include "fem/operators/elastic_operator.h"

@@ -6,6 +6,7 @@
 
 #include "fem/common/dense_algebra.h"
 #include "fem/common/parallel.h"
+#include "fem/ranks/ranks.h"
 
 namespace fem {
 
@@ -26,16 +27,16 @@ std::vector<float> invert(const std::vector<double>& blocks) {
 
 }  // namespace
 
-Chebyshev::Chebyshev(const std::vector<double>& diagonal_blocks, const Control& control, const Apply& apply,
+Chebyshev::Chebyshev(const std::vector<double>& diagonal_blocks, const Apply& apply,
                      const kernel::Kernels& kernels, const SharedNodes* shared)
-    : kernels_(&kernels), control_(control), inverse_blocks_(invert(diagonal_blocks)) {
+    : kernels_(&kernels), inverse_blocks_(invert(diagonal_blocks)) {
   find_largest_eigenvalue(apply, shared);
 }
 
 // Conjugate gradients from noise: their step lengths are the tridiagonal matrix of Lanczos' method, whose
 // largest eigenvalue comes up to that of D^-1 K from below, much faster than powers of it do.
 void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* shared) {
-  constexpr int n_steps = 12;
+  constexpr int n_lanczos = 12;
   constexpr float margin = 1.1f;
   const Lanes lanes = spread_over_lanes<float>(1, *kernels_);  // a register of starts
   const std::size_t n = 3 * n_nodes() * lanes.n_lanes;
@@ -52,7 +53,7 @@ void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* s
     for (std::size_t i = 0; i < n_counted; i += lanes.n_lanes)
       for (std::size_t l = 0; l < lanes.n_lanes; ++l)
         sum[l] += double(x.data()[i + l]) * double(y.data()[i + l]);
-    if (shared != nullptr) sum = shared->sum_over_ranks(sum);
+    if (shared != nullptr) sum = sum_over_ranks(shared->communicator(), sum);
     return sum;
   };
   /// x = a x + b y
@@ -66,9 +67,9 @@ void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* s
     });
   };
   const Eigen::ArrayXd one = Eigen::ArrayXd::Ones(lanes.n_lanes), none = 0 * one;
-  Eigen::ArrayXXd diagonal = Eigen::ArrayXXd::Zero(lanes.n_lanes, n_steps), beside = diagonal;
+  Eigen::ArrayXXd diagonal = Eigen::ArrayXXd::Zero(lanes.n_lanes, n_lanczos), beside = diagonal;
   Eigen::ArrayXd step = one, ratio = none, rz = none;
-  for (int k = 0; k < n_steps; ++k) {
+  for (int k = 0; k < n_lanczos; ++k) {
     parallel_for(n_nodes(), nodes_at_once, [&](std::size_t begin, std::size_t end) {
       kernels_->chebyshev(lanes.view(), n_nodes(), begin, end, {0, 1, true}, inverse_blocks_.data(), r.data(),
                           nullptr, q.data(), z.data());
@@ -87,7 +88,7 @@ void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* s
     combine(one, r, -step, q);
   }
   for (std::size_t l = 0; l < lanes.n_lanes; ++l) {
-    const Eigen::VectorXd middle = diagonal.row(l), side = beside.row(l).head(n_steps - 1);
+    const Eigen::VectorXd middle = diagonal.row(l), side = beside.row(l).head(n_lanczos - 1);
     largest_eigenvalue_ = std::max(
         largest_eigenvalue_, margin * static_cast<float>(largest_eigenvalue_of_tridiagonal(middle, side)));
   }
@@ -95,10 +96,10 @@ void Chebyshev::find_largest_eigenvalue(const Apply& apply, const SharedNodes* s
 
 void Chebyshev::smooth(const Lanes& lanes, const Apply& apply, const BlockVector<float>& b,
                        BlockVector<float>& x, bool from_zero, WorkSpace& work) const {
-  const float high = largest_eigenvalue_, low = high / control_.range;
+  const float high = largest_eigenvalue_, low = high / range;
   const float theta = (high + low) / 2, delta = (high - low) / 2, sigma = theta / delta;
   float rho = 1 / sigma;
-  for (int step = 0; step < control_.n_steps; ++step) {
+  for (int step = 0; step < n_steps; ++step) {
     kernel::ChebyshevStep coefficients;
     if (step == 0) {
       coefficients = {0, 1 / theta, from_zero};

@@ -8,7 +8,6 @@
 #include <limits>
 #include <new>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -54,22 +53,27 @@ std::vector<std::int32_t> order_nodes(const NodeGraph& graph) {
 
 namespace {
 
+/// A lower triangle by columns as CHOLMOD sees it; nothing is copied, and CHOLMOD does not write to it.
+/// @param value  null: the pattern alone
+cholmod_sparse lower_triangle(std::size_t n, std::size_t n_entries, const void* begin, const void* row,
+                              const double* value) {
+  cholmod_sparse a{};
+  a.nrow = a.ncol = n;
+  a.nzmax = n_entries;
+  a.p = const_cast<void*>(begin);
+  a.i = const_cast<void*>(row);
+  a.x = const_cast<double*>(value);
+  a.stype = -1;
+  a.itype = CHOLMOD_LONG;
+  a.xtype = value == nullptr ? CHOLMOD_PATTERN : CHOLMOD_REAL;
+  a.dtype = CHOLMOD_DOUBLE;
+  a.sorted = a.packed = 1;
+  return a;
+}
+
 /// The matrix' pattern of nodes: their blocks of 3 x 3 as one entry each.
 struct NodePattern {
   std::vector<SuiteSparse_long> begin, row;
-  cholmod_sparse view() {
-    cholmod_sparse a{};
-    a.nrow = a.ncol = begin.size() - 1;
-    a.nzmax = row.size();
-    a.p = begin.data();
-    a.i = row.data();
-    a.stype = -1;
-    a.itype = CHOLMOD_LONG;
-    a.xtype = CHOLMOD_PATTERN;
-    a.dtype = CHOLMOD_DOUBLE;
-    a.sorted = a.packed = 1;
-    return a;
-  }
 };
 
 NodePattern pattern_of_nodes(const NodeGraph& graph) {
@@ -122,21 +126,6 @@ struct CholmodFactor::Impl {
     if (common.status < CHOLMOD_OK)
       throw SolveFailed(std::string("CHOLMOD could not ") + step + " the stiffness (status " +
                         std::to_string(common.status) + ")");
-  }
-  /// The matrix as CHOLMOD sees it; nothing is copied, and CHOLMOD does not write to it.
-  static cholmod_sparse view(const SymmetricMatrix& matrix) {
-    cholmod_sparse a{};
-    a.nrow = a.ncol = matrix.n;
-    a.nzmax = matrix.value.size();
-    a.p = const_cast<std::int64_t*>(matrix.column_begin.data());
-    a.i = const_cast<std::int64_t*>(matrix.row.data());
-    a.x = const_cast<double*>(matrix.value.data());
-    a.stype = -1;
-    a.itype = CHOLMOD_LONG;
-    a.xtype = CHOLMOD_REAL;
-    a.dtype = CHOLMOD_DOUBLE;
-    a.sorted = a.packed = 1;
-    return a;
   }
 };
 
@@ -196,8 +185,9 @@ CholmodFactor::CholmodFactor(const NodeGraph& graph, const std::vector<std::int3
   const SerialOpenMp serial;
   auto& common = impl_->common;
   impl_->matrix_bytes = 16.0 * (9.0 * double(graph.neighbour.size()) + 6.0 * double(graph.n_nodes()));
-  auto pattern = pattern_of_nodes(graph);
-  auto a = pattern.view();
+  const auto pattern = pattern_of_nodes(graph);
+  auto a =
+      lower_triangle(graph.n_nodes(), pattern.row.size(), pattern.begin.data(), pattern.row.data(), nullptr);
   std::vector<SuiteSparse_long> order(node_order.begin(), node_order.end());
   cholmod_factor* nodes = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &common);
   impl_->check("analyse");
@@ -237,7 +227,8 @@ void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
 
 void CholmodFactor::factorise_in_order(const SymmetricMatrix& matrix) {
   const SerialOpenMp serial;
-  auto a = Impl::view(matrix);
+  auto a = lower_triangle(std::size_t(matrix.n), matrix.value.size(), matrix.column_begin.data(),
+                          matrix.row.data(), matrix.value.data());
   auto& factor = *impl_->factor;
   take_memory();
   double no_shift[2] = {0, 0};
@@ -246,8 +237,7 @@ void CholmodFactor::factorise_in_order(const SymmetricMatrix& matrix) {
   if (impl_->common.status == CHOLMOD_NOT_POSDEF || factor.minor < factor.n)
     throw SolveFailed(
         "the stiffness is not positive definite: the mesh may fall into parts that do not touch, or has "
-        "degenerate "
-        "cells");
+        "degenerate cells");
 }
 
 namespace {

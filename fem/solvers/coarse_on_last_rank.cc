@@ -59,15 +59,12 @@ Grid join(const std::vector<Part>& parts, std::vector<std::vector<std::int32_t>>
   return grid;
 }
 
-void add(const SymmetricMatrix& part, const std::vector<std::int32_t>& node, SymmetricMatrix& matrix) {
-  const auto unknown = [&](std::int64_t i) { return 3 * std::int64_t(node[i / 3]) + i % 3; };
-  for (std::int64_t j = 0; j < part.n; ++j)
-    for (auto k = part.column_begin[j]; k < part.column_begin[j + 1]; ++k) {
-      const auto [column, row] = std::minmax({unknown(j), unknown(part.row[k])});
-      const auto begin = matrix.row.begin() + matrix.column_begin[column];
-      const auto end = matrix.row.begin() + matrix.column_begin[column + 1];
-      matrix.value[std::lower_bound(begin, end, row) - matrix.row.begin()] += part.value[k];
-    }
+void add(const SymmetricMatrix& part, const std::vector<std::int32_t>& node, const NodeGraph& graph,
+         SymmetricMatrix& matrix) {
+  for (std::size_t j = 0; j < node.size(); ++j)
+    for_blocks_of(part, j, [&](std::int32_t i, const Eigen::Matrix3d& block) {
+      add_block(graph, node[std::size_t(i)], node[j], block, matrix);
+    });
 }
 
 /// Adds (or copies back) the rows of a rank's nodes to those of all.
@@ -108,8 +105,9 @@ CoarseOnLastRank::CoarseOnLastRank(MPI_Comm communicator, const Grid& coarse,
     const NodeGraph graph = make_node_graph(joined, cells_of_nodes(joined));
     const auto assemble = [&] {
       SymmetricMatrix sum = make_matrix(graph);
-      for (; next < last; ++next) add(receive_matrix(next, communicator), node_[std::size_t(next)], sum);
-      add(matrix, node_.back(), sum);
+      for (; next < last; ++next)
+        add(receive_matrix(next, communicator), node_[std::size_t(next)], graph, sum);
+      add(matrix, node_.back(), graph, sum);
       return sum;
     };
     solver_ = std::make_unique<CoarseSolver>(joined, graph, assemble, level, kernels);

@@ -3,6 +3,8 @@
 #include <future>
 #include <numeric>
 
+#include "fem/loads/clamps.h"
+
 namespace fem {
 
 CoarseSolver::CoarseSolver(const Grid& coarse, const NodeGraph& graph,
@@ -39,7 +41,7 @@ void CoarseSolver::solve(const Lanes& lanes, const BlockVector<float>& b, BlockV
   Eigen::MatrixXd columns(3 * n_nodes(), lanes.n_loads);
   from_block(b, lanes, place_, 0, columns);
   without_rigid_.apply(columns);
-  supports_->clear(columns);
+  clear_rows(supports_->unknowns(), columns);
   columns = factor_->solve(columns);
   without_rigid_.apply(columns);
   to_block(columns, 0, place_, lanes, x);

@@ -93,6 +93,8 @@ NodeMatrix make_interpolation(const Grid& grid, const CellOrder& order, const Gr
   std::vector<std::int32_t> hangs(coarse.n_nodes, -1);
   for (std::size_t i = 0; i < hanging.n(); ++i) hangs[std::size_t(hanging.node[i])] = std::int32_t(i);
   NodeMatrix matrix;
+  matrix.height = matrix.width = 1;
+  matrix.n_columns = coarse.n_nodes;
   matrix.begin.push_back(0);
   for (const auto& [cell, local] : row) {
     const auto hats = corner_hats(grid.shape(), nodes.point[local]);
@@ -108,46 +110,18 @@ NodeMatrix make_interpolation(const Grid& grid, const CellOrder& order, const Gr
     }
     for (const auto& [corner, weight] : weights) {
       matrix.column.push_back(corner);
-      matrix.weight.push_back(static_cast<float>(weight));
+      matrix.block.push_back(static_cast<float>(weight));
     }
     matrix.begin.push_back(static_cast<std::int64_t>(matrix.column.size()));
   }
   return matrix;
 }
 
-/// Of the first rows.
-NodeMatrix transpose(const NodeMatrix& matrix, std::size_t n_rows, std::size_t n_columns) {
-  NodeMatrix result;
-  result.begin.assign(n_columns + 1, 0);
-  const auto n_entries = static_cast<std::size_t>(matrix.begin[n_rows]);
-  for (std::size_t k = 0; k < n_entries; ++k) ++result.begin[matrix.column[k] + 1];
-  for (std::size_t c = 0; c < n_columns; ++c) result.begin[c + 1] += result.begin[c];
-  result.column.resize(n_entries);
-  result.weight.resize(n_entries);
-  auto next = result.begin;
-  for (std::size_t r = 0; r < n_rows; ++r)
-    for (auto k = matrix.begin[r]; k < matrix.begin[r + 1]; ++k) {
-      const auto at = next[matrix.column[k]]++;
-      result.column[at] = static_cast<std::int32_t>(r);
-      result.weight[at] = matrix.weight[k];
-    }
-  return result;
-}
-
-/// Gradients of the corners' hat functions at a Gauss point, in the reference cell (3 x 8).
-std::vector<Eigen::Matrix<double, 3, 8>> hat_gradients(const Tabulation& at) {
-  std::vector<Eigen::Matrix<double, 3, 8>> result(at.n_points);
-  for (int q = 0; q < at.n_points; ++q)
-    for (int c = 0; c < 8; ++c)
-      for (int axis = 0; axis < 3; ++axis) {
-        double g = 1;
-        for (int d = 0; d < 3; ++d) {
-          const bool high = ((c >> d) & 1) == 1;
-          g *= d == axis ? (high ? 1 : -1) : (high ? at.point[q][d] : 1 - at.point[q][d]);
-        }
-        result[q](axis, c) = g;
-      }
-  return result;
+NodeMatrix first_rows(NodeMatrix matrix, std::size_t n) {
+  matrix.begin.resize(n + 1);
+  matrix.column.resize(std::size_t(matrix.begin.back()));
+  matrix.block.resize(std::size_t(matrix.begin.back()));
+  return matrix;
 }
 
 /// The mesh of corners without the cells of other ranks, which these bring themselves.
@@ -169,7 +143,7 @@ SymmetricMatrix assemble(const Grid& grid, const CellOrder& order, const std::ve
                          const PerCell<Lame>& elastic, const Grid& coarse, const CellsOfNodes& cells,
                          const NodeGraph& graph) {
   const Tabulation at = gauss_in_cell(grid.shape(), grid.degree + 1);
-  const auto hats = hat_gradients(at);
+  const Tabulation hats = gauss_in_cell({grid.kind, 1}, grid.degree + 1);
   std::vector<std::size_t> place(grid.n_cells());
   for (std::size_t k = 0; k < order.cell.size(); ++k) place[order.cell[k]] = k;
   const CellCouplings couplings(coarse);
@@ -182,15 +156,17 @@ SymmetricMatrix assemble(const Grid& grid, const CellOrder& order, const std::ve
         const double* m = &metric[place[colour[c]] * at.n_points * 9];
         for (int q = 0; q < at.n_points; ++q) {
           const Eigen::Map<const Eigen::Matrix3d> to_space(m + 9 * q);  // row-major there: transposed here
+          const Eigen::Map<const Eigen::Matrix<double, 3, 8>> slopes(
+              hats.gradient[8 * std::size_t(q)].data());
           Eigen::Map<Eigen::Matrix<double, 3, 8>>(scaled.col(q).data()).noalias() =
-              to_space.lazyProduct(hats[q]);
+              to_space.lazyProduct(slopes);
         }
         couplings.couple(std::size_t(colour[c]), 3, scaled);
         add_cell_stiffness(scaled, couplings.nodes(std::size_t(colour[c])), elastic[colour[c]], graph,
                            products, matrix);
       }
     });
-  hold_hanging(coarse.hanging, matrix);
+  hold_hanging(coarse.hanging, graph, matrix);
   return matrix;
 }
 
@@ -205,7 +181,8 @@ CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::ve
   const auto cells = cells_of_nodes(coarse);
   const NodeGraph graph = make_node_graph(coarse, cells);
   interpolation_ = make_interpolation(grid, order, coarse);
-  restriction_ = transpose(interpolation_, shared == nullptr ? grid.n_nodes : shared->n_counted(), n_nodes_);
+  restriction_ =
+      transpose(shared == nullptr ? interpolation_ : first_rows(interpolation_, shared->n_counted()));
   const auto stiffness = [&] { return assemble(grid, order, metric, elastic, coarse, cells, graph); };
   if (shared == nullptr) {
     solver_ = std::make_unique<CoarseSolver>(coarse, graph, stiffness, level, kernels);
@@ -219,8 +196,8 @@ CoarseSpace::CoarseSpace(const Grid& grid, const CellOrder& order, const std::ve
 }
 
 std::size_t CoarseSpace::bytes() const {
-  const auto of = [](const NodeMatrix& m) { return 8 * (m.begin.size() + m.column.size()); };
-  return of(interpolation_) + of(restriction_) + (solver_ ? solver_->bytes() : on_last_rank_->bytes());
+  return interpolation_.bytes() + restriction_.bytes() +
+         (solver_ ? solver_->bytes() : on_last_rank_->bytes());
 }
 
 CoarseSpace::WorkSpace CoarseSpace::work_space(const Lanes& lanes) const {

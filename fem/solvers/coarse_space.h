@@ -9,6 +9,7 @@
 #include "fem/common/elastic_kernel.h"
 #include "fem/mesh/cell_order.h"
 #include "fem/mesh/grid.h"
+#include "fem/operators/block_matrix.h"
 #include "fem/operators/block_vector.h"
 #include "fem/operators/shared_nodes.h"
 #include "fem/operators/stiffness.h"
@@ -18,13 +19,8 @@
 
 namespace fem {
 
-/// A sparse matrix between nodes, the same for the three components of displacement.
-struct NodeMatrix {
-  std::vector<std::int64_t> begin;
-  std::vector<std::int32_t> column;
-  std::vector<float> weight;
-  kernel::NodeRows view() const { return {begin.data(), column.data(), weight.data()}; }
-};
+/// A sparse matrix between nodes, the same for the three components of displacement: blocks of 1 x 1.
+using NodeMatrix = BlockMatrix<float>;
 
 /// Shape functions are trilinear in the reference coordinates of the cells, whose geometry stays curved: the
 /// stiffness is exactly P'K P, P the interpolation, and no cell can be inverted. Its nodes are the corners.
@@ -57,7 +53,7 @@ public:
 private:
   std::size_t n_nodes_ = 0;
   NodeMatrix interpolation_, restriction_;
-  std::unique_ptr<CoarseSolver> solver_;              // one rank
+  std::unique_ptr<CoarseSolver> solver_;            // one rank
   std::unique_ptr<CoarseOnLastRank> on_last_rank_;  // several
 };
 

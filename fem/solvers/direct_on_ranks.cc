@@ -26,15 +26,12 @@ struct DirectJob {
   std::int64_t n_unknowns = 0;     // of the body
   bool clamped = false;            // else supported
   std::vector<std::int64_t> held;  // unknowns of the part, ascending
+
+  template <typename Self>
+  static auto members(Self& self) {
+    return std::tie(self.share, self.n_unknowns, self.clamped, self.held);
+  }
 };
-
-Message& operator<<(Message& message, const DirectJob& job) {
-  return message << job.share << job.n_unknowns << job.clamped << job.held;
-}
-
-Message& operator>>(Message& message, DirectJob& job) {
-  return message >> job.share >> job.n_unknowns >> job.clamped >> job.held;
-}
 
 DirectJob make_job(const Grid& grid, const CellsOfNodes& cells, const std::vector<int>& rank_of_cell,
                    int rank, const PerCell<Lame>& elastic, const BalancedLoads& loads) {
@@ -118,10 +115,6 @@ bool once_more(MPI_Comm communicator, bool wanted) {
   return more != 0;
 }
 
-void clear(const std::vector<std::int64_t>& rows, Eigen::MatrixXd& vectors) {
-  for (const auto row : rows) vectors.row(row).setZero();
-}
-
 }  // namespace
 
 Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, const CellMaterials& materials,
@@ -159,15 +152,15 @@ Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, co
   const std::vector<std::int64_t> supported =
       loads.clamped.empty() ? std::vector<std::int64_t>(six.begin(), six.end()) : std::vector<std::int64_t>{};
   Eigen::MatrixXd free_force = loads.force;
-  clear(supported, free_force);
-  clear(loads.clamped, free_force);
+  clear_rows(supported, free_force);
+  clear_rows(loads.clamped, free_force);
   Eigen::MatrixXd image;
   /// free_force - K u
   const auto rest_of = [&](const Eigen::MatrixXd& u) {
     image = Eigen::MatrixXd::Zero(u.rows(), u.cols());
     share.multiply(u, image);
     Eigen::MatrixXd rest = free_force - image;
-    clear(supported, rest);
+    clear_rows(supported, rest);
     return rest;
   };
   Solution solution;
@@ -185,13 +178,12 @@ Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, co
     rest = rest_of(solution.displacement);
     solution.residual = residual();
   }
-  if (!supported.empty())
-    for (const auto unknown : supported)
-      solution.support_reaction =
-          std::max(solution.support_reaction, (image.row(unknown) - loads.force.row(unknown))
-                                                  .cwiseAbs()
-                                                  .cwiseQuotient(loads.largest_entry)
-                                                  .maxCoeff());
+  for (const auto unknown : supported)
+    solution.support_reaction =
+        std::max(solution.support_reaction, (image.row(unknown) - loads.force.row(unknown))
+                                                .cwiseAbs()
+                                                .cwiseQuotient(loads.largest_entry)
+                                                .maxCoeff());
   double factor_bytes = 0;
   solution.ranks = share.work(n_unknowns_of_rank(grid, rank_of_node, 0), factor_bytes);
   for (const auto& work : solution.ranks) solution.bytes += work.bytes;

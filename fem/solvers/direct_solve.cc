@@ -69,10 +69,6 @@ std::vector<std::int64_t> in_order(const std::vector<std::int64_t>& unknowns,
   return result;
 }
 
-void clear_rows(const std::vector<std::int64_t>& unknowns, Eigen::MatrixXd& vectors) {
-  for (const auto unknown : unknowns) vectors.row(unknown).setZero();
-}
-
 /// By one factor of the whole mesh.
 class OneFactor : public FactorisedBody {
 public:

@@ -6,7 +6,6 @@
 #include <future>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "fem/loads/balanced_loads.h"

@@ -34,17 +34,13 @@ struct IterativeJob {
   Eigen::Index width = 0;
   SolverChoice choice;
   Eigen::RowVectorXd norm, largest_entry;  // of the loads
+
+  template <typename Self>
+  static auto members(Self& self) {
+    return std::tie(self.share, self.counted, self.neighbours, self.modulus_Pa, self.n_unknowns, self.width,
+                    self.choice, self.norm, self.largest_entry);
+  }
 };
-
-Message& operator<<(Message& message, const IterativeJob& job) {
-  return message << job.share << job.counted << job.neighbours << job.modulus_Pa << job.n_unknowns
-                 << job.width << job.choice << job.norm << job.largest_entry;
-}
-
-Message& operator>>(Message& message, IterativeJob& job) {
-  return message >> job.share >> job.counted >> job.neighbours >> job.modulus_Pa >> job.n_unknowns >>
-         job.width >> job.choice >> job.norm >> job.largest_entry;
-}
 
 /// Moves the nodes that this rank counts to the front; their order stays.
 void count_first(const std::vector<char>& counted, std::vector<std::int32_t>& node_place) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "fem/loads/supports.h"
@@ -28,12 +29,6 @@ double sign_of(Parity parity, bool across) {
   return (parity == Parity::even) == across ? -1 : 1;
 }
 
-Eigen::MatrixXd columns_of(const Eigen::MatrixXd& all, const std::vector<Eigen::Index>& which) {
-  Eigen::MatrixXd result(all.rows(), Eigen::Index(which.size()));
-  for (std::size_t k = 0; k < which.size(); ++k) result.col(Eigen::Index(k)) = all.col(which[k]);
-  return result;
-}
-
 /// Of the loads that have a part of one parity: which they are, and these parts on the half.
 struct PartLoads {
   std::vector<Eigen::Index> columns;
@@ -45,7 +40,7 @@ PartLoads part_loads(const MirroredHalf& half, const BalancedLoads& loads, Parit
   PartLoads result;
   for (Eigen::Index k = 0; k < all.cols(); ++k)
     if (all.col(k).norm() > no_part * loads.norm[k]) result.columns.push_back(k);
-  result.force = columns_of(all, result.columns);
+  result.force = all(Eigen::all, result.columns);
   return result;
 }
 
@@ -58,7 +53,7 @@ public:
   Eigen::MatrixXd solve(const Eigen::MatrixXd& force) const override {
     Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(force.rows(), force.cols());
     std::vector<Eigen::Index> all(std::size_t(force.cols()));
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = Eigen::Index(k);
+    std::iota(all.begin(), all.end(), 0);
     for (const auto parity : {Parity::even, Parity::odd})
       if (const auto& factor = factors_[std::size_t(parity)])
         half_.add_to_whole(factor->solve(half_.part(force, parity)), parity, all, displacement);
@@ -189,8 +184,8 @@ std::optional<Solution> solve_by_halves(const MirroredHalf& half, const CellMate
     if (own.empty()) continue;
     BalancedLoads of_half;
     of_half.force = std::move(parts[std::size_t(parity)].force);
-    of_half.norm = columns_of(loads.norm, own);
-    of_half.largest_entry = columns_of(loads.largest_entry, own);
+    of_half.norm = loads.norm(own);
+    of_half.largest_entry = loads.largest_entry(own);
     of_half.clamped = half.held_by_plane(parity);
     of_half.supports = half.supports(parity);
     DirectSolveOptions of_part;

@@ -4,9 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 

@@ -2,8 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <numeric>
 
 #include "fem/common/parallel.h"
+#include "fem/loads/clamps.h"
 
 namespace fem {
 
@@ -181,19 +183,14 @@ std::unique_ptr<CholmodFactor> factorise_held(const BlockMatrix<double>& stiffne
       if (stiffness.column[k] > std::int32_t(i)) graph.neighbour.push_back(stiffness.column[k]);
     graph.begin.push_back(static_cast<std::int64_t>(graph.neighbour.size()));
   }
-  // Column 3 i + c below the diagonal is row 3 i + c right of it.
   SymmetricMatrix matrix = make_matrix(graph);
   for (std::size_t i = 0; i < stiffness.n_rows(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      auto place = matrix.column_begin[3 * i + c];
-      for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k) {
-        const auto j = stiffness.column[k];
-        if (j < std::int32_t(i)) continue;
-        const bool stays = (j / 2 != held && std::int32_t(i) / 2 != held);
-        for (int a = j == std::int32_t(i) ? c : 0; a < 3; ++a, ++place)
-          if (stays || (j == std::int32_t(i) && a == c)) matrix.value[place] = stiffness.at(k)[3 * c + a];
-      }
-    }
+    for (auto k = stiffness.begin[i]; k < stiffness.begin[i + 1]; ++k)
+      if (stiffness.column[k] >= std::int32_t(i))
+        add_block(graph, std::int32_t(i), stiffness.column[k], Block33<double>(stiffness.at(k)), matrix);
+  std::vector<std::int64_t> fast(6);
+  std::iota(fast.begin(), fast.end(), 6 * std::int64_t(held));
+  clamp(fast, matrix);
   auto factor = std::make_unique<CholmodFactor>(graph, order_nodes(graph));
   factor->factorise(matrix);
   return factor;

@@ -1,6 +1,13 @@
 #include "fem/stress/cell_stress.h"
 
+#include <cmath>
+
 namespace fem {
+
+double von_mises(const double* s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt((a * a + b * b + c * c) / 2 + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
 
 CellStress::CellStress(const Grid& grid, const Tabulation& at, const PerCell<Lame>& elastic,
                        const ConstBlock& displacement)

@@ -16,6 +16,9 @@ namespace fem {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using ConstBlock = Eigen::Ref<const RowMajor>;
 
+/// Von Mises stress of a tensor.
+double von_mises(const double* stress);
+
 /// Hooke's law at the tabulated points of cells; keeps its work space from cell to cell.
 class CellStress {
 public:

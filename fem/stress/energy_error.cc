@@ -1,7 +1,6 @@
 #include "fem/stress/energy_error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "fem/common/parallel.h"
@@ -16,10 +15,11 @@ namespace {
 Tabulation fourteen_points() {
   constexpr double near_faces = 320. / 361, near_corners = 121. / 361;  // of a cube of volume 8
   const double b = std::sqrt(19. / 30), c = std::sqrt(19. / 33);
-  Tabulation t;
+  ReferencePoints points;
+  std::vector<double> weights;
   const auto add = [&](double x, double y, double z, double weight) {
-    t.point.push_back({(1 + x) / 2, (1 + y) / 2, (1 + z) / 2});
-    t.weight.push_back(weight / 8);
+    points.push_back({(1 + x) / 2, (1 + y) / 2, (1 + z) / 2});
+    weights.push_back(weight / 8);
   };
   for (const double s : {-1., 1.}) {
     add(s * b, 0, 0, near_faces);
@@ -28,22 +28,7 @@ Tabulation fourteen_points() {
     for (const double y : {-c, c})
       for (const double z : {-c, c}) add(s * c, y, z, near_corners);
   }
-  t.n_points = static_cast<int>(t.point.size());
-  t.n_shapes = 27;
-  for (const auto& point : t.point)
-    for (int i = 0; i < t.n_shapes; ++i) {
-      const std::array<int, 3> index{i % 3, i / 3 % 3, i / 9};
-      std::array<double, 3> value{}, slope{};
-      for (int d = 0; d < 3; ++d) {
-        const double x = point[d];
-        value[d] = index[d] == 0 ? (1 - x) * (1 - 2 * x) : index[d] == 1 ? 4 * x * (1 - x) : x * (2 * x - 1);
-        slope[d] = index[d] == 0 ? 4 * x - 3 : index[d] == 1 ? 4 - 8 * x : 4 * x - 1;
-      }
-      t.value.push_back(value[0] * value[1] * value[2]);
-      t.gradient.push_back(
-          {slope[0] * value[1] * value[2], value[0] * slope[1] * value[2], value[0] * value[1] * slope[2]});
-    }
-  return t;
+  return tabulate_in_cell({CellKind::hexahedra, 2}, points, weights);
 }
 
 Tabulation energy_points(CellShape shape) {

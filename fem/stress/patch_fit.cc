@@ -128,11 +128,6 @@ Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& poi
   return Eigen::MatrixXd::Constant(t.first.cols(), s.first.cols(), 1.0 / double(s.first.cols()));
 }
 
-Eigen::MatrixXd tensor_fit(int degree, const PatchPoints& points) {
-  const auto [samples, targets] = scale(points);
-  return fit_in(tensor_space(degree), samples, targets);
-}
-
 Eigen::MatrixXd complete_fit(int degree, double concentration, const PatchPoints& points) {
   const auto [samples, targets] = scale(points);
   const Eigen::VectorXd distance2 = points.samples.colwise().squaredNorm().transpose();

@@ -21,10 +21,6 @@ struct PatchPoints {
 /// are 1, sin t, 1 - cos t, sin t (1 - cos t): the harmonics 0 and 1 are in the space exactly.
 Eigen::MatrixXd fit_operator(int degree, bool full_patch, const PatchPoints& points);
 
-/// The same in the tensor-product space of `degree` alone; an empty matrix if the samples do not determine it
-/// well.
-Eigen::MatrixXd tensor_fit(int degree, const PatchPoints& points);
-
 /// The same in the complete space of `degree` alone; an empty matrix if the samples do not determine it well.
 /// Squared errors count as exp(-concentration (d / largest d)^2), d the distance from the patch's centre.
 Eigen::MatrixXd complete_fit(int degree, double concentration, const PatchPoints& points);

@@ -35,17 +35,13 @@ struct RecoveryJob {
   std::vector<int> loaded_groups;
   int by_patches = 1, hardly_compresses = 0;
   std::vector<std::int32_t> counted;  // nodes of the part that this rank counts
+
+  template <typename Self>
+  static auto members(Self& self) {
+    return std::tie(self.part, self.elastic, self.charts, self.loaded_groups, self.by_patches,
+                    self.hardly_compresses, self.counted);
+  }
 };
-
-Message& operator<<(Message& message, const RecoveryJob& job) {
-  return message << job.part << job.elastic << job.charts << job.loaded_groups << job.by_patches
-                 << job.hardly_compresses << job.counted;
-}
-
-Message& operator>>(Message& message, RecoveryJob& job) {
-  return message >> job.part >> job.elastic >> job.charts >> job.loaded_groups >> job.by_patches >>
-         job.hardly_compresses >> job.counted;
-}
 
 /// Called on all ranks.
 /// @return of the nodes that this rank counts
@@ -64,8 +60,7 @@ RowMajor recover_share(MPI_Comm communicator, const RecoveryJob& job, const Node
                      job.hardly_compresses != 0, own, result);
     else
       average_stress(grid, cells, elastic, own, result);
-    counted.resize(job.counted.size(), result.cols());
-    for (std::size_t i = 0; i < job.counted.size(); ++i) counted.row(i) = result.row(job.counted[i]);
+    counted = result(job.counted, Eigen::all);
   });
   return counted;
 }

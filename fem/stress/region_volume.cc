@@ -1,13 +1,11 @@
 #include "fem/stress/region_volume.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "fem/common/lagrange.h"
-#include "fem/mesh/reference_cell.h"
-#include "fem/values/vtk_order.h"
+#include "fem/mesh/cell_geometry.h"
+#include "fem/operators/subdomain.h"
 
 namespace fem {
 namespace {
@@ -36,7 +34,7 @@ std::vector<SubTetrahedron> pieces_of_tetrahedron() {
 /// Six around each of the four diagonals of every box between nodes: one for each order of the axes. All four
 /// count a quarter, so that what is measured does not depend on how the cell is turned or mirrored.
 std::vector<SubTetrahedron> pieces_of_hexahedron(int degree) {
-  const auto at = nodes_on_edge(degree);
+  const auto& nodes = nodes_in_cell({CellKind::hexahedra, degree}).point;  // the first ones along an edge
   const std::array<int, 3> stride = {1, degree + 1, (degree + 1) * (degree + 1)};
   const std::array<std::array<bool, 3>, 4> high_starts = {
       {{false, false, false}, {true, false, false}, {false, true, false}, {false, false, true}}};
@@ -44,7 +42,8 @@ std::vector<SubTetrahedron> pieces_of_hexahedron(int degree) {
   for (int box = 0; box < degree * degree * degree; ++box) {
     const std::array<int, 3> low = {box % degree, box / degree % degree, box / (degree * degree)};
     double volume = 1;
-    for (std::size_t d = 0; d < 3; ++d) volume *= at[std::size_t(low[d]) + 1] - at[std::size_t(low[d])];
+    for (std::size_t d = 0; d < 3; ++d)
+      volume *= nodes[std::size_t(low[d]) + 1][0] - nodes[std::size_t(low[d])][0];
     for (const auto& starts_high : high_starts) {
       int first = 0;
       std::array<int, 3> step = stride;
@@ -66,35 +65,34 @@ std::vector<SubTetrahedron> pieces_of_hexahedron(int degree) {
 class CellVolumes {
 public:
   explicit CellVolumes(const Nodes& nodes)
-      : nodes_(nodes),
+      : part_(make_subdomain(nodes)),
         at_nodes_(nodes_in_cell(nodes.shape())),
         inside_(
             gauss_in_cell(nodes.shape(), nodes.shape().is_tetrahedron() ? 2 : (3 * nodes.degree + 1) / 2)),
         pieces_(nodes.shape().is_tetrahedron() ? pieces_of_tetrahedron()
                                                : pieces_of_hexahedron(nodes.degree)),
         determinant_(nodes.nodes_per_cell()),
-        volumes_(pieces_.size()),
-        local_(nodes.nodes_per_cell()) {}
+        volumes_(pieces_.size()) {}
 
   /// Adds the cell's volume to its nodes'.
   void share_out(std::size_t cell, std::vector<double>& volume_of_node) {
-    take(nodes_.cell(cell));
-    const double whole = exact(), sum = measure_pieces(whole);
+    const double whole = exact(cell), sum = measure_pieces(cell, whole);
     if (!(sum > 0)) return;
     for (std::size_t p = 0; p < pieces_.size(); ++p)
       for (const int corner : pieces_[p].nodes)
-        volume_of_node[local_[std::size_t(corner)]] += whole * volumes_[p] / sum / 4;
+        volume_of_node[node(cell, corner)] += whole * volumes_[p] / sum / 4;
   }
 
   double above(std::size_t cell, const std::vector<double>& value, double level,
                const std::vector<char>& left_out) {
-    take(nodes_.cell(cell));
     const auto is_in = [&](std::size_t i) { return value[i] >= level && left_out[i] == 0; };
-    const auto n_in = std::count_if(local_.begin(), local_.end(), is_in);
+    const int n_local = part_.grid.nodes_per_cell();
+    int n_in = 0;
+    for (int i = 0; i < n_local; ++i) n_in += is_in(node(cell, i));
     if (n_in == 0) return 0;
-    const double whole = exact();
-    if (std::size_t(n_in) == local_.size()) return whole;
-    const double sum = measure_pieces(whole);
+    const double whole = exact(cell);
+    if (n_in == n_local) return whole;
+    const double sum = measure_pieces(cell, whole);
     if (!(sum > 0)) return 0;
     double part = 0;
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
@@ -102,10 +100,10 @@ public:
       std::array<double, 4> beyond{};
       int n_kept = 0, n_kept_in = 0;
       for (std::size_t i = 0; i < 4; ++i) {
-        const auto node = local_[std::size_t(piece.nodes[i])];
-        beyond[i] = value[node] - level;
-        n_kept += left_out[node] == 0;
-        n_kept_in += is_in(node);
+        const auto own = node(cell, piece.nodes[i]);
+        beyond[i] = value[own] - level;
+        n_kept += left_out[own] == 0;
+        n_kept_in += is_in(own);
       }
       if (n_kept_in > 0) part += volumes_[p] * share_above_zero(beyond) * n_kept / 4;
     }
@@ -113,24 +111,25 @@ public:
   }
 
 private:
-  void take(const NodeList& cell) {
-    const int* order = vtk_hexahedron_order(nodes_.degree);
-    for (std::size_t v = 0; v < cell.size(); ++v)
-      local_[nodes_.shape().is_tetrahedron() ? v : std::size_t(order[v])] = std::size_t(cell[v]);
+  /// In the numbers of the body.
+  std::size_t node(std::size_t cell, int local) const {
+    return std::size_t(part_.node[std::size_t(part_.grid.nodes_of(cell)[local])]);
   }
 
-  /// Volumes of the pieces of the cell that was taken; cells that the level does not cut do without. A cell
+  /// Volumes of the pieces of a cell; cells that the level does not cut do without. A cell
   /// that is turned from a triangle at the axis is a tetrahedron, and its Jacobian vanishes at all corners:
   /// its pieces have the volumes between their corners.
   /// @return their sum; 0: the cell has no volume
-  double measure_pieces(double whole) {
+  double measure_pieces(std::size_t cell, double whole) {
     constexpr double collapsed = 1e-6;
-    for (std::size_t i = 0; i < local_.size(); ++i) determinant_[i] = determinant(at_nodes_, int(i));
+    for (std::size_t i = 0; i < determinant_.size(); ++i)
+      determinant_[i] = jacobian(part_.grid, cell, at_nodes_, int(i)).determinant();
     double sum = 0;
     for (std::size_t p = 0; p < pieces_.size(); ++p) sum += volumes_[p] = volume_of(pieces_[p]);
     if (sum > collapsed * whole) return sum;
     sum = 0;
-    for (std::size_t p = 0; p < pieces_.size(); ++p) sum += volumes_[p] = volume_between_corners(pieces_[p]);
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      sum += volumes_[p] = volume_between_corners(cell, pieces_[p]);
     return sum;
   }
 
@@ -140,36 +139,27 @@ private:
     return piece.reference_volume * sum / 4;
   }
 
-  double volume_between_corners(const SubTetrahedron& piece) const {
+  double volume_between_corners(std::size_t cell, const SubTetrahedron& piece) const {
     const auto corner = [&](std::size_t i) {
-      return Eigen::Map<const Eigen::Vector3d>(&nodes_.xyz_m[3 * local_[std::size_t(piece.nodes[i])]]);
+      return Eigen::Map<const Eigen::Vector3d>(
+          part_.grid.position(part_.grid.nodes_of(cell)[piece.nodes[i]]));
     };
     Eigen::Matrix3d edges;
     for (std::size_t i = 0; i < 3; ++i) edges.col(Eigen::Index(i)) = corner(i + 1) - corner(0);
     return std::abs(edges.determinant()) / 6;
   }
 
-  double determinant(const Tabulation& at, int q) const {
-    Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < local_.size(); ++i)
-      jacobian +=
-          Eigen::Map<const Eigen::Vector3d>(&nodes_.xyz_m[3 * local_[i]]) *
-          Eigen::Map<const Eigen::RowVector3d>(at.gradient[std::size_t(q) * local_.size() + i].data());
-    return jacobian.determinant();
-  }
-
-  double exact() const {
+  double exact(std::size_t cell) const {
     double volume = 0;
     for (int q = 0; q < inside_.n_points; ++q)
-      volume += inside_.weight[std::size_t(q)] * determinant(inside_, q);
+      volume += inside_.weight[std::size_t(q)] * jacobian(part_.grid, cell, inside_, q).determinant();
     return volume;
   }
 
-  const Nodes& nodes_;
+  Subdomain part_;  // all cells, in our order of nodes
   Tabulation at_nodes_, inside_;
   std::vector<SubTetrahedron> pieces_;
   std::vector<double> determinant_, volumes_;
-  std::vector<std::size_t> local_;  // node of each local number
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace fem {
 
 /// The stress points of every cell, cell after cell, then those of every free face: k^3 and k x k Gauss
-/// points, where stress is of a higher order than elsewhere; 4 and 3 on tetrahedra.
+/// points, where stress is of a higher order than elsewhere; 6 and 4 on tetrahedra.
 struct StressSamples {
   Points position;                                 ///< 3 x samples
   std::vector<std::int32_t> cell;                  ///< of each sample

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/charts.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/stress/sections.h"
 
@@ -32,16 +33,12 @@ std::vector<RingNode> concentric_nodes(const Grid& grid, const Body& body) {
   std::map<int, bool> concentric;  // by volume
   for (const auto& chart : body.cylinders)
     concentric[chart.volume_id] = chart.shift_x_m == 0 && chart.shift_y_m == 0;
-  const auto is_fillet = [&](int id) {
-    return std::any_of(body.tori.begin(), body.tori.end(),
-                       [id](const auto& torus) { return torus.boundary_id == id; });
-  };
   const CellMaterials materials(grid, body);
   std::map<std::int32_t, int> material;                // a node belongs to cells of one (SplitGrid)
   std::map<std::int32_t, std::pair<bool, int>> group;  // not a fillet, id: the smallest wins
   for (const auto& face : grid.boundary) {
     const auto nodes = nodes_of_face(grid, face.cell, face.face);
-    const bool fillet = is_fillet(face.boundary_id);
+    const bool fillet = is_fillet(body.tori, face.boundary_id);
     const auto volume = concentric.find(grid.volume_id[face.cell]);
     if (!fillet && (volume == concentric.end() || !volume->second || is_flat(grid, nodes))) continue;
     const std::pair<bool, int> candidate(!fillet, face.boundary_id);

@@ -5,37 +5,24 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fem/common/lagrange.h"
-#include "fem/common/simplex.h"
+#include "fem/mesh/reference_cell.h"
 #include "fem/values/vtk_order.h"
 
 namespace fem {
 namespace {
 
-using Point = std::array<double, 2>;  // of the reference face
-
-std::vector<Point> even_points(CellShape shape, int n) {
-  std::vector<Point> points;
+/// n intervals along each edge of the reference face.
+ReferencePoints even_points(CellShape shape, int n) {
+  ReferencePoints points;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= (shape.is_tetrahedron() ? n - j : n); ++i)
-      points.push_back({double(i) / n, double(j) / n});
+      points.push_back({double(i) / n, double(j) / n, 0});
   return points;
 }
 
-/// Shape functions of a face, in the order of Nodes::faces.
-std::vector<double> face_shapes(CellShape shape, const Point& at) {
-  std::vector<double> values;
-  if (shape.is_tetrahedron()) {
-    for (const auto& function : quadratic_triangle({at[0], at[1], 0})) values.push_back(function.value);
-    return values;
-  }
-  const auto nodes = nodes_on_edge(shape.degree);
-  const auto x = lagrange(nodes, at[0]), y = lagrange(nodes, at[1]);
-  const int* order = vtk_quad_order(shape.degree);
-  for (std::size_t v = 0; v < nodes.size() * nodes.size(); ++v)
-    values.push_back(x[std::size_t(order[v]) % nodes.size()].value *
-                     y[std::size_t(order[v]) / nodes.size()].value);
-  return values;
+/// The shape function of a node of Nodes::faces, by its place there.
+std::size_t shape_of(CellShape shape, std::size_t place) {
+  return shape.is_tetrahedron() ? place : std::size_t(vtk_quad_order(shape.degree)[place]);
 }
 
 using Vector3 = Eigen::Vector3d;
@@ -49,30 +36,27 @@ struct FaceMap {
   Eigen::Matrix<double, 3, 2> slope = Eigen::Matrix<double, 3, 2>::Zero();
 };
 
-FaceMap map_face(const Nodes& nodes, const NodeList& face, const Point& at) {
-  const auto on_edge = nodes_on_edge(nodes.degree);
-  const auto x = lagrange(on_edge, at[0]), y = lagrange(on_edge, at[1]);
-  const int* order = vtk_quad_order(nodes.degree);
+FaceMap map_face(const Nodes& nodes, const NodeList& face, const std::array<double, 3>& at) {
+  const auto shapes = tabulate_on_face(nodes.shape(), {at});
   FaceMap map;
   for (std::size_t v = 0; v < face.size(); ++v) {
-    const auto &a = x[std::size_t(order[v]) % on_edge.size()], &b = y[std::size_t(order[v]) / on_edge.size()];
-    const Vector3 node(&nodes.xyz_m[3 * std::size_t(face.begin()[v])]);
-    map.at += a.value * b.value * node;
-    map.slope.col(0) += a.derivative * b.value * node;
-    map.slope.col(1) += a.value * b.derivative * node;
+    const auto i = shape_of(nodes.shape(), v);
+    const Vector3 node(&nodes.xyz_m[3 * std::size_t(face[v])]);
+    map.at += shapes.value[i] * node;
+    for (std::size_t d = 0; d < 2; ++d) map.slope.col(Eigen::Index(d)) += shapes.gradient[i][d] * node;
   }
   return map;
 }
 
 /// The point of a face next to another: Gauss and Newton, within the face.
 struct Nearest {
-  Point at{};
+  std::array<double, 3> at{};
   double distance_m = 0;
 };
 Nearest nearest_on_face(const Nodes& nodes, const NodeList& face, const Vector3& wanted) {
   constexpr int most_steps = 20;
   constexpr double small_step = 1e-12;
-  Nearest nearest{{0.5, 0.5}, 0};
+  Nearest nearest{{0.5, 0.5, 0}, 0};
   for (int step = 0; step < most_steps; ++step) {
     const auto map = map_face(nodes, face, nearest.at);
     const Eigen::Vector2d change =
@@ -106,10 +90,11 @@ PointOnBoundary point_on_boundary(const Nodes& nodes, const std::array<double, 3
     const auto nearest = nearest_on_face(nodes, face, wanted);
     if (nearest.distance_m >= least_m) continue;
     least_m = nearest.distance_m;
-    const auto shapes = face_shapes(nodes.shape(), nearest.at);
+    const auto shapes = tabulate_on_face(nodes.shape(), {nearest.at});
     found = {f, {}};
     for (std::size_t v = 0; v < face.size(); ++v)
-      if (std::abs(shapes[v]) > no_weight) found.shares.push_back({std::size_t(face.begin()[v]), shapes[v]});
+      if (const double share = shapes.value[shape_of(nodes.shape(), v)]; std::abs(share) > no_weight)
+        found.shares.push_back({std::size_t(face[v]), share});
     if (found.shares.size() == 1) found.shares.front().weight = 1;
   }
   return found;
@@ -119,8 +104,7 @@ std::vector<UnitStress> stress_on_faces_around_Pa(const UnitResponses& responses
                                                   const std::vector<char>& left_out) {
   const auto& nodes = responses.nodes;
   const std::size_t n_channels = responses.channels.size();
-  std::vector<std::vector<double>> shapes;
-  for (const auto& point : even_points(nodes.shape(), n)) shapes.push_back(face_shapes(nodes.shape(), point));
+  const auto shapes = tabulate_on_face(nodes.shape(), even_points(nodes.shape(), n));
   std::vector<UnitStress> stresses;
   for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
     const auto face = nodes.face(f);
@@ -128,12 +112,13 @@ std::vector<UnitStress> stress_on_faces_around_Pa(const UnitResponses& responses
     if (std::find(face.begin(), face.end(), std::int32_t(node)) == face.end() ||
         std::any_of(face.begin(), face.end(), is_left_out))
       continue;
-    for (const auto& values : shapes) {
+    for (std::size_t q = 0; q < std::size_t(shapes.n_points); ++q) {
       auto& stress = stresses.emplace_back(n_channels);
       for (std::size_t v = 0; v < face.size(); ++v) {
-        const double* of_node = &responses.stress_Pa[6 * n_channels * std::size_t(face.begin()[v])];
+        const double share = shapes.value[q * face.size() + shape_of(nodes.shape(), v)];
+        const double* of_node = &responses.stress_Pa[6 * n_channels * std::size_t(face[v])];
         for (std::size_t k = 0; k < n_channels; ++k)
-          for (std::size_t c = 0; c < 6; ++c) stress[k][c] += values[v] * of_node[6 * k + c];
+          for (std::size_t c = 0; c < 6; ++c) stress[k][c] += share * of_node[6 * k + c];
       }
     }
   }

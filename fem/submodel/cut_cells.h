@@ -22,9 +22,28 @@ struct GridField {
 /// @throws std::invalid_argument if it is not
 GridField cut_into_eight(const GridField& coarse);
 
-// For cut_into_eight: by kind, and the values at new nodes below those at the old ones.
+// For cut_into_eight, by kind.
 GridField cut_tetrahedra(const GridField& coarse);
 GridField cut_hexahedra(const GridField& coarse);
-RowMajor with_rows_below(const RowMajor& old_values, const std::vector<Eigen::RowVectorXd>& new_values);
+
+/// The nodes that a cut makes, after those of the coarse grid.
+class NewNodes {
+public:
+  /// @param places  where they may be in a cell
+  NewNodes(const GridField& coarse, const ReferencePoints& places);
+
+  /// The number of the node that append() makes.
+  std::int32_t next() const { return std::int32_t(coarse_.grid.n_nodes + values_.size()); }
+  /// By the polynomials of a cell with these nodes.
+  void append(const std::int32_t* nodes, std::size_t place);
+  /// With the coarse ones before them.
+  void add_to(GridField& fine) const;
+
+private:
+  const GridField& coarse_;
+  Tabulation at_;
+  std::vector<double> xyz_m_;
+  std::vector<Eigen::RowVectorXd> values_;
+};
 
 }  // namespace fem

@@ -2,7 +2,7 @@
 #include <array>
 #include <map>
 
-#include "fem/common/lagrange.h"
+#include "fem/mesh/reference_cell.h"
 #include "fem/submodel/cut_cells.h"
 
 namespace fem {
@@ -39,26 +39,18 @@ Name name_of(const LatticePoint& at, const std::int32_t* nodes) {
   return name;
 }
 
-/// The 27 shape functions of a quadratic hexahedron at the lattice points.
-std::array<double, 27> shapes_at(const LatticePoint& at) {
-  const auto ends = nodes_on_edge(2);
-  std::array<std::vector<double>, 3> along;
-  for (std::size_t d = 0; d < 3; ++d)
-    for (const auto& function : lagrange(ends, at[d] / 4.0)) along[d].push_back(function.value);
-  std::array<double, 27> values{};
-  for (std::size_t i = 0; i < 27; ++i) values[i] = along[0][i % 3] * along[1][i / 3 % 3] * along[2][i / 9];
-  return values;
+/// The 125 lattice points in the reference cell.
+ReferencePoints lattice_points() {
+  ReferencePoints points;
+  for (int k = 0; k < 5; ++k)
+    for (int j = 0; j < 5; ++j)
+      for (int i = 0; i < 5; ++i) points.push_back({i / 4.0, j / 4.0, k / 4.0});
+  return points;
 }
 
 class HexahedraCutter {
 public:
-  explicit HexahedraCutter(const GridField& coarse) : coarse_(coarse) {
-    fine_.grid.n_nodes = coarse.grid.n_nodes;
-    fine_.grid.xyz_m = coarse.grid.xyz_m;
-    for (int k = 0; k < 5; ++k)
-      for (int j = 0; j < 5; ++j)
-        for (int i = 0; i < 5; ++i) shapes_.push_back(shapes_at({i, j, k}));
-  }
+  explicit HexahedraCutter(const GridField& coarse) : coarse_(coarse), new_nodes_(coarse, lattice_points()) {}
 
   GridField cut() {
     for (std::size_t c = 0; c < coarse_.grid.n_cells(); ++c) cut(c);
@@ -67,7 +59,7 @@ public:
       for (int part = 0; part < 8; ++part)
         if ((part >> (face.face / 2) & 1) == face.face % 2)
           fine_.grid.boundary.push_back({8 * face.cell + part, face.face, face.boundary_id});
-    fine_.field = with_rows_below(coarse_.field, values_);
+    new_nodes_.add_to(fine_);
     return std::move(fine_);
   }
 
@@ -90,24 +82,14 @@ private:
 
   std::int32_t node_at(const LatticePoint& at, const std::int32_t* nodes, std::size_t place) {
     if (at[0] % 2 == 0 && at[1] % 2 == 0 && at[2] % 2 == 0) return nodes[old_node(at)];
-    const auto [known, is_new] = names_.try_emplace(name_of(at, nodes), std::int32_t(fine_.grid.n_nodes));
-    if (!is_new) return known->second;
-    Eigen::Vector3d x = Eigen::Vector3d::Zero();
-    Eigen::RowVectorXd value = Eigen::RowVectorXd::Zero(coarse_.field.cols());
-    for (std::size_t i = 0; i < 27; ++i) {
-      x += shapes_[place][i] * Eigen::Map<const Eigen::Vector3d>(coarse_.grid.position(nodes[i]));
-      value += shapes_[place][i] * coarse_.field.row(nodes[i]);
-    }
-    fine_.grid.xyz_m.insert(fine_.grid.xyz_m.end(), x.data(), x.data() + 3);
-    values_.push_back(value);
-    ++fine_.grid.n_nodes;
+    const auto [known, is_new] = names_.try_emplace(name_of(at, nodes), new_nodes_.next());
+    if (is_new) new_nodes_.append(nodes, place);
     return known->second;
   }
 
   const GridField& coarse_;
-  std::vector<std::array<double, 27>> shapes_;  // at each lattice point
+  NewNodes new_nodes_;
   std::map<Name, std::int32_t> names_;
-  std::vector<Eigen::RowVectorXd> values_;  // at the new nodes
   GridField fine_;
 };
 

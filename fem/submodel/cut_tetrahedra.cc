@@ -5,16 +5,12 @@
 #include <map>
 #include <utility>
 
-#include "fem/common/simplex.h"
+#include "fem/mesh/reference_cell.h"
 
 namespace fem {
 namespace {
 
 using Corners = std::array<int, 4>;  // places among the 10 nodes of the old cell
-
-/// Corners of a new cell and of its edges, in the order of grid.h.
-constexpr std::array<std::array<std::size_t, 2>, 6> ends_of_edges = {
-    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
 /// The octahedron's diagonals join the middles of opposite edges; the other four middles stand around each of
 /// them.
@@ -38,14 +34,13 @@ const Diagonal& shortest(const Grid& grid, const std::int32_t* nodes) {
   });
 }
 
-double volume(const std::vector<std::array<double, 3>>& points, const Corners& c) {
+double volume(const ReferencePoints& points, const Corners& c) {
   const auto point = [&](int i) { return Eigen::Map<const Eigen::Vector3d>(points[std::size_t(i)].data()); };
   return (point(c[1]) - point(c[0])).cross(point(c[2]) - point(c[0])).dot(point(c[3]) - point(c[0]));
 }
 
 /// The eight new cells, all right-handed.
-std::array<Corners, 8> parts_of(const Grid& grid, const std::int32_t* nodes,
-                                const std::vector<std::array<double, 3>>& points) {
+std::array<Corners, 8> parts_of(const Grid& grid, const std::int32_t* nodes, const ReferencePoints& points) {
   const auto& [ends, ring] = shortest(grid, nodes);
   // Around the diagonal: neighbours in the ring of four share an edge of the octahedron.
   std::array<Corners, 8> parts = {{{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3}}};
@@ -55,30 +50,36 @@ std::array<Corners, 8> parts_of(const Grid& grid, const std::int32_t* nodes,
   return parts;
 }
 
+/// Half way between each two of the 10 nodes: that of a and b is number 10 a + b.
+ReferencePoints middles() {
+  const auto& nodes = nodes_in_cell({CellKind::tetrahedra, 2}).point;
+  ReferencePoints points;
+  for (const auto& a : nodes)
+    for (const auto& b : nodes) points.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+  return points;
+}
+
 class TetrahedraCutter {
 public:
-  explicit TetrahedraCutter(const GridField& coarse) : coarse_(coarse), points_(tetrahedron_nodes()) {
+  explicit TetrahedraCutter(const GridField& coarse) : coarse_(coarse), new_nodes_(coarse, middles()) {
     fine_.grid.kind = CellKind::tetrahedra;
-    fine_.grid.degree = 2;
-    fine_.grid.n_nodes = coarse.grid.n_nodes;
-    fine_.grid.xyz_m = coarse.grid.xyz_m;
   }
 
   GridField cut() {
     faces_.resize(coarse_.grid.n_cells());
     for (const auto& face : coarse_.grid.boundary) faces_[std::size_t(face.cell)].push_back(face);
     for (std::size_t c = 0; c < coarse_.grid.n_cells(); ++c) cut(c);
-    fine_.field = with_rows_below(coarse_.field, values_);
+    new_nodes_.add_to(fine_);
     return std::move(fine_);
   }
 
 private:
   void cut(std::size_t c) {
     const auto* nodes = coarse_.grid.nodes_of(c);
-    for (const auto& part : parts_of(coarse_.grid, nodes, points_)) {
+    for (const auto& part : parts_of(coarse_.grid, nodes, nodes_in_cell(coarse_.grid.shape()).point)) {
       for (const int i : part) fine_.grid.cell_nodes.push_back(nodes[i]);
-      for (const auto& edge : ends_of_edges)
-        fine_.grid.cell_nodes.push_back(middle(nodes, part[edge[0]], part[edge[1]]));
+      for (const auto& [a, b] : tetrahedron_edges)
+        fine_.grid.cell_nodes.push_back(middle(nodes, part[std::size_t(a)], part[std::size_t(b)]));
       keep_boundary(c, part);
       fine_.grid.volume_id.push_back(coarse_.grid.volume_id[c]);
     }
@@ -103,29 +104,15 @@ private:
   /// common face are the same there.
   std::int32_t middle(const std::int32_t* nodes, int a, int b) {
     const auto ends = std::minmax(nodes[a], nodes[b]);
-    const auto [known, is_new] = middles_.try_emplace(ends, std::int32_t(fine_.grid.n_nodes));
-    if (!is_new) return known->second;
-    std::array<double, 3> point{};
-    for (std::size_t d = 0; d < 3; ++d)
-      point[d] = (points_[std::size_t(a)][d] + points_[std::size_t(b)][d]) / 2;
-    Eigen::Vector3d x = Eigen::Vector3d::Zero();
-    Eigen::RowVectorXd value = Eigen::RowVectorXd::Zero(coarse_.field.cols());
-    const auto shapes = quadratic_tetrahedron(point);
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      x += shapes[i].value * at(coarse_.grid, nodes[i]);
-      value += shapes[i].value * coarse_.field.row(nodes[i]);
-    }
-    fine_.grid.xyz_m.insert(fine_.grid.xyz_m.end(), x.data(), x.data() + 3);
-    values_.push_back(value);
-    ++fine_.grid.n_nodes;
+    const auto [known, is_new] = middles_.try_emplace(ends, new_nodes_.next());
+    if (is_new) new_nodes_.append(nodes, std::size_t(10 * a + b));
     return known->second;
   }
 
   const GridField& coarse_;
-  std::vector<std::array<double, 3>> points_;
+  NewNodes new_nodes_;
   std::vector<std::vector<BoundaryFace>> faces_;  // of each old cell
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles_;
-  std::vector<Eigen::RowVectorXd> values_;  // at the new nodes
   GridField fine_;
 };
 

@@ -9,29 +9,28 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/loads/clamps.h"
 #include "fem/loads/surface_loads.h"
+#include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/connected_pieces.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/operators/cell_materials.h"
+#include "fem/operators/nodes_export.h"
+#include "fem/operators/subdomain.h"
 #include "fem/operators/symmetric_matrix.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/stress/recovery_on_ranks.h"
 #include "fem/submodel/cut_cells.h"
-#include "fem/values/vtk_order.h"
 
 namespace fem {
 namespace {
 
 constexpr int rim = -1;  // boundary group of the faces where the submodel is cut out
 
-double von_mises(const Eigen::Ref<const Eigen::RowVectorXd>& s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt((a * a + b * b + c * c) / 2 + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-}
-
 /// Cells around the nodes of a point: those that hold one, those that share a node with these, and so on;
 /// ascending.
-std::vector<std::size_t> cells_around(const Nodes& nodes, const std::vector<WeightedNode>& point,
-                                      int n_layers) {
+std::vector<std::int32_t> cells_around(const Nodes& nodes, const std::vector<WeightedNode>& point,
+                                       int n_layers) {
   std::vector<char> is_reached(nodes.n, 0), is_taken(nodes.n_cells(), 0);
   for (const auto& part : point) is_reached[part.node] = 1;
   for (int layer = 0; layer < n_layers; ++layer) {
@@ -47,22 +46,10 @@ std::vector<std::size_t> cells_around(const Nodes& nodes, const std::vector<Weig
       for (const auto i : nodes.cell(c)) is_reached[std::size_t(i)] = 1;
     }
   }
-  std::vector<std::size_t> cells;
+  std::vector<std::int32_t> cells;
   for (std::size_t c = 0; c < nodes.n_cells(); ++c)
-    if (is_taken[c] != 0) cells.push_back(c);
+    if (is_taken[c] != 0) cells.push_back(std::int32_t(c));
   return cells;
-}
-
-using FaceCorners = std::vector<std::int32_t>;
-
-/// The corners of a cell's face, ascending.
-FaceCorners corners_of(const Grid& grid, std::size_t cell, int face) {
-  const auto local = face_nodes(grid.shape(), face);
-  FaceCorners corners;
-  for (const int i : face_corners(grid.shape()))
-    corners.push_back(grid.nodes_of(cell)[local[std::size_t(i)]]);
-  std::sort(corners.begin(), corners.end());
-  return corners;
 }
 
 /// The part of a body that a submodel takes in.
@@ -72,59 +59,35 @@ struct Part {
 };
 
 /// @param cases  load cases as columns of factors, one row per channel
-Part cut_out(const UnitResponses& responses, const std::vector<std::size_t>& cells,
+Part cut_out(const UnitResponses& responses, const std::vector<std::int32_t>& cells,
              const Eigen::MatrixXd& cases) {
   const auto& nodes = responses.nodes;
-  Part part;
-  auto& grid = part.coarse.grid;
-  grid.kind = nodes.kind;
-  grid.degree = nodes.degree;
-  const bool is_in_order = nodes.shape().is_tetrahedron();
-  std::map<std::int32_t, std::int32_t> place;
-  for (const auto c : cells) {
-    grid.volume_id.push_back(nodes.cell_volume_id.empty() ? 0 : nodes.cell_volume_id[c]);
-    std::vector<std::int32_t> own(nodes.nodes_per_cell());
-    for (std::size_t v = 0; v < own.size(); ++v) {
-      const auto i = nodes.cell(c)[v];
-      const auto [known, is_new] = place.try_emplace(i, std::int32_t(part.node.size()));
-      if (is_new) part.node.push_back(i);
-      own[is_in_order ? v : std::size_t(vtk_hexahedron_order(nodes.degree)[v])] = known->second;
-    }
-    grid.cell_nodes.insert(grid.cell_nodes.end(), own.begin(), own.end());
-  }
-  grid.n_nodes = part.node.size();
-  part.coarse.field.resize(Eigen::Index(grid.n_nodes), 3 * cases.cols());
-  const auto n_channels = cases.rows();
-  for (std::size_t i = 0; i < grid.n_nodes; ++i) {
-    const auto whole = std::size_t(part.node[i]);
-    grid.xyz_m.insert(grid.xyz_m.end(), &nodes.xyz_m[3 * whole], &nodes.xyz_m[3 * whole] + 3);
-    const Eigen::Map<const Eigen::MatrixXd> unit(
-        &responses.displacement_m[3 * whole * std::size_t(n_channels)], 3, n_channels);
-    Eigen::Map<Eigen::MatrixXd>(&part.coarse.field(Eigen::Index(i), 0), 3, cases.cols()).noalias() =
-        unit * cases;
-  }
+  auto [grid, node, cell] = make_subdomain(nodes, cells);
+  auto field = sum_of_channels(responses.displacement_m, 3, node, cases);
 
-  std::map<FaceCorners, int> group;  // of the body's own surface
-  const std::size_t n_corners = face_corners(grid.shape()).size();
-  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
-    FaceCorners corners;  // VTK begins with them
-    for (std::size_t v = 0; v < n_corners; ++v)
-      if (const auto known = place.find(nodes.face(f)[v]); known != place.end())
-        corners.push_back(known->second);
-    if (corners.size() < n_corners) continue;
+  const auto sorted = [](std::vector<std::int32_t> corners) {
     std::sort(corners.begin(), corners.end());
-    group[corners] = nodes.face_boundary_id[f];
+    return corners;
+  };
+  const auto places = face_corners(grid.shape());
+  std::map<std::vector<std::int32_t>, int> group;  // of the body's own surface, by its faces' corners
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto* corners = nodes.face(f).begin();  // VTK begins with them
+    if (!std::binary_search(node.begin(), node.end(), corners[0])) continue;
+    group[sorted({corners, corners + places.size()})] = nodes.face_boundary_id[f];
   }
-  std::map<FaceCorners, std::vector<BoundaryFace>> faces;
-  const int n_faces = is_in_order ? 4 : 6;
-  for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    for (int f = 0; f < n_faces; ++f) faces[corners_of(grid, c, f)].push_back({std::int32_t(c), f, rim});
-  for (auto& [corners, both] : faces) {
-    if (both.size() > 1) continue;
-    if (const auto own = group.find(corners); own != group.end()) both[0].boundary_id = own->second;
-    grid.boundary.push_back(both[0]);
+  const auto beyond = cells_beyond_faces(grid);
+  const auto n_faces = std::size_t(grid.shape().n_faces());
+  for (std::size_t k = 0; k < beyond.size(); ++k) {
+    if (beyond[k] >= 0) continue;
+    BoundaryFace face{std::int32_t(k / n_faces), int(k % n_faces), rim};
+    const auto of_face = nodes_of_face(grid, k / n_faces, face.face);
+    std::vector<std::int32_t> corners;
+    for (const int place : places) corners.push_back(node[std::size_t(of_face[std::size_t(place)])]);
+    if (const auto own = group.find(sorted(corners)); own != group.end()) face.boundary_id = own->second;
+    grid.boundary.push_back(face);
   }
-  return part;
+  return {{std::move(grid), std::move(field)}, std::move(node)};
 }
 
 /// Groups that are held: the rim, and those where the body is loaded.
@@ -177,7 +140,7 @@ void solve_inside(GridField& fine, const Material& material, const std::vector<i
   BalancedLoads loads;
   loads.force = force - multiply(stiffness, known);
   loads.clamped.assign(clamped.begin(), clamped.end());
-  for (const auto i : clamped) loads.force.row(i).setZero();
+  clear_rows(loads.clamped, loads.force);
   loads.norm = loads.force.colwise().norm().cwiseMax(1e-300);
   loads.largest_entry = loads.force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300);
   const auto solution =
@@ -189,7 +152,7 @@ void solve_inside(GridField& fine, const Material& material, const std::vector<i
 
 /// A submodel of some load cases, solved.
 struct Solved {
-  std::vector<std::size_t> cells;  ///< of the whole body
+  std::vector<std::int32_t> cells;  ///< of the whole body
   Part part;
   Grid fine;
   RowMajor stress;  ///< n_nodes x 6 per load case
@@ -251,7 +214,7 @@ double largest_beside(const UnitResponses& responses, const Solved& solved,
   };
   std::vector<char> is_searched;
   for (const auto c : solved.cells) {
-    const auto cell = responses.nodes.cell(c);
+    const auto cell = responses.nodes.cell(std::size_t(c));
     is_searched.push_back(char(holds_point(cell) && is_whole(cell)));
   }
   const auto& fine = solved.fine;
@@ -261,7 +224,7 @@ double largest_beside(const UnitResponses& responses, const Solved& solved,
     if (face.boundary_id == rim || is_searched[std::size_t(face.cell) / n_parts] == 0) continue;
     for (const int local : face_nodes(fine.shape(), face.face))
       largest_Pa =
-          std::max(largest_Pa, von_mises(solved.stress.row(fine.nodes_of(std::size_t(face.cell))[local])));
+          std::max(largest_Pa, von_mises(&solved.stress(fine.nodes_of(std::size_t(face.cell))[local], 0)));
   }
   return largest_Pa;
 }
@@ -276,7 +239,7 @@ SubmodelStress submodel_stress(const UnitResponses& responses, const Body& body,
   const auto solved = solve_submodel(responses, body, loads, point, one_case, control);
   SubmodelStress result;
   result.n_dofs = 3 * solved.fine.n_nodes;
-  result.at_point_Pa = von_mises(at_point(solved, point));
+  result.at_point_Pa = von_mises(at_point(solved, point).data());
   result.largest_Pa = std::max(result.at_point_Pa, largest_beside(responses, solved, point, left_out));
   return result;
 }
@@ -297,7 +260,7 @@ bool is_beside_load(const UnitResponses& responses, const Body& body, const std:
   const auto& nodes = responses.nodes;
   std::vector<char> is_near(nodes.n, 0);
   for (const auto c : cells_around(nodes, point, 1))
-    for (const auto i : nodes.cell(c)) is_near[std::size_t(i)] = 1;
+    for (const auto i : nodes.cell(std::size_t(c))) is_near[std::size_t(i)] = 1;
   return any_held_face(nodes, held_groups(body, loads), [&](const NodeList& face) {
     return std::all_of(face.begin(), face.end(),
                        [&](std::int32_t i) { return is_near[std::size_t(i)] != 0; });

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/values/body_nodes.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 #include "tests/verification/fem/block_mesh.h"
 #include "tests/verification/fem/figures.h"
@@ -57,9 +58,11 @@ verification::HexahedraMesh together(verification::HexahedraMesh mesh,
   return mesh;
 }
 
-std::string refusal(const verification::Cells& cells) {
+std::string refusal(const verification::Cells& cells,
+                    const std::vector<fem::RefinementCycle>& refinements = {}) {
   fem::Body body;
   body.mesh = cells;
+  body.refinements = refinements;
   body.material = {200e9, 0.3, 7850};
   try {
     fem::Model model(body);
@@ -77,6 +80,17 @@ TEST(BrokenMesh, InTwoPieces) {
   expect_words(
       refusal(verification::cells_of(together(cube({0, 0, 0}), cube({3, 0, 0}), true))),
       {"2 pieces", "8 cells near (0.25, 0.25, 0.25) m", "8 cells near (3.25, 0.25, 0.25) m", "join them"});
+}
+
+// On a refined mesh faces of large and small cells match nowhere: pieces are looked for before cells are cut.
+TEST(BrokenMesh, InTwoPiecesThatAreRefined) {
+  const auto cells = verification::cells_of(together(cube({0, 0, 0}), cube({3, 0, 0}), true));
+  expect_words(refusal(cells, {{{0}}}),
+               {"2 pieces", "8 cells near (0.25, 0.25, 0.25) m", "8 cells near (3.25, 0.25, 0.25) m"});
+  fem::Body body;
+  body.mesh = cells;
+  body.material = {200e9, 0.3, 7850};
+  EXPECT_THROW(fem::body_nodes(body), fem::MeshUnusable);
 }
 
 // What a mesher leaves of two solids that were never fragmented: they touch, and share no node.

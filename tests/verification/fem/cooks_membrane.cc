@@ -65,7 +65,7 @@ TEST(P21, NearlyIncompressible) {
 std::pair<verification::Solution, double> compliance(const fem::Body& body) {
   auto s = sheared(body);
   const auto side = verification::on_face(verification::end_1, {48, 52, 0.5}, Component::fy).surface;
-  const Eigen::VectorXd force = fem::unit_forces(fem::make_grid(body), side).col(1);
+  const Eigen::VectorXd force = fem::unit_resultants(fem::make_grid(body), side).col(1);
   const double mean = force.dot(s.displacement_m.reshaped());
   return {std::move(s), mean};
 }

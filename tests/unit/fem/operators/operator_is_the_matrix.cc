@@ -139,7 +139,7 @@ fem::BlockVector<float> multiplied(const fem::NodeMatrix& matrix, const fem::Blo
       for (auto k = matrix.begin[row]; k < matrix.begin[row + 1]; ++k)
         for (std::size_t l = 0; l < 3 * width; ++l)
           y.data()[3 * n_rows * group.first_lane + 3 * width * row + l] +=
-              matrix.weight[std::size_t(k)] *
+              matrix.block[std::size_t(k)] *
               x.data()[3 * x.n_nodes() * group.first_lane +
                        3 * width * std::size_t(matrix.column[std::size_t(k)]) + l];
   }
@@ -158,7 +158,7 @@ void make_straight(Problem& problem, const fem::NodeMatrix& interpolation,
       for (auto k = std::size_t(interpolation.begin[row]); k < std::size_t(interpolation.begin[row + 1]);
            ++k) {
         const auto corner = node_of_corner[std::size_t(interpolation.column[k])];
-        sum += double(interpolation.weight[k]) * before[3 * std::size_t(corner) + d];
+        sum += double(interpolation.block[k]) * before[3 * std::size_t(corner) + d];
       }
       problem.grid.xyz_m[3 * i + d] = sum;
     }
