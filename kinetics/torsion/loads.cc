@@ -30,8 +30,42 @@ std::vector<LoadPart> parts_of(const torsion::PreparedTrain& prepared, const Arr
   return parts;
 }
 
+constexpr double instants_of_crests = 24;  // per period: they miss (pi / 24)^2 / 2, 0.9 % of a harmonic
+constexpr double missed_worth_a_warning = 0.02;
+constexpr double most_instants_of_crests = 100'000;
+
+double instants_per_period(const torsion::PreparedTrain& p, const ForcedResponse& all, const TimeGrid& grid) {
+  const double turn_s = 2 * pi / p.train.reference_speed_rad_s;
+  return 2 * pi / all.harmonics.back().frequency_rad_s / (turn_s / grid.instants_per_turn);
+}
+
+/// Which element's largest torque over the window lies between the instants, and by how much; empty: of none
+/// by more than a harmonic's crest is missed by instants_of_crests.
+std::string torque_missed(const torsion::PreparedTrain& p, const ForcedResponse& all, const TimeGrid& grid,
+                          const TrainMotion& at_instants) {
+  const double samples = instants_per_period(p, all, grid), times = std::ceil(instants_of_crests / samples);
+  const Index n = at_instants.time_s.size();
+  if (times < 2 || times * double(n) > most_instants_of_crests) return "";
+  const auto n_dense = Index(times) * n;
+  const auto dense = over_time(
+      p.train, all, ArrayXd::LinSpaced(n_dense, 0, double(n_dense - 1)) * (at_instants.time_s[1] / times));
+  const double rounding = 1e-9 * dense.reduced_torque_Nm.abs().maxCoeff();
+  std::string worst;
+  double most = missed_worth_a_warning;
+  for (Index e = 0; e < dense.torque_Nm.rows(); ++e) {
+    const double largest = dense.torque_Nm.row(e).abs().maxCoeff();
+    if (dense.reduced_torque_Nm.row(e).abs().maxCoeff() <= rounding) continue;
+    const double missed = 1 - at_instants.torque_Nm.row(e).abs().maxCoeff() / largest;
+    if (missed <= most) continue;
+    most = missed;
+    worst = p.train.elements[std::size_t(e)].name + " by " + number(std::round(1000 * missed) / 10) + " % (" +
+            number(largest) + " N m)";
+  }
+  return worst;
+}
+
 void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, const TimeGrid& grid,
-                    LoadHistory& history) {
+                    const TrainMotion& at_instants, LoadHistory& history) {
   const double turn_s = 2 * pi / p.train.reference_speed_rad_s, window_s = grid.turns * turn_s;
   if (!all.harmonics.empty()) {
     const double repeats = all.period_s ? window_s / *all.period_s : 0;
@@ -41,11 +75,13 @@ void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, 
                                       ? "after " + number(*all.period_s) + " s"
                                       : std::string("never: its frequencies have no common period")) +
                                  "; extremes and means are those of the window");
-    const double samples = 2 * pi / all.harmonics.back().frequency_rad_s / (turn_s / grid.instants_per_turn);
-    if (samples < 4)
-      history.warnings.push_back(
-          "the fastest harmonic has " + number(std::round(10 * samples) / 10) +
-          " instants per period, its peaks fall between them; take more instants per turn");
+    const double samples = instants_per_period(p, all, grid);
+    const auto missed = torque_missed(p, all, grid, at_instants);
+    if (samples < 4 || !missed.empty())
+      history.warnings.push_back("the fastest harmonic has " + number(std::round(10 * samples) / 10) +
+                                 " instants per period, its peaks fall between them; " +
+                                 (missed.empty() ? "" : "they miss the largest torque of " + missed + "; ") +
+                                 "take more instants per turn");
   }
   if (all.rigid_acceleration_rad_s2 != 0)
     history.warnings.push_back(
@@ -80,7 +116,7 @@ LoadHistory compute_loads(const DriveTrain& train, const std::vector<std::string
                                 "of the reference shaft, under constant torques that do not balance",
                                 ArrayXd::Constant(n, all.rigid_acceleration_rad_s2)});
   torsion::write_closure(train, history);
-  write_warnings(prepared, all, grid, history);
+  write_warnings(prepared, all, grid, sum, history);
   return history;
 }
 
