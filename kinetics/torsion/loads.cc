@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "kinetics/constants.h"
 #include "kinetics/torsion/checks.h"
 #include "kinetics/torsion/effects.h"
 #include "kinetics/torsion/forced.h"
 #include "kinetics/torsion/load_parts.h"
+#include "kinetics/train_crests.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {
@@ -89,35 +92,119 @@ void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, 
         number(all.rigid_acceleration_rad_s2) + " rad/s2");
 }
 
+ArrayXd instants_of(const TimeGrid& grid) {
+  const Index n = Index(grid.turns) * grid.instants_per_turn;
+  return 2 * pi / grid.instants_per_turn * ArrayXd::LinSpaced(n, 0, double(n - 1));
+}
+
+/// A train under its effects in its steady state.
+/// @throws MachineRefused for a line at a natural frequency that nothing damps
+struct SteadyTrain {
+  SteadyTrain(const DriveTrain& train, const std::vector<std::string>& effects)
+      : prepared(with_effects(train, effects)),
+        excitation(torsion::spectral(prepared.train, prepared.reduced)),
+        resonances(torsion::resonance_warnings(prepared, excitation.lines)),
+        all(torsion::respond(prepared, excitation)) {}
+
+  TrainMotion motion_at(const ArrayXd& phi_rad) const {
+    return over_time(prepared.train, all, phi_rad / prepared.train.reference_speed_rad_s);
+  }
+
+  torsion::PreparedTrain prepared;
+  torsion::Spectral excitation;
+  std::vector<std::string> resonances;  ///< warnings
+  ForcedResponse all;
+};
+
+/// The history at these angles of the reference shaft, without warnings.
+LoadHistory history_at(const ArrayXd& phi_rad, const DriveTrain& train, const SteadyTrain& steady,
+                       const TrainMotion& motion) {
+  LoadHistory history;
+  history.machine = "drive_train";
+  history.convention = "consistent";
+  for (const EffectInfo& info : drive_train_effects(steady.prepared.train))
+    history.effects.push_back(info.name);
+  const Index n = phi_rad.size();
+  history.phi_rad = phi_rad;
+  history.time_s = phi_rad / train.reference_speed_rad_s;
+  history.speed_rad_s = ArrayXd::Constant(n, train.reference_speed_rad_s);
+  history.acceleration_rad_s2 = ArrayXd::Zero(n);
+  torsion::write_parts(steady.prepared.train, motion, parts_of(steady.prepared, history.time_s),
+                       "angle on its own shaft, beside uniform running and rigid acceleration", history);
+  history.quantities.push_back({"rigid_acceleration", "rad/s2",
+                                "of the reference shaft, under constant torques that do not balance",
+                                ArrayXd::Constant(n, steady.all.rigid_acceleration_rad_s2)});
+  torsion::write_closure(train, history);
+  return history;
+}
+
+constexpr double counts = 1e-3;  // of an element's torque
+
+/// The fastest harmonic that counts, where one that the instants cannot tell does; else 0.
+double fastest_untold_rad_s(const ForcedResponse& all, double sampling_rad_s) {
+  ArrayXd whole = all.mean_torque_Nm.abs(), untold = ArrayXd::Zero(whole.size());
+  for (const auto& line : all.harmonics) {
+    whole += line.torque_Nm.abs();
+    if (2 * line.frequency_rad_s >= sampling_rad_s * (1 - 1e-9)) untold += line.torque_Nm.abs();
+  }
+  if (!(untold > counts * whole).any()) return 0;
+  double fastest = 0;
+  for (const auto& line : all.harmonics)
+    if ((line.torque_Nm.abs() > counts * whole).any()) fastest = line.frequency_rad_s;
+  return fastest;
+}
+
 }  // namespace
 
 LoadHistory compute_loads(const DriveTrain& train, const std::vector<std::string>& effects,
                           const TimeGrid& grid) {
   torsion::check_effects(train, effects);
   check_grid(grid);
-  const torsion::PreparedTrain prepared(with_effects(train, effects));
-  const auto excitation = torsion::spectral(prepared.train, prepared.reduced);
-  LoadHistory history;
-  history.machine = "drive_train";
-  history.convention = "consistent";
-  for (const EffectInfo& info : drive_train_effects(prepared.train)) history.effects.push_back(info.name);
-  history.warnings = torsion::resonance_warnings(prepared, excitation.lines);
-  const Index n = Index(grid.turns) * grid.instants_per_turn;
-  history.phi_rad = 2 * pi / grid.instants_per_turn * ArrayXd::LinSpaced(n, 0, double(n - 1));
-  history.time_s = history.phi_rad / train.reference_speed_rad_s;
-  history.speed_rad_s = ArrayXd::Constant(n, train.reference_speed_rad_s);
-  history.acceleration_rad_s2 = ArrayXd::Zero(n);
-
-  const ForcedResponse all = torsion::respond(prepared, excitation);
-  const TrainMotion sum = over_time(prepared.train, all, history.time_s);
-  torsion::write_parts(prepared.train, sum, parts_of(prepared, history.time_s),
-                       "angle on its own shaft, beside uniform running and rigid acceleration", history);
-  history.quantities.push_back({"rigid_acceleration", "rad/s2",
-                                "of the reference shaft, under constant torques that do not balance",
-                                ArrayXd::Constant(n, all.rigid_acceleration_rad_s2)});
-  torsion::write_closure(train, history);
-  write_warnings(prepared, all, grid, sum, history);
+  const SteadyTrain steady(train, effects);
+  const ArrayXd phi_rad = instants_of(grid);
+  const auto motion = steady.motion_at(phi_rad);
+  auto history = history_at(phi_rad, train, steady, motion);
+  history.warnings = steady.resonances;
+  write_warnings(steady.prepared, steady.all, grid, motion, history);
   return history;
+}
+
+std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
+                                                  const std::vector<std::string>& effects,
+                                                  const TimeGrid& grid, Index most) {
+  torsion::check_effects(train, effects);
+  check_grid(grid);
+  const SteadyTrain steady(train, effects);
+  const double sampling_rad_s = train.reference_speed_rad_s * grid.instants_per_turn;
+  const double fastest_rad_s = fastest_untold_rad_s(steady.all, sampling_rad_s);
+  if (!(fastest_rad_s > 0)) return std::nullopt;
+  const double times = std::ceil(instants_of_crests * fastest_rad_s / sampling_rad_s);
+  const ArrayXd instants = instants_of(grid);
+  const ArrayXd known = steady.motion_at(instants).torque_Nm.abs().rowwise().maxCoeff();
+  ArrayXd whole = steady.all.mean_torque_Nm.abs();
+  for (const auto& line : steady.all.harmonics) whole += line.torque_Nm.abs();
+  constexpr Index at_once = 4096, most_looked_at = 2'000'000;
+  const double step_rad = 2 * pi / grid.instants_per_turn / times;
+  const auto n = Index(std::min(times * double(instants.size()), double(most_looked_at)));
+  std::vector<std::pair<double, Index>> found;  // by how much, which
+  for (Index first = 0; first < n; first += at_once) {
+    const Index count = std::min(at_once, n - first);
+    const auto motion =
+        steady.motion_at(ArrayXd::LinSpaced(count, double(first), double(first + count - 1)) * step_rad);
+    for (Index i = 0; i < count; ++i) {
+      const double excess = ((motion.torque_Nm.col(i).abs() - known) / whole.max(1e-300)).maxCoeff();
+      if (excess > counts) found.emplace_back(excess, first + i);
+    }
+  }
+  if (found.empty()) return std::nullopt;
+  if (Index(found.size()) > most) {
+    std::nth_element(found.begin(), found.begin() + most, found.end(), std::greater<>());
+    found.resize(std::size_t(most));
+  }
+  ArrayXd phi_rad(Index(found.size()));
+  for (Index i = 0; i < phi_rad.size(); ++i) phi_rad[i] = double(found[std::size_t(i)].second) * step_rad;
+  std::sort(phi_rad.begin(), phi_rad.end());
+  return history_at(phi_rad, train, steady, steady.motion_at(phi_rad));
 }
 
 }  // namespace kinetics

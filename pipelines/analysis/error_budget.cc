@@ -163,7 +163,7 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 
 namespace {
 
-constexpr const char* samples_between_instants = "samples of the load table that the instants pass over";
+constexpr const char* loads_between_instants = "loads between the instants, which these do not tell";
 
 /// What is left of channels and effects that cancel has the errors of all of them: the solver's and
 /// rounding's share of each channel's own stress, and rounding's of each effect's. Nothing where one channel
@@ -227,7 +227,7 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
   ErrorBudget budget;
   const auto sampling = time_sampling(unit, values);
   if (const double excess_Pa = passed_over_excess_Pa(unit, loads.history); excess_Pa > sampling.error_Pa())
-    budget.numerical.push_back({"time_sampling", samples_between_instants, excess_Pa});
+    budget.numerical.push_back({"time_sampling", loads_between_instants, excess_Pa});
   else
     budget.numerical.push_back({"time_sampling",
                                 sampling.unresolved_Pa == 0

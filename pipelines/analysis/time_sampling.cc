@@ -59,6 +59,15 @@ double passed_over_excess_Pa(const std::vector<std::array<double, 6>>& unit, con
   return std::max(0.0, largest_Pa(coordinates, loads.passed_over) - largest_Pa(coordinates, loads.values));
 }
 
+bool passes_over_much(const ChannelHistory& loads) {
+  constexpr double much = 0.01;
+  if (loads.passed_over.cols() == 0) return false;
+  const auto &at = loads.values, &between = loads.passed_over;
+  const Eigen::ArrayXd above = between.rowwise().maxCoeff() - at.rowwise().maxCoeff(),
+                       below = at.rowwise().minCoeff() - between.rowwise().minCoeff();
+  return (above.max(below) > much * between.abs().rowwise().maxCoeff()).any();
+}
+
 double sampling_error_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads) {
   return std::max(time_sampling(unit, loads.values).error_Pa(), passed_over_excess_Pa(unit, loads));
 }

@@ -38,7 +38,7 @@ std::vector<BearingScene> with_speeds(const Scene& scene, const LoadedScene& loa
   return bearings;
 }
 
-/// The channels of each body at samples of the machine that the instants pass over.
+/// The channels of each body under loads that the instants pass over.
 void add_passed_over(const Scene& scene, LoadedScene& loaded) {
   const auto history = with_place(scene.machine_origin, [&] {
     return kind_of(loaded.masses.machine).loads_passed_over(scene, loaded.masses.machine);

@@ -80,7 +80,7 @@ public:
   /// What resampling has changed in the samples.
   virtual std::vector<kinetics::ResamplingError> resampling_errors(const Machine& machine,
                                                                    const kinetics::TimeGrid& grid) const;
-  /// The loads at samples that the scene's instants pass over; empty: none.
+  /// Loads between the scene's instants that these do not tell; empty: none.
   virtual std::optional<kinetics::LoadHistory> loads_passed_over(const Scene& scene,
                                                                  const Machine& machine) const;
   /// That a body may stand on.

@@ -420,6 +420,40 @@ pictures = false
               searched["peak_von_mises"]["error"]["numerical"].get<double>());
 }
 
+// Teeth that mesh 24 times a turn, with 24 and 48 instants: each meets them at the same place. Red if the
+// stated error knows the instants alone.
+TEST(LoadStage, HarmonicsThatTheInstantsCannotTellAreInTheError) {
+  const results_test::Directory directory;
+  write(directory / "teeth.toml",
+        edited("root_peeler_shaft.toml",
+               {{"[[machine.excitations]]\nname = \"peeling_torque\"", R"([[machine.excitations]]
+name = "teeth"
+inertia = "driven_pulley"
+harmonics = [{ amplitude = "1000 N m", order = 24, phase = "90 deg" }]
+
+[[machine.excitations]]
+name = "peeling_torque")"},
+                {"\"motor_torque\", \"peeling_torque\",", "\"motor_torque\", \"peeling_torque\", \"teeth\","},
+                {"turns = 272", "turns = 8"}}));
+  const auto peak_of = [&](int instants) {
+    const auto run = as_a_user(directory.path,
+                               "run teeth.toml --method beam --tolerance none -o r"
+                               " --set machine.transient=removed --set shaft.fatigue=removed"
+                               " --set sampling.instants_per_turn=" +
+                                   std::to_string(instants));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return summary(directory / "r")["bodies"]["shaft"]["peak_von_mises"];
+  };
+  const double right_Pa = peak_of(600)["value"];
+  for (const int instants : {24, 48}) {
+    const auto peak = peak_of(instants);
+    const double value_Pa = peak["value"];
+    EXPECT_LT(value_Pa, 0.6 * right_Pa) << instants;
+    EXPECT_NEAR(peak["error"]["time_sampling"].get<double>(), right_Pa - value_Pa, 0.03 * right_Pa)
+        << instants;
+  }
+}
+
 TEST(LoadStage, SpringsAndExtremesAnswerForTheWholeTorus) {
   const results_test::Directory directory;
   const std::string scene = "'" + shipped("vibratory_mill.toml").string() + "'";
