@@ -35,7 +35,38 @@ std::vector<LoadPart> parts_of(const torsion::PreparedTrain& prepared, const Arr
 
 constexpr double instants_of_crests = 24;  // per period: they miss (pi / 24)^2 / 2, 0.9 % of a harmonic
 constexpr double missed_worth_a_warning = 0.02;
-constexpr double most_instants_of_crests = 100'000;
+constexpr double most_work = 2e7;  // instants times harmonics, about two seconds
+
+/// The size of each element's torque at most, of its mean and all harmonics together; above rounding of the
+/// largest.
+ArrayXd whole_torque_Nm(const ForcedResponse& all) {
+  constexpr double rounding = 1e-9;
+  ArrayXd whole = all.mean_torque_Nm.abs();
+  for (const auto& line : all.harmonics) whole += line.torque_Nm.abs();
+  return whole.max(std::max(1e-300, rounding * whole.maxCoeff()));
+}
+
+/// Without the many small harmonics of a table that together are less than 0.5 % of every element's torque.
+ForcedResponse with_lines_that_count(const ForcedResponse& all) {
+  constexpr double left_out = 0.005;
+  const ArrayXd whole = whole_torque_Nm(all);
+  std::vector<std::pair<double, std::size_t>> shares;
+  for (std::size_t l = 0; l < all.harmonics.size(); ++l)
+    shares.emplace_back((all.harmonics[l].torque_Nm.abs() / whole).maxCoeff(), l);
+  std::sort(shares.begin(), shares.end());
+  std::vector<char> counts(shares.size(), 1);
+  double sum = 0;
+  for (const auto& [share, l] : shares) {
+    sum += share;
+    if (sum > left_out) break;
+    counts[l] = 0;
+  }
+  ForcedResponse result = all;
+  result.harmonics.clear();
+  for (std::size_t l = 0; l < counts.size(); ++l)
+    if (counts[l]) result.harmonics.push_back(all.harmonics[l]);
+  return result;
+}
 
 double instants_per_period(const torsion::PreparedTrain& p, const ForcedResponse& all, const TimeGrid& grid) {
   const double turn_s = 2 * pi / p.train.reference_speed_rad_s;
@@ -44,14 +75,16 @@ double instants_per_period(const torsion::PreparedTrain& p, const ForcedResponse
 
 /// Which element's largest torque over the window lies between the instants, and by how much; empty: of none
 /// by more than a harmonic's crest is missed by instants_of_crests.
-std::string torque_missed(const torsion::PreparedTrain& p, const ForcedResponse& all, const TimeGrid& grid,
-                          const TrainMotion& at_instants) {
-  const double samples = instants_per_period(p, all, grid), times = std::ceil(instants_of_crests / samples);
-  const Index n = at_instants.time_s.size();
-  if (times < 2 || times * double(n) > most_instants_of_crests) return "";
-  const auto n_dense = Index(times) * n;
-  const auto dense = over_time(
-      p.train, all, ArrayXd::LinSpaced(n_dense, 0, double(n_dense - 1)) * (at_instants.time_s[1] / times));
+std::string torque_missed(const torsion::PreparedTrain& p, const ForcedResponse& response,
+                          const TimeGrid& grid, const ArrayXd& time_s) {
+  const auto all = with_lines_that_count(response);
+  if (all.harmonics.empty()) return "";
+  const double times = std::ceil(instants_of_crests / instants_per_period(p, all, grid));
+  const double n_dense = times * double(time_s.size());
+  if (times < 2 || n_dense * double(all.harmonics.size()) > most_work) return "";
+  const auto at_instants = over_time(p.train, all, time_s);
+  const auto dense =
+      over_time(p.train, all, ArrayXd::LinSpaced(Index(n_dense), 0, n_dense - 1) * (time_s[1] / times));
   const double rounding = 1e-9 * dense.reduced_torque_Nm.abs().maxCoeff();
   std::string worst;
   double most = missed_worth_a_warning;
@@ -68,7 +101,7 @@ std::string torque_missed(const torsion::PreparedTrain& p, const ForcedResponse&
 }
 
 void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, const TimeGrid& grid,
-                    const TrainMotion& at_instants, LoadHistory& history) {
+                    LoadHistory& history) {
   const double turn_s = 2 * pi / p.train.reference_speed_rad_s, window_s = grid.turns * turn_s;
   if (!all.harmonics.empty()) {
     const double repeats = all.period_s ? window_s / *all.period_s : 0;
@@ -79,7 +112,7 @@ void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, 
                                       : std::string("never: its frequencies have no common period")) +
                                  "; extremes and means are those of the window");
     const double samples = instants_per_period(p, all, grid);
-    const auto missed = torque_missed(p, all, grid, at_instants);
+    const auto missed = torque_missed(p, all, grid, history.time_s);
     if (samples < 4 || !missed.empty())
       history.warnings.push_back("the fastest harmonic has " + number(std::round(10 * samples) / 10) +
                                  " instants per period, its peaks fall between them; " +
@@ -140,18 +173,12 @@ LoadHistory history_at(const ArrayXd& phi_rad, const DriveTrain& train, const St
 
 constexpr double counts = 1e-3;  // of an element's torque
 
-/// The fastest harmonic that counts, where one that the instants cannot tell does; else 0.
-double fastest_untold_rad_s(const ForcedResponse& all, double sampling_rad_s) {
-  ArrayXd whole = all.mean_torque_Nm.abs(), untold = ArrayXd::Zero(whole.size());
-  for (const auto& line : all.harmonics) {
-    whole += line.torque_Nm.abs();
-    if (2 * line.frequency_rad_s >= sampling_rad_s * (1 - 1e-9)) untold += line.torque_Nm.abs();
-  }
-  if (!(untold > counts * whole).any()) return 0;
-  double fastest = 0;
+/// Whether harmonics count that have two instants per period or fewer.
+bool leaves_lines_untold(const ForcedResponse& all, double sampling_rad_s) {
+  ArrayXd untold = ArrayXd::Zero(all.mean_torque_Nm.size());
   for (const auto& line : all.harmonics)
-    if ((line.torque_Nm.abs() > counts * whole).any()) fastest = line.frequency_rad_s;
-  return fastest;
+    if (2 * line.frequency_rad_s >= sampling_rad_s * (1 - 1e-9)) untold += line.torque_Nm.abs();
+  return (untold > counts * whole_torque_Nm(all)).any();
 }
 
 }  // namespace
@@ -165,7 +192,7 @@ LoadHistory compute_loads(const DriveTrain& train, const std::vector<std::string
   const auto motion = steady.motion_at(phi_rad);
   auto history = history_at(phi_rad, train, steady, motion);
   history.warnings = steady.resonances;
-  write_warnings(steady.prepared, steady.all, grid, motion, history);
+  write_warnings(steady.prepared, steady.all, grid, history);
   return history;
 }
 
@@ -176,23 +203,26 @@ std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
   check_grid(grid);
   const SteadyTrain steady(train, effects);
   const double sampling_rad_s = train.reference_speed_rad_s * grid.instants_per_turn;
-  const double fastest_rad_s = fastest_untold_rad_s(steady.all, sampling_rad_s);
-  if (!(fastest_rad_s > 0)) return std::nullopt;
-  const double times = std::ceil(instants_of_crests * fastest_rad_s / sampling_rad_s);
-  const ArrayXd instants = instants_of(grid);
-  const ArrayXd known = steady.motion_at(instants).torque_Nm.abs().rowwise().maxCoeff();
-  ArrayXd whole = steady.all.mean_torque_Nm.abs();
-  for (const auto& line : steady.all.harmonics) whole += line.torque_Nm.abs();
-  constexpr Index at_once = 4096, most_looked_at = 2'000'000;
+  if (!leaves_lines_untold(steady.all, sampling_rad_s)) return std::nullopt;
+  const auto all = with_lines_that_count(steady.all);
+  if (all.harmonics.empty()) return std::nullopt;
+  const auto motion_at = [&](const ArrayXd& phi_rad) {
+    return over_time(steady.prepared.train, all, phi_rad / train.reference_speed_rad_s);
+  };
+  const double times = std::ceil(instants_of_crests * all.harmonics.back().frequency_rad_s / sampling_rad_s);
+  const ArrayXd instants = instants_of(grid), whole = whole_torque_Nm(all);
+  const ArrayXd known = motion_at(instants).torque_Nm.abs().rowwise().maxCoeff();
+  constexpr Index at_once = 4096;
   const double step_rad = 2 * pi / grid.instants_per_turn / times;
-  const auto n = Index(std::min(times * double(instants.size()), double(most_looked_at)));
+  const auto n = Index(std::min(times * double(instants.size()),
+                                std::max(double(at_once), most_work / double(all.harmonics.size()))));
   std::vector<std::pair<double, Index>> found;  // by how much, which
   for (Index first = 0; first < n; first += at_once) {
     const Index count = std::min(at_once, n - first);
     const auto motion =
-        steady.motion_at(ArrayXd::LinSpaced(count, double(first), double(first + count - 1)) * step_rad);
+        motion_at(ArrayXd::LinSpaced(count, double(first), double(first + count - 1)) * step_rad);
     for (Index i = 0; i < count; ++i) {
-      const double excess = ((motion.torque_Nm.col(i).abs() - known) / whole.max(1e-300)).maxCoeff();
+      const double excess = ((motion.torque_Nm.col(i).abs() - known) / whole).maxCoeff();
       if (excess > counts) found.emplace_back(excess, first + i);
     }
   }
