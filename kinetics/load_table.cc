@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "kinetics/constants.h"
 #include "kinetics/machine_refused.h"
@@ -16,7 +18,9 @@ using Eigen::Index;
 
 constexpr double turn_rad = 2 * pi;
 constexpr double worth_a_warning = 0.01;
-constexpr double too_much_missed = 0.1;  // below, a smooth course is told by the error of time sampling
+constexpr double missed_worth_a_warning = 0.03;
+constexpr double too_much_missed = 0.1;  // below, samples_passed_over tells what is missed
+constexpr double worth_telling = 0.001;
 
 std::string name_of(const TableLoad& load) {
   return load.port + "." + load.component;
@@ -170,22 +174,43 @@ void warn_of_gap(const TableLoad& load, const SampledCourse& samples, double per
 }
 
 /// Where the instants lie further apart than the samples, they may miss the largest or the smallest one:
-/// nothing in their values tells, so that no error would hold it.
+/// nothing in their values tells.
 void check_missed(const TableLoad& load, const SampledCourse& samples, const ArrayXd& values,
-                  const TimeGrid& grid) {
+                  const TimeGrid& grid, LoadHistory& history) {
   const ArrayXd given = samples.values.head(n_of_period(samples, grid.turns * turn_rad));
   const double largest = given.abs().maxCoeff();
   const double above = given.maxCoeff() - values.maxCoeff(), below = values.minCoeff() - given.minCoeff();
   const double missed = std::max(above, below);
-  if (missed <= too_much_missed * largest) return;
+  if (missed <= missed_worth_a_warning * largest) return;
   const Index n = samples.angle_rad.size();
   const double step_rad = (samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1)).minCoeff();
-  throw MachineRefused(
+  const std::string sentence =
       load.effect + "/" + name_of(load) + " is " + number(std::round(1000 * missed / largest) / 10) + " % " +
       (above >= below ? "larger" : "smaller") + " between the instants than at them, " +
       std::to_string(grid.instants_per_turn) + " per turn; the closest samples correspond to " +
       number(std::ceil(turn_rad / step_rad * (1 - 1e-9))) +
-      " per turn: set sampling.instants_per_turn to at least that");
+      " per turn: set sampling.instants_per_turn to at least that";
+  if (missed > too_much_missed * largest) throw MachineRefused(sentence);
+  history.warnings.push_back(sentence);
+}
+
+/// By how much each sample is off the straight line between the instants around it, in shares of the largest.
+/// @param values  at the instants
+ArrayXd shares_off_the_line(const SampledCourse& samples, const ArrayXd& values, const TimeGrid& grid) {
+  const Index n = n_of_period(samples, grid.turns * turn_rad);
+  const double largest = samples.values.head(n).abs().maxCoeff();
+  ArrayXd share = ArrayXd::Zero(n);
+  if (!(largest > 0)) return share;
+  for (Index i = 0; i < n; ++i) {
+    const double at = samples.angle_rad[i] / turn_rad * grid.instants_per_turn, before = std::floor(at);
+    const auto value = [&](double instant) {
+      const double periods = std::floor(instant / double(values.size()));
+      return values[std::min(values.size() - 1, Index(instant - periods * double(values.size())))];
+    };
+    const double line = value(before) + (at - before) * (value(before + 1) - value(before));
+    share[i] = std::abs(samples.values[i] - line) / largest;
+  }
+  return share;
 }
 
 void post(const TableLoad& load, const ArrayXd& values, LoadHistory& history) {
@@ -240,32 +265,82 @@ std::vector<ResamplingError> resampling_errors(const LoadTable& table, const Tim
   return errors;
 }
 
-LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>& effects,
-                          const TimeGrid& grid) {
+namespace {
+
+void check(const LoadTable& table, const std::vector<std::string>& effects, const TimeGrid& grid) {
   check(table, grid);
   check_effects(effects, table);
+}
+
+ArrayXd instants_of(const TimeGrid& grid) {
   const Index n = Index(grid.turns) * grid.instants_per_turn;
+  return ArrayXd::LinSpaced(n, 0, n - 1) * (turn_rad / grid.instants_per_turn);
+}
+
+/// Each load of the effects, with its values at the angles.
+template <typename Take>
+void evaluate_all(const LoadTable& table, const std::vector<std::string>& effects, const TimeGrid& grid,
+                  const ArrayXd& phi_rad, const Take& take) {
+  for (const auto& effect : load_table_effects(table)) {
+    if (std::find(effects.begin(), effects.end(), effect.name) == effects.end()) continue;
+    for (const auto& load : table.loads)
+      if (load.effect == effect.name) take(load, evaluate(load, phi_rad, grid.turns * turn_rad));
+  }
+}
+
+}  // namespace
+
+ArrayXd samples_passed_over(const LoadTable& table, const std::vector<std::string>& effects,
+                            const TimeGrid& grid, Index most) {
+  check(table, effects, grid);
+  std::vector<std::pair<double, double>> found;  // share, angle
+  evaluate_all(table, effects, grid, instants_of(grid), [&](const TableLoad& load, const ArrayXd& values) {
+    const auto* samples = std::get_if<SampledCourse>(&load.course);
+    if (samples == nullptr) return;
+    const ArrayXd share = shares_off_the_line(*samples, values, grid);
+    for (Index i = 0; i < share.size(); ++i)
+      if (share[i] > worth_telling) found.emplace_back(share[i], samples->angle_rad[i]);
+  });
+  if (Index(found.size()) > most) {
+    std::nth_element(found.begin(), found.begin() + most, found.end(), std::greater<>());
+    found.resize(std::size_t(most));
+  }
+  std::vector<double> angle_rad;
+  for (const auto& [share, angle] : found) angle_rad.push_back(angle);
+  std::sort(angle_rad.begin(), angle_rad.end());
+  angle_rad.erase(std::unique(angle_rad.begin(), angle_rad.end()), angle_rad.end());
+  return Eigen::Map<const ArrayXd>(angle_rad.data(), Index(angle_rad.size()));
+}
+
+LoadHistory loads_at(const LoadTable& table, const std::vector<std::string>& effects, const TimeGrid& grid,
+                     const ArrayXd& phi_rad) {
+  check(table, effects, grid);
+  const Index n = phi_rad.size();
   LoadHistory history;
   history.machine = "load_table";
   history.convention = "given";
-  history.phi_rad = ArrayXd::LinSpaced(n, 0, n - 1) * (turn_rad / grid.instants_per_turn);
-  history.time_s = history.phi_rad / table.speed_rad_s;
+  history.phi_rad = phi_rad;
+  history.time_s = phi_rad / table.speed_rad_s;
   history.speed_rad_s = ArrayXd::Constant(n, table.speed_rad_s);
   history.acceleration_rad_s2 = ArrayXd::Zero(n);
-  for (const auto& effect : load_table_effects(table)) {
-    if (std::find(effects.begin(), effects.end(), effect.name) == effects.end()) continue;
-    history.effects.push_back(effect.name);
-    for (const auto& load : table.loads) {
-      if (load.effect != effect.name) continue;
-      const ArrayXd values = evaluate(load, history.phi_rad, grid.turns * turn_rad);
-      post(load, values, history);
-      if (const auto* samples = std::get_if<SampledCourse>(&load.course)) {
-        warn(error_of(load, *samples, grid.turns * turn_rad), history);
-        warn_of_gap(load, *samples, grid.turns * turn_rad, history);
-        check_missed(load, *samples, values, grid);
-      }
-    }
-  }
+  for (const auto& effect : load_table_effects(table))
+    if (std::find(effects.begin(), effects.end(), effect.name) != effects.end())
+      history.effects.push_back(effect.name);
+  evaluate_all(table, effects, grid, phi_rad,
+               [&](const TableLoad& load, const ArrayXd& values) { post(load, values, history); });
+  return history;
+}
+
+LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>& effects,
+                          const TimeGrid& grid) {
+  auto history = loads_at(table, effects, grid, instants_of(grid));
+  evaluate_all(table, effects, grid, history.phi_rad, [&](const TableLoad& load, const ArrayXd& values) {
+    const auto* samples = std::get_if<SampledCourse>(&load.course);
+    if (samples == nullptr) return;
+    warn(error_of(load, *samples, grid.turns * turn_rad), history);
+    warn_of_gap(load, *samples, grid.turns * turn_rad, history);
+    check_missed(load, *samples, values, grid, history);
+  });
   return history;
 }
 

@@ -56,16 +56,30 @@ std::vector<EffectInfo> load_table_effects(const LoadTable& table);
 /// Sampled loads only, in the order of the table.
 std::vector<ResamplingError> resampling_errors(const LoadTable& table, const TimeGrid& grid);
 
+/// Angles of the drive at which a sample of the named effects' loads lies between two instants and is off the
+/// straight line through their values by more than 0.1 % of the largest sample: what the instants alone do
+/// not tell, a spike between two of them. Of many those that are furthest off, ascending; none: empty.
+/// @throws MachineRefused as compute_loads
+Eigen::ArrayXd samples_passed_over(const LoadTable& table, const std::vector<std::string>& effects,
+                                   const TimeGrid& grid, Eigen::Index most = 4096);
+
+/// The loads at other angles than the instants of the grid: as compute_loads, without warnings.
+/// @param phi_rad  over grid.turns, which are the period of the samples
+/// @throws MachineRefused as compute_loads, but for instants that miss samples
+LoadHistory loads_at(const LoadTable& table, const std::vector<std::string>& effects, const TimeGrid& grid,
+                     const Eigen::ArrayXd& phi_rad);
+
 /// Evaluates the loads of the named effects over the grid; grid.turns is the period of the samples.
 ///
 /// Between samples a cubic of Fritsch and Carlson (1980): smooth, and never beyond the samples on either
 /// side. One resultant per port, one contribution per effect; other components become quantities
 /// "<port>.<component>". Samples are not turned: they mean the frame that their port means. A jump at the
-/// seam above 1 % of the largest value, and interpolation above 1 %, are warned of.
+/// seam above 1 % of the largest value, interpolation above 1 %, and instants that miss the largest or the
+/// smallest sample by more than 3 % of the largest are warned of.
 /// @throws MachineRefused naming parameter, value and remedy: no load, an unknown effect, NaN or
 ///         infinity, fewer than four samples, angles that do not ascend or span more than the period, samples
 ///         that leave more than half a turn uncovered, instants that miss the largest sample by more than 10
-///         % of it (less is told by the error of time sampling), an order that does not fit the period or
+///         % of it (less is told by samples_passed_over), an order that does not fit the period or
 ///         that two instants per period or fewer would alias, speed not positive, the same load twice in one
 ///         effect
 LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>& effects,

@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "kinetics/constants.h"
 #include "kinetics/torsion/checks.h"
 #include "kinetics/torsion/effects.h"
 #include "kinetics/torsion/forced.h"
 #include "kinetics/torsion/load_parts.h"
+#include "kinetics/train_crests.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {
@@ -30,6 +33,73 @@ std::vector<LoadPart> parts_of(const torsion::PreparedTrain& prepared, const Arr
   return parts;
 }
 
+constexpr double instants_of_crests = 24;  // per period: they miss (pi / 24)^2 / 2, 0.9 % of a harmonic
+constexpr double missed_worth_a_warning = 0.02;
+constexpr double most_work = 2e7;  // instants times harmonics, about two seconds
+
+/// The size of each element's torque at most, of its mean and all harmonics together; above rounding of the
+/// largest.
+ArrayXd whole_torque_Nm(const ForcedResponse& all) {
+  constexpr double rounding = 1e-9;
+  ArrayXd whole = all.mean_torque_Nm.abs();
+  for (const auto& line : all.harmonics) whole += line.torque_Nm.abs();
+  return whole.max(std::max(1e-300, rounding * whole.maxCoeff()));
+}
+
+/// Without the many small harmonics of a table that together are less than 0.5 % of every element's torque.
+ForcedResponse with_lines_that_count(const ForcedResponse& all) {
+  constexpr double left_out = 0.005;
+  const ArrayXd whole = whole_torque_Nm(all);
+  std::vector<std::pair<double, std::size_t>> shares;
+  for (std::size_t l = 0; l < all.harmonics.size(); ++l)
+    shares.emplace_back((all.harmonics[l].torque_Nm.abs() / whole).maxCoeff(), l);
+  std::sort(shares.begin(), shares.end());
+  std::vector<char> counts(shares.size(), 1);
+  double sum = 0;
+  for (const auto& [share, l] : shares) {
+    sum += share;
+    if (sum > left_out) break;
+    counts[l] = 0;
+  }
+  ForcedResponse result = all;
+  result.harmonics.clear();
+  for (std::size_t l = 0; l < counts.size(); ++l)
+    if (counts[l]) result.harmonics.push_back(all.harmonics[l]);
+  return result;
+}
+
+double instants_per_period(const torsion::PreparedTrain& p, const ForcedResponse& all, const TimeGrid& grid) {
+  const double turn_s = 2 * pi / p.train.reference_speed_rad_s;
+  return 2 * pi / all.harmonics.back().frequency_rad_s / (turn_s / grid.instants_per_turn);
+}
+
+/// Which element's largest torque over the window lies between the instants, and by how much; empty: of none
+/// by more than a harmonic's crest is missed by instants_of_crests.
+std::string torque_missed(const torsion::PreparedTrain& p, const ForcedResponse& response,
+                          const TimeGrid& grid, const ArrayXd& time_s) {
+  const auto all = with_lines_that_count(response);
+  if (all.harmonics.empty()) return "";
+  const double times = std::ceil(instants_of_crests / instants_per_period(p, all, grid));
+  const double n_dense = times * double(time_s.size());
+  if (times < 2 || n_dense * double(all.harmonics.size()) > most_work) return "";
+  const auto at_instants = over_time(p.train, all, time_s);
+  const auto dense =
+      over_time(p.train, all, ArrayXd::LinSpaced(Index(n_dense), 0, n_dense - 1) * (time_s[1] / times));
+  const double rounding = 1e-9 * dense.reduced_torque_Nm.abs().maxCoeff();
+  std::string worst;
+  double most = missed_worth_a_warning;
+  for (Index e = 0; e < dense.torque_Nm.rows(); ++e) {
+    const double largest = dense.torque_Nm.row(e).abs().maxCoeff();
+    if (dense.reduced_torque_Nm.row(e).abs().maxCoeff() <= rounding) continue;
+    const double missed = 1 - at_instants.torque_Nm.row(e).abs().maxCoeff() / largest;
+    if (missed <= most) continue;
+    most = missed;
+    worst = p.train.elements[std::size_t(e)].name + " by " + number(std::round(1000 * missed) / 10) + " % (" +
+            number(largest) + " N m)";
+  }
+  return worst;
+}
+
 void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, const TimeGrid& grid,
                     LoadHistory& history) {
   const double turn_s = 2 * pi / p.train.reference_speed_rad_s, window_s = grid.turns * turn_s;
@@ -41,16 +111,74 @@ void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, 
                                       ? "after " + number(*all.period_s) + " s"
                                       : std::string("never: its frequencies have no common period")) +
                                  "; extremes and means are those of the window");
-    const double samples = 2 * pi / all.harmonics.back().frequency_rad_s / (turn_s / grid.instants_per_turn);
-    if (samples < 4)
-      history.warnings.push_back(
-          "the fastest harmonic has " + number(std::round(10 * samples) / 10) +
-          " instants per period, its peaks fall between them; take more instants per turn");
+    const double samples = instants_per_period(p, all, grid);
+    const auto missed = torque_missed(p, all, grid, history.time_s);
+    if (samples < 4 || !missed.empty())
+      history.warnings.push_back("the fastest harmonic has " + number(std::round(10 * samples) / 10) +
+                                 " instants per period, its peaks fall between them; " +
+                                 (missed.empty() ? "" : "they miss the largest torque of " + missed + "; ") +
+                                 "take more instants per turn");
   }
   if (all.rigid_acceleration_rad_s2 != 0)
     history.warnings.push_back(
         "the constant torques do not balance: they accelerate the reference shaft by " +
         number(all.rigid_acceleration_rad_s2) + " rad/s2");
+}
+
+ArrayXd instants_of(const TimeGrid& grid) {
+  const Index n = Index(grid.turns) * grid.instants_per_turn;
+  return 2 * pi / grid.instants_per_turn * ArrayXd::LinSpaced(n, 0, double(n - 1));
+}
+
+/// A train under its effects in its steady state.
+/// @throws MachineRefused for a line at a natural frequency that nothing damps
+struct SteadyTrain {
+  SteadyTrain(const DriveTrain& train, const std::vector<std::string>& effects)
+      : prepared(with_effects(train, effects)),
+        excitation(torsion::spectral(prepared.train, prepared.reduced)),
+        resonances(torsion::resonance_warnings(prepared, excitation.lines)),
+        all(torsion::respond(prepared, excitation)) {}
+
+  TrainMotion motion_at(const ArrayXd& phi_rad) const {
+    return over_time(prepared.train, all, phi_rad / prepared.train.reference_speed_rad_s);
+  }
+
+  torsion::PreparedTrain prepared;
+  torsion::Spectral excitation;
+  std::vector<std::string> resonances;  ///< warnings
+  ForcedResponse all;
+};
+
+/// The history at these angles of the reference shaft, without warnings.
+LoadHistory history_at(const ArrayXd& phi_rad, const DriveTrain& train, const SteadyTrain& steady,
+                       const TrainMotion& motion) {
+  LoadHistory history;
+  history.machine = "drive_train";
+  history.convention = "consistent";
+  for (const EffectInfo& info : drive_train_effects(steady.prepared.train))
+    history.effects.push_back(info.name);
+  const Index n = phi_rad.size();
+  history.phi_rad = phi_rad;
+  history.time_s = phi_rad / train.reference_speed_rad_s;
+  history.speed_rad_s = ArrayXd::Constant(n, train.reference_speed_rad_s);
+  history.acceleration_rad_s2 = ArrayXd::Zero(n);
+  torsion::write_parts(steady.prepared.train, motion, parts_of(steady.prepared, history.time_s),
+                       "angle on its own shaft, beside uniform running and rigid acceleration", history);
+  history.quantities.push_back({"rigid_acceleration", "rad/s2",
+                                "of the reference shaft, under constant torques that do not balance",
+                                ArrayXd::Constant(n, steady.all.rigid_acceleration_rad_s2)});
+  torsion::write_closure(train, history);
+  return history;
+}
+
+constexpr double counts = 1e-3;  // of an element's torque
+
+/// Whether harmonics count that have two instants per period or fewer.
+bool leaves_lines_untold(const ForcedResponse& all, double sampling_rad_s) {
+  ArrayXd untold = ArrayXd::Zero(all.mean_torque_Nm.size());
+  for (const auto& line : all.harmonics)
+    if (2 * line.frequency_rad_s >= sampling_rad_s * (1 - 1e-9)) untold += line.torque_Nm.abs();
+  return (untold > counts * whole_torque_Nm(all)).any();
 }
 
 }  // namespace
@@ -59,29 +187,54 @@ LoadHistory compute_loads(const DriveTrain& train, const std::vector<std::string
                           const TimeGrid& grid) {
   torsion::check_effects(train, effects);
   check_grid(grid);
-  const torsion::PreparedTrain prepared(with_effects(train, effects));
-  const auto excitation = torsion::spectral(prepared.train, prepared.reduced);
-  LoadHistory history;
-  history.machine = "drive_train";
-  history.convention = "consistent";
-  for (const EffectInfo& info : drive_train_effects(prepared.train)) history.effects.push_back(info.name);
-  history.warnings = torsion::resonance_warnings(prepared, excitation.lines);
-  const Index n = Index(grid.turns) * grid.instants_per_turn;
-  history.phi_rad = 2 * pi / grid.instants_per_turn * ArrayXd::LinSpaced(n, 0, double(n - 1));
-  history.time_s = history.phi_rad / train.reference_speed_rad_s;
-  history.speed_rad_s = ArrayXd::Constant(n, train.reference_speed_rad_s);
-  history.acceleration_rad_s2 = ArrayXd::Zero(n);
-
-  const ForcedResponse all = torsion::respond(prepared, excitation);
-  const TrainMotion sum = over_time(prepared.train, all, history.time_s);
-  torsion::write_parts(prepared.train, sum, parts_of(prepared, history.time_s),
-                       "angle on its own shaft, beside uniform running and rigid acceleration", history);
-  history.quantities.push_back({"rigid_acceleration", "rad/s2",
-                                "of the reference shaft, under constant torques that do not balance",
-                                ArrayXd::Constant(n, all.rigid_acceleration_rad_s2)});
-  torsion::write_closure(train, history);
-  write_warnings(prepared, all, grid, history);
+  const SteadyTrain steady(train, effects);
+  const ArrayXd phi_rad = instants_of(grid);
+  const auto motion = steady.motion_at(phi_rad);
+  auto history = history_at(phi_rad, train, steady, motion);
+  history.warnings = steady.resonances;
+  write_warnings(steady.prepared, steady.all, grid, history);
   return history;
+}
+
+std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
+                                                  const std::vector<std::string>& effects,
+                                                  const TimeGrid& grid, Index most) {
+  torsion::check_effects(train, effects);
+  check_grid(grid);
+  const SteadyTrain steady(train, effects);
+  const double sampling_rad_s = train.reference_speed_rad_s * grid.instants_per_turn;
+  if (!leaves_lines_untold(steady.all, sampling_rad_s)) return std::nullopt;
+  const auto all = with_lines_that_count(steady.all);
+  if (all.harmonics.empty()) return std::nullopt;
+  const auto motion_at = [&](const ArrayXd& phi_rad) {
+    return over_time(steady.prepared.train, all, phi_rad / train.reference_speed_rad_s);
+  };
+  const double times = std::ceil(instants_of_crests * all.harmonics.back().frequency_rad_s / sampling_rad_s);
+  const ArrayXd instants = instants_of(grid), whole = whole_torque_Nm(all);
+  const ArrayXd known = motion_at(instants).torque_Nm.abs().rowwise().maxCoeff();
+  constexpr Index at_once = 4096;
+  const double step_rad = 2 * pi / grid.instants_per_turn / times;
+  const auto n = Index(std::min(times * double(instants.size()),
+                                std::max(double(at_once), most_work / double(all.harmonics.size()))));
+  std::vector<std::pair<double, Index>> found;  // by how much, which
+  for (Index first = 0; first < n; first += at_once) {
+    const Index count = std::min(at_once, n - first);
+    const auto motion =
+        motion_at(ArrayXd::LinSpaced(count, double(first), double(first + count - 1)) * step_rad);
+    for (Index i = 0; i < count; ++i) {
+      const double excess = ((motion.torque_Nm.col(i).abs() - known) / whole).maxCoeff();
+      if (excess > counts) found.emplace_back(excess, first + i);
+    }
+  }
+  if (found.empty()) return std::nullopt;
+  if (Index(found.size()) > most) {
+    std::nth_element(found.begin(), found.begin() + most, found.end(), std::greater<>());
+    found.resize(std::size_t(most));
+  }
+  ArrayXd phi_rad(Index(found.size()));
+  for (Index i = 0; i < phi_rad.size(); ++i) phi_rad[i] = double(found[std::size_t(i)].second) * step_rad;
+  std::sort(phi_rad.begin(), phi_rad.end());
+  return history_at(phi_rad, train, steady, steady.motion_at(phi_rad));
 }
 
 }  // namespace kinetics

@@ -34,8 +34,7 @@ Eigen::ArrayXd series_of(const Eigen::ArrayXXcd& lines, Index n) {
 void add_crest(const StressPoint& point, double at_instants_Pa, double largest_Pa,
                const BodyAnalysis& analysis, ErrorBudget& errors) {
   const auto unit = unit_stress_at(analysis.responses, point);
-  const double excess_Pa =
-      at_instants_Pa + time_sampling(unit, analysis.loads.history.values).error_Pa() - largest_Pa;
+  const double excess_Pa = at_instants_Pa + sampling_error_Pa(unit, analysis.loads.history) - largest_Pa;
   if (excess_Pa > errors.of("time_sampling"))
     errors.set_numerical({"time_sampling", "crest between the instants at another point", excess_Pa, 1});
 }
@@ -90,10 +89,14 @@ ChannelHistory at_denser_instants(const ChannelHistory& loads, Index most) {
 }
 
 void add_crest_elsewhere(BodyAnalysis& analysis, int n_threads) {
-  const auto denser = at_denser_instants(analysis.loads.history);
-  if (denser.values.cols() == analysis.loads.history.values.cols()) return;
-  add_crest_at_node(denser, n_threads, analysis);
-  add_crest_at_toe(denser, analysis);
+  const auto add = [&](const ChannelHistory& between) {
+    add_crest_at_node(between, n_threads, analysis);
+    add_crest_at_toe(between, analysis);
+  };
+  const auto& loads = analysis.loads.history;
+  if (loads.passed_over.cols() > 0) add({loads.body, loads.channels, {}, loads.passed_over, {}});
+  const auto denser = at_denser_instants(loads);
+  if (denser.values.cols() != loads.values.cols()) add(denser);
 }
 
 }  // namespace pipelines

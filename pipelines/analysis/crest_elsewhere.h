@@ -17,7 +17,8 @@ ChannelHistory at_denser_instants(const ChannelHistory& loads, Eigen::Index most
 /// Few instants miss crests by different shares at different points: the largest stress between the instants
 /// may be elsewhere. The point that leads at denser instants is judged by time_sampling.h, and what its crest
 /// exceeds the peak by becomes the peak's entry time_sampling, where that is more; likewise of weld toes,
-/// whose largest has the entry in BodyAnalysis::hot_spot_errors. Costs nothing where the instants are dense.
+/// whose largest has the entry in BodyAnalysis::hot_spot_errors. So are points that lead at samples of a load
+/// table that the instants pass over. Costs nothing where the instants are dense.
 void add_crest_elsewhere(BodyAnalysis& analysis, int n_threads);
 
 }  // namespace pipelines

@@ -163,6 +163,8 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 
 namespace {
 
+constexpr const char* loads_between_instants = "loads between the instants, which these do not tell";
+
 /// What is left of channels and effects that cancel has the errors of all of them: the solver's and
 /// rounding's share of each channel's own stress, and rounding's of each effect's. Nothing where one channel
 /// of one effect stands alone.
@@ -224,11 +226,14 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
 
   ErrorBudget budget;
   const auto sampling = time_sampling(unit, values);
-  budget.numerical.push_back({"time_sampling",
-                              sampling.unresolved_Pa == 0
-                                  ? "crest between the instants, which resolve the channels"
-                                  : "crest between the instants, and what they leave unresolved",
-                              sampling.error_Pa()});
+  if (const double excess_Pa = passed_over_excess_Pa(unit, loads.history); excess_Pa > sampling.error_Pa())
+    budget.numerical.push_back({"time_sampling", loads_between_instants, excess_Pa});
+  else
+    budget.numerical.push_back({"time_sampling",
+                                sampling.unresolved_Pa == 0
+                                    ? "crest between the instants, which resolve the channels"
+                                    : "crest between the instants, and what they leave unresolved",
+                                sampling.error_Pa()});
   Eigen::ArrayXd without = factors;
   const auto belongs = highest_harmonic(loads.unit_loads);
   for (std::size_t k = 0; k < belongs.size(); ++k)

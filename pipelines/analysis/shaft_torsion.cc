@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/scene/body_kind.h"
 
@@ -102,18 +103,33 @@ std::vector<std::size_t> nodes_at(const BodyAnalysis& analysis, const TorsionRin
   return found;
 }
 
+/// Mean shear of a ring under each channel, an entry for each: r theta, theta z [Pa]; null: it has none.
+const std::array<double, 2>* shear_of(const fem::UnitResponses& responses, const TorsionRing& ring) {
+  const auto found = std::find_if(responses.rings.begin(), responses.rings.end(), [&](const auto& other) {
+    return other.z_m == ring.z_m && other.radius_m == ring.radius_m;
+  });
+  if (found == responses.rings.end()) return nullptr;
+  return &responses.ring_shear_Pa[std::size_t(found - responses.rings.begin()) * responses.channels.size()];
+}
+
+/// What the largest stress of the ring between the instants may exceed that at them by.
+double sampling_error_of_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
+  const auto* shear_Pa = shear_of(analysis.responses, ring);
+  if (shear_Pa == nullptr) return 0;
+  std::vector<std::array<double, 6>> unit;
+  for (std::size_t k = 0; k < analysis.responses.channels.size(); ++k)
+    unit.push_back({0, 0, 0, shear_Pa[k][0], shear_Pa[k][1], 0});
+  return sampling_error_Pa(unit, analysis.loads.history) / std::sqrt(3);
+}
+
 /// At the node of the ring's height that twist stresses most.
 std::optional<double> error_of_twist_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
   constexpr double least_share = 0.05;  // of a channel's stress: all shear by torsion has 0.58, bending 0.00
   const auto& responses = analysis.responses;
   const auto n_channels = responses.channels.size();
-  const auto of_ring = std::find_if(responses.rings.begin(), responses.rings.end(), [&](const auto& other) {
-    return other.z_m == ring.z_m && other.radius_m == ring.radius_m;
-  });
   const auto nodes = nodes_at(analysis, ring);
-  if (of_ring == responses.rings.end() || nodes.empty()) return std::nullopt;
-  const auto* shear_Pa =
-      &responses.ring_shear_Pa[std::size_t(of_ring - responses.rings.begin()) * n_channels];
+  const auto* shear_Pa = shear_of(responses, ring);
+  if (shear_Pa == nullptr || nodes.empty()) return std::nullopt;
   ArrayXd factors = analysis.loads.history.values.col(ring.instant);
   std::vector<std::vector<std::array<double, 6>>> unit_Pa;
   for (const auto node : nodes) unit_Pa.push_back(unit_stress_at(responses, {{{node, 1.0}}, 0}));
@@ -133,9 +149,8 @@ std::optional<double> error_of_twist_Pa(const BodyAnalysis& analysis, const Tors
   return estimate->value_Pa / std::sqrt(3);
 }
 
-}  // namespace
-
-double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
+/// For want of a finer mesh.
+double mesh_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
   const auto& other = analysis.diagrams->by_harmonics;
   const double infinite = std::numeric_limits<double>::infinity();
   if (analysis.method == Method::axisymmetric) return other ? other->error_Pa : infinite;
@@ -149,6 +164,12 @@ double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
                most_Pa = difference_Pa + other->error_Pa;
   const bool agree = own_Pa && difference_Pa <= *own_Pa + other->error_Pa;
   return agree ? std::min(*own_Pa, most_Pa) : most_Pa;
+}
+
+}  // namespace
+
+double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
+  return mesh_error_Pa(analysis, ring) + sampling_error_of_Pa(analysis, ring);
 }
 
 void take_torsion_by_harmonics(const BodyAnalysis& before, BodyAnalysis& after) {

@@ -57,7 +57,8 @@ Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 ///   tensor is off by, over sqrt(3). Beside what is left out at sharp edges, also TorsionRing::rise_Pa.
 /// - the difference to Diagrams::by_harmonics with its error; that one, too, where the models differ by more
 ///   than both state.
-/// Of harmonics, their own error; infinite where nothing is known.
+/// Of harmonics, their own error; infinite where nothing is known. To these comes what the ring's largest
+/// stress between the instants may exceed that at them by (sampling_error_Pa).
 /// @param ring  largest_torsion_ring
 double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring);
 

@@ -41,7 +41,36 @@ CycleExtreme extreme_of(const ArrayXXd& values, SeriesKind kind) {
   return of_polynomial && bound(*of_polynomial) < bound(of_pieces) ? *of_polynomial : of_pieces;
 }
 
+double largest_Pa(const Eigen::MatrixXd& coordinates, const ArrayXXd& values) {
+  return std::sqrt((coordinates * values.matrix()).colwise().squaredNorm().maxCoeff());
+}
+
+Eigen::MatrixXd coordinates_of(const std::vector<std::array<double, 6>>& unit) {
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> tensors(unit.front().data(), 6,
+                                                                           Index(unit.size()));
+  return deviatoric_coordinates(tensors).matrix();
+}
+
 }  // namespace
+
+double passed_over_excess_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads) {
+  if (unit.empty() || loads.passed_over.cols() == 0) return 0;
+  const auto coordinates = coordinates_of(unit);
+  return std::max(0.0, largest_Pa(coordinates, loads.passed_over) - largest_Pa(coordinates, loads.values));
+}
+
+bool passes_over_much(const ChannelHistory& loads) {
+  constexpr double much = 0.01;
+  if (loads.passed_over.cols() == 0) return false;
+  const auto &at = loads.values, &between = loads.passed_over;
+  const Eigen::ArrayXd above = between.rowwise().maxCoeff() - at.rowwise().maxCoeff(),
+                       below = at.rowwise().minCoeff() - between.rowwise().minCoeff();
+  return (above.max(below) > much * between.abs().rowwise().maxCoeff()).any();
+}
+
+double sampling_error_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads) {
+  return std::max(time_sampling(unit, loads.values).error_Pa(), passed_over_excess_Pa(unit, loads));
+}
 
 TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const ArrayXXd& values,
                            SeriesKind kind) {

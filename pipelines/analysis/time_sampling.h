@@ -5,6 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "pipelines/loads/channels.h"
+
 namespace pipelines {
 
 /// By how much von Mises over the cycle exceeds the largest of its values at the instants.
@@ -30,5 +32,17 @@ enum class SeriesKind { period, transient };
 ///                have a large prime factor, with which a transform takes longer than all else
 TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXXd& values,
                            SeriesKind kind = SeriesKind::period);
+
+/// By how much the largest stress under loads that the instants pass over (ChannelHistory::passed_over)
+/// exceeds the largest at these; 0: not at all.
+double passed_over_excess_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads);
+
+/// Whether the instants pass over loads above the largest or below the smallest at these, by more than 1 % of
+/// the size of a channel: more instants are needed than their spectra tell.
+bool passes_over_much(const ChannelHistory& loads);
+
+/// What the largest stress between the instants may exceed that at them by: the error_Pa of time_sampling, or
+/// passed_over_excess_Pa if that is more.
+double sampling_error_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads);
 
 }  // namespace pipelines

@@ -141,10 +141,10 @@ public:
     if (body.name != "shaft") return std::nullopt;
     return std::get<kinetics::LoadTable>(scene.machine).speed_rad_s;
   }
-  BodyLoads distribute(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory&,
+  BodyLoads distribute(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                        const LoadedBody& loaded, const MassAgreement&) const override {
-    return distribute_table(std::get<kinetics::LoadTable>(scene.machine), scene.effects, scene.sampling,
-                            loaded, table_options(body));
+    return distribute_table_at(history.phi_rad, std::get<kinetics::LoadTable>(scene.machine), scene.effects,
+                               scene.sampling, loaded, table_options(body));
   }
   void require_supports(const BodyScene& body, const BodyLoads& loads,
                         const std::vector<RegionMass>& regions) const override {
@@ -200,13 +200,20 @@ public:
 BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<std::string>& effects,
                            const kinetics::TimeGrid& grid, const LoadedBody& body,
                            const TableBodyOptions& options) {
-  const auto all = kinetics::compute_loads(table, effects, grid);
+  const auto phi_rad = kinetics::compute_loads(table, effects, grid).phi_rad;
+  return distribute_table_at(phi_rad, table, effects, grid, body, options);
+}
+
+BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::LoadTable& table,
+                              const std::vector<std::string>& effects, const kinetics::TimeGrid& grid,
+                              const LoadedBody& body, const TableBodyOptions& options) {
+  const auto all = kinetics::loads_at(table, effects, grid, phi_rad);
   double scale_N = 0;
   for (const auto& resultant : all.resultants)
     scale_N = std::max(scale_N, resultant.total.topRows<2>().abs().maxCoeff());
   LoadCollector collector(body, all.effects, all.n_instants(), scale_N);
   for (const auto& effect : all.effects) {
-    const auto own = kinetics::compute_loads(table, {effect}, grid);
+    const auto own = kinetics::loads_at(table, {effect}, grid, phi_rad);
     for (const auto& resultant : own.resultants) {
       if (resultant.role == "volume")
         throw StageRefused("the effect \"" + effect + "\": " + only_accelerations);

@@ -18,6 +18,11 @@ BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<s
                            const kinetics::TimeGrid& grid, const LoadedBody& body,
                            const TableBodyOptions& options);
 
+/// The same at other angles of the drive than the instants of the grid.
+BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::LoadTable& table,
+                              const std::vector<std::string>& effects, const kinetics::TimeGrid& grid,
+                              const LoadedBody& body, const TableBodyOptions& options);
+
 const BodyKind& table_body_kind();
 
 }  // namespace pipelines

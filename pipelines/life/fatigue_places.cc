@@ -6,6 +6,7 @@
 #include <map>
 
 #include "pipelines/analysis/place_stress.h"
+#include "pipelines/analysis/stress_under_changed_loads.h"
 #include "pipelines/analysis/time_sampling.h"
 #include "pipelines/life/damage_direction.h"
 #include "pipelines/superposition/cycle_extremes.h"
@@ -274,14 +275,23 @@ CountedNode FatiguePlaces::stationary(const FatigueNode& node, const CountedNode
 }
 
 double FatiguePlaces::unresolved_share(const FatigueNode& node, const CountedNode& counted) const {
-  if (course_.is_resolved() || !(counted.amplitude_Pa > 0)) return 0;
+  const bool are_told = loads_.passed_over.cols() == 0;
+  if ((course_.is_resolved() && are_told) || !(counted.amplitude_Pa > 0)) return 0;
   const Eigen::VectorXd middle =
       0.5 * (loads_.values.matrix() * (course_.weights_at(node.from) + course_.weights_at(node.to)));
   const auto unit = unit_stresses_at(analysis_.responses, node.node);
   std::vector<std::array<double, 6>> tensors(std::size_t(unit.cols()));
   for (Eigen::Index k = 0; k < unit.cols(); ++k) tensors[std::size_t(k)] = as_stress(unit.col(k));
-  const auto sampling = time_sampling(tensors, loads_.values.colwise() - middle.array());
-  return (course_.is_polynomial() ? sampling.unresolved_Pa : sampling.error_Pa()) / counted.amplitude_Pa;
+  double more_Pa = 0;
+  if (!course_.is_resolved()) {
+    const auto sampling = time_sampling(tensors, loads_.values.colwise() - middle.array());
+    more_Pa = course_.is_polynomial() ? sampling.unresolved_Pa : sampling.error_Pa();
+  }
+  if (!are_told) {
+    const Eigen::ArrayXXd change = loads_.passed_over.colwise() - middle.array();
+    more_Pa = std::max(more_Pa, largest_von_mises_Pa(tensors.front().data(), change) - counted.amplitude_Pa);
+  }
+  return more_Pa / counted.amplitude_Pa;
 }
 
 ChannelHistory FatiguePlaces::between(double from, double to) const {

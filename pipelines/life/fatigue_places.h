@@ -77,7 +77,8 @@ public:
   CountedNode stationary(const FatigueNode& node, const CountedNode& counted) const;
 
   /// By how much the amplitude may be larger than at the instants, or on the polynomial through them, as a
-  /// share of that of the counted cycles; 0 where the instants resolve the loads (time_sampling.h).
+  /// share of that of the counted cycles, and at samples that they pass over; 0 where the instants resolve
+  /// the loads (time_sampling.h).
   double unresolved_share(const FatigueNode& node, const CountedNode& counted) const;
 
   /// The loads, at 48 places in a period of the highest harmonic.

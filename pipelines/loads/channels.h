@@ -19,6 +19,9 @@ struct ChannelHistory {
   std::vector<std::string> effects;        ///< E
   Eigen::ArrayXXd values;                  ///< K x n_instants
   std::vector<Eigen::ArrayXXd> by_effect;  ///< E of K x n_instants; sums to values
+  /// K x loads between the instants that these do not tell: samples of a table, a train's fastest harmonics
+  /// (MachineKind::loads_passed_over); no columns: none.
+  Eigen::ArrayXXd passed_over{};
 };
 
 }  // namespace pipelines

@@ -6,6 +6,7 @@
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/finite_loads.h"
+#include "pipelines/loads/start_up_loads.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/machine_kind.h"
 
@@ -35,6 +36,22 @@ std::vector<BearingScene> with_speeds(const Scene& scene, const LoadedScene& loa
       if (spin_Hz > 0) bearing.speed_rad_s = 2 * pi * spin_Hz;
     }
   return bearings;
+}
+
+/// The channels of each body under loads that the instants pass over.
+void add_passed_over(const Scene& scene, LoadedScene& loaded) {
+  const auto history = with_place(scene.machine_origin, [&] {
+    return kind_of(loaded.masses.machine).loads_passed_over(scene, loaded.masses.machine);
+  });
+  if (!history) return;
+  require_finite(*history);
+  for (std::size_t i = 0; i < loaded.meshed.size(); ++i) {
+    auto& own = loaded.body_loads[i];
+    auto between = distribute_body(scene, scene.bodies[i], *history,
+                                   loaded_body(scene.bodies[i], loaded.meshed[i]), loaded.masses);
+    take_channels(between, own.history.channels, own.unit_loads);
+    own.history.passed_over = std::move(between.history.values);
+  }
 }
 
 }  // namespace
@@ -73,6 +90,7 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
       return distribute_body(scene, scene.bodies[i], result.loads,
                              loaded_body(scene.bodies[i], result.meshed[i]), result.masses);
     }));
+  clock.run("distribute", [&] { add_passed_over(scene, result); });
   for (std::size_t i = 0; i < result.meshed.size(); ++i)
     kind_of(scene.bodies[i])
         .require_supports(scene.bodies[i], result.body_loads[i], result.meshed[i].regions);

@@ -49,6 +49,8 @@ void take_channels(BodyLoads& loads, const std::vector<Channel>& channels,
   const auto places = places_in(loads.history.channels, channels);
   loads.history.values = rows_of(loads.history.values, places);
   for (auto& part : loads.history.by_effect) part = rows_of(part, places);
+  if (loads.history.passed_over.cols() > 0)
+    loads.history.passed_over = rows_of(loads.history.passed_over, places);
   loads.history.channels = channels;
   loads.unit_loads = unit_loads;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "kinetics/machine_refused.h"
+#include "kinetics/train_crests.h"
 #include "pipelines/machines/coarse_transient.h"
 #include "pipelines/machines/drive_train_reader.h"
 #include "pipelines/machines/kinds.h"
@@ -103,6 +104,10 @@ public:
     if (const auto coarse = coarse_transient(train, scene.torsion, largest_Nm))
       loads.warnings.push_back(*coarse);
     return loads;
+  }
+  std::optional<kinetics::LoadHistory> loads_passed_over(const Scene& scene,
+                                                         const Machine& machine) const override {
+    return kinetics::loads_between_instants(train_in(machine), scene.kinetics_effects(), scene.sampling);
   }
   std::string why_no_run_up_of_given_duration() const override {
     return "a train's start is [machine.transient], which says how long it takes; leave it out";

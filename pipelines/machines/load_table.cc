@@ -46,6 +46,14 @@ public:
                                                            const kinetics::TimeGrid& grid) const override {
     return kinetics::resampling_errors(table_in(machine), grid);
   }
+  std::optional<kinetics::LoadHistory> loads_passed_over(const Scene& scene,
+                                                         const Machine& machine) const override {
+    const auto& table = table_in(machine);
+    const auto effects = scene.kinetics_effects();
+    const auto phi_rad = kinetics::samples_passed_over(table, effects, scene.sampling);
+    if (phi_rad.size() == 0) return std::nullopt;
+    return kinetics::loads_at(table, effects, scene.sampling, phi_rad);
+  }
   bool is_headline(const std::string&) const override { return true; }
 };
 

@@ -55,6 +55,10 @@ std::vector<kinetics::ResamplingError> MachineKind::resampling_errors(const Mach
   return {};
 }
 
+std::optional<kinetics::LoadHistory> MachineKind::loads_passed_over(const Scene&, const Machine&) const {
+  return std::nullopt;
+}
+
 std::vector<kinetics::Spring> MachineKind::springs(const Machine&) const {
   return {};
 }

@@ -80,6 +80,9 @@ public:
   /// What resampling has changed in the samples.
   virtual std::vector<kinetics::ResamplingError> resampling_errors(const Machine& machine,
                                                                    const kinetics::TimeGrid& grid) const;
+  /// Loads between the scene's instants that these do not tell; empty: none.
+  virtual std::optional<kinetics::LoadHistory> loads_passed_over(const Scene& scene,
+                                                                 const Machine& machine) const;
   /// That a body may stand on.
   virtual std::vector<kinetics::Spring> springs(const Machine& machine) const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kinetics/run_up.h"
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/same_body.h"
@@ -85,15 +86,19 @@ constexpr double missed_of_channels = 0.01;
 constexpr int most_more_instants_of_blocks = 8, kind_of_instants = 12;
 
 /// Loads of the block over its period; where their spectra ask for more instants than there are, and for more
-/// than those of the scene's own running, at so many.
+/// than those of the scene's own running, at so many; where the instants pass over some, at the most.
 LoadedScene load_block(Scene& scene, double needed_by_scene, const std::vector<MeshedBody>& meshed,
                        StageClock& clock) {
   auto loaded = load_bodies(scene, meshed, clock);
   double needed = 0;
-  for (const auto& body : loaded.body_loads) needed = std::max(needed, instants_of_duty(body.history));
+  bool are_told = true;
+  for (const auto& body : loaded.body_loads) {
+    needed = std::max(needed, instants_of_duty(body.history));
+    are_told = are_told && !passes_over_much(body.history);
+  }
   const double before = double(loaded.loads.time_s.size());
-  if (!(needed > before) || !(needed > needed_by_scene)) return loaded;
-  const double more = std::min(double(most_more_instants_of_blocks), needed / before);
+  if (are_told && (!(needed > before) || !(needed > needed_by_scene))) return loaded;
+  const double most = most_more_instants_of_blocks, more = are_told ? std::min(most, needed / before) : most;
   auto& per_turn = scene.sampling.instants_per_turn;
   per_turn = int(kind_of_instants * std::ceil(more * per_turn / kind_of_instants));
   return load_bodies(scene, meshed, clock);

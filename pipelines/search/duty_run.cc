@@ -75,8 +75,7 @@ BlockStress stress_of(const BodyAnalysis& analysis, const ServedBlock& block) {
     stress = {analysis.scene.name, spots.front().name, true, spots.front().von_mises_Pa, 0, 0};
   stress.safety = analysis.scene.yield_strength_Pa / stress.value_Pa;
   const auto at = stress.is_hot_spot ? stress_point(spots.front()) : StressPoint{{{node, 1.0}}, 0};
-  stress.sampling_error_Pa =
-      time_sampling(unit_stress_at(analysis.responses, at), block.running.history.values).error_Pa();
+  stress.sampling_error_Pa = sampling_error_Pa(unit_stress_at(analysis.responses, at), block.running.history);
   return stress;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pipelines/analysis/fineness.h"
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/common/name_lists.h"
 #include "pipelines/search/local_refinement.h"
 #include "pipelines/search/solid_refinement.h"
@@ -247,7 +248,8 @@ constexpr double instants_of_a_kind = 12;
 /// @param sampling  share that they are missed by now
 int more_instants_per_turn(int before, const ChannelHistory& loads, double share, double sampling) {
   double more = std::sqrt(sampling / share);
-  if (can_be_transformed(loads.values.cols()))
+  const bool are_told = !passes_over_much(loads);  // else the instants' spectrum lacks what they miss
+  if (are_told && can_be_transformed(loads.values.cols()))
     more = std::min(more, instants_needed(loads, share).n_instants / double(loads.values.cols()));
   more = std::clamp(more, least_more_instants, most_more_instants);
   return int(instants_of_a_kind * std::ceil(more * before / instants_of_a_kind));

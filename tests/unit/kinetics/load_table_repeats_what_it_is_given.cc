@@ -148,6 +148,41 @@ TEST(LoadTable, InstantsThatMissTheSmallestSampleAreRefused) {
   EXPECT_NEAR(loads_of(drop, 360).resultant("pulley_seat").total.row(0).minCoeff(), -95, 1e-8);
 }
 
+// A shock of a twelfth of the load, between two instants. Red if what is no more than a tenth is left to the
+// values at the instants: they know nothing of it.
+TEST(LoadTable, SamplesBetweenTheInstantsAreTold) {
+  const auto shock = sampled(360, [](double phi) { return phi > 1.60 && phi < 1.65 ? 109.0 : 100.0; });
+  const LoadTable table{100, {shock, {"steady", "pulley_seat", "fy", "N", HarmonicCourse{7, 2, 1}}}};
+  const auto angles = samples_passed_over(table, {"measured", "steady"}, {1, 24});
+  ASSERT_EQ(angles.size(), 3);  // of 92, 93, 94 degrees
+  EXPECT_NEAR(angles[0], 92 * turn / 360, 1e-12);
+  EXPECT_NEAR(angles[2], 94 * turn / 360, 1e-12);
+  const auto there = loads_at(table, {"measured", "steady"}, {1, 24}, angles);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(there.resultant("pulley_seat").total(0, i), 109, 1e-10);
+    EXPECT_NEAR(there.resultant("pulley_seat").total(1, i), 7 + 2 * std::cos(angles[i]), 1e-12);
+  }
+  EXPECT_EQ(samples_passed_over(table, {"steady"}, {1, 24}).size(), 0) << "of the effects that are on";
+  EXPECT_EQ(samples_passed_over(table, {"measured"}, {1, 360}).size(), 0) << "each has an instant";
+  EXPECT_EQ(samples_passed_over(table, {"measured"}, {1, 24}, 2).size(), 2);
+  const auto warnings = loads_of(shock, 24).warnings;
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings.back().find("is 8.3 % larger between the instants"), std::string::npos)
+      << warnings.back();
+}
+
+// Samples that begin elsewhere than at zero, over several turns: the instants around a sample are those of
+// its place in the period.
+TEST(LoadTable, SamplesOnALineThroughTheInstantsAreNotPassedOver) {
+  auto slow = sampled(
+      720, [](double phi) { return 10 + std::cos(phi / 2); }, 2 * turn);
+  auto& samples = std::get<SampledCourse>(slow.course);
+  EXPECT_EQ(samples_passed_over({100, {slow}}, {"measured"}, {2, 90}).size(), 0);
+  samples.angle_rad += 7 * turn;
+  samples.values = samples.angle_rad.unaryExpr([](double phi) { return 10 + std::cos(phi / 2); });
+  EXPECT_EQ(samples_passed_over({100, {slow}}, {"measured"}, {2, 90}).size(), 0);
+}
+
 // Samples of less than the period. Red if the gap is bridged without a word: a file of half a turn was taken.
 TEST(LoadTable, SamplesThatEndBeforeTheirPeriodAreWarnedOf) {
   auto cut = sampled(360, wave);

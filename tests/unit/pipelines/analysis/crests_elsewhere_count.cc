@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "pipelines/analysis/crest_elsewhere.h"
+#include "pipelines/analysis/error_budget.h"
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/superposition/superposition.h"
 
 using namespace pipelines;
@@ -70,6 +72,31 @@ TEST(CrestElsewhere, IsAnErrorOfTheLargestToe) {
   add_crest_elsewhere(analysis, 1);
   EXPECT_NEAR(analysis.hot_spot_errors.of("time_sampling"), 3e6, 1);
   EXPECT_EQ(analysis.peak.errors.of("time_sampling"), 0) << "both are left out there";
+}
+
+// Samples of a load table between the instants: of order 0 at these, so that no spectrum knows of them. Red
+// where the values at the instants alone are asked.
+TEST(CrestElsewhere, SamplesThatTheInstantsPassOverCount) {
+  auto analysis = constant_at_one_node();
+  auto& loads = analysis.loads.history;
+  loads.values.row(1).setZero();
+  loads.passed_over.resize(2, 2);
+  loads.passed_over << 1, 1.02, 1, 1.5;
+  auto& responses = analysis.responses;
+  const auto at_first = unit_stress_at(responses, {{{0, 1.0}}, 0});
+  EXPECT_NEAR(sampling_error_Pa(at_first, loads), 2e6, 1);
+  const std::vector<char> none_left_out(3, 0);
+  const auto budget = self_estimate({{{0, 1.0}}, 0}, responses, analysis.loads, {}, 0, none_left_out);
+  EXPECT_NEAR(budget.of("time_sampling"), 2e6, 1);
+
+  responses.stress_Pa[(1 * 2 + 1) * 6] = 70e6;  // another node, that is not stressed at any instant: 105 MPa
+  analysis.places.excluded = {0, 0, 1};
+  analysis.envelope = envelope(loads, responses, 1);
+  analysis.peak.node = 0;
+  analysis.peak.value_Pa = 100e6;
+  analysis.peak.errors = budget;
+  add_crest_elsewhere(analysis, 1);
+  EXPECT_NEAR(analysis.peak.errors.of("time_sampling"), 5e6, 1);
 }
 
 TEST(CrestElsewhere, DenserInstantsFollowTheFactors) {
