@@ -191,6 +191,20 @@ void collect_faces(const std::map<Corners, int>& surface, Groups& groups, CellMe
   });
 }
 
+/// Of surfaces that OpenCASCADE has.
+void measure_surfaces(double unit_m, std::vector<Piece>& pieces) {
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, 2);
+  if (!groups.empty()) return;
+  for (auto& piece : pieces) {
+    if (piece.tag == 0) continue;
+    gmsh::model::occ::getMass(2, piece.tag, piece.area_m2);
+    gmsh::model::occ::getCenterOfMass(2, piece.tag, piece.centre_m[0], piece.centre_m[1], piece.centre_m[2]);
+    piece.area_m2 *= unit_m * unit_m;
+    for (double& x : piece.centre_m) x *= unit_m;
+  }
+}
+
 }  // namespace
 
 ModelMesh collect_model(double unit_m) {
@@ -209,6 +223,7 @@ ModelMesh mesh_and_collect(const SolidControl& control, double unit_m) {
   constexpr double easily_reached = 0.15, hardly_reached = 0.3;  // the median is 0.6
   mesh_solids(control, unit_m);
   auto model = collect_model(unit_m);
+  measure_surfaces(unit_m, model.pieces);
   move_inner_nodes(model.mesh, std::clamp(control.min_scaled_jacobian, easily_reached, hardly_reached));
   return model;
 }

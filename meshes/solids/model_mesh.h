@@ -13,6 +13,10 @@ namespace meshes {
 struct Piece {
   std::string name;  ///< of the physical group; empty: none
   int tag = 0;       ///< of the surface or of the group
+  // Of a surface of the CAD, exact to rounding; 0: not known. What a mesh makes of a disc lies beside its
+  // centre by some 1e-3 of the radius.
+  double area_m2 = 0;
+  Point centre_m{};  ///< of the area
 };
 
 /// face_id is a place among the pieces, volume_id among the volumes.
@@ -29,7 +33,8 @@ struct ModelMesh {
 /// in several groups
 ModelMesh collect_model(double unit_m);
 
-/// Meshes the model's volumes and collects; inner nodes are moved where cells are flat.
+/// Meshes the model's volumes and collects; inner nodes are moved where cells are flat. Surfaces that are in
+/// no physical group have the area and centre of the CAD.
 ModelMesh mesh_and_collect(const SolidControl& control, double unit_m);
 
 /// Parts of the mesh that share no node.
