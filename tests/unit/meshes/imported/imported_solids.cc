@@ -331,6 +331,25 @@ TEST(Imported, AMshWithGroupsGoesInAndOut) {
     }
 }
 
+// A plate of 300 mm whose mesh gmsh had written in mm was 300 m long, and its stress a millionth.
+TEST(Imported, AMshTooLargeForMetresHasToSayItsUnit) {
+  const auto msh = written("large.msh", [] {
+    occ::addBox(0, 0, 0, 300, 40, 40);
+    occ::synchronize();
+    gmsh::option::setNumber("Mesh.MeshSizeMin", 40);
+    gmsh::model::mesh::generate(3);
+  });
+  auto import = import_of(msh, {});
+  expect_words(refused(import),
+               {"large.msh", "305 m from corner to corner", "length_unit", "\"1 mm\"", "\"1 m\""});
+  for (const double unit_m : {1e-3, 1.0}) {
+    import.scale_to_m = unit_m;
+    EXPECT_NEAR(
+        read_tetrahedra(meshes::build_imported(import)).volume_m3 / (300 * 40 * 40 * std::pow(unit_m, 3)), 1,
+        1e-9);
+  }
+}
+
 TEST(Imported, GroupsWithNamesThatTablesCannotCarryAreRefused) {
   const auto msh = written("grouped.msh", [&] { grouped_boxes(1, 4.1, false); });
   std::ifstream in(msh);
@@ -341,6 +360,40 @@ TEST(Imported, GroupsWithNamesThatTablesCannotCarryAreRefused) {
     std::ofstream(msh, std::ios::trunc) << renamed;
     expect_words(refused(import_of(msh, {})), {"grouped.msh", "physical group 21", "rename it"});
   }
+}
+
+/// Two by two cubes; the middle nodes of one side are there twice, so that the cells above and below them are
+/// not joined by their face.
+std::filesystem::path cubes_with_a_slit(bool slit) {
+  const auto file = temporary_msh("slit");
+  std::ofstream out(file);
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << (slit ? 20 : 18) << '\n';
+  const auto node = [](int x, int y, int z) { return 1 + x + 3 * y + 6 * z; };
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 3; ++x) out << node(x, y, z) << ' ' << x << ' ' << y << ' ' << z << '\n';
+  if (slit) out << "19 2 0 1\n20 2 1 1\n";
+  out << "$EndNodes\n$Elements\n4\n";
+  int n = 0;
+  for (int z = 0; z < 2; ++z)
+    for (int x = 0; x < 2; ++x) {
+      out << ++n << " 5 2 1 1";
+      for (int top = 0; top < 2; ++top)
+        for (const auto& [dx, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+          const bool twice = slit && z == 1 && top == 0 && x + dx == 2;
+          out << ' ' << (twice ? 19 + y : node(x + dx, y, z + top));
+        }
+      out << '\n';
+    }
+  out << "$EndElements\n";
+  return file;
+}
+
+// A part of which two faces lie on one another without sharing nodes was solved with a slit.
+TEST(Imported, CellsThatTouchWithoutSharingNodesAreRefused) {
+  EXPECT_NO_THROW(meshes::build_imported(import_of(cubes_with_a_slit(false), {})));
+  expect_words(refused(import_of(cubes_with_a_slit(true), {})),
+               {"slit", "1 faces of its cells lie on others", "(1500, 500, 1000) mm", "Coherence Mesh"});
 }
 
 TEST(Imported, HexahedraPassThrough) {
