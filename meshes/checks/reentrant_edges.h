@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/values/cell_mesh.h"
+#include "meshes/values/body_mesh.h"
 
 namespace meshes {
 

@@ -175,7 +175,7 @@ BodyMesh build_unnamed(const Import& import) {
   require_quality(body.quality, import.control.min_scaled_jacobian, "mesh",
                   "mesh finer there, repair the geometry, or lower min_scaled_jacobian");
   const double exclusion_m =
-      import.control.exclusion_m > 0 ? import.control.exclusion_m : 0.01 * diagonal_m(model.mesh);
+      import.control.exclusion_m > 0 ? import.control.exclusion_m : usual_exclusion_m(model);
   body.sharp_edges = reentrant_edges(model.mesh, body.groups.boundaries, exclusion_m);
   body.cells = std::make_shared<const CellMesh>(std::move(model.mesh));
   return body;

@@ -35,7 +35,7 @@ public:
     return *this;
   }
   ByteWriter& add(const Piece& piece) {
-    return add(piece.name).add(piece.tag).add(piece.area_m2).add(piece.centre_m);
+    return add(piece.name).add(piece.tag).add(piece.size).add(piece.centre_m);
   }
   std::string take() { return std::move(bytes_); }
 
@@ -67,7 +67,7 @@ public:
   void get(Piece& piece) {
     get(piece.name);
     get(piece.tag);
-    get(piece.area_m2);
+    get(piece.size);
     get(piece.centre_m);
   }
   void require_end() const { require_that(at_ == bytes_.size()); }

@@ -122,11 +122,11 @@ void check_values(const ImportPort& port, std::set<std::string>& names) {
 Point centre_of(const std::vector<int>& pieces, const ModelMesh& model,
                 const std::vector<PieceShape>& shapes) {
   const bool of_cad =
-      std::all_of(pieces.begin(), pieces.end(), [&](int piece) { return model.pieces[piece].area_m2 > 0; });
+      std::all_of(pieces.begin(), pieces.end(), [&](int piece) { return model.pieces[piece].size > 0; });
   Point centre{};
   double area_m2 = 0;
   for (const int i : pieces) {
-    const double its_area_m2 = of_cad ? model.pieces[i].area_m2 : shapes[i].area_m2;
+    const double its_area_m2 = of_cad ? model.pieces[i].size : shapes[i].area_m2;
     const Point& its_centre = of_cad ? model.pieces[i].centre_m : shapes[i].centre_m;
     area_m2 += its_area_m2;
     for (int d = 0; d < 3; ++d) centre[d] += its_area_m2 * its_centre[d];

@@ -3,9 +3,11 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
+#include "meshes/checks/reentrant_edges.h"
 #include "meshes/solids/inner_nodes.h"
 #include "meshes/values/constants.h"
 #include "meshes/values/refused.h"
@@ -191,18 +193,47 @@ void collect_faces(const std::map<Corners, int>& surface, Groups& groups, CellMe
   });
 }
 
-/// Of surfaces that OpenCASCADE has.
-void measure_surfaces(double unit_m, std::vector<Piece>& pieces) {
+/// Of surfaces or volumes that OpenCASCADE has.
+void measure(int dimension, double unit_m, std::vector<Piece>& pieces) {
   gmsh::vectorpair groups;
-  gmsh::model::getPhysicalGroups(groups, 2);
+  gmsh::model::getPhysicalGroups(groups, dimension);
   if (!groups.empty()) return;
   for (auto& piece : pieces) {
     if (piece.tag == 0) continue;
-    gmsh::model::occ::getMass(2, piece.tag, piece.area_m2);
-    gmsh::model::occ::getCenterOfMass(2, piece.tag, piece.centre_m[0], piece.centre_m[1], piece.centre_m[2]);
-    piece.area_m2 *= unit_m * unit_m;
+    gmsh::model::occ::getMass(dimension, piece.tag, piece.size);
+    gmsh::model::occ::getCenterOfMass(dimension, piece.tag, piece.centre_m[0], piece.centre_m[1],
+                                      piece.centre_m[2]);
+    piece.size *= std::pow(unit_m, dimension);
     for (double& x : piece.centre_m) x *= unit_m;
   }
+}
+
+/// Sum over the pieces of the CAD; 0 if one is not known.
+double sum_of_sizes(const std::vector<Piece>& pieces) {
+  double sum = 0;
+  for (const auto& piece : pieces) {
+    if (!(piece.size > 0)) return 0;
+    sum += piece.size;
+  }
+  return sum;
+}
+
+/// Volume over surface of the flat faces between the corners.
+double thickness_of_mesh_m(const CellMesh& mesh) {
+  double volume = 0, area = 0;
+  const Point& o = mesh.points.front();
+  for (std::size_t f = 0; f < mesh.n_faces(); ++f)
+    for (std::size_t half = 0; half + 2 < mesh.corners_per_face(); ++half) {
+      const int* nodes = mesh.face(f);
+      const Point &a = mesh.points[nodes[0]], &b = mesh.points[nodes[half + 1]],
+                  &c = mesh.points[nodes[half + 2]];
+      Point u, v;
+      for (int k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
+      const Point n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+      area += std::hypot(n[0], n[1], n[2]) / 2;
+      for (int k = 0; k < 3; ++k) volume += (a[k] - o[k]) * n[k] / 6;
+    }
+  return volume / area;
 }
 
 }  // namespace
@@ -223,9 +254,18 @@ ModelMesh mesh_and_collect(const SolidControl& control, double unit_m) {
   constexpr double easily_reached = 0.15, hardly_reached = 0.3;  // the median is 0.6
   mesh_solids(control, unit_m);
   auto model = collect_model(unit_m);
-  measure_surfaces(unit_m, model.pieces);
+  measure(2, unit_m, model.pieces);
+  measure(3, unit_m, model.volumes);
   move_inner_nodes(model.mesh, std::clamp(control.min_scaled_jacobian, easily_reached, hardly_reached));
   return model;
+}
+
+double usual_exclusion_m(const ModelMesh& model) {
+  constexpr double share_of_diagonal = 0.01;
+  const double area_m2 = sum_of_sizes(model.pieces), volume_m3 = sum_of_sizes(model.volumes);
+  const double thickness_m =
+      area_m2 > 0 && volume_m3 > 0 ? volume_m3 / area_m2 : thickness_of_mesh_m(model.mesh);
+  return std::min(share_of_diagonal * diagonal_m(model.mesh), thickness_m);
 }
 
 int n_separate_parts(const CellMesh& mesh) {

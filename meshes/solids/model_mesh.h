@@ -9,14 +9,14 @@
 
 namespace meshes {
 
-/// A surface of the model, or a physical group of surfaces.
+/// A surface or volume of the model, or a physical group of these.
 struct Piece {
   std::string name;  ///< of the physical group; empty: none
-  int tag = 0;       ///< of the surface or of the group
-  // Of a surface of the CAD, exact to rounding; 0: not known. What a mesh makes of a disc lies beside its
-  // centre by some 1e-3 of the radius.
-  double area_m2 = 0;
-  Point centre_m{};  ///< of the area
+  int tag = 0;       ///< of the surface or volume, or of the group
+  // Of the CAD, exact to rounding. What a mesh makes of a disc lies beside its centre by some 1e-3 of the
+  // radius.
+  double size = 0;   ///< area [m2] or volume [m3]; 0: not known
+  Point centre_m{};  ///< of that area or volume
 };
 
 /// face_id is a place among the pieces, volume_id among the volumes.
@@ -33,9 +33,15 @@ struct ModelMesh {
 /// in several groups
 ModelMesh collect_model(double unit_m);
 
-/// Meshes the model's volumes and collects; inner nodes are moved where cells are flat. Surfaces that are in
-/// no physical group have the area and centre of the CAD.
+/// Meshes the model's volumes and collects; inner nodes are moved where cells are flat. Surfaces and
+/// volumes that are in no physical group have the size and centre of the CAD.
 ModelMesh mesh_and_collect(const SolidControl& control, double unit_m);
+
+/// How far stress is left out around re-entrant edges that nothing else is said of: 1 % of the body's
+/// diagonal, but at most volume over surface, a quarter of a rod's diameter and half a plate's thickness: a
+/// whole section, with what is next to the edge, is never left out. Of the CAD where that is known, so that
+/// it does not depend on the mesh.
+double usual_exclusion_m(const ModelMesh& model);
 
 /// Parts of the mesh that share no node.
 int n_separate_parts(const CellMesh& mesh);

@@ -232,6 +232,30 @@ TEST(Imported, SolidsThatTouchAreOneBodyAndItsCornersAreSharp) {
   EXPECT_NEAR(body.sharp_edges[0].distance_m, 0.01 * 1e-3 * std::sqrt(900. + 900. + 100.), 1e-9);
 }
 
+// 1 % of the diagonal was more than the rod's radius: all that lay beside the collar was left out with its
+// edges.
+TEST(Imported, OfSlenderPartsVolumeOverSurfaceIsLeftOutAroundEdges) {
+  constexpr double length_mm = 1200, radius_mm = 10, collar_mm = 8, collar_radius_mm = 12;
+  const auto step = written("rod.step", [] {
+    gmsh::vectorpair rod;
+    std::vector<gmsh::vectorpair> map;
+    occ::fuse({{3, occ::addCylinder(0, 0, 0, 0, 0, length_mm, radius_mm)}},
+              {{3, occ::addCylinder(0, 0, 600, 0, 0, collar_mm, collar_radius_mm)}}, rod, map);
+    occ::synchronize();
+  });
+  auto import = import_of(step, {});
+  import.control.cells_per_circle = 16;
+  const auto body = meshes::build_imported(import);
+  const double ring_mm2 = collar_radius_mm * collar_radius_mm - radius_mm * radius_mm,
+               volume_mm3 = pi * (radius_mm * radius_mm * length_mm + ring_mm2 * collar_mm),
+               area_mm2 = 2 * pi *
+                          (radius_mm * (length_mm - collar_mm) + collar_radius_mm * collar_mm +
+                           radius_mm * radius_mm + ring_mm2);
+  ASSERT_EQ(body.sharp_edges.size(), 2u);
+  for (const auto& edge : body.sharp_edges)
+    EXPECT_NEAR(edge.distance_m, 1e-3 * volume_mm3 / area_mm2, 1e-9);  // 5 mm; of the CAD, not of the mesh
+}
+
 /// Two boxes that share a face, groups "low" and "high", their bottom "foot"; order and version as asked for.
 void grouped_boxes(int order, double version, bool hexahedra) {
   occ::addBox(0, 0, 0, 1, 1, 1);
