@@ -35,7 +35,7 @@ public:
     return *this;
   }
   ByteWriter& add(const Piece& piece) {
-    return add(piece.name).add(piece.tag).add(piece.size).add(piece.centre_m);
+    return add(piece.name).add(piece.tag).add(piece.size).add(piece.centre_m).add(piece.second_moment);
   }
   std::string take() { return std::move(bytes_); }
 
@@ -69,6 +69,7 @@ public:
     get(piece.tag);
     get(piece.size);
     get(piece.centre_m);
+    get(piece.second_moment);
   }
   void require_end() const { require_that(at_ == bytes_.size()); }
   static void require_that(bool sound) {

@@ -203,37 +203,44 @@ void measure(int dimension, double unit_m, std::vector<Piece>& pieces) {
     gmsh::model::occ::getMass(dimension, piece.tag, piece.size);
     gmsh::model::occ::getCenterOfMass(dimension, piece.tag, piece.centre_m[0], piece.centre_m[1],
                                       piece.centre_m[2]);
+    std::vector<double> inertia;  // 3 x 3, about the centre
+    gmsh::model::occ::getMatrixOfInertia(dimension, piece.tag, inertia);
+    piece.second_moment = (inertia[0] + inertia[4] + inertia[8]) / 2 * std::pow(unit_m, dimension + 2);
     piece.size *= std::pow(unit_m, dimension);
     for (double& x : piece.centre_m) x *= unit_m;
   }
 }
 
-/// Sum over the pieces of the CAD; 0 if one is not known.
-double sum_of_sizes(const std::vector<Piece>& pieces) {
-  double sum = 0;
-  for (const auto& piece : pieces) {
-    if (!(piece.size > 0)) return 0;
-    sum += piece.size;
-  }
-  return sum;
+bool are_measured(const std::vector<Piece>& pieces) {
+  return std::all_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.size > 0; });
 }
 
-/// Volume over surface of the flat faces between the corners.
-double thickness_of_mesh_m(const CellMesh& mesh) {
-  double volume = 0, area = 0;
-  const Point& o = mesh.points.front();
+BodySize size_of_cad(const ModelMesh& model) {
+  BodySize size;
+  for (const auto& surface : model.pieces) size.area_m2 += surface.size;
+  Point centre{};
+  for (const auto& volume : model.volumes) {
+    size.volume_m3 += volume.size;
+    for (int d = 0; d < 3; ++d) centre[d] += volume.size * volume.centre_m[d];
+  }
+  for (double& x : centre) x /= size.volume_m3;
+  for (const auto& volume : model.volumes) {
+    const double beside = std::hypot(volume.centre_m[0] - centre[0], volume.centre_m[1] - centre[1],
+                                     volume.centre_m[2] - centre[2]);
+    size.second_moment_m5 += volume.second_moment + volume.size * beside * beside;
+  }
+  return size;
+}
+
+/// Of the flat faces between the corners.
+BodySize size_of_mesh(const CellMesh& mesh) {
+  std::vector<std::array<Point, 3>> surface;
   for (std::size_t f = 0; f < mesh.n_faces(); ++f)
     for (std::size_t half = 0; half + 2 < mesh.corners_per_face(); ++half) {
       const int* nodes = mesh.face(f);
-      const Point &a = mesh.points[nodes[0]], &b = mesh.points[nodes[half + 1]],
-                  &c = mesh.points[nodes[half + 2]];
-      Point u, v;
-      for (int k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
-      const Point n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-      area += std::hypot(n[0], n[1], n[2]) / 2;
-      for (int k = 0; k < 3; ++k) volume += (a[k] - o[k]) * n[k] / 6;
+      surface.push_back({mesh.points[nodes[0]], mesh.points[nodes[half + 1]], mesh.points[nodes[half + 2]]});
     }
-  return volume / area;
+  return size_within(surface);
 }
 
 }  // namespace
@@ -261,11 +268,8 @@ ModelMesh mesh_and_collect(const SolidControl& control, double unit_m) {
 }
 
 double usual_exclusion_m(const ModelMesh& model) {
-  constexpr double share_of_diagonal = 0.01;
-  const double area_m2 = sum_of_sizes(model.pieces), volume_m3 = sum_of_sizes(model.volumes);
-  const double thickness_m =
-      area_m2 > 0 && volume_m3 > 0 ? volume_m3 / area_m2 : thickness_of_mesh_m(model.mesh);
-  return std::min(share_of_diagonal * diagonal_m(model.mesh), thickness_m);
+  const bool of_cad = are_measured(model.pieces) && are_measured(model.volumes);
+  return usual_exclusion_m(of_cad ? size_of_cad(model) : size_of_mesh(model.mesh));
 }
 
 int n_separate_parts(const CellMesh& mesh) {

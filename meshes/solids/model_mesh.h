@@ -15,8 +15,9 @@ struct Piece {
   int tag = 0;       ///< of the surface or volume, or of the group
   // Of the CAD, exact to rounding. What a mesh makes of a disc lies beside its centre by some 1e-3 of the
   // radius.
-  double size = 0;   ///< area [m2] or volume [m3]; 0: not known
-  Point centre_m{};  ///< of that area or volume
+  double size = 0;           ///< area [m2] or volume [m3]; 0: not known
+  Point centre_m{};          ///< of that area or volume
+  double second_moment = 0;  ///< of the area [m4] or volume [m5]: squared distances from that centre
 };
 
 /// face_id is a place among the pieces, volume_id among the volumes.
@@ -37,10 +38,8 @@ ModelMesh collect_model(double unit_m);
 /// volumes that are in no physical group have the size and centre of the CAD.
 ModelMesh mesh_and_collect(const SolidControl& control, double unit_m);
 
-/// How far stress is left out around re-entrant edges that nothing else is said of: 1 % of the body's
-/// diagonal, but at most volume over surface, a quarter of a rod's diameter and half a plate's thickness: a
-/// whole section, with what is next to the edge, is never left out. Of the CAD where that is known, so that
-/// it does not depend on the mesh.
+/// As of its size (reentrant_edges.h), of the CAD where that is known, so that it does not depend on the
+/// mesh.
 double usual_exclusion_m(const ModelMesh& model);
 
 /// Parts of the mesh that share no node.

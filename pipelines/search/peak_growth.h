@@ -25,8 +25,8 @@ private:
   std::map<std::string, Course> courses_;  ///< by feature
 };
 
-/// How far stress is left out around an edge at which it grows: 1 % of the diagonal of the box around a body,
-/// at most its volume over its surface, as for imported bodies' edges.
+/// How far stress is left out around an edge at which it grows: as around imported bodies' edges
+/// (meshes::usual_exclusion_m), of the flat faces between the corners.
 double left_out_around_edges_m(const fem::Nodes& nodes);
 
 }  // namespace pipelines

@@ -229,7 +229,35 @@ TEST(Imported, SolidsThatTouchAreOneBodyAndItsCornersAreSharp) {
     for (const auto& end : piece) EXPECT_NEAR(std::hypot(end[0] - 0.01, end[1] - 0.01), 0, 1e-9);
   }
   EXPECT_NEAR(length_m, 0.01, 1e-9);
-  EXPECT_NEAR(body.sharp_edges[0].distance_m, 0.01 * 1e-3 * std::sqrt(900. + 900. + 100.), 1e-9);
+  // Second moment of both boxes about (11, 11, 5), their common centre.
+  const double second_mm5 =
+      3000 * ((900 + 100 + 100) / 12. + 16 + 36) + 2000 * ((100 + 400 + 100) / 12. + 36 + 81);
+  EXPECT_NEAR(body.sharp_edges[0].distance_m, 0.01 * 1e-3 * std::sqrt(12 * second_mm5 / 5000), 1e-9);
+}
+
+// By the box around it a part turned by 45 degrees had another distance, and another stress at its border.
+TEST(Imported, WhatIsLeftOutAroundEdgesTurnsWithThePart) {
+  for (const bool is_mesh : {false, true}) {
+    std::vector<double> distance_m;
+    for (const double angle : {0.0, pi / 4}) {
+      const auto file = written(is_mesh ? "l.msh" : "l.step", [&] {
+        gmsh::vectorpair parts;
+        std::vector<gmsh::vectorpair> map;
+        occ::fuse({{3, occ::addBox(0, 0, 0, 30, 10, 10)}}, {{3, occ::addBox(0, 10, 0, 10, 20, 10)}}, parts,
+                  map);
+        occ::rotate(parts, 0, 0, 0, 1, 1, 0, angle);
+        occ::rotate(parts, 0, 0, 0, 0, 0, 1, angle);
+        occ::synchronize();
+        if (is_mesh) gmsh::model::mesh::generate(3);
+      });
+      auto import = import_of(file, {});
+      import.scale_to_m = 1e-3;
+      const auto body = meshes::build_imported(import);
+      ASSERT_EQ(body.sharp_edges.size(), 1u);
+      distance_m.push_back(body.sharp_edges[0].distance_m);
+    }
+    EXPECT_NEAR(distance_m[1] / distance_m[0], 1, 1e-9) << (is_mesh ? ".msh" : "STEP");
+  }
 }
 
 // 1 % of the diagonal was more than the rod's radius: all that lay beside the collar was left out with its
