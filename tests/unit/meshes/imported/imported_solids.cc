@@ -383,6 +383,40 @@ TEST(Imported, AMshWithGroupsGoesInAndOut) {
     }
 }
 
+/// A quarter of a tube of radii 1 and 2, `n_around` hexahedra around, of 20 or 27 nodes.
+void quarter_of_a_tube(int n_around, bool of_20_nodes) {
+  const int centre = occ::addPoint(0, 0, 0);
+  const int p[] = {occ::addPoint(1, 0, 0), occ::addPoint(2, 0, 0), occ::addPoint(0, 2, 0),
+                   occ::addPoint(0, 1, 0)};
+  const int wire = occ::addWire({occ::addLine(p[0], p[1]), occ::addCircleArc(p[1], centre, p[2]),
+                                 occ::addLine(p[2], p[3]), occ::addCircleArc(p[3], centre, p[0])});
+  gmsh::vectorpair parts, curves;
+  occ::extrude({{2, occ::addPlaneSurface({wire})}}, 0, 0, 1, parts, {1}, {}, true);
+  occ::synchronize();
+  gmsh::model::getEntities(curves, 1);
+  for (const auto& curve : curves) {
+    std::string type;
+    gmsh::model::getType(1, curve.second, type);
+    gmsh::model::mesh::setTransfiniteCurve(curve.second, type == "Circle" ? n_around + 1 : 2);
+  }
+  gmsh::model::mesh::setTransfiniteSurface(1);
+  gmsh::model::mesh::setRecombine(2, 1);
+  gmsh::option::setNumber("Mesh.SecondOrderIncomplete", of_20_nodes ? 1 : 0);
+  gmsh::model::mesh::generate(3);
+  gmsh::model::mesh::setOrder(2);
+}
+
+// Straight cells in their place lost 10 % of a bar's section with 8 of them around, which no error told of.
+TEST(Imported, HexahedraThatAreTooCurvedToBecomeStraightAreRefused) {
+  for (const bool of_20_nodes : {false, true}) {
+    const auto coarse = written("tube.msh", [&] { quarter_of_a_tube(4, of_20_nodes); });
+    expect_words(refused(import_of(coarse, {})),
+                 {"tube.msh", "second order are curved by up to 0.0492", "taken for straight", "tetrahedra"});
+    const auto fine = written("tube.msh", [&] { quarter_of_a_tube(16, of_20_nodes); });
+    EXPECT_EQ(meshes::build_imported(import_of(fine, {})).cells->n_cells(), 16u);
+  }
+}
+
 // A plate of 300 mm whose mesh gmsh had written in mm was 300 m long, and its stress a millionth.
 TEST(Imported, AMshTooLargeForMetresHasToSayItsUnit) {
   const auto msh = written("large.msh", [] {
