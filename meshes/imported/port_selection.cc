@@ -35,6 +35,17 @@ std::string candidates(const ModelMesh& model, const std::vector<PieceShape>& sh
   return list.empty() ? " none" : list;
 }
 
+/// gmsh writes what is in physical groups: of a .msh that has one of volumes only, the surface is in one
+/// piece.
+void require_surfaces(const ImportPort& port, const ModelMesh& model) {
+  for (const auto& piece : model.pieces)
+    if (piece.tag != 0 || !piece.name.empty()) return;
+  refuse(port,
+         "the file has no cells on its surfaces, only in its volumes: put the surfaces into physical groups "
+         "too, "
+         "and write it again");
+}
+
 struct Select {
   const ImportPort& port;
   const ModelMesh& model;
@@ -143,6 +154,7 @@ std::vector<int> assign_ports(const std::vector<ImportPort>& ports, const ModelM
   std::vector<int> port_of(model.pieces.size(), -1);
   for (std::size_t p = 0; p < ports.size(); ++p) {
     check_values(ports[p], names);
+    require_surfaces(ports[p], model);
     for (const int piece : std::visit(Select{ports[p], model, shapes}, ports[p].selection)) {
       if (port_of[piece] >= 0)
         refuse(ports[p], name_of(model.pieces[piece]) + " (" + describe(shapes[piece]) +

@@ -436,6 +436,20 @@ TEST(Imported, AMshTooLargeForMetresHasToSayItsUnit) {
   }
 }
 
+// "Make the box larger" was no remedy: all of the surface was one piece.
+TEST(Imported, AMshWithoutCellsOnItsSurfacesIsToldSo) {
+  const auto msh = written("volume.msh", [] {
+    occ::addBox(0, 0, 0, 1, 1, 1);
+    occ::synchronize();
+    gmsh::model::addPhysicalGroup(3, {1});
+    gmsh::model::mesh::generate(3);
+  });
+  EXPECT_NO_THROW(meshes::build_imported(import_of(msh, {})));
+  for (const auto& port :
+       {box("foot", -1e-6, 1e-6), ImportPort{"foot", Port::Kind::face, GroupSelection{"foot"}}})
+    expect_words(refused(import_of(msh, {port})), {"volume.msh", "port foot", "no cells on its surfaces"});
+}
+
 TEST(Imported, GroupsWithNamesThatTablesCannotCarryAreRefused) {
   const auto msh = written("grouped.msh", [&] { grouped_boxes(1, 4.1, false); });
   std::ifstream in(msh);
