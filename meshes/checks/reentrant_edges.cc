@@ -75,6 +75,31 @@ std::vector<SharpEdge> reentrant_edges(const CellMesh& mesh, const std::map<int,
   return edges;
 }
 
+BodySize size_within(const std::vector<std::array<Point, 3>>& surface) {
+  BodySize size;
+  if (surface.empty()) return size;
+  const Point origin = surface.front()[0];
+  Point first{};  // m4, about the origin, as the second moment is first
+  for (const auto& corners : surface) {
+    const Point a = minus(corners[0], origin), b = minus(corners[1], origin), c = minus(corners[2], origin);
+    const Point normal = cross(minus(b, a), minus(c, a));
+    size.area_m2 += std::sqrt(dot(normal, normal)) / 2;
+    const double volume_m3 = dot(a, normal) / 6;  // of the tetrahedron from the origin, signed
+    const Point sum = {a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]};
+    size.volume_m3 += volume_m3;
+    size.second_moment_m5 += volume_m3 / 20 * (dot(a, a) + dot(b, b) + dot(c, c) + dot(sum, sum));
+    for (int d = 0; d < 3; ++d) first[d] += volume_m3 / 4 * sum[d];
+  }
+  size.second_moment_m5 -= dot(first, first) / size.volume_m3;
+  return size;
+}
+
+double usual_exclusion_m(const BodySize& size) {
+  constexpr double share_of_diagonal = 0.01;
+  const double diagonal_m = std::sqrt(12 * size.second_moment_m5 / size.volume_m3);
+  return std::min(share_of_diagonal * diagonal_m, size.volume_m3 / size.area_m2);
+}
+
 double diagonal_m(const CellMesh& mesh) {
   Point low = mesh.points.front(), high = low;
   for (const auto& p : mesh.points)

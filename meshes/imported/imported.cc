@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "meshes/checks/curved_quality.h"
@@ -34,14 +35,73 @@ void check_group_names(const std::vector<Piece>& pieces) {
   }
 }
 
+Point middle_of_face(const CellMesh& mesh, std::size_t face) {
+  Point middle{};
+  for (std::size_t i = 0; i < mesh.corners_per_face(); ++i)
+    for (int d = 0; d < 3; ++d)
+      middle[d] += mesh.points[mesh.face(face)[i]][d] / double(mesh.corners_per_face());
+  return middle;
+}
+
+/// Cells that touch in a face without sharing its nodes are not joined there: the part would have a slit that
+/// nobody sees.
+void require_joined_faces(const CellMesh& mesh) {
+  struct Face {
+    double along;
+    Point middle;
+  };
+  std::vector<Face> faces(mesh.n_faces());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Point p = middle_of_face(mesh, f);
+    faces[f] = {0.61 * p[0] + 0.53 * p[1] + 0.59 * p[2],
+                p};  // a direction in which hardly two faces are alike
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.along < b.along; });
+  const double near_m = 1e-8 * diagonal_m(mesh);
+  std::size_t n_twice = 0;
+  Point where{};
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t g = f + 1; g < faces.size() && faces[g].along - faces[f].along < 2 * near_m; ++g) {
+      const Point &a = faces[f].middle, &b = faces[g].middle;
+      if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > near_m) continue;
+      if (n_twice++ == 0) where = a;
+    }
+  if (n_twice == 0) return;
+  std::ostringstream text;
+  text.precision(4);
+  text << n_twice << " faces of its cells lie on others without sharing their nodes, near (" << 1e3 * where[0]
+       << ", " << 1e3 * where[1] << ", " << 1e3 * where[2]
+       << ") mm: cells are not joined there. Merge nodes at the same place (gmsh: Coherence Mesh), or mesh "
+          "solids "
+          "that share their surfaces";
+  throw GeometryRefused(text.str());
+}
+
 ModelMesh load(const Import& import, double scale_to_m) {
   ModelMesh model = load_apart(import, scale_to_m);
+  require_joined_faces(model.mesh);
   if (const int n = n_separate_parts(model.mesh); n > 1)
     throw GeometryRefused("it has " + std::to_string(n) +
                           " parts that do not touch: join them, or import one");
   check_group_names(model.pieces);
   check_group_names(model.volumes);
   return model;
+}
+
+/// gmsh writes the lengths of its model, which are mm where that came from a STEP file; a .msh has no unit.
+void require_likely_unit(const Import& import, const CellMesh& mesh) {
+  constexpr double largest_m = 30;
+  const double size_m = diagonal_m(mesh);
+  if (import.scale_to_m != 0 || format_of(import.geometry) != GeometryFormat::msh || !(size_m > largest_m))
+    return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "it is " << size_m
+       << " m from corner to corner, since lengths of a .msh are taken for m: give length_unit, \"1 mm\" if "
+          "the "
+          "part is "
+       << size_m << " mm large, \"1 m\" if it is that large";
+  throw GeometryRefused(text.str());
 }
 
 std::string unused(std::string name, const std::set<std::string>& used) {
@@ -107,6 +167,7 @@ BodyMesh build_unnamed(const Import& import) {
     throw GeometryRefused("scale_to_m = " + std::to_string(import.scale_to_m) +
                           " must be positive: the length of the file's unit");
   ModelMesh model = load(import, scale_to_m);
+  require_likely_unit(import, model.mesh);
   BodyMesh body;
   name_surfaces(import, model, body);
   name_volumes(model, body);
@@ -114,7 +175,7 @@ BodyMesh build_unnamed(const Import& import) {
   require_quality(body.quality, import.control.min_scaled_jacobian, "mesh",
                   "mesh finer there, repair the geometry, or lower min_scaled_jacobian");
   const double exclusion_m =
-      import.control.exclusion_m > 0 ? import.control.exclusion_m : 0.01 * diagonal_m(model.mesh);
+      import.control.exclusion_m > 0 ? import.control.exclusion_m : usual_exclusion_m(model);
   body.sharp_edges = reentrant_edges(model.mesh, body.groups.boundaries, exclusion_m);
   body.cells = std::make_shared<const CellMesh>(std::move(model.mesh));
   return body;

@@ -34,7 +34,9 @@ public:
     for (const auto& value : values) add(value);
     return *this;
   }
-  ByteWriter& add(const Piece& piece) { return add(piece.name).add(piece.tag); }
+  ByteWriter& add(const Piece& piece) {
+    return add(piece.name).add(piece.tag).add(piece.size).add(piece.centre_m).add(piece.second_moment);
+  }
   std::string take() { return std::move(bytes_); }
 
 private:
@@ -65,6 +67,9 @@ public:
   void get(Piece& piece) {
     get(piece.name);
     get(piece.tag);
+    get(piece.size);
+    get(piece.centre_m);
+    get(piece.second_moment);
   }
   void require_end() const { require_that(at_ == bytes_.size()); }
   static void require_that(bool sound) {

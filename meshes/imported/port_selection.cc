@@ -35,6 +35,17 @@ std::string candidates(const ModelMesh& model, const std::vector<PieceShape>& sh
   return list.empty() ? " none" : list;
 }
 
+/// gmsh writes what is in physical groups: of a .msh that has one of volumes only, the surface is in one
+/// piece.
+void require_surfaces(const ImportPort& port, const ModelMesh& model) {
+  for (const auto& piece : model.pieces)
+    if (piece.tag != 0 || !piece.name.empty()) return;
+  refuse(port,
+         "the file has no cells on its surfaces, only in its volumes: put the surfaces into physical groups "
+         "too, "
+         "and write it again");
+}
+
 struct Select {
   const ImportPort& port;
   const ModelMesh& model;
@@ -118,6 +129,23 @@ void check_values(const ImportPort& port, std::set<std::string>& names) {
       refuse(port, "its cylinder needs a positive radius, and an end beyond its begin");
 }
 
+/// Of the area of all pieces together, of the CAD where it has them.
+Point centre_of(const std::vector<int>& pieces, const ModelMesh& model,
+                const std::vector<PieceShape>& shapes) {
+  const bool of_cad =
+      std::all_of(pieces.begin(), pieces.end(), [&](int piece) { return model.pieces[piece].size > 0; });
+  Point centre{};
+  double area_m2 = 0;
+  for (const int i : pieces) {
+    const double its_area_m2 = of_cad ? model.pieces[i].size : shapes[i].area_m2;
+    const Point& its_centre = of_cad ? model.pieces[i].centre_m : shapes[i].centre_m;
+    area_m2 += its_area_m2;
+    for (int d = 0; d < 3; ++d) centre[d] += its_area_m2 * its_centre[d];
+  }
+  for (double& x : centre) x /= area_m2;
+  return centre;
+}
+
 }  // namespace
 
 std::vector<int> assign_ports(const std::vector<ImportPort>& ports, const ModelMesh& model,
@@ -126,6 +154,7 @@ std::vector<int> assign_ports(const std::vector<ImportPort>& ports, const ModelM
   std::vector<int> port_of(model.pieces.size(), -1);
   for (std::size_t p = 0; p < ports.size(); ++p) {
     check_values(ports[p], names);
+    require_surfaces(ports[p], model);
     for (const int piece : std::visit(Select{ports[p], model, shapes}, ports[p].selection)) {
       if (port_of[piece] >= 0)
         refuse(ports[p], name_of(model.pieces[piece]) + " (" + describe(shapes[piece]) +
@@ -147,22 +176,22 @@ Port make_port(const ImportPort& port, const ModelMesh& model, const std::vector
   made.name = port.name;
   made.kind = port.kind;
   made.boundary_id = boundary_id;
+  std::vector<int> pieces;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    if (port_of_piece[i] == index) pieces.push_back(int(i));
+  if (port.kind == Port::Kind::face) {
+    const Point centre = centre_of(pieces, model, shapes);
+    made.axis_x_m = centre[0];
+    made.axis_y_m = centre[1];
+    made.begin_m = made.end_m = centre[2];
+    return made;
+  }
   made.begin_m = 1e300;
   made.end_m = -1e300;
-  double area_m2 = 0;
-  std::vector<int> pieces;
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (port_of_piece[i] != index) continue;
-    pieces.push_back(int(i));
+  for (const int i : pieces) {
     made.begin_m = std::min(made.begin_m, shapes[i].low_m[2]);
     made.end_m = std::max(made.end_m, shapes[i].high_m[2]);
-    made.axis_x_m += shapes[i].area_m2 * shapes[i].centre_m[0];
-    made.axis_y_m += shapes[i].area_m2 * shapes[i].centre_m[1];
-    area_m2 += shapes[i].area_m2;
   }
-  made.axis_x_m /= area_m2;
-  made.axis_y_m /= area_m2;
-  if (port.kind == Port::Kind::face) return made;
   const auto cylinder = common_cylinder(model.mesh, model.mesh.face_id, pieces);
   if (!cylinder)
     refuse(port, "its surfaces are no cylinder parallel to z, which a seat or bore must be; they are" +

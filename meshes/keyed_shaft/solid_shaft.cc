@@ -216,10 +216,10 @@ BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyway
   body.quality = measure_quality(model.mesh);
   require_quality(body.quality, control.min_scaled_jacobian, "mesh",
                   "make the cells smaller there, change the keyway, or lower min_scaled_jacobian");
-  const double diagonal = diagonal_m(model.mesh);
-  body.sharp_edges = reentrant_edges(model.mesh, body.groups.boundaries,
-                                     control.exclusion_m > 0 ? control.exclusion_m : 0.01 * diagonal);
-  if (control.exclusion_m == 0) widen_at_shoulders(layout, 1e-6 * diagonal, body.sharp_edges);
+  body.sharp_edges =
+      reentrant_edges(model.mesh, body.groups.boundaries,
+                      control.exclusion_m > 0 ? control.exclusion_m : usual_exclusion_m(model));
+  if (control.exclusion_m == 0) widen_at_shoulders(layout, 1e-6 * diagonal_m(model.mesh), body.sharp_edges);
   body.cells = std::make_shared<const CellMesh>(std::move(model.mesh));
   return body;
 }

@@ -3,9 +3,11 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
+#include "meshes/checks/reentrant_edges.h"
 #include "meshes/solids/inner_nodes.h"
 #include "meshes/values/constants.h"
 #include "meshes/values/refused.h"
@@ -191,6 +193,56 @@ void collect_faces(const std::map<Corners, int>& surface, Groups& groups, CellMe
   });
 }
 
+/// Of surfaces or volumes that OpenCASCADE has.
+void measure(int dimension, double unit_m, std::vector<Piece>& pieces) {
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, dimension);
+  if (!groups.empty()) return;
+  for (auto& piece : pieces) {
+    if (piece.tag == 0) continue;
+    gmsh::model::occ::getMass(dimension, piece.tag, piece.size);
+    gmsh::model::occ::getCenterOfMass(dimension, piece.tag, piece.centre_m[0], piece.centre_m[1],
+                                      piece.centre_m[2]);
+    std::vector<double> inertia;  // 3 x 3, about the centre
+    gmsh::model::occ::getMatrixOfInertia(dimension, piece.tag, inertia);
+    piece.second_moment = (inertia[0] + inertia[4] + inertia[8]) / 2 * std::pow(unit_m, dimension + 2);
+    piece.size *= std::pow(unit_m, dimension);
+    for (double& x : piece.centre_m) x *= unit_m;
+  }
+}
+
+bool are_measured(const std::vector<Piece>& pieces) {
+  return std::all_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.size > 0; });
+}
+
+BodySize size_of_cad(const ModelMesh& model) {
+  BodySize size;
+  for (const auto& surface : model.pieces) size.area_m2 += surface.size;
+  Point centre{};
+  for (const auto& volume : model.volumes) {
+    size.volume_m3 += volume.size;
+    for (int d = 0; d < 3; ++d) centre[d] += volume.size * volume.centre_m[d];
+  }
+  for (double& x : centre) x /= size.volume_m3;
+  for (const auto& volume : model.volumes) {
+    const double beside = std::hypot(volume.centre_m[0] - centre[0], volume.centre_m[1] - centre[1],
+                                     volume.centre_m[2] - centre[2]);
+    size.second_moment_m5 += volume.second_moment + volume.size * beside * beside;
+  }
+  return size;
+}
+
+/// Of the flat faces between the corners.
+BodySize size_of_mesh(const CellMesh& mesh) {
+  std::vector<std::array<Point, 3>> surface;
+  for (std::size_t f = 0; f < mesh.n_faces(); ++f)
+    for (std::size_t half = 0; half + 2 < mesh.corners_per_face(); ++half) {
+      const int* nodes = mesh.face(f);
+      surface.push_back({mesh.points[nodes[0]], mesh.points[nodes[half + 1]], mesh.points[nodes[half + 2]]});
+    }
+  return size_within(surface);
+}
+
 }  // namespace
 
 ModelMesh collect_model(double unit_m) {
@@ -209,8 +261,15 @@ ModelMesh mesh_and_collect(const SolidControl& control, double unit_m) {
   constexpr double easily_reached = 0.15, hardly_reached = 0.3;  // the median is 0.6
   mesh_solids(control, unit_m);
   auto model = collect_model(unit_m);
+  measure(2, unit_m, model.pieces);
+  measure(3, unit_m, model.volumes);
   move_inner_nodes(model.mesh, std::clamp(control.min_scaled_jacobian, easily_reached, hardly_reached));
   return model;
+}
+
+double usual_exclusion_m(const ModelMesh& model) {
+  const bool of_cad = are_measured(model.pieces) && are_measured(model.volumes);
+  return usual_exclusion_m(of_cad ? size_of_cad(model) : size_of_mesh(model.mesh));
 }
 
 int n_separate_parts(const CellMesh& mesh) {

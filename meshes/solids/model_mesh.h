@@ -9,10 +9,15 @@
 
 namespace meshes {
 
-/// A surface of the model, or a physical group of surfaces.
+/// A surface or volume of the model, or a physical group of these.
 struct Piece {
   std::string name;  ///< of the physical group; empty: none
-  int tag = 0;       ///< of the surface or of the group
+  int tag = 0;       ///< of the surface or volume, or of the group
+  // Of the CAD, exact to rounding. What a mesh makes of a disc lies beside its centre by some 1e-3 of the
+  // radius.
+  double size = 0;           ///< area [m2] or volume [m3]; 0: not known
+  Point centre_m{};          ///< of that area or volume
+  double second_moment = 0;  ///< of the area [m4] or volume [m5]: squared distances from that centre
 };
 
 /// face_id is a place among the pieces, volume_id among the volumes.
@@ -29,8 +34,13 @@ struct ModelMesh {
 /// in several groups
 ModelMesh collect_model(double unit_m);
 
-/// Meshes the model's volumes and collects; inner nodes are moved where cells are flat.
+/// Meshes the model's volumes and collects; inner nodes are moved where cells are flat. Surfaces and
+/// volumes that are in no physical group have the size and centre of the CAD.
 ModelMesh mesh_and_collect(const SolidControl& control, double unit_m);
+
+/// As of its size (reentrant_edges.h), of the CAD where that is known, so that it does not depend on the
+/// mesh.
+double usual_exclusion_m(const ModelMesh& model);
 
 /// Parts of the mesh that share no node.
 int n_separate_parts(const CellMesh& mesh);

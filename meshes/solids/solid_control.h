@@ -23,8 +23,9 @@ struct SolidControl {
       16;  ///< around every curved surface, >= 6; a quarter of a fillet gets a fourth of it
   double min_scaled_jacobian = 0.05;  ///< of the curved cells, refused below
   std::vector<FineSpot> fine_spots{};
-  double exclusion_m = 0;  ///< no stress is reported closer to re-entrant edges; 0: 1 % of the diagonal,
-                           ///< at a keyed shaft's shoulders as block meshes
+  /// No stress is reported closer to re-entrant edges. 0: 1 % of the body's size, at most volume over surface
+  /// (reentrant_edges.h); at a keyed shaft's shoulders as block meshes.
+  double exclusion_m = 0;
 };
 
 /// @throws GeometryRefused naming the value that is out of range

@@ -13,22 +13,31 @@ struct Triangle {
   Point centre{}, normal{};  // normal of the length of the area, outward
 };
 
-/// From the corners alone; a quadrangle by its diagonals.
+Point cross(const Point& u, const Point& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// From the corners alone; a quadrangle by its two halves.
 Triangle flat(const CellMesh& mesh, std::size_t face) {
   const int* nodes = mesh.face(face);
   const std::size_t n = mesh.corners_per_face();
-  const Point &a = mesh.points[nodes[0]], &b = mesh.points[nodes[1]], &c = mesh.points[nodes[2]],
-              &d = mesh.points[nodes[n - 1]];
-  Point u, v;
-  for (int k = 0; k < 3; ++k) {
-    u[k] = n == 3 ? b[k] - a[k] : c[k] - a[k];
-    v[k] = n == 3 ? c[k] - a[k] : d[k] - b[k];
-  }
   Triangle t;
-  for (int k = 0; k < 3; ++k) {
-    t.normal[k] = (u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]) / 2;
-    for (std::size_t i = 0; i < n; ++i) t.centre[k] += mesh.points[nodes[i]][k] / double(n);
+  double area = 0;
+  for (std::size_t half = 0; half + 2 < n; ++half) {
+    const Point &a = mesh.points[nodes[0]], &b = mesh.points[nodes[half + 1]],
+                &c = mesh.points[nodes[half + 2]];
+    Point u, v;
+    for (int k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
+    const Point normal = cross(u, v);
+    const double its_area =
+        std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]) / 2;
+    area += its_area;
+    for (int k = 0; k < 3; ++k) {
+      t.normal[k] += normal[k] / 2;
+      t.centre[k] += its_area * (a[k] + b[k] + c[k]) / 3;
+    }
   }
+  for (double& x : t.centre) x /= area;
   return t;
 }
 

@@ -19,10 +19,12 @@ struct Port {
   std::string name;
   Kind kind = Kind::seat;
   int boundary_id = 0;
-  double begin_m = 0, end_m = 0;  ///< range in z of the loaded surface; equal for an end face
-  double radius_m = 0;            ///< of the cylinder; of a round end face; 0 for other faces
-  double axis_x_m = 0,
-         axis_y_m = 0;  ///< the cylinder's own axis; the point of a face about which it is loaded
+  /// Range in z of the loaded surface; equal for an end face, and for a face of an imported body, which has
+  /// the centre of its area there.
+  double begin_m = 0, end_m = 0;
+  double radius_m = 0;  ///< of the cylinder; of a round end face; 0 for other faces
+  /// The cylinder's own axis; the point of a face about which it is loaded.
+  double axis_x_m = 0, axis_y_m = 0;
 };
 
 /// A named piece of surface (every boundary face belongs to exactly one).

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/imported/load_apart.h"
+
 namespace pipelines {
 namespace {
 
@@ -68,7 +70,7 @@ BodyScene with_fineness(const BodyScene& body, double factor) {
 
 bool can_be_refined(const BodyScene& body) {
   const auto* import = std::get_if<meshes::Import>(&body.shape);
-  return import == nullptr || import->geometry.extension() != ".msh";
+  return import == nullptr || meshes::format_of(import->geometry) != meshes::GeometryFormat::msh;
 }
 
 std::vector<std::string> fillets_of(const BodyScene& body) {

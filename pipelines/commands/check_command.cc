@@ -98,9 +98,14 @@ void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, co
                          figure.given, figure.unit, figure.mesh, figure.from_mesh ? " (from the mesh)" : "");
   out << "  ports\n";
   for (const auto& port : meshed.mesh.ports)
-    out << fmt::format(
-        "    {:<24}z {:8.2f} .. {:8.2f} mm, diameter {:6.2f} mm, axis at ({:.2f}, {:.2f}) mm\n", port.name,
-        port.begin_m * 1e3, port.end_m * 1e3, port.radius_m * 2e3, port.axis_x_m * 1e3, port.axis_y_m * 1e3);
+    if (port.kind == meshes::Port::Kind::face && port.radius_m == 0)
+      out << fmt::format("    {:<24}face, loaded about ({:.2f}, {:.2f}, {:.2f}) mm\n", port.name,
+                         port.axis_x_m * 1e3, port.axis_y_m * 1e3, (port.begin_m + port.end_m) / 2 * 1e3);
+    else
+      out << fmt::format(
+          "    {:<24}z {:8.2f} .. {:8.2f} mm, diameter {:6.2f} mm, axis at ({:.2f}, {:.2f}) mm\n", port.name,
+          port.begin_m * 1e3, port.end_m * 1e3, port.radius_m * 2e3, port.axis_x_m * 1e3,
+          port.axis_y_m * 1e3);
   const auto& channels = loads.history.channels;
   print_forecast(
       out, body, meshed,

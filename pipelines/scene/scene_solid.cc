@@ -61,6 +61,12 @@ meshes::ImportPort read_port(SceneTable& table) {
     meshes::BoxSelection selection;
     selection.low_m = point(box, "low");
     selection.high_m = point(box, "high");
+    for (int d = 0; d < 3; ++d)
+      if (selection.high_m[d] < selection.low_m[d]) {
+        box.refuse("high",
+                   std::string("lies below low in ") + "xyz"[d] + ": they are opposite corners of the box");
+        break;
+      }
     box.finish();
     port.selection = selection;
     port.kind = meshes::Port::Kind::face;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "meshes/checks/reentrant_edges.h"
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/search/refinement.h"
 #include "pipelines/superposition/zones.h"
@@ -60,16 +60,19 @@ bool PeakGrowth::at(const BodyAnalysis& analysis, double ratio) {
   return grows;
 }
 
-double diagonal_m(const fem::Nodes& nodes) {
-  std::array<double, 3> low, high;
-  low.fill(std::numeric_limits<double>::max());
-  high.fill(std::numeric_limits<double>::lowest());
-  for (std::size_t i = 0; i < nodes.n; ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], nodes.xyz_m[3 * i + c]);
-      high[c] = std::max(high[c], nodes.xyz_m[3 * i + c]);
+double left_out_around_edges_m(const fem::Nodes& nodes) {
+  const auto at = [&](std::int32_t node) {
+    const double* x = &nodes.xyz_m[3 * std::size_t(node)];
+    return meshes::Point{x[0], x[1], x[2]};
+  };
+  const auto n_corners = std::size_t(nodes.shape().n_face_corners());
+  std::vector<std::array<meshes::Point, 3>> surface;
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f)
+    for (std::size_t half = 0; half + 2 < n_corners; ++half) {
+      const auto face = nodes.face(f);
+      surface.push_back({at(face[0]), at(face[half + 1]), at(face[half + 2])});
     }
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  return meshes::usual_exclusion_m(meshes::size_within(surface));
 }
 
 }  // namespace pipelines

@@ -25,7 +25,8 @@ private:
   std::map<std::string, Course> courses_;  ///< by feature
 };
 
-/// Of the box around a body.
-double diagonal_m(const fem::Nodes& nodes);
+/// How far stress is left out around an edge at which it grows: as around imported bodies' edges
+/// (meshes::usual_exclusion_m), of the flat faces between the corners.
+double left_out_around_edges_m(const fem::Nodes& nodes);
 
 }  // namespace pipelines

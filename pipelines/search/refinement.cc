@@ -155,10 +155,11 @@ std::optional<MeshStep> refine_shaft(BodyScene& body, const std::vector<PlaceStr
 
 std::optional<MeshStep> refine_solid(BodyScene& body, const BodyAnalysis& analysis,
                                      const std::vector<PlaceStress>& judged) {
+  if (!can_be_refined(body)) return std::nullopt;  // its cells may be hexahedra
   auto* shaft = std::get_if<ShaftShape>(&body.shape);
   auto& control = shaft ? shaft->solid : std::get<meshes::Import>(body.shape).control;
   const auto leading = leading_surface(analysis, judged);
-  if (!can_be_refined(body) || leading.spots.empty()) return std::nullopt;
+  if (leading.spots.empty()) return std::nullopt;
   for (const auto& spot : leading.spots) {
     control.fine_spots.push_back(spot);
     control.smallest_size_m = std::min(control.smallest_size_m, spot.size_m);

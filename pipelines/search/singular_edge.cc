@@ -103,10 +103,9 @@ std::vector<std::array<std::array<double, 3>, 2>> concave_edge_through(const fem
 }
 
 SpotWithoutBound spot_without_bound(const BodyAnalysis& analysis) {
-  constexpr double share_left_out = 0.01;  // of the body's diagonal, as for imported bodies' edges
   const auto& p = analysis.peak.position_m;
   const auto& nodes = analysis.responses.nodes;
-  const double distance_m = share_left_out * diagonal_m(nodes);
+  const double distance_m = left_out_around_edges_m(nodes);
   auto edge = concave_edge_through(nodes, analysis.peak.node, distance_m);
   const bool is_edge = !edge.empty();
   if (!is_edge) edge = {{p, p}};

@@ -154,7 +154,9 @@ std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places
   for (std::size_t i = 0; i < value.size(); ++i)
     if (!places.excluded[i] && (peak == value.size() || value[i] > value[peak])) peak = i;
   if (peak == value.size())
-    throw StageRefused("no place for a peak: the exclusion zones cover the whole body");
+    throw StageRefused(
+        "no place for a peak: what is left out around sharp edges covers the whole body; give a smaller "
+        "exclusion in its table mesh");
   return peak;
 }
 

@@ -334,6 +334,64 @@ TEST(ImportedBody, AMeshWithNamedGroupsIsTakenAsItIs) {
   EXPECT_GT(json["bodies"]["part"]["peak_von_mises"]["value"].get<double>(), 20e6);
 }
 
+// The search asked hexahedra, which it cannot make finer, what only tetrahedra know, and ended as an error of
+// the program.
+TEST(ImportedBody, HexahedraOfAFileThatAreTooCoarseSaySo) {
+  const results_test::Directory directory;
+  write_sample(directory / "angle.msh", [] {
+    namespace occ = gmsh::model::occ;
+    gmsh::vectorpair parts;
+    std::vector<gmsh::vectorpair> map;
+    occ::addBox(0, 0, 0, 0.1, 0.1, 0.1);
+    occ::fragment({{3, 1}},
+                  {{3, occ::addBox(0, 0, 0.1, 0.1, 0.1, 0.2)}, {3, occ::addBox(0.1, 0, 0, 0.2, 0.1, 0.1)}},
+                  parts, map);
+    occ::synchronize();
+    gmsh::vectorpair surfaces;
+    gmsh::model::getEntities(surfaces, 2);
+    for (const auto& surface : surfaces) {
+      double low[3], high[3];
+      gmsh::model::getBoundingBox(2, surface.second, low[0], low[1], low[2], high[0], high[1], high[2]);
+      const char* name = low[2] > 0.29                      ? "top"
+                         : low[0] > 0.29                    ? "side"
+                         : high[2] < 0.01 && high[0] < 0.11 ? "foot"
+                                                            : nullptr;
+      if (name != nullptr)
+        gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surface.second}), name);
+    }
+    gmsh::model::addPhysicalGroup(3, {1, 2, 3});
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 0.05);
+    gmsh::option::setNumber("Mesh.SaveAll", 1);
+    gmsh::model::mesh::setTransfiniteAutomatic();
+    gmsh::model::mesh::generate(3);
+  });
+  const std::string of_angle = R"(
+[part]
+file = "angle.msh"
+bearings = ["foot", "right"]
+axial_support = "foot"
+torque_support = "foot"
+[[part.ports]]
+port = "foot"
+group = "foot"
+kind = "face"
+[[part.ports]]
+port = "middle"
+group = "top"
+kind = "face"
+[[part.ports]]
+port = "right"
+group = "side"
+kind = "face"
+)";
+  write(directory / "angle.toml", scene(of_angle, "part"));
+  const auto outcome = millstress(directory.path, "run angle.toml -o out --tolerance '5 %'");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  const auto json = summary(directory / "out");
+  EXPECT_GT(error(json, "part"), 0.05 * peak(json, "part"));
+  EXPECT_EQ(json["bodies"]["part"]["search"]["ended"], "the mesh cannot be refined further");
+}
+
 TEST(ImportedBody, AKeywayWeakensItsShaft) {
   const results_test::Directory directory;
   const auto json = run(directory.path, scene(keyed, "shaft"), "keyed");

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <tuple>
 
 #include "meshes/gmsh/gmsh_session.h"
 #include "meshes/imported/imported.h"
@@ -228,7 +229,59 @@ TEST(Imported, SolidsThatTouchAreOneBodyAndItsCornersAreSharp) {
     for (const auto& end : piece) EXPECT_NEAR(std::hypot(end[0] - 0.01, end[1] - 0.01), 0, 1e-9);
   }
   EXPECT_NEAR(length_m, 0.01, 1e-9);
-  EXPECT_NEAR(body.sharp_edges[0].distance_m, 0.01 * 1e-3 * std::sqrt(900. + 900. + 100.), 1e-9);
+  // Second moment of both boxes about (11, 11, 5), their common centre.
+  const double second_mm5 =
+      3000 * ((900 + 100 + 100) / 12. + 16 + 36) + 2000 * ((100 + 400 + 100) / 12. + 36 + 81);
+  EXPECT_NEAR(body.sharp_edges[0].distance_m, 0.01 * 1e-3 * std::sqrt(12 * second_mm5 / 5000), 1e-9);
+}
+
+// By the box around it a part turned by 45 degrees had another distance, and another stress at its border.
+TEST(Imported, WhatIsLeftOutAroundEdgesTurnsWithThePart) {
+  for (const bool is_mesh : {false, true}) {
+    std::vector<double> distance_m;
+    for (const double angle : {0.0, pi / 4}) {
+      const auto file = written(is_mesh ? "l.msh" : "l.step", [&] {
+        gmsh::vectorpair parts;
+        std::vector<gmsh::vectorpair> map;
+        occ::fuse({{3, occ::addBox(0, 0, 0, 30, 10, 10)}}, {{3, occ::addBox(0, 10, 0, 10, 20, 10)}}, parts,
+                  map);
+        occ::rotate(parts, 0, 0, 0, 1, 1, 0, angle);
+        occ::rotate(parts, 0, 0, 0, 0, 0, 1, angle);
+        occ::synchronize();
+        if (is_mesh) gmsh::model::mesh::generate(3);
+      });
+      auto import = import_of(file, {});
+      import.scale_to_m = 1e-3;
+      const auto body = meshes::build_imported(import);
+      ASSERT_EQ(body.sharp_edges.size(), 1u);
+      distance_m.push_back(body.sharp_edges[0].distance_m);
+    }
+    EXPECT_NEAR(distance_m[1] / distance_m[0], 1, 1e-9) << (is_mesh ? ".msh" : "STEP");
+  }
+}
+
+// 1 % of the diagonal was more than the rod's radius: all that lay beside the collar was left out with its
+// edges.
+TEST(Imported, OfSlenderPartsVolumeOverSurfaceIsLeftOutAroundEdges) {
+  constexpr double length_mm = 1200, radius_mm = 10, collar_mm = 8, collar_radius_mm = 12;
+  const auto step = written("rod.step", [] {
+    gmsh::vectorpair rod;
+    std::vector<gmsh::vectorpair> map;
+    occ::fuse({{3, occ::addCylinder(0, 0, 0, 0, 0, length_mm, radius_mm)}},
+              {{3, occ::addCylinder(0, 0, 600, 0, 0, collar_mm, collar_radius_mm)}}, rod, map);
+    occ::synchronize();
+  });
+  auto import = import_of(step, {});
+  import.control.cells_per_circle = 16;
+  const auto body = meshes::build_imported(import);
+  const double ring_mm2 = collar_radius_mm * collar_radius_mm - radius_mm * radius_mm,
+               volume_mm3 = pi * (radius_mm * radius_mm * length_mm + ring_mm2 * collar_mm),
+               area_mm2 = 2 * pi *
+                          (radius_mm * (length_mm - collar_mm) + collar_radius_mm * collar_mm +
+                           radius_mm * radius_mm + ring_mm2);
+  ASSERT_EQ(body.sharp_edges.size(), 2u);
+  for (const auto& edge : body.sharp_edges)
+    EXPECT_NEAR(edge.distance_m, 1e-3 * volume_mm3 / area_mm2, 1e-9);  // 5 mm; of the CAD, not of the mesh
 }
 
 /// Two boxes that share a face, groups "low" and "high", their bottom "foot"; order and version as asked for.
@@ -261,6 +314,52 @@ void grouped_boxes(int order, double version, bool hexahedra) {
   if (order == 2) gmsh::model::mesh::setOrder(2);
 }
 
+// A pull through the middle of the T's extent in z, not its centre of area, bent it: 207 MPa instead of 100.
+// A disc's centre by the mesh was 2e-5 m off, so that a pull on both ends of a bar did not close.
+TEST(Imported, AFaceIsLoadedAboutTheCentreOfItsArea) {
+  const auto step = written("tee.step", [] {
+    gmsh::vectorpair tee;
+    std::vector<gmsh::vectorpair> map;
+    occ::fuse({{3, occ::addBox(0, -20, 0, 60, 40, 10)}}, {{3, occ::addBox(0, -5, 10, 60, 10, 40)}}, tee, map);
+    const int disc = occ::addCylinder(60, 0, 20, 30, 0, 0, 15);
+    occ::fuse(tee, {{3, disc}}, tee, map);
+    occ::synchronize();
+  });
+  const auto face = [](const std::string& name, double x_m) {
+    return ImportPort{name, Port::Kind::face, BoxSelection{{x_m - 1e-6, -1, -1}, {x_m + 1e-6, 1, 1}}};
+  };
+  const auto body = meshes::build_imported(import_of(step, {face("tee", 0), face("disc", 0.09)}));
+  ASSERT_EQ(body.ports.size(), 2u);
+  const double of_tee_m = 1e-3 * (400 * 5 + 400 * 30) / 800.0;
+  for (const auto& [port, x_m, z_m] :
+       {std::tuple(body.ports[0], 0.0, of_tee_m), {body.ports[1], 0.09, 0.02}}) {
+    EXPECT_NEAR(port.axis_x_m, x_m, 1e-12) << port.name;
+    EXPECT_NEAR(port.axis_y_m, 0, 1e-12) << port.name;
+    EXPECT_NEAR((port.begin_m + port.end_m) / 2, z_m, 1e-12) << port.name;
+  }
+}
+
+TEST(Imported, AFaceOfHexahedraIsLoadedAboutTheCentreOfItsArea) {
+  const auto msh = written("wedge.msh", [] {  // one cell: 2 high at x = 0, 1 at x = 3
+    const int p[] = {occ::addPoint(0, 0, 0), occ::addPoint(3, 0, 0), occ::addPoint(3, 0, 1),
+                     occ::addPoint(0, 0, 2)};
+    const int wire = occ::addWire({occ::addLine(p[0], p[1]), occ::addLine(p[1], p[2]),
+                                   occ::addLine(p[2], p[3]), occ::addLine(p[3], p[0])});
+    gmsh::vectorpair parts;
+    occ::extrude({{2, occ::addPlaneSurface({wire})}}, 0, 1, 0, parts, {1}, {}, true);
+    occ::synchronize();
+    gmsh::option::setNumber("Mesh.MeshSizeMin", 10);
+    gmsh::model::mesh::setTransfiniteAutomatic();
+    gmsh::model::mesh::generate(3);
+  });
+  const auto body = meshes::build_imported(
+      import_of(msh, {{"end", Port::Kind::face, BoxSelection{{-1, -1e-6, -1}, {9, 1e-6, 9}}}}));
+  ASSERT_EQ(int(body.cells->kind), int(meshes::CellKind::hexahedra));
+  ASSERT_EQ(body.ports.size(), 1u);
+  EXPECT_NEAR(body.ports[0].axis_x_m, (3 * 1.5 + 1.5 * 1) / 4.5, 1e-12);
+  EXPECT_NEAR(body.ports[0].begin_m, (3 * 0.5 + 1.5 * 4 / 3) / 4.5, 1e-12);
+}
+
 TEST(Imported, AMshWithGroupsGoesInAndOut) {
   for (const int order : {1, 2})
     for (const double version : {2.2, 4.1}) {
@@ -284,6 +383,73 @@ TEST(Imported, AMshWithGroupsGoesInAndOut) {
     }
 }
 
+/// A quarter of a tube of radii 1 and 2, `n_around` hexahedra around, of 20 or 27 nodes.
+void quarter_of_a_tube(int n_around, bool of_20_nodes) {
+  const int centre = occ::addPoint(0, 0, 0);
+  const int p[] = {occ::addPoint(1, 0, 0), occ::addPoint(2, 0, 0), occ::addPoint(0, 2, 0),
+                   occ::addPoint(0, 1, 0)};
+  const int wire = occ::addWire({occ::addLine(p[0], p[1]), occ::addCircleArc(p[1], centre, p[2]),
+                                 occ::addLine(p[2], p[3]), occ::addCircleArc(p[3], centre, p[0])});
+  gmsh::vectorpair parts, curves;
+  occ::extrude({{2, occ::addPlaneSurface({wire})}}, 0, 0, 1, parts, {1}, {}, true);
+  occ::synchronize();
+  gmsh::model::getEntities(curves, 1);
+  for (const auto& curve : curves) {
+    std::string type;
+    gmsh::model::getType(1, curve.second, type);
+    gmsh::model::mesh::setTransfiniteCurve(curve.second, type == "Circle" ? n_around + 1 : 2);
+  }
+  gmsh::model::mesh::setTransfiniteSurface(1);
+  gmsh::model::mesh::setRecombine(2, 1);
+  gmsh::option::setNumber("Mesh.SecondOrderIncomplete", of_20_nodes ? 1 : 0);
+  gmsh::model::mesh::generate(3);
+  gmsh::model::mesh::setOrder(2);
+}
+
+// Straight cells in their place lost 10 % of a bar's section with 8 of them around, which no error told of.
+TEST(Imported, HexahedraThatAreTooCurvedToBecomeStraightAreRefused) {
+  for (const bool of_20_nodes : {false, true}) {
+    const auto coarse = written("tube.msh", [&] { quarter_of_a_tube(4, of_20_nodes); });
+    expect_words(refused(import_of(coarse, {})),
+                 {"tube.msh", "second order are curved by up to 0.0492", "taken for straight", "tetrahedra"});
+    const auto fine = written("tube.msh", [&] { quarter_of_a_tube(16, of_20_nodes); });
+    EXPECT_EQ(meshes::build_imported(import_of(fine, {})).cells->n_cells(), 16u);
+  }
+}
+
+// A plate of 300 mm whose mesh gmsh had written in mm was 300 m long, and its stress a millionth.
+TEST(Imported, AMshTooLargeForMetresHasToSayItsUnit) {
+  const auto msh = written("large.msh", [] {
+    occ::addBox(0, 0, 0, 300, 40, 40);
+    occ::synchronize();
+    gmsh::option::setNumber("Mesh.MeshSizeMin", 40);
+    gmsh::model::mesh::generate(3);
+  });
+  auto import = import_of(msh, {});
+  expect_words(refused(import),
+               {"large.msh", "305 m from corner to corner", "length_unit", "\"1 mm\"", "\"1 m\""});
+  for (const double unit_m : {1e-3, 1.0}) {
+    import.scale_to_m = unit_m;
+    EXPECT_NEAR(
+        read_tetrahedra(meshes::build_imported(import)).volume_m3 / (300 * 40 * 40 * std::pow(unit_m, 3)), 1,
+        1e-9);
+  }
+}
+
+// "Make the box larger" was no remedy: all of the surface was one piece.
+TEST(Imported, AMshWithoutCellsOnItsSurfacesIsToldSo) {
+  const auto msh = written("volume.msh", [] {
+    occ::addBox(0, 0, 0, 1, 1, 1);
+    occ::synchronize();
+    gmsh::model::addPhysicalGroup(3, {1});
+    gmsh::model::mesh::generate(3);
+  });
+  EXPECT_NO_THROW(meshes::build_imported(import_of(msh, {})));
+  for (const auto& port :
+       {box("foot", -1e-6, 1e-6), ImportPort{"foot", Port::Kind::face, GroupSelection{"foot"}}})
+    expect_words(refused(import_of(msh, {port})), {"volume.msh", "port foot", "no cells on its surfaces"});
+}
+
 TEST(Imported, GroupsWithNamesThatTablesCannotCarryAreRefused) {
   const auto msh = written("grouped.msh", [&] { grouped_boxes(1, 4.1, false); });
   std::ifstream in(msh);
@@ -294,6 +460,40 @@ TEST(Imported, GroupsWithNamesThatTablesCannotCarryAreRefused) {
     std::ofstream(msh, std::ios::trunc) << renamed;
     expect_words(refused(import_of(msh, {})), {"grouped.msh", "physical group 21", "rename it"});
   }
+}
+
+/// Two by two cubes; the middle nodes of one side are there twice, so that the cells above and below them are
+/// not joined by their face.
+std::filesystem::path cubes_with_a_slit(bool slit) {
+  const auto file = temporary_msh("slit");
+  std::ofstream out(file);
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << (slit ? 20 : 18) << '\n';
+  const auto node = [](int x, int y, int z) { return 1 + x + 3 * y + 6 * z; };
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 3; ++x) out << node(x, y, z) << ' ' << x << ' ' << y << ' ' << z << '\n';
+  if (slit) out << "19 2 0 1\n20 2 1 1\n";
+  out << "$EndNodes\n$Elements\n4\n";
+  int n = 0;
+  for (int z = 0; z < 2; ++z)
+    for (int x = 0; x < 2; ++x) {
+      out << ++n << " 5 2 1 1";
+      for (int top = 0; top < 2; ++top)
+        for (const auto& [dx, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+          const bool twice = slit && z == 1 && top == 0 && x + dx == 2;
+          out << ' ' << (twice ? 19 + y : node(x + dx, y, z + top));
+        }
+      out << '\n';
+    }
+  out << "$EndElements\n";
+  return file;
+}
+
+// A part of which two faces lie on one another without sharing nodes was solved with a slit.
+TEST(Imported, CellsThatTouchWithoutSharingNodesAreRefused) {
+  EXPECT_NO_THROW(meshes::build_imported(import_of(cubes_with_a_slit(false), {})));
+  expect_words(refused(import_of(cubes_with_a_slit(true), {})),
+               {"slit", "1 faces of its cells lie on others", "(1500, 500, 1000) mm", "Coherence Mesh"});
 }
 
 TEST(Imported, HexahedraPassThrough) {

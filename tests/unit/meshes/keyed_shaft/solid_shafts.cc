@@ -138,8 +138,8 @@ TEST(SolidShaft, KeywaysTakeTheirVolume) {
 }
 
 // A keyway elsewhere does not change what is left out beside a shoulder without a fillet: 0.1 of the smaller
-// diameter, 3 mm, as on blocks. Elsewhere it is 1 % of the diagonal, and an exclusion that was asked for
-// holds everywhere.
+// diameter, 3 mm, as on blocks. Elsewhere it is 1 % of the diagonal of a box with the shaft's radius of
+// gyration, and an exclusion that was asked for holds everywhere.
 TEST(SolidShaft, LeavesOutAtShouldersWhatBlocksLeaveOut) {
   const auto shaft = keyed_shaft();
   const Keyway key{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, true};
@@ -153,7 +153,16 @@ TEST(SolidShaft, LeavesOutAtShouldersWhatBlocksLeaveOut) {
   // Chords of 16 cells around would run 0.3 mm inside the circle; 2 um are the parabolas'.
   for (const auto& [from, to] : edges[0].pieces)
     EXPECT_NEAR(std::hypot(from[0] + to[0], from[1] + to[1]) / 2, 0.015, 1e-5);
-  EXPECT_NEAR(edges[1].distance_m, 0.01 * std::hypot(0.18, 0.05, 0.05), 1e-4);  // of the polygon's box
+  double volume = 0, first = 0, second = 0;  // of the discs, about z = 0
+  for (const auto& s : shaft.segments) {
+    const double r = s.diameter_m / 2, length = s.end_m - s.begin_m, z = (s.begin_m + s.end_m) / 2,
+                 its_volume = pi * r * r * length;
+    volume += its_volume;
+    first += its_volume * z;
+    second += its_volume * (r * r / 2 + length * length / 12 + z * z);
+  }
+  const double size_m = std::sqrt(12 * (second - first * first / volume) / volume);
+  EXPECT_NEAR(edges[1].distance_m, 0.01 * size_m, 1e-5);  // the key and the fillets
   control.exclusion_m = 0.001;
   for (const auto& edge : meshes::build_solid_shaft(shaft, {key}, control).sharp_edges)
     EXPECT_EQ(edge.distance_m, 0.001) << edge.name;

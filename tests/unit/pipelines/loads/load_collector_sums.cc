@@ -266,4 +266,19 @@ TEST(LoadCollector, RefusesWhatItCannotPlace) {
   EXPECT_THROW(body().region("exciter"), std::out_of_range);
 }
 
+// Faces across an axis along x have their middles at one z, but for what their meshes make of it: a moment of
+// 1 N m asked for forces of 1e5 N there.
+TEST(LoadCollector, RefusesBearingsThatAreHardlyApart) {
+  const auto react = [](double apart_m) {
+    auto loaded = body();
+    loaded.ports[4].begin_m = loaded.ports[3].begin_m + apart_m;
+    loaded.ports[4].end_m = loaded.ports[3].end_m + apart_m;
+    LoadCollector collector(loaded, {"a"}, n, 100);
+    collector.tilt("pad", "a", Array2Xd::Ones(2, n));
+    collector.react("first", "second");
+  };
+  EXPECT_THROW(react(1e-5), std::invalid_argument);
+  EXPECT_NO_THROW(react(0.01));
+}
+
 }  // namespace
