@@ -105,6 +105,9 @@ TEST(Promises, AZoneIsKnownAsWellAsItsOwnCellsTell) {
               figure(solid[i], "error_Pa") + figure(harmonics[i], "error_Pa"))
         << i;
   EXPECT_LE(figure(solid[1], "error_Pa"), 0.1 * figure(solid[1], "peak_von_mises_Pa"));
+  // Harmonics had one point inside below eight cells on the fillet, and 3.2 mm3.
+  EXPECT_NEAR(figure(solid[0], "volume_m3"), figure(harmonics[0], "volume_m3"),
+              0.1 * figure(solid[0], "volume_m3"));
 }
 
 // One mesh with two cells on the fillet's quarter finds the seat: its stated error has to reach the fillet.
