@@ -167,6 +167,12 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
   return std::max(judged, here > 0 ? std::min(there, judged * there / here) : there);
 }
 
+double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {
+  if (judged_place(analysis, feature) == nullptr) return std::numeric_limits<double>::infinity();
+  return error_share_at(analysis, feature, node, analysis.loads.history,
+                        analysis.envelope.von_mises.instant[node]);
+}
+
 ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
   return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
                        geometry_share(analysis.geometry_error, analysis.responses.nodes, point),

@@ -37,6 +37,8 @@ void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& j
 /// @return infinite if the feature is not judged
 double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
                       const ChannelHistory& loads, std::int32_t instant);
+/// Of the largest stress there over the cycle.
+double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node);
 
 /// What the mesh and the loads tell of the error at a point (self_estimate).
 ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis);

@@ -187,9 +187,8 @@ public:
       worst = std::move(place);
       worst_node = node;
     }
-    const double error_share = error_share_at(analysis_, feature, worst_node, analysis_.loads.history,
-                                              analysis_.envelope.von_mises.instant[worst_node]);
-    auto place = at(worst_node, error_share, Directions::stationary, counted);
+    auto place =
+        at(worst_node, error_share_at(analysis_, feature, worst_node), Directions::stationary, counted);
     place.feature = feature;
     place.effect_share = shares_by_effect(counted, rules_.design_curve(counted.all()), shares_.n_effects());
     return place;
