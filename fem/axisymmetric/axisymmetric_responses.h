@@ -21,8 +21,8 @@ namespace fem {
 /// Stress that the eccentric cylinder makes by itself (spin) is off by its eccentricity over its radius.
 ///
 /// Stress: derivatives of the displacement (degree 3: third order), mean of the cells at a point. Nodes: the
-/// corners and middles of the surface's edges, the corners of the body's cells inside, before they are cut,
-/// and the centres of those at the surface, on n_angles half planes. So a peak around is met to
+/// corners and middles of the surface's edges, corners and centres of the cells there as they are cut, and
+/// the corners of larger cells inside, on n_angles half planes. So a peak around is met to
 /// 1 - cos(pi m / n_angles), 0.2 % at m = 1. On the axis there is one node, with one tensor.
 /// Cells and faces have degree 1 and only show the result (revolved_nodes.h): no stress can be recovered from
 /// them. Sections, rings and resultants are those of the solid; `energy_error` stays empty.

@@ -22,6 +22,7 @@ namespace fem {
 namespace {
 
 using DofCell = dealii::DoFHandler<2>::active_cell_iterator;
+using Cell = dealii::Triangulation<2>::cell_iterator;
 using Line = dealii::Triangulation<2>::face_iterator;
 using Ends = std::pair<unsigned, unsigned>;
 
@@ -73,7 +74,8 @@ public:
   MeridianGrid build() {
     const MeridianNumbering numbering(dofs_);
     place_nodes(numbering);
-    for (const auto& cell : mesh_.cell_iterators_on_level(0)) add_polygon(cell);
+    for (const auto& cell : mesh_.cell_iterators_on_level(0)) show(cell);
+    for (const auto& cell : shown_) add_polygon(cell);
     grid_.planes.resize(planes_.size());
     seen_m_.assign(planes_.size(), {0, 0});
     integrate(numbering);
@@ -106,15 +108,24 @@ private:
     return known->second;
   }
 
-  /// The edges of the surface from `begin` to `end`, which a line of the first level is cut into.
-  void add_edges(const Line& line, unsigned begin, unsigned end, ResultPolygon& polygon) {
-    if (line->has_children()) {
-      const unsigned middle = line->child(0)->vertex_index(1);
-      const unsigned first = line->vertex_index(0) == begin ? 0 : 1;
-      add_edges(line->child(first), begin, middle, polygon);
-      add_edges(line->child(1 - first), middle, end, polygon);
+  static bool is_on_surface(const Line& line) { return line->at_boundary() && line->boundary_id() != 0; }
+  static bool is_at_surface(const Cell& cell) {
+    return std::any_of(sides.begin(), sides.end(),
+                       [&](const Side& side) { return is_on_surface(cell->face(side.face)); });
+  }
+
+  /// At the surface cells are shown as they are cut, down to the last ones; others as they are beside these.
+  void show(const Cell& cell) {
+    if (cell->has_children() && is_at_surface(cell)) {
+      for (unsigned c = 0; c < cell->n_children(); ++c) show(cell->child(c));
       return;
     }
+    polygon_of_[{cell->level(), cell->index()}] = shown_.size();
+    shown_.push_back(cell);
+    for (unsigned v = 0; v < 4; ++v) point_at(cell->vertex_index(v));
+  }
+
+  void add_edge(const Line& line, unsigned begin, unsigned end, ResultPolygon& polygon) {
     SurfaceEdge edge;
     edge.boundary_id = int(line->boundary_id());
     edge.result_points = {point_at(begin), new_point(), point_at(end)};
@@ -123,19 +134,32 @@ private:
     grid_.edges.push_back(edge);
   }
 
-  void add_polygon(const dealii::Triangulation<2>::cell_iterator& cell) {
-    ResultPolygon polygon;
-    bool on_surface = false;
-    for (const auto& side : sides) {
-      const auto line = cell->face(side.face);
-      if (line->at_boundary() && line->boundary_id() != 0) {
-        on_surface = true;
-        add_edges(line, cell->vertex_index(side.begin), cell->vertex_index(side.end), polygon);
-      } else {
-        polygon.points.push_back(point_at(cell->vertex_index(side.begin)));
+  /// The points on a line inside, from `begin` on and without `end`: those of smaller cells on its other side
+  /// as well.
+  void add_line(const Line& line, unsigned begin, unsigned end, ResultPolygon& polygon) {
+    if (line->has_children()) {
+      const unsigned middle = line->child(0)->vertex_index(1);
+      if (vertex_.count(middle) != 0) {
+        const unsigned first = line->vertex_index(0) == begin ? 0 : 1;
+        add_line(line->child(first), begin, middle, polygon);
+        add_line(line->child(1 - first), middle, end, polygon);
+        return;
       }
     }
-    if (on_surface)
+    polygon.points.push_back(point_at(begin));
+  }
+
+  void add_polygon(const Cell& cell) {
+    ResultPolygon polygon;
+    for (const auto& side : sides) {
+      const auto line = cell->face(side.face);
+      const unsigned begin = cell->vertex_index(side.begin), end = cell->vertex_index(side.end);
+      if (is_on_surface(line))
+        add_edge(line, begin, end, polygon);
+      else
+        add_line(line, begin, end, polygon);
+    }
+    if (polygon.points.size() > 4)
       polygon.centre = cell->has_children() ? point_at(cell->child(0)->vertex_index(3)) : new_point();
     grid_.polygons.push_back(polygon);
   }
@@ -155,7 +179,8 @@ private:
         points[v] = known->second;
     for (unsigned f = 0; f < 4; ++f)
       if (const auto* edge = edge_of(cell, f)) points[first_middle + f] = edge->result_points[1];
-    if (cell->level() == 0) points[centre_point] = grid_.polygons[std::size_t(cell->index())].centre;
+    if (const auto shown = polygon_of_.find({cell->level(), cell->index()}); shown != polygon_of_.end())
+      points[centre_point] = grid_.polygons[shown->second].centre;
     if (std::all_of(points.begin(), points.end(), [](int p) { return p < 0; })) return;
     values.reinit(cell);
     for (unsigned q = 0; q < points.size(); ++q) {
@@ -206,9 +231,9 @@ private:
 
   void integrate_cell(const DofCell& cell, const MeridianNumbering::OfCell& numbers,
                       const dealii::FEValues<2>& inside) {
-    auto base = static_cast<dealii::Triangulation<2>::cell_iterator>(cell);
-    while (base->level() > 0) base = base->parent();
-    double& volume_m3 = grid_.polygons[std::size_t(base->index())].volume_m3;
+    auto shown = static_cast<Cell>(cell);
+    while (polygon_of_.count({shown->level(), shown->index()}) == 0) shown = shown->parent();
+    double& volume_m3 = grid_.polygons[polygon_of_.at({shown->level(), shown->index()})].volume_m3;
     grid_.cell_points.emplace_back();
     for (unsigned q = 0; q < inside.n_quadrature_points; ++q) {
       grid_.cell_points.back().push_back(point_of(inside, numbers, int(cell->active_cell_index()), q));
@@ -268,6 +293,8 @@ private:
   dealii::DoFHandler<2> dofs_;
   MeridianGrid grid_;
   double axis_r_m_ = 0;
+  std::vector<Cell> shown_;                                ///< by polygon
+  std::map<std::pair<int, int>, std::size_t> polygon_of_;  ///< by a shown cell's level and index
   std::map<unsigned, int> vertex_;
   std::map<Ends, std::size_t> edge_of_;
   std::vector<std::array<double, 2>> seen_m_;  // length of each plane from above and from below

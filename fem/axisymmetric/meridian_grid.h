@@ -37,9 +37,9 @@ struct ResultPoint {
   bool on_axis() const { return r_m == 0; }
 };
 
-/// A cell of MeridianBody as the result shows it: a polygon through the points of its surface edges, however
-/// often these are cut, and through its own corners. With a centre it is a fan of triangles around that,
-/// without one a quadrilateral.
+/// A cell as the result shows it: at the surface one that is cut no more, inside one of those beside these. A
+/// polygon through its corners, the middles of its surface edges and the corners of smaller neighbours. With
+/// a centre it is a fan of triangles around that, without one a quadrilateral.
 struct ResultPolygon {
   std::vector<int> points;  ///< counter-clockwise in (z, r)
   int centre = -1;

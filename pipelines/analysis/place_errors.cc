@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fem/submodel/submodel.h"
 #include "pipelines/analysis/exclusion_border.h"
@@ -61,6 +62,25 @@ void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, std::vector<
           submodel_error_Pa({{{place.node, 1.0}}, analysis.envelope.von_mises.instant[place.node]}, responses,
                             body, analysis.loads, analysis.places.excluded);
     }
+}
+
+/// What the mesh tells of the stress at a node of a feature, relative; 0 where nothing is stressed or no
+/// cells were solved.
+double own_share(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+                 const ChannelHistory& loads, std::int32_t instant) {
+  const StressPoint point{{{node, 1.0}}, instant};
+  const double value_Pa = von_mises_of(unit_stress_at(analysis.responses, point), loads.values.col(instant));
+  const auto entry = discretisation_estimate(point, analysis.responses, loads, analysis.scene.material,
+                                             analysis.places.excluded);
+  if (!entry || !(value_Pa > 0)) return 0;
+  const int cells = cells_on_quarter(analysis, {feature, node});
+  return std::min(1.0, std::max(entry->value_Pa / value_Pa, cells > 0 ? for_want_of_cells(cells) : 0.0));
+}
+
+const PlaceStress* judged_place(const BodyAnalysis& analysis, const std::string& feature) {
+  for (const auto& place : analysis.place_stresses)
+    if (place.feature == feature) return &place;
+  return nullptr;
 }
 
 std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
@@ -161,11 +181,45 @@ void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& j
   take_zone_errors(analysis);
 }
 
+double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+                      const ChannelHistory& loads, std::int32_t instant) {
+  const auto* place = judged_place(analysis, feature);
+  if (place == nullptr) return std::numeric_limits<double>::infinity();
+  if (!(place->value_Pa > 0)) return 0;
+  const double judged = place->error_Pa / place->value_Pa;
+  if (node == place->node) return judged;
+  const double there = own_share(analysis, feature, node, loads, instant);
+  const double here = own_share(analysis, feature, place->node, analysis.loads.history,
+                                analysis.envelope.von_mises.instant[place->node]);
+  return std::max(judged, here > 0 ? std::min(there, judged * there / here) : there);
+}
+
+double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {
+  if (judged_place(analysis, feature) == nullptr) return std::numeric_limits<double>::infinity();
+  return error_share_at(analysis, feature, node, analysis.loads.history,
+                        analysis.envelope.von_mises.instant[node]);
+}
+
+ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
+  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
+                       geometry_share(analysis.geometry_error, analysis.responses.nodes, point),
+                       analysis.places.excluded);
+}
+
 void take_zone_errors(BodyAnalysis& analysis) {
-  for (auto& zone : analysis.zones.zones)
-    for (const auto& place : analysis.place_stresses)
-      if (place.feature == zone.feature && place.value_Pa > 0)
-        zone.error_Pa = place.error_Pa * zone.peak_Pa / place.value_Pa;
+  auto& zones = analysis.zones.zones;
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    auto& zone = zones[i];
+    const auto* place = judged_place(analysis, zone.feature);
+    if (place == nullptr || !(place->value_Pa > 0)) continue;
+    const double error_Pa = zone.peak_Pa * error_share_at(analysis, zone.feature, zone.peak_node,
+                                                          analysis.loads.history, zone.instant);
+    zone.error_Pa = error_Pa;
+    if (i >= n_zones_shown) continue;
+    auto errors = errors_at({{{zone.peak_node, 1.0}}, zone.instant}, analysis);
+    errors.set_numerical({"discretisation", "as judged of its place", error_Pa});
+    zone.error_Pa = errors.numerical_Pa();
+  }
 }
 
 }  // namespace pipelines

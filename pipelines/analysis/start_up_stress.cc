@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/shaft_torsion.h"
-#include "pipelines/analysis/weld_places.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/finite_stress.h"
 #include "pipelines/superposition/stress_shares.h"
@@ -27,7 +27,7 @@ void add_peak(const BodyAnalysis& analysis, const BodyLoads& loads, int n_thread
   result.place = analysis.places.place[node];
   std::copy_n(&analysis.responses.nodes.xyz_m[3 * node], 3, result.position_m.begin());
   result.safety = analysis.scene.yield_strength_Pa / result.von_mises.largest;
-  result.error_share = error_share_of(analysis, result.feature);
+  result.error_share = error_share_at(analysis, result.feature, node, loads.history, maximum.instant[node]);
   result.effects = loads.history.effects;
   result.effect_share =
       shares_of_stress(unit_stresses_at(analysis.responses, node), loads.history, maximum.instant[node])

@@ -18,12 +18,6 @@
 namespace pipelines {
 namespace {
 
-ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
-  return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
-                       geometry_share(analysis.geometry_error, analysis.responses.nodes, point),
-                       analysis.places.excluded);
-}
-
 Peak headline(const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;

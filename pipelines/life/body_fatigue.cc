@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/place_stress.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/common/parallel.h"
@@ -228,7 +229,8 @@ FatiguePlace place_of(const std::string& feature, const JudgedNode& worst,
   place.support = limit.support;
   place.endurance_Pa = limit.amplitude_Pa;
   place.safety = place.cycle.amplitude_Pa > 0 ? limit.amplitude_Pa / place.cycle.amplitude_Pa : never;
-  place.error_share = error_share_of(analysis, feature) + search.unresolved_share(worst.node, worst.counted);
+  place.error_share =
+      error_share_at(analysis, feature, place.node) + search.unresolved_share(worst.node, worst.counted);
   take_life(rules, worst.counted, period, place);
   place.others = second_opinions(rules, worst.node, by_lines, search);
   place.effect_share = shares_of_change(unit_stresses_at(analysis.responses, place.node),

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kinetics/load_spectrum.h"
+#include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/time_sampling.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/common/parallel.h"
@@ -179,15 +180,15 @@ public:
     }));
     std::optional<DutyPlace> worst;
     std::size_t worst_node = 0;
-    const double error_share = error_share_of(analysis_, feature);
     CountedBlocks counted;
     for (const auto node : candidates) {
-      auto place = at(node, error_share, Directions::about, counted);
+      auto place = at(node, 0, Directions::about, counted);
       if (worst && !is_worse(place, *worst)) continue;
       worst = std::move(place);
       worst_node = node;
     }
-    auto place = at(worst_node, error_share, Directions::stationary, counted);
+    auto place =
+        at(worst_node, error_share_at(analysis_, feature, worst_node), Directions::stationary, counted);
     place.feature = feature;
     place.effect_share = shares_by_effect(counted, rules_.design_curve(counted.all()), shares_.n_effects());
     return place;

@@ -104,6 +104,38 @@ TEST(HarmonicsInside, CellsFillTheBody) {
   for (const auto& [corners, n] : faces) EXPECT_EQ(n, 2);
 }
 
+// Cells at the surface are shown as they are cut, and with them what decays below it: the point next inside
+// was 14 times as deep as a face long, now at most 6 times, which the first cells are by themselves.
+TEST(HarmonicsInside, CellsAtTheSurfaceAreAsDeepAsLong) {
+  Stepped shaft;
+  shaft.section.n_cuts = 1;
+  shaft.section.fine_circles = {{-0.023, 0.0158, 0.0001}};
+  const auto r = fem::axisymmetric_responses(shaft.section, {shaft.loads.front()});
+  const auto& nodes = r.nodes;
+  const auto half_plane = [&](std::int32_t i) {
+    return Eigen::Vector2d(nodes.xyz_m[3 * std::size_t(i) + 2], radius_of(nodes, std::size_t(i)));
+  };
+  std::map<std::set<std::int32_t>, double> length_m;  // of faces, along the half plane
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    length_m[std::set<std::int32_t>(face.begin(), face.end())] =
+        (half_plane(face[0]) - half_plane(face[1])).norm();
+  }
+  int n_fine = 0;
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto cell = nodes.cell(c);
+    const std::set<std::int32_t> corners(cell.begin(), cell.end());
+    for (const auto& [face, own_m] : length_m) {
+      if (own_m > 0.00015 || !std::includes(corners.begin(), corners.end(), face.begin(), face.end()))
+        continue;
+      ++n_fine;
+      for (const auto i : corners)
+        EXPECT_LE((half_plane(i) - half_plane(*face.begin())).norm(), 8 * own_m) << c;
+    }
+  }
+  EXPECT_GT(n_fine, 0);
+}
+
 // A long solid cylinder that turns, plane strain across its middle: on the axis both stresses across are
 // rho (3 - 2 nu) / (8 (1 - nu)) b^2; along it they make no force (Timoshenko and Goodier, article 119).
 TEST(HarmonicsInside, SpinPeaksOnTheAxis) {
