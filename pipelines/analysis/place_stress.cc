@@ -6,24 +6,21 @@
 namespace pipelines {
 namespace {
 
-/// Nodes inside that share a cell with a higher one on the surface: their stress rises towards that, which is
-/// a place of its own. Beside what is left out the border has the highest stress, and nothing is said.
-std::vector<char> below_the_surface(const fem::Nodes& nodes, const std::vector<double>& von_mises_Pa,
-                                    const NodePlaces& places) {
-  std::vector<char> below(nodes.n, 0);
+/// Nodes that share a cell with a higher one: their stress rises towards that. Beside what is left out the
+/// border has the highest stress, and nothing is said.
+std::vector<char> beside_higher_ones(const fem::Nodes& nodes, const std::vector<double>& von_mises_Pa,
+                                     const NodePlaces& places) {
+  std::vector<char> beside(nodes.n, 0);
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
     const auto cell = nodes.cell(c);
     if (std::any_of(cell.begin(), cell.end(), [&](auto i) { return places.excluded[std::size_t(i)] != 0; }))
       continue;
-    double on_surface_Pa = 0;
+    double largest_Pa = 0;
+    for (const auto i : cell) largest_Pa = std::max(largest_Pa, von_mises_Pa[std::size_t(i)]);
     for (const auto i : cell)
-      if (places.feature[std::size_t(i)] >= 0)
-        on_surface_Pa = std::max(on_surface_Pa, von_mises_Pa[std::size_t(i)]);
-    for (const auto i : cell)
-      if (places.feature[std::size_t(i)] < 0 && von_mises_Pa[std::size_t(i)] < on_surface_Pa)
-        below[std::size_t(i)] = 1;
+      if (von_mises_Pa[std::size_t(i)] < largest_Pa) beside[std::size_t(i)] = 1;
   }
-  return below;
+  return beside;
 }
 
 }  // namespace
@@ -49,9 +46,9 @@ std::vector<PlaceStress> largest_by_feature(const fem::Nodes& nodes, const std::
   for (std::size_t face = 0; face < nodes.n_faces(); ++face)
     for (const auto node : nodes.face(face))
       consider(by_id.at(nodes.face_boundary_id[face]), std::size_t(node));
-  const auto below = below_the_surface(nodes, von_mises_Pa, places);
+  const auto beside = beside_higher_ones(nodes, von_mises_Pa, places);
   for (std::size_t node = 0; node < nodes.n; ++node)
-    if (places.feature[node] < 0 && below[node] == 0) consider(features.size(), node);
+    if (places.feature[node] < 0 && beside[node] == 0) consider(features.size(), node);
   std::vector<PlaceStress> result;
   double on_surface_Pa = 0;
   for (std::size_t place = 0; place + 1 < largest.size(); ++place)
