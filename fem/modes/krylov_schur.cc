@@ -301,8 +301,9 @@ Eigenpairs lowest_modes(const VibrationProblem& problem, int n_modes) {
         i == 1 && problem.start.size() > 0 ? problem.start : pseudo_random(n_rows, i);
     const int n_most = i == 1 ? n_modes : n_modes / 4 + 1;  // the first search leaves little to the others
     const auto more = search_beside(petsc, problem, found, n_modes, n_most, start);
-    const bool is_last = found.value.size() >= n_modes &&
-                         more.value[0] >= found.value[n_modes - 1] * (1 - converged);  // the same again, or higher
+    const bool is_last =
+        found.value.size() >= n_modes &&
+        more.value[0] >= found.value[n_modes - 1] * (1 - converged);  // the same again, or higher
     if (is_last) return {found.value.head(n_modes), found.vector.leftCols(n_modes)};
     found = joined(found, more);
   }
