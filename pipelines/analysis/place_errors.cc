@@ -19,8 +19,8 @@ namespace {
 /// Of the largest stress: below it a place is taken to be as wrong as it can be.
 constexpr double worth_a_look = 0.4;
 
-/// A bored shaft may have a single cell through its wall. In a disc that spins, whose outer
-/// radius is four times the inner, the stress at the bore was off by 4.4 times what single cells differ by:
+/// A bored shaft may have a single cell through its wall. In a disc that spins, whose outer radius is four
+/// times the inner, the stress at the bore was off by 4.4 times what single cells differ by;
 /// discretisation_safety takes three.
 constexpr double safety_of_few_rows = 1.5;
 

@@ -149,8 +149,7 @@ void compare(const std::string& name, const fem::Body& body, const std::vector<f
                         std::to_string(int(control.smoothing_range));
     row = {method.c_str(), (other.converged ? "" : "> ") + std::to_string(other.n_steps), "",
            other.set_up_cpu_s, other.solve_cpu_s};
-    for (const auto n : other.n_dofs_below)
-      row.levels += (row.levels.empty() ? "" : ", ") + std::to_string(n);
+    for (const auto n : other.n_dofs) row.levels += (row.levels.empty() ? "" : ", ") + std::to_string(n);
     const double apart = difference(motion_free(Eigen::Map<Eigen::MatrixXd>(
                                         other.displacement.data(), 3 * Eigen::Index(grid.n_nodes), n_loads)),
                                     answer);

@@ -297,7 +297,7 @@ void solve(const MultigridProblem& problem, const MultigridControl& control, Mul
     coarser.back()->coarsen_global();
     spaces.push_back(std::make_unique<Space>(*coarser.back(), 1, nullptr));
   }
-  for (const auto& space : spaces) answer.n_dofs_below.push_back(space->unknowns.n_dofs());
+  for (const auto& space : spaces) answer.n_dofs.push_back(space->unknowns.n_dofs());
   std::reverse(spaces.begin(), spaces.end());  // as deal.II counts levels
   const unsigned finest = static_cast<unsigned>(spaces.size()) - 1;
   const auto pins = choose_pins(*problem.mesh);
@@ -336,7 +336,6 @@ void solve(const MultigridProblem& problem, const MultigridControl& control, Mul
 
   const auto ours = our_numbers(*spaces[finest], *problem.grid);
   const std::size_t n = 3 * problem.grid->n_nodes;
-  answer.n_dofs = ours.size();
   answer.n_lanes = int(n_wide_lanes<double>);
   answer.displacement.assign(n * problem.n_loads, 0);
   Vector<double> u, f;

@@ -29,10 +29,9 @@ struct MultigridControl {
 };
 
 struct MultigridAnswer {
-  std::size_t n_dofs = 0;                 ///< constrained ones too
-  std::vector<std::size_t> n_dofs_below;  ///< of the levels, the finest first
-  int n_lanes = 0, n_steps = 0;           ///< numbers in double; most steps of a load
-  bool converged = true;                  ///< all loads
+  std::vector<std::size_t> n_dofs;  ///< of the levels, constrained ones too; the finest first
+  int n_lanes = 0, n_steps = 0;     ///< numbers in double; most steps of a load
+  bool converged = true;            ///< all loads
   double set_up_cpu_s = 0, solve_cpu_s = 0;
   std::vector<double> displacement;  ///< as the force, with some rigid motion
 };

@@ -1,0 +1,113 @@
+/// Loads that the instants of a run pass over: what the stated errors make of them.
+#include <cmath>
+#include <sstream>
+
+#include "tests/cases/program.h"
+
+using namespace cases;
+
+// A shock of a tenth of the load, half a degree wide, between two instants. Red if the stated error knows the
+// instants alone: 15.3 +- 0.05 MPa, "the tolerance is met", where 16.7 is right.
+TEST(BetweenInstants, ShocksAreInTheError) {
+  const results_test::Directory directory;
+  std::ostringstream samples;
+  samples.precision(17);
+  samples << "angle [deg],pulley.fx [N]\n";
+  for (int i = 0; i < 3600; ++i) {
+    const double angle = 0.1 * i;
+    samples << angle << ','
+            << 1000 * std::cos(angle * M_PI / 180) + 95 * std::exp(-std::pow((angle - 1.5) / 0.5, 2)) << '\n';
+  }
+  write(directory / "shock.csv", samples.str());
+  write(directory / "shock.toml", R"(
+effects = "all"
+[machine]
+type = "load_table"
+speed = "960 rpm"
+files = [{ effect = "belt", file = "shock.csv" }]
+[shaft]
+contour = [
+  { port = "pulley", diameter = "30 mm", length = "40 mm" },
+  { fillet = "1.5 mm" },
+  { port = "bearing_1", diameter = "35 mm", length = "20 mm" },
+  { fillet = "1 mm" },
+  { port = "roller", diameter = "42 mm", length = "90 mm" },
+  { fillet = "1 mm" },
+  { port = "bearing_2", diameter = "35 mm", length = "20 mm" },
+]
+bearings = ["bearing_1", "bearing_2"]
+[shaft.material]
+name = "C45+N"
+youngs_modulus = "206 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "305 MPa"
+[shaft.fatigue]
+tensile_strength = "590 MPa"
+[results]
+snapshots = 0
+pictures = false
+)");
+  const auto peak_of = [&](const std::string& arguments) {
+    const auto run = as_a_user(directory.path, "run shock.toml --method axisymmetric -o r " + arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return summary(directory / "r")["bodies"]["shaft"];
+  };
+  const double right_Pa =
+      peak_of("--tolerance none --set sampling.instants_per_turn=3600")["peak_von_mises"]["value"];
+  const auto few = peak_of("--tolerance none");
+  const double value_Pa = few["peak_von_mises"]["value"];
+  EXPECT_LT(value_Pa, 0.95 * right_Pa);
+  EXPECT_NEAR(few["peak_von_mises"]["error"]["time_sampling"].get<double>(), right_Pa - value_Pa,
+              0.01 * right_Pa);
+  // A life knows it too: half of the peak's share at least, as the shock is on one side of the cycle.
+  EXPECT_NEAR(few["fatigue"]["places"][0]["stress_error"].get<double>(), 0.08, 0.04);
+
+  const auto searched = peak_of("--tolerance '5 %'");
+  EXPECT_TRUE(searched["search"]["met"].get<bool>());
+  EXPECT_NEAR(searched["peak_von_mises"]["value"].get<double>(), right_Pa,
+              searched["peak_von_mises"]["error"]["numerical"].get<double>());
+}
+
+// Teeth that mesh 24 times a turn, with 24 instants, which meet them at the same place, and with 72. Red if
+// the stated error knows the instants alone.
+TEST(BetweenInstants, HarmonicsThatAliasAreInTheError) {
+  const results_test::Directory directory;
+  write(directory / "teeth.toml",
+        edited("root_peeler_shaft.toml",
+               {{"[[machine.excitations]]\nname = \"peeling_torque\"", R"([[machine.excitations]]
+name = "teeth"
+inertia = "driven_pulley"
+harmonics = [{ amplitude = "1000 N m", order = 24, phase = "90 deg" }]
+
+[[machine.excitations]]
+name = "peeling_torque")"},
+                {"\"motor_torque\", \"peeling_torque\",", "\"motor_torque\", \"peeling_torque\", \"teeth\","},
+                {"turns = 272", "turns = 8"}}));
+  const auto shaft_of = [&](int instants) {
+    const auto run = as_a_user(directory.path,
+                               "run teeth.toml --method axisymmetric --tolerance none -o r"
+                               " --set machine.transient=removed --set shaft.fatigue=removed"
+                               " --set sampling.instants_per_turn=" +
+                                   std::to_string(instants));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return summary(directory / "r")["bodies"]["shaft"];
+  };
+  const auto right = shaft_of(600);
+  const double right_Pa = right["peak_von_mises"]["value"];
+  const double torsion_Pa = right["torsion"]["max_shear_stress"]["value"];
+  for (const int instants : {24, 72}) {
+    const auto shaft = shaft_of(instants);
+    const auto& peak = shaft["peak_von_mises"];
+    const double value_Pa = peak["value"];
+    EXPECT_LT(value_Pa, 0.99 * right_Pa) << instants;
+    const auto& torsion = shaft["torsion"]["max_shear_stress"];  // 14.33 +- 0.04, 49.60 +- 0.12 of 55.05 MPa
+    const double most_Pa = torsion["value"].get<double>() + torsion["error"].get<double>();
+    if (instants == 24) {
+      EXPECT_NEAR(peak["error"]["time_sampling"].get<double>(), right_Pa - value_Pa, 0.03 * right_Pa);
+      EXPECT_LT(most_Pa, 1.1 * torsion_Pa);
+    }
+    EXPECT_LT(torsion["value"].get<double>(), 0.95 * torsion_Pa) << instants;
+    EXPECT_GT(most_Pa, 0.99 * torsion_Pa) << instants;
+  }
+}
