@@ -63,7 +63,7 @@ std::vector<std::int64_t> HarmonicSolver::held_unknowns(int m) const {
 }
 
 void HarmonicSolver::assemble(int m, const std::vector<std::int64_t>& held) {
-  std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+  matrix_.value.setZero();
   const auto elasticity = elasticity_matrix(material_);
   for (std::size_t c = 0; c < grid_->cell_nodes.size(); ++c) {
     const auto& nodes = grid_->cell_nodes[c];

@@ -16,8 +16,6 @@
 #include <limits>
 #include <string>
 
-#include "fem/common/large_memory.h"
-
 namespace fem {
 namespace {
 
@@ -104,7 +102,6 @@ void make_room(double bytes) {
 }
 
 void release_free_memory() {
-  large_memory::release_kept();
 #ifdef MILLSTRESS_JEMALLOC
   static const std::string purge = "arena." + std::to_string(MALLCTL_ARENAS_ALL) + ".purge";
   mallctl(purge.c_str(), nullptr, nullptr, nullptr, 0);
@@ -117,10 +114,11 @@ void release_free_memory() {
 
 #ifdef MILLSTRESS_JEMALLOC
 // Read by jemalloc as the program starts. A factor of gigabytes touches each of its pages once: huge ones
-// save a quarter of the seconds of a solve where pages are slow to get, as in virtual machines. What is free
-// goes back wholly, so that a limit on addresses (ulimit -v) counts what is in use.
+// save a quarter of the seconds of a solve where pages are slow to get, as in virtual machines. Large arrays
+// too are kept for a minute after their end, for those of the next mesh. What goes back goes wholly, so that
+// a limit on addresses (ulimit -v) counts what is in use.
 extern "C" {
 extern const char* malloc_conf;
-const char* malloc_conf = "thp:always,retain:false";
+const char* malloc_conf = "thp:always,retain:false,oversize_threshold:0,dirty_decay_ms:60000";
 }
 #endif

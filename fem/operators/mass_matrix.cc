@@ -17,12 +17,15 @@ SymmetricMatrix make_node_matrix(const NodeGraph& graph) {
   SymmetricMatrix matrix;
   matrix.n = static_cast<std::int64_t>(graph.n_nodes());
   matrix.column_begin.assign(1, 0);
+  std::vector<std::int64_t> rows;
   for (std::int64_t j = 0; j < matrix.n; ++j) {
-    matrix.row.push_back(j);
-    for (auto k = graph.begin[j]; k < graph.begin[j + 1]; ++k) matrix.row.push_back(graph.neighbour[k]);
-    matrix.column_begin.push_back(static_cast<std::int64_t>(matrix.row.size()));
+    rows.push_back(j);
+    rows.insert(rows.end(), graph.neighbour.begin() + graph.begin[j],
+                graph.neighbour.begin() + graph.begin[j + 1]);
+    matrix.column_begin.push_back(static_cast<std::int64_t>(rows.size()));
   }
-  matrix.value.assign(matrix.row.size(), 0.0);
+  matrix.row = Eigen::Map<const decltype(matrix.row)>(rows.data(), Eigen::Index(rows.size()));
+  matrix.value.setZero(matrix.row.size());
   return matrix;
 }
 

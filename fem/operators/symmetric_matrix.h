@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/common/large_memory.h"
 #include "fem/mesh/grid.h"
 
 namespace fem {
@@ -32,8 +31,8 @@ NodeGraph permuted(const NodeGraph& graph, const std::vector<std::int32_t>& orde
 struct SymmetricMatrix {
   std::int64_t n = 0;
   std::vector<std::int64_t> column_begin;
-  LargeVector<std::int64_t> row;
-  LargeVector<double> value;
+  Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1> row;
+  Eigen::VectorXd value;
 };
 
 /// Calls take(row node, block) for the blocks of a node's columns, rows ascending; the first one, of the node

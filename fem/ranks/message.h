@@ -43,10 +43,10 @@ public:
       for (const auto& value : values) *this << value;
     return *this;
   }
-  template <int rows, int columns, int order>
-  Message& operator<<(const Eigen::Matrix<double, rows, columns, order>& matrix) {
+  template <typename Scalar, int rows, int columns, int order>
+  Message& operator<<(const Eigen::Matrix<Scalar, rows, columns, order>& matrix) {
     *this << matrix.rows() << matrix.cols();
-    put(matrix.data(), std::size_t(matrix.size()) * sizeof(double));
+    put(matrix.data(), std::size_t(matrix.size()) * sizeof(Scalar));
     return *this;
   }
 
@@ -71,12 +71,12 @@ public:
       for (auto& value : values) *this >> value;
     return *this;
   }
-  template <int rows, int columns, int order>
-  Message& operator>>(Eigen::Matrix<double, rows, columns, order>& matrix) {
+  template <typename Scalar, int rows, int columns, int order>
+  Message& operator>>(Eigen::Matrix<Scalar, rows, columns, order>& matrix) {
     Eigen::Index n_rows = 0, n_columns = 0;
     *this >> n_rows >> n_columns;
     matrix.resize(n_rows, n_columns);
-    get(matrix.data(), std::size_t(matrix.size()) * sizeof(double));
+    get(matrix.data(), std::size_t(matrix.size()) * sizeof(Scalar));
     return *this;
   }
 

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "fem/common/large_memory.h"
 #include "fem/common/parallel.h"
 #include "fem/solvers/aggregates.h"
 #include "fem/solvers/rigid_galerkin.h"
@@ -33,7 +32,6 @@ AggregationMultigrid::AggregationMultigrid(const NodeGraph& graph, SymmetricMatr
     : kernels_(&kernels) {
   auto stiffness = full_rows(graph, matrix);
   matrix = {};
-  large_memory::release_kept();  // as large as the rows
   build(std::move(stiffness), xyz_m);
 }
 

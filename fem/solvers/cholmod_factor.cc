@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "fem/common/large_memory.h"
 #include "fem/common/parallel.h"
 #include "fem/values/errors.h"
 
@@ -91,10 +90,10 @@ NodePattern pattern_of_nodes(const NodeGraph& graph) {
 
 /// Writes to each page of new memory, on all threads. A virtual machine hands out half a gigabyte a second to
 /// one of them: that was two thirds of a factorisation's time.
-void touch(LargeVector<double>& memory) {
+void touch(Eigen::ArrayXd& memory) {
   constexpr std::size_t page = 4096 / sizeof(double);
-  parallel_for(memory.size() / page, 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) memory[page * k] = 0;
+  parallel_for(std::size_t(memory.size()) / page, 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) memory[Eigen::Index(page * k)] = 0;
   });
 }
 
@@ -105,7 +104,7 @@ struct CholmodFactor::Impl {
   std::vector<std::int32_t> node_order;  ///< CHOLMOD's own: postordered
   mutable cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  LargeVector<double> entries;  ///< the factor's: not CHOLMOD's to free
+  Eigen::ArrayXd entries;  ///< the factor's: not CHOLMOD's to free
 
   Impl() {
     cholmod_l_start(&common);
@@ -208,7 +207,7 @@ void CholmodFactor::take_memory() {
   auto& factor = *impl_->factor;
   if (factor.xtype != CHOLMOD_PATTERN) return;
   try {
-    impl_->entries.resize(factor.xsize);
+    impl_->entries.resize(Eigen::Index(factor.xsize));
   } catch (const std::bad_alloc&) {
     impl_->common.status = CHOLMOD_OUT_OF_MEMORY;
   }
@@ -227,7 +226,7 @@ void CholmodFactor::factorise(const SymmetricMatrix& matrix) {
 
 void CholmodFactor::factorise_in_order(const SymmetricMatrix& matrix) {
   const SerialOpenMp serial;
-  auto a = lower_triangle(std::size_t(matrix.n), matrix.value.size(), matrix.column_begin.data(),
+  auto a = lower_triangle(std::size_t(matrix.n), std::size_t(matrix.value.size()), matrix.column_begin.data(),
                           matrix.row.data(), matrix.value.data());
   auto& factor = *impl_->factor;
   take_memory();

@@ -35,8 +35,7 @@ public:
   /// after.
   const std::vector<std::int32_t>& node_order() const;
 
-  /// Takes the memory of the entries; factorising does it otherwise. The largest array first: it then grows
-  /// from that of the mesh before (large_memory.h).
+  /// Takes the memory of the entries; factorising does it otherwise.
   /// @throws SolveFailed if memory does not suffice
   void take_memory();
 

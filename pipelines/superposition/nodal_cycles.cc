@@ -111,7 +111,7 @@ NodalCycles nodal_cycles(const ChannelHistory& loads, const fem::UnitResponses& 
   check_channels(loads, responses);
   const WalkedFactors factors(loads.values);
   const std::size_t n = nodes.size();
-  NodalCycles result{std::move(nodes), fem::LargeVector<NodalCycle>(n)};
+  NodalCycles result{std::move(nodes), std::vector<NodalCycle>(n)};
   for_each_range(n, nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
     CycleWalk walk(loads, responses, factors);
     for (std::size_t first = begin; first < end; first += kernel::forms_at_once)

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/common/large_memory.h"
 #include "pipelines/superposition/stress_cycle.h"
 
 namespace pipelines {
@@ -18,7 +17,7 @@ struct NodalCycle {
 
 struct NodalCycles {
   std::vector<std::size_t> nodes;
-  fem::LargeVector<NodalCycle> cycles;  ///< one per node
+  std::vector<NodalCycle> cycles;  ///< one per node
 };
 
 /// The nodes of the body's faces, each once, ascending.
