@@ -103,6 +103,10 @@ TEST(GoverningStress, HarmonicsBesideAnEccentricSegmentAreOffByPascals) {
   zone.error_Pa = 0.2e6;
   zone.peak_m = {0.02, 0, 0.1};
   EXPECT_DOUBLE_EQ(*error_Pa(analysis, zone), 6.7e6);
+  // On the other side of a fillet, where the step is lower: 162 MPa, where a solid has 121.
+  zone.feature = "fillet";
+  zone.peak_Pa = 98e6;
+  EXPECT_DOUBLE_EQ(*error_Pa(analysis, zone), 0.2e6 + 2.5 * 6.5e6);
   // The largest stress may be elsewhere: what counts is the largest one beside eccentric segments.
   analysis.place_stresses[0].position_m[2] = 0.2;
   EXPECT_DOUBLE_EQ(error_Pa(analysis, analysis.place_stresses[1]), 0.2e6 + 0.06 * 19e6 + 0.5e6);
