@@ -1,6 +1,7 @@
 #include "fem/stress/cell_stress_at_node.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "fem/operators/subdomain.h"
@@ -50,6 +51,46 @@ std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
     std::copy_n(stress.data(), stress.size(), tensors.front().data());
   }
   return stress_Pa;
+}
+
+std::vector<double> largest_cell_differences_Pa(const UnitResponses& responses, const Material& material,
+                                                const std::vector<const double*>& factors) {
+  const auto& nodes = responses.nodes;
+  std::vector<double> largest(nodes.n, 0.0);
+  std::vector<std::int32_t> asked;
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto cell = nodes.cell(c);
+    if (std::any_of(cell.begin(), cell.end(),
+                    [&](auto node) { return factors[std::size_t(node)] != nullptr; }))
+      asked.push_back(std::int32_t(c));
+  }
+  if (asked.empty()) return largest;
+  const Subdomain part = make_subdomain(nodes, asked);
+  const auto n_channels = Eigen::Index(responses.channels.size());
+  const Eigen::Map<const RowMajor> whole(responses.displacement_m.data(), Eigen::Index(nodes.n),
+                                         3 * n_channels);
+  const RowMajor displacement = whole(part.node, Eigen::all);
+  const int n_local = part.grid.nodes_per_cell();
+  RowMajor stress(n_local, 6 * n_channels);
+  CellStress of_cell(part.grid, nodes_in_cell(nodes.shape()), lame(material), displacement);
+  const auto summed = [&](const double* unit, const double* by) {
+    std::array<double, 6> sum{};
+    for (Eigen::Index k = 0; k < n_channels; ++k)
+      for (std::size_t i = 0; i < 6; ++i) sum[i] += by[k] * unit[std::size_t(6 * k) + i];
+    return von_mises(sum.data());
+  };
+  for (std::size_t c = 0; c < asked.size(); ++c) {
+    of_cell(c, stress);
+    for (int i = 0; i < n_local; ++i) {
+      const auto node = std::size_t(part.node[std::size_t(part.grid.nodes_of(c)[i])]);
+      if (factors[node] == nullptr) continue;
+      const double recovered =
+          summed(&responses.stress_Pa[node * std::size_t(n_channels) * 6], factors[node]);
+      largest[node] =
+          std::max(largest[node], std::abs(summed(stress.row(i).data(), factors[node]) - recovered));
+    }
+  }
+  return largest;
 }
 
 }  // namespace fem

@@ -19,4 +19,11 @@ std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
     const UnitResponses& responses, const Material& material, std::size_t node,
     const std::map<int, Material>& material_of_volume = {});
 
+/// How far single cells are from the recovered stress, at every node that is asked for.
+/// @param factors  one per node: where its load case stands, one factor per channel; null: not asked for
+/// @return one per node: the largest difference of von Mises stress over the cells that meet there [Pa]; 0
+/// where it was not asked for
+std::vector<double> largest_cell_differences_Pa(const UnitResponses& responses, const Material& material,
+                                                const std::vector<const double*>& factors);
+
 }  // namespace fem

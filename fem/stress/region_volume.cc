@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <optional>
 
 #include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/reference_cell.h"
 #include "fem/operators/subdomain.h"
 
 namespace fem {
@@ -61,6 +64,40 @@ std::vector<SubTetrahedron> pieces_of_hexahedron(int degree) {
   return pieces;
 }
 
+/// Pieces cut into eight at the middles of their edges. Points are the cell's nodes, then the middles.
+struct HalvedPieces {
+  std::vector<std::array<int, 2>> middle_of;  ///< by middle: the nodes at the ends of its edge
+  ReferencePoints points;
+  std::vector<SubTetrahedron> pieces;
+
+  HalvedPieces(const ReferencePoints& nodes, const std::vector<SubTetrahedron>& whole) : points(nodes) {
+    const auto eighths = pieces_of_tetrahedron();  // of the corners and middles of any tetrahedron
+    constexpr std::array<std::array<std::size_t, 2>, 6> edges = {
+        {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+    std::map<std::array<int, 2>, int> known;
+    for (const auto& piece : whole) {
+      std::array<int, 10> at{};
+      std::copy(piece.nodes.begin(), piece.nodes.end(), at.begin());
+      for (std::size_t e = 0; e < edges.size(); ++e) {
+        std::array<int, 2> ends = {piece.nodes[edges[e][0]], piece.nodes[edges[e][1]]};
+        std::sort(ends.begin(), ends.end());
+        const auto [entry, is_new] = known.try_emplace(ends, int(points.size()));
+        if (is_new) {
+          const auto &a = nodes[std::size_t(ends[0])], &b = nodes[std::size_t(ends[1])];
+          points.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+          middle_of.push_back(ends);
+        }
+        at[4 + e] = entry->second;
+      }
+      for (const auto& eighth : eighths) {
+        auto& part = pieces.emplace_back();
+        for (std::size_t i = 0; i < 4; ++i) part.nodes[i] = at[std::size_t(eighth.nodes[i])];
+        part.reference_volume = piece.reference_volume / 8;
+      }
+    }
+  }
+};
+
 /// Measures one cell after the other; keeps what all cells share.
 class CellVolumes {
 public:
@@ -110,7 +147,87 @@ public:
     return whole * part / sum;
   }
 
+  /// The same of a field that is curved between the nodes.
+  /// @param slope  of the field at each node; of cells of degree 1, whose shape functions are straight
+  double curved_above(std::size_t cell, const std::vector<double>& value, double level,
+                      const std::vector<char>& left_out, const std::vector<Eigen::Vector3d>& slope) {
+    const int n_local = part_.grid.nodes_per_cell();
+    int n_in = 0, n_left_out = 0;
+    for (int i = 0; i < n_local; ++i) {
+      n_in += value[node(cell, i)] >= level;
+      n_left_out += left_out[node(cell, i)] != 0;
+    }
+    if (n_left_out > 0 || n_in == 0 || n_in == n_local) return above(cell, value, level, left_out);
+    if (!halved_) {
+      halved_.emplace(at_nodes_.point, pieces_);
+      at_halved_ = tabulate_in_cell(part_.grid.shape(), halved_->points);
+    }
+    const std::size_t n_points = halved_->points.size();
+    std::vector<double> beyond(n_points), determinant(n_points);
+    for (std::size_t q = 0; q < n_points; ++q) {
+      determinant[q] = jacobian(part_.grid, cell, at_halved_, int(q)).determinant();
+      beyond[q] = q < std::size_t(n_local) ? value[node(cell, int(q))] - level
+                                           : at_middle(cell, q, value, slope) - level;
+    }
+    const double whole = exact(cell);
+    double sum = 0, part = 0;
+    for (const auto& piece : halved_->pieces) {
+      double volume = 0;
+      std::array<double, 4> at_corners{};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto q = std::size_t(piece.nodes[i]);
+        volume += piece.reference_volume * determinant[q] / 4;
+        at_corners[i] = beyond[q];
+      }
+      sum += volume;
+      part += volume * share_above_zero(at_corners);
+    }
+    return sum > collapsed * whole ? whole * part / sum : above(cell, value, level, left_out);
+  }
+
+  /// Calls back with the four nodes of every piece that has no corner left out, its volume, and the
+  /// field's slope in it.
+  template <typename Take>
+  void for_pieces(std::size_t cell, const std::vector<double>& value, const std::vector<char>& left_out,
+                  const Take& take) const {
+    for (const auto& piece : pieces_) {
+      std::array<std::size_t, 4> at{};
+      for (std::size_t i = 0; i < 4; ++i) at[i] = node(cell, piece.nodes[i]);
+      if (std::any_of(at.begin(), at.end(), [&](std::size_t i) { return left_out[i] != 0; })) continue;
+      Eigen::Vector3d rise;
+      for (std::size_t i = 0; i < 3; ++i) rise[Eigen::Index(i)] = value[at[i + 1]] - value[at[0]];
+      const Eigen::Matrix3d edges = edges_of(cell, piece);
+      const double volume = std::abs(edges.determinant()) / 6;
+      const double size = edges.colwise().norm().prod();
+      if (volume > flat * size) take(at, volume, Eigen::Vector3d(edges.transpose().inverse() * rise));
+    }
+  }
+
 private:
+  static constexpr double flat = 1e-6;       // of a piece that has collapsed at the axis
+  static constexpr double collapsed = 1e-6;  // likewise of a cell
+
+  /// By the shape functions; of cells of degree 1 by Hermite's cubic between both ends of the edge.
+  double at_middle(std::size_t cell, std::size_t q, const std::vector<double>& value,
+                   const std::vector<Eigen::Vector3d>& slope) const {
+    const int n_local = part_.grid.nodes_per_cell();
+    if (part_.grid.degree == 1) {
+      const auto& ends = halved_->middle_of[q - std::size_t(n_local)];
+      const auto a = node(cell, ends[0]), b = node(cell, ends[1]);
+      return (value[a] + value[b]) / 2 +
+             (slope[a] - slope[b]).dot(position(cell, ends[1]) - position(cell, ends[0])) / 8;
+    }
+    double sum = 0;
+    for (int i = 0; i < n_local; ++i)
+      sum += at_halved_.value[q * std::size_t(n_local) + std::size_t(i)] * value[node(cell, i)];
+    return sum;
+  }
+
+  Eigen::Map<const Eigen::Vector3d> position(std::size_t cell, int local) const {
+    return Eigen::Map<const Eigen::Vector3d>(
+        part_.grid.position(std::size_t(part_.grid.nodes_of(cell)[local])));
+  }
+
   /// In the numbers of the body.
   std::size_t node(std::size_t cell, int local) const {
     return std::size_t(part_.node[std::size_t(part_.grid.nodes_of(cell)[local])]);
@@ -121,7 +238,6 @@ private:
   /// its pieces have the volumes between their corners.
   /// @return their sum; 0: the cell has no volume
   double measure_pieces(std::size_t cell, double whole) {
-    constexpr double collapsed = 1e-6;
     for (std::size_t i = 0; i < determinant_.size(); ++i)
       determinant_[i] = jacobian(part_.grid, cell, at_nodes_, int(i)).determinant();
     double sum = 0;
@@ -140,13 +256,18 @@ private:
   }
 
   double volume_between_corners(std::size_t cell, const SubTetrahedron& piece) const {
+    return std::abs(edges_of(cell, piece).determinant()) / 6;
+  }
+
+  /// From the first corner to the others.
+  Eigen::Matrix3d edges_of(std::size_t cell, const SubTetrahedron& piece) const {
     const auto corner = [&](std::size_t i) {
       return Eigen::Map<const Eigen::Vector3d>(
           part_.grid.position(part_.grid.nodes_of(cell)[piece.nodes[i]]));
     };
     Eigen::Matrix3d edges;
     for (std::size_t i = 0; i < 3; ++i) edges.col(Eigen::Index(i)) = corner(i + 1) - corner(0);
-    return std::abs(edges.determinant()) / 6;
+    return edges;
   }
 
   double exact(std::size_t cell) const {
@@ -160,7 +281,27 @@ private:
   Tabulation at_nodes_, inside_;
   std::vector<SubTetrahedron> pieces_;
   std::vector<double> determinant_, volumes_;
+  std::optional<HalvedPieces> halved_;
+  Tabulation at_halved_;
 };
+
+/// Volume-weighted means over the tetrahedra around each node.
+std::vector<Eigen::Vector3d> slopes(const CellVolumes& measure, const Nodes& nodes,
+                                    const std::vector<double>& value, const std::vector<char>& left_out) {
+  std::vector<Eigen::Vector3d> slope(nodes.n, Eigen::Vector3d::Zero());
+  std::vector<double> weight(nodes.n, 0.0);
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c)
+    measure.for_pieces(c, value, left_out,
+                       [&](const auto& corners, double volume, const Eigen::Vector3d& of_piece) {
+                         for (const auto i : corners) {
+                           slope[i] += volume * of_piece;
+                           weight[i] += volume;
+                         }
+                       });
+  for (std::size_t i = 0; i < nodes.n; ++i)
+    if (weight[i] > 0) slope[i] /= weight[i];
+  return slope;
+}
 
 }  // namespace
 
@@ -188,6 +329,18 @@ std::vector<double> cell_volumes_above_m3(const Nodes& nodes, const std::vector<
   if (volumes.empty()) return volumes;
   CellVolumes measure(nodes);
   for (std::size_t c = 0; c < volumes.size(); ++c) volumes[c] = measure.above(c, value, level, left_out);
+  return volumes;
+}
+
+std::vector<double> curved_cell_volumes_above_m3(const Nodes& nodes, const std::vector<double>& value,
+                                                 double level, const std::vector<char>& left_out) {
+  std::vector<double> volumes(nodes.n_cells());
+  if (volumes.empty()) return volumes;
+  CellVolumes measure(nodes);
+  std::vector<Eigen::Vector3d> slope;
+  if (nodes.degree == 1) slope = slopes(measure, nodes, value, left_out);
+  for (std::size_t c = 0; c < volumes.size(); ++c)
+    volumes[c] = measure.curved_above(c, value, level, left_out, slope);
   return volumes;
 }
 

@@ -19,6 +19,12 @@ namespace fem {
 std::vector<double> cell_volumes_above_m3(const Nodes& nodes, const std::vector<double>& value, double level,
                                           const std::vector<char>& left_out);
 
+/// The same with the field curved within the cells: by the shape functions of their degree, in cells of
+/// degree 1 by Hermite's cubic along their edges, with the mean slope around each node. The tetrahedra are
+/// cut into eight. Cells with nodes left out are measured as above.
+std::vector<double> curved_cell_volumes_above_m3(const Nodes& nodes, const std::vector<double>& value,
+                                                 double level, const std::vector<char>& left_out);
+
 /// A node's own piece of the body: a quarter of each of these tetrahedra around it. Positive, and their sum
 /// is the body's volume: weights for norms and means over nodes.
 /// @return one per node [m^3]

@@ -36,11 +36,12 @@ ErrorBudget& errors_of_governing(BodyAnalysis& analysis);
 
 /// Error of a zone's peak, all that a finer mesh or a more expensive model lowers: that of the body's peak,
 /// which a search may know better, or the zone's own estimate and the share that a cheap model adds to the
-/// body's peak.
+/// body's peak. Harmonics on an eccentric segment, and within its diameter of one, add at least what they
+/// may be off by in pascals where the largest stress of these is; zones away from the largest stress of
+/// their place, as on the other side of a fillet, 2.5 times that.
 std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone);
 
-/// Error of a place as it is shown: its numerical one, and the share that a cheap model adds to the body's
-/// peak.
+/// Error of a place as it is shown: its numerical one, and what a cheap model adds, as of a zone.
 double error_Pa(const BodyAnalysis& analysis, const PlaceStress& place);
 
 /// Numerical error of a hot spot: of the first one all that its error budget has; of others what is known of

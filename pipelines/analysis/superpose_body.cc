@@ -10,6 +10,7 @@
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/respond.h"
 #include "pipelines/analysis/submodels.h"
+#include "pipelines/analysis/zone_volume_errors.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/superposition/finite_stress.h"
 #include "pipelines/superposition/stress_shares.h"
@@ -143,6 +144,7 @@ void add_zones(const ZoneRule& rule, BodyAnalysis& analysis) {
   analysis.zone_causes = causes_of(analysis.zones, analysis.responses, analysis.loads.history);
   estimate_errors_shown(analysis, analysis.place_stresses);
   take_zone_errors(analysis);
+  estimate_volume_errors(analysis);
 }
 
 BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, BodyLoads loads,

@@ -153,10 +153,12 @@ void add_zones(HtmlPage& page, const Json& body) {
   for (const auto& zone : body.at("zones"))
     rows.push_back({fmt::format("{}", rows.size() + 1), MPa(zone.at("peak_von_mises_Pa")),
                     MPa(zone.at("error_Pa")), number(zone.at("safety_against_yield"), 1, "{:.2f}"),
-                    number(zone.at("volume_m3"), 1e9, "{:.4g}"), where(zone), moment(zone),
-                    zone.at("place").get<std::string>()});
+                    number(zone.at("volume_m3"), 1e9, "{:.4g}"),
+                    number(zone.value("volume_error_m3", Json(nullptr)), 1e9, "{:.2g}"), where(zone),
+                    moment(zone), zone.at("place").get<std::string>()});
   page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
-  page.table({"", "peak MPa", "error MPa", "safety", "volume mm3", "where", "when", "surface"}, rows);
+  page.table({"", "peak MPa", "error MPa", "safety", "volume mm3", "error mm3", "where", "when", "surface"},
+             rows);
   add_zone_causes(page, body.at("zones"));
 }
 

@@ -127,16 +127,17 @@ void print_peak(std::ostream& out, const RunReport& report, const BodyAnalysis& 
 
 void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   const auto& zones = analysis.zones.zones;
-  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>9}{:>13}  {:<20}{}\n",
+  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>9}{:>13}{:>10}  {:<20}{}\n",
                      stress_in_MPa(analysis.zones.level_Pa, 0), "peak MPa", "+- MPa", "safety", "volume mm3",
-                     "  moment", "where");
+                     "+- mm3", "  moment", "where");
   for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i) {
     const auto error = error_Pa(analysis, zones[i]);
     out << fmt::format(
-        "  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13}  {:<20}{}\n", i + 1, zones[i].feature,
+        "  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13}{:>10}  {:<20}{}\n", i + 1, zones[i].feature,
         stress_in_MPa(zones[i].peak_Pa, error.value_or(0)), error ? fixed(*error / 1e6, 1) : "-",
         fixed(zones[i].safety, 2),
         std::isfinite(zones[i].volume_m3) ? fmt::format("{:.1f}", zones[i].volume_m3 * 1e9) : "-",
+        zones[i].volume_error_m3 ? fmt::format("{:.1f}", *zones[i].volume_error_m3 * 1e9) : "-",
         "  " + when(report, zones[i].instant), to_string(zones[i].place));
     for (const auto& text : {causes_text(analysis, i), parts_text(zones[i])})
       if (!text.empty()) out << "       " << text << '\n';

@@ -58,6 +58,9 @@ void write_zones(const path& file, const Scene& scene, const kinetics::LoadHisto
   columns.push_back(column("volume", "m3", zones, [](const Zone& z) {
     return std::isfinite(z.volume_m3) ? shortest(z.volume_m3) : std::string();
   }));
+  columns.push_back(column("volume_error", "m3", zones, [](const Zone& z) {
+    return z.volume_error_m3 ? shortest(*z.volume_error_m3) : std::string();
+  }));
   columns.push_back(column("nodes", "", zones, [](const Zone& z) { return std::int64_t(z.n_nodes); }));
   for (std::size_t c = 0; c < 6; ++c)
     columns.push_back(

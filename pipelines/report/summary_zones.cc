@@ -61,11 +61,13 @@ Json zones_json(const RunReport& report, const BodyAnalysis& analysis) {
   Json json = Json::array();
   for (const Zone& zone : analysis.zones.zones) {
     const auto error = error_Pa(analysis, zone);
-    Json entry = object({{"peak_von_mises_Pa", number(zone.peak_Pa)},
-                         {"error_Pa", error ? number_or_none(*error) : Json(nullptr)},
-                         {"safety_against_yield", number_or_none(zone.safety)},
-                         {"volume_m3", number_or_none(zone.volume_m3)},
-                         {"nodes", zone.n_nodes}});
+    Json entry = object(
+        {{"peak_von_mises_Pa", number(zone.peak_Pa)},
+         {"error_Pa", error ? number_or_none(*error) : Json(nullptr)},
+         {"safety_against_yield", number_or_none(zone.safety)},
+         {"volume_m3", number_or_none(zone.volume_m3)},
+         {"volume_error_m3", zone.volume_error_m3 ? number_or_none(*zone.volume_error_m3) : Json(nullptr)},
+         {"nodes", zone.n_nodes}});
     entry.update(place_and_moment(report, zone.peak_m, zone.feature, zone.place, zone.instant));
     if (json.size() < analysis.zone_causes.size())
       entry["causes"] = causes_json(report, analysis.loads.history, analysis.zone_causes[json.size()]);

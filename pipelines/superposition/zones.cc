@@ -98,6 +98,35 @@ std::int32_t nearest_feature(const fem::Nodes& nodes, const NodePlaces& places, 
   return feature;
 }
 
+/// Nodes inside, joined where they share a cell.
+template <typename Inside>
+DisjointSets connected(const fem::Nodes& nodes, const Inside& inside) {
+  DisjointSets sets(nodes.n);
+  for (std::size_t cell = 0; cell < nodes.n_cells(); ++cell) {
+    std::int32_t first = -1;
+    for (const auto node : nodes.cell(cell)) {
+      if (!inside(std::size_t(node))) continue;
+      if (first < 0)
+        first = node;
+      else
+        sets.join(std::size_t(first), std::size_t(node));
+    }
+  }
+  return sets;
+}
+
+/// Calls back with a node inside and the volume of every cell that has one.
+template <typename Inside, typename Take>
+void for_cells_of_regions(const fem::Nodes& nodes, const Inside& inside,
+                          const std::vector<double>& volumes_m3, const Take& take) {
+  for (std::size_t cell = 0; cell < volumes_m3.size(); ++cell) {
+    const auto cell_nodes = nodes.cell(cell);
+    const auto node =
+        std::find_if(cell_nodes.begin(), cell_nodes.end(), [&](auto i) { return inside(std::size_t(i)); });
+    if (node != cell_nodes.end()) take(std::size_t(*node), volumes_m3[cell]);
+  }
+}
+
 }  // namespace
 
 double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& edge) {
@@ -175,17 +204,7 @@ Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const No
   const auto inside = [&](std::size_t i) {
     return envelope.value_Pa[i] > 0 && envelope.value_Pa[i] >= level_Pa && !places.excluded[i];
   };
-  DisjointSets sets(nodes.n);
-  for (std::size_t cell = 0; cell < nodes.n_cells(); ++cell) {
-    std::int32_t first = -1;
-    for (const auto node : nodes.cell(cell)) {
-      if (!inside(std::size_t(node))) continue;
-      if (first < 0)
-        first = node;
-      else
-        sets.join(std::size_t(first), std::size_t(node));
-    }
-  }
+  DisjointSets sets = connected(nodes, inside);
   std::map<std::size_t, Zone> zones;  // by root
   for (std::size_t i = 0; i < nodes.n; ++i) {
     if (!inside(i)) continue;
@@ -197,12 +216,9 @@ Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const No
     zone.n_nodes += 1;
   }
   const auto volumes_m3 = fem::cell_volumes_above_m3(nodes, envelope.value_Pa, level_Pa, places.excluded);
-  for (std::size_t cell = 0; cell < volumes_m3.size(); ++cell) {
-    const auto cell_nodes = nodes.cell(cell);
-    const auto node =
-        std::find_if(cell_nodes.begin(), cell_nodes.end(), [&](auto i) { return inside(std::size_t(i)); });
-    if (node != cell_nodes.end()) zones.at(sets.find(std::size_t(*node))).volume_m3 += volumes_m3[cell];
-  }
+  for_cells_of_regions(nodes, inside, volumes_m3, [&](std::size_t node, double volume_m3) {
+    zones.at(sets.find(node)).volume_m3 += volume_m3;
+  });
   std::vector<std::pair<std::size_t, Zone>> ranked(zones.begin(), zones.end());
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.second.peak_Pa > b.second.peak_Pa; });
@@ -220,6 +236,21 @@ Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const No
   }
   for (std::size_t i = 0; i < nodes.n; ++i)
     if (inside(i)) result.zone_of_node[i] = rank.at(sets.find(i));
+  return result;
+}
+
+std::vector<double> region_volumes_m3(const fem::Nodes& nodes, const std::vector<double>& value,
+                                      const NodePlaces& places, double level_Pa,
+                                      const std::vector<std::size_t>& held) {
+  const auto inside = [&](std::size_t i) {
+    return value[i] > 0 && value[i] >= level_Pa && !places.excluded[i];
+  };
+  DisjointSets sets = connected(nodes, inside);
+  std::map<std::size_t, double> volume_m3;  // by root
+  for_cells_of_regions(nodes, inside, fem::cell_volumes_above_m3(nodes, value, level_Pa, places.excluded),
+                       [&](std::size_t node, double part_m3) { volume_m3[sets.find(node)] += part_m3; });
+  std::vector<double> result;
+  for (const auto node : held) result.push_back(inside(node) ? volume_m3[sets.find(node)] : 0);
   return result;
 }
 

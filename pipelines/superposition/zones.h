@@ -59,6 +59,7 @@ struct Zone {
   double safety = 0;               ///< yield strength / peak
   std::optional<double> error_Pa;  ///< of the peak, numerical part; none: not estimated
   double volume_m3 = 0;
+  std::optional<double> volume_error_m3;  ///< numerical (zone_volume_errors.h); none: not estimated
   std::size_t n_nodes = 0;
   std::string feature;            ///< the nearest feature or port
   Place place = Place::interior;  ///< of the peak
@@ -83,5 +84,13 @@ std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places
 /// nodes and their share of the cells belong to no zone.
 Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places,
                  double level_Pa, double yield_strength_Pa);
+
+/// Volumes of the connected regions above the level, as find_zones measures them, that hold some nodes.
+/// @param value  one per node [Pa]
+/// @param held   the nodes
+/// @return one per entry of `held` [m^3]; 0 of a node below the level or excluded
+std::vector<double> region_volumes_m3(const fem::Nodes& nodes, const std::vector<double>& value,
+                                      const NodePlaces& places, double level_Pa,
+                                      const std::vector<std::size_t>& held);
 
 }  // namespace pipelines

@@ -105,6 +105,11 @@ TEST(Promises, AZoneIsKnownAsWellAsItsOwnCellsTell) {
               figure(solid[i], "error_Pa") + figure(harmonics[i], "error_Pa"))
         << i;
   EXPECT_LE(figure(solid[1], "error_Pa"), 0.1 * figure(solid[1], "peak_von_mises_Pa"));
+  // Volumes had no error: 20 to 75 % too large on fillets of two cells, without a word.
+  for (std::size_t i = 0; i < solid.size(); ++i)
+    EXPECT_LE(std::abs(figure(solid[i], "volume_m3") - figure(harmonics[i], "volume_m3")),
+              figure(solid[i], "volume_error_m3") + figure(harmonics[i], "volume_error_m3"))
+        << i;
   // Harmonics had one point inside below eight cells on the fillet, and 3.2 mm3.
   EXPECT_NEAR(figure(solid[0], "volume_m3"), figure(harmonics[0], "volume_m3"),
               0.1 * figure(solid[0], "volume_m3"));

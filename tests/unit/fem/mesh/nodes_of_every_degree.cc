@@ -149,6 +149,27 @@ TEST_P(EveryDegree, StraightCellsKnowTheStressOfAQuadraticField) {
   EXPECT_GT(n_checked, 10);
 }
 
+// A recovered stress that is none: cells differ from it by all of theirs, at the nodes that are asked for.
+TEST_P(EveryDegree, CellsDifferFromTheRecoveredStress) {
+  auto r = displaced([](const Eigen::Vector3d& x) -> Eigen::Vector3d { return {1e-3 * x[1] * x[0], 0, 0}; });
+  r.stress_Pa.assign(6 * nodes.n, 0.0);
+  const double factor = -2;
+  std::vector<const double*> factors(nodes.n, nullptr);
+  for (std::size_t node = 0; node < nodes.n; node += 7) factors[node] = &factor;
+  const auto differences = fem::largest_cell_differences_Pa(r, steel, factors);
+  for (std::size_t node = 0; node < nodes.n; node += nodes.n / 50) {
+    double largest = 0;
+    for (const auto& of_cell : fem::cell_stress_at_node_Pa(r, steel, node)) {
+      const auto& s = of_cell[0];
+      largest = std::max(largest, std::sqrt(((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) +
+                                             (s[2] - s[0]) * (s[2] - s[0])) /
+                                                2 +
+                                            3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
+    }
+    EXPECT_NEAR(differences[node], node % 7 == 0 ? 2 * largest : 0, 1e-9 * steel.youngs_modulus_Pa * 1e-3);
+  }
+}
+
 // Stress that is the place itself: what is found between the nodes are the points of the faces. Around the
 // axis, on the end face, faces are straight: their points are bilinear in the corners.
 TEST_P(EveryDegree, StressBetweenNodesIsThatOfTheFaces) {

@@ -166,6 +166,30 @@ TEST(RegionVolume, OfATwistedRod) {
   }
 }
 
+// Curved between nodes the circle is one, and a parabola along the rod too: the difference from straight
+// tells how far nodes are apart. Cells of degree 1 know the circle by the slopes at their nodes.
+TEST(RegionVolume, OfAFieldThatIsCurvedBetweenNodes) {
+  const Tetrahedra tetrahedra;
+  const auto field = [](const double* x) {
+    return 1 - (x[0] * x[0] + x[1] * x[1]) / (rod_radius * rod_radius);
+  };
+  for (const auto& body : {tetrahedra.body, hexahedra(1), hexahedra(2), hexahedra(3)}) {
+    const auto nodes = fem::body_nodes(body);
+    const auto values = at_nodes(nodes, field);
+    const std::vector<char> none(nodes.n, 0);
+    const auto all = fem::curved_cell_volumes_above_m3(nodes, values, -2, none);
+    const double whole = std::accumulate(all.begin(), all.end(), 0.0);
+    EXPECT_NEAR(whole, above(nodes, values, -2), 1e-12 * whole);
+    for (const double level : {0.4, 0.6}) {
+      const auto parts = fem::curved_cell_volumes_above_m3(nodes, values, level, none);
+      const double curved = std::accumulate(parts.begin(), parts.end(), 0.0),
+                   exact = pi * rod_radius * rod_radius * rod_length * (1 - level);
+      EXPECT_LT(std::abs(curved - exact), 0.5 * std::abs(above(nodes, values, level) - exact))
+          << body.degree << ' ' << level;
+    }
+  }
+}
+
 // The same of the stress that tetrahedra have in bending, from the mesher to the recovered stress: |y| / r
 // above s leaves two segments of the circle.
 TEST(RegionVolume, OfABentRodOfTetrahedra) {
