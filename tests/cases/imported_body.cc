@@ -1,5 +1,6 @@
 // Bodies of the user's own through a whole run: a STEP file and a .msh beside the same shaft made of blocks,
 // and a keyed shaft.
+#include <fmt/core.h>
 #include <gmsh.h>
 
 #include <cmath>
@@ -289,6 +290,66 @@ TEST(ImportedBody, ItsFirstMeshKnowsItsError) {
 TEST(ImportedBody, AllFiveKnowTheirErrors) {
   for (const auto& shaft : step_shafts::all())
     for (const int cells : {12, 16}) expect_known_error(shaft, cells);
+}
+
+// The stress of bending is largest at the outer fibre, end faces included: none of the submodels that tell a
+// mesh's error may keep away from where the moment enters. Beside the end the recovered stress of these cells
+// is 0.3 to 0.6 % too high, which single cells took for 0.2 to 0.5 %.
+TEST(ImportedBody, TheErrorBesideALoadedFaceIsKnown) {
+  struct Bar {
+    double radius_mm, length_mm;
+    const char* mesh;
+  };
+  for (const Bar& bar :
+       {Bar{14, 200, "size = \"6 mm\"\n"}, Bar{10, 40, "cells_per_circle = 20\nsize = \"3 mm\"\n"},
+        Bar{14, 200, "size = \"12 mm\"\ncells_per_circle = 10\n"}}) {
+    const results_test::Directory directory;
+    write_sample(directory / "bar.step", [&] {
+      gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, bar.length_mm, bar.radius_mm);
+      gmsh::model::occ::synchronize();
+    });
+    const double known_Pa = 100e6,
+                 moment_Nm = known_Pa * std::acos(-1.0) / 4 * std::pow(1e-3 * bar.radius_mm, 3);
+    std::string text = R"(title = "A bar under pure bending"
+effects = ["load"]
+
+[machine]
+type = "load_table"
+speed = "600 rpm"
+
+[sampling]
+instants_per_turn = 8
+turns = 1
+
+[results]
+snapshots = 0
+pictures = false
+
+[part]
+file = "bar.step"
+)";
+    for (const bool far : {false, true}) {
+      const auto name = far ? "far" : "near";
+      const double z_mm = far ? bar.length_mm : 0;
+      text += fmt::format(
+          "[[part.ports]]\nport = \"{}\"\nbox = {{ low = [\"-50 mm\", \"-50 mm\", \"{} mm\"], high = [\"50 "
+          "mm\", "
+          "\"50 mm\", \"{} mm\"] }}\n",
+          name, z_mm - 0.1, z_mm + 0.1);
+      text += fmt::format("[[machine.constants]]\neffect = \"load\"\nload = \"{}.mx\"\nvalue = \"{} N m\"\n",
+                          name, far ? moment_Nm : -moment_Nm);
+    }
+    text += std::string("[part.mesh]\n") + bar.mesh;
+    std::string own_material = material;
+    own_material.replace(own_material.find("BODY"), 4, "part");
+    write(directory / "bar.toml", text + own_material);
+    const auto outcome = millstress(directory.path, "run bar.toml -o out --tolerance none");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto json = summary(directory / "out");
+    const auto& at = json["bodies"]["part"]["peak_von_mises"];
+    EXPECT_NEAR(at["value"].get<double>(), known_Pa, at["error"]["numerical"].get<double>()) << text;
+    EXPECT_LT(at["error"]["numerical"].get<double>(), 0.02 * known_Pa) << text;
+  }
 }
 
 // Stress is the same all around the fillet: it becomes fine all around, in one step. A spot at the peak would
