@@ -374,6 +374,50 @@ TEST(ImportedBody, ASearchMakesTheWholeRingFine) {
   EXPECT_GT(spots, 20) << mesh;
 }
 
+// A plate with holes has many cells, which nobody knows before they are there: with no time for them the
+// search begins coarser, and stops after that without meshing anew.
+TEST(ImportedBody, WithLittleTimeTheFirstMeshIsCoarse) {
+  const results_test::Directory directory;
+  write_sample(directory / "plate.step", [] {
+    namespace occ = gmsh::model::occ;
+    gmsh::vectorpair holes, parts;
+    std::vector<gmsh::vectorpair> map;
+    for (int row = 0; row < 2; ++row)
+      for (int k = 0; k < 4; ++k)
+        holes.push_back({3, occ::addCylinder(10 + 20 * row, -1, 10 + 20 * k, 0, 12, 0, 3)});
+    occ::cut({{3, occ::addBox(0, 0, 0, 40, 10, 80)}}, holes, parts, map);
+    occ::synchronize();
+  });
+  std::string text = scene(R"(
+[part]
+file = "plate.step"
+[[part.ports]]
+port = "middle"
+box = { low = ["-1 mm", "-1 mm", "-1 mm"], high = ["41 mm", "11 mm", "1 mm"] }
+[[part.ports]]
+port = "right"
+box = { low = ["-1 mm", "-1 mm", "79 mm"], high = ["41 mm", "11 mm", "81 mm"] }
+)",
+                           "part");
+  text.replace(text.find("middle.fx"), 9,
+               "middle.fz");  // 8 kN along the plate, against as much at its other end
+  text.replace(text.find("[[machine.harmonics]]"), 21,
+               "[[machine.constants]]\neffect = \"pull\"\nload = \"right.fz\"\nvalue = \"-8 kN\"\n\n"
+               "[[machine.harmonics]]");
+  text.replace(text.find("right.torque"), 12, "right.fz");
+  text.replace(text.find("150 N m"), 7, "0 N");
+  write(directory / "plate.toml", text);
+  const auto first_of = [&](const std::string& limit, int exit_code) {
+    const auto outcome = millstress(
+        directory.path, "run plate.toml --fresh -o out --tolerance '50 %' --time-limit '" + limit + "'");
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err << outcome.out;
+    return summary(directory / "out")["bodies"]["part"]["search"]["steps"].at(0);
+  };
+  const auto in_time = first_of("1000 s", 0);
+  const auto tight = first_of("0.1 s", 0);
+  EXPECT_LT(tight["dofs"].get<int>(), in_time["dofs"].get<int>() / 2) << tight;
+}
+
 TEST(ImportedBody, AMeshWithNamedGroupsIsTakenAsItIs) {
   const results_test::Directory directory;
   write_sample(directory / "shaft.msh", [] {
