@@ -34,17 +34,27 @@ public:
   /// The same forces as a column of the body's unknowns (3 n_nodes).
   Eigen::VectorXd on_body(const Eigen::VectorXd& force) const;
 
+  /// The traction whose forces on the whole surface are resultant() or pressure(), on the faces of the group
+  /// that a part of the body has: a column of the part's unknowns (3 n_nodes). Its cells may be cut.
+  Eigen::VectorXd resultant_on(const Grid& part, SurfaceResultant::Component component) const;
+  Eigen::VectorXd pressure_on(const Grid& part, const SeatPressure& load) const;
+
 private:
   using Traction =
       std::function<Eigen::Vector3d(const Eigen::Vector3d& local, const Eigen::Vector3d& normal)>;
   Eigen::VectorXd integrate(const Traction& traction) const;
+  Eigen::VectorXd integrate_on(const Grid& part, const Traction& traction) const;
+  Traction pressure_of(const SeatPressure& load) const;
+  Traction sum_of_raw(const Eigen::VectorXd& shares) const;
   Eigen::MatrixXd about_centre(const Eigen::MatrixXd& force) const;  // 6 x columns
 
   const Grid* grid_;
   LoadSurface surface_;
   std::vector<BoundaryFace> faces_;
   std::vector<std::int32_t> nodes_;
-  Eigen::MatrixXd basis_;  // 3 n x 6
+  std::vector<Traction> raw_;  // six, whose resultants are about right
+  Eigen::MatrixXd shares_;     // 6 x 6: of the raw tractions (rows) in the unit resultants
+  Eigen::MatrixXd basis_;      // 3 n x 6
 };
 
 /// Whether two loads act on the same surface, so that one LoadedSurface serves both.

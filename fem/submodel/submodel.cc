@@ -52,19 +52,9 @@ std::vector<std::int32_t> cells_around(const Nodes& nodes, const std::vector<Wei
   return cells;
 }
 
-/// The part of a body that a submodel takes in.
-struct Part {
-  GridField coarse;                // displacement, three columns per load case
-  std::vector<std::int32_t> node;  // of the part's nodes: index in the whole body
-};
-
-/// @param cases  load cases as columns of factors, one row per channel
-Part cut_out(const UnitResponses& responses, const std::vector<std::int32_t>& cells,
-             const Eigen::MatrixXd& cases) {
-  const auto& nodes = responses.nodes;
-  auto [grid, node, cell] = make_subdomain(nodes, cells);
-  auto field = sum_of_channels(responses.displacement_m, 3, node, cases);
-
+/// Enters the outer faces of some cells: the body's own with their group, others as the rim.
+/// @param node  of the grid's nodes: index in the whole body
+void add_boundary(const Nodes& nodes, const std::vector<std::int32_t>& node, Grid& grid) {
   const auto sorted = [](std::vector<std::int32_t> corners) {
     std::sort(corners.begin(), corners.end());
     return corners;
@@ -87,14 +77,77 @@ Part cut_out(const UnitResponses& responses, const std::vector<std::int32_t>& ce
     if (const auto own = group.find(sorted(corners)); own != group.end()) face.boundary_id = own->second;
     grid.boundary.push_back(face);
   }
+}
+
+/// The part of a body that a submodel takes in.
+struct Part {
+  GridField coarse;                // displacement, three columns per load case
+  std::vector<std::int32_t> node;  // of the part's nodes: index in the whole body
+};
+
+/// @param cases  load cases as columns of factors, one row per channel
+Part cut_out(const UnitResponses& responses, const std::vector<std::int32_t>& cells,
+             const Eigen::MatrixXd& cases) {
+  auto [grid, node, cell] = make_subdomain(responses.nodes, cells);
+  auto field = sum_of_channels(responses.displacement_m, 3, node, cases);
+  add_boundary(responses.nodes, node, grid);
   return {{std::move(grid), std::move(field)}, std::move(node)};
 }
 
-/// Groups that are held: the rim, and those where the body is loaded.
-std::vector<int> held_groups(const Body& body, const std::vector<UnitLoad>& loads) {
-  auto groups = loaded_groups(loads, body);
+std::vector<int> with_rim(std::vector<int> groups) {
   groups.push_back(rim);
   return groups;
+}
+
+bool contains(const std::vector<int>& groups, int group) {
+  return std::find(groups.begin(), groups.end(), group) != groups.end();
+}
+
+/// Groups with springs or clamps, whose force follows from the displacement of the whole body.
+std::vector<int> supported_groups(const Body& body) {
+  return loaded_groups({}, body);
+}
+
+/// The cells with a face of a group as a body of their own: all that a load of the group needs.
+Grid cells_at_surface(const Nodes& nodes, int boundary_id) {
+  std::vector<char> is_on_it(nodes.n, 0);
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f)
+    if (nodes.face_boundary_id[f] == boundary_id)
+      for (const auto i : nodes.face(f)) is_on_it[std::size_t(i)] = 1;
+  const int n_corners = int(face_corners(nodes.shape()).size());
+  std::vector<std::int32_t> cells;
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto cell = nodes.cell(c);
+    if (std::count_if(cell.begin(), cell.end(),
+                      [&](std::int32_t i) { return is_on_it[std::size_t(i)] != 0; }) >= n_corners)
+      cells.push_back(std::int32_t(c));
+  }
+  auto [grid, node, cell] = make_subdomain(nodes, cells);
+  add_boundary(nodes, node, grid);
+  return std::move(grid);
+}
+
+/// Forces of the loads on those surfaces of a part that are not held.
+Eigen::MatrixXd surface_forces(const Nodes& nodes, const Grid& part, const std::vector<UnitLoad>& loads,
+                               const std::vector<int>& held, const Eigen::MatrixXd& cases) {
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * Eigen::Index(part.n_nodes), cases.cols());
+  std::vector<int> present;
+  for (const auto& face : part.boundary)
+    if (!contains(held, face.boundary_id) && !contains(present, face.boundary_id))
+      present.push_back(face.boundary_id);
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const auto* surface = surface_of(loads[k]);
+    if (surface == nullptr || !contains(present, surface->boundary_id) ||
+        cases.row(Eigen::Index(k)).isZero(0))
+      continue;
+    const Grid whole = cells_at_surface(nodes, surface->boundary_id);
+    const LoadedSurface loaded(whole, *surface);
+    const auto* resultant = std::get_if<SurfaceResultant>(&loads[k].shape);
+    force += (resultant != nullptr ? loaded.resultant_on(part, resultant->component)
+                                   : loaded.pressure_on(part, std::get<SeatPressure>(loads[k].shape))) *
+             cases.row(Eigen::Index(k));
+  }
+  return force;
 }
 
 Eigen::MatrixXd body_forces(const Grid& grid, const Material& material, const std::vector<UnitLoad>& loads,
@@ -116,7 +169,7 @@ Eigen::MatrixXd body_forces(const Grid& grid, const Material& material, const st
   return force;
 }
 
-/// The displacement where neither rim nor loaded surfaces hold it.
+/// The displacement where no surface holds it.
 void solve_inside(GridField& fine, const Material& material, const std::vector<int>& held,
                   const Eigen::MatrixXd& force) {
   const auto& grid = fine.grid;
@@ -128,7 +181,7 @@ void solve_inside(GridField& fine, const Material& material, const std::vector<i
   assemble_stiffness(grid, colours, graph, materials.elastic(), stiffness);
   std::set<std::int64_t> clamped;
   for (const auto& face : grid.boundary)
-    if (std::find(held.begin(), held.end(), face.boundary_id) != held.end())
+    if (contains(held, face.boundary_id))
       for (const int local : face_nodes(grid.shape(), face.face))
         for (int d = 0; d < 3; ++d)
           clamped.insert(3 * std::int64_t(grid.nodes_of(std::size_t(face.cell))[local]) + d);
@@ -174,20 +227,22 @@ Solved solve_submodel(const UnitResponses& responses, const Body& body, const st
   solved.part = cut_out(responses, solved.cells, cases);
   GridField fine = solved.part.coarse;
   for (int cut = 0; cut < control.n_cuts; ++cut) fine = cut_into_eight(fine);
-  const auto held = held_groups(body, loads);
-  solve_inside(fine, body.material, held, body_forces(fine.grid, body.material, loads, cases));
+  const auto not_free = with_rim(loaded_groups(loads, body));
+  const auto held = control.loaded_faces == LoadedFaces::held ? not_free : with_rim(supported_groups(body));
+  solve_inside(fine, body.material, held,
+               body_forces(fine.grid, body.material, loads, cases) +
+                   surface_forces(responses.nodes, fine.grid, loads, held, cases));
   solved.stress.resize(Eigen::Index(fine.grid.n_nodes), 6 * cases.cols());
-  recover_stress(fine.grid, cells_of_nodes(fine.grid), lame(body.material), body.cylinders, held, true,
+  recover_stress(fine.grid, cells_of_nodes(fine.grid), lame(body.material), body.cylinders, not_free, true,
                  fine.field, solved.stress);
   solved.fine = std::move(fine.grid);
   return solved;
 }
 
 template <typename Is>
-bool any_held_face(const Nodes& nodes, const std::vector<int>& held, const Is& is) {
+bool any_face(const Nodes& nodes, const std::vector<int>& groups, const Is& is) {
   for (std::size_t f = 0; f < nodes.n_faces(); ++f)
-    if (std::find(held.begin(), held.end(), nodes.face_boundary_id[f]) != held.end() && is(nodes.face(f)))
-      return true;
+    if (contains(groups, nodes.face_boundary_id[f]) && is(nodes.face(f))) return true;
   return false;
 }
 
@@ -249,19 +304,19 @@ bool is_on_load(const UnitResponses& responses, const Body& body, const std::vec
   const auto holds = [](const NodeList& face, std::size_t node) {
     return std::find(face.begin(), face.end(), std::int32_t(node)) != face.end();
   };
-  return any_held_face(responses.nodes, held_groups(body, loads), [&](const NodeList& face) {
+  return any_face(responses.nodes, loaded_groups(loads, body), [&](const NodeList& face) {
     return std::any_of(point.begin(), point.end(),
                        [&](const WeightedNode& p) { return holds(face, p.node); });
   });
 }
 
-bool is_beside_load(const UnitResponses& responses, const Body& body, const std::vector<UnitLoad>& loads,
-                    const std::vector<WeightedNode>& point) {
+bool is_beside_support(const UnitResponses& responses, const Body& body,
+                       const std::vector<WeightedNode>& point) {
   const auto& nodes = responses.nodes;
   std::vector<char> is_near(nodes.n, 0);
   for (const auto c : cells_around(nodes, point, 1))
     for (const auto i : nodes.cell(std::size_t(c))) is_near[std::size_t(i)] = 1;
-  return any_held_face(nodes, held_groups(body, loads), [&](const NodeList& face) {
+  return any_face(nodes, supported_groups(body), [&](const NodeList& face) {
     return std::all_of(face.begin(), face.end(),
                        [&](std::int32_t i) { return is_near[std::size_t(i)] != 0; });
   });

@@ -12,10 +12,17 @@
 
 namespace fem {
 
+/// What a submodel does where the body is loaded. Springs and clamps hold it in any case.
+enum class LoadedFaces {
+  held,    ///< at the displacement of the whole body: the stress there stays that of its mesh
+  loaded,  ///< by the traction of the loads
+};
+
 /// How much of the body a submodel takes in.
 struct SubmodelControl {
   int n_layers = 3;  ///< of cells around the nodes
   int n_cuts = 1;    ///< how often edges are halved: once makes eight cells of one
+  LoadedFaces loaded_faces = LoadedFaces::held;
 };
 
 /// A node whose stress counts, and how much.
@@ -31,8 +38,9 @@ struct SubmodelStress {
   std::size_t n_dofs = 0;
 };
 
-/// Of the sum of all channels times their factors. Surfaces that carry loads, springs or clamps are held like
-/// the rim, body forces act. What the displacement of the whole body is wrong by at the rim stays.
+/// Of the sum of all channels times their factors. Surfaces that carry springs or clamps are held like the
+/// rim, those that carry loads as the control says; body forces act. What the displacement of the whole body
+/// is wrong by at the rim stays.
 /// @param responses  of cells of degree 2, not refined locally: faces between large and small cells would be
 ///                   held like the rim
 /// @param body       of one material; its charts serve the recovery, its mesh is not read
@@ -48,14 +56,15 @@ SubmodelStress submodel_stress(const UnitResponses& responses, const Body& body,
                                const std::vector<double>& factors, const std::vector<char>& left_out = {},
                                const SubmodelControl& control = {});
 
-/// Whether a node of the point lies on a surface that a submodel holds: the displacement of the whole body
-/// then decides the stress there, and a submodel learns nothing.
+/// Whether a node of the point lies on a surface with a load, a spring or a clamp. Where a submodel holds it,
+/// the displacement of the whole body decides the stress there, and nothing is learnt.
 bool is_on_load(const UnitResponses& responses, const Body& body, const std::vector<UnitLoad>& loads,
                 const std::vector<WeightedNode>& point);
 
-/// Whether one of the cells that hold the point has such a face.
-bool is_beside_load(const UnitResponses& responses, const Body& body, const std::vector<UnitLoad>& loads,
-                    const std::vector<WeightedNode>& point);
+/// Whether one of the cells that hold the point has a face with a spring or a clamp, which every submodel
+/// holds.
+bool is_beside_support(const UnitResponses& responses, const Body& body,
+                       const std::vector<WeightedNode>& point);
 
 /// Stress of every unit load, (xx, yy, zz, xy, yz, xz) [Pa], summed over the nodes of the point.
 /// @throws as submodel_stress

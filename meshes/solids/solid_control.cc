@@ -16,6 +16,9 @@ namespace meshes {
 namespace {
 
 constexpr double growth = 0.7;  // of the cell size, over the distance
+/// Of a curve's length in cells, which gmsh integrates the size for. The size has kinks, at which gmsh's own
+/// 1e-9 takes a hundred times longer: 18 s for the curves of a plate with 40 holes, 2 s for its surfaces.
+constexpr double curve_precision = 1e-4;
 
 double diagonal_of_model() {
   double low[3], high[3];
@@ -114,6 +117,7 @@ void mesh_solids(const SolidControl& control, double unit_m) {
   set("Mesh.MeshSizeMin", control.smallest_size_m / unit_m);
   set("Mesh.MeshSizeFromCurvature", control.cells_per_circle);
   set("Mesh.MeshSizeFromPoints", 0);
+  set("Mesh.LcIntegrationPrecision", curve_precision);
   limit_growth(control.fine_spots, unit_m, size);
   gmsh::model::mesh::generate(3);
   split_flat_cells();

@@ -49,14 +49,15 @@ double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
 }
 
 /// Of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is looked at by
-/// a submodel. Beside a load, which holds the submodel's displacement, single cells have the word.
+/// a submodel. Beside a spring or a clamp, which holds the submodel's displacement, single cells have the
+/// word.
 void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, std::vector<PlaceStress>& places) {
   const auto& responses = analysis.responses;
   if (responses.nodes.n_cells() == 0 || !responses.nodes.shape().is_tetrahedron()) return;
   const auto body = to_fem_body(analysis.mesh, analysis.scene.material);
   for (auto& place : places)
     if (place.value_Pa + place.error_Pa >= largest_Pa &&
-        !fem::is_beside_load(responses, body, analysis.loads.unit_loads, {{place.node}})) {
+        !fem::is_beside_support(responses, body, {{place.node}})) {
       place.is_resolved = true;
       place.error_Pa =
           submodel_error_Pa({{{place.node, 1.0}}, analysis.envelope.von_mises.instant[place.node]}, responses,

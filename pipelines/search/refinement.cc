@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::array<int, 9> cells_on_quarters = {2, 6, 8, 12, 16, 24, 32, 48, 64};
 constexpr double coarser_start = 1 / 1.5, step_factor = 1.5;
+constexpr int coarsest_start = 4;  // times coarser_start: where time is short
 /// Cells on a fillet quarter and sectors of a shaft's first mesh; the later ones where the mesher refuses
 /// one.
 constexpr std::array<std::array<int, 2>, 4> first_shaft_meshes = {{{2, 8}, {4, 8}, {4, 12}, {6, 16}}};
@@ -218,6 +219,20 @@ std::vector<BodyScene> first_meshes(const BodyScene& body) {
   }
   meshes.push_back(body);
   return meshes;
+}
+
+std::vector<BodyScene> first_meshes_in_time(const BodyScene& body) {
+  if (!std::holds_alternative<meshes::Import>(body.shape) || !can_be_refined(body)) return {};
+  std::vector<BodyScene> meshes;
+  for (int step = 1; step <= coarsest_start; ++step)
+    meshes.push_back(with_fineness(body, std::pow(coarser_start, step)));
+  return meshes;
+}
+
+BodyScene with_meshing_limit(BodyScene body, double meshing_s) {
+  if (auto* import = std::get_if<meshes::Import>(&body.shape); import != nullptr && import->time_limit_s == 0)
+    import->time_limit_s = meshing_s;
+  return body;
 }
 
 BodyScene guided_by(const SecondModel& model, const BodyScene& body) {

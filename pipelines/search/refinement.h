@@ -31,6 +31,12 @@ KeptShare kept_share_of_own_error(const BodyScene& body);
 /// last.
 std::vector<BodyScene> first_meshes(const BodyScene& body);
 
+/// Of a STEP file with a limit of time: ever larger cells, from those of first_meshes on, by factors of 1.5.
+/// Of the first that gmsh makes in `meshing_s` seconds of a core, and that is solved in time, a search
+/// begins. Others: none.
+std::vector<BodyScene> first_meshes_in_time(const BodyScene& body);
+BodyScene with_meshing_limit(BodyScene body, double meshing_s);
+
 /// A shaft's first mesh with 6 cells on the fillets that a second model finds to be stressed most, 4 on those
 /// with more than half of that stress.
 BodyScene guided_by(const SecondModel& model, const BodyScene& body);

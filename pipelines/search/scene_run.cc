@@ -31,6 +31,7 @@
 #include "pipelines/search/place_history.h"
 #include "pipelines/search/refinement.h"
 #include "pipelines/search/singular_edge.h"
+#include "pipelines/search/solid_refinement.h"
 #include "pipelines/search/without_mesh.h"
 
 namespace pipelines {
@@ -204,6 +205,7 @@ private:
 
   /// The first of a search's meshes that the mesher takes; the scene's own mesh is refused as in a plain run.
   MeshedBody first_mesh(std::size_t i) {
+    if (auto in_time = first_mesh_in_time(i)) return std::move(*in_time);
     auto candidates = first_meshes(run_.scene.bodies[i]);
     const BodyScene own = std::move(candidates.back());
     candidates.pop_back();
@@ -214,6 +216,32 @@ private:
     }
     run_.scene.bodies[i] = own;
     return mesh(i);
+  }
+
+  /// Of a STEP file, whose cells nobody knows before they are there: the first of ever coarser meshes that
+  /// gmsh makes in a share of the time and that is likely to be solved in the rest, or the last one that is
+  /// much coarser.
+  std::optional<MeshedBody> first_mesh_in_time(std::size_t i) {
+    constexpr double share_of_meshing = 0.3, least_meshing_s = 4, much_coarser = 0.8;
+    const double end_s = end_of(i);
+    if (end_s <= 0) return std::nullopt;
+    const BodyScene own = run_.scene.bodies[i];
+    BodyScene taken = own;
+    std::optional<MeshedBody> result;
+    for (const auto& candidate : first_meshes_in_time(own)) {
+      const double left_s = end_s - seconds_since(start_);
+      run_.scene.bodies[i] =
+          with_meshing_limit(candidate, std::max(least_meshing_s, share_of_meshing * left_s));
+      std::optional<MeshedBody> meshed;
+      if (!refusal_of([&] { meshed = mesh(i); }).empty()) continue;
+      const auto n_dofs = double(meshed->model->n_dofs());
+      if (result && n_dofs > much_coarser * double(result->model->n_dofs())) break;
+      taken = candidate;
+      result = std::move(meshed);
+      if (seconds_since(start_) + seconds_of_tetrahedra(n_dofs) <= end_s) break;
+    }
+    run_.scene.bodies[i] = taken;
+    return result;
   }
 
   /// The scene's own mesh.
@@ -269,7 +297,6 @@ private:
         exchange_mesh(i, std::move(*guided));
       else {
         run_.scene = unguided;
-        restore_mesh(i);
       }
     }
   }
@@ -338,6 +365,11 @@ private:
       auto step = is_local ? refine_locally(finer.bodies[i], state.local)
                            : refine_mesh(finer.bodies[i], analysis, judged, part);
       if (!step) continue;
+      if (state.end_s > 0 && seconds_since(start_) + seconds_before > state.end_s) {
+        state.search.next_seconds = seconds_before;  // at least: a finer mesh is not even made
+        state.search.ended = "the time is up";
+        return false;
+      }
       auto mesh = try_to_mesh(i, finer, refusal, is_local ? &run_.loaded.meshed[i] : nullptr);
       if (!mesh) {
         state.exhausted.insert(part);
@@ -347,7 +379,6 @@ private:
       return take(std::move(finer), i, std::move(*mesh), state, analysis, seconds_before);
     }
     state.search.ended = "the mesh cannot be refined further" + (refusal.empty() ? "" : ": " + refusal);
-    if (!refusal.empty()) restore_mesh(i);
     return false;
   }
 
@@ -387,7 +418,6 @@ private:
     search.next_seconds = seconds_before * std::pow(growth, growth_of_seconds);
     if (state.end_s > 0 && seconds_since(start_) + search.next_seconds > state.end_s) {
       search.ended = "the time is up";
-      restore_mesh(i);
       return false;
     }
     const Scene previous = std::exchange(run_.scene, std::move(next));
@@ -411,9 +441,6 @@ private:
       if (auto model = second_model(i)) state.history.compare_with(std::move(*model));
     return true;
   }
-
-  /// The file of the present mesh was replaced by that of one that is not taken.
-  void restore_mesh(std::size_t i) { run_.loaded.meshed[i] = mesh(i); }
 
   /// Loads all bodies anew, one of them on another mesh.
   void exchange_mesh(std::size_t i, MeshedBody other) {

@@ -11,6 +11,9 @@
 
 namespace pipelines {
 
+/// About what so many unknowns of tetrahedra take to be solved and judged, on one core.
+double seconds_of_tetrahedra(double n_dofs);
+
 struct LeadingSurface {
   std::vector<meshes::FineSpot> spots;  ///< cells there become smaller by `ratio`
   std::vector<std::string> features;    ///< of the places that they lie on

@@ -68,6 +68,32 @@ TEST_F(Loads, PressureHarmonicsHaveNoResultant) {
     }
 }
 
+// The same traction as on the whole: where the part is the whole body, the same forces.
+TEST_F(Loads, OnAPartTheTractionIsThatOfTheWholeSurface) {
+  const auto expect_same = [](const Eigen::VectorXd& part, const Eigen::VectorXd& whole) {
+    EXPECT_LT((part - whole).lpNorm<Eigen::Infinity>(), 1e-11 * whole.lpNorm<Eigen::Infinity>());
+  };
+  fem::Grid half = *grid;  // the same nodes, and every other face
+  half.boundary.clear();
+  for (std::size_t f = 0; f < grid->boundary.size(); f += 2) half.boundary.push_back(grid->boundary[f]);
+  fem::Grid rest = half;
+  rest.boundary.clear();
+  for (std::size_t f = 1; f < grid->boundary.size(); f += 2) rest.boundary.push_back(grid->boundary[f]);
+  for (const auto* name : {"bearing_1", "seat", "end_1"}) {
+    const auto& port = shaft->ports.at(name);
+    const fem::LoadedSurface surface(*grid, port);
+    for (const auto component : all)
+      expect_same(surface.resultant_on(half, component) + surface.resultant_on(rest, component),
+                  surface.on_body(surface.resultant(component)));
+    if (port.kind != fem::LoadSurface::Kind::seat) continue;
+    for (const bool keeps : {false, true}) {
+      const fem::SeatPressure load{port, 2, 0.7, Phase::cosine, keeps};
+      expect_same(surface.pressure_on(half, load) + surface.pressure_on(rest, load),
+                  surface.on_body(surface.pressure(load)));
+    }
+  }
+}
+
 // A profile that is not applied, or not scaled to the mean 1, shows in the squeeze of the ends.
 TEST_F(Loads, TheAxialProfileShapesThePressure) {
   auto port = shaft->ports.at("seat");

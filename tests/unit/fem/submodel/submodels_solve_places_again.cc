@@ -216,21 +216,45 @@ TEST(Submodel, LoadedFacesAreHeld) {
   EXPECT_GT(std::abs(stress_Pa(nowhere) - known_Pa), 0.05 * known_Pa);
 }
 
-TEST(Submodel, KnowsWhatIsBesideALoad) {
+// A pull along z, whose displacement the body has wrong on the loaded face and beside it. Held there, a
+// submodel keeps what is wrong; under the traction of its share of the face it finds what is true up to what
+// the rim holds.
+TEST(Submodel, LoadedFacesFindTheirDisplacement) {
+  const auto grid = fem_tests::tetrahedra_cube(5, [](const Point& x) { return x; });
+  const double strain = 1 / submodel_steel.youngs_modulus_Pa, known_Pa = 40e6;  // by 1 N on 1 m2
+  const auto responses = responses_of(grid, [&](const Point& x) {
+    const double wrong = x[2] > 0.85 ? 0.3 * std::sin(40 * x[0]) * std::sin(40 * x[1]) * (x[2] - 0.85) : 0;
+    return Point(-0.3 * strain * x[0], -0.3 * strain * x[1], strain * (x[2] + wrong));
+  });
+  auto pull = load_on(6);
+  auto& surface = std::get<fem::SurfaceResultant>(pull.shape).surface;
+  surface.centre_m = {0.5, 0.5, 1};
+  const auto node = node_at(grid, {0, 0.4, 1});
+  const auto stress_Pa = [&](fem::LoadedFaces faces) {
+    return fem::submodel_stress(responses, of_steel(), {pull}, {{node}}, {known_Pa}, {}, {2, 1, faces})
+        .at_point_Pa;
+  };
+  EXPECT_NEAR(stress_Pa(fem::LoadedFaces::loaded), known_Pa, 0.005 * known_Pa);
+  EXPECT_GT(std::abs(stress_Pa(fem::LoadedFaces::held) - known_Pa), 0.02 * known_Pa);
+}
+
+TEST(Submodel, KnowsWhatIsOnALoadAndBesideASupport) {
   const auto grid = hexahedra_cube(5, not_bent);
   const auto responses = responses_of(grid, [](const Point& x) { return x; });
   const auto point = [&](double z) {
     return std::vector<fem::WeightedNode>{{node_at(grid, {0, 0.4, 0.4})}, {node_at(grid, {0, 0.4, z})}};
   };
-  const auto is_beside = [&](double z) {
-    return fem::is_beside_load(responses, of_steel(), {load_on(6)}, point(z));
-  };
   EXPECT_TRUE(fem::is_on_load(responses, of_steel(), {load_on(6)}, point(1)));
   EXPECT_FALSE(fem::is_on_load(responses, of_steel(), {load_on(6)}, point(0.8)));
+  EXPECT_FALSE(fem::is_beside_support(responses, of_steel(), point(1)));
+  auto clamped = of_steel();
+  fem::Clamp clamp;
+  clamp.boundary_id = 6;
+  clamped.clamps.push_back(clamp);
+  const auto is_beside = [&](double z) { return fem::is_beside_support(responses, clamped, point(z)); };
   EXPECT_TRUE(is_beside(1));
-  EXPECT_TRUE(is_beside(0.8));  // its cells reach to the loaded face
+  EXPECT_TRUE(is_beside(0.8));  // its cells reach to the clamp
   EXPECT_FALSE(is_beside(0.6));
-  EXPECT_FALSE(fem::is_beside_load(responses, of_steel(), {weight}, point(1)));
 }
 
 // The gradient of a harmonic function loads no cell. Its interpolant on the coarse cells is the rim of the

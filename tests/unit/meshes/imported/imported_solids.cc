@@ -184,6 +184,24 @@ TEST(Imported, AStepFileInInchesIsReadAsItStatesAndNotScaledOnceMore) {
   EXPECT_NO_THROW(meshes::build_imported(import));
 }
 
+// Nearly all cells are flat: moving their nodes went on until the process was ended, and gmsh was blamed for
+// it.
+TEST(Imported, ThinSheetInLargeCellsIsRefusedForThem) {
+  const auto file = written("sheet.step", [] {
+    gmsh::vectorpair parts;
+    std::vector<gmsh::vectorpair> map;
+    occ::cut({{3, occ::addBox(-50, 0, 0, 100, 0.5, 200)}}, {{3, occ::addCylinder(0, -1, 100, 0, 3, 0, 10)}},
+             parts, map);
+    occ::synchronize();
+  });
+  try {
+    meshes::build_imported(import_of(file, {box("low", -0.001, 0.001), box("high", 0.199, 0.201)}));
+    FAIL() << "accepted";
+  } catch (const meshes::MeshRefused& error) {
+    EXPECT_NE(std::string(error.what()).find("mesh finer there"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Imported, SolidsThatTouchAreOneBodyAndItsCornersAreSharp) {
   const auto step = written("l.step", [] {
     occ::addBox(0, 0, 0, 30, 10, 10);
