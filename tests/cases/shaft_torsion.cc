@@ -143,6 +143,25 @@ TEST(ShaftTorsion, ASwitchedTorqueCountsTwice) {
   EXPECT_NE(results_test::bytes(directory / "out/report.html").find("Start-up"), std::string::npos);
 }
 
+// A period of 13.7 ms in steps of 6 ms: the loads warn of the start, and so does the torsion report that the
+// same table prints; of a resonance and of constant torques alike.
+TEST(ShaftTorsion, WarnsOnce) {
+  const results_test::Directory directory;
+  std::string out;
+  const auto json = run_here(
+      directory.path,
+      two_mass_shaft("constant = \"10 N m\"\nharmonics = [{ amplitude = \"1 N m\", frequency = \"70 Hz\" }]",
+                     "[machine.transient]\nduration = \"24 ms\"\nstep = \"6 ms\"\n"),
+      &out);
+  ASSERT_FALSE(json.is_null());
+  for (const std::string text : {"the transient's largest torque of", "from the natural frequency",
+                                 "constant torques do not balance"}) {
+    const auto first = out.find(text);
+    ASSERT_NE(first, std::string::npos) << text << '\n' << out;
+    EXPECT_EQ(out.find(text, first + 1), std::string::npos) << out;
+  }
+}
+
 // Torques in balance leave the shaft's acceleration out of steady running; the start brings it.
 TEST(ShaftTorsion, AStartMayHaveMoreChannelsThanSteadyRunning) {
   const results_test::Directory directory;
