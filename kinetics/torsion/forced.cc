@@ -78,11 +78,12 @@ void add_mean(const PreparedTrain& p, const ArrayXd& constant_Nm, ForcedResponse
   response.mean_torque_Nm = response.mean_reduced_torque_Nm / p.reduced.link_ratio;
 }
 
-/// Which element's torque modal damping changes most, if by more than a share that counts.
+/// Which element's torque modal damping changes most, if by more than a share that counts. In a train with
+/// one elastic element it sits there.
 std::optional<std::string> modal_damping_warning(const PreparedTrain& p, const EdgeSizes& sizes,
                                                  const ForcedResponse& response) {
   constexpr double counts = 0.05, rounding = 1e-9;
-  if (p.train.modal_damping_ratio == 0 || sizes.whole.size() == 0) return std::nullopt;
+  if (p.train.modal_damping_ratio == 0 || sizes.whole.size() < 2) return std::nullopt;
   ArrayXd mean(sizes.whole.size());
   for (Index e = 0; e < mean.size(); ++e)
     mean[e] = std::abs(response.mean_reduced_torque_Nm[p.reduced.element_of[e]]);

@@ -62,6 +62,7 @@ void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
                               {{}, analysis.hot_spots});
     run.scene = scene;
     auto row = row_of("fewer instants", run);
+    row.fineness = fmt::format("{} instants per turn; {}", row.instants_per_turn, row.fineness);
     row.errors.set_numerical({"discretisation", "as at all instants", full.errors.of("discretisation")});
     take_cost(row, own);
     for (const auto& stage : full.stages)

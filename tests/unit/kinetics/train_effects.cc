@@ -150,6 +150,10 @@ TEST(TrainEffects, ModalDampingIsPartOfTheTorqueAndIsTold) {
             history.warnings.end());
   train.modal_damping_ratio = 0.001;
   EXPECT_TRUE(forced_response(train).warnings.empty());
+  auto single = trains::chain({1, 3}, {400});
+  single.excitations = {trains::harmonic("J0", 2, w)};
+  single.modal_damping_ratio = zeta;
+  EXPECT_TRUE(forced_response(single).warnings.empty()) << "the damping can sit in one element only";
 }
 
 TEST(TrainEffects, TablesPassThroughTheirEntries) {
