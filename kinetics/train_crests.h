@@ -9,11 +9,15 @@
 
 namespace kinetics {
 
-/// The loads at instants between those of the grid at which an element's torque is larger than at any of the
-/// grid, where harmonics with two instants per period or fewer bring more than 0.1 % of an element's torque:
-/// the instants meet these always at the same places, and nothing in their values tells. Twenty-four in a
-/// period of the fastest such harmonic; of many those that exceed most, ascending. Empty: the instants tell
-/// all harmonics that count, or miss nothing.
+/// The loads at instants between those of the grid, twenty-four in a period of the fastest harmonic that
+/// counts, where harmonics with three instants per period or fewer bring more than 0.1 % of an element's
+/// torque: by three the instants' spectrum cannot tell that there is nothing above, by two the instants meet
+/// a harmonic always at the same places, and nothing in their values tells.
+///
+/// Where no more than `most` make up the whole window, all of them, the grid's own among them at equal steps.
+/// Else, by two instants per period or fewer, those at which an element's torque is larger than at any of the
+/// grid; of many those that exceed most, ascending. Empty: the instants tell all harmonics that count, or
+/// miss nothing.
 /// @throws MachineRefused as compute_loads
 std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
                                                   const std::vector<std::string>& effects,

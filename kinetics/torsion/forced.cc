@@ -1,7 +1,12 @@
 #include "kinetics/torsion/forced.h"
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
+#include <iomanip>
+#include <optional>
+#include <sstream>
+#include <utility>
 
 #include "kinetics/torsion/steady.h"
 #include "kinetics/wrong_input.h"
@@ -39,9 +44,17 @@ std::pair<ArrayXd, ArrayXd> own(const PreparedTrain& p) {
   return {J * u2, D * u2};
 }
 
-HarmonicResponse at_frequency(const PreparedTrain& p, double w, const ArrayXcd& reduced_load) {
+/// Sizes of the harmonics of each edge's reduced torque, together: as it is, and without modal damping.
+struct EdgeSizes {
+  ArrayXd whole, local;
+};
+
+HarmonicResponse at_frequency(const PreparedTrain& p, double w, const ArrayXcd& reduced_load,
+                              EdgeSizes& sizes) {
   const auto state = harmonic_state(p.reduced, p.spectrum, p.train.modal_damping_ratio, w,
                                     per_node<ArrayXcd>(p.reduced, reduced_load));
+  sizes.whole += state.torque.abs();
+  sizes.local += (state.torque - state.modal).abs();
   const auto [J, D] = own(p);
   const ArrayXcd q = per_inertia<ArrayXcd>(p.reduced, state.angle);
   const ArrayXcd net = reduced_load + (w * w * J) * q - std::complex<double>(0, w) * D * q;
@@ -65,6 +78,34 @@ void add_mean(const PreparedTrain& p, const ArrayXd& constant_Nm, ForcedResponse
   response.mean_torque_Nm = response.mean_reduced_torque_Nm / p.reduced.link_ratio;
 }
 
+/// Which element's torque modal damping changes most, if by more than a share that counts. In a train with
+/// one elastic element it sits there.
+std::optional<std::string> modal_damping_warning(const PreparedTrain& p, const EdgeSizes& sizes,
+                                                 const ForcedResponse& response) {
+  constexpr double counts = 0.05, rounding = 1e-9;
+  if (p.train.modal_damping_ratio == 0 || sizes.whole.size() < 2) return std::nullopt;
+  ArrayXd mean(sizes.whole.size());
+  for (Index e = 0; e < mean.size(); ++e)
+    mean[e] = std::abs(response.mean_reduced_torque_Nm[p.reduced.element_of[e]]);
+  const ArrayXd whole = mean + sizes.whole, local = mean + sizes.local;
+  const ArrayXd larger = whole.max(local);
+  Index worst = 0;
+  const double share =
+      ((whole - local).abs() / larger.max(std::max(1e-300, rounding * larger.maxCoeff()))).maxCoeff(&worst);
+  if (share <= counts) return std::nullopt;
+  const Index element = p.reduced.element_of[worst];
+  const double u = std::abs(p.reduced.link_ratio[element]);
+  const auto text = [&](double reduced_Nm) {
+    std::ostringstream digits;
+    digits << std::setprecision(4) << reduced_Nm / u << " N m";
+    return digits.str();
+  };
+  return "modal damping changes the torque in " + p.train.elements[std::size_t(element)].name + " from " +
+         text(local[worst]) + " (its own stiffness and damping on its twist) to " + text(whole[worst]) +
+         ", which balances its neighbours: a modal ratio does not say where its damping sits; give "
+         "elements damping or loss_factor";
+}
+
 }  // namespace
 
 PreparedTrain::PreparedTrain(const DriveTrain& given)
@@ -79,6 +120,7 @@ ForcedResponse respond(const PreparedTrain& p, const Spectral& excitation) {
   std::stable_sort(lines.begin(), lines.end(),
                    [](const auto& a, const auto& b) { return a.frequency_rad_s < b.frequency_rad_s; });
   std::vector<double> frequencies_rad_s;
+  EdgeSizes sizes{ArrayXd::Zero(p.reduced.n_edges()), ArrayXd::Zero(p.reduced.n_edges())};
   for (std::size_t k = 0; k < lines.size();) {
     const double w = lines[k].frequency_rad_s;
     ArrayXcd load = ArrayXcd::Zero(p.reduced.ratio.size());
@@ -86,9 +128,14 @@ ForcedResponse respond(const PreparedTrain& p, const Spectral& excitation) {
       load[lines[k].inertia] += lines[k].amplitude_Nm * p.reduced.ratio[lines[k].inertia];
     if ((load == 0.0).all()) continue;
     frequencies_rad_s.push_back(w);
-    response.harmonics.push_back(at_frequency(p, w, load));
+    response.harmonics.push_back(at_frequency(p, w, load, sizes));
   }
   response.period_s = common_period_s(frequencies_rad_s);
+  if (const auto warning = modal_damping_warning(p, sizes, response)) response.warnings.push_back(*warning);
+  if (response.rigid_acceleration_rad_s2 != 0)
+    response.warnings.push_back(
+        "the constant torques do not balance: they accelerate the reference shaft by " +
+        number(response.rigid_acceleration_rad_s2) + " rad/s2; the twist is that of the accelerated train");
   return response;
 }
 
@@ -99,13 +146,10 @@ namespace kinetics {
 ForcedResponse forced_response(const DriveTrain& train) {
   const torsion::PreparedTrain prepared(train);
   const auto excitation = torsion::spectral(train, prepared.reduced);
-  const auto warnings = torsion::resonance_warnings(prepared, excitation.lines);
+  auto warnings = torsion::resonance_warnings(prepared, excitation.lines);
   ForcedResponse response = torsion::respond(prepared, excitation);
-  response.warnings = warnings;
-  if (response.rigid_acceleration_rad_s2 != 0)
-    response.warnings.push_back(
-        "the constant torques do not balance: they accelerate the reference shaft by " +
-        number(response.rigid_acceleration_rad_s2) + " rad/s2; the twist is that of the accelerated train");
+  warnings.insert(warnings.end(), response.warnings.begin(), response.warnings.end());
+  response.warnings = std::move(warnings);
   return response;
 }
 

@@ -19,7 +19,9 @@ struct PreparedTrain {
   Spectrum spectrum;
 };
 
-/// Response to some excitations of the train; resonances are not checked here.
+/// Response to some excitations of the train; resonances are not checked here. Warns where modal damping,
+/// of which nobody knows the place, changes an element's largest torque by more than 5 %, and of constant
+/// torques that do not balance.
 ForcedResponse respond(const PreparedTrain& prepared, const Spectral& excitation);
 
 /// Damping ratio of a mode, from all kinds of damping.

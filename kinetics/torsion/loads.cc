@@ -119,10 +119,6 @@ void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, 
                                  (missed.empty() ? "" : "they miss the largest torque of " + missed + "; ") +
                                  "take more instants per turn");
   }
-  if (all.rigid_acceleration_rad_s2 != 0)
-    history.warnings.push_back(
-        "the constant torques do not balance: they accelerate the reference shaft by " +
-        number(all.rigid_acceleration_rad_s2) + " rad/s2");
 }
 
 ArrayXd instants_of(const TimeGrid& grid) {
@@ -173,11 +169,11 @@ LoadHistory history_at(const ArrayXd& phi_rad, const DriveTrain& train, const St
 
 constexpr double counts = 1e-3;  // of an element's torque
 
-/// Whether harmonics count that have two instants per period or fewer.
-bool leaves_lines_untold(const ForcedResponse& all, double sampling_rad_s) {
+/// Whether harmonics count that have so many instants per period or fewer.
+bool has_lines_with(double instants, const ForcedResponse& all, double sampling_rad_s) {
   ArrayXd untold = ArrayXd::Zero(all.mean_torque_Nm.size());
   for (const auto& line : all.harmonics)
-    if (2 * line.frequency_rad_s >= sampling_rad_s * (1 - 1e-9)) untold += line.torque_Nm.abs();
+    if (instants * line.frequency_rad_s >= sampling_rad_s * (1 - 1e-9)) untold += line.torque_Nm.abs();
   return (untold > counts * whole_torque_Nm(all)).any();
 }
 
@@ -192,6 +188,7 @@ LoadHistory compute_loads(const DriveTrain& train, const std::vector<std::string
   const auto motion = steady.motion_at(phi_rad);
   auto history = history_at(phi_rad, train, steady, motion);
   history.warnings = steady.resonances;
+  history.warnings.insert(history.warnings.end(), steady.all.warnings.begin(), steady.all.warnings.end());
   write_warnings(steady.prepared, steady.all, grid, history);
   return history;
 }
@@ -203,7 +200,8 @@ std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
   check_grid(grid);
   const SteadyTrain steady(train, effects);
   const double sampling_rad_s = train.reference_speed_rad_s * grid.instants_per_turn;
-  if (!leaves_lines_untold(steady.all, sampling_rad_s)) return std::nullopt;
+  // By three a spectrum cannot tell that nothing is above; by two it lacks the line.
+  if (!has_lines_with(3, steady.all, sampling_rad_s)) return std::nullopt;
   const auto all = with_lines_that_count(steady.all);
   if (all.harmonics.empty()) return std::nullopt;
   const auto motion_at = [&](const ArrayXd& phi_rad) {
@@ -211,6 +209,11 @@ std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
   };
   const double times = std::ceil(instants_of_crests * all.harmonics.back().frequency_rad_s / sampling_rad_s);
   const ArrayXd instants = instants_of(grid), whole = whole_torque_Nm(all);
+  if (times * double(instants.size()) <= double(most)) {
+    const ArrayXd phi_rad = instants_of({grid.turns, int(times) * grid.instants_per_turn});
+    return history_at(phi_rad, train, steady, steady.motion_at(phi_rad));
+  }
+  if (!has_lines_with(2, steady.all, sampling_rad_s)) return std::nullopt;
   const ArrayXd known = motion_at(instants).torque_Nm.abs().rowwise().maxCoeff();
   constexpr Index at_once = 4096;
   const double step_rad = 2 * pi / grid.instants_per_turn / times;

@@ -19,7 +19,7 @@ HarmonicState along_tree(const ReducedTrain& r, double w, const ArrayXcd& load) 
   const ArrayXcd node = -w * w * r.inertia.cast<Complex>() + i_unit * w * r.damping.cast<Complex>();
   const ArrayXcd edge = r.stiffness * (1.0 + i_unit * r.loss_factor.cast<Complex>()) +
                         i_unit * w * r.edge_damping.cast<Complex>();
-  HarmonicState state{ArrayXcd::Zero(r.n_nodes()), ArrayXcd::Zero(r.n_edges())};
+  HarmonicState state{ArrayXcd::Zero(r.n_nodes()), ArrayXcd::Zero(r.n_edges()), ArrayXcd::Zero(r.n_edges())};
   for (Index root = 0; root < r.n_nodes(); ++root) {
     if (load[root] == 0.0) continue;
     ArrayXcd alone = ArrayXcd::Zero(r.n_nodes());
@@ -59,9 +59,10 @@ HarmonicState in_modes(const ReducedTrain& r, const Spectrum& spectrum, double z
   }
   const ArrayXcd elastic = (twist * y.tail(m)).array();
   const ArrayXcd modal =
+      r.stiffness.sqrt() *
       (spectrum.edge_vectors * (2.0 * zeta * i_unit * w * y.tail(m).array()).matrix()).array();
   return {weight * (V * y).array(),
-          r.stiffness.sqrt() * (elastic * (1.0 + i_unit * loss.cast<Complex>()) + modal)};
+          r.stiffness.sqrt() * elastic * (1.0 + i_unit * loss.cast<Complex>()) + modal, modal};
 }
 
 }  // namespace

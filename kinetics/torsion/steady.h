@@ -23,6 +23,7 @@ MeanState mean_state(const ReducedTrain& reduced, const Eigen::ArrayXd& load);
 struct HarmonicState {
   Eigen::ArrayXcd angle;   ///< per node, reduced
   Eigen::ArrayXcd torque;  ///< per edge, reduced, damping included
+  Eigen::ArrayXcd modal;   ///< what modal damping is of that
 };
 
 /// (K - w^2 J + i w D) q = load. Without modal damping by dynamic stiffnesses along the tree, with it in

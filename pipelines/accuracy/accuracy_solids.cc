@@ -62,6 +62,7 @@ void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
                               {{}, analysis.hot_spots});
     run.scene = scene;
     auto row = row_of("fewer instants", run);
+    row.fineness = fmt::format("{} instants per turn; {}", row.instants_per_turn, row.fineness);
     row.errors.set_numerical({"discretisation", "as at all instants", full.errors.of("discretisation")});
     take_cost(row, own);
     for (const auto& stage : full.stages)
@@ -95,18 +96,23 @@ void run_series(AccuracyBench& bench, const Series& series, double end_s, SolidM
     auto body = with_fineness(bench.body(), factor);
     body.degree = series.degree;
     auto solid = bench.run_solid(series.model, fmt::format("{}, cells 1/{:g}", series.model, factor), body);
-    // Too little finer for whole numbers of cells?
-    if (!solid || (before && before->n_dofs == solid->row.n_dofs)) continue;
+    if (!solid) continue;
     auto& row = solid->row;
-    const AccuracyRow plain = row;
-    if (before) learn(row, *before, stress_order(bench, series.degree));
-    before = plain;
-    models.rows.push_back(row);
+    // Too little finer for whole numbers of cells?
+    const bool is_known = before && before->n_dofs == row.n_dofs;
+    if (!is_known) {
+      const AccuracyRow plain = row;
+      if (before) learn(row, *before, stress_order(bench, series.degree));
+      before = plain;
+      models.rows.push_back(row);
+    }
     if (factor == 1 && series.degree == 2) {
       models.effects = price_effects(solid->run.analyses.front(), seconds_of(row.stages, "solve"),
                                      seconds_of(row.stages, "superpose"), evaluation_seconds(bench.scene()));
-      fewer_instants(bench, row, std::move(solid->run), models.rows);
+      const AccuracyRow full = models.rows.back();
+      fewer_instants(bench, full, std::move(solid->run), models.rows);
     }
+    if (is_known) continue;
     if (factor >= 1 && row.errors.numerical_Pa() <= bench.overkill() * row.value_Pa) return;
   }
 }

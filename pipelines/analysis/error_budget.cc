@@ -226,8 +226,9 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
 
   ErrorBudget budget;
   const auto sampling = time_sampling(unit, values);
-  if (const double excess_Pa = passed_over_excess_Pa(unit, loads.history); excess_Pa > sampling.error_Pa())
-    budget.numerical.push_back({"time_sampling", loads_between_instants, excess_Pa});
+  const double error_Pa = sampling_error_Pa(unit, loads.history);
+  if (error_Pa != sampling.error_Pa())
+    budget.numerical.push_back({"time_sampling", loads_between_instants, error_Pa});
   else
     budget.numerical.push_back({"time_sampling",
                                 sampling.unresolved_Pa == 0

@@ -42,7 +42,8 @@ double passed_over_excess_Pa(const std::vector<std::array<double, 6>>& unit, con
 bool passes_over_much(const ChannelHistory& loads);
 
 /// What the largest stress between the instants may exceed that at them by: the error_Pa of time_sampling, or
-/// passed_over_excess_Pa if that is more.
+/// passed_over_excess_Pa if that is more. Where the loads that the instants pass over are the whole course at
+/// denser ones, these are asked instead.
 double sampling_error_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads);
 
 }  // namespace pipelines

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <future>
 #include <iostream>
 #include <optional>
@@ -20,12 +21,14 @@
 #include "pipelines/commands/run_results.h"
 #include "pipelines/commands/scene_options.h"
 #include "pipelines/common/failure.h"
+#include "pipelines/common/name_lists.h"
 #include "pipelines/common/process_limits.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/loads/load_files.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/loads/start_up_loads.h"
 #include "pipelines/pictures/picture.h"
 #include "pipelines/report/duty_report.h"
 #include "pipelines/report/envelope_files.h"
@@ -112,10 +115,20 @@ void print(const Request& request, const std::string& summary, const std::string
     request.out << table << "\n  results in " << request.directory.string() << '\n';
 }
 
+/// The torsion of a train without the warnings that its loads have told.
+TorsionReport with_new_warnings(TorsionReport torsion, const std::vector<std::string>& told) {
+  auto& warnings = torsion.forced.warnings;
+  const auto is_told = [&](const std::string& warning) {
+    return contains(told, warning) || contains(told, in_start_up(warning));
+  };
+  warnings.erase(std::remove_if(warnings.begin(), warnings.end(), is_told), warnings.end());
+  return torsion;
+}
+
 std::string table_of(const RunReport& content, const std::optional<TorsionReport>& torsion) {
   std::ostringstream table;
   print_report(table, content);
-  if (torsion) print_torsion(table, content.scene, *torsion);
+  if (torsion) print_torsion(table, content.scene, with_new_warnings(*torsion, content.loads.warnings));
   return table.str();
 }
 

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fem/model/model.h"
@@ -20,6 +21,7 @@
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/responses/response_key.h"
+#include "pipelines/scene/key_settings.h"
 #include "pipelines/scene/scene_tree.h"
 #include "pipelines/sweep/points_on_ranks.h"
 #include "pipelines/sweep/sweep_files.h"
@@ -60,15 +62,17 @@ std::string journal_key(const SweepCommandOptions& options, const RequestedAccur
                            accuracy.time_limit_s, accuracy.once, accuracy.by_default, n_threads);
 }
 
+bool is_of_duty(const std::string& key) {
+  const std::string word = "duty";
+  return key.compare(0, word.size(), word) == 0 &&
+         (key.size() == word.size() || key[word.size()] == '.' || key[word.size()] == '[');
+}
+
 /// No figure of a sweep depends on these keys: points that look alike would be no answer.
 void require_swept(const std::string& key) {
-  const auto begins = [&](const std::string& word) {
-    return key.compare(0, word.size(), word) == 0 &&
-           (key.size() == word.size() || key[word.size()] == '.' || key[word.size()] == '[');
-  };
   const auto dot = key.find('.');
-  if (begins("duty") || (dot != std::string::npos && key.compare(dot, 8, ".fatigue") == 0 &&
-                         (key.size() == dot + 8 || key[dot + 8] == '.')))
+  if (is_of_duty(key) || (dot != std::string::npos && key.compare(dot, 8, ".fatigue") == 0 &&
+                          (key.size() == dot + 8 || key[dot + 8] == '.')))
     throw OptionError(
         "--vary " + key +
         ": a sweep judges no fatigue and no operating blocks, so that no figure depends on this; "
@@ -98,9 +102,26 @@ std::size_t n_known_worse(const std::vector<SweepRow>& rows, double tolerance) {
   }));
 }
 
+/// The settings that concern operating blocks, or all others.
+std::vector<std::string> settings_of_duty(const std::vector<std::string>& settings, bool of_duty) {
+  std::vector<std::string> chosen;
+  for (const auto& setting : settings)
+    if (is_of_duty(setting.substr(0, setting.find('='))) == of_duty) chosen.push_back(setting);
+  return chosen;
+}
+
+/// The scene without operating blocks, on which no figure of a sweep depends.
+/// @throws SceneError where a setting finds no such block
+TomlNode tree_without_duty(const SweepCommandOptions& options) {
+  TomlNode tree = read_scene_tree(options.scene);
+  set_keys(tree, settings_of_duty(options.settings, true), options.scene);
+  return without_duty(std::move(tree));
+}
+
 /// What a sweep is about, the same on all ranks.
 struct Sweep {
   TomlNode tree;
+  std::vector<std::string> settings;  ///< of all points
   SweepRequest request;
   SweepPlan plan;
   std::filesystem::path directory;
@@ -109,7 +130,8 @@ struct Sweep {
   bool loads_only;
 
   explicit Sweep(const SweepCommandOptions& options)
-      : tree(without_duty(read_scene_tree(options.scene))),
+      : tree(tree_without_duty(options)),
+        settings(settings_of_duty(options.settings, false)),
         request(requested(options, read_sweep_request(options.scene, tree))),
         plan(plan_sweep(request)),
         directory(options.output.empty()
@@ -117,20 +139,20 @@ struct Sweep {
                       : options.output) {
     for (const auto& variation : plan.variations) require_swept(variation.key);
     try {
-      first = read_scene(options.scene, tree, options.settings);
-    } catch (const SceneError&) {
-      auto settings = options.settings;
-      const auto& own = plan.points.front().settings;
-      settings.insert(settings.end(), own.begin(), own.end());
       first = read_scene(options.scene, tree, settings);
+    } catch (const SceneError&) {
+      auto of_first = settings;
+      const auto& own = plan.points.front().settings;
+      of_first.insert(of_first.end(), own.begin(), own.end());
+      first = read_scene(options.scene, tree, of_first);
     }
     accuracy = with_default(requested_search(options.tolerance, options.time_limit, first.accuracy));
     loads_only = options.loads_only || first.bodies.empty();
   }
 
   SweepOptions options(const SweepCommandOptions& asked, int n_threads, int rank) const {
-    return {asked.scene, tree,       asked.settings, directory,     rank,
-            n_threads,   loads_only, asked.fresh,    request.zones, accuracy};
+    return {asked.scene, tree,       settings,    directory,     rank,
+            n_threads,   loads_only, asked.fresh, request.zones, accuracy};
   }
 };
 
@@ -238,7 +260,7 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
 
 void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   const Sweep sweep(options);
-  const auto& [tree, request, plan, directory, first, accuracy, loads_only] = sweep;
+  const auto& [tree, settings, request, plan, directory, first, accuracy, loads_only] = sweep;
   StageClock clock(progress_on_stderr(options.verbosity()));
   auto rows = run_points(options, sweep, clock);
   const auto numbers = follow_zones(plan, rows);

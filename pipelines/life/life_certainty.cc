@@ -9,7 +9,11 @@ namespace pipelines {
 
 LifeCertainty certainty_of(double error_share, const std::string& beyond,
                            const std::function<std::optional<double>(double)>& life_s) {
-  if (!beyond.empty() || !(error_share < 1)) return {std::nullopt, beyond};
+  if (!beyond.empty() || !std::isfinite(error_share)) return {std::nullopt, beyond};
+  if (error_share >= 1) {  // nothing is known of a life; what seems to endure may not
+    if (life_s(1)) return {std::nullopt, ""};
+    return {LifeRange{life_s(1 + error_share), std::nullopt}, ""};
+  }
   return {LifeRange{life_s(1 + error_share), life_s(1 - error_share)}, ""};
 }
 

@@ -30,7 +30,8 @@ std::array<double, 6> wanted_resultant(const fem::UnitLoad& load, const std::vec
 /// Closure with the resultants of the load vectors as the mesh has them.
 /// A component of the moment is scaled by the sum of |r x F| parts and couples of all channels. Where effects
 /// cancel each other nearly, or a load (spin) nearly balances itself, rounding alone is more than the limit
-/// of what is left: up to 64 roundings of what they are made of are judged by that.
+/// of what is left: up to 1024 roundings of what they are made of are judged by that. What spin leaves of a
+/// body whose centre of mass is off the axis by less than 1e-5 of its radius of gyration needs no bearings.
 /// @param mesh_resultants  K rows: fx, fy, fz, mx, my, mz about the origin for one unit of each channel
 /// @throws std::invalid_argument if the two do not have the same channels, or a body force acts on an unknown
 /// region

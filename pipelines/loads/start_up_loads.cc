@@ -68,6 +68,10 @@ void join_channels(BodyLoads& first, BodyLoads& second) {
   take_channels(second, channels, unit_loads);
 }
 
+std::string in_start_up(const std::string& warning) {
+  return "start-up: " + warning;
+}
+
 std::shared_ptr<const StartUp> load_start_up(const Scene& scene, LoadedScene& loaded, StageClock& clock) {
   const auto& machine = loaded.masses.machine;
   auto history = clock.run("loads", [&] {
@@ -79,7 +83,7 @@ std::shared_ptr<const StartUp> load_start_up(const Scene& scene, LoadedScene& lo
   });
   if (!history || loaded.meshed.empty()) return nullptr;
   StartUp start{std::move(*history), {}};
-  for (const auto& warning : start.loads.warnings) loaded.loads.warnings.push_back("start-up: " + warning);
+  for (const auto& warning : start.loads.warnings) loaded.loads.warnings.push_back(in_start_up(warning));
   for (std::size_t i = 0; i < loaded.meshed.size(); ++i) {
     start.bodies.push_back(clock.run("distribute", [&] {
       return loads_over(scene, scene.bodies[i], start.loads, loaded.meshed[i], loaded.masses);

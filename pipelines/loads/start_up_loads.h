@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "kinetics/load_history.h"
@@ -30,6 +31,9 @@ void take_channels(BodyLoads& loads, const std::vector<Channel>& channels,
 /// Gives two load histories of one body the same channels in the same order: those of the first, then what
 /// only the second has. What a history does not have is zero there.
 void join_channels(BodyLoads& first, BodyLoads& second);
+
+/// A warning of a start, as it stands among those of the loads.
+std::string in_start_up(const std::string& warning);
 
 /// The start that the scene asks for; null where it asks for none.
 /// @param loaded  the steady loads of the bodies; they get the channels that only the start has, as zeros, so

@@ -71,7 +71,7 @@ std::vector<BodyLoads> loads_of_start(const DutyBlock& block, Scene scene, const
     scene.run_up = run_up_of(*block.start->duration_s, std::abs(kind.drive_speed_rad_s(masses.machine)));
   const auto history = kind.start_up(scene, masses.machine);
   if (!history) return {};
-  for (const auto& warning : history->warnings) warnings.push_back("start-up: " + warning);
+  for (const auto& warning : history->warnings) warnings.push_back(in_start_up(warning));
   std::vector<BodyLoads> result;
   for (std::size_t b = 0; b < meshed.size(); ++b) {
     result.push_back(

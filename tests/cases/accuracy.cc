@@ -111,6 +111,22 @@ TEST(Accuracy, SectionsThatAgreeByChanceAreNotTrusted) {
     }
 }
 
+// Of two cells on a fillet's quarter there are no fewer: the first mesh of the study is the scene's own. Its
+// instants are varied all the same, and each row says how many it has.
+TEST(Accuracy, FewerInstantsAreThereWhereCoarserMeshesAreTheSame) {
+  const results_test::Directory directory;
+  auto scene = stepped_shaft();
+  scene.replace(scene.find("quarter = 4"), 11, "quarter = 2");
+  scene.replace(scene.find("sectors = 12"), 12, "sectors = 8");
+  write(directory / "small.toml", scene);
+  const auto outcome =
+      millstress(directory.path, "accuracy small.toml -o out --tolerance '20 %' --time-limit '40 s'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* text :
+       {"24 instants per turn; cells on", "12 instants per turn; cells on", "effects on the shaft"})
+    EXPECT_NE(outcome.out.find(text), std::string::npos) << text << outcome.out;
+}
+
 // 48 instants tell order 20, half of them do not: the study goes on without fewer instants.
 TEST(Accuracy, FewerInstantsThatCannotTellTheLoadsAreLeftOut) {
   const results_test::Directory directory;

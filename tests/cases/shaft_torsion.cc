@@ -143,6 +143,50 @@ TEST(ShaftTorsion, ASwitchedTorqueCountsTwice) {
   EXPECT_NE(results_test::bytes(directory / "out/report.html").find("Start-up"), std::string::npos);
 }
 
+// A period of 13.7 ms in steps of 6 ms: the loads warn of the start, and so does the torsion report that the
+// same table prints; of a resonance and of constant torques alike.
+TEST(ShaftTorsion, WarnsOnce) {
+  const results_test::Directory directory;
+  std::string out;
+  const auto json = run_here(
+      directory.path,
+      two_mass_shaft("constant = \"10 N m\"\nharmonics = [{ amplitude = \"1 N m\", frequency = \"70 Hz\" }]",
+                     "[machine.transient]\nduration = \"24 ms\"\nstep = \"6 ms\"\n"),
+      &out);
+  ASSERT_FALSE(json.is_null());
+  for (const std::string text : {"the transient's largest torque of", "from the natural frequency",
+                                 "constant torques do not balance"}) {
+    const auto first = out.find(text);
+    ASSERT_NE(first, std::string::npos) << text << '\n' << out;
+    EXPECT_EQ(out.find(text, first + 1), std::string::npos) << out;
+  }
+}
+
+// 90 Hz with 2.7 instants per period. Red where the course between them is not asked: the stress was known to
+// three times itself.
+TEST(ShaftTorsion, FewInstantsLeaveLittleUnresolved) {
+  const results_test::Directory directory;
+  const auto scene =
+      two_mass_shaft("harmonics = [{ amplitude = \"20 N m\", frequency = \"90 Hz\", phase = \"20 deg\" }]",
+                     "[shaft.fatigue]\ntensile_strength = \"580 MPa\"\n");
+  const auto coarse = run_here(directory.path, scene);
+  const auto fine =
+      run_here(directory.path, with_edits(scene, {{"instants_per_turn = 24", "instants_per_turn = 2400"}}));
+  ASSERT_FALSE(coarse.is_null() || fine.is_null());
+  const auto &few = coarse["bodies"]["shaft"], &many = fine["bodies"]["shaft"];
+  const auto &known = few["torsion"]["max_shear_stress"], &right = many["torsion"]["max_shear_stress"];
+  // The mesh is the same, and so is its share.
+  const double mesh_share = right["error"].get<double>() / right["value"].get<double>();
+  const double more_Pa = right["value"].get<double>() - known["value"].get<double>(),
+               sampling_Pa = known["error"].get<double>() - mesh_share * known["value"].get<double>();
+  EXPECT_GT(more_Pa, 0.03 * right["value"].get<double>());
+  EXPECT_GE(sampling_Pa, 0.99 * more_Pa);
+  EXPECT_LT(sampling_Pa, 2 * more_Pa);
+  // Cycles counted at these instants miss most crests, not only the largest: the life is not known that well.
+  const double share = few["fatigue"]["places"][0]["stress_error"];
+  EXPECT_GT(share, 1);
+}
+
 // Torques in balance leave the shaft's acceleration out of steady running; the start brings it.
 TEST(ShaftTorsion, AStartMayHaveMoreChannelsThanSteadyRunning) {
   const results_test::Directory directory;

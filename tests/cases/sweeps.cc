@@ -414,6 +414,22 @@ TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
   }
 }
 
+// Operating blocks have no part in a sweep; settings of them are those of a run all the same.
+TEST(Sweeps, TakeSettingsOfOperatingBlocks) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()) + "\n[[duty]]\nname = \"all\"\nshare = \"100 %\"\n");
+  const std::string vary = "mill.toml --loads --vary 'machine.charge.mass = 10, 20 kg' ";
+  const auto plain = points_of(directory.path, vary);
+  ASSERT_EQ(plain.size(), 2u);
+  for (const char* setting : {"duty=removed", "'duty[1].share=90 %'"}) {
+    const auto set = points_of(directory.path, vary + "--set " + setting);
+    ASSERT_EQ(set.size(), 2u) << setting;
+    EXPECT_EQ(set[1]["figures"], plain[1]["figures"]) << setting;
+  }
+  const auto outcome = as_a_user(directory.path, "sweep " + vary + "--set 'duty[2].share=90 %'");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+}
+
 TEST(Sweeps, MayStandInTheScene) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()) +

@@ -1,7 +1,10 @@
 // Loads of a train: what each effect brings, and what is left when it is off.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "kinetics/constants.h"
 #include "kinetics/train_crests.h"
@@ -114,6 +117,45 @@ TEST(TrainEffects, ModalDampingIsWhatItsNameSays) {
             1e-10 * without.torque_Nm.abs().maxCoeff());
 }
 
+// The torque of an element is what its neighbours' inertias need, modal damping included, by the matrices of
+// all masses, D = J Phi 2 zeta w_k Phi^T J: and where that differs from stiffness times twist, it is said.
+TEST(TrainEffects, ModalDampingIsPartOfTheTorqueAndIsTold) {
+  auto train = trains::chain({1, 3, 0.2}, {400, 900});
+  const double w = 120, zeta = 0.1;
+  train.excitations = {trains::harmonic("J0", 2, w)};
+  train.modal_damping_ratio = zeta;
+  const auto modes = natural_modes(train);
+  const Eigen::Vector3d J(1, 3, 0.2);
+  Eigen::Matrix3d K;
+  K << 400, -400, 0, -400, 1300, -900, 0, -900, 900;
+  Eigen::Matrix3d D = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d shape = modes.reduced_shape.col(k).matrix(), moving = J.asDiagonal() * shape;
+    D += 2 * zeta * modes.frequency_rad_s[k] / shape.dot(moving) * moving * moving.transpose();
+  }
+  const std::complex<double> i(0, 1);
+  Eigen::Matrix3cd Z = K.cast<std::complex<double>>() + i * w * D.cast<std::complex<double>>();
+  Z.diagonal() -= w * w * J.cast<std::complex<double>>();
+  const Eigen::Vector3cd q = Z.fullPivLu().solve(Eigen::Vector3cd(2, 0, 0));
+  const auto response = forced_response(train);
+  const auto& torque = response.harmonics[0].torque_Nm;
+  EXPECT_LT(std::abs(torque[0] - (2.0 + w * w * J[0] * q[0])), 1e-13);
+  EXPECT_LT(std::abs(torque[1] + w * w * J[2] * q[2]), 1e-13);
+  const double by_twist = std::abs(900.0 * (q[1] - q[2]));
+  ASSERT_GT(std::abs(by_twist / std::abs(torque[1]) - 1), 0.05);
+  ASSERT_EQ(response.warnings.size(), 1);
+  EXPECT_NE(response.warnings[0].find("modal damping changes the torque in "), std::string::npos);
+  const auto history = compute_loads(train, all_effects(train), {8, 60});
+  EXPECT_NE(std::find(history.warnings.begin(), history.warnings.end(), response.warnings[0]),
+            history.warnings.end());
+  train.modal_damping_ratio = 0.001;
+  EXPECT_TRUE(forced_response(train).warnings.empty());
+  auto single = trains::chain({1, 3}, {400});
+  single.excitations = {trains::harmonic("J0", 2, w)};
+  single.modal_damping_ratio = zeta;
+  EXPECT_TRUE(forced_response(single).warnings.empty()) << "the damping can sit in one element only";
+}
+
 TEST(TrainEffects, TablesPassThroughTheirEntries) {
   for (const int n : {1, 2, 5, 8}) {
     auto train = trains::chain({1, 2}, {1e6});
@@ -192,6 +234,26 @@ TEST(TrainEffects, CrestsBetweenTheInstantsAreTold) {
   EXPECT_TRUE(warnings_with(120).empty());
 }
 
+// Two to three instants in a period tell the line, but not that there is nothing above: the whole course
+// does, where it is not too long.
+TEST(TrainEffects, TheWholeCourseIsKnownWhereInstantsAreFew) {
+  auto train = trains::chain({0.05, 0.005, 1e-3}, {6749.4, 500});
+  train.reference_speed_rad_s = 100;
+  train.excitations = {trains::harmonic("J1", 10, 1000, 0.3)};
+  const std::vector<std::string> effects{train.excitations[0].name};
+  for (const int instants : {21, 24, 27, 30}) {
+    const auto at = compute_loads(train, effects, {2, instants});
+    const auto between = loads_between_instants(train, effects, {2, instants});
+    ASSERT_TRUE(between) << instants;
+    const auto times = between->n_instants() / at.n_instants();
+    ASSERT_EQ(between->n_instants(), times * at.n_instants());
+    EXPECT_GE(times * instants, 240);
+    for (Eigen::Index i = 0; i < at.n_instants(); ++i)
+      EXPECT_NEAR(between->quantity("C0.torque").values[times * i], at.quantity("C0.torque").values[i],
+                  1e-12);
+  }
+}
+
 // Order 24 with 24 instants: at each of them the same value, which no spectrum tells from a constant. Red
 // where the instants alone are asked: a shaft had 38.5 +- 0.3 MPa where 100.9 is right.
 TEST(TrainEffects, HarmonicsThatTheInstantsCannotTellAreFoundBetweenThem) {
@@ -218,6 +280,7 @@ TEST(TrainEffects, HarmonicsThatTheInstantsCannotTellAreFoundBetweenThem) {
     ASSERT_EQ(few->n_instants(), 5);
     EXPECT_NEAR(largest(*few), right, 0.01 * right);
   }
-  EXPECT_FALSE(loads_between_instants(train, effects, {1, 72})) << "three in a period";
+  EXPECT_FALSE(loads_between_instants(train, effects, {1, 73}, 5)) << "three in a period: they tell the line";
+  EXPECT_FALSE(loads_between_instants(train, effects, {1, 96})) << "four in a period";
   EXPECT_FALSE(loads_between_instants(train, {"slow"}, {1, 24}));
 }

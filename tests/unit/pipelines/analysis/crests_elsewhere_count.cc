@@ -99,6 +99,25 @@ TEST(CrestElsewhere, SamplesThatTheInstantsPassOverCount) {
   EXPECT_NEAR(analysis.peak.errors.of("time_sampling"), 5e6, 1);
 }
 
+// Order 10 in 24 instants: by themselves they allow for three times the stress. Red where the whole course
+// beside them is asked for its largest value only, or not at all.
+TEST(CrestElsewhere, TheWholeCourseLeavesLittleUnresolved) {
+  const auto course = [](Eigen::Index n) {
+    Eigen::ArrayXXd values(1, n);
+    for (Eigen::Index i = 0; i < n; ++i) values(0, i) = std::cos(10 * 2 * pi * double(i) / double(n) + 0.3);
+    return values;
+  };
+  const std::vector<std::array<double, 6>> unit{{0, 0, 1e6, 0, 0, 0}};
+  ChannelHistory loads;
+  loads.values = course(24);
+  const double largest_Pa = 1e6 * loads.values.abs().maxCoeff();
+  EXPECT_GT(sampling_error_Pa(unit, loads), 1e6);
+  loads.passed_over = course(240);
+  EXPECT_NEAR(largest_Pa + sampling_error_Pa(unit, loads), 1e6, 1);
+  loads.passed_over = course(250);  // not the same instants: no course of theirs
+  EXPECT_GT(sampling_error_Pa(unit, loads), 1e6);
+}
+
 TEST(CrestElsewhere, DenserInstantsFollowTheFactors) {
   const auto denser = at_denser_instants(constant_and_third_order());
   const auto n = denser.values.cols();

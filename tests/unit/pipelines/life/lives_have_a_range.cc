@@ -46,6 +46,16 @@ TEST(LifeCertainty, IsNoneWhereTheStressOrTheCurveIsNotKnown) {
   EXPECT_EQ(beyond.beyond, "why");
 }
 
+// An amplitude that the instants all but miss seemed to endure, without a word.
+TEST(LifeCertainty, WhatSeemsToEndureHasALeastLifeWhateverTheError) {
+  const auto missed = certainty(60e6, 3).range, small = certainty(20e6, 3).range;
+  ASSERT_TRUE(missed && small);
+  EXPECT_NEAR(*missed->least_s, 1e6 / std::pow(2.4, 5), 1e-6);
+  EXPECT_FALSE(missed->most_s);
+  EXPECT_FALSE(small->least_s) << "endures all the same";
+  EXPECT_FALSE(certainty(60e6, std::numeric_limits<double>::infinity()).range);
+}
+
 // 1e4 cycles are endured at 100 MPa (1e6 / 1e4)^(1/5) = 251.19 MPa.
 TEST(LifeCertainty, CurvesEndAtYieldAndAtTenThousandCycles) {
   const double most = 100e6 * std::pow(100, 0.2);
