@@ -61,11 +61,23 @@ std::string journal_key(const SweepCommandOptions& options, const RequestedAccur
 }
 
 /// No figure of a sweep depends on these keys: points that look alike would be no answer.
-void require_swept(const std::string& key) {
+void require_swept(const std::string& key, bool with_zones) {
   const auto begins = [&](const std::string& word) {
     return key.compare(0, word.size(), word) == 0 &&
            (key.size() == word.size() || key[word.size()] == '.' || key[word.size()] == '[');
   };
+  for (const char* of_all : {"tolerance", "time_limit"})
+    if (begins(of_all))
+      throw OptionError(
+          "--vary " + key +
+          ": one search serves many points, so that all have one tolerance and one time limit; "
+          "run the scene with --set for each value, or compare models by `millstress accuracy`");
+  for (const char* shown : {"title", "results", "sweep"})
+    if (begins(shown))
+      throw OptionError("--vary " + key + ": no figure of a sweep depends on this; leave it out");
+  if (begins("zones") && !with_zones)
+    throw OptionError("--vary " + key +
+                      ": no figure depends on this without the zones of every point; add --zones");
   const auto dot = key.find('.');
   if (begins("duty") || (dot != std::string::npos && key.compare(dot, 8, ".fatigue") == 0 &&
                          (key.size() == dot + 8 || key[dot + 8] == '.')))
@@ -115,7 +127,7 @@ struct Sweep {
         directory(options.output.empty()
                       ? std::filesystem::path("results") / (options.scene.stem().string() + "_sweep")
                       : options.output) {
-    for (const auto& variation : plan.variations) require_swept(variation.key);
+    for (const auto& variation : plan.variations) require_swept(variation.key, request.zones);
     try {
       first = read_scene(options.scene, tree, options.settings);
     } catch (const SceneError&) {
