@@ -170,8 +170,10 @@ std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machi
 
 void run_load_stage(const Request& request, const Scene& given, StageClock& clock) {
   const Scene scene = with_effects_chosen(given, {}, negligible_share(request.accuracy.tolerance));
-  const auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
+  auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
+  for (auto& sentence : loads_beyond_ratings(scene.bearings, lives))
+    loads.warnings.push_back(std::move(sentence));
   StagedResults staged(request.directory, {});
   warn_of_earlier(staged);
   clock.run("write",
