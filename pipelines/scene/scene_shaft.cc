@@ -63,7 +63,10 @@ meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) 
   segment.name = table.text(segment.is_port ? "port" : "name",
                             "is missing; give the segment a name, or a port where load enters it");
   table.know("name");
-  if (segment.is_port && !rules.any_port) {
+  if (segment.name.size() > 100 || segment.name.find('"') != std::string::npos) {
+    table.refuse(segment.is_port ? "port" : "name",
+                 "has quotes or more than 100 characters, which meshes cannot carry; take a short name");
+  } else if (segment.is_port && !rules.any_port) {
     refuse_unknown_port(table, "port", segment.name, rules);
   } else if (segment.name == "end_1" || segment.name == "end_2") {
     table.refuse(segment.is_port ? "port" : "name", "is the name of an end face; take another one");
