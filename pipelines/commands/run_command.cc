@@ -191,11 +191,12 @@ std::vector<std::string> warn_of_default(SceneRun& run) {
   for (const auto& analysis : run.analyses) {
     if (analysis.search.met) continue;
     const auto stress = governing_stress(analysis);
+    const double percent = 100 * stress.errors.total_Pa() / stress.value_Pa;
     const auto text = fmt::format(
-        "{}: {:.3g} MPa is known to {:.2g} % only, all its errors together, since {}; the default is 5 % "
+        "{}: {:.3g} MPa is known to {} % only, all its errors together, since {}; the default is 5 % "
         "within 60 s. Give --time-limit or --tolerance for another",
-        analysis.scene.name, stress.value_Pa / 1e6, 100 * stress.errors.total_Pa() / stress.value_Pa,
-        analysis.search.ended);
+        analysis.scene.name, stress.value_Pa / 1e6,
+        percent < 99.5 ? fmt::format("{:.2g}", percent) : fixed(percent, 0), analysis.search.ended);
     warn(run.loaded.loads, text);
     warnings.push_back("millstress: " + text);
   }
