@@ -83,11 +83,13 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene, options.settings);
   require_outputs(options);
   StageClock clock(progress_on_stderr(options.verbosity()));
-  const auto history = loads_of(scene, clock);
+  auto history = loads_of(scene, clock);
   std::vector<BearingScene> bearings;  // those at a port of a body need `run`
   for (const auto& bearing : scene.bearings)
     if (scene.bodies.empty() || force_of(bearing.load, history, {})) bearings.push_back(bearing);
   const auto lives = bearing_lives(bearings, history, {});
+  for (auto& sentence : loads_beyond_ratings(bearings, lives))
+    history.warnings.push_back(std::move(sentence));
   if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, history); });
   if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, history); });
   std::vector<std::string> charts;

@@ -183,8 +183,10 @@ std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machi
 
 void run_load_stage(const Request& request, const Scene& given, StageClock& clock) {
   const Scene scene = with_effects_chosen(given, {}, negligible_share(request.accuracy.tolerance));
-  const auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
+  auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
+  for (auto& sentence : loads_beyond_ratings(scene.bearings, lives))
+    loads.warnings.push_back(std::move(sentence));
   StagedResults staged(request.directory, {});
   warn_of_earlier(staged);
   clock.run("write",
@@ -202,11 +204,12 @@ std::vector<std::string> warn_of_default(SceneRun& run) {
   for (const auto& analysis : run.analyses) {
     if (analysis.search.met) continue;
     const auto stress = governing_stress(analysis);
+    const double percent = 100 * stress.errors.total_Pa() / stress.value_Pa;
     const auto text = fmt::format(
-        "{}: {:.3g} MPa is known to {:.2g} % only, all its errors together, since {}; the default is 5 % "
+        "{}: {:.3g} MPa is known to {} % only, all its errors together, since {}; the default is 5 % "
         "within 60 s. Give --time-limit or --tolerance for another",
-        analysis.scene.name, stress.value_Pa / 1e6, 100 * stress.errors.total_Pa() / stress.value_Pa,
-        analysis.search.ended);
+        analysis.scene.name, stress.value_Pa / 1e6,
+        percent < 99.5 ? fmt::format("{:.2g}", percent) : fixed(percent, 0), analysis.search.ended);
     warn(run.loaded.loads, text);
     warnings.push_back("millstress: " + text);
   }

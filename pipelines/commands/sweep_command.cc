@@ -62,16 +62,28 @@ std::string journal_key(const SweepCommandOptions& options, const RequestedAccur
                            accuracy.time_limit_s, accuracy.once, accuracy.by_default, n_threads);
 }
 
-bool is_of_duty(const std::string& key) {
-  const std::string word = "duty";
-  return key.compare(0, word.size(), word) == 0 &&
-         (key.size() == word.size() || key[word.size()] == '.' || key[word.size()] == '[');
+/// Whether a key is that of a table or list, or of something in it.
+bool is_within(const std::string& key, const std::string& table) {
+  return key.compare(0, table.size(), table) == 0 &&
+         (key.size() == table.size() || key[table.size()] == '.' || key[table.size()] == '[');
 }
 
 /// No figure of a sweep depends on these keys: points that look alike would be no answer.
-void require_swept(const std::string& key) {
+void require_swept(const std::string& key, bool with_zones) {
+  for (const char* of_all : {"tolerance", "time_limit"})
+    if (is_within(key, of_all))
+      throw OptionError(
+          "--vary " + key +
+          ": one search serves many points, so that all have one tolerance and one time limit; "
+          "run the scene with --set for each value, or compare models by `millstress accuracy`");
+  for (const char* shown : {"title", "results", "sweep"})
+    if (is_within(key, shown))
+      throw OptionError("--vary " + key + ": no figure of a sweep depends on this; leave it out");
+  if (is_within(key, "zones") && !with_zones)
+    throw OptionError("--vary " + key +
+                      ": no figure depends on this without the zones of every point; add --zones");
   const auto dot = key.find('.');
-  if (is_of_duty(key) || (dot != std::string::npos && key.compare(dot, 8, ".fatigue") == 0 &&
+  if (is_within(key, "duty") || (dot != std::string::npos && key.compare(dot, 8, ".fatigue") == 0 &&
                           (key.size() == dot + 8 || key[dot + 8] == '.')))
     throw OptionError(
         "--vary " + key +
@@ -137,7 +149,7 @@ struct Sweep {
         directory(options.output.empty()
                       ? std::filesystem::path("results") / (options.scene.stem().string() + "_sweep")
                       : options.output) {
-    for (const auto& variation : plan.variations) require_swept(variation.key);
+    for (const auto& variation : plan.variations) require_swept(variation.key, request.zones);
     try {
       first = read_scene(options.scene, tree, settings);
     } catch (const SceneError&) {

@@ -59,6 +59,17 @@ std::string kind_of_file(fs::file_type type) {
   }
 }
 
+/// Why a folder can neither be there nor be made; empty if it can.
+std::string why_no_folder(const fs::path& folder) {
+  if (folder.empty()) return "";
+  std::error_code none;
+  const auto link = fs::symlink_status(folder, none), target = fs::status(folder, none);
+  if (fs::is_directory(target)) return "";
+  if (fs::exists(target)) return "lies in " + folder.string() + ", which is no directory";
+  if (fs::is_symlink(link)) return "lies in " + folder.string() + ", a symbolic link to nothing";
+  return folder == folder.parent_path() ? "" : why_no_folder(folder.parent_path());
+}
+
 }  // namespace
 
 void note_input(const fs::path& file) {
@@ -87,7 +98,7 @@ bool are_as_noted(const std::vector<NotedInput>& inputs) {
 std::string why_not_replaceable(const fs::path& file) {
   std::error_code none;
   const auto status = fs::symlink_status(file, none);
-  if (status.type() == fs::file_type::not_found) return "";
+  if (status.type() == fs::file_type::not_found) return why_no_folder(file.parent_path());
   if (status.type() != fs::file_type::regular)
     return kind_of_file(status.type()) + ", and only a regular file is replaced";
   return is_input(file) ? "is an input of this run, and is not replaced" : "";

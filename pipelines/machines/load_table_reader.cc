@@ -44,8 +44,15 @@ std::optional<LoadName> parse_load(const std::string& name) {
   return LoadName{name.substr(0, dot), component, unit};
 }
 
-std::string not_a_load() {
+std::string not_a_load(const std::string& name) {
+  if (name.find('/') != std::string::npos)
+    return "has a \"/\" in the port's name, where features between two segments have theirs; rename the port";
   return "is no load; write \"<port>.<component>\", the component one of " + component_list();
+}
+
+/// Stands for what was refused: its effect is known all the same, and needs no second error.
+kinetics::TableLoad nothing_of(const std::string& effect) {
+  return {effect, "volume", "ax", "m/s2", kinetics::HarmonicCourse{}};
 }
 
 /// A column in SI; errors go to the findings, at the column's title.
@@ -105,10 +112,14 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
     table = read_table_file(folder / name);
   } catch (const SceneError& error) {
     findings.errors.insert(findings.errors.end(), error.findings().begin(), error.findings().end());
+    loads.loads.push_back(nothing_of(effect));
     return;
   }
   const auto angle_rad = angles_of(table, loads.speed_rad_s, findings);
-  if (!angle_rad) return;
+  if (!angle_rad) {
+    loads.loads.push_back(nothing_of(effect));
+    return;
+  }
   check_ascending(table, *angle_rad, findings);
   if (table.columns.size() < 2)
     entry.refuse("file", "has no load; add columns such as \"pulley_seat.fx [N]\"");
@@ -118,7 +129,8 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
     const std::string fault = name_fault(column.name);
     if (!load || !fault.empty()) {
       findings.errors.push_back({table.file.string(), table.title_line, column.column, column.name, "",
-                                 fault.empty() ? not_a_load() : fault});
+                                 fault.empty() ? not_a_load(column.name) : fault});
+      loads.loads.push_back(nothing_of(effect));
       continue;
     }
     loads.loads.push_back({effect, load->port, load->component, load->unit,
@@ -129,7 +141,7 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
 std::optional<LoadName> read_load_name(SceneTable& entry) {
   const std::string name = entry.text("load");
   auto load = parse_load(name);
-  if (!load && !name.empty()) entry.refuse("load", not_a_load());
+  if (!load && !name.empty()) entry.refuse("load", not_a_load(name));
   return load;
 }
 
@@ -143,7 +155,8 @@ void read_harmonic(SceneTable& entry, kinetics::LoadTable& loads) {
   harmonic.order = entry.quantity_or("order", "1", not_negative(1e4), 1, "once per turn of the drive");
   harmonic.phase_rad = entry.quantity_or("phase", "rad", any_angle(), 0, "largest at the first instant");
   entry.finish();
-  if (load) loads.loads.push_back({effect, load->port, load->component, load->unit, harmonic});
+  loads.loads.push_back(load ? kinetics::TableLoad{effect, load->port, load->component, load->unit, harmonic}
+                             : nothing_of(effect));
 }
 
 void read_constant(SceneTable& entry, kinetics::LoadTable& loads) {
@@ -151,8 +164,9 @@ void read_constant(SceneTable& entry, kinetics::LoadTable& loads) {
   const auto load = read_load_name(entry);
   const double value = entry.quantity("value", load ? load->unit : "N", loads_within);
   entry.finish();
-  if (load)
-    loads.loads.push_back({effect, load->port, load->component, load->unit, kinetics::HarmonicCourse{value}});
+  loads.loads.push_back(load ? kinetics::TableLoad{effect, load->port, load->component, load->unit,
+                                                   kinetics::HarmonicCourse{value}}
+                             : nothing_of(effect));
 }
 
 template <typename Read>

@@ -63,7 +63,10 @@ meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) 
   segment.name = table.text(segment.is_port ? "port" : "name",
                             "is missing; give the segment a name, or a port where load enters it");
   table.know("name");
-  if (segment.is_port && !rules.any_port) {
+  if (segment.name.size() > 100 || segment.name.find('"') != std::string::npos) {
+    table.refuse(segment.is_port ? "port" : "name",
+                 "has quotes or more than 100 characters, which meshes cannot carry; take a short name");
+  } else if (segment.is_port && !rules.any_port) {
     refuse_unknown_port(table, "port", segment.name, rules);
   } else if (segment.name == "end_1" || segment.name == "end_2") {
     table.refuse(segment.is_port ? "port" : "name", "is the name of an end face; take another one");
@@ -214,6 +217,26 @@ void check_length(Contour& contour, std::size_t i, SceneFindings& findings) {
                                mm(taken_m) + "; make it smaller or the segment longer");
 }
 
+/// A groove between sharp corners may have none of its surface judged, however large its stress.
+void check_sharp_grooves(const meshes::Shaft& shaft, double exclusion_m, SceneFindings& findings) {
+  const auto& segments = shaft.segments;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto is_sharp = [&](std::size_t shoulder, std::size_t neighbour) {
+      return shaft.fillets_m[shoulder] <= 0 && segments[neighbour].diameter_m > segments[i].diameter_m;
+    };
+    const int n_corners = (i > 0 && is_sharp(i - 1, i - 1)) + (i + 1 < segments.size() && is_sharp(i, i + 1));
+    const double left_out_m =
+        exclusion_m > 0 ? exclusion_m : meshes::sharp_shoulder_distance_m(segments[i].diameter_m);
+    const double length_m = segments[i].end_m - segments[i].begin_m;
+    if (length_m > 0 && n_corners > 0 && length_m <= n_corners * left_out_m)
+      findings.warnings.push_back(
+          "the surface of \"" + segments[i].name + "\" is judged nowhere: all of its " + mm(length_m) +
+          " lie within " + mm(left_out_m) +
+          " of a sharp corner, where stress is left out, however large; round its corners with fillets, as "
+          "small as they are");
+  }
+}
+
 /// Lengths to places: the given begin, or the one that the kind of body asks for.
 meshes::Shaft placed(const Contour& contour, SceneTable& body, const ContourRules& rules) {
   double z_m = 0, middle_m = 0;
@@ -276,6 +299,7 @@ ShaftShape read_shaft_shape(SceneTable& body, const ContourRules& rules, SceneFi
     shape.mesh = read_shaft_mesh(body.table_or_empty("mesh"));
   else
     shape.solid = read_solid_control(body.table_or_empty("mesh"));
+  check_sharp_grooves(shape.geometry, shape.solid.exclusion_m, findings);
   return shape;
 }
 

@@ -254,13 +254,16 @@ private:
     Scene scene = read(p, loads_follow);
     std::vector<BearingScene> bearings;  // those at a port of a body need the body
     if (needs_bodies_) scene.machine = agree_masses(scene, *meshes_.at(bodies_.combination(p))).machine;
-    const auto loads = load_stage(scene, scene.machine);
+    auto loads = load_stage(scene, scene.machine);
     for (const auto& bearing : scene.bearings)
       if (scene.bodies.empty() || force_of(bearing.load, loads, {}))
         bearings.push_back(bearing);
       else if (loads_follow)
         throw StageRefused("the bearing \"" + bearing.name + "\" has a load that the rehearsal would know");
-    add_load_figures(row, scene, loads, bearing_lives(bearings, loads, {}));
+    const auto lives = bearing_lives(bearings, loads, {});
+    for (auto& sentence : loads_beyond_ratings(bearings, lives))
+      loads.warnings.push_back(std::move(sentence));
+    add_load_figures(row, scene, loads, lives);
   }
 
   SweepOptions options_;

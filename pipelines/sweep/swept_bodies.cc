@@ -64,11 +64,11 @@ void SweptBodies::sort_in(std::size_t p, const Scene& scene) {
     for (const auto& body : scene.bodies) bodies_.push_back({body.name, {}, {}});
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     auto& body = bodies_[b];
-    const auto shape = std::find_if(body.shapes.begin(), body.shapes.end(), [&](const BodyScene& other) {
-      return have_one_mesh(other, scene.bodies[b]);
+    const auto shape = std::find_if(body.shapes.begin(), body.shapes.end(), [&](const Shape& other) {
+      return other.method == scene.method && have_one_mesh(other.body, scene.bodies[b]);
     });
     const auto i_shape = std::size_t(shape - body.shapes.begin());
-    if (shape == body.shapes.end()) body.shapes.push_back(scene.bodies[b]);
+    if (shape == body.shapes.end()) body.shapes.push_back({scene.bodies[b], scene.method});
     const auto solution =
         std::find_if(body.solutions.begin(), body.solutions.end(), [&](const Solution& other) {
           return other.shape == i_shape && have_one_stiffness(other.scene, scene, b);

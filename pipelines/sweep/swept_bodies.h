@@ -47,6 +47,11 @@ public:
   std::vector<std::size_t> improve(std::vector<SweepRow>& rows, double tolerance, StageClock& clock);
 
 private:
+  /// What a mesh is searched for: a body as read, by a model of its own.
+  struct Shape {
+    BodyScene body;
+    Method method;
+  };
   struct Solution {
     std::size_t shape;
     Scene scene;                                             ///< as read, of its first point
@@ -54,7 +59,7 @@ private:
   };
   struct SweptBody {
     std::string name;
-    std::vector<BodyScene> shapes;  ///< as read; those that are searched twice have two
+    std::vector<Shape> shapes;  ///< those that are searched twice stand here twice
     std::vector<Solution> solutions;
   };
   /// Copies of analyses that a thread works on.

@@ -268,6 +268,18 @@ TEST(LoadStage, BearingsGetALife) {
 
 // The turns of a start count, not its instants. Red if the mean is over these: P 17 % too small, a life 1.7
 // times too long.
+TEST(LoadStage, BearingsLoadedBeyondTheLawOfTheirLifeAreWarnedOf) {
+  const results_test::Directory directory;
+  // 2278 N of equivalent load: 4 kN would last 62 hours, and 30 N, with the unit forgotten, 0.09 seconds.
+  for (const auto& [rating, is_beyond] : {std::pair{"4600", false}, {"4500", true}, {"30", true}}) {
+    const auto outcome = millstress(directory.path, "loads '" + shipped("vibratory_mill.toml").string() +
+                                                        "' --set bearings[1].dynamic_rating=" + rating);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("is more than half of its dynamic rating") != std::string::npos, is_beyond)
+        << rating;
+  }
+}
+
 TEST(LoadStage, BearingsOfARunUpAreLoadedByTheTurn) {
   const results_test::Directory directory;
   std::string text = edited("vibratory_mill.toml", {{"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}});

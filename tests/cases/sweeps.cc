@@ -107,6 +107,22 @@ TEST(Sweeps, OfBeamsLeaveNoEmptyFolder) {
     EXPECT_FALSE(entry.is_directory() && fs::is_empty(entry.path())) << entry.path();
 }
 
+// A model is searched by itself: one row must not have another one's stress under its own name.
+TEST(Sweeps, AModelIsAValueLikeAnyOther) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml",
+        small_shaft(fixed_in_space("pull", "middle", "100 N"), "mm", "600 rpm", ""));
+  const std::string vary = "scene.toml --vary 'method = ";
+  const auto points = points_of(directory.path, vary + "beam, axisymmetric'");
+  ASSERT_EQ(points.size(), 2);
+  const auto reversed = points_of(directory.path, vary + "axisymmetric, beam' --fresh");
+  for (const char* name : {"bodies.shaft.governing", "bodies.shaft.governing.error"}) {
+    EXPECT_NE(figure(points[0], name), figure(points[1], name)) << name;
+    EXPECT_DOUBLE_EQ(figure(points[0], name), figure(reversed[1], name)) << name;
+    EXPECT_DOUBLE_EQ(figure(points[1], name), figure(reversed[0], name)) << name;
+  }
+}
+
 // An effect that is off has no channels, so that another set of unit loads would be solved; other sectors are
 // another mesh; the yield strength is no part of either. A mesh takes no more instants to another point than
 // its search asked for beyond the scene's.
@@ -406,6 +422,11 @@ TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
         {"--vary 'machine.drive.speed = 1, 2 rpm' --design best", "is no design"},
         {"--vary 'shaft.fatigue.roughness = 6, 25 um'", "judges no fatigue"},
         {"--vary 'duty[1].share = 10, 20 %'", "no operating blocks"},
+        {"--vary 'tolerance = 1, 5 %'", "all have one tolerance"},
+        {"--vary 'time_limit = 1, 5 s'", "one time limit"},
+        {"--vary 'title = a, b'", "no figure of a sweep depends"},
+        {"--vary 'results.snapshots = 1, 2'", "no figure of a sweep depends"},
+        {"--vary 'zones.level = \"50 % of peak\", \"30 % of peak\"'", "add --zones"},
         {"--vary 'machine.drive.speed = 1200, 1300 rpm' --loads --figure nothing", "has no such figure"},
         {"--vary 'effects.gravty_charge = off, off'", "effects does not have it"}}) {
     const auto outcome = as_a_user(directory.path, "sweep mill.toml " + arguments);

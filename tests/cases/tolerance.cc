@@ -169,6 +169,24 @@ TEST(Tolerance, SecondRunReusesTheLastMesh) {
 }
 
 // "none" in the scene or on the command line: solved once on the scene's mesh, whatever the default is.
+// "1.3e+02 %" is no way to say that nothing is known.
+TEST(Tolerance, AnErrorBeyondTheStressIsWrittenOut) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml",
+        small_shaft(fixed_in_space("pull", "middle", "100 N"), "mm", "600 rpm", ""));
+  std::string bores;
+  for (const char* segment : {"1", "2", "3", "4", "5"})
+    bores += std::string(" --set 'shaft.contour[") + segment + "].bore=9.7 mm'";
+  const auto outcome = as_a_user(directory.path, "run scene.toml --method beam -o out" + bores);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto results = summary(directory / "out");
+  const auto& stress = shaft_of(results)["governing"];
+  const double share = stress["error"]["total"].get<double>() / stress["value"].get<double>();
+  ASSERT_GT(share, 1) << "else this test has no case";
+  const auto text = "is known to " + std::to_string(std::lround(100 * share)) + " % only";
+  EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+}
+
 TEST(Tolerance, NoneSolvesOnceOnTheScenesMesh) {
   const results_test::Directory directory;
   write(directory / "none.toml", solid_shaft("tolerance = \"none\""));

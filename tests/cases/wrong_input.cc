@@ -181,6 +181,16 @@ TEST(WrongInput, OutputThatCannotBeWrittenIsNamed) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("file/out"), std::string::npos) << outcome.err;
   EXPECT_EQ(results_test::bytes(directory / "file"), "not a directory");
+  fs::create_symlink("nowhere", directory / "link");
+  for (const auto& [option, said] :
+       {std::pair{"--statistics file", "--statistics file/statistics.csv: lies in file, which"},
+        {"--csv file/loads.csv", "--csv file/loads.csv: lies in file, which is no directory"},
+        {"--statistics link/s", "lies in link, a symbolic link to nothing"}}) {
+    const auto loads = millstress(directory.path, std::string("loads mill.toml -o loads.h5 ") + option);
+    EXPECT_EQ(loads.exit_code, 2) << option;
+    EXPECT_NE(loads.err.find(said), std::string::npos) << loads.err;
+    EXPECT_FALSE(fs::exists(directory / "loads.h5")) << "before anything runs";
+  }
 }
 
 // MPI kept a directory in TMPDIR that all runs shared: one that ended took it from one that started, which
