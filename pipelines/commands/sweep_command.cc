@@ -84,7 +84,7 @@ void require_swept(const std::string& key, bool with_zones) {
                       ": no figure depends on this without the zones of every point; add --zones");
   const auto dot = key.find('.');
   if (is_within(key, "duty") || (dot != std::string::npos && key.compare(dot, 8, ".fatigue") == 0 &&
-                          (key.size() == dot + 8 || key[dot + 8] == '.')))
+                                 (key.size() == dot + 8 || key[dot + 8] == '.')))
     throw OptionError(
         "--vary " + key +
         ": a sweep judges no fatigue and no operating blocks, so that no figure depends on this; "
@@ -118,7 +118,7 @@ std::size_t n_known_worse(const std::vector<SweepRow>& rows, double tolerance) {
 std::vector<std::string> settings_of_duty(const std::vector<std::string>& settings, bool of_duty) {
   std::vector<std::string> chosen;
   for (const auto& setting : settings)
-    if (is_of_duty(setting.substr(0, setting.find('='))) == of_duty) chosen.push_back(setting);
+    if (is_within(setting.substr(0, setting.find('=')), "duty") == of_duty) chosen.push_back(setting);
   return chosen;
 }
 
