@@ -23,24 +23,26 @@ ArrayXXd over_the_cycle(const ArrayXXd& unit, const ChannelHistory& loads) {
   return (unit.matrix() * loads.values.matrix()).array();
 }
 
-/// Axis of the shaft over the cycle, displacement and slope, at the planes; cubic between them.
+/// Axis of the shaft over the cycle at the planes: displacement, and rotation of the sections as slope.
 struct ElasticLine {
   std::vector<double> z_m;
   std::vector<Array2Xd> displacement_m, slope_rad;
 
-  /// Cubic Hermite interpolation of the displacement; its derivative as the slope.
+  /// Between planes the displacement is cubic (Hermite) and the slope linear: not the cubic's derivative,
+  /// since shear inclines the axis against its sections, and more than bending where a seat is short. Beyond
+  /// the last plane the shaft is straight.
   std::pair<Array2Xd, Array2Xd> at(double z) const {
-    const auto above = std::upper_bound(z_m.begin(), z_m.end(), z);
-    const auto i =
-        std::size_t(std::clamp<std::ptrdiff_t>(above - z_m.begin(), 1, std::ptrdiff_t(z_m.size()) - 1));
+    if (z <= z_m.front() || z >= z_m.back()) {
+      const std::size_t end = z <= z_m.front() ? 0 : z_m.size() - 1;
+      return {displacement_m[end] + (z - z_m[end]) * slope_rad[end], slope_rad[end]};
+    }
+    const auto i = std::size_t(std::upper_bound(z_m.begin(), z_m.end(), z) - z_m.begin());
     const double h = z_m[i] - z_m[i - 1], t = (z - z_m[i - 1]) / h;
     const auto &u0 = displacement_m[i - 1], &u1 = displacement_m[i], &s0 = slope_rad[i - 1],
                &s1 = slope_rad[i];
-    const Array2Xd value = (1 + 2 * t) * (1 - t) * (1 - t) * u0 + t * (1 - t) * (1 - t) * h * s0 +
-                           t * t * (3 - 2 * t) * u1 + t * t * (t - 1) * h * s1;
-    const Array2Xd slope =
-        6 * t * (t - 1) / h * (u0 - u1) + (1 - t) * (1 - 3 * t) * s0 + t * (3 * t - 2) * s1;
-    return {value, slope};
+    return {(1 + 2 * t) * (1 - t) * (1 - t) * u0 + t * (1 - t) * (1 - t) * h * s0 + t * t * (3 - 2 * t) * u1 +
+                t * t * (t - 1) * h * s1,
+            (1 - t) * s0 + t * s1};
   }
 };
 

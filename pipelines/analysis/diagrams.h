@@ -50,7 +50,8 @@ struct LargestTorsion {
   double value_Pa = 0, error_Pa = 0;
 };
 
-/// Elastic line at a seat's centre, interpolated between the sections around it.
+/// Deflection of the axis, and rotation of the section, at a seat's centre: interpolated between the sections
+/// around it.
 struct SeatMotion {
   std::string port;
   double z_m = 0;
