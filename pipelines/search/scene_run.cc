@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <new>
 #include <set>
@@ -25,6 +26,7 @@
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/life/body_fatigue.h"
 #include "pipelines/search/duty_loads.h"
+#include "pipelines/search/first_mesh.h"
 #include "pipelines/search/first_model.h"
 #include "pipelines/search/local_refinement.h"
 #include "pipelines/search/peak_growth.h"
@@ -105,7 +107,7 @@ private:
   MeshedBody first_meshed(std::size_t i) {
     if (is_without_mesh(i))
       return clock_.run("section", [&] { return describe_revolved(run_.scene.bodies[i]); });
-    return is_search() ? first_mesh(i) : mesh(i);
+    return is_search() ? first_mesh_of(i) : mesh(i);
   }
 
   /// The body by its model; with the choice left open, by the next more expensive one where the tolerance is
@@ -124,7 +126,7 @@ private:
         return solve(i);
       }
       methods_[i] = Method::solid;
-      exchange_mesh(i, first_mesh(i));
+      exchange_mesh(i, first_mesh_of(i));
     }
     return is_search() ? search_mesh(i) : solve_once(i);
   }
@@ -203,45 +205,18 @@ private:
     });
   }
 
-  /// The first of a search's meshes that the mesher takes; the scene's own mesh is refused as in a plain run.
-  MeshedBody first_mesh(std::size_t i) {
-    if (auto in_time = first_mesh_in_time(i)) return std::move(*in_time);
-    auto candidates = first_meshes(run_.scene.bodies[i]);
-    const BodyScene own = std::move(candidates.back());
-    candidates.pop_back();
-    for (auto& candidate : candidates) {
-      run_.scene.bodies[i] = std::move(candidate);
-      std::optional<MeshedBody> meshed;
-      if (refusal_of([&] { meshed = mesh(i); }).empty()) return std::move(*meshed);
-    }
-    run_.scene.bodies[i] = own;
-    return mesh(i);
-  }
-
-  /// Of a STEP file, whose cells nobody knows before they are there: the first of ever coarser meshes that
-  /// gmsh makes in a share of the time and that is likely to be solved in the rest, or the last one that is
-  /// much coarser.
-  std::optional<MeshedBody> first_mesh_in_time(std::size_t i) {
-    constexpr double share_of_meshing = 0.3, least_meshing_s = 4, much_coarser = 0.8;
+  MeshedBody first_mesh_of(std::size_t i) {
     const double end_s = end_of(i);
-    if (end_s <= 0) return std::nullopt;
     const BodyScene own = run_.scene.bodies[i];
-    BodyScene taken = own;
-    std::optional<MeshedBody> result;
-    for (const auto& candidate : first_meshes_in_time(own)) {
-      const double left_s = end_s - seconds_since(start_);
-      run_.scene.bodies[i] =
-          with_meshing_limit(candidate, std::max(least_meshing_s, share_of_meshing * left_s));
-      std::optional<MeshedBody> meshed;
-      if (!refusal_of([&] { meshed = mesh(i); }).empty()) continue;
-      const auto n_dofs = double(meshed->model->n_dofs());
-      if (result && n_dofs > much_coarser * double(result->model->n_dofs())) break;
-      taken = candidate;
-      result = std::move(meshed);
-      if (seconds_since(start_) + seconds_of_tetrahedra(n_dofs) <= end_s) break;
-    }
-    run_.scene.bodies[i] = taken;
-    return result;
+    auto [body, meshed] = first_mesh(
+        own,
+        [&](const BodyScene& candidate) {
+          run_.scene.bodies[i] = candidate;
+          return mesh(i);
+        },
+        [&] { return end_s > 0 ? end_s - seconds_since(start_) : std::numeric_limits<double>::infinity(); });
+    run_.scene.bodies[i] = std::move(body);
+    return std::move(meshed);
   }
 
   /// The scene's own mesh.

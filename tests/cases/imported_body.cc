@@ -1,6 +1,5 @@
 // Bodies of the user's own through a whole run: a STEP file and a .msh beside the same shaft made of blocks,
 // and a keyed shaft.
-#include <fmt/core.h>
 #include <gmsh.h>
 
 #include <cmath>
@@ -162,17 +161,6 @@ void draw_with_cones() {
   occ::synchronize();
 }
 
-/// Runs a construction in a session of gmsh of its own and writes what it left.
-template <typename Construct>
-void write_sample(const fs::path& file, const Construct& construct) {
-  gmsh::initialize();
-  gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::model::add("sample");
-  construct();
-  gmsh::write(file.string());
-  gmsh::finalize();
-}
-
 /// Names the surface between two planes across z whose greatest radius is given.
 void name_surface(const char* name, double begin_m, double end_m, double radius_m) {
   gmsh::vectorpair surfaces;
@@ -211,7 +199,7 @@ void expect_closed(const nlohmann::json& json, const std::string& body) {
 
 TEST(ImportedBody, AStepFileAgreesWithTheShaftOfBlocks) {
   const results_test::Directory directory;
-  write_sample(directory / "shaft.step", [] { draw(1e-3); });
+  step_shafts::write_drawn(directory / "shaft.step", [] { draw(1e-3); });
   const auto blocks = run(directory.path, scene(of_blocks, "shaft"), "blocks");
   const auto step = run(directory.path, scene(of_step, "part"), "step");
   ASSERT_FALSE(blocks.is_null() || step.is_null());
@@ -229,7 +217,7 @@ TEST(ImportedBody, AStepFileAgreesWithTheShaftOfBlocks) {
 // which are alike, is left out whole and once, and the search ends with what is found at the border of that.
 TEST(ImportedBody, AnEdgeAtWhichStressGrowsIsLeftOutWhole) {
   const results_test::Directory directory;
-  write_sample(directory / "shaft.step", draw_with_cones);
+  step_shafts::write_drawn(directory / "shaft.step", draw_with_cones);
   auto text = scene(of_step, "part");
   for (const auto& [from, to] : std::map<std::string, std::string>{
            {"57 mm", "60 mm"}, {"123 mm", "120 mm"}, {"59 mm", "62 mm"}, {"121 mm", "118 mm"}})
@@ -292,66 +280,6 @@ TEST(ImportedBody, AllFiveKnowTheirErrors) {
     for (const int cells : {12, 16}) expect_known_error(shaft, cells);
 }
 
-// The stress of bending is largest at the outer fibre, end faces included: none of the submodels that tell a
-// mesh's error may keep away from where the moment enters. Beside the end the recovered stress of these cells
-// is 0.3 to 0.6 % too high, which single cells took for 0.2 to 0.5 %.
-TEST(ImportedBody, TheErrorBesideALoadedFaceIsKnown) {
-  struct Bar {
-    double radius_mm, length_mm;
-    const char* mesh;
-  };
-  for (const Bar& bar :
-       {Bar{14, 200, "size = \"6 mm\"\n"}, Bar{10, 40, "cells_per_circle = 20\nsize = \"3 mm\"\n"},
-        Bar{14, 200, "size = \"12 mm\"\ncells_per_circle = 10\n"}}) {
-    const results_test::Directory directory;
-    write_sample(directory / "bar.step", [&] {
-      gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, bar.length_mm, bar.radius_mm);
-      gmsh::model::occ::synchronize();
-    });
-    const double known_Pa = 100e6,
-                 moment_Nm = known_Pa * std::acos(-1.0) / 4 * std::pow(1e-3 * bar.radius_mm, 3);
-    std::string text = R"(title = "A bar under pure bending"
-effects = ["load"]
-
-[machine]
-type = "load_table"
-speed = "600 rpm"
-
-[sampling]
-instants_per_turn = 8
-turns = 1
-
-[results]
-snapshots = 0
-pictures = false
-
-[part]
-file = "bar.step"
-)";
-    for (const bool far : {false, true}) {
-      const auto name = far ? "far" : "near";
-      const double z_mm = far ? bar.length_mm : 0;
-      text += fmt::format(
-          "[[part.ports]]\nport = \"{}\"\nbox = {{ low = [\"-50 mm\", \"-50 mm\", \"{} mm\"], high = [\"50 "
-          "mm\", "
-          "\"50 mm\", \"{} mm\"] }}\n",
-          name, z_mm - 0.1, z_mm + 0.1);
-      text += fmt::format("[[machine.constants]]\neffect = \"load\"\nload = \"{}.mx\"\nvalue = \"{} N m\"\n",
-                          name, far ? moment_Nm : -moment_Nm);
-    }
-    text += std::string("[part.mesh]\n") + bar.mesh;
-    std::string own_material = material;
-    own_material.replace(own_material.find("BODY"), 4, "part");
-    write(directory / "bar.toml", text + own_material);
-    const auto outcome = millstress(directory.path, "run bar.toml -o out --tolerance none");
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto json = summary(directory / "out");
-    const auto& at = json["bodies"]["part"]["peak_von_mises"];
-    EXPECT_NEAR(at["value"].get<double>(), known_Pa, at["error"]["numerical"].get<double>()) << text;
-    EXPECT_LT(at["error"]["numerical"].get<double>(), 0.02 * known_Pa) << text;
-  }
-}
-
 // Stress is the same all around the fillet: it becomes fine all around, in one step. A spot at the peak would
 // leave the next mesh's peak to the coarse rest of the ring.
 TEST(ImportedBody, ASearchMakesTheWholeRingFine) {
@@ -378,7 +306,7 @@ TEST(ImportedBody, ASearchMakesTheWholeRingFine) {
 // search begins coarser, and stops after that without meshing anew.
 TEST(ImportedBody, WithLittleTimeTheFirstMeshIsCoarse) {
   const results_test::Directory directory;
-  write_sample(directory / "plate.step", [] {
+  step_shafts::write_drawn(directory / "plate.step", [] {
     namespace occ = gmsh::model::occ;
     gmsh::vectorpair holes, parts;
     std::vector<gmsh::vectorpair> map;
@@ -420,7 +348,7 @@ box = { low = ["-1 mm", "-1 mm", "79 mm"], high = ["41 mm", "11 mm", "81 mm"] }
 
 TEST(ImportedBody, AMeshWithNamedGroupsIsTakenAsItIs) {
   const results_test::Directory directory;
-  write_sample(directory / "shaft.msh", [] {
+  step_shafts::write_drawn(directory / "shaft.msh", [] {
     draw(1);
     name_surface("journal A", 0, 0.056, 0.015);
     name_surface("disc", 0.060, 0.120, 0.020);
@@ -443,7 +371,7 @@ TEST(ImportedBody, AMeshWithNamedGroupsIsTakenAsItIs) {
 // the program.
 TEST(ImportedBody, HexahedraOfAFileThatAreTooCoarseSaySo) {
   const results_test::Directory directory;
-  write_sample(directory / "angle.msh", [] {
+  step_shafts::write_drawn(directory / "angle.msh", [] {
     namespace occ = gmsh::model::occ;
     gmsh::vectorpair parts;
     std::vector<gmsh::vectorpair> map;

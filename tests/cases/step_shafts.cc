@@ -141,26 +141,32 @@ std::vector<StepShaft> all() {
   };
 }
 
-void write_step(const StepShaft& shaft, const std::filesystem::path& file) {
-  namespace occ = gmsh::model::occ;
+void write_drawn(const std::filesystem::path& file, const std::function<void()>& draw) {
   gmsh::initialize();
   gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::model::add("shaft");
-  const auto profile = profile_of(shaft);
-  std::vector<int> points, lines;
-  for (const auto& c : profile.corners) points.push_back(occ::addPoint(c.r, 0, c.z));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& c = profile.corners[i];
-    const int from = points[i], to = points[(i + 1) % points.size()];
-    lines.push_back(c.is_arc_to_next ? occ::addCircleArc(from, occ::addPoint(c.centre_r, 0, c.centre_z), to)
-                                     : occ::addLine(from, to));
-  }
-  gmsh::vectorpair parts;
-  occ::revolve({{2, occ::addPlaneSurface({occ::addWire(lines)})}}, 0, 0, 0, 0, 0, 1, 2 * std::acos(-1.0),
-               parts);
-  occ::synchronize();
+  gmsh::model::add("drawn");
+  draw();
   gmsh::write(file.string());
   gmsh::finalize();
+}
+
+void write_step(const StepShaft& shaft, const std::filesystem::path& file) {
+  namespace occ = gmsh::model::occ;
+  write_drawn(file, [&] {
+    const auto profile = profile_of(shaft);
+    std::vector<int> points, lines;
+    for (const auto& c : profile.corners) points.push_back(occ::addPoint(c.r, 0, c.z));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto& c = profile.corners[i];
+      const int from = points[i], to = points[(i + 1) % points.size()];
+      lines.push_back(c.is_arc_to_next ? occ::addCircleArc(from, occ::addPoint(c.centre_r, 0, c.centre_z), to)
+                                       : occ::addLine(from, to));
+    }
+    gmsh::vectorpair parts;
+    occ::revolve({{2, occ::addPlaneSurface({occ::addWire(lines)})}}, 0, 0, 0, 0, 0, 1, 2 * std::acos(-1.0),
+                 parts);
+    occ::synchronize();
+  });
 }
 
 std::string scene_of_step(const StepShaft& shaft, const std::string& mesh_keys) {

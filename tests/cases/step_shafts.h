@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,10 @@ struct StepShaft {
 /// bending.
 std::vector<StepShaft> all();
 
-/// The solid by OpenCASCADE, in millimetres. Starts and ends gmsh.
+/// Calls draw in a session of gmsh of its own and writes what it left.
+void write_drawn(const std::filesystem::path& file, const std::function<void()>& draw);
+
+/// The solid by OpenCASCADE, in millimetres.
 void write_step(const StepShaft& shaft, const std::filesystem::path& file);
 
 /// The STEP file `<name>.step` as body "part".
