@@ -98,7 +98,7 @@ TEST(Tolerance, AMeshThatDoesNotFitEndsTheSearchWithWhatItHas) {
   const results_test::Directory directory;
   write(directory / "small.toml",
         with_edits(solid_shaft("tolerance = \"0.01 %\""), {{"[shaft]", "[shaft]\nsolver = \"direct\""}}));
-  const auto run = millstress(directory.path, "run small.toml -o out", "ulimit -d 800000");
+  const auto run = millstress(directory.path, "run small.toml -o out", "ulimit -d 1000000");
   EXPECT_EQ(run.exit_code, 4) << run.err << run.out;
   EXPECT_NE(run.out.find("does not fit into memory"), std::string::npos) << run.out;
   const auto json = summary(directory / "out");
