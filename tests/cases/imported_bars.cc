@@ -11,7 +11,7 @@ using namespace cases;
 
 namespace {
 
-const std::string material = R"(
+const std::string steel = R"(
 [part.material]
 name = "C45+N"
 youngs_modulus = "206 GPa"
@@ -67,7 +67,7 @@ file = "bar.step"
       text += fmt::format("[[machine.constants]]\neffect = \"load\"\nload = \"{}.mx\"\nvalue = \"{} N m\"\n",
                           name, far ? moment_Nm : -moment_Nm);
     }
-    write(directory / "bar.toml", text + "[part.mesh]\n" + bar.mesh + material);
+    write(directory / "bar.toml", text + "[part.mesh]\n" + bar.mesh + steel);
     const auto outcome = millstress(directory.path, "run bar.toml -o out --tolerance none");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto json = summary(directory / "out");
