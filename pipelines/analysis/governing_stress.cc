@@ -18,8 +18,8 @@ double share_of_cheap_model(const BodyAnalysis& analysis) {
   return peak.value_Pa > 0 ? (peak.errors.reducible_Pa() - peak.errors.numerical_Pa()) / peak.value_Pa : 0;
 }
 
-/// Whether a height is on an eccentric segment, or within its diameter of one: what its offset changes has
-/// died out there.
+/// Whether a height is on an eccentric segment, or within its diameter of one: farther away what its offset
+/// changes has died out.
 bool is_beside_eccentric_segment(const BodyAnalysis& analysis, double z_m) {
   const auto& planes = analysis.mesh.sections;
   return std::any_of(planes.begin(), planes.end(), [&](const auto& plane) {

@@ -113,9 +113,7 @@ std::vector<double> least_volumes_m3(const BodyAnalysis& analysis, const std::ve
   const auto& nodes = analysis.responses.nodes;
   const double level_Pa = analysis.zones.level_Pa;
   const auto& excluded = analysis.places.excluded;
-  const auto inside = [&](std::size_t i) {
-    return value_Pa[i] > 0 && value_Pa[i] >= level_Pa && !excluded[i];
-  };
+  const auto inside = [&](std::size_t i) { return is_in_zone(value_Pa[i], level_Pa, excluded[i] != 0); };
   DisjointSets sets(nodes.n);
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
     const auto cell = nodes.cell(c);

@@ -88,8 +88,7 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   for (const auto& bearing : scene.bearings)
     if (scene.bodies.empty() || force_of(bearing.load, history, {})) bearings.push_back(bearing);
   const auto lives = bearing_lives(bearings, history, {});
-  for (auto& sentence : loads_beyond_ratings(bearings, lives))
-    history.warnings.push_back(std::move(sentence));
+  warn_beyond_ratings(bearings, lives, history);
   if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, history); });
   if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, history); });
   std::vector<std::string> charts;

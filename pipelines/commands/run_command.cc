@@ -185,8 +185,7 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   const Scene scene = with_effects_chosen(given, {}, negligible_share(request.accuracy.tolerance));
   auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
-  for (auto& sentence : loads_beyond_ratings(scene.bearings, lives))
-    loads.warnings.push_back(std::move(sentence));
+  warn_beyond_ratings(scene.bearings, lives, loads);
   StagedResults staged(request.directory, {});
   warn_of_earlier(staged);
   clock.run("write",

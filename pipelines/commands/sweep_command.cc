@@ -83,8 +83,7 @@ void require_swept(const std::string& key, bool with_zones) {
     throw OptionError("--vary " + key +
                       ": no figure depends on this without the zones of every point; add --zones");
   const auto dot = key.find('.');
-  if (is_within(key, "duty") || (dot != std::string::npos && key.compare(dot, 8, ".fatigue") == 0 &&
-                                 (key.size() == dot + 8 || key[dot + 8] == '.')))
+  if (is_within(key, "duty") || (dot != std::string::npos && is_within(key.substr(dot + 1), "fatigue")))
     throw OptionError(
         "--vary " + key +
         ": a sweep judges no fatigue and no operating blocks, so that no figure depends on this; "

@@ -26,9 +26,8 @@ struct LifeCertainty {
 constexpr double least_cycles_of_curves = 1e4;
 
 /// Lives at all stresses times 1 + error and 1 - error.
-/// @param error_share  numerical error of the stress; from 1 on nothing is known of a life, and of what seems
-/// to
-///                     endure the least life alone
+/// @param error_share  numerical error of the stress; from 1 on nothing is known of a life, and of what
+///                     seems to endure the least life alone
 /// @param beyond       of beyond_curve: with a text there is no range
 /// @param life_s       with all stresses times a factor; none: endures
 LifeCertainty certainty_of(double error_share, const std::string& beyond,

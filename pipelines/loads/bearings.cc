@@ -123,17 +123,15 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
   return results;
 }
 
-std::vector<std::string> loads_beyond_ratings(const std::vector<BearingScene>& bearings,
-                                              const std::vector<BearingResult>& results) {
-  std::vector<std::string> sentences;
+void warn_beyond_ratings(const std::vector<BearingScene>& bearings, const std::vector<BearingResult>& results,
+                         kinetics::LoadHistory& loads) {
   for (std::size_t i = 0; i < results.size(); ++i)
     if (results[i].equivalent_load_N > 0.5 * bearings[i].dynamic_rating_N)
-      sentences.push_back(fmt::format(
-          "bearing \"{}\": its equivalent load of {:.4g} N is more than half of its dynamic rating of {:.4g} "
-          "N, where "
-          "the life law of ISO 281 ends: take a larger bearing or ask its maker, and check the rating's unit",
+      loads.warnings.push_back(fmt::format(
+          "bearing \"{}\": its equivalent load of {:.4g} N is more than half of its dynamic rating "
+          "of {:.4g} N, where the life law of ISO 281 ends: take a larger bearing or ask its "
+          "maker, and check the rating's unit",
           results[i].name, results[i].equivalent_load_N, bearings[i].dynamic_rating_N));
-  return sentences;
 }
 
 std::vector<std::string> forces_along_bearings(const std::vector<BearingResult>& results,

@@ -46,11 +46,12 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
                                          const kinetics::LoadHistory& loads,
                                          const std::vector<const ChannelHistory*>& channels);
 
-/// Sentences on bearings whose equivalent load is more than half of their dynamic rating: so far the life law
-/// of ISO 281 reaches, and beyond it rings and rolling elements yield.
+/// Warns of bearings whose equivalent load is more than half of their dynamic rating: so far the life law of
+/// ISO 281 reaches, and beyond it rings and rolling elements yield.
 /// @param results  of bearing_lives of these bearings, in the same order
-std::vector<std::string> loads_beyond_ratings(const std::vector<BearingScene>& bearings,
-                                              const std::vector<BearingResult>& results);
+/// @param loads    get the warnings
+void warn_beyond_ratings(const std::vector<BearingScene>& bearings, const std::vector<BearingResult>& results,
+                         kinetics::LoadHistory& loads);
 
 /// Sentences on bearings whose port has a force along the shaft that ISO 281 would count: their loads are
 /// those across it.

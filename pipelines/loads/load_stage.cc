@@ -102,8 +102,7 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
     kind_of(body).report(scene, body, loads, result.loads);
   }
   result.bearings = bearing_lives(with_speeds(scene, result), result.loads, result.channels());
-  for (auto& sentence : loads_beyond_ratings(scene.bearings, result.bearings))
-    result.loads.warnings.push_back(std::move(sentence));
+  warn_beyond_ratings(scene.bearings, result.bearings, result.loads);
   for (auto& sentence : forces_along_bearings(result.bearings, result.channels()))
     result.loads.warnings.push_back(std::move(sentence));
   return result;

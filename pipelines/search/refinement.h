@@ -31,10 +31,12 @@ KeptShare kept_share_of_own_error(const BodyScene& body);
 /// last.
 std::vector<BodyScene> first_meshes(const BodyScene& body);
 
-/// Of a STEP file with a limit of time: ever larger cells, from those of first_meshes on, by factors of 1.5.
-/// Of the first that gmsh makes in `meshing_s` seconds of a core, and that is solved in time, a search
-/// begins. Others: none.
+/// Of a STEP file: four meshes with ever larger cells, from those of first_meshes on, by factors of 1.5.
+/// Other bodies: none.
 std::vector<BodyScene> first_meshes_in_time(const BodyScene& body);
+
+/// A STEP file of which gmsh gives up after so many seconds of a core, unless the scene has a limit of its
+/// own; other bodies as they are.
 BodyScene with_meshing_limit(BodyScene body, double meshing_s);
 
 /// A shaft's first mesh with 6 cells on the fillets that a second model finds to be stressed most, 4 on those

@@ -33,7 +33,6 @@
 #include "pipelines/search/place_history.h"
 #include "pipelines/search/refinement.h"
 #include "pipelines/search/singular_edge.h"
-#include "pipelines/search/solid_refinement.h"
 #include "pipelines/search/without_mesh.h"
 
 namespace pipelines {

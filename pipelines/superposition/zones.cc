@@ -202,7 +202,7 @@ Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const No
   result.zone_of_node.assign(nodes.n, 0);
   // A body without stress has no zones, whatever the level.
   const auto inside = [&](std::size_t i) {
-    return envelope.value_Pa[i] > 0 && envelope.value_Pa[i] >= level_Pa && !places.excluded[i];
+    return is_in_zone(envelope.value_Pa[i], level_Pa, places.excluded[i] != 0);
   };
   DisjointSets sets = connected(nodes, inside);
   std::map<std::size_t, Zone> zones;  // by root
@@ -242,9 +242,7 @@ Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const No
 std::vector<double> region_volumes_m3(const fem::Nodes& nodes, const std::vector<double>& value,
                                       const NodePlaces& places, double level_Pa,
                                       const std::vector<std::size_t>& held) {
-  const auto inside = [&](std::size_t i) {
-    return value[i] > 0 && value[i] >= level_Pa && !places.excluded[i];
-  };
+  const auto inside = [&](std::size_t i) { return is_in_zone(value[i], level_Pa, places.excluded[i] != 0); };
   DisjointSets sets = connected(nodes, inside);
   std::map<std::size_t, double> volume_m3;  // by root
   for_cells_of_regions(nodes, inside, fem::cell_volumes_above_m3(nodes, value, level_Pa, places.excluded),

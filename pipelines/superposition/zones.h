@@ -85,6 +85,11 @@ std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places
 Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places,
                  double level_Pa, double yield_strength_Pa);
 
+/// Whether a node with this value belongs to a zone above the level.
+inline bool is_in_zone(double value_Pa, double level_Pa, bool is_excluded) {
+  return value_Pa > 0 && value_Pa >= level_Pa && !is_excluded;
+}
+
 /// Volumes of the connected regions above the level, as find_zones measures them, that hold some nodes.
 /// @param value  one per node [Pa]
 /// @param held   the nodes

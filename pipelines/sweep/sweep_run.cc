@@ -261,8 +261,7 @@ private:
       else if (loads_follow)
         throw StageRefused("the bearing \"" + bearing.name + "\" has a load that the rehearsal would know");
     const auto lives = bearing_lives(bearings, loads, {});
-    for (auto& sentence : loads_beyond_ratings(bearings, lives))
-      loads.warnings.push_back(std::move(sentence));
+    warn_beyond_ratings(bearings, lives, loads);
     add_load_figures(row, scene, loads, lives);
   }
 

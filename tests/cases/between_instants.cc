@@ -35,14 +35,9 @@ contour = [
   { fillet = "1 mm" },
   { port = "bearing_2", diameter = "35 mm", length = "20 mm" },
 ]
-bearings = ["bearing_1", "bearing_2"]
-[shaft.material]
-name = "C45+N"
-youngs_modulus = "206 GPa"
-poisson_ratio = 0.3
-density = "7850 kg/m3"
-yield_strength = "305 MPa"
-[shaft.fatigue]
+bearings = ["bearing_1", "bearing_2"])" +
+                                      steel_of("shaft") +
+                                      R"([shaft.fatigue]
 tensile_strength = "590 MPa"
 [results]
 snapshots = 0

@@ -11,15 +11,6 @@ using namespace cases;
 
 namespace {
 
-const std::string steel = R"(
-[part.material]
-name = "C45+N"
-youngs_modulus = "206 GPa"
-poisson_ratio = 0.3
-density = "7850 kg/m3"
-yield_strength = "305 MPa"
-)";
-
 // The stress of bending is largest at the outer fibre, end faces included: none of the submodels that tell a
 // mesh's error may keep away from where the moment enters. Beside the end the recovered stress of these cells
 // is 0.3 to 0.6 % too high, which single cells took for 0.2 to 0.5 %.
@@ -60,14 +51,15 @@ file = "bar.step"
       const auto name = far ? "far" : "near";
       const double z_mm = far ? bar.length_mm : 0;
       text += fmt::format(
-          "[[part.ports]]\nport = \"{}\"\nbox = {{ low = [\"-50 mm\", \"-50 mm\", \"{} mm\"], high = [\"50 "
-          "mm\", "
-          "\"50 mm\", \"{} mm\"] }}\n",
+          R"([[part.ports]]
+port = "{}"
+box = {{ low = ["-50 mm", "-50 mm", "{} mm"], high = ["50 mm", "50 mm", "{} mm"] }}
+)",
           name, z_mm - 0.1, z_mm + 0.1);
       text += fmt::format("[[machine.constants]]\neffect = \"load\"\nload = \"{}.mx\"\nvalue = \"{} N m\"\n",
                           name, far ? moment_Nm : -moment_Nm);
     }
-    write(directory / "bar.toml", text + "[part.mesh]\n" + bar.mesh + steel);
+    write(directory / "bar.toml", text + "[part.mesh]\n" + bar.mesh + steel_of("part"));
     const auto outcome = millstress(directory.path, "run bar.toml -o out --tolerance none");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto json = summary(directory / "out");

@@ -38,15 +38,6 @@ snapshots = 0
 pictures = false
 )";
 
-const std::string material = R"(
-[BODY.material]
-name = "C45+N"
-youngs_modulus = "206 GPa"
-poisson_ratio = 0.3
-density = "7850 kg/m3"
-yield_strength = "305 MPa"
-)";
-
 const std::string supports = R"(
 bearings = ["left", "right"]
 axial_support = "left"
@@ -117,9 +108,7 @@ cells_per_circle = 10
 )";
 
 std::string scene(const std::string& body, const std::string& table) {
-  std::string own_material = material;
-  own_material.replace(own_material.find("BODY"), 4, table);
-  return machine + body + own_material;
+  return machine + body + steel_of(table);
 }
 
 /// The same drawing revolved by OpenCASCADE in gmsh's current model.

@@ -61,12 +61,12 @@ TEST(NaturalFrequencies, OfASlenderShaftAreThoseOfABeam) {
   auto text = small_shaft({{"shake", "middle.fy", "100 N", 1}}, "mm", "600 rpm", "natural_frequencies = 4");
   const auto begin = text.find("contour = ["), end = text.find("]\nbearings");
   text.replace(begin, end - begin,
-               "contour = [\n" + segment("port = \"bearing_1\"", "20") + segment("name = \"left\"", "180") +
-                   segment("port = \"middle\"", "10") + segment("name = \"right\"", "180") +
+               "contour = [\n" + segment("port = \"bearing_1\"", "20") + segment("name = \"left\"", "380") +
+                   segment("port = \"middle\"", "10") + segment("name = \"right\"", "380") +
                    segment("port = \"bearing_2\"", "20"));
   text = with_edits(text, {{"sectors = 8", "sectors = 12"}});
   const auto shaft = run_small(directory.path, text)["bodies"]["shaft"];
-  const double gyration_m = 0.005, length_m = 0.39, wave = M_PI / length_m;
+  const double gyration_m = 0.005, length_m = 0.79, wave = M_PI / length_m;
   const double by_beam_Hz = wave * wave * gyration_m * std::sqrt(e_Pa / rho_kg_m3) / (2 * M_PI);
   EXPECT_NEAR(shaft["natural_frequencies"][0]["value"].get<double>(), by_beam_Hz, 0.01 * by_beam_Hz);
 }

@@ -58,6 +58,16 @@ Edits operator+(Edits a, const Edits& b) {
   return a;
 }
 
+std::string steel_of(const std::string& body) {
+  return "\n[" + body + R"(.material]
+name = "C45+N"
+youngs_modulus = "206 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "305 MPa"
+)";
+}
+
 fs::path write(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
   return file;

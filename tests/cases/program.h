@@ -38,10 +38,14 @@ std::string shaft_alone(const Edits& edits);
 std::string chamber_alone(const Edits& edits);
 
 /// The default scene on the coarsest mesh that still has fillets: about 67 k unknowns, seconds instead of a
-/// minute, and without pictures. Its stresses are off by a third; what is tested on it does not depend on that.
+/// minute, and without pictures. Its stresses are off by a third; what is tested on it does not depend on
+/// that.
 Edits coarse();
 
 Edits operator+(Edits a, const Edits& b);
+
+/// The material table of a body: C45 as normalised, beginning and ending with a line break.
+std::string steel_of(const std::string& body);
 
 fs::path write(const fs::path& file, const std::string& text);
 
@@ -50,8 +54,8 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Arguments of `run` or `history` with `--tolerance none` where neither they nor the scene ask for a tolerance or a time:
-/// what is tested is what becomes of one mesh.
+/// Arguments of `run` or `history` with `--tolerance none` where neither they nor the scene ask for a
+/// tolerance or a time: what is tested is what becomes of one mesh.
 std::string on_its_own_mesh(const fs::path& directory, const std::string& arguments);
 
 /// Runs `millstress ARGUMENTS` in `directory` on the scene's own mesh, unless they ask for more; what it

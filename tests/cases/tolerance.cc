@@ -168,7 +168,6 @@ TEST(Tolerance, SecondRunReusesTheLastMesh) {
   EXPECT_EQ(contents(directory / "out"), first);
 }
 
-// "none" in the scene or on the command line: solved once on the scene's mesh, whatever the default is.
 // "1.3e+02 %" is no way to say that nothing is known.
 TEST(Tolerance, AnErrorBeyondTheStressIsWrittenOut) {
   const results_test::Directory directory;
@@ -187,6 +186,7 @@ TEST(Tolerance, AnErrorBeyondTheStressIsWrittenOut) {
   EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
 }
 
+// "none" in the scene or on the command line: solved once on the scene's mesh, whatever the default is.
 TEST(Tolerance, NoneSolvesOnceOnTheScenesMesh) {
   const results_test::Directory directory;
   write(directory / "none.toml", solid_shaft("tolerance = \"none\""));

@@ -118,20 +118,23 @@ TEST(SolidShaft, NodesLieOnCylindersAndFillets) {
 }
 
 TEST(SolidShaft, KeywaysTakeTheirVolume) {
-  const auto shaft = keyed_shaft(0.01);
-  const std::vector<Keyway> keys = {{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, false},
-                                    {"body", 0.014, 0.0055, 0.04, 0.08, -2, true}};
-  const auto body = meshes::build_solid_shaft(shaft, keys, coarse());
-  const double exact = true_volume(shaft) - slot_volume(0.02, keys[0]) - slot_volume(0.025, keys[1]);
-  EXPECT_NEAR(read_tetrahedra(body).volume_m3 / exact, 1, 1.2 * lost_by_parabolas(n_around));
-  EXPECT_GT(body.quality.min_scaled_jacobian, 0.05);
-  EXPECT_GT(body.quality.max_aspect, 1);
-  // The floors' edges and the sharp shoulder are re-entrant, the edges at the surface are not.
-  std::vector<std::string> names;
-  for (const auto& edge : body.sharp_edges) names.push_back(edge.name);
-  const std::vector<std::string> expected = {"bearing/shoulder body/bearing", "keyway body/keyway body",
-                                             "keyway pulley/keyway pulley"};
-  EXPECT_EQ(names, expected);
+  for (const bool round_ends : {false, true}) {
+    const double bore_m = round_ends ? 0 : 0.01;
+    const auto shaft = keyed_shaft(bore_m);
+    const std::vector<Keyway> keys = {{"pulley", 0.012, 0.005, 0.03, 0.01, 0.3, round_ends},
+                                      {"body", 0.014, 0.0055, 0.04, 0.08, -2, round_ends}};
+    const auto body = meshes::build_solid_shaft(shaft, keys, coarse());
+    const double exact = true_volume(shaft) - slot_volume(0.02, keys[0]) - slot_volume(0.025, keys[1]);
+    EXPECT_NEAR(read_tetrahedra(body).volume_m3 / exact, 1, 1.2 * lost_by_parabolas(n_around));
+    EXPECT_GT(body.quality.min_scaled_jacobian, 0.05);
+    EXPECT_GT(body.quality.max_aspect, 1);
+    // The floors' edges and the sharp shoulder are re-entrant, the edges at the surface are not.
+    std::vector<std::string> names;
+    for (const auto& edge : body.sharp_edges) names.push_back(edge.name);
+    const std::vector<std::string> expected = {"bearing/shoulder body/bearing", "keyway body/keyway body",
+                                               "keyway pulley/keyway pulley"};
+    EXPECT_EQ(names, expected);
+  }
 }
 
 // A keyway elsewhere does not change what is left out beside a shoulder without a fillet: 0.1 of the smaller
