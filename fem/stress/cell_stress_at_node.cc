@@ -84,8 +84,7 @@ std::vector<double> largest_cell_differences_Pa(const UnitResponses& responses, 
     for (int i = 0; i < n_local; ++i) {
       const auto node = std::size_t(part.node[std::size_t(part.grid.nodes_of(c)[i])]);
       if (factors[node] == nullptr) continue;
-      const double recovered =
-          summed(&responses.stress_Pa[node * std::size_t(n_channels) * 6], factors[node]);
+      const double recovered = summed(responses.unit_stress_Pa(node), factors[node]);
       largest[node] =
           std::max(largest[node], std::abs(summed(stress.row(i).data(), factors[node]) - recovered));
     }

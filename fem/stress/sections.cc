@@ -136,14 +136,13 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
 
 SectionResponse respond(const Grid& grid, const SectionPlane& plane, const Section& section,
                         const UnitResponses& responses, std::size_t load) {
-  const std::size_t n_loads = responses.channels.size();
   const auto stress = [&](std::int32_t node) {
-    return responses.stress_Pa.data() + (node * n_loads + load) * 6;
+    return responses.unit_stress_Pa(std::size_t(node)) + 6 * load;
   };
   SectionResponse r;
   Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
   for (const auto& [node, weight] : section.weights) {
-    const double *s = stress(node), *u = responses.displacement_m.data() + (node * n_loads + load) * 3;
+    const double *s = stress(node), *u = responses.unit_displacement_m(std::size_t(node)) + 3 * load;
     const double xz = s[5], yz = s[4], zz = s[2];
     r.resultant[0] += weight.one * xz;
     r.resultant[1] += weight.one * yz;

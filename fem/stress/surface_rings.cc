@@ -98,7 +98,7 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
       std::array<double, 2> mean{};
       for (auto node = begin; node != end; ++node) {
         const double* x = grid.position(node->node);
-        const auto shear = rim_shear(x[0], x[1], responses.stress_Pa.data() + (node->node * n_loads + k) * 6);
+        const auto shear = rim_shear(x[0], x[1], responses.unit_stress_Pa(node->node) + 6 * k);
         for (int c = 0; c < 2; ++c) mean[c] += weights[std::size_t(node - begin)] * shear[c];
       }
       responses.ring_shear_Pa.push_back(mean);

@@ -128,6 +128,14 @@ struct UnitResponses {
   double factor_gigabytes = 0;  ///< 0: solved iteratively
   SolverReport solver;
 
+  /// Of one node for every unit load: K x 6 [Pa], and K x 3 [m].
+  const double* unit_stress_Pa(std::size_t node) const noexcept {
+    return stress_Pa.data() + node * channels.size() * 6;
+  }
+  const double* unit_displacement_m(std::size_t node) const noexcept {
+    return displacement_m.data() + node * channels.size() * 3;
+  }
+
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   UnitResponses();
   UnitResponses(const UnitResponses&);

@@ -150,7 +150,7 @@ std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& resp
   for (const auto& part : point.parts)
     for (std::size_t k = 0; k < n_channels; ++k)
       for (std::size_t c = 0; c < 6; ++c)
-        unit[k][c] += part.weight * responses.stress_Pa[(part.node * n_channels + k) * 6 + c];
+        unit[k][c] += part.weight * responses.unit_stress_Pa(part.node)[6 * k + c];
   return unit;
 }
 

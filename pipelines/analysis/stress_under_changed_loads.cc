@@ -50,18 +50,16 @@ LargestStresses largest(const BodyAnalysis& analysis, const ArrayXXd& change, co
     return sum;
   };
   const auto& own = analysis.envelope.von_mises.value_Pa;
-  const auto unit_at = [&](std::size_t node) {
-    return responses.stress_Pa.data() + node * responses.channels.size() * 6;
-  };
   std::vector<Candidate> nodes, toes;
   for (std::size_t i = 0; i < own.size(); ++i)
-    if (!analysis.places.excluded[i]) nodes.push_back({reach(unit_at(i), own[i]), i});
+    if (!analysis.places.excluded[i]) nodes.push_back({reach(responses.unit_stress_Pa(i), own[i]), i});
   std::vector<std::vector<std::array<double, 6>>> at_toes;
   for (const auto& spot : analysis.hot_spots) {
     at_toes.push_back(unit_stress_at(responses, stress_point(spot)));
     toes.push_back({reach(at_toes.back().front().data(), spot.von_mises_Pa), toes.size()});
   }
-  return {best_first(std::move(nodes), [&](std::size_t i) { return value_Pa(unit_at(i), own[i]); }),
+  return {best_first(std::move(nodes),
+                     [&](std::size_t i) { return value_Pa(responses.unit_stress_Pa(i), own[i]); }),
           best_first(std::move(toes), [&](std::size_t i) {
             return value_Pa(at_toes[i].front().data(), analysis.hot_spots[i].von_mises_Pa);
           })};

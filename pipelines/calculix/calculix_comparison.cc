@@ -31,10 +31,9 @@ std::vector<std::size_t> nodes_on(const fem::Nodes& nodes, const std::vector<int
 
 /// One load of ours, n x 3.
 std::vector<double> displacement_of(const fem::UnitResponses& responses, std::size_t load) {
-  const std::size_t n_loads = responses.channels.size();
   std::vector<double> result(3 * responses.nodes.n);
   for (std::size_t i = 0; i < responses.nodes.n; ++i)
-    std::copy_n(&responses.displacement_m[(i * n_loads + load) * 3], 3, &result[3 * i]);
+    std::copy_n(responses.unit_displacement_m(i) + 3 * load, 3, &result[3 * i]);
   return result;
 }
 

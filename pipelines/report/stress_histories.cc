@@ -267,11 +267,10 @@ ChannelHistory channels_of(const Hdf5Reader& loads, const std::string& body,
 }
 
 StressHistory superpose(const RunBody& body, HistoryPoint point) {
-  const auto n_channels = body.responses.channels.size();
-  Eigen::MatrixXd unit_Pa = Eigen::MatrixXd::Zero(6, Index(n_channels));
+  Eigen::MatrixXd unit_Pa = Eigen::MatrixXd::Zero(6, Index(body.responses.channels.size()));
   for (const auto& part : point.parts)
-    unit_Pa += part.weight * Eigen::Map<const Eigen::MatrixXd>(
-                                 &body.responses.stress_Pa[part.node * n_channels * 6], 6, Index(n_channels));
+    unit_Pa += part.weight *
+               Eigen::Map<const Eigen::MatrixXd>(body.responses.unit_stress_Pa(part.node), 6, unit_Pa.cols());
   StressHistory history{std::move(point), (unit_Pa * body.channels.values.matrix()).array()};
   const double found_Pa = history.von_mises_Pa().maxCoeff(), stated_Pa = history.point.stated_Pa;
   if (stated_Pa > 0 && std::abs(found_Pa - stated_Pa) > agreement * stated_Pa)

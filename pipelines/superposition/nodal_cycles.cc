@@ -16,8 +16,7 @@ using Eigen::Index;
 using UnitRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
 Eigen::Map<const UnitRows> unit_stresses(const fem::UnitResponses& responses, std::size_t node) {
-  const std::size_t n_channels = responses.channels.size();
-  return {responses.stress_Pa.data() + node * n_channels * 6, Index(n_channels), 6};
+  return {responses.unit_stress_Pa(node), Index(responses.channels.size()), 6};
 }
 
 /// Of a smaller number 1/x may overflow.

@@ -37,9 +37,8 @@ StressShares shares_by(const UnitStresses& unit_Pa, const ChannelHistory& loads,
 }  // namespace
 
 UnitStresses unit_stresses_at(const fem::UnitResponses& responses, std::size_t node) {
-  const auto n_channels = Eigen::Index(responses.channels.size());
-  return Eigen::Map<const UnitStresses>(responses.stress_Pa.data() + node * responses.channels.size() * 6, 6,
-                                        n_channels);
+  return Eigen::Map<const UnitStresses>(responses.unit_stress_Pa(node), 6,
+                                        Eigen::Index(responses.channels.size()));
 }
 
 StressShares shares_of_stress(const UnitStresses& unit_Pa, const ChannelHistory& loads,

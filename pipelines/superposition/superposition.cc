@@ -14,11 +14,6 @@
 namespace pipelines {
 namespace {
 
-/// The unit stresses of a node, K x 6.
-const double* unit_stress(const fem::UnitResponses& responses, std::size_t node) {
-  return responses.stress_Pa.data() + node * responses.channels.size() * 6;
-}
-
 Stress combine(const double* unit, const Eigen::ArrayXXd& factors, Eigen::Index instant) {
   Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
   for (Eigen::Index k = 0; k < factors.rows(); ++k)
@@ -118,7 +113,7 @@ double largest_principal_Pa(const Stress& s) {
 
 Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node,
                  Eigen::Index instant) {
-  return combine(unit_stress(responses, node), loads.values, instant);
+  return combine(responses.unit_stress_Pa(node), loads.values, instant);
 }
 
 void check_channels(const ChannelHistory& loads, const fem::UnitResponses& responses) {
@@ -165,7 +160,7 @@ Envelope EnvelopeWalk::of(const fem::UnitResponses& responses, int n_threads) co
       const auto& found = walk.of(first, n);
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t node = first + i;
-        const double* unit = unit_stress(responses, node);
+        const double* unit = responses.unit_stress_Pa(node);
         const Eigen::Index of_mises = found[i].von_mises_instant, of_principal = found[i].principal_instant;
         const Stress stress = combine(unit, loads.values, of_mises);
         keep(result.von_mises, node, of_mises, stress, von_mises_Pa(stress));
@@ -197,10 +192,9 @@ Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& respons
 
 std::array<double, 3> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
                                       std::size_t node, Eigen::Index instant) {
-  const std::size_t n_channels = responses.channels.size();
-  const double* unit = responses.displacement_m.data() + node * n_channels * 3;
+  const double* unit = responses.unit_displacement_m(node);
   std::array<double, 3> displacement{};
-  for (std::size_t k = 0; k < n_channels; ++k)
+  for (std::size_t k = 0; k < responses.channels.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c)
       displacement[c] += loads.values(Eigen::Index(k), instant) * unit[3 * k + c];
   return displacement;

@@ -17,10 +17,6 @@ constexpr double slack = 1 + 1e-9;
 /// Of the places' nodes, those that are walked at once.
 constexpr std::size_t first_of_each_place = 4, at_once = 512;
 
-const double* unit_at(const fem::UnitResponses& responses, std::int32_t node) {
-  return responses.stress_Pa.data() + std::size_t(node) * responses.channels.size() * 6;
-}
-
 /// Walks some nodes and enters them into an envelope of all.
 class Walker {
 public:
@@ -38,7 +34,7 @@ public:
     some_.nodes.n = nodes.size();
     some_.stress_Pa.clear();
     for (const auto node : nodes) {
-      const double* const unit = unit_at(responses_, node);
+      const double* const unit = responses_.unit_stress_Pa(std::size_t(node));
       some_.stress_Pa.insert(some_.stress_Pa.end(), unit, unit + n_numbers);
     }
     const Envelope found = walk_.of(some_, 1);
@@ -148,7 +144,7 @@ LeadingStress::LeadingStress(const BodyAnalysis& known)
   for (std::size_t node = 0; node < nodes.n; ++node)
     for (Index k = 0; k < n_channels; ++k) {
       Stress unit;
-      std::copy_n(unit_at(responses, std::int32_t(node)) + 6 * k, 6, unit.begin());
+      std::copy_n(responses.unit_stress_Pa(node) + 6 * k, 6, unit.begin());
       unit_Pa_(Index(node), k) = von_mises_Pa(unit);
     }
   weight_ = unit_Pa_.colwise().maxCoeff().transpose().array();
