@@ -138,37 +138,4 @@ std::vector<LoadCycle> spectrum(std::vector<LoadCycle> cycles) {
   return merged;
 }
 
-std::vector<RangeBin> binned(const std::vector<LoadCycle>& cycles, int n_bins) {
-  if (n_bins < 1) refuse("n_bins", n_bins, "must be at least 1; it is the number of classes of range");
-  if (cycles.empty()) return {};
-  double largest = 0;
-  for (const LoadCycle& cycle : cycles) largest = std::max(largest, cycle.range);
-  std::vector<RangeBin> bins;
-  for (int i = 0; i < n_bins; ++i) bins.push_back({largest * i / n_bins, largest * (i + 1) / n_bins, 0});
-  for (const LoadCycle& cycle : cycles)
-    std::find_if(bins.begin(), bins.end() - 1, [&](const RangeBin& bin) {
-      return cycle.range <= bin.range_to;
-    })->count += cycle.count;
-  return bins;
-}
-
-double equivalent_amplitude(const std::vector<LoadCycle>& cycles, double exponent,
-                            double n_reference_cycles) {
-  require_finite("exponent", exponent);
-  require_finite("n_reference_cycles", n_reference_cycles);
-  if (exponent <= 0) refuse("exponent", exponent, "must be positive: life falls as amplitude^-m rises");
-  if (n_reference_cycles < 0)
-    refuse("n_reference_cycles", n_reference_cycles,
-           "must be positive; leave it at zero for the number of counted cycles");
-  double largest = 0, n = n_reference_cycles;
-  for (const LoadCycle& cycle : cycles) {
-    largest = std::max(largest, cycle.range);
-    if (n_reference_cycles == 0) n += cycle.count;
-  }
-  if (largest == 0) return 0;
-  double damage = 0;  // relative to the largest range, so that no power overflows
-  for (const LoadCycle& cycle : cycles) damage += cycle.count * std::pow(cycle.range / largest, exponent);
-  return largest / 2 * std::pow(damage / n, 1 / exponent);
-}
-
 }  // namespace kinetics

@@ -1,4 +1,4 @@
-/// From a load over time to counted cycles: turning points, rainflow, spectrum, equivalent amplitude.
+/// From a load over time to counted cycles: turning points, rainflow, spectrum.
 ///
 /// Source: ASTM E1049-85 (2017), 5.4.4 rainflow counting and 5.4.5 its form for repeating histories. The unit
 /// of ranges and means is that of the series.
@@ -13,13 +13,6 @@ namespace kinetics {
 struct LoadCycle {
   double range = 0;
   double mean = 0;
-  double count = 0;
-};
-
-/// Cycles whose range lies in (range_from, range_to].
-struct RangeBin {
-  double range_from = 0;
-  double range_to = 0;
   double count = 0;
 };
 
@@ -52,20 +45,5 @@ std::vector<CycleEnds> rainflow_repeating_ends(const Eigen::ArrayXd& period, dou
 
 /// Exact spectrum: equal (range, mean) merged, their counts summed; by falling range, then rising mean.
 std::vector<LoadCycle> spectrum(std::vector<LoadCycle> cycles);
-
-/// Spectrum by classes of equal width from zero to the largest range; every cycle falls in exactly one.
-/// @param n_bins  number of classes, >= 1
-/// @return n_bins classes by rising range; none if there are no cycles
-/// @throws MachineRefused if n_bins < 1
-std::vector<RangeBin> binned(const std::vector<LoadCycle>& cycles, int n_bins);
-
-/// Amplitude of that constant-amplitude load which does the same damage by Miner's rule with a life curve
-/// N ~ amplitude^-m:  A = (sum n_i (range_i / 2)^m / n)^(1/m). Means are not weighed.
-/// @param exponent            m > 0; 3 to 5 for welds and notches, 8 to 15 for smooth steel
-/// @param n_reference_cycles  n > 0; zero: the sum of the counts
-/// @return amplitude (half a range); zero if there are no cycles
-/// @throws MachineRefused if the exponent is not positive, or n is negative, or one is not finite
-double equivalent_amplitude(const std::vector<LoadCycle>& cycles, double exponent,
-                            double n_reference_cycles = 0);
 
 }  // namespace kinetics

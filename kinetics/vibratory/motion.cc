@@ -121,19 +121,8 @@ Eigen::Vector2d turned(const Eigen::Vector2d& p) {
   return {-p.y(), p.x()};
 }
 
-Eigen::Array2Xd turned(const Eigen::Array2Xd& p) {
-  Eigen::Array2Xd q(2, p.cols());
-  q.row(0) = -p.row(1);
-  q.row(1) = p.row(0);
-  return q;
-}
-
 Eigen::ArrayXd cross(const Eigen::Array2Xd& a, const Eigen::Array2Xd& b) {
   return (a.row(0) * b.row(1) - a.row(1) * b.row(0)).transpose();
-}
-
-Eigen::ArrayXd dot(const Eigen::Array2Xd& a, const Eigen::Array2Xd& b) {
-  return (a * b).colwise().sum().transpose();
 }
 
 Eigen::Array2Xd translation(const VibratoryMill& mill, const Instants& at) {

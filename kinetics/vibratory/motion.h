@@ -62,11 +62,8 @@ Eigen::Array2Xd scaled(const Eigen::ArrayXd& factor, const Eigen::Array2Xd& vect
 Eigen::Array2Xd constant(const Eigen::Vector2d& vector, Eigen::Index n);
 /// z x p: p turned counter-clockwise by a right angle.
 Eigen::Vector2d turned(const Eigen::Vector2d& p);
-Eigen::Array2Xd turned(const Eigen::Array2Xd& p);
 /// a_x b_y - a_y b_x, counter-clockwise positive.
 Eigen::ArrayXd cross(const Eigen::Array2Xd& a, const Eigen::Array2Xd& b);
-/// a . b
-Eigen::ArrayXd dot(const Eigen::Array2Xd& a, const Eigen::Array2Xd& b);
 
 /// s = ecc e(phi), (1): the translation that the eccentric prescribes to the chamber [m].
 Eigen::Array2Xd translation(const VibratoryMill& mill, const Instants& at);

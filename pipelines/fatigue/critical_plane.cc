@@ -228,19 +228,6 @@ public:
   /// Near a plane that another history told: half a spacing of coarse planes away at most.
   Plane best_near(const Vector3d& normal) { return refined(at(normal), 0.04, 1e-7); }
 
-  /// Largest shear; of planes that share it, by 1e-9, the one with the larger normal stress. Where a whole
-  /// circle of planes shares it, a search for both leads to the largest normal stress on the circle.
-  Plane best_of_largest_shear() {
-    normal_share_ = 0.05;
-    const Plane of_both = best();
-    // This small share moves the plane by 1e-6, its shear by 1e-12.
-    normal_share_ = 1e-6;
-    const Plane largest = best();
-    const Plane beside = refined(at(of_both.normal), 0.04, 1e-7);
-    const bool shares_it = beside.shear_Pa >= largest.shear_Pa * (1 - 1e-9);
-    return shares_it && beside.normal_Pa > largest.normal_Pa ? beside : largest;
-  }
-
 private:
   /// Pattern search: eight neighbours on the sphere, the step halved when none is better.
   Plane refined(Plane best, double step, double least_step) {
@@ -289,18 +276,6 @@ CriticalPlane described(const PlaneSearch::Plane& plane, const CriticalPlaneLimi
   return result;
 }
 
-enum class PlaneRule { largest_sum, largest_shear };
-
-CriticalPlane searched(const StressPath& history_Pa, const CriticalPlaneLimit& limit, PlaneRule rule) {
-  require_search(history_Pa, limit);
-  const double scale = history_Pa.cwiseAbs().maxCoeff();
-  if (scale == 0) return {};
-  const StressPath of_unit_size = history_Pa / scale;
-  PlaneSearch search(of_unit_size, limit.normal_share);
-  return described(rule == PlaneRule::largest_sum ? search.best() : search.best_of_largest_shear(), limit,
-                   scale);
-}
-
 double shear_ratio_share(double reversed_strength_Pa, double reversed_shear_strength_Pa) {
   require_positive_input("reversed_strength_Pa", reversed_strength_Pa);
   require_positive_input("reversed_shear_strength_Pa", reversed_shear_strength_Pa);
@@ -317,10 +292,6 @@ CriticalPlaneLimit findley_limit(double reversed_strength_Pa, double reversed_sh
   const double s = shear_ratio_share(reversed_strength_Pa, reversed_shear_strength_Pa);
   const double k = s / std::sqrt(1 - s * s);
   return {k, reversed_shear_strength_Pa * std::hypot(1, k)};
-}
-
-CriticalPlaneLimit matake_limit(double reversed_strength_Pa, double reversed_shear_strength_Pa) {
-  return {shear_ratio_share(reversed_strength_Pa, reversed_shear_strength_Pa), reversed_shear_strength_Pa};
 }
 
 CriticalPlane stress_on_plane(const StressPath& history_Pa, const Eigen::Vector3d& normal,
@@ -344,11 +315,10 @@ CriticalPlane findley(const StressPath& history_Pa, const StressPath& finer_Pa,
 }
 
 CriticalPlane findley(const StressPath& history_Pa, const CriticalPlaneLimit& limit) {
-  return searched(history_Pa, limit, PlaneRule::largest_sum);
-}
-
-CriticalPlane matake(const StressPath& history_Pa, const CriticalPlaneLimit& limit) {
-  return searched(history_Pa, limit, PlaneRule::largest_shear);
+  require_search(history_Pa, limit);
+  const double scale = history_Pa.cwiseAbs().maxCoeff();
+  if (scale == 0) return {};
+  return described(PlaneSearch(history_Pa / scale, limit.normal_share).best(), limit, scale);
 }
 
 double smallest_circle_radius(const Eigen::Matrix2Xd& points) {

@@ -1,20 +1,18 @@
-/// Critical planes of a stress history: Findley and Matake.
+/// Critical planes of a stress history, by Findley.
 ///
 /// On every plane through the point the shear traction moves on a path. Its amplitude tau_a is the radius of
 /// the smallest circle that holds the path, which is exact for any path (half the longest chord would be too
 /// small by up to 15 %); sigma_n,max is the largest normal stress, tension positive.
-/// Findley: f = largest of tau_a + k sigma_n,max over all planes. Matake: tau_a + k sigma_n,max on the plane
-/// of the largest tau_a; of several such planes the one with the largest sigma_n,max. A compressive
-/// sigma_n,max lowers the value, as Findley has it. Source: Findley, J. Eng. Industry 81 (1959) 301-306;
-/// Matake, Bull. JSME 20 (1977) 257-263; Papadopoulos et al., Int. J. Fatigue 19 (1997) 219-235, for the
-/// smallest circle.
+/// f = largest of tau_a + k sigma_n,max over all planes. A compressive sigma_n,max lowers the value. Source:
+/// Findley, J. Eng. Industry 81 (1959) 301-306; Papadopoulos et al., Int. J. Fatigue 19 (1997) 219-235, for
+/// the smallest circle.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace pipelines {
 
-/// What a critical-plane rule asks of the material: endured while tau_a + k sigma_n,max <= f.
+/// What the rule asks of the material: endured while tau_a + k sigma_n,max <= f.
 struct CriticalPlaneLimit {
   double normal_share = 0;  ///< k >= 0
   double limit_Pa = 0;      ///< f > 0
@@ -27,11 +25,6 @@ struct CriticalPlaneLimit {
 /// @throws std::invalid_argument if a strength is not positive, or tau_W / sigma_W is outside 0.5 to 1
 /// (exclusive)
 CriticalPlaneLimit findley_limit(double reversed_strength_Pa, double reversed_shear_strength_Pa);
-
-/// Matake's: bar sigma_W/2 + k sigma_W/2 = f, torsion tau_W = f, so that k = 2 tau_W / sigma_W - 1, f =
-/// tau_W.
-/// @throws std::invalid_argument as findley_limit
-CriticalPlaneLimit matake_limit(double reversed_strength_Pa, double reversed_shear_strength_Pa);
 
 struct CriticalPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit; its sign has no meaning
@@ -60,7 +53,6 @@ CriticalPlane findley(const StressPath& history_Pa, const CriticalPlaneLimit& li
 /// shear each.
 CriticalPlane findley(const StressPath& history_Pa, const StressPath& finer_Pa,
                       const CriticalPlaneLimit& limit);
-CriticalPlane matake(const StressPath& history_Pa, const CriticalPlaneLimit& limit);
 
 /// Radius of the smallest circle that holds all points, to rounding.
 /// @param points  one column each, at least one

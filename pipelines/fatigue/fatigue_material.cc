@@ -64,8 +64,4 @@ double reversed_strength_Pa(const FatigueMaterial& material) {
   return constants_of(material.group).f_W_sigma * material.tensile_strength_Pa;
 }
 
-double reversed_shear_strength_Pa(const FatigueMaterial& material) {
-  return constants_of(material.group).f_W_tau * reversed_strength_Pa(material);
-}
-
 }  // namespace pipelines

@@ -74,7 +74,4 @@ void require_sound(const FatigueMaterial& material);
 /// sigma_W,zd = f_W,sigma R_m: amplitude of normal stress that the smooth specimen endures at R = -1 [Pa].
 double reversed_strength_Pa(const FatigueMaterial& material);
 
-/// tau_W,s = f_W,tau sigma_W,zd [Pa].
-double reversed_shear_strength_Pa(const FatigueMaterial& material);
-
 }  // namespace pipelines

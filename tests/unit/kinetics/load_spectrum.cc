@@ -190,8 +190,6 @@ TEST(LoadSpectrum, ConstantSeriesHasNoCycles) {
   const ArrayXd constant = ArrayXd::Constant(50, 3.5);
   EXPECT_TRUE(kinetics::rainflow(constant).empty());
   EXPECT_TRUE(kinetics::rainflow_repeating(constant).empty());
-  EXPECT_TRUE(kinetics::binned({}, 4).empty());
-  EXPECT_EQ(kinetics::equivalent_amplitude({}, 3), 0);
 }
 
 TEST(LoadSpectrum, MergesEqualCyclesByFallingRange) {
@@ -202,33 +200,6 @@ TEST(LoadSpectrum, MergesEqualCyclesByFallingRange) {
   EXPECT_EQ(merged[2].count, 1);
 }
 
-TEST(LoadSpectrum, EveryCycleFallsInOneClass) {
-  std::mt19937 generator(10);
-  const auto cycles = kinetics::rainflow(random_series(generator, 300, 20));
-  double all = 0;
-  for (const auto& cycle : cycles) all += cycle.count;
-  for (const int n_bins : {1, 7, 40}) {
-    double sum = 0;
-    for (const auto& bin : kinetics::binned(cycles, n_bins)) sum += bin.count;
-    EXPECT_EQ(sum, all);
-  }
-  const auto bins = kinetics::binned({{1, 0, 1}, {2, 0, 0.5}, {4, 0, 1}}, 4);
-  EXPECT_EQ(bins[0].count, 1) << "a range on the border belongs to the lower class";
-  EXPECT_EQ(bins[1].count, 0.5);
-  EXPECT_EQ(bins[2].count, 0);
-  EXPECT_EQ(bins[3].count, 1);
-}
-
-TEST(LoadSpectrum, EquivalentAmplitude) {
-  // One size only: its own amplitude, whatever the exponent. Tolerances: a few roundings of pow.
-  EXPECT_NEAR(kinetics::equivalent_amplitude({{6, 1, 2}, {6, -1, 0.5}}, 5), 3, 1e-14);
-  // Half the cycles do nothing: 2^(-1/m) of the rest.
-  EXPECT_NEAR(kinetics::equivalent_amplitude({{6, 0, 1}, {0, 0, 1}}, 3), 3 * std::pow(0.5, 1 / 3.), 1e-14);
-  EXPECT_NEAR(kinetics::equivalent_amplitude({{2, 0, 1}, {4, 0, 1}}, 2), std::sqrt(2.5), 1e-14);
-  EXPECT_NEAR(kinetics::equivalent_amplitude({{2, 0, 8}}, 3, 1), 2, 1e-14) << "8 cycles in one: 8^(1/3)";
-  EXPECT_NEAR(kinetics::equivalent_amplitude({{2e300, 0, 1}}, 15) / 1e300, 1, 1e-14) << "no overflow";
-}
-
 TEST(LoadSpectrum, WrongInputIsRefused) {
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(kinetics::turning_points(ArrayXd()), std::invalid_argument);
@@ -236,11 +207,7 @@ TEST(LoadSpectrum, WrongInputIsRefused) {
   for (const double bad : {not_a_number, std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(kinetics::rainflow(series({1, 2, bad})), std::invalid_argument);
     EXPECT_THROW(kinetics::rainflow_repeating(series({1, bad, 2})), std::invalid_argument);
-    EXPECT_THROW(kinetics::equivalent_amplitude({{1, 0, 1}}, bad), std::invalid_argument);
   }
-  EXPECT_THROW(kinetics::equivalent_amplitude({{1, 0, 1}}, 0), std::invalid_argument);
-  EXPECT_THROW(kinetics::equivalent_amplitude({{1, 0, 1}}, 3, -1), std::invalid_argument);
-  EXPECT_THROW(kinetics::binned({{1, 0, 1}}, 0), std::invalid_argument);
   try {
     kinetics::rainflow(series({1, not_a_number}));
   } catch (const std::invalid_argument& error) {
