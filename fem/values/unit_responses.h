@@ -99,8 +99,7 @@ struct EnergyNorms {
 EnergyNorms energy_norms(const EnergyError& channels, const std::vector<double>& factors);
 
 /// Where body and loads are mirror images of themselves: the image of each node and cell. The stress at a
-/// node's image is the mirrored one, to the last bit. Empty for other bodies, and of responses read from a
-/// file.
+/// node's image is the mirrored one, to the last bit. Empty for other bodies.
 struct MirrorImages {
   std::vector<std::int32_t> node, cell;
 };

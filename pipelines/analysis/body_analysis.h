@@ -69,7 +69,7 @@ struct BodyAnalysis {
   fem::UnitResponses responses;
   bool responses_reused = false;        ///< taken from an earlier run
   std::vector<std::string> warnings;    ///< of damaged files that an earlier run has left
-  double solve_s = 0, superpose_s = 0;  ///< wall time; solve_s: 0 if reused
+  double solve_s = 0, superpose_s = 0;  ///< wall time; 0: taken from before
   Closure closure;
   NodePlaces places;
   Envelope envelope;

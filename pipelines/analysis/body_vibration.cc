@@ -30,6 +30,11 @@ void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics:
       toes.push_back(shaken(analysis, toe.name, toe.von_mises_Pa, stress_point(toe)));
     return vibration(scene, analysis.scene, meshed, history, analysis.loads.history, places, toes);
   });
+  enter_vibration(analysis);
+}
+
+void enter_vibration(BodyAnalysis& analysis) {
+  if (!analysis.vibration) return;
   const auto enter = [](ErrorBudget& errors, const Vibration::Added& added, double value_Pa) {
     errors.set_model({"quasi_static",
                       "dynamic amplification of the harmonics of the stress" +

@@ -11,4 +11,7 @@ namespace pipelines {
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
                    BodyAnalysis& analysis, StageClock& clock);
 
+/// The entries of the budgets alone, of BodyAnalysis::vibration; nothing without it.
+void enter_vibration(BodyAnalysis& analysis);
+
 }  // namespace pipelines

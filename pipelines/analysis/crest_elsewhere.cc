@@ -66,7 +66,7 @@ void add_crest_at_toe(const ChannelHistory& denser, BodyAnalysis& analysis) {
 ChannelHistory at_denser_instants(const ChannelHistory& loads, Index most) {
   const Index n = loads.values.cols();
   ChannelHistory denser{loads.body, loads.channels, {}, loads.values, {}};
-  if (n < 3 || n >= most || !can_be_transformed(n)) return denser;
+  if (n < 3 || !can_be_transformed(n)) return denser;
   std::map<std::string, double> largest;  // by unit
   for (Index k = 0; k < loads.values.rows(); ++k) {
     double& size = largest[loads.channels[std::size_t(k)].unit];
@@ -80,7 +80,7 @@ ChannelHistory at_denser_instants(const ChannelHistory& loads, Index most) {
     for (Index h = 1; h < spectra.back().lines.cols(); ++h)
       if (line_size(spectra.back(), h) > least_line * size) highest = std::max(highest, h);
   }
-  const Index times = std::min((per_period * highest + n - 1) / n, most / n);
+  const Index times = std::min((per_period * highest + n - 1) / n, std::max(most / n, Index(2)));
   if (times < 2 || (n >= least_to_close && !is_closed(loads.values))) return denser;
   denser.values.resize(loads.values.rows(), times * n);
   for (Index k = 0; k < loads.values.rows(); ++k)

@@ -11,7 +11,7 @@ namespace pipelines {
 /// channel of its unit: a crest between two is then missed by 1 % of that line, (pi / 24)^2 / 2. The
 /// trigonometric polynomials through the instants; the history itself has no effects. Its own instants where
 /// they are enough, where the window does not close, or where they cannot be transformed.
-/// @param most  instants over the history
+/// @param most  instants over the history, or twice its own where that is more
 ChannelHistory at_denser_instants(const ChannelHistory& loads, Eigen::Index most = 4096);
 
 /// Few instants miss crests by different shares at different points: the largest stress between the instants

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "fem/stress/cell_stress_at_node.h"
@@ -34,16 +35,23 @@ void set(std::vector<ErrorEntry>& entries, const ErrorEntry& entry) {
     *same = entry;
 }
 
-/// The highest harmonic n > 1 among the channels, and whether channel k belongs to it.
-std::vector<bool> highest_harmonic(const std::vector<fem::UnitLoad>& loads) {
-  int highest = 0;
+/// Whether each channel is of the highest harmonic that was solved of its seat's pressure: of seats apart,
+/// for each has a pattern of its own. The first harmonic is the resultant, which no pattern leaves out.
+std::vector<bool> highest_harmonics(const std::vector<fem::UnitLoad>& loads) {
+  const auto pattern = [](const fem::UnitLoad& load) {
+    const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape);
+    return pressure != nullptr && pressure->harmonic != 1 ? pressure : nullptr;
+  };
+  std::map<int, int> highest;  // by the seat's boundary group
   for (const auto& load : loads)
-    if (const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape))
-      highest = std::max(highest, pressure->harmonic);
+    if (const auto* pressure = pattern(load)) {
+      int& of_seat = highest[pressure->surface.boundary_id];
+      of_seat = std::max(of_seat, pressure->harmonic);
+    }
   std::vector<bool> belongs;
   for (const auto& load : loads) {
-    const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape);
-    belongs.push_back(pressure && highest > 1 && pressure->harmonic == highest);
+    const auto* pressure = pattern(load);
+    belongs.push_back(pressure != nullptr && pressure->harmonic == highest[pressure->surface.boundary_id]);
   }
   return belongs;
 }
@@ -236,10 +244,10 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
                                     : "crest between the instants, and what they leave unresolved",
                                 sampling.error_Pa()});
   Eigen::ArrayXd without = factors;
-  const auto belongs = highest_harmonic(loads.unit_loads);
+  const auto belongs = highest_harmonics(loads.unit_loads);
   for (std::size_t k = 0; k < belongs.size(); ++k)
     if (belongs[k]) without[Eigen::Index(k)] = 0;
-  budget.numerical.push_back({"pressure_harmonics", "what the highest harmonic contributes",
+  budget.numerical.push_back({"pressure_harmonics", "what the highest harmonic of each seat contributes",
                               std::abs(von_mises_of(unit, without) - value)});
   if (auto entry = discretisation_estimate(point, responses, loads.history, material, left_out))
     budget.numerical.push_back(std::move(*entry));

@@ -86,7 +86,8 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 /// What one run can tell about itself:
 ///   time_sampling       what the crest between the instants exceeds theirs by, and what they leave
 ///                       unresolved (time_sampling.h)
-///   pressure_harmonics  what the highest harmonic of the seat pressures contributes
+///   pressure_harmonics  what the highest harmonic of each seat's pressure contributes; of a seat with the
+///                       mean pressure alone, that
 ///   discretisation      the largest difference between the recovered stress and that of one cell, over the
 ///                       faces around the point, times discretisation_safety: a single cell may agree by
 ///                       chance; of tetrahedra as tetrahedra_estimate.h, of resolved points as submodels.h

@@ -104,12 +104,14 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
   require_closure(body.name, analysis.closure);
 
   const auto start = std::chrono::steady_clock::now();
+  const bool is_known = known.envelope.has_value();
   analysis.envelope = clock.run("superpose", [&] {
-    return known.envelope ? std::move(*known.envelope)
-                          : envelope(analysis.loads.history, analysis.responses, threads(n_threads));
+    return is_known ? std::move(*known.envelope)
+                    : envelope(analysis.loads.history, analysis.responses, threads(n_threads));
   });
   require_finite(body.name, analysis.envelope);
-  analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!is_known)
+    analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   clock.run("zones", [&] {
     analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
                                    analysis.mesh.sharp_edges);

@@ -17,13 +17,15 @@ namespace pipelines {
 namespace {
 
 /// Of the arrangement of the file: files of another one count as missing.
-constexpr double arrangement = 4;
+constexpr double arrangement = 5;
 
 struct Counts {
   std::size_t nodes, cells, faces, channels, planes, rings;
   std::size_t volumes;       ///< cells whose volume group is known: all or none
   std::size_t energy_cells;  ///< cells and channels with energies: all or none
   std::size_t energy_channels;
+  std::size_t node_images;  ///< of nodes and of cells: all or none
+  std::size_t cell_images;
 };
 
 // These are written and read as rows of numbers.
@@ -84,6 +86,8 @@ void visit_arrays(fem::UnitResponses& r, const Counts& n, Visit visit) {
         Hdf5Label{"1", "of recovered minus cells' stresses, in the same units"});
   visit("/energy/error_of_cells", r.energy_error.of_cells, Extents{n.energy_cells, n.energy_channels},
         Hdf5Label{"1", "the cells' parts of the diagonal"});
+  visit("/images/node", r.images.node, Extents{n.node_images}, Hdf5Label{"", "each node's mirror image"});
+  visit("/images/cell", r.images.cell, Extents{n.cell_images}, Hdf5Label{"", "each cell's mirror image"});
   visit("/displacement", r.displacement_m, Extents{n.nodes, n.channels, 3}, Hdf5Label{"m", "x y z"});
   visit("/stress", r.stress_Pa, Extents{n.nodes, n.channels, 6}, Hdf5Label{"Pa", "xx yy zz xy yz xz"});
   visit("/resultants", r.resultants, Extents{n.channels, 6}, Hdf5Label{"", "fx fy fz [N], mx my mz [N m]"});
@@ -128,7 +132,9 @@ fem::UnitResponses read(const Hdf5Reader& in) {
                     in.shape("/rings").at(0),
                     in.shape("/nodes/cell_volume_id").at(0),
                     in.shape("/energy/error_of_cells").at(0),
-                    in.shape("/energy/norm").at(0)};
+                    in.shape("/energy/norm").at(0),
+                    in.shape("/images/node").at(0),
+                    in.shape("/images/cell").at(0)};
   visit_arrays(r, n, [&](const char* name, auto& values, const auto& extents, const Hdf5Label&) {
     if (in.shape(name) != extents) throw FileError(std::string(name) + ": unexpected extents");
     resize(values, extents);
@@ -196,7 +202,9 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
                     responses.rings.size(),
                     responses.nodes.cell_volume_id.size(),
                     energy.norm_sqrtJ.empty() ? 0 : energy.of_cells.size() / energy.norm_sqrtJ.size(),
-                    energy.norm_sqrtJ.size()};
+                    energy.norm_sqrtJ.size(),
+                    responses.images.node.size(),
+                    responses.images.cell.size()};
   // The list is shared with the reader, which fills the arrays; here they are only looked at.
   visit_arrays(
       const_cast<fem::UnitResponses&>(responses), n,

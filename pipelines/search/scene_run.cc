@@ -378,10 +378,21 @@ private:
     run_.scene.bodies[i].singular.push_back(spot);
     run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
     BodyAnalysis before = std::move(analysis);
-    analysis = superpose_body(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                              std::move(before.responses), options_.n_threads, clock_,
-                              known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
-    analysis.responses_reused = before.responses_reused;
+    analysis = superposed_again(i, before);
+  }
+
+  /// The body under its present loads, with the responses that it has and all that is known of how these came
+  /// about.
+  /// @param before  gives away what stays
+  BodyAnalysis superposed_again(std::size_t i, BodyAnalysis& before) {
+    auto after = superpose_body(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
+                                std::move(before.responses), options_.n_threads, clock_,
+                                known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
+    after.responses_reused = before.responses_reused;
+    after.warnings = std::move(before.warnings);
+    after.solve_s = before.solve_s;
+    if (after.superpose_s == 0) after.superpose_s = before.superpose_s;
+    return after;
   }
 
   /// Solves the next version of the scene, unless that would not end in time or does not fit into memory.
@@ -441,12 +452,10 @@ private:
       }
       BodyAnalysis before = std::move(run_.analyses[i]);
       auto& after = run_.analyses[i];
-      after = superpose_body(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                             std::move(before.responses), options_.n_threads, clock_,
-                             known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
-      after.responses_reused = before.responses_reused;
+      after = superposed_again(i, before);
       after.search = std::move(before.search);
       after.vibration = std::move(before.vibration);
+      enter_vibration(after);
       take_torsion_by_harmonics(before, after);
       take_place_errors(after, before.place_stresses, "as found by the body's search");
       bound_dropped_effects(run_.scene, i, run_.loaded, after);

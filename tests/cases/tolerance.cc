@@ -168,6 +168,38 @@ TEST(Tolerance, SecondRunReusesTheLastMesh) {
   EXPECT_EQ(contents(directory / "out"), first);
 }
 
+// Instants that a search adds have the body superposed once more in the end. What is told of a damaged file
+// is what its own steps met, and seconds are learnt from what was computed: an envelope that is known
+// already, as that of harmonics too, does not say that superposition takes a hundredth of what is predicted.
+TEST(Tolerance, WhatASearchMetIsToldAfterMoreInstants) {
+  const results_test::Directory directory;
+  write(directory / "small.toml",
+        small_shaft({{"pull", "middle.fy", "100 N", 3}, {"pull", "middle.fx", "100 N", 11}}, "mm", "600 rpm",
+                    ""));
+  const auto run = [&](const std::string& method) {
+    return millstress(directory.path,
+                      "run small.toml -o " + method + " --tolerance '10 %' --method " + method);
+  };
+  const auto learnt = [&] {
+    const auto costs = results_test::bytes(directory / "cache/millstress/costs.json");
+    return nlohmann::json::parse(costs)["superposition"].get<double>();
+  };
+  ASSERT_EQ(run("axisymmetric").exit_code, 0);
+  EXPECT_EQ(learnt(), 1);
+  ASSERT_EQ(run("solid").exit_code, 0);
+  EXPECT_GT(learnt(), 0.05);
+  ASSERT_GT(summary(directory / "solid")["input"]["instants_per_turn"].get<int>(), 24)
+      << "else there is no case";
+  const auto kept = directory / "solid/shaft/unit_responses.h5";
+  auto bytes = results_test::bytes(kept);
+  bytes[bytes.size() / 3] = char(bytes[bytes.size() / 3] ^ 1);
+  write(kept, bytes);
+  const auto again = run("solid");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.err.find("unit_responses.h5: is damaged"), std::string::npos) << again.err;
+  EXPECT_NE(summary(directory / "solid")["warnings"].dump().find("is damaged"), std::string::npos);
+}
+
 // "1.3e+02 %" is no way to say that nothing is known.
 TEST(Tolerance, AnErrorBeyondTheStressIsWrittenOut) {
   const results_test::Directory directory;

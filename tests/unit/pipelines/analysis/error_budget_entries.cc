@@ -24,10 +24,11 @@ fem::UnitResponses at_one_node(const std::vector<std::array<double, 6>>& unit) {
   return responses;
 }
 
-fem::UnitLoad pressure(int harmonic) {
+fem::UnitLoad pressure(int harmonic, int seat = 0) {
   fem::SeatPressure shape;
   shape.harmonic = harmonic;
-  return {"port.p" + std::to_string(harmonic), shape};
+  shape.surface.boundary_id = seat;
+  return {"port" + std::to_string(seat) + ".p" + std::to_string(harmonic), shape};
 }
 
 BodyLoads loads_of(const Eigen::ArrayXXd& values, std::vector<fem::UnitLoad> unit_loads = {}) {
@@ -79,6 +80,22 @@ TEST(ErrorBudget, PressureHarmonicsAreWhatTheHighestBrings) {
   const auto first =
       self_estimate({{{0, 1.0}}, 1}, at_one_node({unit}), loads_of(values.topRows(1), {pressure(1)}), {}, 0);
   EXPECT_EQ(first.of("pressure_harmonics"), 0);
+}
+
+// Seats have patterns of their own. Where the point feels the one with fewer harmonics, the highest of these
+// counts, not that of the other seat, which brings nothing; of a pattern that has none above the first it is
+// the mean pressure.
+TEST(ErrorBudget, PressureHarmonicsAreThoseOfEachSeat) {
+  const std::array<double, 6> unit{1, 0, 0, 0, 0, 0}, none{};
+  Eigen::ArrayXXd values(4, 3);
+  values << 1, 1, 1, 0.5, 0.5, 0.5, 0.4, 0.4, 0.4, 0.3, 0.3, 0.3;
+  const auto of = [&](std::vector<fem::UnitLoad> loads) {
+    return self_estimate({{{0, 1.0}}, 1}, at_one_node({unit, unit, none, none}),
+                         loads_of(values, std::move(loads)), {}, 0)
+        .of("pressure_harmonics");
+  };
+  EXPECT_NEAR(of({pressure(1, 1), pressure(2, 1), pressure(2, 2), pressure(4, 2)}), 0.5, 1e-14);
+  EXPECT_NEAR(of({pressure(1, 1), pressure(0, 1), pressure(0, 2), pressure(2, 2)}), 0.5, 1e-14);
 }
 
 // Three radii's worth of relative error: sigma = M r / I ~ r^-3. Without curved faces around it is the

@@ -49,6 +49,9 @@ inline fem::UnitResponses example_responses() {
   fill(r.energy_error.energy);
   fill(r.energy_error.error);
   fill(r.energy_error.of_cells);
+  for (std::size_t i = 0; i < r.nodes.n; ++i) r.images.node.push_back(std::int32_t(r.nodes.n - 1 - i));
+  for (std::size_t c = 0; c < r.nodes.n_cells(); ++c)
+    r.images.cell.push_back(std::int32_t(r.nodes.n_cells() - 1 - c));
   r.support_reaction = 1e-13;
   r.residual = 1. / 3e12;
   r.n_dofs = 634047;

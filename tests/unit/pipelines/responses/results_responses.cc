@@ -50,6 +50,9 @@ TEST(ResponseFiles, ComeBackBitForBit) {
   EXPECT_TRUE(same_bits(read->energy_error.energy, written.energy_error.energy));
   EXPECT_TRUE(same_bits(read->energy_error.error, written.energy_error.error));
   EXPECT_TRUE(same_bits(read->energy_error.of_cells, written.energy_error.of_cells));
+  ASSERT_FALSE(written.images.node.empty());
+  EXPECT_EQ(read->images.node, written.images.node);
+  EXPECT_EQ(read->images.cell, written.images.cell);
   EXPECT_EQ(read->support_reaction, written.support_reaction);
   EXPECT_EQ(read->residual, written.residual);
   EXPECT_EQ(read->n_dofs, written.n_dofs);
