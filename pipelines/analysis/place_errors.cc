@@ -201,6 +201,45 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
                         analysis.envelope.von_mises.instant[node]);
 }
 
+double error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+                             const BodyLoads& change) {
+  const double judged = error_share_at(analysis, feature, node);
+  const StressPoint point{{{node, 1.0}}, 0};
+  const auto unit = unit_stress_at(analysis.responses, point);
+  const Eigen::ArrayXd factors = change.history.values.col(0),
+                       largest = analysis.loads.history.values.col(analysis.envelope.von_mises.instant[node]);
+  const double value_Pa = von_mises_of(unit, factors), largest_Pa = von_mises_of(unit, largest);
+  if (!std::isfinite(judged) || !(value_Pa > 0) || !(largest_Pa > 0)) return judged;
+
+  double share = judged;
+  const auto estimate_Pa = [&](const Eigen::ArrayXd& of) {
+    ChannelHistory history;
+    history.values = of;
+    const auto entry = discretisation_estimate(point, analysis.responses, history, analysis.scene.material,
+                                               analysis.places.excluded);
+    const int cells = cells_on_quarter(analysis, {feature, node});
+    return entry ? std::optional(std::max(
+                       entry->value_Pa, cells > 0 ? for_want_of_cells(cells) * von_mises_of(unit, of) : 0.0))
+                 : std::nullopt;
+  };
+  if (const auto own_Pa = estimate_Pa(factors)) {
+    // The product of both tensors by the norms of their sum and difference.
+    const double along = (std::pow(von_mises_of(unit, factors + largest), 2) -
+                          std::pow(von_mises_of(unit, factors - largest), 2)) /
+                         (4 * largest_Pa * largest_Pa);
+    const double rest_Pa = estimate_Pa(factors - along * largest).value_or(0);
+    share = std::max(judged, std::min({1.0, *own_Pa / value_Pa,
+                                       (judged * std::abs(along) * largest_Pa + rest_Pa) / value_Pa}));
+  }
+  const auto others = self_estimate(point, analysis.responses, change, analysis.scene.material,
+                                    geometry_share(analysis.geometry_error, analysis.responses.nodes, point),
+                                    analysis.places.excluded);
+  for (const auto& entry : others.numerical)
+    if (entry.source != "discretisation" && entry.source != "time_sampling")
+      share += entry.value_Pa / value_Pa;
+  return share;
+}
+
 ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
   return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
                        geometry_share(analysis.geometry_error, analysis.responses.nodes, point),

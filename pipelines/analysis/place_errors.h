@@ -42,6 +42,16 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
 /// Of the largest stress there over the cycle.
 double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node);
 
+/// The numerical error of half a change of the stress, of an amplitude, at a node of a feature that is
+/// judged, as a share of it, without that of time sampling. The part that has the direction of the largest
+/// stress there is known as well as that (error_share_at). The rest was never judged: under a steady torque
+/// and bending that goes round, the largest stress may be the torque's, and the amplitude the bending's. It
+/// has what single cells tell of it.
+/// @param change  half of the change, as loads of one instant
+/// @return infinite if the feature is not judged
+double error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+                             const BodyLoads& change);
+
 /// What the mesh and the loads tell of the error at a point (self_estimate).
 ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis);
 

@@ -230,7 +230,8 @@ FatiguePlace place_of(const std::string& feature, const JudgedNode& worst,
   place.endurance_Pa = limit.amplitude_Pa;
   place.safety = place.cycle.amplitude_Pa > 0 ? limit.amplitude_Pa / place.cycle.amplitude_Pa : never;
   place.error_share =
-      error_share_at(analysis, feature, place.node) + search.unresolved_share(worst.node, worst.counted);
+      error_share_of_change(analysis, feature, place.node, search.half_change_between(place.from, place.to)) +
+      search.unresolved_share(worst.node, worst.counted);
   take_life(rules, worst.counted, period, place);
   place.others = second_opinions(rules, worst.node, by_lines, search);
   place.effect_share = shares_of_change(unit_stresses_at(analysis.responses, place.node),

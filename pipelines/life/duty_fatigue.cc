@@ -187,11 +187,21 @@ public:
       worst = std::move(place);
       worst_node = node;
     }
-    auto place =
-        at(worst_node, error_share_at(analysis_, feature, worst_node), Directions::stationary, counted);
+    auto place = at(worst_node, error_share(feature, worst_node), Directions::stationary, counted);
     place.feature = feature;
     place.effect_share = shares_by_effect(counted, rules_.design_curve(counted.all()), shares_.n_effects());
     return place;
+  }
+
+  /// Of the amplitudes of all blocks.
+  double error_share(const std::string& feature, std::size_t node) const {
+    double most = 0;
+    for (const auto& places : places_) {
+      const auto own = places.at(node);
+      most = std::max(most, error_share_of_change(analysis_, feature, node,
+                                                  places.half_change_between(own.from, own.to)));
+    }
+    return most;
   }
 
   DutyPlace weld(const WeldPlace& weld) const {

@@ -294,6 +294,18 @@ double FatiguePlaces::unresolved_share(const FatigueNode& node, const CountedNod
   return more_Pa / counted.amplitude_Pa;
 }
 
+BodyLoads FatiguePlaces::half_change_between(double from, double to) const {
+  const auto half_change = [](const Eigen::ArrayXXd& ends) -> Eigen::ArrayXXd {
+    return 0.5 * (ends.col(1) - ends.col(0));
+  };
+  BodyLoads result;
+  result.unit_loads = analysis_.loads.unit_loads;
+  result.history = between(from, to);
+  result.history.values = half_change(result.history.values);
+  for (auto& part : result.history.by_effect) part = half_change(part);
+  return result;
+}
+
 ChannelHistory FatiguePlaces::between(double from, double to) const {
   Eigen::MatrixXd weights(loads_.values.cols(), 2);
   weights << course_.weights_at(from), course_.weights_at(to);

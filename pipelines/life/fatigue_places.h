@@ -89,6 +89,8 @@ public:
 
   /// The loads at two instants or between them.
   ChannelHistory between(double from, double to) const;
+  /// Half of their change between two instants, as loads of one instant.
+  BodyLoads half_change_between(double from, double to) const;
 
 private:
   CountedNode counted_along(const DeviatoricDirection& direction, std::size_t node,

@@ -249,6 +249,7 @@ private:
     std::set<MeshPart> exhausted;  ///< parts that cannot be finer
     double end_s = 0;              ///< when the time is up, from the start of the run; 0: never
     Clock::time_point step_start = Clock::now();
+    double second_model_s = 0;  ///< of the step, which a finer mesh does not take again
   };
 
   /// What is left of the time, shared evenly among the bodies that wait.
@@ -262,7 +263,9 @@ private:
 
   /// A second model tells a shaft's mesh where to be fine.
   void guide(std::size_t i, SearchState& state) {
-    if (auto model = second_model(i)) {
+    auto model = second_model(i);
+    state.second_model_s = seconds_since(state.step_start);
+    if (model) {
       const Scene unguided = run_.scene;
       run_.scene.bodies[i] = guided_by(*model, run_.scene.bodies[i]);
       state.history.compare_with(std::move(*model));
@@ -321,7 +324,8 @@ private:
   /// @return false if none can be taken: search.ended says why
   bool next_step(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
     state.step_start = Clock::now();
-    const double seconds_before = state.search.steps.back().seconds;
+    const double seconds_before =
+        state.search.steps.back().seconds - std::exchange(state.second_model_s, 0.0);
     Scene next = run_.scene;
     const auto other =
         refine_sampling_and_harmonics(next, i, governing_stress(analysis), analysis.loads.history);
@@ -422,8 +426,11 @@ private:
     }
     const bool same_loads = previous.sampling.instants_per_turn == run_.scene.sampling.instants_per_turn &&
                             previous.bodies[i].pressure_harmonics == run_.scene.bodies[i].pressure_harmonics;
-    if (!same_loads && state.history.second_model())
+    if (!same_loads && state.history.second_model()) {
+      const auto start = Clock::now();
       if (auto model = second_model(i)) state.history.compare_with(std::move(*model));
+      state.second_model_s = seconds_since(start);
+    }
     return true;
   }
 
