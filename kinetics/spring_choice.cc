@@ -52,23 +52,23 @@ void warn(const VibratoryMill& mill, bool searched, const SpringSearch& search, 
   const double mass_kg = mill.charge_mass_kg + mill.structure_mass_kg + mill.exciter_mass_kg;
   const double bounce_rad_s = mass_kg > 0 ? std::sqrt(choice.stiffness_N_m / mass_kg) : 0;
   if (std::abs(bounce_rad_s / mill.speed_rad_s - 1) < 0.2)
-    choice.warnings.push_back("with k* = " + number(choice.stiffness_N_m) + " N/m the chamber bounces at " +
-                              number(bounce_rad_s) + " rad/s, within 20 % of the drive's " +
-                              number(mill.speed_rad_s) +
+    choice.warnings.push_back("with k* = " + rounded(choice.stiffness_N_m) + " N/m the chamber bounces at " +
+                              rounded(bounce_rad_s) + " rad/s, within 20 % of the drive's " +
+                              rounded(mill.speed_rad_s) +
                               " rad/s: springs that carry the inertia are in resonance, and any play of the "
                               "eccentric or slip of the drive is no longer held back");
   if (choice.scale == 0)
     choice.warnings.push_back("k* = 0: any stiffness raises the reaction; the weights need springs still");
   const double ends = 1e-6;
   if (searched && choice.scale <= search.least_scale * (1 + ends))
-    choice.warnings.push_back("k* lies at the soft end of the search; widen it");
+    choice.warnings.push_back("k* lies at the soft end of the search: search again from softer springs");
   if (searched && choice.scale >= search.most_scale * (1 - ends))
-    choice.warnings.push_back("k* lies at the stiff end of the search; widen it");
+    choice.warnings.push_back("k* lies at the stiff end of the search: search again from stiffer springs");
   for (const PitchResonance& resonance : choice.resonances)
     if (resonance.between_given_and_chosen)
       choice.warnings.push_back("between the given springs and k* the pitch passes a resonance at " +
-                                number(resonance.frequency_rad_s) +
-                                " rad/s, k = " + number(resonance.stiffness_N_m) + " N/m");
+                                rounded(resonance.frequency_rad_s) +
+                                " rad/s, k = " + rounded(resonance.stiffness_N_m) + " N/m");
 }
 
 }  // namespace

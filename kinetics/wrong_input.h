@@ -8,6 +8,9 @@ namespace kinetics {
 
 /// A number as it reads best in a message: up to 12 significant digits.
 std::string number(double value);
+/// One that was computed, in a warning: four significant digits, or as many as tell it from a number beside
+/// it.
+std::string rounded(double value, int digits = 4);
 
 /// @throws MachineRefused, always: "<parameter> = <value>: <remedy>"
 [[noreturn]] void refuse(const std::string& parameter, double value, const std::string& remedy);

@@ -53,13 +53,13 @@ std::vector<std::string> belt_warnings(const Machine& machine, const Tensions& t
   const double least_N = slack_N.minCoeff();
   if (least_N < 0)
     warnings.push_back(
-        "a belt strand falls to " + number(least_N) + " N: a belt cannot push; " +
+        "a belt strand falls to " + rounded(least_N) + " N: a belt cannot push; " +
         (pretensioned ? "it hangs slack, raise its pretension"
                       : "the ratio T1 = K T2 is kept where the belt has to turn the drum the other way"));
   if (pretensioned) {
     const double most = std::exp(slip_exponent(machine, pretensioned->friction));
     if (((tight_N > most * slack_N) && (slack_N >= 0)).any())
-      warnings.push_back("the belt slips: tight over slack strand exceeds exp(mu theta) = " + number(most) +
+      warnings.push_back("the belt slips: tight over slack strand exceeds exp(mu theta) = " + rounded(most) +
                          "; raise pretension or friction");
   } else if (least_N >= 0 && (t.T1_N > t.T2_N).any() && (t.T1_N < t.T2_N).any()) {
     warnings.push_back(

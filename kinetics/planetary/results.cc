@@ -71,8 +71,8 @@ void warn_of_offset_speed(const Machine& machine, LoadHistory& history) {
       std::abs(w * w - omega * omega) <= 1e-12 * omega * omega)
     return;
   history.warnings.push_back("under " + history.convention + " charge_relative takes the drum's spin of " +
-                             number(w) + " rad/s for the carrier's " + number(omega) + ": " +
-                             number(w * w / (omega * omega)) +
+                             rounded(w) + " rad/s for the carrier's " + rounded(omega) + ": " +
+                             rounded(w * w / (omega * omega)) +
                              " times the force that it is; use it for the paper's figures only");
 }
 

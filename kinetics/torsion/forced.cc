@@ -135,7 +135,7 @@ ForcedResponse respond(const PreparedTrain& p, const Spectral& excitation) {
   if (response.rigid_acceleration_rad_s2 != 0)
     response.warnings.push_back(
         "the constant torques do not balance: they accelerate the reference shaft by " +
-        number(response.rigid_acceleration_rad_s2) + " rad/s2; the twist is that of the accelerated train");
+        rounded(response.rigid_acceleration_rad_s2) + " rad/s2; the twist is that of the accelerated train");
   return response;
 }
 

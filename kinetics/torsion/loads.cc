@@ -95,7 +95,7 @@ std::string torque_missed(const torsion::PreparedTrain& p, const ForcedResponse&
     if (missed <= most) continue;
     most = missed;
     worst = p.train.elements[std::size_t(e)].name + " by " + number(std::round(1000 * missed) / 10) + " % (" +
-            number(largest) + " N m)";
+            rounded(largest) + " N m)";
   }
   return worst;
 }
@@ -106,9 +106,9 @@ void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, 
   if (!all.harmonics.empty()) {
     const double repeats = all.period_s ? window_s / *all.period_s : 0;
     if (!all.period_s || std::abs(repeats - std::round(repeats)) > 1e-9 * repeats || repeats < 0.5)
-      history.warnings.push_back("the history covers " + number(window_s) + " s, the vibration repeats " +
+      history.warnings.push_back("the history covers " + rounded(window_s, 6) + " s, the vibration repeats " +
                                  (all.period_s
-                                      ? "after " + number(*all.period_s) + " s"
+                                      ? "after " + rounded(*all.period_s, 6) + " s"
                                       : std::string("never: its frequencies have no common period")) +
                                  "; extremes and means are those of the window");
     const double samples = instants_per_period(p, all, grid);

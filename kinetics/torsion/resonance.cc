@@ -10,9 +10,12 @@ namespace kinetics {
 namespace torsion {
 namespace {
 
-std::string both_units(double frequency_rad_s) {
-  return number(frequency_rad_s) + " rad/s (" + number(frequency_rad_s / (2 * pi)) + " Hz)";
+/// @param digits  so many as tell a frequency from a natural one
+std::string both_units(double frequency_rad_s, int digits) {
+  return rounded(frequency_rad_s, digits) + " rad/s (" + rounded(frequency_rad_s / (2 * pi), digits) + " Hz)";
 }
+
+constexpr int digits_of_refusal = 12, digits_of_warning = 6;
 
 /// Column of the natural frequency nearest to w, on a scale of ratios.
 Index nearest_mode(const Eigen::ArrayXd& frequency_rad_s, double w) {
@@ -40,16 +43,18 @@ std::vector<std::string> resonance_warnings(const PreparedTrain& prepared,
     if (std::abs(r - 1) > 0.1 || line.amplitude_Nm == 0.0) continue;
     const double zeta = damping_ratio(prepared, k);
     if (std::abs(r - 1) <= 1e-12 && zeta < 1e-14)
-      throw MachineRefused("excitation " + line.excitation + " at " + both_units(line.frequency_rad_s) +
-                           ": meets the natural frequency " + both_units(w_k) + " of mode " +
-                           std::to_string(k + shift) +
+      throw MachineRefused("excitation " + line.excitation + " at " +
+                           both_units(line.frequency_rad_s, digits_of_refusal) +
+                           ": meets the natural frequency " + both_units(w_k, digits_of_refusal) +
+                           " of mode " + std::to_string(k + shift) +
                            ", which nothing damps; there is no steady state: give damping, or change the "
                            "frequency");
     const double amplification = 1 / std::hypot((1 - r) * (1 + r), 2 * zeta * r);
-    warnings.push_back("excitation " + line.excitation + " at " + both_units(line.frequency_rad_s) + " is " +
-                       number(100 * std::abs(r - 1)) + " % from the natural frequency " + both_units(w_k) +
-                       " of mode " + std::to_string(k + shift) + ": it is amplified up to " +
-                       number(std::round(100 * amplification) / 100) + " times");
+    warnings.push_back("excitation " + line.excitation + " at " +
+                       both_units(line.frequency_rad_s, digits_of_warning) + " is " +
+                       rounded(100 * std::abs(r - 1), 3) + " % from the natural frequency " +
+                       both_units(w_k, digits_of_warning) + " of mode " + std::to_string(k + shift) +
+                       ": it is amplified up to " + rounded(amplification) + " times");
   }
   return warnings;
 }

@@ -78,6 +78,13 @@ bool passes_over_much(const ChannelHistory& loads) {
   return (above.max(below) > much * between.abs().rowwise().maxCoeff()).any();
 }
 
+std::optional<ChannelHistory> denser_course(const ChannelHistory& loads) {
+  if (!is_whole_course(loads) || loads.passed_over_by_effect.size() != loads.effects.size())
+    return std::nullopt;
+  return ChannelHistory{loads.body, loads.channels, loads.effects, loads.passed_over,
+                        loads.passed_over_by_effect};
+}
+
 double sampling_error_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads) {
   const double between_Pa = passed_over_excess_Pa(unit, loads);
   if (is_whole_course(loads)) return between_Pa + time_sampling(unit, loads.passed_over).error_Pa();

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "pipelines/loads/channels.h"
@@ -40,6 +41,10 @@ double passed_over_excess_Pa(const std::vector<std::array<double, 6>>& unit, con
 /// Whether the instants pass over loads above the largest or below the smallest at these, by more than 1 % of
 /// the size of a channel: more instants are needed than their spectra tell.
 bool passes_over_much(const ChannelHistory& loads);
+
+/// The loads that the instants pass over, where these are the whole course at denser instants, a multiple of
+/// the instants; else none.
+std::optional<ChannelHistory> denser_course(const ChannelHistory& loads);
 
 /// What the largest stress between the instants may exceed that at them by: the error_Pa of time_sampling, or
 /// passed_over_excess_Pa if that is more. Where the loads that the instants pass over are the whole course at

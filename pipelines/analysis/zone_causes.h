@@ -13,9 +13,10 @@
 namespace pipelines {
 
 struct ZoneCauses {
-  StressShares peak;       ///< in the stress at the zone's peak, at its instant
-  StressCycle cycle{};     ///< the largest there
-  StressShares amplitude;  ///< in the change over it; empty where the stress does not vary
+  StressShares peak;        ///< in the stress at the zone's peak, at its instant
+  StressCycle cycle{};      ///< the largest there
+  double from = 0, to = 0;  ///< its instants: i + share of the step to the next
+  StressShares amplitude;   ///< in the change over it; empty where the stress does not vary
 };
 
 /// Of all zones, in their order. Amplitudes below 1e-9 of the peak are rounding: what stands

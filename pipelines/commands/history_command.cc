@@ -4,6 +4,7 @@
 #include "pipelines/commands/output_files.h"
 #include "pipelines/commands/run_results.h"
 #include "pipelines/commands/scene_options.h"
+#include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/report/stress_history_files.h"
 
@@ -18,6 +19,9 @@ struct HistoryCommandOptions : WantedRun {
 
 void show_history(const HistoryCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene, options.settings);
+  if (scene.bodies.empty())
+    throw StageRefused(scene.file.string() +
+                       ": has no body, and only bodies have a stress; add one, as [shaft], to the scene");
   const auto directory = options.output.empty()
                              ? std::filesystem::path(results_directory({}, scene).string() + "_history")
                              : options.output;

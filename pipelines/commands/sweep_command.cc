@@ -69,7 +69,12 @@ bool is_within(const std::string& key, const std::string& table) {
 }
 
 /// No figure of a sweep depends on these keys: points that look alike would be no answer.
-void require_swept(const std::string& key, bool with_zones) {
+/// @param loads_only  nothing is solved
+void require_swept(const std::string& key, bool with_zones, bool loads_only) {
+  if (is_within(key, "method") && loads_only)
+    throw OptionError("--vary " + key +
+                      ": no figure of loads depends on this; leave it out, or sweep a scene with a body "
+                      "without --loads");
   for (const char* of_all : {"tolerance", "time_limit"})
     if (is_within(key, of_all))
       throw OptionError(
@@ -148,7 +153,6 @@ struct Sweep {
         directory(options.output.empty()
                       ? std::filesystem::path("results") / (options.scene.stem().string() + "_sweep")
                       : options.output) {
-    for (const auto& variation : plan.variations) require_swept(variation.key, request.zones);
     try {
       first = read_scene(options.scene, tree, settings);
     } catch (const SceneError&) {
@@ -159,6 +163,7 @@ struct Sweep {
     }
     accuracy = with_default(requested_search(options.tolerance, options.time_limit, first.accuracy));
     loads_only = options.loads_only || first.bodies.empty();
+    for (const auto& variation : plan.variations) require_swept(variation.key, request.zones, loads_only);
   }
 
   SweepOptions options(const SweepCommandOptions& asked, int n_threads, int rank) const {
@@ -288,6 +293,9 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   const auto charts = clock.run(
       "charts", [&] { return draw_charts(directory, first.title, plan, rows, figures, request.design); });
   remove_other_charts(directory, charts);
+  for (const auto& key : keys_without_effect(plan, rows))
+    std::cerr << "millstress: no figure of this sweep changes with " << key
+              << (loads_only && !first.bodies.empty() ? "; stresses may, which --loads leaves out\n" : "\n");
   if (options.json) {
     out << sweep_json(plan, rows);
   } else {

@@ -28,6 +28,14 @@ bool have_one_header(const SweepRow& a, const SweepRow& b) {
                     [](const auto& x, const auto& y) { return x.name == y.name; });
 }
 
+bool have_same_figures(const SweepRow& a, const SweepRow& b) {
+  return a.refused == b.refused && have_one_header(a, b) &&
+         std::equal(a.figures.begin(), a.figures.end(), b.figures.begin(), b.figures.end(),
+                    [](const auto& x, const auto& y) {
+                      return x.value == y.value || (std::isnan(x.value) && std::isnan(y.value));
+                    });
+}
+
 /// As one word of a shell's command line.
 std::string quoted(const std::string& text) {
   if (text.find_first_of("\"$`\\!") == std::string::npos) return '"' + text + '"';
@@ -53,7 +61,7 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
                                        const std::vector<SweepRow>& rows) {
   std::vector<std::string> governing;
   std::set<std::string> known;
-  std::vector<SweepFigure> forces;
+  std::vector<SweepFigure> forces, torques;
   const SweepRow* before = nullptr;
   for (const auto& row : rows) {
     if (before != nullptr && have_one_header(*before, row)) continue;
@@ -61,8 +69,9 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
     for (const auto figure : row.figures) {
       if (!known.insert(figure.name).second) continue;
       if (is_governing(figure.name)) governing.push_back(figure.name);
-      if (figure.unit == "N" && ends_with(figure.name, ".max"))
-        forces.push_back({figure.name, figure.unit, figure.value});
+      if (!ends_with(figure.name, ".max")) continue;
+      if (figure.unit == "N") forces.push_back({figure.name, figure.unit, figure.value});
+      if (figure.unit == "N m") torques.push_back({figure.name, figure.unit, figure.value});
     }
   }
   for (const auto& name : named)
@@ -70,12 +79,31 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
       throw OptionError("--figure " + name + ": the sweep has no such figure; sweep.csv has their names");
   if (!named.empty()) return named;
   if (!governing.empty()) return governing;
+  if (forces.empty()) forces = std::move(torques);
   constexpr std::size_t most_forces = 4;
   std::stable_sort(forces.begin(), forces.end(),
                    [](const auto& a, const auto& b) { return a.value > b.value; });
   std::vector<std::string> names;
   for (std::size_t i = 0; i < std::min(most_forces, forces.size()); ++i) names.push_back(forces[i].name);
   return names;
+}
+
+std::vector<std::string> keys_without_effect(const SweepPlan& plan, const std::vector<SweepRow>& rows) {
+  std::vector<std::string> keys;
+  for (std::size_t v = 0; v < plan.variations.size(); ++v) {
+    std::map<std::vector<std::string>, std::size_t> first;  // of the points with the same other values
+    bool is_compared = false, is_same = true;
+    for (std::size_t p = 0; p < rows.size() && is_same; ++p) {
+      auto others = plan.points[p].values;
+      others.erase(others.begin() + std::ptrdiff_t(v));
+      const auto [known, is_first] = first.emplace(std::move(others), p);
+      if (is_first) continue;
+      is_compared = true;
+      is_same = have_same_figures(rows[known->second], rows[p]);
+    }
+    if (is_compared && is_same) keys.push_back(plan.variations[v].key);
+  }
+  return keys;
 }
 
 std::string unit_of(const std::vector<SweepRow>& rows, const std::string& figure) {

@@ -15,7 +15,7 @@ namespace pipelines {
 bool is_governing(const std::string& figure);
 
 /// The figures that are shown: those named, governing stresses, or else the largest forces of the first
-/// point.
+/// point, of which a drive train has none: its torques.
 /// @throws OptionError for a name that no row has
 std::vector<std::string> shown_figures(const std::vector<std::string>& named,
                                        const std::vector<SweepRow>& rows);
@@ -26,6 +26,9 @@ std::string unit_of(const std::vector<SweepRow>& rows, const std::string& figure
 double scale_of(const std::string& unit);
 std::string shown_unit(const std::string& unit);
 std::string with_unit(const std::string& name, const std::string& unit);
+
+/// Keys that change no figure of any two points that differ by them alone; none of a Latin hypercube's.
+std::vector<std::string> keys_without_effect(const SweepPlan& plan, const std::vector<SweepRow>& rows);
 
 /// A line per point, up to sixty.
 void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<SweepRow>& rows,

@@ -53,10 +53,16 @@ public:
   explicit Reader(const std::filesystem::path& file) { table_.file = file; }
 
   TableFile read() {
+    std::error_code none;  // a name of 300 characters is none of a file
+    const auto status = std::filesystem::status(table_.file, none);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+      // a pipe without a writer would keep whoever opens it waiting for ever
+      refuse(0, 0, "", "", "is no regular file, and a table is read more than once; write it into a file");
+      throw SceneError(std::move(errors_));
+    }
     note_input(table_.file);
     std::ifstream in(table_.file, std::ios::binary);
-    std::error_code none;  // a name of 300 characters is none of a file
-    if (!std::filesystem::is_regular_file(table_.file, none) || !in)
+    if (!std::filesystem::is_regular_file(status) || !in)
       refuse(0, 0, "", "", "cannot be read as a table; give the path of a CSV file, from the scene's folder");
     int number = 0;
     for (std::string line; errors_.size() < most_errors && std::getline(in, line);) read_line(line, ++number);

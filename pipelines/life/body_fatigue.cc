@@ -10,6 +10,7 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/place_errors.h"
 #include "pipelines/analysis/place_stress.h"
+#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/fatigue/critical_plane.h"
@@ -212,15 +213,24 @@ JudgedNode worst_of(const std::vector<FatigueNode>& candidates, const FatiguePla
   return worst;
 }
 
+/// The loads that fatigue is judged by: those of the analysis, or at denser instants where theirs do not tell
+/// the course.
+struct JudgedLoads {
+  const ChannelHistory& history;
+  const NodalMaximum& von_mises;  ///< over these
+  double per_instant;             ///< of the analysis
+};
+
 FatiguePlace place_of(const std::string& feature, const JudgedNode& worst,
                       const std::vector<std::size_t>& by_lines, const FatiguePlaces& search,
-                      const BodyAnalysis& analysis, const FatigueRules& rules, const LoadPeriod& period) {
+                      const BodyAnalysis& analysis, const JudgedLoads& loads, const FatigueRules& rules,
+                      const LoadPeriod& period) {
   FatiguePlace place;
   place.feature = feature;
   place.node = worst.node.node;
   place.cycle = worst.node.cycle;
-  place.from = worst.node.from;
-  place.to = worst.node.to;
+  place.from = worst.node.from / loads.per_instant;
+  place.to = worst.node.to / loads.per_instant;
   place.gradient_per_m = worst.node.gradient_per_m;
   place.utilisation = worst.node.utilisation;
   place.surface = analysis.places.place[place.node];
@@ -229,17 +239,17 @@ FatiguePlace place_of(const std::string& feature, const JudgedNode& worst,
   place.support = limit.support;
   place.endurance_Pa = limit.amplitude_Pa;
   place.safety = place.cycle.amplitude_Pa > 0 ? limit.amplitude_Pa / place.cycle.amplitude_Pa : never;
-  place.error_share =
-      error_share_of_change(analysis, feature, place.node, search.half_change_between(place.from, place.to)) +
-      search.unresolved_share(worst.node, worst.counted);
+  place.unresolved_share = search.unresolved_share(worst.node, worst.counted);
+  place.error_share = error_share_of_change(analysis, feature, place.node,
+                                            search.half_change_between(worst.node.from, worst.node.to)) +
+                      place.unresolved_share;
   take_life(rules, worst.counted, period, place);
   place.others = second_opinions(rules, worst.node, by_lines, search);
   place.effect_share = shares_of_change(unit_stresses_at(analysis.responses, place.node),
-                                        search.between(place.from, place.to), 0, 1)
+                                        search.between(worst.node.from, worst.node.to), 0, 1)
                            .effects;
   place.damage_share =
-      shares_in_damage(analysis, analysis.loads.history, search, rules, worst.node, worst.counted, false)
-          .effects;
+      shares_in_damage(analysis, loads.history, search, rules, worst.node, worst.counted, false).effects;
   return place;
 }
 
@@ -259,7 +269,7 @@ std::vector<double> shares_of_range(const WeldPlace& place, const ChannelHistory
 }
 
 WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const BodyAnalysis& analysis,
-                    const LoadPeriod& period) {
+                    const ChannelHistory& loads, const LoadPeriod& period) {
   const auto toe = place.stress(course);
   const auto amplitude = toe.cycles.size() > 1 ? LoadAmplitude::variable : LoadAmplitude::constant;
   WeldFatigue weld;
@@ -273,7 +283,7 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
   weld.angle_rad = toe.angle_rad;
   weld.is_principal = toe.is_principal;
   weld.n_counted = toe.cycles.size();
-  weld.effect_share = shares_of_range(place, analysis.loads.history);
+  weld.effect_share = shares_of_range(place, loads);
   std::vector<StressBlock> ranges;
   for (const auto& cycle : toe.cycles) {
     weld.range_Pa = std::max(weld.range_Pa, cycle.range);
@@ -286,9 +296,10 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
   if (const auto wanted = analysis.scene.fatigue->wanted_life_s)
     weld.life_safety =
         life_safety(weld_curve(place.detail, amplitude), ranges, *wanted / period.duration_s, damage_sum);
-  weld.error_share = place.error_share + place.unresolved_share(course, toe);
+  weld.unresolved_share = place.unresolved_share(course, toe);
+  weld.error_share = place.error_share + weld.unresolved_share;
   const auto curve = weld_curve(place.detail, amplitude);
-  weld.damage_share = shares_in_damage(place, analysis.loads.history, course, toe, curve);
+  weld.damage_share = shares_in_damage(place, loads, course, toe, curve);
   weld.certainty = certainty_of(
       weld.error_share,
       beyond_curve(toe.stress_Pa.abs().maxCoeff(), analysis.scene.yield_strength_Pa, curve, ranges),
@@ -299,9 +310,10 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
 }
 
 std::vector<WeldFatigue> judge_welds(const BodyAnalysis& analysis, const FactorCourse& course,
-                                     const LoadPeriod& period) {
+                                     const ChannelHistory& loads, const LoadPeriod& period) {
   std::vector<WeldFatigue> welds;
-  for (const auto& place : weld_places(analysis)) welds.push_back(weld_of(place, course, analysis, period));
+  for (const auto& place : weld_places(analysis))
+    welds.push_back(weld_of(place, course, analysis, loads, period));
   std::stable_sort(welds.begin(), welds.end(), [](const auto& a, const auto& b) {
     return a.damage_per_turn != b.damage_per_turn ? a.damage_per_turn > b.damage_per_turn
                                                   : a.range_Pa > b.range_Pa;
@@ -310,7 +322,8 @@ std::vector<WeldFatigue> judge_welds(const BodyAnalysis& analysis, const FactorC
 }
 
 ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const BodyAnalysis& analysis,
-                     const FatigueRules& rules, const LoadPeriod& period, bool is_on_surface) {
+                     const ChannelHistory& loads, const FatigueRules& rules, const LoadPeriod& period,
+                     bool is_on_surface) {
   ZoneDamage result;
   result.is_on_surface = is_on_surface;
   if (!is_on_surface) return result;
@@ -320,7 +333,7 @@ ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const BodyAn
   const double damage = miner_damage(rules.design_curve(counted.blocks), counted.blocks);
   result.damage_per_turn = damage / period.turns;
   result.life_s = life_of(damage, period.duration_s);
-  result.shares = shares_in_damage(analysis, analysis.loads.history, search, rules, node, counted, true);
+  result.shares = shares_in_damage(analysis, loads, search, rules, node, counted, true);
   return result;
 }
 
@@ -335,6 +348,25 @@ void warn_beyond(const std::string& body, const std::vector<Place>& places, cons
   warnings.push_back(warning_beyond_curve(body, n, name(*first), first->certainty.beyond));
 }
 
+/// Of the stress: what is stated of its amplitude beside, without a range, is wrong by as much.
+constexpr double much_between_instants = 0.2;
+
+/// Of the place of a list that may be used most, if the instants miss much of its stress.
+/// @param size  of a place's amplitude, in any measure
+template <typename Place, typename Size, typename Name>
+void warn_of_few_instants(const std::string& body, const std::vector<Place>& places, const Size& size,
+                          const Name& name, std::vector<std::string>& warnings) {
+  const auto may_reach = [&](const Place& place) { return size(place) * (1 + place.unresolved_share); };
+  const auto first = std::max_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+    return may_reach(a) < may_reach(b);
+  });
+  if (first == places.end() || !(first->unresolved_share > much_between_instants)) return;
+  warnings.push_back(
+      fmt::format("{}: {}: fatigue knows the instants, between which the amplitude may be larger by up to "
+                  "{:.0f} %: safety and life may be less than stated; raise sampling.instants_per_turn",
+                  body, name(*first), 100 * first->unresolved_share));
+}
+
 std::vector<std::string> warnings_of(const FatigueRules& rules, const std::string& body,
                                      const BodyFatigue& fatigue) {
   std::vector<std::string> warnings;
@@ -346,10 +378,14 @@ std::vector<std::string> warnings_of(const FatigueRules& rules, const std::strin
         "the yield strength, {:.0f} MPa: check surface_treatment = {:.3g}{}",
         body, reversed_Pa / 1e6, yield_Pa / 1e6, rules.scene().treatment,
         rules.scene().endurance_Pa ? " and endurance_limit" : ""));
-  warn_beyond(
-      body, fatigue.places, [](const auto& place) { return place.feature; }, warnings);
-  warn_beyond(
-      body, fatigue.welds, [](const auto& weld) { return "weld toe " + weld.name; }, warnings);
+  const auto feature = [](const FatiguePlace& place) { return place.feature; };
+  const auto toe = [](const WeldFatigue& weld) { return "weld toe " + weld.name; };
+  warn_of_few_instants(
+      body, fatigue.places, [](const auto& place) { return place.utilisation; }, feature, warnings);
+  warn_of_few_instants(
+      body, fatigue.welds, [](const auto& weld) { return weld.range_Pa; }, toe, warnings);
+  warn_beyond(body, fatigue.places, feature, warnings);
+  warn_beyond(body, fatigue.welds, toe, warnings);
   return warnings;
 }
 
@@ -359,34 +395,40 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
   const FatigueRules rules(analysis.scene.fatigue.value());
   const auto& nodes = analysis.responses.nodes;
   BodyFatigue fatigue;
-  fatigue.cycles = nodal_cycles(analysis.loads.history, analysis.responses, analysis.envelope.von_mises,
-                                surface_nodes(nodes), n_threads);
+  const auto& own = analysis.loads.history;
+  const auto denser = denser_course(own);
+  const auto denser_maximum =
+      denser ? envelope(*denser, analysis.responses, n_threads).von_mises : NodalMaximum();
+  const JudgedLoads loads{denser ? *denser : own, denser ? denser_maximum : analysis.envelope.von_mises,
+                          denser ? double(denser->values.cols()) / double(own.values.cols()) : 1};
+  fatigue.cycles =
+      nodal_cycles(loads.history, analysis.responses, loads.von_mises, surface_nodes(nodes), n_threads);
   for (const auto& cycle : fatigue.cycles.cycles)
     fatigue.utilisation_at.push_back(rules.limit(0, scalar(cycle)).utilisation);
   const SurfaceSlopes slopes(nodes);
-  const FatiguePlaces search(analysis, slopes, analysis.loads.history, analysis.envelope.von_mises.value_Pa,
-                             rules);
+  const FatiguePlaces search(analysis, slopes, loads.history, loads.von_mises.value_Pa, rules);
   const auto features = nodes_by_feature(analysis);
   fatigue.places.resize(features.size());
   for_each_parallel(features.size(), n_threads, [&](std::size_t, std::size_t i) {
-    const auto& [feature, own] = features[i];
-    fatigue.places[i] = place_of(feature, worst_of(search.worst_of(own), search, rules, period.duration_s),
-                                 worst_by_lines(rules, fatigue.cycles, own), search, analysis, rules, period);
+    const auto& [feature, of_feature] = features[i];
+    fatigue.places[i] =
+        place_of(feature, worst_of(search.worst_of(of_feature), search, rules, period.duration_s),
+                 worst_by_lines(rules, fatigue.cycles, of_feature), search, analysis, loads, rules, period);
   });
   std::stable_sort(fatigue.places.begin(), fatigue.places.end(),
                    [](const auto& a, const auto& b) { return a.utilisation > b.utilisation; });
   if (is_steel(rules.group()))
-    fatigue.nominal = din_743_of_fillets(analysis, [&](const std::string& fillet) {
+    fatigue.nominal = din_743_of_fillets(analysis, loads.history, [&](const std::string& fillet) {
       const auto place = std::find_if(fatigue.places.begin(), fatigue.places.end(),
                                       [&](const auto& p) { return p.feature == fillet; });
       return place == fatigue.places.end() ? -1 : place->cycle.amplitude_Pa;
     });
-  fatigue.welds = judge_welds(analysis, search.course(), period);
+  fatigue.welds = judge_welds(analysis, search.course(), loads.history, period);
   const auto& zones = analysis.zones.zones;
   fatigue.zones.resize(zones.size());
   for_each_parallel(zones.size(), n_threads, [&](std::size_t, std::size_t i) {
     const auto& surface = fatigue.cycles.nodes;
-    fatigue.zones[i] = damage_of(zones[i], search, analysis, rules, period,
+    fatigue.zones[i] = damage_of(zones[i], search, analysis, loads.history, rules, period,
                                  std::binary_search(surface.begin(), surface.end(), zones[i].peak_node));
   });
   fatigue.assumptions = assumptions_of(rules, analysis);

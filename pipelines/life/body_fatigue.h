@@ -51,8 +51,9 @@ struct FatiguePlace {
   SecondOpinions others;
   std::vector<double> effect_share;  ///< of the amplitude, in the order of ChannelHistory::effects; sums to 1
   std::vector<double> damage_share;  ///< likewise of the damage (damage_shares.h); empty: nothing changes
-  double error_share = 0;            ///< numerical error of the stress at the place, with what its instants
-                                     ///< leave unresolved; infinite: not known
+  double unresolved_share = 0;       ///< what the instants leave unresolved of the amplitude
+  double error_share = 0;            ///< numerical error of the stress at the place, with unresolved_share;
+                                     ///< infinite: not known
   LifeCertainty certainty;           ///< of the life
 };
 
@@ -74,7 +75,8 @@ struct WeldFatigue {
   double damage_per_turn = 0;
   std::optional<double> life_s;       ///< none: endures
   std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
-  double error_share = 0;             ///< numerical error of the stress; infinite: not known
+  double unresolved_share = 0;        ///< what the instants leave unresolved of the range
+  double error_share = 0;             ///< numerical error of the stress, with that; infinite: not known
   LifeCertainty certainty;            ///< of the life
 };
 

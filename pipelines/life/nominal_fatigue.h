@@ -41,8 +41,10 @@ DinTriple din_shoulder_gradient_1_m(double small_m, double large_m, double fille
 bool has_din_fillet(const meshes::Shaft& shaft);
 
 /// Every fillet between solid segments of a parametric shaft, least safety first; none of other bodies.
+/// @param loads               with the channels of the analysis
 /// @param local_amplitude_Pa  of a fillet, by feature; negative: not known
 std::vector<NominalFatigue> din_743_of_fillets(
-    const BodyAnalysis& analysis, const std::function<double(const std::string&)>& local_amplitude_Pa);
+    const BodyAnalysis& analysis, const ChannelHistory& loads,
+    const std::function<double(const std::string&)>& local_amplitude_Pa);
 
 }  // namespace pipelines

@@ -22,6 +22,7 @@ struct ChannelHistory {
   /// K x loads between the instants that these do not tell: samples of a table, a train's fastest harmonics
   /// (MachineKind::loads_passed_over); no columns: none.
   Eigen::ArrayXXd passed_over{};
+  std::vector<Eigen::ArrayXXd> passed_over_by_effect{};  ///< E of the same; sums to passed_over
 };
 
 }  // namespace pipelines

@@ -51,6 +51,7 @@ void add_passed_over(const Scene& scene, LoadedScene& loaded) {
                                    loaded_body(scene.bodies[i], loaded.meshed[i]), loaded.masses);
     take_channels(between, own.history.channels, own.unit_loads);
     own.history.passed_over = std::move(between.history.values);
+    own.history.passed_over_by_effect = std::move(between.history.by_effect);
   }
 }
 

@@ -51,6 +51,7 @@ void take_channels(BodyLoads& loads, const std::vector<Channel>& channels,
   for (auto& part : loads.history.by_effect) part = rows_of(part, places);
   if (loads.history.passed_over.cols() > 0)
     loads.history.passed_over = rows_of(loads.history.passed_over, places);
+  for (auto& part : loads.history.passed_over_by_effect) part = rows_of(part, places);
   loads.history.channels = channels;
   loads.unit_loads = unit_loads;
 }

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/common/constants.h"
+#include "pipelines/common/name_lists.h"
 #include "pipelines/machines/kinds.h"
 #include "pipelines/machines/load_table_reader.h"
 #include "pipelines/scene/plausibility.h"
@@ -11,6 +13,30 @@ namespace {
 
 const kinetics::LoadTable& table_in(const Machine& machine) {
   return std::get<kinetics::LoadTable>(machine);
+}
+
+/// Of the harmonics of these effects; 0: there are none.
+double highest_order(const kinetics::LoadTable& table, const std::vector<std::string>& effects) {
+  double highest = 0;
+  for (const auto& load : table.loads)
+    if (const auto* harmonic = std::get_if<kinetics::HarmonicCourse>(&load.course);
+        harmonic != nullptr && harmonic->amplitude != 0 && contains(effects, load.effect))
+      highest = std::max(highest, harmonic->order);
+  return highest;
+}
+
+/// Angles of denser instants, a multiple of the grid's and these among them, where the highest order has
+/// three instants per period or fewer: by three a spectrum cannot tell that there is nothing above. None
+/// where there would be too many.
+Eigen::ArrayXd denser_instants(const kinetics::LoadTable& table, const std::vector<std::string>& effects,
+                               const kinetics::TimeGrid& grid) {
+  constexpr double few = 3, wanted = 24, most = 4096;
+  const double per_period = grid.instants_per_turn / highest_order(table, effects);
+  if (!(per_period <= few * (1 + 1e-9))) return {};
+  const double times = std::ceil(wanted / per_period);
+  const double n = times * grid.turns * grid.instants_per_turn;
+  if (n > most) return {};
+  return Eigen::ArrayXd::LinSpaced(Eigen::Index(n), 0, n - 1) * (2 * pi / (times * grid.instants_per_turn));
 }
 
 class LoadTableKind : public MachineKind {
@@ -33,12 +59,10 @@ public:
   }
   int instants_of_orders(const Machine& machine) const override {
     constexpr double in_a_period = 4, of_a_kind = 12, most = 100'000;
-    double highest = 0;
-    for (const auto& load : table_in(machine).loads)
-      if (const auto* harmonic = std::get_if<kinetics::HarmonicCourse>(&load.course);
-          harmonic != nullptr && harmonic->amplitude != 0)
-        highest = std::max(highest, harmonic->order);
-    const double instants = of_a_kind * std::ceil(in_a_period * highest / of_a_kind);
+    std::vector<std::string> all;
+    for (const auto& effect : kinetics::load_table_effects(table_in(machine))) all.push_back(effect.name);
+    const double instants =
+        of_a_kind * std::ceil(in_a_period * highest_order(table_in(machine), all) / of_a_kind);
     return instants <= most ? int(instants) : 0;
   }
   bool has_samples() const override { return true; }
@@ -51,8 +75,9 @@ public:
     const auto& table = table_in(machine);
     const auto effects = scene.kinetics_effects();
     const auto phi_rad = kinetics::samples_passed_over(table, effects, scene.sampling);
-    if (phi_rad.size() == 0) return std::nullopt;
-    return kinetics::loads_at(table, effects, scene.sampling, phi_rad);
+    const auto denser_rad = phi_rad.size() > 0 ? phi_rad : denser_instants(table, effects, scene.sampling);
+    if (denser_rad.size() == 0) return std::nullopt;
+    return kinetics::loads_at(table, effects, scene.sampling, denser_rad);
   }
   bool is_headline(const std::string&) const override { return true; }
 };

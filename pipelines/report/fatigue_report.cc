@@ -136,6 +136,11 @@ void print_may_last_less(std::ostream& out, const std::string& first,
   out << fmt::format("    by the errors of their stresses these may last less than {}: {}\n", first, names);
 }
 
+/// Without what rounding leaves of a reversed stress.
+double rounded_mean_Pa(const StressCycle& cycle) {
+  return std::abs(cycle.signed_mean_Pa) > 1e-9 * cycle.amplitude_Pa ? cycle.signed_mean_Pa : 0;
+}
+
 void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   if (!analysis.fatigue) return;
   const auto& fatigue = *analysis.fatigue;
@@ -145,7 +150,7 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
   for (std::size_t i = 0; i < std::min(n_places_shown, fatigue.places.size()); ++i) {
     const auto& place = fatigue.places[i];
     out << fmt::format("  {:<30}{:>13}{:>10}{:>12}{:>9}{:>12.1f}%  {}\n", place.feature,
-                       fixed(place.cycle.amplitude_Pa / 1e6, 1), fixed(place.cycle.signed_mean_Pa / 1e6, 1),
+                       fixed(place.cycle.amplitude_Pa / 1e6, 1), fixed(rounded_mean_Pa(place.cycle) / 1e6, 1),
                        fixed(place.endurance_Pa / 1e6, 1), safety_text(place.safety), 100 * place.utilisation,
                        life_text(place.life_s, place.certainty));
   }

@@ -204,9 +204,15 @@ std::string or_dash(const Json& value, double scale, const char* format) {
   return value.is_null() ? "-" : number(value, scale, format);
 }
 
+std::string life(const Json& place) {
+  return place.at("life_h").is_null() ? "endures" : number(place.at("life_h"), 1, "{:.3g}");
+}
+
 /// What the error of the stress leaves of a life at least, h; results of earlier versions have none.
 std::string least_life(const Json& place) {
-  if (!place.contains("life_range_h") || place["life_range_h"].is_null()) return "-";
+  if (!place.contains("life_range_h")) return "-";
+  if (place.contains("beyond_sn_curve") && !place["beyond_sn_curve"].is_null()) return "beyond the S-N curve";
+  if (place["life_range_h"].is_null()) return place["life_h"].is_null() ? "-" : "not known well";
   return or_dash(place["life_range_h"][0], 1, "{:.3g}");
 }
 
@@ -215,8 +221,7 @@ void add_welds(HtmlPage& page, const Json& welds) {
   for (const auto& weld : welds) {
     if (rows.size() == n_rows_of_fatigue) break;
     rows.push_back({weld.at("name").get<std::string>(), number(weld.at("range_Pa"), 1e-6, "{:.1f}"),
-                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), or_dash(weld.at("life_h"), 1, "{:.3g}"),
-                    least_life(weld)});
+                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), life(weld), least_life(weld)});
   }
   page.table({"weld toe", "range MPa", "FAT MPa", "life h", "at least h"}, rows);
 }
@@ -267,8 +272,8 @@ void add_fatigue(HtmlPage& page, const Json& body) {
                     number(place.at("mean_Pa"), 1e-6, "{:.1f}"),
                     number(place.at("endurance_Pa"), 1e-6, "{:.1f}"),
                     or_dash(place.at("safety_against_endurance"), 1, "{:.2f}"),
-                    number(place.at("utilisation"), 100, "{:.0f}"), or_dash(place.at("life_h"), 1, "{:.3g}"),
-                    least_life(place), moment_of(place, "from"), moment_of(place, "to")});
+                    number(place.at("utilisation"), 100, "{:.0f}"), life(place), least_life(place),
+                    moment_of(place, "from"), moment_of(place, "to")});
   }
   page.heading(3, "Fatigue");
   page.table({"place", "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation %", "life h",
@@ -350,10 +355,10 @@ void add_duty_places(HtmlPage& page, const std::string& body, const Json& places
   Rows rows;
   for (const auto& place : places) {
     if (rows.size() == n_rows_of_fatigue) break;
-    rows.push_back(
-        {place.at("feature").get<std::string>(), place.at("weld_toe").get<bool>() ? "weld toe" : "",
-         number(place.at("damage_per_hour"), 1, "{:.3g}"), or_dash(place.at("life_h"), 1, "{:.3g}"),
-         least_life(place), or_dash(place.at("life_safety"), 1, "{:.2f}")});
+    rows.push_back({place.at("feature").get<std::string>(),
+                    place.at("weld_toe").get<bool>() ? "weld toe" : "",
+                    number(place.at("damage_per_hour"), 1, "{:.3g}"), life(place), least_life(place),
+                    or_dash(place.at("life_safety"), 1, "{:.2f}")});
   }
   page.heading(3, body + ": life over all blocks");
   page.table(
@@ -370,8 +375,7 @@ void add_fatigue_ranking(HtmlPage& page, const Json& summary) {
   for (const auto i : rows_shown(bodies, n_rows_of_fatigue)) {
     const auto& place = ranking.at(i);
     rows.push_back({fmt::format("{}", i + 1), bodies[i], place.at("feature").get<std::string>(),
-                    place.at("weld_toe").get<bool>() ? "weld toe" : "",
-                    place.at("life_h").is_null() ? "endures" : number(place.at("life_h"), 1, "{:.3g}"),
+                    place.at("weld_toe").get<bool>() ? "weld toe" : "", life(place),
                     or_dash(place.at("utilisation"), 100, "{:.0f}")});
   }
   page.heading(2, std::string("Fatigue of all bodies") +
@@ -436,15 +440,23 @@ void add_timing(HtmlPage& page, const Json& summary) {
   page.table({"stage", "seconds", "largest memory so far, GB"}, rows);
 }
 
+std::string window_of(const Json& input) {
+  if (!input.contains("run_up"))
+    return fmt::format("{} turn{} of {} instants", number(input.at("turns"), 1, "{:.0f}"),
+                       input.at("turns") == 1 ? "" : "s", number(input.at("instants_per_turn"), 1, "{:.0f}"));
+  const auto& run = input.at("run_up");
+  return fmt::format("a run-up of {} s, {} turns, {} instants", number(run.at("duration").at("value")),
+                     number(run.at("turns").at("value"), 1, "{:.3g}"),
+                     number(run.at("instants"), 1, "{:.0f}"));
+}
+
 std::string page_of(const Json& summary, const std::filesystem::path& directory,
                     const std::filesystem::path& accuracy) {
   const auto& input = summary.at("input");
   HtmlPage page(input.at("title").get<std::string>());
   page.heading(1, input.at("title").get<std::string>());
-  page.paragraph(fmt::format("{}, {} turn{} of {} instants; scene {} ({}); millstress {}",
-                             with_spaces(input.at("machine").get<std::string>()),
-                             number(input.at("turns"), 1, "{:.0f}"), input.at("turns") == 1 ? "" : "s",
-                             number(input.at("instants_per_turn"), 1, "{:.0f}"),
+  page.paragraph(fmt::format("{}, {}; scene {} ({}); millstress {}",
+                             with_spaces(input.at("machine").get<std::string>()), window_of(input),
                              input.at("scene").get<std::string>(), input.at("hash").get<std::string>(),
                              summary.at("program").at("version").get<std::string>()));
   if (input.contains("settings"))

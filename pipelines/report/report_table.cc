@@ -226,12 +226,22 @@ void print_bearings(std::ostream& out, const RunReport& report) {
   }
 }
 
+std::string window_of(const RunReport& report) {
+  const auto& grid = report.scene.sampling;
+  if (!report.scene.run_up)
+    return fmt::format("{} turn{} of {} instants", grid.turns, grid.turns == 1 ? "" : "s",
+                       grid.instants_per_turn);
+  const auto& loads = report.loads;
+  const auto last = loads.n_instants() - 1;
+  return fmt::format("a run-up of {:.4g} s, {:.3g} turns, {} instants", loads.time_s[last],
+                     (loads.phi_rad[last] - loads.phi_rad[0]) / (2 * pi), loads.n_instants());
+}
+
 }  // namespace
 
 void print_report(std::ostream& out, const RunReport& report) {
-  out << fmt::format("\n{}: {} ({}), {} turn{} of {} instants\n", report.scene.title, report.loads.machine,
-                     report.loads.convention, report.scene.sampling.turns,
-                     report.scene.sampling.turns == 1 ? "" : "s", report.scene.sampling.instants_per_turn);
+  out << fmt::format("\n{}: {} ({}), {}\n", report.scene.title, report.loads.machine, report.loads.convention,
+                     window_of(report));
   for (const auto& setting : report.scene.settings) out << "  set on the command line: " << setting << '\n';
   out << '\n';
   print_loads(out, report);

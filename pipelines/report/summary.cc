@@ -6,6 +6,7 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/bodies/chamber.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/common/version.h"
 #include "pipelines/files/content_hash.h"
@@ -71,6 +72,19 @@ void add_answers(Json& entry, const BearingAnswers& answers) {
   add("static_safety", answers.static_safety);
 }
 
+/// Turns and instants; a run-up has its own.
+void take_window(const RunReport& report, Json& input) {
+  const auto& grid = report.scene.sampling;
+  input["turns"] = report.scene.run_up ? Json(nullptr) : Json(grid.turns);
+  input["instants_per_turn"] = report.scene.run_up ? Json(nullptr) : Json(grid.instants_per_turn);
+  if (!report.scene.run_up) return;
+  const auto& loads = report.loads;
+  const auto last = loads.n_instants() - 1;
+  input["run_up"] = object({{"duration", figure(loads.time_s[last], "s")},
+                            {"turns", figure((loads.phi_rad[last] - loads.phi_rad[0]) / (2 * pi), "1")},
+                            {"instants", loads.n_instants()}});
+}
+
 }  // namespace
 
 std::string summary_json(const RunReport& report) {
@@ -81,9 +95,8 @@ std::string summary_json(const RunReport& report) {
                           {"hash", content_hash(report.scene.file)},
                           {"machine", report.loads.machine},
                           {"convention", report.loads.convention},
-                          {"effects", report.scene.effects},
-                          {"turns", report.scene.sampling.turns},
-                          {"instants_per_turn", report.scene.sampling.instants_per_turn}});
+                          {"effects", report.scene.effects}});
+  take_window(report, json["input"]);
   if (!report.scene.settings.empty()) json["input"]["settings"] = report.scene.settings;
   if (!report.scene.effect_choice.offered.empty()) json["dropped_effects"] = choice_json(report);
   json["warnings"] = Json::array();

@@ -21,8 +21,8 @@ Json shares_json(const ChannelHistory& loads, const StressShares& shares) {
   return json;
 }
 
-Json moment_json(const RunReport& report, Eigen::Index instant) {
-  const auto moment = moment_of(report.scene, report.loads, instant);
+Json moment_json(const RunReport& report, double instant) {
+  const auto moment = moment_between(report.scene, report.loads, instant);
   return object({{"turn", moment.turn}, {"drive_angle_rad", moment.angle_rad}});
 }
 
@@ -30,8 +30,8 @@ Json moment_json(const RunReport& report, Eigen::Index instant) {
 Json causes_json(const RunReport& report, const ChannelHistory& loads, const ZoneCauses& causes) {
   Json amplitude = object({{"value_Pa", number(causes.cycle.amplitude_Pa)}});
   if (!causes.amplitude.effects.empty()) {
-    amplitude["from"] = moment_json(report, causes.cycle.from);
-    amplitude["to"] = moment_json(report, causes.cycle.to);
+    amplitude["from"] = moment_json(report, causes.from);
+    amplitude["to"] = moment_json(report, causes.to);
     amplitude.update(shares_json(loads, causes.amplitude));
   }
   return object({{"peak", shares_json(loads, causes.peak)}, {"amplitude", amplitude}});

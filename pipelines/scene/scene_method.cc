@@ -41,6 +41,11 @@ Method requested_method(const std::string& option, const Scene& scene) {
   const auto method = method_of(option);
   if (!method)
     throw OptionError("--method " + option + ": unknown model; write one of " + listed(method_names()));
+  if (scene.bodies.empty())
+    throw OptionError(
+        "--method " + option +
+        ": the scene has no body, and only bodies have a model; leave it out, or add a body, as "
+        "[shaft], to the scene");
   if (const auto remedy = remedy_for(*method, scene); !remedy.empty())
     throw OptionError("--method " + option + ": " + remedy);
   return *method;

@@ -52,6 +52,7 @@ ServedBlock serve(const DutyBlock& block, const BodyAnalysis& analysis, BlockLoa
   };
   ServedBlock result;
   result.running = fitted(std::move(loads.running[b]));
+  if (auto denser = denser_course(result.running.history)) result.running.history = std::move(*denser);
   if (!loads.starting.empty()) result.starting = fitted(std::move(loads.starting[b]));
   result.von_mises = envelope(result.running.history, analysis.responses, threads(n_threads)).von_mises;
   if (analysis.scene.fatigue)

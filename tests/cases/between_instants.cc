@@ -106,3 +106,123 @@ name = "peeling_torque")"},
     EXPECT_GT(most_Pa, 0.99 * torsion_Pa) << instants;
   }
 }
+
+// Torsion of order 20 lives 0.11 h. With 60 instants, or 41 and 31, that lie on it three, two and one and a
+// half times in a period, lives were those of the cycles at the instants, 0.41, 0.33 and 0.51 h, safety was
+// 1.17 where 0.91 is right, and places that endure had a least life of seconds.
+TEST(BetweenInstants, LivesKnowTheFastestHarmonicsOfATrain) {
+  const results_test::Directory directory;
+  write(directory / "train.toml", R"(
+effects = ["drive", "load", "shaft_inertia"]
+[machine]
+type = "drive_train"
+reference = { shaft = "main", speed = "600 rpm" }
+inertias = [
+  { name = "motor", shaft = "main", inertia = 0.5 },
+  { name = "rotor", shaft = "main", from_mesh = true },
+  { name = "disc", shaft = "main", inertia = 0.4 },
+]
+elements = [
+  { name = "s1", kind = "shaft", between = ["motor", "rotor"], stiffness = 4e6 },
+  { name = "s2", kind = "shaft", between = ["rotor", "disc"], stiffness = 4e6 },
+]
+excitations = [
+  { name = "drive", inertia = "motor", harmonics = [{ amplitude = 500, order = 20 }] },
+  { name = "load", inertia = "disc", harmonics = [{ amplitude = -500, order = 20 }] },
+]
+[shaft]
+inertia = "rotor"
+contour = [
+  { port = "a", diameter = "30 mm", length = "30 mm" },
+  { fillet = "1 mm" },
+  { name = "body", diameter = "36 mm", length = "60 mm" },
+  { fillet = "1 mm" },
+  { port = "b", diameter = "30 mm", length = "30 mm" },
+]
+bearings = ["a", "b"]
+torques = [{ port = "a", element = "s1" }, { port = "b", element = "s2" }])" +
+                                      steel_of("shaft") +
+                                      R"([shaft.fatigue]
+tensile_strength = "590 MPa"
+[results]
+snapshots = 0
+pictures = false
+)");
+  const auto shaft_of = [&](int instants, const std::string& more) {
+    const auto run = as_a_user(directory.path,
+                               "run train.toml --method axisymmetric --tolerance none -o r "
+                               "--set sampling.instants_per_turn=" +
+                                   std::to_string(instants) + more);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return summary(directory / "r");
+  };
+  const auto right = shaft_of(240, "")["bodies"]["shaft"];
+  const auto& wanted = right["fatigue"]["places"];
+  for (const int instants : {60, 41, 31}) {
+    const auto shaft = shaft_of(instants, "")["bodies"]["shaft"];
+    const auto& places = shaft["fatigue"]["places"];
+    ASSERT_EQ(places.size(), wanted.size());
+    for (std::size_t i = 0; i < 4; ++i) {  // fillets and seats
+      for (const char* key : {"amplitude_Pa", "utilisation", "safety_against_endurance", "life_h"})
+        EXPECT_NEAR(places[i][key].get<double>() / wanted[i][key].get<double>(), 1, 1e-6)
+            << instants << ' ' << places[i]["feature"] << ' ' << key;
+      EXPECT_NEAR(places[i]["stress_error"].get<double>(), wanted[i]["stress_error"].get<double>(), 0.01);
+    }
+    EXPECT_NEAR(shaft["zones"][0]["causes"]["amplitude"]["value_Pa"].get<double>() /
+                    right["zones"][0]["causes"]["amplitude"]["value_Pa"].get<double>(),
+                1, 0.01);  // 24 instants a period
+  }
+  // Of windows too long for that the instants are all that is known, and it is said.
+  const auto is_warned = [](const nlohmann::json& run) {
+    for (const auto& warning : run["warnings"])
+      if (warning.get<std::string>().find("fatigue knows the instants") != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_TRUE(is_warned(shaft_of(41, " --set sampling.turns=10")));
+  EXPECT_FALSE(is_warned(shaft_of(60, "")));
+}
+
+// Order 40 with 120 instants, the default, and with 81: the seat endured, and lived 1.1 h, where 0.38 h is
+// right, under 198 +- 738 MPa.
+TEST(BetweenInstants, LivesKnowTheFastestHarmonicsOfATable) {
+  const results_test::Directory directory;
+  write(directory / "table.toml", R"(
+effects = "all"
+[machine]
+type = "load_table"
+speed = "960 rpm"
+harmonics = [{ effect = "teeth", load = "b.torque", amplitude = 450, order = 40 }]
+[shaft]
+contour = [
+  { port = "a", diameter = "30 mm", length = "30 mm" },
+  { fillet = "1 mm" },
+  { port = "b", diameter = "36 mm", length = "60 mm" },
+]
+bearings = ["a", "b"]
+torque_support = "a")" + steel_of("shaft") +
+                                      R"([shaft.fatigue]
+tensile_strength = "590 MPa"
+[results]
+snapshots = 0
+pictures = false
+)");
+  const auto shaft_of = [&](int instants) {
+    const auto run = as_a_user(directory.path,
+                               "run table.toml --method axisymmetric --tolerance none -o r "
+                               "--set sampling.instants_per_turn=" +
+                                   std::to_string(instants));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return summary(directory / "r")["bodies"]["shaft"];
+  };
+  const auto right = shaft_of(480);
+  const auto& wanted = right["fatigue"]["places"][0];
+  ASSERT_TRUE(wanted["life_h"].is_number());
+  for (const int instants : {120, 81}) {
+    const auto shaft = shaft_of(instants);
+    const auto& place = shaft["fatigue"]["places"][0];
+    for (const char* key : {"amplitude_Pa", "utilisation", "life_h"})
+      EXPECT_NEAR(place[key].get<double>() / wanted[key].get<double>(), 1, 1e-6) << instants << ' ' << key;
+    EXPECT_LT(shaft["peak_von_mises"]["error"]["time_sampling"].get<double>(),
+              0.02 * shaft["peak_von_mises"]["value"].get<double>());
+  }
+}

@@ -345,7 +345,8 @@ TEST(LoadStage, StartUpEndsInSteadyRunning) {
             "[machine.run_up]\nfrom = 0\nto = \"151.844 rad/s\"\nduration = \"2 s\"\n"
             "hold = \"4 s\"\nsteps_per_instant = 4\n");
   const auto steady = json_of(directory.path, "loads steady.toml --json")["loads"];
-  const auto start = json_of(directory.path, "loads start.toml --csv start.csv --json")["loads"];
+  const auto json = json_of(directory.path, "loads start.toml --csv start.csv --json");
+  const auto& start = json["loads"];
   EXPECT_GT(start["theta"]["max"].get<double>(), 1.5 * steady["theta"]["max"].get<double>());
   EXPECT_LT(start["pitch_energy_residual"]["max"].get<double>(),
             1e-9 * start["pitch_energy"]["max"].get<double>());
@@ -355,6 +356,14 @@ TEST(LoadStage, StartUpEndsInSteadyRunning) {
   for (std::size_t i = 0; i < history.at("time").size(); ++i)
     if (history.at("time")[i] > 5.5) last = std::max(last, history.at("R_E")[i]);
   EXPECT_NEAR(last, steady["R_E"]["max"].get<double>(), 0.02 * last);
+  // The window is the start's, not that of steady running: 20 turns of 120 instants were told.
+  EXPECT_TRUE(json["input"]["turns"].is_null() && json["input"]["instants_per_turn"].is_null());
+  const auto& window = json["input"]["run_up"];
+  EXPECT_NEAR(window["duration"]["value"].get<double>(), 6, 1e-9);
+  EXPECT_NEAR(window["turns"]["value"].get<double>(), 5 * 151.844 / (2 * M_PI), 1e-6);
+  EXPECT_EQ(window["instants"].get<std::size_t>(), history.at("time").size());
+  const auto shown = millstress(directory.path, "loads start.toml").out;
+  EXPECT_NE(shown.find("a run-up of 6 s, 121 turns, "), std::string::npos) << shown;
 }
 
 // What resampling adds is stated whether or not it is worth a warning.

@@ -184,6 +184,33 @@ TEST(Sweeps, OneRefusedPointIsToldAndKept) {
   EXPECT_TRUE(points[2].contains("figures"));
 }
 
+TEST(Sweeps, TellKeysThatChangeNothing) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()));
+  const std::string told = "no figure of this sweep changes with ";
+  const auto said = [&](const std::string& vary) {
+    const auto outcome = as_a_user(directory.path, "sweep mill.toml --loads --fresh" + vary);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.err;
+  };
+  const std::string speed = " --vary 'machine.drive.speed = 1400, 1500 rpm'",
+                    strength = " --vary 'shaft.material.yield_strength = 200, 300 MPa'";
+  const auto both = said(speed + strength);
+  EXPECT_NE(both.find(told + "shaft.material.yield_strength; stresses may"), std::string::npos) << both;
+  EXPECT_EQ(both.find(told + "machine.drive.speed"), std::string::npos) << both;
+}
+
+// A train has no force.
+TEST(Sweeps, OfATrainShowItsTorques) {
+  const results_test::Directory directory;
+  write(directory / "train.toml", edited("drive_train.toml", {}));
+  const auto outcome = as_a_user(
+      directory.path, "sweep train.toml --vary 'machine.excitations[1].harmonics[1].frequency = 40, 50 Hz'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("loads.working_shaft_1.torque.max [N m]"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.err.find("no figure"), std::string::npos) << outcome.err;
+}
+
 // Red if a point of a load stage alone skips what the scene's reader finds by computing loads: which key it
 // is, and loads that are no force.
 // 34 turns of 1360 rpm are 75 periods of 50 Hz; of 1350 rpm they are 75.6, and extremes and means are those
@@ -426,6 +453,7 @@ TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
         {"--vary 'time_limit = 1, 5 s'", "one time limit"},
         {"--vary 'title = a, b'", "no figure of a sweep depends"},
         {"--vary 'results.snapshots = 1, 2'", "no figure of a sweep depends"},
+        {"--loads --vary 'method = beam, solid'", "no figure of loads depends"},
         {"--vary 'zones.level = \"50 % of peak\", \"30 % of peak\"'", "add --zones"},
         {"--vary 'machine.drive.speed = 1200, 1300 rpm' --loads --figure nothing", "has no such figure"},
         {"--vary 'effects.gravty_charge = off, off'", "effects does not have it"}}) {

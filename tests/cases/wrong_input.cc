@@ -55,11 +55,14 @@ TEST(WrongInput, IsNamedBeforeAnythingRuns) {
 TEST(WrongInput, OfTheCommandLineIsTold) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));
+  write(directory / "train.toml", edited("drive_train.toml", {}));
   const std::string sweep = "sweep mill.toml --vary 'machine.drive.speed = 1400, 1500 rpm' ";
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"run mill.toml --tolerance ''", "--tolerance: is empty"},
       {"run mill.toml --time-limit ''", "--time-limit: is empty"},
       {"run mill.toml --method ''", "--method: is empty"},
+      {"run train.toml --method solid", "--method solid: the scene has no body"},
+      {"history train.toml", "has no body, and only bodies have a stress"},
       {"run mill.toml -o ''", "--output: is empty"},
       {"run mill.toml --tolerance nan", "is not a finite number"},
       {"rnu mill.toml", "rnu: is no command; did you mean \"run\"?"},

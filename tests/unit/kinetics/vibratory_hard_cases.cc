@@ -1,6 +1,8 @@
 // Limits in which a formula could divide by zero or an effect should vanish.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "tests/unit/kinetics/machines.h"
 
 namespace {
@@ -162,12 +164,13 @@ TEST(VibratoryHardCases, AWindowThatIsNoPeriodSaysSo) {
 TEST(VibratoryHardCases, WhatTheUserShouldKnowIsSaid) {
   const auto warned = [](const VibratoryMill& mill, const std::string& sentence) {
     for (const auto& warning : compute_loads(mill, effects_without(mill, {}), {20, 60}).warnings)
-      if (warning.find(sentence) != std::string::npos) return true;
+      if (std::regex_search(warning, std::regex(sentence))) return true;
     return false;
   };
   auto mill = machines::laboratory();
   mill.charge_lag.loss_angle_rad = 0;
-  EXPECT_TRUE(warned(mill, "the drive torque reverses"));
+  EXPECT_TRUE(
+      warned(mill, "the drive torque reverses in each cycle, from -[0-9.]{4,5} to [0-9.]{4,5} N m: keys"));
   EXPECT_FALSE(warned(mill, "the chamber pitches by up to"));
   EXPECT_FALSE(warned(mill, "pulls the chamber down"));
   EXPECT_FALSE(warned(mill, "charge_lag"));

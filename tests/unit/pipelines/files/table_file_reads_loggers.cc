@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -81,6 +83,20 @@ TEST(TableFile, NamesEveryWrongCellAtItsPlace) {
 
 // Loggers on Windows write the sign for degrees in Latin-1: such names ended a run at the writing of its
 // results.
+// Whoever opens a pipe without a writer waits for ever; the alarm ends this test then.
+TEST(TableFile, IsNoPipe) {
+  const Directory directory;
+  ASSERT_EQ(mkfifo((directory / "log.csv").c_str(), 0600), 0);
+  alarm(60);
+  try {
+    pipelines::read_table_file(directory / "log.csv");
+    ADD_FAILURE() << "was read";
+  } catch (const pipelines::SceneError& refused) {
+    EXPECT_NE(std::string(refused.what()).find("is no regular file"), std::string::npos) << refused.what();
+  }
+  alarm(0);
+}
+
 TEST(TableFile, TitlesAreUtf8) {
   EXPECT_EQ(refusals("angle [\xB0],seat.fx [N]\n0,1\n1,\xB0\n"), Places{"1:1  = "});
   EXPECT_EQ(read_table("angle [\xC2\xB0],seat.fx [N]\n0,1\n").columns.front().unit, "\xC2\xB0");
