@@ -22,8 +22,7 @@ void add_peak(const BodyAnalysis& analysis, const BodyLoads& loads, int n_thread
   const auto node = peak_node(envelope.von_mises.value_Pa, analysis.places);
   const auto& maximum = envelope.von_mises;
   result.von_mises = {maximum.value_Pa[node], result.time_s[maximum.instant[node]], analysis.peak.value_Pa};
-  if (const auto feature = analysis.places.feature[node]; feature >= 0)
-    result.feature = analysis.places.feature_names[std::size_t(feature)];
+  result.feature = feature_at(analysis.responses.nodes, analysis.places, node);
   result.place = analysis.places.place[node];
   std::copy_n(&analysis.responses.nodes.xyz_m[3 * node], 3, result.position_m.begin());
   result.safety = analysis.scene.yield_strength_Pa / result.von_mises.largest;

@@ -28,8 +28,7 @@ Peak headline(const BodyAnalysis& analysis) {
   peak.instant = maximum.instant[peak.node];
   peak.stress_Pa = maximum.stress_Pa[peak.node];
   peak.place = analysis.places.place[peak.node];
-  if (const auto feature = analysis.places.feature[peak.node]; feature >= 0)
-    peak.feature = analysis.places.feature_names[std::size_t(feature)];
+  peak.feature = feature_at(analysis.responses.nodes, analysis.places, peak.node);
   peak.safety = analysis.scene.yield_strength_Pa / peak.value_Pa;
   peak.effect_share =
       shares_of_stress(unit_stresses_at(analysis.responses, peak.node), analysis.loads.history, peak.instant)

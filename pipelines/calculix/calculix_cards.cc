@@ -68,20 +68,20 @@ std::string digits(double value) {
   return text;
 }
 
-std::string amplitude(const Card& card, const kinetics::LoadHistory& loads) {
-  const Eigen::Index n = loads.n_instants();
+std::string amplitude(const Card& card, const kinetics::LoadHistory& loads, bool repeats) {
+  const Eigen::Index n = loads.n_instants(), last = repeats ? n : n - 1;
   const double period_s = n > 1 ? loads.time_s[n - 1] + (loads.time_s[1] - loads.time_s[0]) : 1;
   std::string text = "*AMPLITUDE, NAME=" + card.name + "\n";
-  for (Eigen::Index i = 0; i <= n; ++i) {
+  for (Eigen::Index i = 0; i <= last; ++i) {
     text += digits(i < n ? loads.time_s[i] : period_s) + "," + digits(card.values[i < n ? i : 0]);
-    text += i % 4 == 3 || i == n ? "\n" : ",";
+    text += i % 4 == 3 || i == last ? "\n" : ",";
   }
   return text;
 }
 
 }  // namespace
 
-CalculixCards calculix_cards(const kinetics::LoadHistory& loads) {
+CalculixCards calculix_cards(const kinetics::LoadHistory& loads, bool repeats) {
   CalculixCards result;
   std::set<std::string> sets;
   const std::string about = "** " + loads.machine + " (" + loads.convention + "); N, N m, s\n";
@@ -89,7 +89,7 @@ CalculixCards calculix_cards(const kinetics::LoadHistory& loads) {
   result.loads = about;
   for (const Card& card : cards_of(loads)) {
     sets.insert(card.node_set);
-    result.amplitudes += amplitude(card, loads);
+    result.amplitudes += amplitude(card, loads, repeats);
     result.loads += "*CLOAD, AMPLITUDE=" + card.name + "\n" + card.node_set + "," +
                     std::to_string(card.degree_of_freedom) + ",1.\n";
   }
@@ -97,8 +97,9 @@ CalculixCards calculix_cards(const kinetics::LoadHistory& loads) {
   return result;
 }
 
-void write_calculix_cards(const std::filesystem::path& prefix, const kinetics::LoadHistory& loads) {
-  const auto cards = calculix_cards(loads);
+void write_calculix_cards(const std::filesystem::path& prefix, const kinetics::LoadHistory& loads,
+                          bool repeats) {
+  const auto cards = calculix_cards(loads, repeats);
   write_text_file(prefix.string() + "_amplitudes.inp", cards.amplitudes);
   write_text_file(prefix.string() + "_loads.inp", cards.loads);
 }

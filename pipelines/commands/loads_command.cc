@@ -99,7 +99,8 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
                        [&] { return write_load_charts(options.statistics, scene.title, history, turns); });
     say_if_nothing_draws(charts, !charts.empty() || make_offscreen_window());
   }
-  if (!options.calculix.empty()) clock.run("write", [&] { write_calculix_cards(options.calculix, history); });
+  if (!options.calculix.empty())
+    clock.run("write", [&] { write_calculix_cards(options.calculix, history, !scene.run_up); });
   const RunReport content{scene, history, {}, {}, clock.costs(), lives};
   if (options.json) {
     out << with_effects_of_bodies(summary_json(content), scene);

@@ -95,10 +95,8 @@ Json principal_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.principal;
   std::array<double, 3> position;
   std::copy_n(&analysis.responses.nodes.xyz_m[3 * node], 3, position.begin());
-  const auto feature = analysis.places.feature[node];
   Json json = figure(maximum.value_Pa[node], "Pa");
-  json.update(place_and_moment(report, position,
-                               feature >= 0 ? analysis.places.feature_names[std::size_t(feature)] : "",
+  json.update(place_and_moment(report, position, feature_at(analysis.responses.nodes, analysis.places, node),
                                analysis.places.place[node], maximum.instant[node]));
   json["stress_Pa"] = maximum.stress_Pa[node];
   return json;

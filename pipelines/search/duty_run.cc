@@ -67,9 +67,8 @@ ServedBlock serve(const DutyBlock& block, const BodyAnalysis& analysis, BlockLoa
 BlockStress stress_of(const BodyAnalysis& analysis, const ServedBlock& block) {
   const auto& largest_Pa = block.von_mises.value_Pa;
   const auto node = peak_node(largest_Pa, analysis.places);
-  BlockStress stress{analysis.scene.name, "", false, largest_Pa[node], 0, 0};
-  if (const auto feature = analysis.places.feature[node]; feature >= 0)
-    stress.feature = analysis.places.feature_names[std::size_t(feature)];
+  const auto feature = feature_at(analysis.responses.nodes, analysis.places, node);
+  BlockStress stress{analysis.scene.name, feature, false, largest_Pa[node], 0, 0};
   const auto spots =
       hot_spots_under(analysis.mesh.hot_spots, analysis.responses, block.running.history, analysis.hot_spots);
   if (!spots.empty() && spots.front().von_mises_Pa > stress.value_Pa)

@@ -175,3 +175,47 @@ TEST(HardLoads, SpinAloneBalancesItself) {
   EXPECT_NEAR(disc["value"].get<double>(), hoop_Pa, error_Pa);
   EXPECT_LT(error_Pa, 0.3 * hoop_Pa);
 }
+
+// A disc without a bore has its largest stress in the middle, (3 + nu) / 8 rho w^2 b^2 (likewise). Red where
+// a peak inside has no name: "at  (interior)".
+TEST(HardLoads, APeakInsideIsNamedAfterTheNearestSurface) {
+  const results_test::Directory directory;
+  write(directory / "disc.toml", R"(title = "Disc"
+effects = ["spinning"]
+[machine]
+type = "load_table"
+speed = "600 rpm"
+[[machine.harmonics]]
+effect = "spinning"
+load = "volume.spin"
+amplitude = "90000 rad2/s2"
+order = 0
+[sampling]
+instants_per_turn = 24
+turns = 1
+[shaft]
+contour = [{ name = "rim", diameter = "400 mm", length = "60 mm" }]
+[shaft.material]
+name = "steel"
+youngs_modulus = "206 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "305 MPa"
+[shaft.mesh]
+sectors = 8
+largest_cell = "20 mm"
+[results]
+snapshots = 0
+pictures = false
+)");
+  const auto run = millstress(directory.path, "run disc.toml --method solid --tolerance none -o out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = summary(directory / "out");
+  const auto& peak = json["bodies"]["shaft"]["peak_von_mises"];
+  EXPECT_NEAR(peak["value"].get<double>(), (3 + 0.3) / 8 * 7850 * 9e4 * 0.2 * 0.2,
+              peak["error"]["total"].get<double>());
+  EXPECT_EQ(peak["place"], "interior");
+  EXPECT_NE(peak["feature"], "");
+  EXPECT_EQ(peak["feature"], json["bodies"]["shaft"]["zones"][0]["feature"]);
+  EXPECT_EQ(run.out.find("at  ("), std::string::npos) << run.out;
+}

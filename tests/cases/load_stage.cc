@@ -345,7 +345,7 @@ TEST(LoadStage, StartUpEndsInSteadyRunning) {
             "[machine.run_up]\nfrom = 0\nto = \"151.844 rad/s\"\nduration = \"2 s\"\n"
             "hold = \"4 s\"\nsteps_per_instant = 4\n");
   const auto steady = json_of(directory.path, "loads steady.toml --json")["loads"];
-  const auto json = json_of(directory.path, "loads start.toml --csv start.csv --json");
+  const auto json = json_of(directory.path, "loads start.toml --csv start.csv --calculix start --json");
   const auto& start = json["loads"];
   EXPECT_GT(start["theta"]["max"].get<double>(), 1.5 * steady["theta"]["max"].get<double>());
   EXPECT_LT(start["pitch_energy_residual"]["max"].get<double>(),
@@ -364,6 +364,12 @@ TEST(LoadStage, StartUpEndsInSteadyRunning) {
   EXPECT_EQ(window["instants"].get<std::size_t>(), history.at("time").size());
   const auto shown = millstress(directory.path, "loads start.toml").out;
   EXPECT_NE(shown.find("a run-up of 6 s, 121 turns, "), std::string::npos) << shown;
+
+  // A start does not repeat: its cards end with it. Red where they go back to rest, one step later.
+  std::string cards = results_test::bytes(directory / "start_amplitudes.inp");
+  cards = cards.substr(0, cards.find("*AMPLITUDE", cards.find("*AMPLITUDE") + 1));
+  const auto begin = cards.find_last_of(",\n", cards.rfind(',') - 1) + 1;
+  EXPECT_NEAR(std::stod(cards.substr(begin)), history.at("time").back(), 1e-9);
 }
 
 // What resampling adds is stated whether or not it is worth a warning.
