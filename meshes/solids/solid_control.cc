@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshes/solids/flat_cells.h"
@@ -15,10 +16,11 @@ namespace meshes {
 
 namespace {
 
-constexpr double growth = 0.7;  // of the cell size, over the distance
+constexpr double growth = 0.5;  // of the cell size, over the distance
 /// Of a curve's length in cells, which gmsh integrates the size for. The size has kinks, at which gmsh's own
 /// 1e-9 takes a hundred times longer: 18 s for the curves of a plate with 40 holes, 2 s for its surfaces.
 constexpr double curve_precision = 1e-4;
+const char* const extend_from_boundary = "Mesh.MeshSizeExtendFromBoundary";
 
 double diagonal_of_model() {
   double low[3], high[3];
@@ -26,14 +28,30 @@ double diagonal_of_model() {
   return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-/// Length of a curve's elements in the mesh of curves; 0 if it has none (a point of an axis).
-double element_length(int curve) {
+/// Elements of a curve in the mesh of curves: none at a point of an axis.
+std::size_t n_elements(int curve) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
   gmsh::model::mesh::getElements(types, tags, nodes, 1, curve);
+  return types.empty() ? 0 : tags[0].size();
+}
+
+/// Curves whose distance is one field: elements of a length within a tenth, and as many points along each.
+struct CurvesOfSize {
+  int step = 0;      ///< of the length: 1.1^step and more
+  int n_points = 0;  ///< gmsh takes the distance from points: two for each element and more, at least 200
+  bool operator<(const CurvesOfSize& other) const {
+    return std::pair(step, n_points) < std::pair(other.step, other.n_points);
+  }
+};
+
+CurvesOfSize size_of(int curve, std::size_t n) {
+  constexpr int least_points = 200;
   double length = 0;
   gmsh::model::occ::getMass(1, curve, length);
-  return types.empty() || tags[0].empty() ? 0 : length / double(tags[0].size());
+  CurvesOfSize size{int(std::floor(std::log(length / double(n)) / std::log(1.1))), least_points};
+  while (size.n_points < 2 * int(n)) size.n_points *= 2;
+  return size;
 }
 
 /// The ball's size inside, growing with the distance from it by `growth` up to the largest size.
@@ -57,20 +75,20 @@ int field_of(const FineSpot& spot, double unit_m, double largest) {
 /// cells as long as its other edge asks for. Meshes the curves, and forgets them again.
 void limit_growth(const std::vector<FineSpot>& fine_spots, double unit_m, double largest) {
   gmsh::model::mesh::generate(1);
-  std::map<int, std::vector<double>> curves_of_size;  // by size in steps of a tenth
+  std::map<CurvesOfSize, std::vector<double>> curves_of_size;
   gmsh::vectorpair curves;
   gmsh::model::getEntities(curves, 1);
   for (const auto& curve : curves)
-    if (const double h = element_length(curve.second); h > 0)
-      curves_of_size[int(std::floor(std::log(h) / std::log(1.1)))].push_back(curve.second);
+    if (const auto n = n_elements(curve.second); n > 0)
+      curves_of_size[size_of(curve.second, n)].push_back(curve.second);
   std::vector<double> fields;
-  for (const auto& [step, its_curves] : curves_of_size) {
+  for (const auto& [its_size, its_curves] : curves_of_size) {
     const int distance = gmsh::model::mesh::field::add("Distance");
     gmsh::model::mesh::field::setNumbers(distance, "EdgesList", its_curves);
-    gmsh::model::mesh::field::setNumber(distance, "NumPointsPerCurve", 200);
+    gmsh::model::mesh::field::setNumber(distance, "NumPointsPerCurve", its_size.n_points);
     const int size = gmsh::model::mesh::field::add("MathEval");
     gmsh::model::mesh::field::setString(size, "F",
-                                        std::to_string(std::pow(1.1, step + 0.5)) + "+" +
+                                        std::to_string(std::pow(1.1, its_size.step + 0.5)) + "+" +
                                             std::to_string(growth) + "*F" + std::to_string(distance));
     fields.push_back(size);
   }
@@ -119,6 +137,11 @@ void mesh_solids(const SolidControl& control, double unit_m) {
   set("Mesh.MeshSizeFromPoints", 0);
   set("Mesh.LcIntegrationPrecision", curve_precision);
   limit_growth(control.fine_spots, unit_m, size);
+  // Between two small holes gmsh would interpolate the size of their edges, and mesh all of a perforated
+  // plate as finely as these. Volumes begin with the size of their surface's cells.
+  set(extend_from_boundary, 0);
+  gmsh::model::mesh::generate(2);
+  set(extend_from_boundary, 1);
   gmsh::model::mesh::generate(3);
   split_flat_cells();
   gmsh::model::mesh::setOrder(2);

@@ -16,7 +16,7 @@ struct FoundCylinder {
 
 struct PieceShape {
   Point low_m{}, high_m{};  ///< of its corner nodes
-  Point centre_m{};         ///< of its area
+  Point centre_m{};         ///< of its area, with the curves of quadratic cells
   double area_m2 = 0;
   std::optional<FoundCylinder> cylinder;
 };

@@ -72,6 +72,29 @@ TEST(Imported, AFaceOfHexahedraIsLoadedAboutTheCentreOfItsArea) {
   EXPECT_NEAR(body.ports[0].begin_m, (3 * 0.5 + 1.5 * 4 / 3) / 4.5, 1e-12);
 }
 
+// The flat triangles between the corners of its 12 cells around have their centre 2 % of the radius beside
+// it: an even pull on the face bent a bar by 3 %.
+TEST(Imported, AFaceWithCurvedEdgesIsLoadedAboutTheCentreOfItsArea) {
+  const double pi = std::acos(-1.0), half_angle = pi / 3;  // of the circle, less its part beyond x = 0.5
+  const auto msh = written("flattened.msh", [&] {
+    gmsh::vectorpair parts;
+    std::vector<gmsh::vectorpair> map;
+    occ::cut({{3, occ::addCylinder(0, 0, 0, 0, 0, 1, 1)}}, {{3, occ::addBox(0.5, -2, -1, 2, 4, 3)}}, parts,
+             map);
+    occ::synchronize();
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+    gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 12);
+    gmsh::model::mesh::generate(3);
+    gmsh::model::mesh::setOrder(2);
+  });
+  const auto body = meshes::build_imported(
+      import_of(msh, {{"end", Port::Kind::face, BoxSelection{{-2, -2, -1e-6}, {2, 2, 1e-6}}}}));
+  const double area_m2 = pi - (half_angle - std::sin(2 * half_angle) / 2),
+               moment_m3 = -2.0 / 3 * std::pow(std::sin(half_angle), 3);
+  EXPECT_NEAR(body.ports.at(0).axis_x_m, moment_m3 / area_m2, 1e-3);
+  EXPECT_NEAR(body.ports[0].axis_y_m, 0, 1e-4);
+}
+
 TEST(Imported, AMshWithGroupsGoesInAndOut) {
   for (const int order : {1, 2})
     for (const double version : {2.2, 4.1}) {
