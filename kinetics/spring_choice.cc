@@ -52,9 +52,9 @@ void warn(const VibratoryMill& mill, bool searched, const SpringSearch& search, 
   const double mass_kg = mill.charge_mass_kg + mill.structure_mass_kg + mill.exciter_mass_kg;
   const double bounce_rad_s = mass_kg > 0 ? std::sqrt(choice.stiffness_N_m / mass_kg) : 0;
   if (std::abs(bounce_rad_s / mill.speed_rad_s - 1) < 0.2)
-    choice.warnings.push_back("with k* = " + number(choice.stiffness_N_m) + " N/m the chamber bounces at " +
-                              number(bounce_rad_s) + " rad/s, within 20 % of the drive's " +
-                              number(mill.speed_rad_s) +
+    choice.warnings.push_back("with k* = " + rounded(choice.stiffness_N_m) + " N/m the chamber bounces at " +
+                              rounded(bounce_rad_s) + " rad/s, within 20 % of the drive's " +
+                              rounded(mill.speed_rad_s) +
                               " rad/s: springs that carry the inertia are in resonance, and any play of the "
                               "eccentric or slip of the drive is no longer held back");
   if (choice.scale == 0)
@@ -67,8 +67,8 @@ void warn(const VibratoryMill& mill, bool searched, const SpringSearch& search, 
   for (const PitchResonance& resonance : choice.resonances)
     if (resonance.between_given_and_chosen)
       choice.warnings.push_back("between the given springs and k* the pitch passes a resonance at " +
-                                number(resonance.frequency_rad_s) +
-                                " rad/s, k = " + number(resonance.stiffness_N_m) + " N/m");
+                                rounded(resonance.frequency_rad_s) +
+                                " rad/s, k = " + rounded(resonance.stiffness_N_m) + " N/m");
 }
 
 }  // namespace

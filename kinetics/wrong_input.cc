@@ -15,6 +15,12 @@ std::string number(double value) {
   return text;
 }
 
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
 void refuse(const std::string& parameter, double value, const std::string& remedy) {
   throw MachineRefused(parameter + " = " + number(value) + ": " + remedy);
 }

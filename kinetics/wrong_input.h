@@ -9,6 +9,9 @@ namespace kinetics {
 /// A number as it reads best in a message: up to 12 significant digits.
 std::string number(double value);
 
+/// A figure that was computed, in a warning: four significant digits tell enough.
+std::string rounded(double value);
+
 /// @throws MachineRefused, always: "<parameter> = <value>: <remedy>"
 [[noreturn]] void refuse(const std::string& parameter, double value, const std::string& remedy);
 

@@ -122,23 +122,23 @@ void write_warnings(const VibratoryMill& mill, const LoadHistory& history, bool 
                        " W for a chamber that moves on the eccentric's circle alone; with pitch on the "
                        "charge takes another power: " +
                        "mean charge_power over the window is " +
-                       number(history.quantity("charge_power").values.mean()) + " W");
+                       rounded(history.quantity("charge_power").values.mean()) + " W");
   const double largest_rad = history.quantity("theta").values.abs().maxCoeff();
   if (largest_rad > 0.05)
     warnings.push_back(
-        "the chamber pitches by up to " + number(largest_rad) +
+        "the chamber pitches by up to " + rounded(largest_rad) +
         " rad: positions are not turned by theta, "
         "so forces are wrong by about that share; check the springs and the distance from resonance");
   const ArrayXd& T = history.quantity("T").values;
   const double least = T.minCoeff(), most = T.maxCoeff();
   if (least < -1e-9 * most && most > 0)
-    warnings.push_back("the drive torque reverses in each cycle, from " + number(least) + " to " +
-                       number(most) + " N m: keys, couplings and gears see changing contact");
+    warnings.push_back("the drive torque reverses in each cycle, from " + rounded(least) + " to " +
+                       rounded(most) + " N m: keys, couplings and gears see changing contact");
   const double size_N = history.quantity("B").values.maxCoeff();
   const double neglected_N = pitching ? history.quantity("neglected_pitch_centripetal").values.maxCoeff() : 0;
   if (neglected_N > 0.05 * size_N)
-    warnings.push_back("the neglected centripetal force of the pitch reaches " + number(neglected_N) +
-                       " N, " + number(std::round(1000 * neglected_N / size_N) / 10) +
+    warnings.push_back("the neglected centripetal force of the pitch reaches " + rounded(neglected_N) +
+                       " N, " + rounded(std::round(1000 * neglected_N / size_N) / 10) +
                        " % of the eccentric's force");
 }
 

@@ -1,6 +1,8 @@
 // Limits in which a formula could divide by zero or an effect should vanish.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "tests/unit/kinetics/machines.h"
 
 namespace {
@@ -168,6 +170,8 @@ TEST(VibratoryHardCases, WhatTheUserShouldKnowIsSaid) {
   auto mill = machines::laboratory();
   mill.charge_lag.loss_angle_rad = 0;
   EXPECT_TRUE(warned(mill, "the drive torque reverses"));
+  for (const auto& warning : compute_loads(mill, effects_without(mill, {}), {20, 60}).warnings)
+    EXPECT_FALSE(std::regex_search(warning, std::regex("[0-9]\\.[0-9]{5}"))) << warning;
   EXPECT_FALSE(warned(mill, "the chamber pitches by up to"));
   EXPECT_FALSE(warned(mill, "pulls the chamber down"));
   EXPECT_FALSE(warned(mill, "charge_lag"));
