@@ -138,7 +138,7 @@ void write_warnings(const VibratoryMill& mill, const LoadHistory& history, bool 
   const double neglected_N = pitching ? history.quantity("neglected_pitch_centripetal").values.maxCoeff() : 0;
   if (neglected_N > 0.05 * size_N)
     warnings.push_back("the neglected centripetal force of the pitch reaches " + rounded(neglected_N) +
-                       " N, " + number(std::round(1000 * neglected_N / size_N) / 10) +
+                       " N, " + rounded(std::round(1000 * neglected_N / size_N) / 10) +
                        " % of the eccentric's force");
 }
 

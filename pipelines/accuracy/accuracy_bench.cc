@@ -44,6 +44,7 @@ SceneRunOptions AccuracyBench::run_options() const {
   options.n_threads = options_.n_threads;
   options.fresh = true;
   options.keep = false;
+  options.fatigue = false;
   options.only = body_;
   options.others = meshed_;
   return options;

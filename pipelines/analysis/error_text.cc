@@ -36,8 +36,8 @@ std::string remedy_of_calculation(const std::string& source, const Search& searc
   if (source == "cancellation")
     return "give the difference of the loads that cancel as one load; no mesh lowers it";
   if (search.steps.empty()) return "--tolerance \"5 %\"";
+  if (search.time_was_up()) return "more time (--time-limit)";  // without a tolerance whatever is met
   if (search.met) return "a smaller --tolerance";
-  if (search.time_was_up()) return "more time (--time-limit)";
   return "another mesh, since " + search.ended;
 }
 

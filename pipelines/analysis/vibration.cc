@@ -184,7 +184,7 @@ fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
   const BodyKind& kind = kind_of(scene);
   for (const auto& name : kind.supporting_ports(scene)) {
     const auto& port = find(meshed.mesh.ports, name);
-    if (kind.is_clamped()) {
+    if (kind.is_clamped(scene)) {
       body.clamps.push_back({port.boundary_id, {true, true, true}});
       continue;
     }
@@ -205,7 +205,7 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
     result.natural_frequencies_Hz.push_back(mode.frequency_Hz);
   const BodyKind& kind = kind_of(body);
   const auto ports = kind.supporting_ports(body);
-  result.held = ports.empty() ? "free" : (kind.is_clamped() ? "held at " : "pinned at ") + joined(ports);
+  result.held = ports.empty() ? "free" : (kind.is_clamped(body) ? "held at " : "pinned at ") + joined(ports);
   const double period_s = (loads.time_s[1] - loads.time_s[0]) * scene.sampling.instants_per_turn;
   std::vector<bool> across;
   for (const auto& channel : channels.channels) across.push_back(is_across(channel.name));

@@ -62,7 +62,7 @@ bool BodyKind::has_elastic_feet(const BodyScene&) const {
   return false;
 }
 
-bool BodyKind::is_clamped() const {
+bool BodyKind::is_clamped(const BodyScene&) const {
   return false;
 }
 

@@ -58,7 +58,7 @@ public:
                                 std::get<StubAxleOptions>(body.options), scene.effects);
   }
   std::vector<std::string> supporting_ports(const BodyScene&) const override { return {clamp}; }
-  bool is_clamped() const override { return true; }
+  bool is_clamped(const BodyScene&) const override { return true; }
 };
 
 }  // namespace

@@ -107,11 +107,19 @@ public:
   BodyOptions read_options(SceneTable& table, const Scene& scene) const override {
     TableBodyOptions options;
     table.know("bearings");
-    if (table.has("bearings")) {
+    table.know("clamp");
+    if (table.has("clamp")) {
+      options.bearings = {table.text("clamp")};
+      for (const char* other : {"bearings", "axial_support", "torque_support"})
+        if (table.has(other))
+          table.refuse(other, "stands beside clamp, which takes all forces and moments; remove one of both");
+    } else if (table.has("bearings")) {
       auto& bearings = options.bearings;
       for (const auto& name : table.texts("bearings")) bearings.push_back(name.text);
       if (bearings.size() != 2 || bearings[0] == bearings[1])
-        table.refuse("bearings", "needs the ports of two bearings");
+        table.refuse("bearings",
+                     "needs the ports of two bearings; one port that holds the body is its clamp");
+      if (bearings.size() == 1) bearings.clear();
     }
     for (auto* support : {&options.axial_support, &options.torque_support}) {
       const char* key = support == &options.axial_support ? "axial_support" : "torque_support";
@@ -124,18 +132,19 @@ public:
   ContourRules contour_rules(const Scene& scene, const BodyScene& body) const override {
     ContourRules rules;
     rules.any_port = true;
-    rules.ports = table_options(body).bearings;
+    if (!is_clamped(body)) rules.ports = table_options(body).bearings;
     add_table_ports(scene, rules.ports);
     return rules;
   }
   void check_ports(SceneTable& table, const BodyScene& body) const override {
     const auto known = ports_of(body).all;
     const auto& options = table_options(body);
+    if (is_clamped(body)) check_port(table, "clamp", options.bearings[0], known, "the ports of this body");
     check_port(table, "axial_support", options.axial_support, known, "the ports of this body");
     check_port(table, "torque_support", options.torque_support, known, "the ports of this body");
   }
   std::vector<std::string> bearing_loads(const BodyScene& body) const override {
-    return table_options(body).bearings;
+    return is_clamped(body) ? std::vector<std::string>() : table_options(body).bearings;
   }
   std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene& body) const override {
     if (body.name != "shaft") return std::nullopt;
@@ -143,8 +152,12 @@ public:
   }
   BodyLoads distribute(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                        const LoadedBody& loaded, const MassAgreement&) const override {
-    return distribute_table_at(history.phi_rad, std::get<kinetics::LoadTable>(scene.machine), scene.effects,
-                               scene.sampling, loaded, table_options(body));
+    try {
+      return distribute_table_at(history.phi_rad, std::get<kinetics::LoadTable>(scene.machine), scene.effects,
+                                 scene.sampling, loaded, table_options(body));
+    } catch (const StageRefused& refused) {
+      throw StageRefused(body.origin + ": " + refused.what());
+    }
   }
   void require_supports(const BodyScene& body, const BodyLoads& loads,
                         const std::vector<RegionMass>& regions) const override {
@@ -162,14 +175,15 @@ public:
       refuse("bearings",
              fmt::format("the loads leave up to {:.4g} N across the axis and {:.4g} N m of tilting "
                          "that nothing carries; name the ports of two bearings, as bearings = "
-                         "[\"bearing_1\", \"bearing_2\"]",
+                         "[\"bearing_1\", \"bearing_2\"], or the port that holds the body, as clamp",
                          left.across_N, left.tilting_Nm));
-    if (table.axial_support.empty() && left.along_N > 0)
+    const bool is_held = is_clamped(body);
+    if (!is_held && table.axial_support.empty() && left.along_N > 0)
       refuse("axial_support",
              fmt::format("the loads leave up to {:.4g} N along the axis that nothing carries; "
                          "name the port that takes them, as axial_support = \"{}\"",
                          left.along_N, port));
-    if (table.torque_support.empty() && left.turning_Nm > 0)
+    if (!is_held && table.torque_support.empty() && left.turning_Nm > 0)
       refuse("torque_support",
              fmt::format("the loads leave a torque of up to {:.4g} N m that nothing carries; "
                          "name the port that takes it, as torque_support = \"{}\"",
@@ -178,6 +192,7 @@ public:
   }
   std::string missing_support(const BodyScene& body, const Closure& closure) const override {
     const auto& table = table_options(body);
+    if (is_clamped(body)) return "";
     if (closure.moment[2] > Closure::limit && table.torque_support.empty())
       return "name the port that takes torque, torque_support in [" + body.name + "]";
     if (closure.force[2] > Closure::limit && table.axial_support.empty())
@@ -187,6 +202,7 @@ public:
   std::vector<std::string> supporting_ports(const BodyScene& body) const override {
     return table_options(body).bearings;
   }
+  bool is_clamped(const BodyScene& body) const override { return table_options(body).bearings.size() == 1; }
   /// Loads on a shaft may be along axes that turn with it; a part's are along its own.
   std::vector<double> spins_Hz(const Scene&, const BodyScene& body,
                                const kinetics::LoadHistory& loads) const override {
@@ -233,6 +249,12 @@ BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::Loa
   // Along the axis first: off the axis of an eccentric port, that tilts the body, which the bearings then
   // carry.
   if (!options.axial_support.empty()) collector.react_axial(options.axial_support);
+  if (bearings.size() == 1) {  // what a clamp carries spreads over the whole port
+    collector.react_axial(bearings[0]);
+    collector.react_force(bearings[0]);
+    collector.react_tilt(bearings[0]);
+    collector.react_torque(bearings[0]);
+  }
   if (bearings.size() == 2) {
     collector.react(bearings[0], bearings[1]);
     for (const auto& bearing : bearings) collector.pressure(bearing);

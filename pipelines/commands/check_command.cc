@@ -60,10 +60,11 @@ void print_instants(std::ostream& out, const Scene& scene, const ChannelHistory&
   const double turns = double(loads.values.cols()) / scene.sampling.instants_per_turn;
   if (needed.channel.empty()) return;
   out << fmt::format(
-      "  every channel is known to {:g} % between {:.0f} instants a turn; there are {} ({} {}, orders up to "
-      "{:.3g} a turn{})\n",
-      100 * share, std::ceil(needed.n_instants / turns), scene.sampling.instants_per_turn, needed.channel,
-      "asks for most", double(needed.highest) / turns,
+      "  {:.0f} instants a turn tell every channel between them to {:g} %; the scene has {} ({} asks for "
+      "most, "
+      "with orders up to {:.3g} a turn{})\n",
+      std::ceil(needed.n_instants / turns), 100 * share, scene.sampling.instants_per_turn, needed.channel,
+      double(needed.highest) / turns,
       needed.is_resolved ? "" : " and beyond: these instants do not resolve it");
 }
 

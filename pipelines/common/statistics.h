@@ -40,4 +40,11 @@ inline Statistics statistics(const Eigen::ArrayXd& values) {
   return s;
 }
 
+/// What rounding leaves of a mean that is none, shown as 0.
+/// @param scale  largest size of the series
+inline double without_rounding(double mean, double scale) {
+  constexpr double rounding = 1e-13;
+  return std::abs(mean) < rounding * scale ? 0.0 : mean;
+}
+
 }  // namespace pipelines

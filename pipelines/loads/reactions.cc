@@ -47,8 +47,11 @@ void LoadCollector::react(const std::string& first, const std::string& second,
   // the smallest moment would ask for huge forces.
   constexpr double least_span = 1e-3;
   if (!(std::abs(span_m) > least_span * radius_of_gyration_m(body_.regions)))
-    throw StageRefused("bearings \"" + first + "\" and \"" + second +
-                       "\" lie at the same place along the axis: they carry no tilting moment");
+    throw StageRefused(
+        "bearings \"" + first + "\" and \"" + second +
+        "\" lie at the same place along z: they carry no tilting moment; name two that lie apart, "
+        "or where one port holds the body of a load table that port alone, as clamp = \"" +
+        first + "\"");
   std::map<std::string, Wrench> loads = sums_;
   for (const auto& [effect, sum] : resultant) loads.try_emplace(effect, Wrench::Zero(6, n_instants_));
   for (const auto& [effect, load] : loads) {

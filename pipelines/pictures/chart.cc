@@ -109,20 +109,42 @@ void add_curve(vtkChartXY* chart, const ChartCurve& curve, std::size_t i) {
   add_column(table, curve.name.c_str(), curve.y);
   const bool is_line = curve.is_joined && curve.x.size() > 1;
   if (curve.error.size() == curve.y.size() && is_line) {
-    std::vector<double> low, high;
-    for (std::size_t k = 0; k < curve.y.size(); ++k) {
-      low.push_back(curve.y[k] - curve.error[k]);
-      high.push_back(curve.y[k] + curve.error[k]);
-    }
-    add_column(table, "low", low);
-    add_column(table, "high", high);
+    std::vector<double> x, low, high;
+    const auto enter = [&](double at_x, double y, double error) {
+      x.push_back(at_x);
+      low.push_back(y - error);
+      high.push_back(y + error);
+    };
+    for (std::size_t k = 0; k < curve.y.size(); ++k) enter(curve.x[k], curve.y[k], curve.error[k]);
+    // VTK draws no area between two places alone.
+    if (x.size() == 2) enter(curve.x[1], curve.y[1], curve.error[1]);
+    vtkNew<vtkTable> bounds;
+    add_column(bounds, "x", x);
+    add_column(bounds, "low", low);
+    add_column(bounds, "high", high);
     auto* const band = vtkPlotArea::SafeDownCast(chart->AddPlot(vtkChart::AREA));
-    band->SetInputData(table);
+    band->SetInputData(bounds);
     band->SetInputArray(0, "x");
     band->SetInputArray(1, "low");
     band->SetInputArray(2, "high");
     band->SetColor(colour[0], colour[1], colour[2], 50);
     band->SetLabel(curve.name + ", stated error");
+  }
+  if (curve.has_stems) {
+    std::vector<double> x, y;
+    for (std::size_t k = 0; k < curve.x.size(); ++k)
+      for (const double height : {0.0, curve.y[k], 0.0}) {
+        x.push_back(curve.x[k]);
+        y.push_back(height);
+      }
+    vtkNew<vtkTable> path;
+    add_column(path, "x", x);
+    add_column(path, curve.name.c_str(), y);
+    auto* const stems = chart->AddPlot(vtkChart::LINE);
+    stems->SetInputData(path, 0, 1);
+    stems->SetColor(colour[0], colour[1], colour[2], 255);
+    stems->SetWidth(2);
+    stems->SetLegendVisibility(false);
   }
   auto* const plot = chart->AddPlot(is_line ? vtkChart::LINE : vtkChart::POINTS);
   plot->SetInputData(table, 0, 1);
@@ -154,33 +176,57 @@ void fit_window(vtkChartXY* chart, const ChartWindow& window) {
   set_range(y, middle_y - 0.5 * height_px * units_per_px, middle_y + 0.5 * height_px * units_per_px);
 }
 
-void put_labels(vtkAxis* axis, const std::string& title, const std::vector<std::string>& labels) {
-  style(axis, {title, false});
+/// @param first  place of the first label; the others follow at distances of 1
+void put_labels(vtkAxis* axis, const ChartAxis& wanted, const std::vector<std::string>& labels,
+                double first) {
+  style(axis, wanted);
   constexpr std::size_t most_labels = 12;
   const std::size_t step = (labels.size() + most_labels - 1) / most_labels;
   vtkNew<vtkDoubleArray> places;
   vtkNew<vtkStringArray> texts;
   for (std::size_t i = 0; i < labels.size(); i += step) {
-    places->InsertNextValue(double(i) + 0.5);
+    places->InsertNextValue(double(i) + first);
     texts->InsertNextValue(labels[i]);
   }
   axis->SetCustomTickPositions(places, texts);
-  axis->SetRange(0, double(labels.size()));
-  axis->SetBehavior(vtkAxis::FIXED);
+  set_range(axis, first - 0.5, first - 0.5 + double(labels.size()));
 }
 
 }  // namespace
+
+void add_or_join(std::vector<ChartCurve>& curves, ChartCurve curve) {
+  for (auto& other : curves)
+    if (other.x == curve.x && other.y == curve.y) {
+      other.name += ", " + curve.name;
+      return;
+    }
+  curves.push_back(std::move(curve));
+}
 
 bool write_chart(const LineChart& chart, const std::filesystem::path& file) {
   vtkNew<vtkChartXY> xy;
   style(xy, chart.title);
   for (std::size_t i = 0; i < chart.curves.size(); ++i) add_curve(xy, chart.curves[i], i);
-  style(xy->GetAxis(vtkAxis::BOTTOM), chart.x);
+  if (chart.x.names.empty())
+    style(xy->GetAxis(vtkAxis::BOTTOM), chart.x);
+  else
+    put_labels(xy->GetAxis(vtkAxis::BOTTOM), chart.x, chart.x.names, 1);
   style(xy->GetAxis(vtkAxis::LEFT), chart.y);
-  xy->SetShowLegend(chart.curves.size() > 1 || !chart.curves.front().error.empty());
+  xy->SetShowLegend(std::any_of(chart.curves.begin(), chart.curves.end(),
+                                [](const auto& curve) { return !curve.name.empty(); }));
   plain(xy->GetLegend()->GetLabelProperties(), label_size - 2);
   xy->GetLegend()->SetInline(chart.has_equal_scales || chart.window.has_value());
   if (chart.window) return draw(xy, file, chart_width, [&] { fit_window(xy, *chart.window); });
+  if (chart.is_from_zero) {
+    const auto up_to = [&](vtkAxis* axis, std::vector<double> ChartCurve::*values) {
+      double most = 0;
+      for (const auto& curve : chart.curves)
+        for (const double value : curve.*values) most = std::max(most, value);
+      set_range(axis, 0, most > 0 ? 1.1 * most : 1);
+    };
+    up_to(xy->GetAxis(vtkAxis::BOTTOM), &ChartCurve::x);
+    up_to(xy->GetAxis(vtkAxis::LEFT), &ChartCurve::y);
+  }
   if (!chart.has_equal_scales) return draw(xy, file);
   double most = 0;
   for (const auto& curve : chart.curves)
@@ -222,8 +268,8 @@ bool write_chart(const HeatMap& chart, const std::filesystem::path& file) {
   style(map, chart.title);
   map->SetInputData(image);
   map->SetTransferFunction(colours);
-  put_labels(map->GetAxis(vtkAxis::BOTTOM), chart.x_title, chart.x_values);
-  put_labels(map->GetAxis(vtkAxis::LEFT), chart.y_title, chart.y_values);
+  put_labels(map->GetAxis(vtkAxis::BOTTOM), {chart.x_title}, chart.x_values, 0.5);
+  put_labels(map->GetAxis(vtkAxis::LEFT), {chart.y_title}, chart.y_values, 0.5);
   style(map->GetAxis(vtkAxis::RIGHT), {chart.figure_title, false});
   return draw(map, file);
 }

@@ -12,6 +12,7 @@ namespace pipelines {
 struct ChartAxis {
   std::string title;
   bool is_logarithmic = false;
+  std::vector<std::string> names{};  ///< of the places 1, 2, 3 ...: shown there in place of numbers
 };
 
 /// One curve; x ascending or not, as it is to be joined.
@@ -21,7 +22,11 @@ struct ChartCurve {
   std::vector<double> error;  ///< of y, drawn as a band; empty: none
   bool is_joined = true;      ///< else marks alone
   bool has_marks = true;      ///< at the points of a joined curve of up to 100
+  bool has_stems = false;     ///< lines from zero up to the marks of one that is not joined
 };
+
+/// Adds a curve; one that lies on another joins its name instead, since it would hide it.
+void add_or_join(std::vector<ChartCurve>& curves, ChartCurve curve);
 
 /// A part of the plane.
 struct ChartWindow {
@@ -34,6 +39,7 @@ struct LineChart {
   std::vector<ChartCurve> curves;
   bool has_equal_scales =
       false;  ///< one unit is as long along x as along y, and both axes have zero in the middle
+  bool is_from_zero = false;  ///< both axes begin at zero and have room behind the largest; nothing is negative
   /// Shown whole with equal scales, and more beside it: the legend stands on its right.
   std::optional<ChartWindow> window{};
 };

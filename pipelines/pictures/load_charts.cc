@@ -88,8 +88,10 @@ LineChart harmonics(const std::string& title, const std::vector<const kinetics::
                   {"order of the drive's speed", false},
                   {"amplitude [N]", false},
                   {}};
+  chart.is_from_zero = true;
   for (const auto* resultant : resultants) {
     ChartCurve curve{resultant->role, {}, {}, {}, false};
+    curve.has_stems = true;
     std::map<double, double> squares;
     for (const int c : {0, 1}) {
       const Eigen::ArrayXd component = resultant->total.row(c).transpose();
@@ -168,7 +170,7 @@ std::vector<std::string> write_torsion_charts(const std::filesystem::path& direc
             : line.excitation;
     const Eigen::ArrayXd frequency_Hz =
         table.line_frequency_rad_s.row(Eigen::Index(l)).transpose() / (2 * pi);
-    campbell.curves.push_back({name, speed_rpm, vector_of(frequency_Hz), {}, true});
+    add_or_join(campbell.curves, {name, speed_rpm, vector_of(frequency_Hz), {}, true});
   }
   // Modes far above all excitations would press these to the axis.
   const double highest_rad_s =
@@ -184,8 +186,11 @@ std::vector<std::string> write_torsion_charts(const std::filesystem::path& direc
   }
   if (!campbell.curves.empty()) charts.write(campbell, "campbell");
   const auto& modes = report.modes;
+  std::vector<std::string> names_of_inertias;
+  for (const auto& inertia : std::get<kinetics::DriveTrain>(scene.machine).inertias)
+    names_of_inertias.push_back(inertia.name);
   LineChart shapes{scene.title + ": modes, reduced angles of unit length",
-                   {"inertia", false},
+                   {"inertia", false, names_of_inertias},
                    {"reduced angle", false},
                    {}};
   for (Eigen::Index m = 0; m < std::min<Eigen::Index>(6, modes.reduced_shape.cols()); ++m) {

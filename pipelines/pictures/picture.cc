@@ -287,7 +287,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
 
   const auto faces = boundary_faces(vtu, field, options.scale, options.excluded);
   const int pieces = pieces_of(faces->GetNumberOfCells(), options.subdivisions);
-  Drawn drawn{smooth_surface(faces.get(), pieces), curved_edges(faces.get(), 1 << pieces), {}};
+  Drawn drawn{smooth_surface(faces.get(), pieces), {}, {}};
   const SurfacePeak peak = peak_of(faces.get(), drawn.surface.get());
   const Vector shown = options.mark ? options.mark->at_m : peak.at;
   const double* bounds = faces->GetBounds();
@@ -299,6 +299,15 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
       options.range.value_or(std::array<double, 2>{from, peak.value > from ? peak.value : from + 1}));
   const bool some_excluded = drawn.surface->GetPointData()->GetArray(excluded_array)->GetRange()[1] > 0;
   Frame all = frame_of(drawn.surface.get(), view);
+  all.half_width *= 1.06;
+  all.half_height *= 1.1;
+  const double extent = std::max({all.half_width, all.half_height, all.half_depth});
+  const double half_detail = std::clamp(options.detail, 1e-3, 1.) * extent;
+  const Layout& layout = is_long(bounds) ? one_above_the_other : side_by_side;
+  constexpr double least_pixels = 6;  // between two lines of the mesh
+  drawn.edges =
+      curved_edges(faces.get(), 1 << pieces,
+                   least_pixels * 2 * half_detail / ((layout.detail[3] - layout.detail[1]) * options.height));
   if (seen.cut)
     drawn = {clipped(drawn.surface.get(), *seen.cut), clipped(drawn.edges.get(), *seen.cut),
              section(faces.get(), pieces, *seen.cut)};
@@ -310,7 +319,6 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
     return add_renderer(window.get(), at[0], at[1], at[2], at[3]);
   };
   add({0, 0, 1, 1});  // white where the others leave gaps
-  const Layout& layout = is_long(bounds) ? one_above_the_other : side_by_side;
   auto *heading = add({0, 1 - head, 1, 1}), *whole = add(layout.whole), *detail = add(layout.detail),
        *legend = add(layout.legend);
 
@@ -318,11 +326,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   add_drawn(whole, drawn, parts, table, false);
   add_drawn(detail, drawn, parts, table, options.edges);
   whole->AddActor(ring_at(shown, font_size));
-  all.half_width *= 1.06;
-  all.half_height *= 1.1;
   look(whole, view, all, width_over_height(layout.whole, options), 4 * all.half_depth);
-  const double extent = std::max({all.half_width, all.half_height, all.half_depth});
-  const double half_detail = std::clamp(options.detail, 1e-3, 1.) * extent;
   look(detail, view, {shown, half_detail, 0, half_detail}, width_over_height(layout.detail, options),
        4 * extent);
   const double whole_width = (layout.whole[2] - layout.whole[0]) * options.width;

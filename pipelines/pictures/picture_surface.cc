@@ -1,5 +1,6 @@
 #include "pipelines/pictures/picture_surface.h"
 
+#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkFloatArray.h>
@@ -73,6 +74,21 @@ void keep_surface(vtkUnstructuredGrid& faces, vtkDataArray& on_surface) {
   faces.SetCells(types.data(), kept);
 }
 
+/// Of a quadrilateral the shorter of the two mean lengths of opposite edges, of a triangle its shortest edge.
+double shorter_side_m(vtkUnstructuredGrid* faces, vtkCell* face) {
+  std::array<double, 4> length_m{};
+  const int n = std::min(face->GetNumberOfEdges(), 4);
+  for (int e = 0; e < n; ++e) {
+    vtkCell* edge = face->GetEdge(e);
+    Vector a{}, b{};
+    faces->GetPoint(edge->GetPointId(0), a.data());
+    faces->GetPoint(edge->GetPointId(1), b.data());
+    length_m[std::size_t(e)] = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  }
+  return n == 4 ? std::min(length_m[0] + length_m[2], length_m[1] + length_m[3]) / 2
+                : *std::min_element(length_m.begin(), length_m.begin() + n);
+}
+
 }  // namespace
 
 std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
@@ -121,11 +137,12 @@ std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subd
   return shared(vtkSmartPointer<vtkPolyData>(normals->GetOutput()));
 }
 
-std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces, int n_pieces) {
+std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces, int n_pieces, double least_side_m) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
   std::set<std::pair<vtkIdType, vtkIdType>> drawn;
-  for (vtkIdType f = 0; f < faces->GetNumberOfCells(); ++f)
+  for (vtkIdType f = 0; f < faces->GetNumberOfCells(); ++f) {
+    if (shorter_side_m(faces, faces->GetCell(f)) < least_side_m) continue;
     for (int e = 0; e < faces->GetCell(f)->GetNumberOfEdges(); ++e) {
       vtkCell* edge = faces->GetCell(f)->GetEdge(e);
       const auto ends = std::minmax({edge->GetPointId(0), edge->GetPointId(1)});
@@ -138,6 +155,7 @@ std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces, int n_piec
         lines->InsertCellPoint(points->InsertNextPoint(x));
       }
     }
+  }
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(points);
   result->SetLines(lines);

@@ -33,7 +33,8 @@ std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path&
 std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions);
 
 /// The edges of the faces, each once, as polylines of n_pieces along their quadratic shape.
-std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces, int n_pieces);
+/// @param least_side_m  edges of narrower faces alone are left out: they would hide the colours between them
+std::shared_ptr<vtkPolyData> curved_edges(vtkUnstructuredGrid* faces, int n_pieces, double least_side_m = 0);
 
 /// The node on the surface, and not excluded, where the field is largest, and the direction from which that
 /// place is seen.

@@ -12,6 +12,7 @@
 
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/common/statistics.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/html_page.h"
 #include "pipelines/files/json_file.h"
@@ -94,7 +95,9 @@ void add_headlines(HtmlPage& page, const Json& body) {
   }
   if (body.contains("torsion")) {
     const auto& shear = body.at("torsion").at("max_shear_stress");
-    rows.push_back({"largest torsional stress", MPa(shear.at("value")) + " MPa",
+    const auto error = shear.value("error", Json(nullptr));  // not known, or results of an earlier version
+    rows.push_back({"largest torsional stress",
+                    MPa(shear.at("value")) + " MPa" + (error.is_null() ? "" : ", error " + MPa(error)),
                     shear.contains("feature") ? shear.at("feature").get<std::string>() : "", ""});
   }
   page.table({"", "value", "where", "when"}, rows);
@@ -148,14 +151,24 @@ void add_zone_causes(HtmlPage& page, const Json& zones) {
   page.table({"part", "above MPa", "peak MPa", "where", "when"}, parts);
 }
 
+/// Results of earlier versions have no error.
+VolumeText volume_of(const Json& zone) {
+  const auto known = [&](const char* key) {
+    return zone.contains(key) && zone.at(key).is_number() ? std::optional<double>(zone.at(key).get<double>())
+                                                          : std::nullopt;
+  };
+  return volume_text(known("volume_m3").value_or(std::nan("")), known("volume_error_m3"));
+}
+
 void add_zones(HtmlPage& page, const Json& body) {
   Rows rows;
-  for (const auto& zone : body.at("zones"))
+  for (const auto& zone : body.at("zones")) {
+    const auto volume = volume_of(zone);
     rows.push_back({fmt::format("{}", rows.size() + 1), MPa(zone.at("peak_von_mises_Pa")),
                     MPa(zone.at("error_Pa")), number(zone.at("safety_against_yield"), 1, "{:.2f}"),
-                    number(zone.at("volume_m3"), 1e9, "{:.4g}"),
-                    number(zone.value("volume_error_m3", Json(nullptr)), 1e9, "{:.2g}"), where(zone),
-                    moment(zone), zone.at("place").get<std::string>()});
+                    volume.volume, volume.error, where(zone), moment(zone),
+                    zone.at("place").get<std::string>()});
+  }
   page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
   page.table({"", "peak MPa", "error MPa", "safety", "volume mm3", "error mm3", "where", "when", "surface"},
              rows);
@@ -171,7 +184,9 @@ void add_search(HtmlPage& page, const Json& body) {
                     MPa(step.at("value_Pa")), MPa(step.at("error").at("total")),
                     with_spaces(step.at("dominated_by").get<std::string>()),
                     step.at("mesh").get<std::string>()});
-  page.heading(3, "The way to the tolerance of " + number(search.at("tolerance"), 100, "{:g} %"));
+  page.heading(3, search.at("tolerance") == 0
+                      ? "The way within the time limit"
+                      : "The way to the tolerance of " + number(search.at("tolerance"), 100, "{:g} %"));
   page.table({"step", "unknowns", "MPa", "error MPa", "dominated by", "mesh"}, rows);
   page.paragraph("It ended because " + search.at("ended").get<std::string>() + ".");
 }
@@ -204,16 +219,17 @@ std::string or_dash(const Json& value, double scale, const char* format) {
   return value.is_null() ? "-" : number(value, scale, format);
 }
 
-std::string life(const Json& place) {
-  return place.at("life_h").is_null() ? "endures" : number(place.at("life_h"), 1, "{:.3g}");
+/// In h.
+std::string life(const Json& hours) {
+  return hours.is_null() ? "endures" : number(hours, 1, "{:.3g}");
 }
 
 /// What the error of the stress leaves of a life at least, h; results of earlier versions have none.
 std::string least_life(const Json& place) {
   if (!place.contains("life_range_h")) return "-";
   if (place.contains("beyond_sn_curve") && !place["beyond_sn_curve"].is_null()) return "beyond the S-N curve";
-  if (place["life_range_h"].is_null()) return place["life_h"].is_null() ? "-" : "not known well";
-  return or_dash(place["life_range_h"][0], 1, "{:.3g}");
+  const auto& range = place["life_range_h"];
+  return range.is_null() ? "not known" : life(range[0]);
 }
 
 void add_welds(HtmlPage& page, const Json& welds) {
@@ -221,7 +237,7 @@ void add_welds(HtmlPage& page, const Json& welds) {
   for (const auto& weld : welds) {
     if (rows.size() == n_rows_of_fatigue) break;
     rows.push_back({weld.at("name").get<std::string>(), number(weld.at("range_Pa"), 1e-6, "{:.1f}"),
-                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), life(weld), least_life(weld)});
+                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), life(weld.at("life_h")), least_life(weld)});
   }
   page.table({"weld toe", "range MPa", "FAT MPa", "life h", "at least h"}, rows);
 }
@@ -272,8 +288,8 @@ void add_fatigue(HtmlPage& page, const Json& body) {
                     number(place.at("mean_Pa"), 1e-6, "{:.1f}"),
                     number(place.at("endurance_Pa"), 1e-6, "{:.1f}"),
                     or_dash(place.at("safety_against_endurance"), 1, "{:.2f}"),
-                    number(place.at("utilisation"), 100, "{:.0f}"), life(place), least_life(place),
-                    moment_of(place, "from"), moment_of(place, "to")});
+                    number(place.at("utilisation"), 100, "{:.0f}"), life(place.at("life_h")),
+                    least_life(place), moment_of(place, "from"), moment_of(place, "to")});
   }
   page.heading(3, "Fatigue");
   page.table({"place", "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation %", "life h",
@@ -306,11 +322,20 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   add_fatigue(page, body);
 }
 
+/// What rounding leaves of a mean that is none is 0.
+std::string mean_of(const Json& load) {
+  const auto size = [&](const char* key) {
+    return load.at(key).is_number() ? std::abs(load.at(key).get<double>()) : 0.0;
+  };
+  if (!load.at("mean").is_number()) return "-";
+  return number(without_rounding(load.at("mean").get<double>(), std::max(size("max"), size("min"))));
+}
+
 void add_loads(HtmlPage& page, const Json& summary) {
   if (!summary.contains("loads")) return;  // all are zero
   Rows rows;
   for (const auto& [name, load] : summary.at("loads").items())
-    rows.push_back({name, number(load.at("max")), number(load.at("min")), number(load.at("mean")),
+    rows.push_back({name, number(load.at("max")), number(load.at("min")), mean_of(load),
                     number(load.at("rms")), load.at("unit").get<std::string>()});
   page.heading(2, "Loads over the cycle");
   page.table({"load", "max", "min", "mean", "rms", "unit"}, rows);
@@ -357,8 +382,8 @@ void add_duty_places(HtmlPage& page, const std::string& body, const Json& places
     if (rows.size() == n_rows_of_fatigue) break;
     rows.push_back({place.at("feature").get<std::string>(),
                     place.at("weld_toe").get<bool>() ? "weld toe" : "",
-                    number(place.at("damage_per_hour"), 1, "{:.3g}"), life(place), least_life(place),
-                    or_dash(place.at("life_safety"), 1, "{:.2f}")});
+                    number(place.at("damage_per_hour"), 1, "{:.3g}"), life(place.at("life_h")),
+                    least_life(place), or_dash(place.at("life_safety"), 1, "{:.2f}")});
   }
   page.heading(3, body + ": life over all blocks");
   page.table(
@@ -375,7 +400,7 @@ void add_fatigue_ranking(HtmlPage& page, const Json& summary) {
   for (const auto i : rows_shown(bodies, n_rows_of_fatigue)) {
     const auto& place = ranking.at(i);
     rows.push_back({fmt::format("{}", i + 1), bodies[i], place.at("feature").get<std::string>(),
-                    place.at("weld_toe").get<bool>() ? "weld toe" : "", life(place),
+                    place.at("weld_toe").get<bool>() ? "weld toe" : "", life(place.at("life_h")),
                     or_dash(place.at("utilisation"), 100, "{:.0f}")});
   }
   page.heading(2, std::string("Fatigue of all bodies") +

@@ -23,7 +23,9 @@ namespace {
 
 void print_load(std::ostream& out, const std::string& name, const Eigen::ArrayXd& values) {
   const auto s = statistics(values);
-  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", name, s.max, s.min, s.mean, s.rms);
+  const double scale = std::max(std::abs(s.max), std::abs(s.min));
+  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", name, s.max, s.min,
+                     without_rounding(s.mean, scale), s.rms);
 }
 
 void print_loads(std::ostream& out, const RunReport& report) {
@@ -53,7 +55,7 @@ void print_masses(std::ostream& out, const RunReport& report, const BodyAnalysis
     if (figure.body == analysis.scene.name)
       out << fmt::format("  {}: {:.5g} {}{}\n", figure.name, figure.given, figure.unit,
                          figure.from_mesh ? " from the mesh"
-                                          : fmt::format(", the mesh has {:.5g}: {:.2g} % carried on {}",
+                                          : fmt::format(", mesh and added masses have {:.5g}: {:.2g} % carried on {}",
                                                         figure.mesh, 100 * figure.share(), figure.port));
   const auto& carried = analysis.loads.carried_moment_Nm;
   if (carried.size() > 0)
@@ -127,18 +129,16 @@ void print_peak(std::ostream& out, const RunReport& report, const BodyAnalysis& 
 
 void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   const auto& zones = analysis.zones.zones;
-  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>9}{:>13}{:>10}  {:<20}{}\n",
+  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>9}{:>13}{:>14}  {:<20}{}\n",
                      stress_in_MPa(analysis.zones.level_Pa, 0), "peak MPa", "+- MPa", "safety", "volume mm3",
                      "+- mm3", "  moment", "where");
   for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i) {
     const auto error = error_Pa(analysis, zones[i]);
-    out << fmt::format(
-        "  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13}{:>10}  {:<20}{}\n", i + 1, zones[i].feature,
-        stress_in_MPa(zones[i].peak_Pa, error.value_or(0)), error ? fixed(*error / 1e6, 1) : "-",
-        fixed(zones[i].safety, 2),
-        std::isfinite(zones[i].volume_m3) ? fmt::format("{:.1f}", zones[i].volume_m3 * 1e9) : "-",
-        zones[i].volume_error_m3 ? fmt::format("{:.1f}", *zones[i].volume_error_m3 * 1e9) : "-",
-        "  " + when(report, zones[i].instant), to_string(zones[i].place));
+    const auto volume = volume_text(zones[i].volume_m3, zones[i].volume_error_m3);
+    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13}{:>14}  {:<20}{}\n", i + 1, zones[i].feature,
+                       stress_in_MPa(zones[i].peak_Pa, error.value_or(0)),
+                       error ? fixed(*error / 1e6, 1) : "-", fixed(zones[i].safety, 2), volume.volume,
+                       volume.error, "  " + when(report, zones[i].instant), to_string(zones[i].place));
     for (const auto& text : {causes_text(analysis, i), parts_text(zones[i])})
       if (!text.empty()) out << "       " << text << '\n';
   }

@@ -21,6 +21,12 @@ std::string whole_percent(double share) {
   return fmt::format("{:.0f} %", 100 * share);
 }
 
+/// With which a number shows two digits at least.
+int decimals_of(double number) {
+  constexpr int most = 6;
+  return number > 0 ? std::clamp(1 - int(std::floor(std::log10(number))), 0, most) : 1;
+}
+
 }  // namespace
 
 std::vector<NamedShare> group_shares(const std::vector<std::string>& effects,
@@ -71,6 +77,19 @@ std::string causes_text(const BodyAnalysis& analysis, std::size_t zone) {
   if (!damage.is_on_surface) return text + "; inside the body, where no fatigue is judged";
   if (!(damage.damage_per_turn > 0)) return text + "; no damage";
   return text + "; damage by " + largest_shares(group_shares(effects, damage.shares.effects));
+}
+
+VolumeText volume_text(double volume_m3, const std::optional<double>& error_m3) {
+  constexpr double mm3 = 1e9;
+  if (!std::isfinite(volume_m3)) return {"-", "-"};
+  const double volume = volume_m3 * mm3;
+  if (!error_m3 || !std::isfinite(*error_m3)) return {fixed(volume, decimals_of(volume)), "-"};
+  const double error = *error_m3 * mm3;
+  if (error >= volume)
+    return {fixed(volume, decimals_of(volume)),
+            "up to " + fixed(volume + error, decimals_of(volume + error))};
+  const int decimals = decimals_of(error);
+  return {fixed(volume, decimals), fixed(error, decimals)};
 }
 
 std::string parts_text(const Zone& zone) {

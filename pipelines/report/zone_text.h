@@ -1,6 +1,7 @@
 /// What brings a zone, in words: for the table on the terminal and the page.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,17 @@ std::string largest_shares(std::vector<NamedShare> shares);
 /// only, or nothing known of the zone.
 /// @param zone  index
 std::string causes_text(const BodyAnalysis& analysis, std::size_t zone);
+
+/// A zone's volume and what it may be off by, in mm3 with the digits that are known.
+struct VolumeText {
+  std::string volume, error;  ///< "536", "74"; "129", "up to 922"
+};
+
+/// An error that reaches the volume leaves no zone at all open, and no volume is below zero: then the largest
+/// volume that it leaves stands in its place.
+/// @param volume_m3  not finite: "-"
+/// @param error_m3   to both sides [m3]; none: "-"
+VolumeText volume_text(double volume_m3, const std::optional<double>& error_m3);
 
 /// "2 parts at 70 % of the peak, 3 at 90 %". Empty where the zone stays one piece.
 std::string parts_text(const Zone& zone);

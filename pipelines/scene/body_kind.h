@@ -112,7 +112,7 @@ public:
   /// Ports that carry the body: bearings, or the clamp of a stub axle; none of a body that floats.
   virtual std::vector<std::string> supporting_ports(const BodyScene& body) const = 0;
   /// Whether those ports hold it in all directions; else they are pins, free to tilt.
-  virtual bool is_clamped() const;
+  virtual bool is_clamped(const BodyScene& body) const;
   /// Revolutions per second of the body's axes against what holds it; 0: they do not turn.
   virtual double spin_Hz(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& loads) const;
   /// The same where the scene leaves it open: all that it may be, ascending; else that one.

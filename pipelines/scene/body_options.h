@@ -66,7 +66,8 @@ struct TrainShaftOptions {
 
 /// A body under the loads of a table, in its own frame.
 struct TableBodyOptions {
-  std::vector<std::string> bearings;  ///< none, or two that balance forces across and tilting moments
+  /// None, two that balance forces across and tilting moments, or one: a clamp that balances all.
+  std::vector<std::string> bearings;
   std::string axial_support;          ///< balances fz; empty: nothing does
   std::string torque_support;         ///< balances the torque; empty: nothing does
 };

@@ -184,7 +184,7 @@ private:
 
   /// Fatigue, where the scene asks for it: of the final stresses.
   void add_fatigue(BodyAnalysis& analysis) {
-    if (!analysis.scene.fatigue) return;
+    if (!analysis.scene.fatigue || !options_.fatigue) return;
     clock_.run("fatigue", [&] {
       const auto& grid = run_.scene.sampling;
       const auto& time_s = run_.loaded.loads.time_s;

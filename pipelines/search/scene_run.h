@@ -22,8 +22,9 @@ struct SceneRunOptions {
   bool fresh = false;               ///< reuse nothing of an earlier run
   bool keep = true;                 ///< unit responses, for the next run
   RequestedAccuracy accuracy{};
-  bool duty = false;  ///< unit responses also for the channels of operating blocks, whose bodies are the
-                      ///< scene's (require_blocks)
+  bool duty = false;    ///< unit responses also for the channels of operating blocks, whose bodies are the
+                        ///< scene's (require_blocks)
+  bool fatigue = true;  ///< judged, where the scene asks for it
   bool second_model = true;           ///< harmonics around the axis beside the solid, where they apply
   std::optional<std::size_t> only{};  ///< this body alone is meshed and solved...
   std::vector<MeshedBody> others{};   ///< ...beside these meshes, in the order of Scene::bodies

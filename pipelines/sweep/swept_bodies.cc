@@ -220,6 +220,7 @@ SceneRunOptions SweptBodies::run_options(const std::string& folder) const {
   options.n_threads = options_.n_threads;
   options.fresh = options_.fresh;
   options.accuracy = options_.accuracy;
+  options.fatigue = false;
   return options;
 }
 

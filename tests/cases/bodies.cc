@@ -286,6 +286,29 @@ TEST(Bodies, LoadTableIsBalancedByTheSupportsOfTheScene) {
               1e-12);
 }
 
+// A bar that its left seat holds alone, under a force at its middle: fixed at the seat's middle it bends by
+// F l^3 / (3 E I) with F l^2 / (2 E I), and by shear F l / (kappa G A) besides, Cowper's kappa 0.886.
+TEST(Bodies, AClampHoldsACantilever) {
+  const results_test::Directory directory;
+  std::string scene = small_shaft({{"pull", "middle.fy", "20 N"}}, "mm", "600 rpm", "");
+  const std::string bearings = "bearings = [\"bearing_1\", \"bearing_2\"]\ntorque_support = \"bearing_2\"";
+  ASSERT_NE(scene.find(bearings), std::string::npos) << scene;
+  scene.replace(scene.find(bearings), bearings.size(), "clamp = \"bearing_1\"");
+  const auto json = run(directory.path, scene);
+  const auto& shaft = json["bodies"]["shaft"];
+  expect_closed(json, "shaft");
+  const double l = small_span / 2 * 1e-3, E = 206e9, d = small_diameter * 1e-3,
+               I = M_PI * std::pow(d, 4) / 64;
+  const double bending = 20 * l * l * l / (3 * E * I), shear = 20 * l / (0.886 * E / 2.6 * M_PI * d * d / 4);
+  // The moment enters the short seat as pressure, under which its middle turns by 1.6 % of the slope.
+  EXPECT_NEAR(shaft["seats"]["middle"]["max_deflection_m"].get<double>(), bending + shear, 0.03 * bending);
+  EXPECT_NEAR(shaft["seats"]["middle"]["max_slope_rad"].get<double>(), 20 * l * l / (2 * E * I),
+              0.03 * 20 * l * l / (2 * E * I));
+  EXPECT_LT(shaft["seats"]["bearing_1"]["max_slope_rad"].get<double>(), 1e-9);
+  const double nominal_Pa = 20 * l * d / 2 / I;
+  EXPECT_GT(shaft["peak_von_mises"]["value"].get<double>(), 0.95 * nominal_Pa);
+}
+
 // A mesh that weighs a third more than the machine is another machine: exit code 2, nothing touched.
 TEST(Bodies, MassesTooFarApartAreRefused) {
   const results_test::Directory directory;

@@ -463,6 +463,17 @@ TEST(Sweeps, ThatCannotBeMadeAreRefusedAtOnce) {
   }
 }
 
+// Half of the time of a sweep of a shaft with fatigue went into lives that it does not state.
+TEST(Sweeps, JudgeNoFatigue) {
+  const results_test::Directory directory;
+  write(directory / "shaft.toml", small_shaft(fixed_in_space("pull", "middle", "100 N")) +
+                                      "[shaft.fatigue]\ntensile_strength = \"590 MPa\"\n");
+  std::string err;
+  (void)points_of(directory.path, "shaft.toml --tolerance none --vary 'machine.speed = 500, 600 rpm'", &err);
+  EXPECT_NE(err.find("  zones "), std::string::npos) << err;
+  EXPECT_EQ(err.find("  fatigue "), std::string::npos) << err;
+}
+
 // Operating blocks have no part in a sweep; settings of them are those of a run all the same.
 TEST(Sweeps, TakeSettingsOfOperatingBlocks) {
   const results_test::Directory directory;

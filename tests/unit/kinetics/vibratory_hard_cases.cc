@@ -171,6 +171,8 @@ TEST(VibratoryHardCases, WhatTheUserShouldKnowIsSaid) {
   mill.charge_lag.loss_angle_rad = 0;
   EXPECT_TRUE(
       warned(mill, "the drive torque reverses in each cycle, from -[0-9.]{4,5} to [0-9.]{4,5} N m: keys"));
+  for (const auto& warning : compute_loads(mill, effects_without(mill, {}), {20, 60}).warnings)
+    EXPECT_FALSE(std::regex_search(warning, std::regex("[0-9]\\.[0-9]{5}"))) << warning;
   EXPECT_FALSE(warned(mill, "the chamber pitches by up to"));
   EXPECT_FALSE(warned(mill, "pulls the chamber down"));
   EXPECT_FALSE(warned(mill, "charge_lag"));

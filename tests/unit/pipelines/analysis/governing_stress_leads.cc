@@ -159,6 +159,9 @@ TEST(ErrorText, TellsWhatIsNotKnownWellAndWhatHelps) {
   search.met = false;
   search.ended = "the time is up";
   EXPECT_NE(not_known_well(stress, search).find("remedy: more time (--time-limit)"), std::string::npos);
+  search.met = true;  // where time alone was limited: no tolerance could be smaller
+  EXPECT_NE(not_known_well(stress, search).find("remedy: more time (--time-limit)"), std::string::npos);
+  search.met = false;
   search.ended = "the mesh cannot be refined further";
   EXPECT_NE(not_known_well(stress, search).find("remedy: another mesh, since the mesh cannot be refined"),
             std::string::npos);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "pipelines/bodies/table_body.h"
+#include "pipelines/common/errors.h"
 #include "tests/unit/pipelines/examples/bodies.h"
 
 namespace {
@@ -93,6 +94,41 @@ TEST(LoadTable, SupportsCloseEveryEffect) {
     const auto closure = bodies::closure_of(loads(every_component(), supports(), effects), part().regions);
     EXPECT_LT(closure.worst_force(), bodies::round_off) << effects.size() << effects[0];
     EXPECT_LT(closure.worst_moment(), bodies::round_off) << effects.size() << effects[0];
+  }
+}
+
+// A bracket that is bolted to a wall by its face: that alone carries forces and moments.
+TEST(LoadTable, AClampClosesEveryEffect) {
+  pipelines::TableBodyOptions clamp;
+  clamp.bearings = {"lug"};
+  for (const auto& effects : {std::vector<std::string>{"a", "b", "c"}, {"a"}, {"b"}, {"c"}}) {
+    const auto closure = bodies::closure_of(loads(every_component(), clamp, effects), part().regions);
+    EXPECT_LT(closure.worst_force(), bodies::round_off) << effects.size() << effects[0];
+    EXPECT_LT(closure.worst_moment(), bodies::round_off) << effects.size() << effects[0];
+  }
+  // One force at the disc, in the middle of 0.1 to 0.14: the lug lies 0.08 m beside it, and 0.01 m off the
+  // axis.
+  const auto result = loads({53, {load("a", "disc", "fx", "N", 100)}}, clamp, {"a"});
+  const auto expect = [&](const char* channel, double value) {
+    EXPECT_LT(bodies::largest(bodies::part(result, "a", channel) - values(value)), 1e-12 * 100) << channel;
+  };
+  expect("lug.fx", -100);
+  expect("lug.my", 100 * 0.08);
+  expect("lug.torque", 100 * -0.01);
+  EXPECT_FALSE(bodies::has(result, "lug.p0c"));
+}
+
+// Two bolts of a base plate: the message had neither place nor remedy.
+TEST(LoadTable, BearingsSideBySideAreRefusedWithARemedy) {
+  auto body = part();
+  body.ports[3] = bodies::port("right", Kind::seat, 4, {-0.01, 0.01}, 0.015, {0.1, 0});
+  try {
+    (void)distribute_table(every_component(), {"a"}, grid, body, supports());
+    ADD_FAILURE() << "not refused";
+  } catch (const pipelines::StageRefused& refused) {
+    const std::string text = refused.what();
+    EXPECT_NE(text.find("lie at the same place along z"), std::string::npos) << text;
+    EXPECT_NE(text.find("as clamp = "), std::string::npos) << text;
   }
 }
 

@@ -43,6 +43,51 @@ TEST(HtmlPage, PicturesAreInsideIt) {
   EXPECT_EQ(page.text(), before);
 }
 
+namespace {
+
+/// Of a run without a tolerance: one zone that may not be there, a place that endures, and one of which the
+/// error leaves no life known.
+const char* const one_body = R"({
+  "program": {"version": "0"}, "warnings": [], "bearings": {}, "timing": {}, "loads": {},
+  "input": {"title": "t", "scene": "s.toml", "hash": "h", "machine": "load_table", "turns": 1,
+            "instants_per_turn": 8},
+  "bodies": {"shaft": {
+    "method": "axisymmetric", "dofs": 1, "mass": {"value": 1}, "solver": {}, "material": "C45",
+    "yield_strength": {"value": 305e6},
+    "governing": {"kind": "peak_von_mises", "name": "peak", "text": "", "value": 1e6, "feature": "",
+                  "safety_against_yield": 305, "error": {"total": 0, "methods": {}}, "position_m": [0, 0, 0],
+                  "turn": 1, "drive_angle_rad": 0},
+    "peak_von_mises": {"value": 1e6},
+    "peak_principal": {"value": 1e6, "feature": "", "position_m": [0, 0, 0], "turn": 1, "drive_angle_rad": 0},
+    "torsion": {"max_shear_stress": {"value": 2e6, "error": 3e5}},
+    "zone_level": {"value": 5e5},
+    "zones": [{"peak_von_mises_Pa": 1e6, "error_Pa": 9e5, "safety_against_yield": 305, "volume_m3": 129.3e-9,
+               "volume_error_m3": 792.7e-9, "feature": "", "place": "", "position_m": [0, 0, 0], "turn": 1,
+               "drive_angle_rad": 0}],
+    "search": {"tolerance": 0, "steps": [], "ended": "the time is up"},
+    "fatigue": {"assumptions": [], "places": [
+      {"feature": "a", "amplitude_Pa": 1, "mean_Pa": 0, "endurance_Pa": 9, "safety_against_endurance": 9,
+       "utilisation": 0.1, "life_h": null, "life_range_h": [null, null]},
+      {"feature": "b", "amplitude_Pa": 1, "mean_Pa": 0, "endurance_Pa": 9, "safety_against_endurance": 9,
+       "utilisation": 0.1, "life_h": 3.5, "life_range_h": null}]}}}})";
+
+}  // namespace
+
+// A dash stood for what endures and for what is not known; a zone of 129 mm3 had an error of "7.9e+02".
+TEST(HtmlReport, SaysWhatANumberCannot) {
+  const results_test::Directory directory;
+  std::ofstream(directory / "summary.json") << one_body;
+  write_html_report(directory.path, directory / "accuracy");
+  const auto page = results_test::bytes(directory / "report.html");
+  const auto has = [&](const std::string& text) { EXPECT_NE(page.find(text), std::string::npos) << text; };
+  has(">129</td><td>up to 922<");
+  has(">endures</td><td>endures<");
+  has(">3.5</td><td>not known<");
+  has("2.0 MPa, error 0.3");
+  has("The way within the time limit");
+  EXPECT_EQ(page.find("tolerance of 0"), std::string::npos);
+}
+
 TEST(HtmlReport, NeedsASummary) {
   const results_test::Directory directory;
   const auto message = [&] {

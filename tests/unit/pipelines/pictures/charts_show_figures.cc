@@ -84,6 +84,69 @@ TEST(Charts, ShowEachCurveAtItsHeight) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
+// Two points of a sweep, as the refusal of a third leaves them: the band of the error was missing, though the
+// legend named it.
+TEST(Charts, ShowTheErrorOfTwoPoints) {
+  const Directory directory;
+  const auto pale_pixels = [&](const std::vector<double>& error) {
+    LineChart chart;
+    chart.curves.push_back({"stress", {0, 1}, {2, 2}, error, true});
+    chart.curves.push_back({"frame", {0, 1}, {0, 4}, {}, true});
+    EXPECT_TRUE(write_chart(chart, directory / "chart"));
+    return PictureOfChart(directory / "chart.png").area_of({205, 227, 240}).first;
+  };
+  EXPECT_LT(pale_pixels({}), 100);
+  EXPECT_GT(pale_pixels({1, 1}), 50000);
+}
+
+// Of two excitations at 50 Hz only the second was to be seen.
+TEST(Charts, CurvesThatLieOnEachOtherShareAName) {
+  std::vector<ChartCurve> curves;
+  add_or_join(curves, {"motor", {0, 1}, {50, 50}, {}, true});
+  add_or_join(curves, {"peeling", {0, 1}, {50, 50}, {}, true});
+  add_or_join(curves, {"order 1", {0, 1}, {0, 50}, {}, true});
+  ASSERT_EQ(curves.size(), 2U);
+  EXPECT_EQ(curves[0].name, "motor, peeling");
+  EXPECT_EQ(curves[1].name, "order 1");
+}
+
+// Two harmonics were two dots in the corners of the chart.
+TEST(Charts, ShowHarmonicsFromZero) {
+  const Directory directory;
+  LineChart chart;
+  ChartCurve harmonics{"rod", {1, 3}, {900, 150}, {}, false};
+  harmonics.has_stems = true;
+  chart.is_from_zero = true;
+  chart.curves.push_back(harmonics);
+  ASSERT_TRUE(write_chart(chart, directory / "chart"));
+  const PictureOfChart picture(directory / "chart.png");
+  const auto [n, height] = picture.area_of(first_colour);  // of order 1: on the left
+  EXPECT_GT(n, picture.height());
+  EXPECT_GT(height, 0.2 * picture.height());
+  EXPECT_LT(height, 0.7 * picture.height());
+}
+
+// Inertias by name, not 1, 1.2, 1.4 ...: the places have room on both sides, so the middle of the first is
+// right of the axis, and below the axis words stand there alone.
+TEST(Charts, ShowNamesOfPlaces) {
+  const Directory directory;
+  LineChart chart;
+  chart.x.names = {"motor", "pulley", "disc"};
+  chart.curves.push_back({"mode", {1, 2, 3}, {0, 1, 0}, {}, true});
+  ASSERT_TRUE(write_chart(chart, directory / "chart"));
+  const PictureOfChart named(directory / "chart.png");
+  chart.x.names.clear();
+  ASSERT_TRUE(write_chart(chart, directory / "numbers"));
+  const PictureOfChart numbered(directory / "numbers.png");
+  const auto leftmost = [](const PictureOfChart& picture) {
+    for (int x = 0; x < picture.width(); ++x)
+      for (int y = 0; y < picture.height(); ++y)
+        if (picture.at(x, y) == first_colour) return x;
+    return picture.width();
+  };
+  EXPECT_GT(leftmost(named), leftmost(numbered) + named.width() / 8);
+}
+
 // Cells from dark to light, the one without a figure grey; x runs fastest.
 TEST(Charts, ShowAMapFromDarkToLight) {
   const Directory directory;

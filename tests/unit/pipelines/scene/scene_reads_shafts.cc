@@ -257,4 +257,17 @@ TEST(ScenePart, TakesAnyPortAndItsSupports) {
   EXPECT_EQ(body.difference_port, "") << "a table has no masses of its own";
 }
 
+TEST(ScenePart, IsHeldByAClamp) {
+  const std::string supports =
+      "bearings = [\"bearing_1\", \"bearing_2\"]\naxial_support = \"end_1\"\ntorque_support = "
+      "\"bearing_2\"\n";
+  std::string held = part_table;
+  held.replace(held.find(supports), supports.size(), "clamp = \"end_1\"\n");
+  const Scene scene = edited::scene(
+      "load_table", {{"turns = 1  # the period of the samples", "turns = 1\n" + std::string(held)}});
+  const auto& options = std::get<pipelines::TableBodyOptions>(scene.body("part")->options);
+  EXPECT_EQ(options.bearings, std::vector<std::string>{"end_1"});
+  EXPECT_EQ(options.axial_support + options.torque_support, "");
+}
+
 }  // namespace
