@@ -9,6 +9,7 @@
 #include "pipelines/cheap_models/chamber_tube.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/refusal_of.h"
+#include "pipelines/scene/why_not.h"
 
 namespace pipelines {
 namespace {
@@ -74,7 +75,6 @@ template <typename Solve>
 std::optional<AccuracyRow> cheap_model(const std::string& name, AccuracyBench& bench, const BodyScene& body,
                                        const LoadedScene& loaded, Solve&& solve) {
   const auto& mesh = bench.own().mesh;
-  if (!beam_shaft(body, mesh)) return std::nullopt;
   std::optional<AccuracyRow> row;
   const auto refused = refusal_of([&] {
     row = bench.repeated(name, [&] {
@@ -109,6 +109,15 @@ void learn_from_sizes(std::vector<AccuracyRow>& rows) {
                               std::abs(row.value_Pa - finest_Pa) + missing_Pa});
     if (i > 0) row.seconds += rows[i - 1].seconds;
   }
+}
+
+/// What a run refuses has no row: its error would lack an entry.
+bool is_refused(const char* name, Method method, AccuracyBench& bench) {
+  const auto& body = bench.body();
+  if (!beam_shaft(body, bench.own().mesh)) return true;
+  const auto why = why_not(method, body);
+  if (!why.empty()) bench.leave_out(name, "the " + body.name + ' ' + why);
+  return !why.empty();
 }
 
 /// Weld toes have no other cheap model.
@@ -150,8 +159,10 @@ std::vector<AccuracyRow> cheap_models(AccuracyBench& bench) {
     if (bench.has_hot_spots()) rows.push_back(shell_row(bench, loaded.body_loads[bench.index()]));
     return rows;
   }
-  if (auto row = cheap_model("beam", bench, bench.body(), loaded, beam_model))
-    rows.push_back(std::move(*row));
+  if (!is_refused("beam", Method::beam, bench))
+    if (auto row = cheap_model("beam", bench, bench.body(), loaded, beam_model))
+      rows.push_back(std::move(*row));
+  if (is_refused("axisymmetric", Method::axisymmetric, bench)) return rows;
   std::vector<AccuracyRow> sizes;
   for (const double factor : {0.5, 1.0, 2.0}) {
     auto row =

@@ -46,6 +46,12 @@ bool tell_the_loads(const Scene& scene, const Machine& machine) {
   }
 }
 
+/// Entries of the model that only the other budget has, as what resonance adds.
+void take_over_model(const ErrorBudget& other, const char* method, ErrorBudget& errors) {
+  for (const auto& entry : other.model)
+    if (errors.of(entry.source) == 0) errors.set_model({entry.source, method, entry.value_Pa});
+}
+
 /// The same responses at fewer instants: only loads and superposition are done anew.
 void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
                     std::vector<AccuracyRow>& rows) {
@@ -63,7 +69,9 @@ void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
     run.scene = scene;
     auto row = row_of("fewer instants", run);
     row.fineness = fmt::format("{} instants per turn; {}", row.instants_per_turn, row.fineness);
-    row.errors.set_numerical({"discretisation", "as at all instants", full.errors.of("discretisation")});
+    for (const char* source : {"discretisation", "other_places"})
+      row.errors.set_numerical({source, "as at all instants", full.errors.of(source)});
+    take_over_model(full.errors, "as at all instants", row.errors);
     take_cost(row, own);
     for (const auto& stage : full.stages)
       if (stage.stage == "mesh" || stage.stage == "solve" || stage.stage == "write")
@@ -150,12 +158,14 @@ std::vector<AccuracyRow> refined_meshes(AccuracyBench& bench) {
   }
   const SceneRun& run = *found;
   AccuracyRow row = row_of("refined mesh", run);
+  const auto last = row.errors;
   for (const auto& step : run.analyses.front().search.steps) {
     row.fineness = step.fineness;
     row.instants_per_turn = step.instants_per_turn;
     row.n_dofs = step.n_dofs;
     row.value_Pa = step.value_Pa;
     row.errors = step.errors;
+    take_over_model(last, "as of the last mesh", row.errors);
     row.principal_Pa = step.principal_Pa;
     row.seconds += step.seconds;
     row.gigabytes = step.gigabytes;

@@ -12,6 +12,7 @@
 #include "pipelines/analysis/fineness.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/scene/requested_accuracy.h"
+#include "pipelines/scene/why_not.h"
 #include "pipelines/search/refinement.h"
 #include "pipelines/search/second_model.h"
 
@@ -77,12 +78,11 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
                                            const ForecastLoads& loads, const CostCalibration& calibration) {
   Forecaster forecaster(body, loads, calibration);
   std::vector<ModelForecast> models{forecaster.of("the scene's mesh", meshed)};
-  const auto* shaft = body.shaft();
-  if (shaft != nullptr && shaft->keyways.empty()) {
-    models.push_back(forecaster.cheap("beam", 3 * beam_nodes, 0, beam_nodes));
+  if (why_not_beam(body).empty()) models.push_back(forecaster.cheap("beam", 3 * beam_nodes, 0, beam_nodes));
+  if (why_not_axisymmetric(body).empty()) {
     // Meridian cells of degree 3 where the solid has 2; one problem for each harmonic.
     const double n_harmonics = 1 + std::max(1, body.pressure_harmonics);
-    const double per_harmonic = 9.0 / 8 / shaft->mesh.n_sectors * double(meshed.model->n_dofs());
+    const double per_harmonic = 9.0 / 8 / body.shaft()->mesh.n_sectors * double(meshed.model->n_dofs());
     models.push_back(forecaster.cheap("axisymmetric", n_harmonics * per_harmonic,
                                       fem::cost::harmonic_s_per_dof * n_harmonics * per_harmonic,
                                       per_harmonic));

@@ -125,6 +125,37 @@ TEST(Accuracy, FewerInstantsAreThereWhereCoarserMeshesAreTheSame) {
   for (const char* text :
        {"24 instants per turn; cells on", "12 instants per turn; cells on", "effects on the shaft"})
     EXPECT_NE(outcome.out.find(text), std::string::npos) << text << outcome.out;
+  // What other places may exceed the largest by is as at all instants. Red where it is left out: 0.
+  const auto models = first_column(directory / "out/accuracy/shaft.csv");
+  const auto others =
+      Study(directory / "out/accuracy/accuracy.h5", models.size()).column("error.other_places");
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const auto is_of_mesh = [&](std::size_t k) { return models[k] == "even mesh" && others[k] == others[i]; };
+    bool is_known = models[i] != "fewer instants";
+    for (std::size_t k = 0; k < models.size(); ++k) is_known = is_known || is_of_mesh(k);
+    EXPECT_TRUE(is_known) << outcome.out;
+  }
+}
+
+// Where natural frequencies are asked for, every row states what resonance may add, the steps of a search
+// too; cheap models, which a run refuses then, have no row. Red where they stand without it.
+TEST(Accuracy, EveryRowKnowsOfResonance) {
+  const results_test::Directory directory;
+  auto scene = stepped_shaft();
+  scene.replace(scene.find("bearings = "), 0, "natural_frequencies = 1\n");
+  scene.replace(scene.find("quarter = 4"), 11, "quarter = 2");
+  scene.replace(scene.find("sectors = 12"), 12, "sectors = 8");
+  write(directory / "small.toml", scene);
+  const auto outcome = millstress(directory.path, "accuracy small.toml -o out --time-limit '1 s'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* text : {"beam            left out: the shaft asks for natural frequencies",
+                           "axisymmetric    left out: the shaft asks for natural frequencies"})
+    EXPECT_NE(outcome.out.find(text), std::string::npos) << text << outcome.out;
+  const auto models = first_column(directory / "out/accuracy/shaft.csv");
+  ASSERT_FALSE(models.empty());
+  const Study study(directory / "out/accuracy/accuracy.h5", models.size());
+  for (const double resonance_Pa : study.column("error.quasi_static"))
+    EXPECT_GT(resonance_Pa, 0) << outcome.out;
 }
 
 // 48 instants tell order 20, half of them do not: the study goes on without fewer instants.

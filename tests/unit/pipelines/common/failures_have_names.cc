@@ -3,6 +3,7 @@
 // "the scene is wrong", whatever std type it has.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <new>
 #include <sstream>
@@ -107,6 +108,21 @@ TEST(Failures, TheForecastSaysWhyAMeshIsLeftOut) {
   ASSERT_EQ(rows.back().model, "first of a search");
   EXPECT_NE(rows.back().left_out.find("scaled Jacobian"), std::string::npos) << rows.back().left_out;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) EXPECT_EQ(rows[i].left_out, "") << rows[i].model;
+}
+
+// Harmonics and a beam have no price where a run refuses them.
+TEST(Failures, TheForecastHasNoModelThatARunRefuses) {
+  auto scene = read_scene(std::string(SOURCE_DIR) + "/pipelines/scenes/load_table.toml");
+  auto& body = scene.bodies.front();
+  const auto meshed = mesh_body(body, {});
+  const auto n_cheap = [&] {
+    const auto rows = forecast_ladder(body, meshed, {10, 100}, {});
+    return std::count_if(rows.begin(), rows.end(),
+                         [](const auto& row) { return row.model == "beam" || row.model == "axisymmetric"; });
+  };
+  EXPECT_EQ(n_cheap(), 2);
+  body.natural_frequencies = 1;
+  EXPECT_EQ(n_cheap(), 0);
 }
 
 // So does the table of `accuracy`.
