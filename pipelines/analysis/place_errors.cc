@@ -30,6 +30,10 @@ bool is_bore(const meshes::BodyMesh& mesh, const std::string& feature) {
   });
 }
 
+bool is_of_blocks(const BodyAnalysis& analysis) {
+  return analysis.scene.shaft() != nullptr && !analysis.responses.nodes.shape().is_tetrahedron();
+}
+
 /// Relative error of a fillet's stress with so many cells on its quarter.
 double for_want_of_cells(int cells) {
   return cells < 4 ? 0.5 : cells < 6 ? 0.15 : 0.04;
@@ -75,7 +79,9 @@ double own_share(const BodyAnalysis& analysis, const std::string& feature, std::
                                              analysis.places.excluded);
   if (!entry || !(value_Pa > 0)) return 0;
   const int cells = cells_on_quarter(analysis, {feature, node});
-  return std::min(1.0, std::max(entry->value_Pa / value_Pa, cells > 0 ? for_want_of_cells(cells) : 0.0));
+  const double safety = is_of_blocks(analysis) && is_bore(analysis.mesh, feature) ? safety_of_few_rows : 1;
+  return std::min(1.0,
+                  std::max(safety * entry->value_Pa / value_Pa, cells > 0 ? for_want_of_cells(cells) : 0.0));
 }
 
 const PlaceStress* judged_place(const BodyAnalysis& analysis, const std::string& feature) {
@@ -137,8 +143,7 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
   auto places =
       largest_by_feature(analysis.responses.nodes, maximum.value_Pa, analysis.mesh.features, analysis.places);
   const double largest_Pa = governing_stress(analysis).value_Pa;
-  const bool is_of_blocks =
-      analysis.scene.shaft() != nullptr && !analysis.responses.nodes.shape().is_tetrahedron();
+  const bool of_blocks = is_of_blocks(analysis);
   for (auto& place : places) {
     if (place.value_Pa < worth_a_look * largest_Pa) {
       place.error_Pa = place.value_Pa;
@@ -149,10 +154,10 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
       const double wanting_Pa = for_want_of_cells(cells) * place.value_Pa;
       place.error_Pa = std::max(place.error_Pa, wanting_Pa);
       if (cells < cells_that_converge) place.least_error_Pa = wanting_Pa;
-    } else if (is_of_blocks && is_bore(analysis.mesh, place.feature)) {
+    } else if (of_blocks && is_bore(analysis.mesh, place.feature)) {
       place.error_Pa *= safety_of_few_rows;
     }
-    if (const double cells = is_of_blocks ? cells_to_border(analysis, place) : 0; cells > 0) {
+    if (const double cells = of_blocks ? cells_to_border(analysis, place) : 0; cells > 0) {
       const double wanting_Pa = for_want_of_cells_to_border(cells) * place.value_Pa;
       place.error_Pa = std::max(place.error_Pa, wanting_Pa);
       place.least_error_Pa = std::max(place.least_error_Pa, wanting_Pa);
@@ -192,7 +197,7 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
   const double there = own_share(analysis, feature, node, loads, instant);
   const double here = own_share(analysis, feature, place->node, analysis.loads.history,
                                 analysis.envelope.von_mises.instant[place->node]);
-  return std::max(judged, here > 0 ? std::min(there, judged * there / here) : there);
+  return std::max(judged, here > 0 ? std::min(there, std::sqrt(judged / here) * there) : there);
 }
 
 double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {
@@ -204,12 +209,13 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
 double error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
                              const BodyLoads& change) {
   const double judged = error_share_at(analysis, feature, node);
+  if (!std::isfinite(judged)) return judged;
   const StressPoint point{{{node, 1.0}}, 0};
   const auto unit = unit_stress_at(analysis.responses, point);
   const Eigen::ArrayXd factors = change.history.values.col(0),
                        largest = analysis.loads.history.values.col(analysis.envelope.von_mises.instant[node]);
   const double value_Pa = von_mises_of(unit, factors), largest_Pa = von_mises_of(unit, largest);
-  if (!std::isfinite(judged) || !(value_Pa > 0) || !(largest_Pa > 0)) return judged;
+  if (!(value_Pa > 0) || !(largest_Pa > 0)) return judged;
 
   double share = judged;
   const auto estimate_Pa = [&](const Eigen::ArrayXd& of) {
