@@ -218,11 +218,16 @@ private:
     return std::move(meshed);
   }
 
+  /// The submodels that tell them may take longer than the solution.
+  std::vector<PlaceStress> errors_of_places(const BodyAnalysis& analysis) {
+    return clock_.run("errors", [&] { return places_of_one_mesh(analysis); });
+  }
+
   /// The scene's own mesh.
   BodyAnalysis solve_once(std::size_t i) {
     auto analysis = analyse(i);
     PlaceHistory history(mesh_parts(run_.scene.bodies[i]));
-    history.add(places_of_one_mesh(analysis), std::nullopt);
+    history.add(errors_of_places(analysis), std::nullopt);
     take_place_errors(analysis, history.judged(),
                       analysis.responses.nodes.shape().is_tetrahedron()
                           ? submodel_method
@@ -281,7 +286,7 @@ private:
   /// Enters the present mesh into what is known.
   void take_stock(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
     if (state.growth.at(analysis, state.step ? state.step->ratio : 1)) leave_out(i, analysis);
-    state.history.add(places_of_one_mesh(analysis), state.step);
+    state.history.add(errors_of_places(analysis), state.step);
     auto judged = state.history.judged();
     if (is_refined_locally(run_.scene.bodies[i])) {
       const auto& model = *run_.loaded.meshed[i].model;

@@ -66,6 +66,8 @@ box = {{ low = ["-50 mm", "-50 mm", "{} mm"], high = ["50 mm", "50 mm", "{} mm"]
     const auto& at = json["bodies"]["part"]["peak_von_mises"];
     EXPECT_NEAR(at["value"].get<double>(), known_Pa, at["error"]["numerical"].get<double>()) << text;
     EXPECT_LT(at["error"]["numerical"].get<double>(), 0.02 * known_Pa) << text;
+    EXPECT_TRUE(json["timing"].contains("errors"))
+        << "the submodels' seconds are missing: " << json["timing"];
   }
 }
 
