@@ -194,6 +194,22 @@ void check_missed(const TableLoad& load, const SampledCourse& samples, const Arr
   history.warnings.push_back(sentence);
 }
 
+/// Few instants in a period of a harmonic may miss its crest or its trough.
+void warn_of_missed(const TableLoad& load, const HarmonicCourse& harmonic, const ArrayXd& values,
+                    const TimeGrid& grid, LoadHistory& history) {
+  const double size = std::abs(harmonic.amplitude), largest = std::abs(harmonic.mean) + size;
+  if (harmonic.order == 0) return;
+  const double above = harmonic.mean + size - values.maxCoeff(),
+               below = values.minCoeff() - (harmonic.mean - size);
+  const double missed = std::max(above, below);
+  if (missed <= missed_worth_a_warning * largest) return;
+  history.warnings.push_back(
+      load.effect + "/" + name_of(load) + " is " + number(std::round(1000 * missed / largest) / 10) + " % " +
+      (above >= below ? "larger" : "smaller") + " between the instants than at them, which are " +
+      number(std::round(10 * grid.instants_per_turn / harmonic.order) / 10) + " in a period of order " +
+      number(harmonic.order) + ": raise sampling.instants_per_turn");
+}
+
 /// By how much each sample is off the straight line between the instants around it, in shares of the largest.
 /// @param values  at the instants
 ArrayXd shares_off_the_line(const SampledCourse& samples, const ArrayXd& values, const TimeGrid& grid) {
@@ -335,11 +351,12 @@ LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>
                           const TimeGrid& grid) {
   auto history = loads_at(table, effects, grid, instants_of(grid));
   evaluate_all(table, effects, grid, history.phi_rad, [&](const TableLoad& load, const ArrayXd& values) {
-    const auto* samples = std::get_if<SampledCourse>(&load.course);
-    if (samples == nullptr) return;
-    warn(error_of(load, *samples, grid.turns * turn_rad), history);
-    warn_of_gap(load, *samples, grid.turns * turn_rad, history);
-    check_missed(load, *samples, values, grid, history);
+    if (const auto* harmonic = std::get_if<HarmonicCourse>(&load.course))
+      return warn_of_missed(load, *harmonic, values, grid, history);
+    const auto& samples = std::get<SampledCourse>(load.course);
+    warn(error_of(load, samples, grid.turns * turn_rad), history);
+    warn_of_gap(load, samples, grid.turns * turn_rad, history);
+    check_missed(load, samples, values, grid, history);
   });
   return history;
 }

@@ -38,12 +38,15 @@ void require_written_stdout() {
   throw pipelines::FileError("standard output cannot be written; is the disk full behind it?");
 }
 
-/// A value that a script forgot must not mean the default.
-void refuse_empty_values(CLI::App& app) {
+/// A value that a script forgot must not mean the default, and the shell's word for stdout no file of that
+/// name.
+void refuse_forgotten_values(CLI::App& app) {
   for (auto* command : app.get_subcommands([](CLI::App*) { return true; }))
     for (auto* option : command->get_options())
       if (option->get_type_size() > 0)
         option->check([remedy = option->get_required() ? "" : ", or leave it out"](const std::string& value) {
+          if (value == "-")
+            return std::string("is -, which would be a file of that name; give another") + remedy;
           return value.empty() ? std::string("is empty; give a value") + remedy : "";
         });
 }
@@ -76,7 +79,7 @@ int run(int argc, char** argv) {
         pipelines::add_accuracy_command, pipelines::add_ports_command, pipelines::add_calculix_command,
         pipelines::add_report_command, pipelines::add_check_command, pipelines::add_init_command})
     add(app, chosen);
-  refuse_empty_values(app);
+  refuse_forgotten_values(app);
 
   try {
     app.parse(argc, argv);

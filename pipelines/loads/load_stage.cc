@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipelines/common/constants.h"
+#include "pipelines/common/name_lists.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/finite_loads.h"
@@ -38,6 +39,21 @@ std::vector<BearingScene> with_speeds(const Scene& scene, const LoadedScene& loa
   return bearings;
 }
 
+/// Zeros for bearings at ports that support a body, but that no load of this scene reaches: under torsion
+/// alone, or with an effect off. The scene's reader has refused other names.
+ChannelHistory unloaded_bearings(const Scene& scene, const LoadedScene& loaded) {
+  ChannelHistory zeros;
+  for (const auto& bearing : scene.bearings) {
+    const bool is_of_body = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const auto& body) {
+      return contains(kind_of(body).bearing_loads(body), bearing.load);
+    });
+    if (is_of_body && !force_of(bearing.load, loaded.loads, loaded.channels()))
+      zeros.channels.push_back({bearing.load + ".fx", "N"});
+  }
+  zeros.values = Eigen::ArrayXXd::Zero(Eigen::Index(zeros.channels.size()), loaded.loads.n_instants());
+  return zeros;
+}
+
 /// The channels of each body under loads that the instants pass over.
 void add_passed_over(const Scene& scene, LoadedScene& loaded) {
   const auto history = with_place(scene.machine_origin, [&] {
@@ -45,6 +61,11 @@ void add_passed_over(const Scene& scene, LoadedScene& loaded) {
   });
   if (!history) return;
   require_finite(*history);
+  const bool is_fatigue_asked = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                            [](const auto& body) { return bool(body.fatigue); });
+  for (const auto& warning : history->warnings)  // of cycles between the instants: nothing else counts them
+    if (is_fatigue_asked && !contains(loaded.loads.warnings, warning))
+      loaded.loads.warnings.push_back(warning);
   for (std::size_t i = 0; i < loaded.meshed.size(); ++i) {
     auto& own = loaded.body_loads[i];
     auto between = distribute_body(scene, scene.bodies[i], *history,
@@ -102,7 +123,10 @@ LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, Stag
     require_finite(loads);
     kind_of(body).report(scene, body, loads, result.loads);
   }
-  result.bearings = bearing_lives(with_speeds(scene, result), result.loads, result.channels());
+  const auto unloaded = unloaded_bearings(scene, result);
+  auto channels = result.channels();
+  channels.push_back(&unloaded);
+  result.bearings = bearing_lives(with_speeds(scene, result), result.loads, channels);
   warn_beyond_ratings(scene.bearings, result.bearings, result.loads);
   for (auto& sentence : forces_along_bearings(result.bearings, result.channels()))
     result.loads.warnings.push_back(std::move(sentence));

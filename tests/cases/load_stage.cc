@@ -334,6 +334,37 @@ TEST(LoadStage, BearingsAnswerWhatTheSceneAsks) {
   EXPECT_NE(printed.out.find("static safety"), std::string::npos) << printed.out;
 }
 
+// Under a torque alone no force reaches the bearings; the run was refused, "there is no force".
+TEST(LoadStage, BearingsThatNothingLoadsHaveNoLife) {
+  const results_test::Directory directory;
+  write(directory / "shaft.toml", R"(
+effects = "all"
+[machine]
+type = "load_table"
+speed = "960 rpm"
+harmonics = [{ effect = "drive", load = "b.torque", amplitude = 30 }]
+[[bearings]]
+name = "left"
+load = "a"
+dynamic_rating = "20 kN"
+element = "ball"
+[shaft]
+contour = [
+  { port = "a", diameter = "30 mm", length = "30 mm" },
+  { fillet = "1 mm" },
+  { port = "b", diameter = "36 mm", length = "60 mm" },
+]
+bearings = ["a", "b"]
+torque_support = "a")" + steel_of("shaft") +
+                                      "[results]\nsnapshots = 0\npictures = false\n");
+  const auto run = as_a_user(directory.path, "run shaft.toml --method beam --tolerance none -o r");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("unloaded"), std::string::npos) << run.out;
+  const auto left = summary(directory / "r")["bearings"]["left"];
+  EXPECT_EQ(left["equivalent_load"]["value"], 0);
+  EXPECT_TRUE(left["L10h"].is_null());
+}
+
 // A start in two seconds passes the pitch's resonance and ends where the steady load stage begins.
 TEST(LoadStage, StartUpEndsInSteadyRunning) {
   const results_test::Directory directory;

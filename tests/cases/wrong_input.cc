@@ -64,6 +64,7 @@ TEST(WrongInput, OfTheCommandLineIsTold) {
       {"run train.toml --method solid", "--method solid: the scene has no body"},
       {"history train.toml", "has no body, and only bodies have a stress"},
       {"run mill.toml -o ''", "--output: is empty"},
+      {"loads mill.toml --csv -", "--csv: is -, which would be a file of that name"},
       {"run mill.toml --tolerance nan", "is not a finite number"},
       {"rnu mill.toml", "rnu: is no command; did you mean \"run\"?"},
       {"accuracy mill.toml --reference '0 MPa'", "--reference 0 MPa: must be positive"},

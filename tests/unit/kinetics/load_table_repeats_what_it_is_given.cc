@@ -171,6 +171,20 @@ TEST(LoadTable, SamplesBetweenTheInstantsAreTold) {
       << warnings.back();
 }
 
+// Three instants in a period at half of the amplitude and at the trough: 200 stood for 400 without a word.
+TEST(LoadTable, CrestsOfHarmonicsBetweenTheInstantsAreTold) {
+  const TableLoad teeth{"teeth", "roller", "torque", "N m", HarmonicCourse{0, 400, 40, turn / 6}};
+  const auto few = loads_of(teeth, 120);
+  EXPECT_NEAR(few.resultant("roller").total.row(2).maxCoeff(), 200, 1e-9);
+  ASSERT_EQ(few.warnings.size(), 1u);
+  EXPECT_NE(
+      few.warnings[0].find("teeth/roller.torque is 50 % larger between the instants than at them, which "
+                           "are 3 in a period of order 40"),
+      std::string::npos)
+      << few.warnings[0];
+  EXPECT_TRUE(loads_of(teeth, 960).warnings.empty());
+}
+
 // Samples that begin elsewhere than at zero, over several turns: the instants around a sample are those of
 // its place in the period.
 TEST(LoadTable, SamplesOnALineThroughTheInstantsAreNotPassedOver) {
