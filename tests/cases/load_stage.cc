@@ -202,7 +202,7 @@ TEST(LoadStage, TorsionWarnsOfItsWindow) {
               {"turns = 34", "turns = 1"}}));
   const auto json = json_of(directory.path, "torsion beat.toml --json");
   const std::string warning =
-      "the history covers 0.0441176470588 s, the vibration repeats after 10 s; extremes and means are those "
+      "the history covers 0.0441176 s, the vibration repeats after 10 s; extremes and means are those "
       "of "
       "the window";
   EXPECT_EQ(json["warnings"], nlohmann::json::array({warning}));
