@@ -44,6 +44,27 @@ void import_solids(const Import& import) {
   gmsh::model::occ::synchronize();
 }
 
+/// Moves gmsh's model, if it is far from the origin against its size, about its own centre: with large
+/// coordinates the same part gets other cells, some of them nearly flat.
+/// @returns where the centre was, in the model's unit; zero if nothing is moved
+Point move_to_origin() {
+  constexpr double far = 10;  // diagonals
+  double low[3], high[3];
+  gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
+  const Point centre{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
+  const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  if (!(std::hypot(centre[0], centre[1], centre[2]) > far * diagonal)) return {};
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  gmsh::model::occ::translate(volumes, -centre[0], -centre[1], -centre[2]);
+  gmsh::model::occ::synchronize();
+  return centre;
+}
+
+void move(Point& point, const Point& by, double scale) {
+  for (int d = 0; d < 3; ++d) point[d] += scale * by[d];
+}
+
 /// The largest distance of an edge's middle node from the middle of its ends, over the edge's length, and
 /// where that is. Of hexahedra of second order, as gmsh numbers their nodes.
 std::pair<double, Point> most_curved_edge(int type, int n_nodes) {
@@ -135,7 +156,14 @@ ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
   require_affordable(n_cells, bytes_per_tetrahedron, control_of_cells(import.control),
                      "make the cells larger, or the fine parts fewer");
   limit_rest_apart(import.time_limit_s > 0 ? import.time_limit_s : least_meshing_s + n_cells * s_per_cell);
-  return mesh_and_collect(import.control, scale_to_m);
+  const Point centre = move_to_origin();
+  SolidControl control = import.control;
+  for (auto& spot : control.fine_spots) move(spot.centre_m, centre, -scale_to_m);
+  ModelMesh model = mesh_and_collect(control, scale_to_m);
+  for (auto& point : model.mesh.points) move(point, centre, scale_to_m);
+  for (auto* pieces : {&model.pieces, &model.volumes})
+    for (auto& piece : *pieces) move(piece.centre_m, centre, scale_to_m);
+  return model;
 }
 
 /// What gmsh was at when it ended: the last line of its log that says "Meshing surface 7 (Cylinder)" or so.

@@ -2,6 +2,7 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -294,6 +295,43 @@ TEST(Imported, AFaceIsLoadedAboutTheCentreOfItsArea) {
     EXPECT_NEAR(port.axis_x_m, x_m, 1e-12) << port.name;
     EXPECT_NEAR(port.axis_y_m, 0, 1e-12) << port.name;
     EXPECT_NEAR((port.begin_m + port.end_m) / 2, z_m, 1e-12) << port.name;
+  }
+}
+
+// 145 m off the origin a pipe with a branch had other cells than at it, and a search for finer ones ended at
+// a cell that was nearly flat.
+TEST(Imported, APartFarFromTheOriginIsMeshedAsAtIt) {
+  const std::array<double, 3> at_m{-89.000123, 77.7777, 88.8888};
+  const auto build = [&](bool far) {
+    const auto step = written(far ? "far.step" : "near.step", [&] {
+      gmsh::vectorpair outside, pipe;
+      std::vector<gmsh::vectorpair> map;
+      occ::fuse({{3, occ::addCylinder(0, 0, -100, 0, 0, 200, 40)}},
+                {{3, occ::addCylinder(0, 0, 0, 90, 0, 0, 15)}}, outside, map);
+      occ::cut(
+          outside,
+          {{3, occ::addCylinder(0, 0, -101, 0, 0, 202, 35)}, {3, occ::addCylinder(0, 0, 0, 91, 0, 0, 12)}},
+          pipe, map);
+      if (far) occ::translate(pipe, 1e3 * at_m[0], 1e3 * at_m[1], 1e3 * at_m[2]);
+      occ::synchronize();
+    });
+    const double z_m = (far ? at_m[2] : 0) - 0.1;
+    auto import = import_of(
+        step, {{"foot", Port::Kind::face, BoxSelection{{-100, -100, z_m - 1e-4}, {100, 100, z_m + 1e-4}}}});
+    import.control.cells_per_circle = 11;
+    import.control.size_factor = 1.5;
+    return meshes::build_imported(import);
+  };
+  const auto near = build(false), far = build(true);
+  EXPECT_EQ(far.cells->n_cells(), near.cells->n_cells());
+  ASSERT_EQ(far.cells->points.size(), near.cells->points.size());
+  EXPECT_NEAR(far.ports.at(0).axis_x_m, near.ports.at(0).axis_x_m + at_m[0], 1e-9);
+  EXPECT_NEAR(far.ports[0].begin_m, near.ports[0].begin_m + at_m[2], 1e-9);
+  for (int d = 0; d < 3; ++d) {
+    double apart_m = 0;
+    for (std::size_t i = 0; i < far.cells->points.size(); ++i)
+      apart_m += (far.cells->points[i][d] - near.cells->points[i][d]) / double(far.cells->points.size());
+    EXPECT_NEAR(apart_m, at_m[d], 1e-4) << "inner nodes differ by rounding";
   }
 }
 
