@@ -39,7 +39,8 @@ struct LineChart {
   std::vector<ChartCurve> curves;
   bool has_equal_scales =
       false;  ///< one unit is as long along x as along y, and both axes have zero in the middle
-  bool is_from_zero = false;  ///< both axes begin at zero and have room behind the largest; nothing is negative
+  bool is_from_zero =
+      false;  ///< both axes begin at zero and have room behind the largest; nothing is negative
   /// Shown whole with equal scales, and more beside it: the legend stands on its right.
   std::optional<ChartWindow> window{};
 };

@@ -54,9 +54,10 @@ void print_masses(std::ostream& out, const RunReport& report, const BodyAnalysis
   for (const auto& figure : report.masses)
     if (figure.body == analysis.scene.name)
       out << fmt::format("  {}: {:.5g} {}{}\n", figure.name, figure.given, figure.unit,
-                         figure.from_mesh ? " from the mesh"
-                                          : fmt::format(", mesh and added masses have {:.5g}: {:.2g} % carried on {}",
-                                                        figure.mesh, 100 * figure.share(), figure.port));
+                         figure.from_mesh
+                             ? " from the mesh"
+                             : fmt::format(", mesh and added masses have {:.5g}: {:.2g} % carried on {}",
+                                           figure.mesh, 100 * figure.share(), figure.port));
   const auto& carried = analysis.loads.carried_moment_Nm;
   if (carried.size() > 0)
     out << fmt::format("  pitch is off: a guide carries a couple of up to {:.4g} N m, rms {:.4g} N m\n",

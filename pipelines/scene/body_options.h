@@ -68,8 +68,8 @@ struct TrainShaftOptions {
 struct TableBodyOptions {
   /// None, two that balance forces across and tilting moments, or one: a clamp that balances all.
   std::vector<std::string> bearings;
-  std::string axial_support;          ///< balances fz; empty: nothing does
-  std::string torque_support;         ///< balances the torque; empty: nothing does
+  std::string axial_support;   ///< balances fz; empty: nothing does
+  std::string torque_support;  ///< balances the torque; empty: nothing does
 };
 
 /// What the scene says to one body's kind; the alternative says which kind that is, in the order of the table
