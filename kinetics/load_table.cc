@@ -210,6 +210,21 @@ void warn_of_missed(const TableLoad& load, const HarmonicCourse& harmonic, const
       number(harmonic.order) + ": raise sampling.instants_per_turn");
 }
 
+struct AroundAnAngle {
+  double before, after;  ///< values at the instants around it
+  double part;           ///< of the way from the one to the other
+};
+
+/// @param values  at the instants of a period
+AroundAnAngle around(double angle_rad, const ArrayXd& values, const TimeGrid& grid) {
+  const double at = angle_rad / turn_rad * grid.instants_per_turn, before = std::floor(at);
+  const auto value = [&](double instant) {
+    const double periods = std::floor(instant / double(values.size()));
+    return values[std::min(values.size() - 1, Index(instant - periods * double(values.size())))];
+  };
+  return {value(before), value(before + 1), at - before};
+}
+
 /// By how much each sample is off the straight line between the instants around it, in shares of the largest.
 /// @param values  at the instants
 ArrayXd shares_off_the_line(const SampledCourse& samples, const ArrayXd& values, const TimeGrid& grid) {
@@ -218,15 +233,24 @@ ArrayXd shares_off_the_line(const SampledCourse& samples, const ArrayXd& values,
   ArrayXd share = ArrayXd::Zero(n);
   if (!(largest > 0)) return share;
   for (Index i = 0; i < n; ++i) {
-    const double at = samples.angle_rad[i] / turn_rad * grid.instants_per_turn, before = std::floor(at);
-    const auto value = [&](double instant) {
-      const double periods = std::floor(instant / double(values.size()));
-      return values[std::min(values.size() - 1, Index(instant - periods * double(values.size())))];
-    };
-    const double line = value(before) + (at - before) * (value(before + 1) - value(before));
-    share[i] = std::abs(samples.values[i] - line) / largest;
+    const auto [before, after, part] = around(samples.angle_rad[i], values, grid);
+    share[i] = std::abs(samples.values[i] - (before + part * (after - before))) / largest;
   }
   return share;
+}
+
+/// By how much a sample between two instants exceeds both of their values, or falls short of them, at most,
+/// as a share of the largest sample. A jump does neither.
+double share_beyond_instants(const SampledCourse& samples, const ArrayXd& values, const TimeGrid& grid) {
+  const Index n = n_of_period(samples, grid.turns * turn_rad);
+  const double largest = samples.values.head(n).abs().maxCoeff();
+  double most = 0;
+  for (Index i = 0; i < n; ++i) {
+    const auto [before, after, part] = around(samples.angle_rad[i], values, grid);
+    most = std::max(
+        {most, samples.values[i] - std::max(before, after), std::min(before, after) - samples.values[i]});
+  }
+  return largest > 0 ? most / largest : 0;
 }
 
 void post(const TableLoad& load, const ArrayXd& values, LoadHistory& history) {
@@ -326,6 +350,25 @@ ArrayXd samples_passed_over(const LoadTable& table, const std::vector<std::strin
   std::sort(angle_rad.begin(), angle_rad.end());
   angle_rad.erase(std::unique(angle_rad.begin(), angle_rad.end()), angle_rad.end());
   return Eigen::Map<const ArrayXd>(angle_rad.data(), Index(angle_rad.size()));
+}
+
+std::vector<std::string> warnings_of_cycles(const LoadTable& table, const std::vector<std::string>& effects,
+                                            const TimeGrid& grid) {
+  constexpr double much = 0.2;
+  check(table, effects, grid);
+  std::vector<std::string> warnings;
+  evaluate_all(table, effects, grid, instants_of(grid), [&](const TableLoad& load, const ArrayXd& values) {
+    const auto* samples = std::get_if<SampledCourse>(&load.course);
+    const double share = samples != nullptr ? share_beyond_instants(*samples, values, grid) : 0;
+    if (share > much)
+      warnings.push_back(
+          load.effect + "/" + name_of(load) + ": samples between two instants, " +
+          std::to_string(grid.instants_per_turn) + " per turn, are beyond both by up to " +
+          number(std::round(100 * share)) +
+          " % of the largest: lives count the cycles at the instants, and may be many times too "
+          "long; raise sampling.instants_per_turn");
+  });
+  return warnings;
 }
 
 LoadHistory loads_at(const LoadTable& table, const std::vector<std::string>& effects, const TimeGrid& grid,

@@ -63,6 +63,13 @@ std::vector<ResamplingError> resampling_errors(const LoadTable& table, const Tim
 Eigen::ArrayXd samples_passed_over(const LoadTable& table, const std::vector<std::string>& effects,
                                    const TimeGrid& grid, Eigen::Index most = 4096);
 
+/// What lives do not know, however well the largest load is known: samples between two instants that are
+/// beyond both of their values by more than 20 % of the largest, of which whole cycles may lie there. One
+/// sentence for each such load.
+/// @throws MachineRefused as compute_loads
+std::vector<std::string> warnings_of_cycles(const LoadTable& table, const std::vector<std::string>& effects,
+                                            const TimeGrid& grid);
+
 /// The loads at other angles than the instants of the grid: as compute_loads, without warnings.
 /// @param phi_rad  over grid.turns, which are the period of the samples
 /// @throws MachineRefused as compute_loads, but for instants that miss samples

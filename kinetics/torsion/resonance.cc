@@ -54,7 +54,7 @@ std::vector<std::string> resonance_warnings(const PreparedTrain& prepared,
                        both_units(line.frequency_rad_s, digits_of_warning) + " is " +
                        rounded(100 * std::abs(r - 1), 3) + " % from the natural frequency " +
                        both_units(w_k, digits_of_warning) + " of mode " + std::to_string(k + shift) +
-                       ": it is amplified up to " + rounded(amplification) + " times");
+                       ": it is amplified up to " + number(std::round(100 * amplification) / 100) + " times");
   }
   return warnings;
 }

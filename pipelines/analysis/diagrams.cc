@@ -126,6 +126,17 @@ void leave_out(const std::vector<meshes::SharpEdge>& edges, std::vector<TorsionR
 
 }  // namespace
 
+SectionHistory statics_over_the_cycle(const std::vector<fem::UnitLoad>& unit_loads,
+                                      const ChannelHistory& loads, const meshes::Shaft& geometry,
+                                      double density_kg_m3, double z_m) {
+  ArrayXXd unit(6, Index(unit_loads.size()));
+  for (std::size_t k = 0; k < unit_loads.size(); ++k) {
+    const auto resultant = internal_resultant(unit_loads[k], geometry, density_kg_m3, z_m);
+    for (std::size_t c = 0; c < 6; ++c) unit(Index(c), Index(k)) = resultant[c];
+  }
+  return over_the_cycle(unit, loads);
+}
+
 Array2Xd ring_shear_Pa(const ChannelHistory& loads, const fem::UnitResponses& responses, std::size_t ring) {
   const std::size_t n_channels = responses.channels.size();
   ArrayXXd unit(2, Index(n_channels));
@@ -167,13 +178,11 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
          torque_error = 0;
   for (std::size_t p = 0; p < mesh.sections.size(); ++p) {
     const auto& plane = mesh.sections[p];
-    ArrayXXd by_stress(6, n_channels), by_statics(6, n_channels), rim(1, n_channels), motion(6, n_channels);
+    ArrayXXd by_stress(6, n_channels), rim(1, n_channels), motion(6, n_channels);
     for (std::size_t k = 0; k < n_channels; ++k) {
       const auto& response = responses.sections[p * n_channels + k];
-      const auto statics = internal_resultant(loads.unit_loads[k], geometry, density_kg_m3, plane.z_m);
       for (std::size_t c = 0; c < 6; ++c) {
         by_stress(Index(c), Index(k)) = response.resultant[c];
-        by_statics(Index(c), Index(k)) = statics[c];
         motion(Index(c), Index(k)) = c < 3 ? response.translation_m[c] : response.rotation_rad[c - 3];
       }
       rim(0, Index(k)) = response.mean_rim_shear_Pa[1];
@@ -181,7 +190,8 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
     SectionResult section;
     section.plane = plane;
     section.by_stress = over_the_cycle(by_stress, loads.history);
-    section.by_statics = over_the_cycle(by_statics, loads.history);
+    section.by_statics =
+        statics_over_the_cycle(loads.unit_loads, loads.history, geometry, density_kg_m3, plane.z_m);
     section.torsion_Pa = over_the_cycle(rim, loads.history).row(0).transpose();
     const double r = plane.radius_m, r_i = plane.inner_radius_m;
     const ArrayXd own_torque = (section.by_statics.row(5) - (plane.axis_x_m * section.by_statics.row(1) -

@@ -70,6 +70,12 @@ struct Diagrams {
   double force_mismatch = 0, bending_mismatch = 0, torque_mismatch = 0;
 };
 
+/// The internal resultants at z by statics alone, under any loads with the channels of the unit loads.
+/// @param geometry  cylinders of the shaft, for its weight
+SectionHistory statics_over_the_cycle(const std::vector<fem::UnitLoad>& unit_loads,
+                                      const ChannelHistory& loads, const meshes::Shaft& geometry,
+                                      double density_kg_m3, double z_m);
+
 /// @param geometry    cylinders of the shaft, for its weight by statics
 /// @param references  ports that deflection and slope refer to: two bearings, one clamp, or none (the body's
 /// own mean rigid motion)

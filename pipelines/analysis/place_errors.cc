@@ -69,19 +69,29 @@ void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, std::vector<
     }
 }
 
-/// What the mesh tells of the stress at a node of a feature, relative; 0 where nothing is stressed or no
-/// cells were solved.
-double own_share(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
-                 const ChannelHistory& loads, std::int32_t instant) {
+/// What single cells tell of the error of a stress at a node of a feature [Pa], and what few cells on its
+/// fillet's quarter, or through the wall of its bore, leave open; none where no cells were solved.
+/// @param instant  column of `loads`
+std::optional<double> error_by_cells_Pa(const BodyAnalysis& analysis, const std::string& feature,
+                                        std::size_t node, const ChannelHistory& loads, std::int32_t instant) {
   const StressPoint point{{{node, 1.0}}, instant};
-  const double value_Pa = von_mises_of(unit_stress_at(analysis.responses, point), loads.values.col(instant));
   const auto entry = discretisation_estimate(point, analysis.responses, loads, analysis.scene.material,
                                              analysis.places.excluded);
-  if (!entry || !(value_Pa > 0)) return 0;
-  const int cells = cells_on_quarter(analysis, {feature, node});
+  if (!entry) return std::nullopt;
   const double safety = is_of_blocks(analysis) && is_bore(analysis.mesh, feature) ? safety_of_few_rows : 1;
-  return std::min(1.0,
-                  std::max(safety * entry->value_Pa / value_Pa, cells > 0 ? for_want_of_cells(cells) : 0.0));
+  const int cells = cells_on_quarter(analysis, {feature, node});
+  if (cells == 0) return safety * entry->value_Pa;
+  const double value_Pa = von_mises_of(unit_stress_at(analysis.responses, point), loads.values.col(instant));
+  return std::max(safety * entry->value_Pa, for_want_of_cells(cells) * value_Pa);
+}
+
+/// The same, relative, at most 1; 0 where nothing is stressed.
+double own_share(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+                 const ChannelHistory& loads, std::int32_t instant) {
+  const auto unit = unit_stress_at(analysis.responses, {{{node, 1.0}}, instant});
+  const double value_Pa = von_mises_of(unit, loads.values.col(instant));
+  const auto error_Pa = error_by_cells_Pa(analysis, feature, node, loads, instant);
+  return error_Pa && value_Pa > 0 ? std::min(1.0, *error_Pa / value_Pa) : 0;
 }
 
 const PlaceStress* judged_place(const BodyAnalysis& analysis, const std::string& feature) {
@@ -221,12 +231,7 @@ double error_share_of_change(const BodyAnalysis& analysis, const std::string& fe
   const auto estimate_Pa = [&](const Eigen::ArrayXd& of) {
     ChannelHistory history;
     history.values = of;
-    const auto entry = discretisation_estimate(point, analysis.responses, history, analysis.scene.material,
-                                               analysis.places.excluded);
-    const int cells = cells_on_quarter(analysis, {feature, node});
-    return entry ? std::optional(std::max(
-                       entry->value_Pa, cells > 0 ? for_want_of_cells(cells) * von_mises_of(unit, of) : 0.0))
-                 : std::nullopt;
+    return error_by_cells_Pa(analysis, feature, node, history, 0);
   };
   if (const auto own_Pa = estimate_Pa(factors)) {
     // The product of both tensors by the norms of their sum and difference.

@@ -81,10 +81,17 @@ double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
   return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
 }
 
-KnownBefore known_of(BodyAnalysis& before, const BodyLoads& now, bool needs_submodels) {
+BodyAnalysis superpose_again(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                             BodyAnalysis& before, bool needs_submodels, int n_threads, StageClock& clock) {
   KnownBefore known{{}, std::move(before.hot_spots), needs_submodels};
-  if (have_same_values(before.loads.history, now.history)) known.envelope = std::move(before.envelope);
-  return known;
+  if (have_same_values(before.loads.history, loads.history)) known.envelope = std::move(before.envelope);
+  auto after = superpose_body(body, meshed, std::move(loads), std::move(before.responses), n_threads, clock,
+                              std::move(known));
+  after.responses_reused = before.responses_reused;
+  after.warnings = std::move(before.warnings);
+  after.solve_s = before.solve_s;
+  if (after.superpose_s == 0) after.superpose_s = before.superpose_s;
+  return after;
 }
 
 BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,

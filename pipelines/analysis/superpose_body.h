@@ -15,15 +15,19 @@ struct KnownBefore {
   bool needs_submodels = true;  ///< at weld toes; a search that refines the mesh there does without
 };
 
-/// What stays known under these loads: the envelope where they are the same, to the bit.
-/// @param before  gives away what is known
-KnownBefore known_of(BodyAnalysis& before, const BodyLoads& now, bool needs_submodels);
-
 /// The second half of analyse_body: everything that follows from unit responses, but for zones.
 /// @throws LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
 BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
                             fem::UnitResponses responses, int n_threads, StageClock& clock,
                             KnownBefore known = {});
+
+/// The same under other loads, or with other places left out, with the responses that the body has, what was
+/// known of them, and all that is known of how they came about. The envelope stays where the loads are the
+/// same, to the bit.
+/// @param before           gives away what stays
+/// @param needs_submodels  as in KnownBefore
+BodyAnalysis superpose_again(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                             BodyAnalysis& before, bool needs_submodels, int n_threads, StageClock& clock);
 
 /// Zones of the envelope with parts, causes and errors, and errors of weld toes that no search has judged:
 /// what is shown of the final stress, and no search reads.

@@ -109,7 +109,7 @@ public:
     table.know("bearings");
     table.know("clamp");
     if (table.has("clamp")) {
-      options.bearings = {table.text("clamp")};
+      options.clamp = table.text("clamp");
       for (const char* other : {"bearings", "axial_support", "torque_support"})
         if (table.has(other))
           table.refuse(other, "stands beside clamp, which takes all forces and moments; remove one of both");
@@ -119,7 +119,6 @@ public:
       if (bearings.size() != 2 || bearings[0] == bearings[1])
         table.refuse("bearings",
                      "needs the ports of two bearings; one port that holds the body is its clamp");
-      if (bearings.size() == 1) bearings.clear();
     }
     for (auto* support : {&options.axial_support, &options.torque_support}) {
       const char* key = support == &options.axial_support ? "axial_support" : "torque_support";
@@ -132,19 +131,19 @@ public:
   ContourRules contour_rules(const Scene& scene, const BodyScene& body) const override {
     ContourRules rules;
     rules.any_port = true;
-    if (!is_clamped(body)) rules.ports = table_options(body).bearings;
+    rules.ports = table_options(body).bearings;
     add_table_ports(scene, rules.ports);
     return rules;
   }
   void check_ports(SceneTable& table, const BodyScene& body) const override {
     const auto known = ports_of(body).all;
     const auto& options = table_options(body);
-    if (is_clamped(body)) check_port(table, "clamp", options.bearings[0], known, "the ports of this body");
+    check_port(table, "clamp", options.clamp, known, "the ports of this body");
     check_port(table, "axial_support", options.axial_support, known, "the ports of this body");
     check_port(table, "torque_support", options.torque_support, known, "the ports of this body");
   }
   std::vector<std::string> bearing_loads(const BodyScene& body) const override {
-    return is_clamped(body) ? std::vector<std::string>() : table_options(body).bearings;
+    return table_options(body).bearings;
   }
   std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene& body) const override {
     if (body.name != "shaft") return std::nullopt;
@@ -161,7 +160,7 @@ public:
   }
   void require_supports(const BodyScene& body, const BodyLoads& loads,
                         const std::vector<RegionMass>& regions) const override {
-    if (loads.unit_loads.empty()) return;
+    if (loads.unit_loads.empty() || is_clamped(body)) return;
     const auto& table = table_options(body);
     std::vector<std::array<double, 6>> wanted;
     for (const auto& load : loads.unit_loads) wanted.push_back(wanted_resultant(load, regions));
@@ -177,13 +176,12 @@ public:
                          "that nothing carries; name the ports of two bearings, as bearings = "
                          "[\"bearing_1\", \"bearing_2\"], or the port that holds the body, as clamp",
                          left.across_N, left.tilting_Nm));
-    const bool is_held = is_clamped(body);
-    if (!is_held && table.axial_support.empty() && left.along_N > 0)
+    if (table.axial_support.empty() && left.along_N > 0)
       refuse("axial_support",
              fmt::format("the loads leave up to {:.4g} N along the axis that nothing carries; "
                          "name the port that takes them, as axial_support = \"{}\"",
                          left.along_N, port));
-    if (!is_held && table.torque_support.empty() && left.turning_Nm > 0)
+    if (table.torque_support.empty() && left.turning_Nm > 0)
       refuse("torque_support",
              fmt::format("the loads leave a torque of up to {:.4g} N m that nothing carries; "
                          "name the port that takes it, as torque_support = \"{}\"",
@@ -200,9 +198,10 @@ public:
     return table.bearings.empty() ? "name the ports of two bearings, bearings in [" + body.name + "]" : "";
   }
   std::vector<std::string> supporting_ports(const BodyScene& body) const override {
-    return table_options(body).bearings;
+    const auto& table = table_options(body);
+    return table.clamp.empty() ? table.bearings : std::vector<std::string>{table.clamp};
   }
-  bool is_clamped(const BodyScene& body) const override { return table_options(body).bearings.size() == 1; }
+  bool is_clamped(const BodyScene& body) const override { return !table_options(body).clamp.empty(); }
   /// Loads on a shaft may be along axes that turn with it; a part's are along its own.
   std::vector<double> spins_Hz(const Scene&, const BodyScene& body,
                                const kinetics::LoadHistory& loads) const override {
@@ -249,11 +248,11 @@ BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::Loa
   // Along the axis first: off the axis of an eccentric port, that tilts the body, which the bearings then
   // carry.
   if (!options.axial_support.empty()) collector.react_axial(options.axial_support);
-  if (bearings.size() == 1) {  // what a clamp carries spreads over the whole port
-    collector.react_axial(bearings[0]);
-    collector.react_force(bearings[0]);
-    collector.react_tilt(bearings[0]);
-    collector.react_torque(bearings[0]);
+  if (!options.clamp.empty()) {  // what it carries spreads over the whole port
+    collector.react_axial(options.clamp);
+    collector.react_force(options.clamp);
+    collector.react_tilt(options.clamp);
+    collector.react_torque(options.clamp);
   }
   if (bearings.size() == 2) {
     collector.react(bearings[0], bearings[1]);

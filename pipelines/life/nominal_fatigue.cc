@@ -5,7 +5,6 @@
 
 #include "fem/beam/fillet_factors.h"
 #include "pipelines/common/constants.h"
-#include "pipelines/loads/statics.h"
 
 namespace pipelines {
 namespace {
@@ -30,17 +29,6 @@ const SectionResult* nearest_section(const Diagrams& diagrams, const std::string
         (nearest == nullptr || std::abs(section.plane.z_m - z_m) < std::abs(nearest->plane.z_m - z_m)))
       nearest = &section;
   return nearest;
-}
-
-SectionHistory by_statics(const BodyAnalysis& analysis, const ChannelHistory& loads, double z_m) {
-  const auto& unit_loads = analysis.loads.unit_loads;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> unit(6, Eigen::Index(unit_loads.size()));
-  for (std::size_t k = 0; k < unit_loads.size(); ++k) {
-    const auto resultant = internal_resultant(unit_loads[k], analysis.scene.shaft()->geometry,
-                                              analysis.scene.material.density_kg_m3, z_m);
-    for (std::size_t c = 0; c < 6; ++c) unit(Eigen::Index(c), Eigen::Index(k)) = resultant[c];
-  }
-  return (unit * loads.values.matrix()).array();
 }
 
 bool is_din_fillet(const meshes::Shaft& shaft, std::size_t i) {
@@ -119,7 +107,8 @@ std::vector<NominalFatigue> din_743_of_fillets(
     own.diameter_m = thin.diameter_m;
     SectionResult of_loads;
     of_loads.plane = section->plane;
-    of_loads.by_statics = by_statics(analysis, loads, section->plane.z_m);
+    of_loads.by_statics = statics_over_the_cycle(analysis.loads.unit_loads, loads, shaft->geometry,
+                                                 analysis.scene.material.density_kg_m3, section->plane.z_m);
     own.load = nominal_load(of_loads);
     const auto published = fem::fillet_factors(thin.diameter_m, thick.diameter_m, fillet_m);
     own.shape_factor = own_shape_factor({published.tension, published.bending, published.torsion},

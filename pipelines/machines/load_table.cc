@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -41,51 +39,6 @@ Eigen::ArrayXd denser_instants(const kinetics::LoadTable& table, const std::vect
   return Eigen::ArrayXd::LinSpaced(Eigen::Index(n), 0, n - 1) * (2 * pi / (times * grid.instants_per_turn));
 }
 
-/// Of one load: the only row that is not zero of its resultant, or its quantity.
-Eigen::ArrayXd series_of(const kinetics::LoadHistory& history) {
-  return history.resultants.empty() ? history.quantities.front().values
-                                    : history.resultants.front().total.colwise().sum().transpose().eval();
-}
-
-/// By how much a load's samples between two instants exceed both of their values, or fall short of them, at
-/// most, as a share of the largest sample. A jump does neither.
-double share_beyond_neighbours(const kinetics::TableLoad& load, double speed_rad_s,
-                               const kinetics::TimeGrid& grid) {
-  const auto& samples = std::get<kinetics::SampledCourse>(load.course);
-  const Eigen::Index n = Eigen::Index(grid.turns) * grid.instants_per_turn;
-  const double step_rad = 2 * pi / grid.instants_per_turn;
-  const auto values = series_of(kinetics::loads_at(
-      {speed_rad_s, {load}}, {load.effect}, grid, Eigen::ArrayXd::LinSpaced(n, 0, double(n - 1)) * step_rad));
-  double most = 0;
-  for (Eigen::Index i = 0; i < samples.values.size(); ++i) {
-    const auto before = (Eigen::Index(std::floor(samples.angle_rad[i] / step_rad)) % n + n) % n;
-    const double one = values[before], other = values[(before + 1) % n], value = samples.values[i];
-    most = std::max({most, value - std::max(one, other), std::min(one, other) - value});
-  }
-  const double largest = samples.values.abs().maxCoeff();
-  return largest > 0 ? most / largest : 0;
-}
-
-/// What lives do not know, however well the largest stress is known: whole cycles between two instants.
-/// Empty: there are none worth it.
-std::string warning_of_cycles_passed_over(const kinetics::LoadTable& table,
-                                          const std::vector<std::string>& effects,
-                                          const kinetics::TimeGrid& grid) {
-  constexpr double much = 0.2;
-  for (const auto& load : table.loads) {
-    if (!std::holds_alternative<kinetics::SampledCourse>(load.course) || !contains(effects, load.effect))
-      continue;
-    const double share = share_beyond_neighbours(load, table.speed_rad_s, grid);
-    if (share > much)
-      return fmt::format(
-          "{}/{}.{}: samples between two instants, {} per turn, are beyond both by up to {:.0f} % of the "
-          "largest: lives count the cycles at the instants, and may be many times too long; raise "
-          "sampling.instants_per_turn",
-          load.effect, load.port, load.component, grid.instants_per_turn, 100 * share);
-  }
-  return "";
-}
-
 class LoadTableKind : public MachineKind {
 public:
   std::string type() const override { return "load_table"; }
@@ -125,9 +78,7 @@ public:
     const auto denser_rad = phi_rad.size() > 0 ? phi_rad : denser_instants(table, effects, scene.sampling);
     if (denser_rad.size() == 0) return std::nullopt;
     auto between = kinetics::loads_at(table, effects, scene.sampling, denser_rad);
-    if (phi_rad.size() > 0)
-      if (auto warning = warning_of_cycles_passed_over(table, effects, scene.sampling); !warning.empty())
-        between.warnings.push_back(std::move(warning));
+    if (phi_rad.size() > 0) between.warnings = kinetics::warnings_of_cycles(table, effects, scene.sampling);
     return between;
   }
   bool is_headline(const std::string&) const override { return true; }

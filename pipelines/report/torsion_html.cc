@@ -6,23 +6,19 @@
 #include <vector>
 
 #include "pipelines/common/constants.h"
+#include "pipelines/report/html_values.h"
 
 namespace pipelines {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using Rows = std::vector<std::vector<std::string>>;
+using html::Json, html::number, html::Rows;
 
 constexpr double two_pi = 2 * pi;
 
-std::string text_of(const Json& value, double factor = 1, const char* format = "{:.4g}") {
-  return value.is_number() ? fmt::format(fmt::runtime(format), factor * value.get<double>()) : "-";
-}
-
 void add_start_row(const std::string& name, const Json& of, double factor, const std::string& where,
                    Rows& rows) {
-  rows.push_back({name, text_of(of.at("value"), factor), text_of(of.at("time_s")),
-                  text_of(of.at("steady"), factor), text_of(of.at("factor"), 1, "{:.2f}"), where});
+  rows.push_back({name, number(of.at("value"), factor), number(of.at("time_s")),
+                  number(of.at("steady"), factor), number(of.at("factor"), 1, "{:.2f}"), where});
 }
 
 }  // namespace
@@ -31,9 +27,9 @@ void add_resonance_margins(HtmlPage& page, const Json& summary) {
   if (!summary.contains("torsion") || !summary.at("torsion").contains("margins")) return;
   Rows rows;
   for (const auto& m : summary.at("torsion").at("margins"))
-    rows.push_back({m.at("excitation").get<std::string>(), text_of(m.at("frequency_rad_s"), 1 / two_pi),
-                    text_of(m.at("mode"), 1, "{:.0f}"), text_of(m.at("natural_frequency_rad_s"), 1 / two_pi),
-                    text_of(m.at("margin"), 100, "{:.1f} %"), text_of(m.at("amplification"), 1, "{:.3g}")});
+    rows.push_back({m.at("excitation").get<std::string>(), number(m.at("frequency_rad_s"), 1 / two_pi),
+                    number(m.at("mode"), 1, "{:.0f}"), number(m.at("natural_frequency_rad_s"), 1 / two_pi),
+                    number(m.at("margin"), 100, "{:.1f} %"), number(m.at("amplification"), 1, "{:.3g}")});
   if (rows.empty()) return;
   page.heading(2, "Resonance margins");
   page.table({"excitation", "Hz", "mode", "natural Hz", "margin", "amplification"}, rows);
@@ -44,12 +40,12 @@ void add_shaft_torsion(HtmlPage& page, const Json& body) {
     Rows rows;
     for (const auto& [element, of] : body.at("torsion").at("elements").items()) {
       std::vector<std::string> row{
-          element, of.at("port").get<std::string>(), text_of(of.at("torque").at("mean")),
-          text_of(of.at("torque").at("amplitude")), text_of(of.at("torque_by_stress").at("largest"))};
+          element, of.at("port").get<std::string>(), number(of.at("torque").at("mean")),
+          number(of.at("torque").at("amplitude")), number(of.at("torque_by_stress").at("largest"))};
       if (of.contains("largest_stress")) {
         const auto& stress = of.at("largest_stress");
-        for (const char* part : {"mean", "amplitude"}) row.push_back(text_of(stress.at(part), 1e-6));
-        row.push_back(text_of(stress.at("factor"), 1, "{:.2f}"));
+        for (const char* part : {"mean", "amplitude"}) row.push_back(number(stress.at(part), 1e-6));
+        row.push_back(number(stress.at("factor"), 1, "{:.2f}"));
         row.push_back(stress.at("feature").get<std::string>());
       } else {
         row.resize(9, "-");

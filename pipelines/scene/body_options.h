@@ -66,10 +66,10 @@ struct TrainShaftOptions {
 
 /// A body under the loads of a table, in its own frame.
 struct TableBodyOptions {
-  /// None, two that balance forces across and tilting moments, or one: a clamp that balances all.
-  std::vector<std::string> bearings;
-  std::string axial_support;   ///< balances fz; empty: nothing does
-  std::string torque_support;  ///< balances the torque; empty: nothing does
+  std::vector<std::string> bearings;  ///< none, or two that balance forces across and tilting moments
+  std::string axial_support;          ///< balances fz; empty: nothing does
+  std::string torque_support;         ///< balances the torque; empty: nothing does
+  std::string clamp;                  ///< balances all of these alone; empty: nothing does
 };
 
 /// What the scene says to one body's kind; the alternative says which kind that is, in the order of the table

@@ -1,12 +1,10 @@
 #include "pipelines/search/scene_run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <new>
-#include <set>
 #include <utility>
 
 #include "pipelines/analysis/body_vibration.h"
@@ -28,21 +26,13 @@
 #include "pipelines/search/duty_loads.h"
 #include "pipelines/search/first_mesh.h"
 #include "pipelines/search/first_model.h"
-#include "pipelines/search/local_refinement.h"
-#include "pipelines/search/peak_growth.h"
-#include "pipelines/search/place_history.h"
 #include "pipelines/search/refinement.h"
+#include "pipelines/search/search_state.h"
 #include "pipelines/search/singular_edge.h"
 #include "pipelines/search/without_mesh.h"
 
 namespace pipelines {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class SceneRunner {
 public:
@@ -243,20 +233,6 @@ private:
     });
   }
 
-  /// All that a search of one body knows.
-  struct SearchState {
-    explicit SearchState(const BodyScene& body) : history(mesh_parts(body), kept_share_of_own_error(body)) {}
-    Search search;
-    PlaceHistory history;
-    PeakGrowth growth;
-    std::optional<MeshStep> step;  ///< that led to the present mesh
-    LocalRefinement local{};       ///< what the next step would cut
-    std::set<MeshPart> exhausted;  ///< parts that cannot be finer
-    double end_s = 0;              ///< when the time is up, from the start of the run; 0: never
-    Clock::time_point step_start = Clock::now();
-    double second_model_s = 0;  ///< of the step, which a finer mesh does not take again
-  };
-
   /// What is left of the time, shared evenly among the bodies that wait.
   double end_of(std::size_t i) const {
     const double limit_s = options_.accuracy.time_limit_s, now_s = seconds_since(start_);
@@ -390,18 +366,10 @@ private:
     analysis = superposed_again(i, before);
   }
 
-  /// The body under its present loads, with the responses that it has and all that is known of how these came
-  /// about.
-  /// @param before  gives away what stays
+  /// Under its present loads.
   BodyAnalysis superposed_again(std::size_t i, BodyAnalysis& before) {
-    auto after = superpose_body(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                                std::move(before.responses), options_.n_threads, clock_,
-                                known_of(before, run_.loaded.body_loads[i], !options_of(i).keep_factor));
-    after.responses_reused = before.responses_reused;
-    after.warnings = std::move(before.warnings);
-    after.solve_s = before.solve_s;
-    if (after.superpose_s == 0) after.superpose_s = before.superpose_s;
-    return after;
+    return superpose_again(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i], before,
+                           !options_of(i).keep_factor, options_.n_threads, clock_);
   }
 
   /// Solves the next version of the scene, unless that would not end in time or does not fit into memory.

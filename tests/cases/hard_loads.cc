@@ -194,14 +194,8 @@ order = 0
 instants_per_turn = 24
 turns = 1
 [shaft]
-contour = [{ name = "rim", diameter = "400 mm", length = "60 mm" }]
-[shaft.material]
-name = "steel"
-youngs_modulus = "206 GPa"
-poisson_ratio = 0.3
-density = "7850 kg/m3"
-yield_strength = "305 MPa"
-[shaft.mesh]
+contour = [{ name = "rim", diameter = "400 mm", length = "60 mm" }])" +
+                                     steel_of("shaft") + R"([shaft.mesh]
 sectors = 8
 largest_cell = "20 mm"
 [results]

@@ -185,4 +185,10 @@ std::map<std::string, std::vector<double>> csv(const fs::path& file) {
   return columns;
 }
 
+nlohmann::json json_of(const fs::path& directory, const std::string& arguments) {
+  const auto run = millstress(directory, arguments);
+  EXPECT_EQ(run.exit_code, 0) << arguments << "\n" << run.err;
+  return nlohmann::json::parse(run.out);
+}
+
 }  // namespace cases

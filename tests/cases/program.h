@@ -98,6 +98,9 @@ std::map<std::string, std::string> contents(const fs::path& directory);
 
 nlohmann::json summary(const fs::path& results);
 
+/// What a command prints for machines: its arguments have `--json`.
+nlohmann::json json_of(const fs::path& directory, const std::string& arguments);
+
 /// The columns of a CSV file by the names in its header, without the units.
 std::map<std::string, std::vector<double>> csv(const fs::path& file);
 

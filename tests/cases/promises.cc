@@ -139,17 +139,8 @@ contour = [
 ]
 bearings = ["b1", "b2"]
 torque_support = "b1"
-axial_support = "b2"
-[shaft.material]
-name = "steel"
-youngs_modulus = "206 GPa"
-poisson_ratio = 0.3
-density = 7850
-yield_strength = "305 MPa"
-[results]
-pictures = false
-snapshots = 0
-)");
+axial_support = "b2")" + steel_of("shaft") +
+                                     "[results]\npictures = false\nsnapshots = 0\n");
   const auto zones_by = [&](const std::string& options) {
     EXPECT_EQ(
         as_a_user(directory.path, "run tube.toml -o out --fresh --time-limit '1000 s' " + options).exit_code,

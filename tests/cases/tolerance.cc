@@ -106,17 +106,8 @@ type = "load_table"
 speed = "9000 rpm"
 constants = [{ effect = "spin", load = "volume.spin", value = 888264 }]
 [shaft]
-contour = [{ name = "disc", diameter = "400 mm", length = "6 mm", bore = "80 mm" }]
-[shaft.material]
-name = "C45"
-youngs_modulus = "206 GPa"
-poisson_ratio = 0.3
-density = 7850
-yield_strength = "305 MPa"
-[results]
-pictures = false
-snapshots = 0
-)");
+contour = [{ name = "disc", diameter = "400 mm", length = "6 mm", bore = "80 mm" }])" +
+                                     steel_of("shaft") + "[results]\npictures = false\nsnapshots = 0\n");
   const std::string search = "run disc.toml -o out --fresh --tolerance '5 %' --time-limit '";
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(millstress(directory.path, search + "1000 s'").exit_code, 0);

@@ -61,10 +61,10 @@ TEST(BodyKinds, OptionsOfOneBodyAreNotAskedOfAnother) {
   body.options = pipelines::StubAxleOptions{};
   EXPECT_FALSE(kind_of(body).has_elastic_feet(body));
   EXPECT_TRUE(kind_of(body).is_clamped(body));
-  body.options = pipelines::TableBodyOptions{{"a", "b"}, {}, {}};
+  body.options = pipelines::TableBodyOptions{{"a", "b"}, {}, {}, {}};
   EXPECT_FALSE(kind_of(body).is_clamped(body));
   EXPECT_EQ(kind_of(body).bearing_loads(body).size(), 2U);
-  body.options = pipelines::TableBodyOptions{{"a"}, {}, {}};
+  body.options = pipelines::TableBodyOptions{{}, {}, {}, "a"};
   EXPECT_TRUE(kind_of(body).is_clamped(body));
   EXPECT_TRUE(kind_of(body).bearing_loads(body).empty()) << "a clamp is no bearing with a life";
 }

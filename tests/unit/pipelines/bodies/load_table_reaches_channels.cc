@@ -100,7 +100,7 @@ TEST(LoadTable, SupportsCloseEveryEffect) {
 // A bracket that is bolted to a wall by its face: that alone carries forces and moments.
 TEST(LoadTable, AClampClosesEveryEffect) {
   pipelines::TableBodyOptions clamp;
-  clamp.bearings = {"lug"};
+  clamp.clamp = "lug";
   for (const auto& effects : {std::vector<std::string>{"a", "b", "c"}, {"a"}, {"b"}, {"c"}}) {
     const auto closure = bodies::closure_of(loads(every_component(), clamp, effects), part().regions);
     EXPECT_LT(closure.worst_force(), bodies::round_off) << effects.size() << effects[0];

@@ -266,7 +266,8 @@ TEST(ScenePart, IsHeldByAClamp) {
   const Scene scene = edited::scene(
       "load_table", {{"turns = 1  # the period of the samples", "turns = 1\n" + std::string(held)}});
   const auto& options = std::get<pipelines::TableBodyOptions>(scene.body("part")->options);
-  EXPECT_EQ(options.bearings, std::vector<std::string>{"end_1"});
+  EXPECT_EQ(options.clamp, "end_1");
+  EXPECT_TRUE(options.bearings.empty());
   EXPECT_EQ(options.axial_support + options.torque_support, "");
 }
 

@@ -1,0 +1,34 @@
+/// All that the search for one body's mesh knows on its way. Internal to scene_run.cc.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <set>
+
+#include "pipelines/search/local_refinement.h"
+#include "pipelines/search/peak_growth.h"
+#include "pipelines/search/place_history.h"
+#include "pipelines/search/refinement.h"
+
+namespace pipelines {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct SearchState {
+  explicit SearchState(const BodyScene& body) : history(mesh_parts(body), kept_share_of_own_error(body)) {}
+  Search search;
+  PlaceHistory history;
+  PeakGrowth growth;
+  std::optional<MeshStep> step;  ///< that led to the present mesh
+  LocalRefinement local{};       ///< what the next step would cut
+  std::set<MeshPart> exhausted;  ///< parts that cannot be finer
+  double end_s = 0;              ///< when the time is up, from the start of the run; 0: never
+  Clock::time_point step_start = Clock::now();
+  double second_model_s = 0;  ///< of the step, which a finer mesh does not take again
+};
+
+}  // namespace pipelines
