@@ -58,9 +58,12 @@ Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 /// - the difference to Diagrams::by_harmonics with its error; that one, too, where the models differ by more
 ///   than both state.
 /// Of harmonics, their own error; infinite where nothing is known. To these comes what the ring's largest
-/// stress between the instants may exceed that at them by (sampling_error_Pa).
+/// stress between the instants may exceed that at them by (sampling_error_Pa), and rounding.
 /// @param ring  largest_torsion_ring
 double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring);
+
+/// Whether the ring's stress is what rounding leaves where nothing twists the shaft.
+bool is_rounding(const BodyAnalysis& analysis, const TorsionRing& ring);
 
 /// Diagrams::by_harmonics of an analysis for the same mesh under other loads: with the same relative
 /// difference and error, as long as torsional stress is largest on the same feature.

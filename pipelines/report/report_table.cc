@@ -186,9 +186,12 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
                      stress_in_MPa(analysis.envelope.principal.value_Pa[p], 0));
   if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr) {
     const double error_Pa = ring_error_Pa(analysis, *ring);
-    out << fmt::format(
-        "  largest torsional stress {} MPa{} at {}, z = {:.1f} mm\n", fixed(ring->max_Pa / 1e6, 2),
-        std::isfinite(error_Pa) ? " +- " + fixed(error_Pa / 1e6, 2) : "", ring->feature, ring->z_m * 1e3);
+    if (is_rounding(analysis, *ring))
+      out << "  no torsional stress: nothing twists the shaft\n";
+    else
+      out << fmt::format(
+          "  largest torsional stress {} MPa{} at {}, z = {:.1f} mm\n", fixed(ring->max_Pa / 1e6, 2),
+          std::isfinite(error_Pa) ? " +- " + fixed(error_Pa / 1e6, 2) : "", ring->feature, ring->z_m * 1e3);
   }
 
   print_zones(out, report, analysis);

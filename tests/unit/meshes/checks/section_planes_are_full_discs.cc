@@ -1,10 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "meshes/shaft/shaft.h"
+#include "meshes/shaft/shaft_description.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/faces.h"
+#include "tests/unit/meshes/examples/random_bodies.h"
 #include "tests/unit/meshes/examples/shaft_volume.h"
 
 namespace {
@@ -77,6 +82,27 @@ TEST(SectionPlanes, IncludeAPlainOneInEachLongSegment) {
       }
     }
   }
+}
+
+/// Deflection and slope of a seat are told at its centre.
+TEST(SectionPlanes, IncludeTheCentreOfEachSeat) {
+  std::mt19937 random(20261127);
+  std::vector<meshes::Shaft> shafts = {laboratory_shaft(), three_steps(), planetary_drum(), two_eccentrics()};
+  for (int i = 0; i < 20; ++i) shafts.push_back(random_shaft(random));
+  for (const int n_sectors : {8, 16})
+    for (const auto& shaft : shafts) {
+      meshes::ShaftMeshControl control;
+      control.n_sectors = n_sectors;
+      control.subdivisions = n_sectors == 8 ? 2 : 1;
+      const auto body = meshes::describe_shaft(shaft, control);
+      for (const auto& port : body.ports) {
+        if (port.kind != meshes::Port::Kind::seat) continue;
+        const double centre_m = 0.5 * (port.begin_m + port.end_m), tiny_m = 1e-9 * port.radius_m;
+        EXPECT_TRUE(std::any_of(body.sections.begin(), body.sections.end(),
+                                [&](const auto& plane) { return std::abs(plane.z_m - centre_m) < tiny_m; }))
+            << port.name << " at " << centre_m;
+      }
+    }
 }
 
 /// Two segments of one diameter meet without a shoulder: the plane between them is an ordinary section,
