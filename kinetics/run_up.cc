@@ -7,9 +7,9 @@
 #include "kinetics/machine_refused.h"
 #include "kinetics/vibratory/balance.h"
 #include "kinetics/vibratory/checks.h"
-#include "kinetics/vibratory/drive_motion.h"
 #include "kinetics/vibratory/pitch.h"
 #include "kinetics/vibratory/pitch_transient.h"
+#include "kinetics/vibratory_effects/drive_motion.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {

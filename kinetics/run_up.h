@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
-#include "kinetics/vibratory/drive_course.h"
-#include "kinetics/vibratory/mill.h"
+#include "kinetics/vibratory_effects/drive_course.h"
+#include "kinetics/vibratory_effects/mill.h"
 
 namespace kinetics {
 

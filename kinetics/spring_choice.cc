@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "kinetics/machine_refused.h"
-#include "kinetics/vibratory/affine_optimum.h"
 #include "kinetics/vibratory/checks.h"
-#include "kinetics/vibratory/effect.h"
 #include "kinetics/vibratory/spring_choice.h"
-#include "kinetics/vibratory/springs.h"
+#include "kinetics/vibratory_effects/affine_optimum.h"
+#include "kinetics/vibratory_effects/effect.h"
+#include "kinetics/vibratory_effects/springs.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/vibratory/mill.h"
+#include "kinetics/vibratory_effects/mill.h"
 
 namespace kinetics {
 

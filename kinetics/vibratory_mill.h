@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
-#include "kinetics/vibratory/mill.h"
+#include "kinetics/vibratory_effects/mill.h"
 
 namespace kinetics {
 

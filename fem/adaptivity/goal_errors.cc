@@ -9,8 +9,8 @@
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/hanging_nodes.h"
 #include "fem/operators/nodes_export.h"
+#include "fem/recovery/stress_recovery.h"
 #include "fem/stress/energy_error.h"
-#include "fem/stress/stress_recovery.h"
 
 namespace fem {
 

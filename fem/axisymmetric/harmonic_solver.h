@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fem/axisymmetric/meridian_grid.h"
-#include "fem/operators/symmetric_matrix.h"
-#include "fem/solvers/cholmod_factor.h"
+#include "fem/matrices/cholmod_factor.h"
+#include "fem/matrices/symmetric_matrix.h"
 #include "fem/values/body.h"
 
 namespace fem {

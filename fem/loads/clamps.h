@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fem/matrices/symmetric_matrix.h"
 #include "fem/mesh/grid.h"
-#include "fem/operators/symmetric_matrix.h"
 #include "fem/values/body.h"
 
 namespace fem {

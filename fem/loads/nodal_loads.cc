@@ -4,10 +4,10 @@
 
 #include "fem/loads/supports.h"
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/operators/nodes_export.h"
 #include "fem/operators/stiffness.h"
+#include "fem/triangulation/body_grid.h"
 
 namespace fem {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fem/matrices/symmetric_matrix.h"
 #include "fem/mesh/grid.h"
-#include "fem/operators/symmetric_matrix.h"
 
 namespace fem {
 

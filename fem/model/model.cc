@@ -12,7 +12,6 @@
 #include "fem/loads/clamps.h"
 #include "fem/loads/elastic_supports.h"
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/geometry_distance.h"
 #include "fem/mesh/grid.h"
 #include "fem/mesh/hanging_nodes.h"
@@ -24,6 +23,7 @@
 #include "fem/operators/stiffness.h"
 #include "fem/ranks/helper_ranks.h"
 #include "fem/ranks/ranks.h"
+#include "fem/recovery/recovery_on_ranks.h"
 #include "fem/solvers/direct_on_ranks.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/iterative_on_ranks.h"
@@ -31,8 +31,8 @@
 #include "fem/solvers/mirrored_halves.h"
 #include "fem/solvers/solver_prediction.h"
 #include "fem/stress/energy_error.h"
-#include "fem/stress/recovery_on_ranks.h"
 #include "fem/stress/sections.h"
+#include "fem/triangulation/body_grid.h"
 #include "fem/values/errors.h"
 
 namespace fem {

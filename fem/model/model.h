@@ -78,12 +78,12 @@ public:
   SolverReport predict_solver(std::size_t n_loads, const SolverChoice& choice) const;
 
   /// The unit loads' responses, all loads as one block: by one factorisation (CHOLMOD, of one half after the
-  /// other or of one alone where the body is its own mirror image, solvers/mirrored_halves.h, on rank 0 alone;
-  /// of other bodies MUMPS on several ranks) on a statically determinate support, or by conjugate gradients on the free body. Every
-  /// load vector is balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the support carries
-  /// nothing; displacements have no rigid part in the mass norm. The body's elastic supports act on these
-  /// displacements, and their forces close among themselves. A body with clamps is held by them instead, and
-  /// solved directly: loads act as they are, displacements are those in space.
+  /// other or of one alone where the body is its own mirror image, solvers/mirrored_halves.h, on rank 0
+  /// alone; of other bodies MUMPS on several ranks) on a statically determinate support, or by conjugate
+  /// gradients on the free body. Every load vector is balanced by a rigid-mode body force, f - M R (R'MR)^-1
+  /// R'f, so the support carries nothing; displacements have no rigid part in the mass norm. The body's
+  /// elastic supports act on these displacements, and their forces close among themselves. A body with clamps
+  /// is held by them instead, and solved directly: loads act as they are, displacements are those in space.
   /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
   /// @param choice of the solver; UnitResponses::solver tells which one was taken and why
   /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces,

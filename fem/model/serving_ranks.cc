@@ -1,9 +1,9 @@
 /// What the ranks beside the first one do: they wait for its calls and take part in its tasks.
 #include "fem/ranks/helper_ranks.h"
 #include "fem/ranks/ranks.h"
+#include "fem/recovery/recovery_on_ranks.h"
 #include "fem/solvers/direct_on_ranks.h"
 #include "fem/solvers/iterative_on_ranks.h"
-#include "fem/stress/recovery_on_ranks.h"
 
 namespace fem {
 

@@ -9,12 +9,12 @@
 
 #include "fem/loads/elastic_supports.h"
 #include "fem/loads/supports.h"
+#include "fem/matrices/cholmod_factor.h"
+#include "fem/matrices/symmetric_matrix.h"
 #include "fem/mesh/grid.h"
 #include "fem/modes/attached_masses.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/operators/mass_matrix.h"
-#include "fem/operators/symmetric_matrix.h"
-#include "fem/solvers/cholmod_factor.h"
 #include "fem/values/body.h"
 
 namespace fem {

@@ -1,8 +1,8 @@
 #include "fem/operators/nodes_export.h"
 
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/operators/material_interfaces.h"
+#include "fem/triangulation/body_grid.h"
 #include "fem/values/body_nodes.h"
 #include "fem/values/vtk_order.h"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fem/matrices/symmetric_matrix.h"
 #include "fem/mesh/grid.h"
-#include "fem/operators/symmetric_matrix.h"
 #include "fem/values/body.h"
 #include "fem/values/per_cell.h"
 

@@ -4,9 +4,9 @@
 
 #include <Eigen/Dense>
 
+#include "fem/multigrid/polynomial_multigrid.h"
 #include "fem/operators/block_vector.h"
 #include "fem/operators/elastic_operator.h"
-#include "fem/solvers/polynomial_multigrid.h"
 
 namespace fem {
 

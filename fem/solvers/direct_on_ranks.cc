@@ -8,13 +8,13 @@
 
 #include "fem/loads/clamps.h"
 #include "fem/loads/supports.h"
+#include "fem/matrices/cholmod_factor.h"
+#include "fem/matrices/mumps_factor.h"
 #include "fem/operators/stiffness.h"
 #include "fem/operators/subdomain.h"
 #include "fem/ranks/node_exchange.h"
 #include "fem/ranks/ranks.h"
-#include "fem/solvers/cholmod_factor.h"
 #include "fem/solvers/direct_solve.h"
-#include "fem/solvers/mumps_factor.h"
 
 namespace fem {
 

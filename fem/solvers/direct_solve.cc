@@ -8,8 +8,8 @@
 #include "fem/common/parallel.h"
 #include "fem/loads/clamps.h"
 #include "fem/loads/supports.h"
+#include "fem/matrices/cholmod_factor.h"
 #include "fem/operators/stiffness.h"
-#include "fem/solvers/cholmod_factor.h"
 #include "fem/solvers/solver_prediction.h"
 #include "fem/values/errors.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fem/loads/balanced_loads.h"
+#include "fem/matrices/cholmod_factor.h"
 #include "fem/operators/cell_materials.h"
-#include "fem/solvers/cholmod_factor.h"
 
 namespace fem {
 

@@ -11,15 +11,15 @@
 
 #include "fem/loads/clamps.h"
 #include "fem/loads/surface_loads.h"
+#include "fem/matrices/symmetric_matrix.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/connected_pieces.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/operators/nodes_export.h"
 #include "fem/operators/subdomain.h"
-#include "fem/operators/symmetric_matrix.h"
+#include "fem/recovery/recovery_on_ranks.h"
 #include "fem/solvers/direct_solve.h"
-#include "fem/stress/recovery_on_ranks.h"
 #include "fem/submodel/cut_cells.h"
 
 namespace fem {

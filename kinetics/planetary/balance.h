@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
-#include "kinetics/planetary/effect.h"
+#include "kinetics/planetary_effects/effect.h"
 
 namespace kinetics::planetary {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "kinetics/load_history.h"
-#include "kinetics/planetary/belt.h"
+#include "kinetics/planetary_effects/belt.h"
 
 namespace kinetics::planetary {
 

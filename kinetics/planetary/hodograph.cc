@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "kinetics/constants.h"
-#include "kinetics/planetary/belt.h"
-#include "kinetics/planetary/effect.h"
+#include "kinetics/planetary_effects/belt.h"
+#include "kinetics/planetary_effects/effect.h"
 
 namespace kinetics {
 

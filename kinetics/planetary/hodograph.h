@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/planetary/machine.h"
+#include "kinetics/planetary_effects/machine.h"
 
 namespace kinetics::planetary {
 

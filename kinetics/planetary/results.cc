@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "kinetics/planetary/balance.h"
-#include "kinetics/planetary/belt.h"
 #include "kinetics/planetary/closure.h"
+#include "kinetics/planetary_effects/belt.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics::planetary {

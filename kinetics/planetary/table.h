@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/planetary/effect.h"
+#include "kinetics/planetary_effects/effect.h"
 
 namespace kinetics::planetary {
 

@@ -1,8 +1,8 @@
 #include <stdexcept>
 
 #include "kinetics/drive_train.h"
-#include "kinetics/torsion/excitation.h"
 #include "kinetics/torsion/spectrum.h"
+#include "kinetics/torsion_chain/excitation.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "kinetics/drive_train.h"
-#include "kinetics/torsion/excitation.h"
-#include "kinetics/torsion/reduced.h"
 #include "kinetics/torsion/spectrum.h"
+#include "kinetics/torsion_chain/excitation.h"
+#include "kinetics/torsion_chain/reduced.h"
 
 namespace kinetics::torsion {
 

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "kinetics/constants.h"
-#include "kinetics/torsion/checks.h"
-#include "kinetics/torsion/effects.h"
 #include "kinetics/torsion/forced.h"
-#include "kinetics/torsion/load_parts.h"
+#include "kinetics/torsion_chain/checks.h"
+#include "kinetics/torsion_chain/effects.h"
+#include "kinetics/torsion_chain/load_parts.h"
 #include "kinetics/train_crests.h"
 #include "kinetics/wrong_input.h"
 

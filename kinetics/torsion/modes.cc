@@ -2,8 +2,8 @@
 
 #include "kinetics/drive_train.h"
 #include "kinetics/machine_refused.h"
-#include "kinetics/torsion/reduced.h"
 #include "kinetics/torsion/spectrum.h"
+#include "kinetics/torsion_chain/reduced.h"
 
 namespace kinetics {
 namespace {

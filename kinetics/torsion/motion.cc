@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "kinetics/drive_train.h"
-#include "kinetics/torsion/reduced.h"
+#include "kinetics/torsion_chain/reduced.h"
 
 namespace kinetics {
 

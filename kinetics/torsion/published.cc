@@ -5,10 +5,10 @@
 #include "kinetics/constants.h"
 #include "kinetics/drive_train.h"
 #include "kinetics/machine_refused.h"
-#include "kinetics/torsion/checks.h"
-#include "kinetics/torsion/dense_algebra.h"
-#include "kinetics/torsion/published_chain.h"
-#include "kinetics/torsion/reduced.h"
+#include "kinetics/torsion_chain/checks.h"
+#include "kinetics/torsion_chain/dense_algebra.h"
+#include "kinetics/torsion_chain/published_chain.h"
+#include "kinetics/torsion_chain/reduced.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "kinetics/torsion/published_chain.h"
-#include "kinetics/torsion/reduced.h"
+#include "kinetics/torsion_chain/published_chain.h"
+#include "kinetics/torsion_chain/reduced.h"
 
 namespace kinetics {
 namespace {

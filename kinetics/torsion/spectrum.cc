@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "kinetics/torsion/bidiagonal.h"
-#include "kinetics/torsion/dense_algebra.h"
-#include "kinetics/torsion/jacobi.h"
+#include "kinetics/torsion_chain/bidiagonal.h"
+#include "kinetics/torsion_chain/dense_algebra.h"
+#include "kinetics/torsion_chain/jacobi.h"
 
 namespace kinetics::torsion {
 namespace {

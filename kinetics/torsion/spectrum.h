@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "kinetics/torsion/reduced.h"
+#include "kinetics/torsion_chain/reduced.h"
 
 namespace kinetics::torsion {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <complex>
 
-#include "kinetics/torsion/dense_algebra.h"
 #include "kinetics/torsion/tree_solver.h"
+#include "kinetics/torsion_chain/dense_algebra.h"
 
 namespace kinetics::torsion {
 namespace {

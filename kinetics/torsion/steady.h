@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "kinetics/torsion/reduced.h"
 #include "kinetics/torsion/spectrum.h"
+#include "kinetics/torsion_chain/reduced.h"
 
 namespace kinetics::torsion {
 

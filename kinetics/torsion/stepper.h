@@ -10,10 +10,10 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "kinetics/torsion/dense_algebra.h"
-#include "kinetics/torsion/reduced.h"
 #include "kinetics/torsion/spectrum.h"
 #include "kinetics/torsion/tree_solver.h"
+#include "kinetics/torsion_chain/dense_algebra.h"
+#include "kinetics/torsion_chain/reduced.h"
 
 namespace kinetics::torsion {
 

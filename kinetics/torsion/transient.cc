@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "kinetics/drive_train.h"
-#include "kinetics/torsion/checks.h"
-#include "kinetics/torsion/excitation.h"
 #include "kinetics/torsion/stepper.h"
+#include "kinetics/torsion_chain/checks.h"
+#include "kinetics/torsion_chain/excitation.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {

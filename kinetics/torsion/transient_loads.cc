@@ -2,12 +2,12 @@
 #include <cmath>
 
 #include "kinetics/constants.h"
-#include "kinetics/torsion/checks.h"
-#include "kinetics/torsion/effects.h"
-#include "kinetics/torsion/excitation.h"
-#include "kinetics/torsion/load_parts.h"
-#include "kinetics/torsion/reduced.h"
 #include "kinetics/torsion/spectrum.h"
+#include "kinetics/torsion_chain/checks.h"
+#include "kinetics/torsion_chain/effects.h"
+#include "kinetics/torsion_chain/excitation.h"
+#include "kinetics/torsion_chain/load_parts.h"
+#include "kinetics/torsion_chain/reduced.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics {

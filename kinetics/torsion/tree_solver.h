@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinetics/torsion/reduced.h"
+#include "kinetics/torsion_chain/reduced.h"
 
 namespace kinetics::torsion {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "kinetics/vibratory/effect_sums.h"
 #include "kinetics/vibratory/pitch.h"
+#include "kinetics/vibratory_effects/effect_sums.h"
 
 namespace kinetics::vibratory {
 namespace {

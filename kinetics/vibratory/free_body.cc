@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "kinetics/machine_refused.h"
-#include "kinetics/vibratory/effect.h"
-#include "kinetics/vibratory/motion.h"
 #include "kinetics/vibratory/pitch.h"
+#include "kinetics/vibratory_effects/effect.h"
+#include "kinetics/vibratory_effects/motion.h"
 #include "kinetics/vibratory_mill.h"
 
 namespace kinetics {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "kinetics/constants.h"
-#include "kinetics/vibratory/springs.h"
+#include "kinetics/vibratory_effects/springs.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics::vibratory {

@@ -10,7 +10,7 @@
 #include <complex>
 #include <vector>
 
-#include "kinetics/vibratory/effect.h"
+#include "kinetics/vibratory_effects/effect.h"
 
 namespace kinetics::vibratory {
 

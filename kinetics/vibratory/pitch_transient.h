@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "kinetics/vibratory/drive_course.h"
 #include "kinetics/vibratory/pitch.h"
+#include "kinetics/vibratory_effects/drive_course.h"
 
 namespace kinetics::vibratory {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kinetics/vibratory/balance.h"
-#include "kinetics/vibratory/kinematics.h"
+#include "kinetics/vibratory_effects/kinematics.h"
 
 namespace kinetics::vibratory {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
-#include "kinetics/vibratory/effect.h"
+#include "kinetics/vibratory_effects/effect.h"
 
 namespace kinetics::vibratory {
 

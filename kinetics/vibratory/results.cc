@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "kinetics/vibratory/effect_sums.h"
-#include "kinetics/vibratory/kinematics.h"
+#include "kinetics/vibratory_effects/effect_sums.h"
+#include "kinetics/vibratory_effects/kinematics.h"
 #include "kinetics/wrong_input.h"
 
 namespace kinetics::vibratory {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/vibratory/effect.h"
 #include "kinetics/vibratory/pitch.h"
+#include "kinetics/vibratory_effects/effect.h"
 
 namespace kinetics::vibratory {
 namespace {

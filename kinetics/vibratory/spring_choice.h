@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinetics/spring_choice.h"
-#include "kinetics/vibratory/mill.h"
+#include "kinetics/vibratory_effects/mill.h"
 
 namespace kinetics::vibratory {
 

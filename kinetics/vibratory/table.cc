@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kinetics/vibratory/springs.h"
+#include "kinetics/vibratory_effects/springs.h"
 
 namespace kinetics::vibratory {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/vibratory/effect.h"
+#include "kinetics/vibratory_effects/effect.h"
 
 namespace kinetics::vibratory {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "meshes/keyed_shaft/keyway.h"
-#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/shaft_layout/shaft_geometry.h"
 #include "meshes/values/hex_mesh.h"
 
 namespace meshes {

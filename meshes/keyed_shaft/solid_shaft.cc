@@ -15,7 +15,7 @@
 #include "meshes/checks/reentrant_edges.h"
 #include "meshes/gmsh/gmsh_session.h"
 #include "meshes/keyed_shaft/solid_layout.h"
-#include "meshes/shaft/shaft_checks.h"
+#include "meshes/shaft_layout/shaft_checks.h"
 #include "meshes/solids/cell_estimate.h"
 #include "meshes/solids/model_mesh.h"
 #include "meshes/solids/surface_pieces.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "meshes/keyed_shaft/keyway.h"
-#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/shaft_layout/shaft_geometry.h"
 #include "meshes/solids/solid_control.h"
 #include "meshes/values/body_mesh.h"
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "meshes/shaft/shaft_checks.h"
-#include "meshes/shaft/shaft_layout.h"
-#include "meshes/shaft/shaft_surfaces.h"
+#include "meshes/shaft_layout/shaft_checks.h"
+#include "meshes/shaft_layout/shaft_layout.h"
+#include "meshes/shaft_layout/shaft_surfaces.h"
 
 namespace meshes {
 

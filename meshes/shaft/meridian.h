@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "meshes/shaft/shaft_layout.h"
-#include "meshes/shaft/shaft_surfaces.h"
+#include "meshes/shaft_layout/shaft_layout.h"
+#include "meshes/shaft_layout/shaft_surfaces.h"
 #include "meshes/spacing/grading.h"
 
 namespace meshes {

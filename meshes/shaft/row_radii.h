@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "meshes/shaft/shaft_layout.h"
+#include "meshes/shaft_layout/shaft_layout.h"
 
 namespace meshes {
 

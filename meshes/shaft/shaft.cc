@@ -7,10 +7,10 @@
 #include "meshes/checks/quality.h"
 #include "meshes/shaft/meridian.h"
 #include "meshes/shaft/revolve.h"
-#include "meshes/shaft/shaft_checks.h"
 #include "meshes/shaft/shaft_description.h"
-#include "meshes/shaft/shaft_layout.h"
-#include "meshes/shaft/shaft_surfaces.h"
+#include "meshes/shaft_layout/shaft_checks.h"
+#include "meshes/shaft_layout/shaft_layout.h"
+#include "meshes/shaft_layout/shaft_surfaces.h"
 #include "meshes/spacing/disc.h"
 
 namespace meshes {

@@ -3,8 +3,8 @@
 
 #include "meshes/checks/affordable.h"
 #include "meshes/shaft/meridian.h"
-#include "meshes/shaft/shaft_checks.h"
-#include "meshes/shaft/shaft_layout.h"
+#include "meshes/shaft_layout/shaft_checks.h"
+#include "meshes/shaft_layout/shaft_layout.h"
 #include "meshes/spacing/disc.h"
 
 namespace meshes {

@@ -1,7 +1,7 @@
 /// What is known of a shaft before it is meshed.
 #pragma once
 
-#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/shaft_layout/shaft_geometry.h"
 #include "meshes/values/body_mesh.h"
 
 namespace meshes {

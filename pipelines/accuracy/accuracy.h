@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "pipelines/accuracy/grid_convergence.h"
-#include "pipelines/analysis/error_budget.h"
 #include "pipelines/common/stage_clock.h"
 #include "pipelines/effects/effect_prices.h"
+#include "pipelines/estimates/error_budget.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {

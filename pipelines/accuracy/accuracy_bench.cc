@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "pipelines/analysis/fineness.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_choice.h"
-#include "pipelines/search/refinement.h"
+#include "pipelines/estimates/fineness.h"
+#include "pipelines/refinement/refinement.h"
 
 namespace pipelines {
 namespace {

@@ -5,11 +5,11 @@
 #include "fem/beam/beam_responses.h"
 #include "fem/beam/plated_tube.h"
 #include "pipelines/accuracy/accuracy_models.h"
-#include "pipelines/analysis/fineness.h"
 #include "pipelines/cheap_models/chamber_tube.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/refusal_of.h"
-#include "pipelines/scene/why_not.h"
+#include "pipelines/estimates/fineness.h"
+#include "pipelines/scene_reader/why_not.h"
 
 namespace pipelines {
 namespace {

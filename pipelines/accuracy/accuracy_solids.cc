@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "pipelines/accuracy/accuracy_models.h"
-#include "pipelines/analysis/fineness.h"
-#include "pipelines/analysis/superpose_body.h"
+#include "pipelines/body_stages/superpose_body.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_report.h"
-#include "pipelines/search/refinement.h"
+#include "pipelines/estimates/fineness.h"
+#include "pipelines/refinement/refinement.h"
 
 namespace pipelines {
 namespace {

@@ -6,7 +6,7 @@
 #include "fem/stress/surface_stress.h"
 #include "pipelines/accuracy/accuracy_models.h"
 #include "pipelines/accuracy/systematic_meshes.h"
-#include "pipelines/analysis/fineness.h"
+#include "pipelines/estimates/fineness.h"
 
 namespace pipelines {
 namespace {

@@ -9,12 +9,12 @@
 
 #include "fem/solvers/cost_prediction.h"
 #include "fem/values/cost_constants.h"
-#include "pipelines/analysis/fineness.h"
 #include "pipelines/common/refusal_of.h"
-#include "pipelines/scene/requested_accuracy.h"
-#include "pipelines/scene/why_not.h"
-#include "pipelines/search/refinement.h"
-#include "pipelines/search/second_model.h"
+#include "pipelines/estimates/fineness.h"
+#include "pipelines/refinement/refinement.h"
+#include "pipelines/refinement/second_model.h"
+#include "pipelines/scene_reader/why_not.h"
+#include "pipelines/scene_values/requested_accuracy.h"
 
 namespace pipelines {
 namespace {

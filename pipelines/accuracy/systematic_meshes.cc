@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "pipelines/analysis/fineness.h"
+#include "pipelines/estimates/fineness.h"
 
 namespace pipelines {
 namespace {

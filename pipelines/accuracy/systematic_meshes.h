@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fem/values/unit_responses.h"
-#include "pipelines/scene/body_scene.h"
+#include "pipelines/scene_values/body_scene.h"
 
 namespace pipelines {
 

@@ -1,4 +1,4 @@
-/// From a load history to stress zones in a body: the stages tied together.
+/// What is known of a body once it is analysed.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,20 @@
 #include "fem/values/unit_responses.h"
 #include "kinetics/load_history.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/analysis/diagrams.h"
-#include "pipelines/analysis/error_budget.h"
-#include "pipelines/analysis/hot_spots.h"
-#include "pipelines/analysis/place_stress.h"
-#include "pipelines/analysis/search_record.h"
-#include "pipelines/analysis/vibration.h"
-#include "pipelines/analysis/zone_causes.h"
+#include "pipelines/body_figures/diagrams.h"
+#include "pipelines/body_figures/vibration.h"
+#include "pipelines/body_figures/zone_causes.h"
+#include "pipelines/channels/closure.h"
 #include "pipelines/common/stage_clock.h"
+#include "pipelines/estimates/error_budget.h"
+#include "pipelines/estimates/hot_spots.h"
+#include "pipelines/estimates/place_stress.h"
+#include "pipelines/estimates/search_record.h"
 #include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/closure.h"
 #include "pipelines/loads/machine_masses.h"
-#include "pipelines/scene/method.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/scene_values/method.h"
 #include "pipelines/superposition/superposition.h"
 #include "pipelines/superposition/zones.h"
 
@@ -103,10 +103,5 @@ struct RunOptions {
   bool fresh = false;               ///< do not reuse unit responses of an earlier run
   bool keep_factor = false;         ///< a search refines locally: for its goals, and instead of submodels
 };
-
-/// Solves and superposes. Finds no zones (superpose_body.h) and writes no results.
-/// @throws fem::SolveFailed if the solve fails, LoadsDoNotClose if the loads do not close to 1e-9 on the mesh
-BodyAnalysis analyse_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
-                          const RunOptions& options, StageClock& clock);
 
 }  // namespace pipelines

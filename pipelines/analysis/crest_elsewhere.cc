@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "pipelines/analysis/stress_under_changed_loads.h"
-#include "pipelines/analysis/time_sampling.h"
-#include "pipelines/superposition/cycle_extremes.h"
-#include "pipelines/superposition/factor_spectrum.h"
+#include "pipelines/between_instants/cycle_extremes.h"
+#include "pipelines/between_instants/factor_spectrum.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {

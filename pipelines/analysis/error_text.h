@@ -4,7 +4,7 @@
 #include <string>
 
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/analysis/search_record.h"
+#include "pipelines/estimates/search_record.h"
 
 namespace pipelines {
 

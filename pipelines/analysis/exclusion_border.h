@@ -6,7 +6,7 @@
 #include "fem/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/analysis/body_analysis.h"
-#include "pipelines/analysis/place_stress.h"
+#include "pipelines/estimates/place_stress.h"
 #include "pipelines/superposition/zones.h"
 
 namespace pipelines {

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
-#include "pipelines/analysis/hot_spots.h"
-#include "pipelines/analysis/place_stress.h"
-#include "pipelines/analysis/stress_gradient.h"
-#include "pipelines/analysis/time_sampling.h"
+#include "pipelines/between_instants/stress_course.h"
+#include "pipelines/body_figures/stress_gradient.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/name_lists.h"
-#include "pipelines/common/nearest_name.h"
+#include "pipelines/estimates/hot_spots.h"
+#include "pipelines/estimates/place_stress.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/fatigue/weld_classes.h"
-#include "pipelines/superposition/stress_course.h"
+#include "pipelines/names/name_lists.h"
+#include "pipelines/names/nearest_name.h"
 
 namespace pipelines {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
+#include "pipelines/between_instants/factor_course.h"
 #include "pipelines/fatigue/weld_fatigue.h"
-#include "pipelines/superposition/factor_course.h"
 
 namespace pipelines {
 

@@ -2,6 +2,7 @@
 #include "pipelines/scene/body_kind.h"
 
 #include "pipelines/loads/body_mesh.h"
+#include "pipelines/scene_bodies/scene_body.h"
 
 namespace pipelines {
 

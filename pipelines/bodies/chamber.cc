@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "pipelines/common/errors.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/loads/mass_comparison.h"
-#include "pipelines/scene/effect_names.h"
+#include "pipelines/names/name_lists.h"
+#include "pipelines/scene_bodies/scene_body.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace pipelines {
 

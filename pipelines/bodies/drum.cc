@@ -4,9 +4,10 @@
 
 #include "pipelines/bodies/planetary_fields.h"
 #include "pipelines/common/constants.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/loads/mass_comparison.h"
-#include "pipelines/scene/effect_names.h"
+#include "pipelines/names/name_lists.h"
+#include "pipelines/scene_bodies/scene_body.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace pipelines {
 

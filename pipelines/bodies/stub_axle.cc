@@ -1,10 +1,11 @@
 #include "pipelines/bodies/stub_axle.h"
 
 #include "pipelines/bodies/planetary_fields.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/loads/machine_masses.h"
-#include "pipelines/scene/effect_names.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/scene_bodies/scene_body.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace pipelines {
 

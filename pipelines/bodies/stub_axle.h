@@ -6,7 +6,7 @@
 
 #include "kinetics/load_history.h"
 #include "kinetics/planetary_mill.h"
-#include "pipelines/loads/load_collector.h"
+#include "pipelines/channels/load_collector.h"
 #include "pipelines/scene/body_kind.h"
 
 namespace pipelines {

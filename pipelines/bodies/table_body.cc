@@ -4,11 +4,12 @@
 
 #include <algorithm>
 
+#include "pipelines/channels/closure.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/loads/closure.h"
 #include "pipelines/loads/machine_masses.h"
-#include "pipelines/scene/scene_body_parts.h"
+#include "pipelines/scene_bodies/scene_body.h"
+#include "pipelines/scene_bodies/scene_body_parts.h"
 
 namespace pipelines {
 

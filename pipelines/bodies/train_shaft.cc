@@ -5,11 +5,12 @@
 
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/name_lists.h"
-#include "pipelines/common/nearest_name.h"
 #include "pipelines/loads/mass_comparison.h"
-#include "pipelines/scene/effect_names.h"
-#include "pipelines/scene/scene_body_parts.h"
+#include "pipelines/names/name_lists.h"
+#include "pipelines/names/nearest_name.h"
+#include "pipelines/scene_bodies/scene_body.h"
+#include "pipelines/scene_bodies/scene_body_parts.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace pipelines {
 

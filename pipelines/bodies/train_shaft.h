@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
-#include "pipelines/loads/load_collector.h"
+#include "pipelines/channels/load_collector.h"
 #include "pipelines/scene/body_kind.h"
 
 namespace pipelines {

@@ -5,8 +5,9 @@
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/machine_masses.h"
-#include "pipelines/scene/effect_names.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/scene_bodies/scene_body.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace pipelines {
 

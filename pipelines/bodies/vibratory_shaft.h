@@ -4,7 +4,7 @@
 #include <array>
 
 #include "kinetics/load_history.h"
-#include "pipelines/loads/load_collector.h"
+#include "pipelines/channels/load_collector.h"
 #include "pipelines/scene/body_kind.h"
 
 namespace pipelines {

@@ -8,7 +8,7 @@
 #include "fem/stress/cell_stress_at_node.h"
 #include "fem/stress/region_volume.h"
 #include "pipelines/calculix/calculix_model.h"
-#include "pipelines/loads/rigid_part.h"
+#include "pipelines/channels/rigid_part.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipelines/channels/rigid_part.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
-#include "pipelines/loads/rigid_part.h"
 
 namespace pipelines {
 namespace {

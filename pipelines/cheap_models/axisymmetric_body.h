@@ -5,7 +5,7 @@
 
 #include "fem/axisymmetric/meridian_body.h"
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/scene/body_scene.h"
+#include "pipelines/scene_values/body_scene.h"
 
 namespace pipelines {
 

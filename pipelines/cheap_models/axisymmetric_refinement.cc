@@ -10,11 +10,11 @@
 
 #include "fem/axisymmetric/axisymmetric_responses.h"
 #include "pipelines/analysis/exclusion_border.h"
-#include "pipelines/analysis/respond.h"
+#include "pipelines/body_stages/respond.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/scene/why_not.h"
+#include "pipelines/scene_reader/why_not.h"
 
 namespace pipelines {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "fem/beam/beam_responses.h"
-#include "pipelines/analysis/place_errors.h"
-#include "pipelines/analysis/respond.h"
-#include "pipelines/analysis/superpose_body.h"
+#include "pipelines/body_stages/place_errors.h"
+#include "pipelines/body_stages/respond.h"
+#include "pipelines/body_stages/superpose_body.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/cheap_models/cheap_responses.h"

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "fem/beam/beam_responses.h"
-#include "pipelines/analysis/superpose_body.h"
+#include "pipelines/body_stages/superpose_body.h"
+#include "pipelines/channels/closure.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/loads/closure.h"
-#include "pipelines/scene/why_not.h"
+#include "pipelines/scene_reader/why_not.h"
 
 namespace pipelines {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "fem/beam/beam_shaft.h"
 #include "fem/values/unit_responses.h"
-#include "pipelines/analysis/error_budget.h"
-#include "pipelines/loads/load_collector.h"
-#include "pipelines/scene/body_scene.h"
+#include "pipelines/channels/load_collector.h"
+#include "pipelines/estimates/error_budget.h"
+#include "pipelines/scene_values/body_scene.h"
 
 namespace pipelines {
 

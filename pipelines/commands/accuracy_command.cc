@@ -7,16 +7,16 @@
 #include "fem/model/model.h"
 #include "pipelines/accuracy/accuracy.h"
 #include "pipelines/accuracy/accuracy_report.h"
-#include "pipelines/commands/option_value.h"
-#include "pipelines/commands/output_files.h"
-#include "pipelines/commands/scene_options.h"
+#include "pipelines/command_options/option_value.h"
+#include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/process_limits.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/pictures/accuracy_chart.h"
 #include "pipelines/report/html_report.h"
-#include "pipelines/report/manifest.h"
-#include "pipelines/report/staged_results.h"
+#include "pipelines/result_files/manifest.h"
+#include "pipelines/result_files/staged_results.h"
 
 namespace pipelines {
 namespace {

@@ -9,20 +9,20 @@
 #include <utility>
 
 #include "fem/model/model.h"
-#include "meshes/shaft/shaft_checks.h"
+#include "meshes/shaft_layout/shaft_checks.h"
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/analysis/weld_places.h"
-#include "pipelines/commands/scene_options.h"
+#include "pipelines/between_instants/factor_spectrum.h"
+#include "pipelines/command_options/scene_options.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/machine_reports/torsion_report.h"
 #include "pipelines/report/summary.h"
-#include "pipelines/report/torsion_report.h"
 #include "pipelines/scene/body_effects.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/search/duty_loads.h"
-#include "pipelines/superposition/factor_spectrum.h"
 
 namespace pipelines {
 namespace {

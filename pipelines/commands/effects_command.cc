@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <ostream>
 
-#include "pipelines/commands/option_value.h"
-#include "pipelines/commands/scene_options.h"
+#include "pipelines/command_options/option_value.h"
+#include "pipelines/command_options/scene_options.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/effects/effect_report.h"

@@ -1,14 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "pipelines/commands/option_value.h"
-#include "pipelines/commands/output_files.h"
-#include "pipelines/commands/scene_machine.h"
-#include "pipelines/commands/scene_options.h"
+#include "pipelines/command_options/option_value.h"
+#include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/scene_machine.h"
+#include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/machine_reports/free_body_report.h"
 #include "pipelines/pictures/free_body_chart.h"
-#include "pipelines/report/free_body_report.h"
 
 namespace pipelines {
 namespace {

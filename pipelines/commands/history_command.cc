@@ -1,12 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "pipelines/commands/output_files.h"
+#include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/scene_options.h"
 #include "pipelines/commands/run_results.h"
-#include "pipelines/commands/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
-#include "pipelines/report/stress_history_files.h"
+#include "pipelines/result_files/stress_history_files.h"
 
 namespace pipelines {
 namespace {

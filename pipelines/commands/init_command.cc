@@ -6,12 +6,12 @@
 #include <iterator>
 #include <ostream>
 
-#include "pipelines/commands/commands.h"
-#include "pipelines/commands/output_files.h"
+#include "pipelines/command_options/commands.h"
+#include "pipelines/command_options/output_files.h"
 #include "pipelines/commands/scene_templates.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/nearest_name.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/names/nearest_name.h"
 
 namespace pipelines {
 namespace {

@@ -5,17 +5,17 @@
 
 #include "fem/model/model.h"
 #include "pipelines/calculix/calculix_cards.h"
-#include "pipelines/commands/option_value.h"
-#include "pipelines/commands/output_files.h"
-#include "pipelines/commands/scene_options.h"
+#include "pipelines/channels/load_files.h"
+#include "pipelines/channels/load_statistics.h"
+#include "pipelines/command_options/option_value.h"
+#include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/scene_options.h"
+#include "pipelines/drawing/offscreen_window.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
-#include "pipelines/loads/load_files.h"
 #include "pipelines/loads/load_stage.h"
-#include "pipelines/loads/load_statistics.h"
 #include "pipelines/pictures/load_charts.h"
-#include "pipelines/pictures/offscreen_window.h"
 #include "pipelines/report/summary.h"
 
 namespace pipelines {

@@ -8,13 +8,13 @@
 
 #include "fem/model/model.h"
 #include "fem/ranks/helper_ranks.h"
-#include "pipelines/commands/commands.h"
+#include "pipelines/command_options/commands.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
-#include "pipelines/common/nearest_name.h"
 #include "pipelines/common/process_limits.h"
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/common/version.h"
+#include "pipelines/names/nearest_name.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fem/values/body_nodes.h"
-#include "pipelines/commands/output_files.h"
-#include "pipelines/commands/scene_options.h"
+#include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/process_limits.h"
 #include "pipelines/loads/body_mesh.h"

@@ -3,12 +3,12 @@
 #include <iostream>
 #include <ostream>
 
-#include "pipelines/commands/commands.h"
-#include "pipelines/commands/output_files.h"
+#include "pipelines/command_options/commands.h"
+#include "pipelines/command_options/output_files.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/report/html_report.h"
-#include "pipelines/report/manifest.h"
-#include "pipelines/report/staged_results.h"
+#include "pipelines/result_files/manifest.h"
+#include "pipelines/result_files/staged_results.h"
 
 namespace pipelines {
 namespace {

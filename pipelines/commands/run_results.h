@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pipelines/commands/scene_options.h"
+#include "pipelines/command_options/scene_options.h"
 
 namespace pipelines {
 

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 
-#include "pipelines/commands/scene_machine.h"
-#include "pipelines/commands/scene_options.h"
-#include "pipelines/report/mill_reports.h"
+#include "pipelines/command_options/scene_machine.h"
+#include "pipelines/command_options/scene_options.h"
+#include "pipelines/machine_reports/mill_reports.h"
 
 namespace pipelines {
 namespace {

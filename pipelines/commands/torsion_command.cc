@@ -1,12 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <ostream>
 
-#include "pipelines/commands/output_files.h"
-#include "pipelines/commands/scene_machine.h"
-#include "pipelines/commands/scene_options.h"
+#include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/scene_machine.h"
+#include "pipelines/command_options/scene_options.h"
+#include "pipelines/drawing/offscreen_window.h"
+#include "pipelines/machine_reports/torsion_report.h"
 #include "pipelines/pictures/load_charts.h"
-#include "pipelines/pictures/offscreen_window.h"
-#include "pipelines/report/torsion_report.h"
 
 namespace pipelines {
 namespace {

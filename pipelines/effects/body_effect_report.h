@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kinetics/effect_info.h"
+#include "pipelines/channels/load_collector.h"
 #include "pipelines/effects/effect_report.h"
-#include "pipelines/loads/load_collector.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {

@@ -10,8 +10,8 @@
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/stress_under_changed_loads.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/effects/effect_choice.h"
+#include "pipelines/names/name_lists.h"
 
 namespace pipelines {
 namespace {

@@ -6,11 +6,11 @@
 #include <map>
 #include <optional>
 
-#include "pipelines/common/name_lists.h"
+#include "pipelines/channels/bearings.h"
+#include "pipelines/channels/closure.h"
 #include "pipelines/effects/effect_report.h"
-#include "pipelines/loads/bearings.h"
-#include "pipelines/loads/closure.h"
 #include "pipelines/loads/effect_closure.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/scene/body_effects.h"
 #include "pipelines/scene/machine_kind.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/channels/load_collector.h"
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/load_collector.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {

@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/common/name_lists.h"
-#include "pipelines/common/nearest_name.h"
+#include "pipelines/names/name_lists.h"
+#include "pipelines/names/nearest_name.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/scene/machine_kind.h"
 

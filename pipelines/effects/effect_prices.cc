@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
-#include "pipelines/common/name_lists.h"
-#include "pipelines/scene/effect_groups.h"
+#include "pipelines/names/name_lists.h"
+#include "pipelines/scene_values/effect_groups.h"
 
 namespace pipelines {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "kinetics/machine_refused.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/name_lists.h"
-#include "pipelines/scene/effect_groups.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/scene/machine_kind.h"
+#include "pipelines/scene_values/effect_groups.h"
 
 namespace pipelines {
 namespace {

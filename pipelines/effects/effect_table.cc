@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "pipelines/common/nearest_name.h"
 #include "pipelines/effects/effect_report.h"
+#include "pipelines/names/nearest_name.h"
 
 namespace pipelines {
 namespace {

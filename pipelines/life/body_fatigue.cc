@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "pipelines/analysis/error_text.h"
-#include "pipelines/analysis/place_errors.h"
-#include "pipelines/analysis/place_stress.h"
-#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/analysis/weld_places.h"
+#include "pipelines/body_stages/place_errors.h"
 #include "pipelines/common/parallel.h"
+#include "pipelines/estimates/place_stress.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/fatigue/critical_plane.h"
 #include "pipelines/life/damage_shares.h"
 #include "pipelines/life/fatigue_places.h"

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "pipelines/superposition/stress_course.h"
+#include "pipelines/between_instants/stress_course.h"
 
 namespace pipelines {
 

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "kinetics/load_spectrum.h"
-#include "pipelines/analysis/place_errors.h"
-#include "pipelines/analysis/time_sampling.h"
 #include "pipelines/analysis/weld_places.h"
+#include "pipelines/body_stages/place_errors.h"
 #include "pipelines/common/parallel.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/life/damage_direction.h"
 #include "pipelines/life/duty_shares.h"
 #include "pipelines/life/fatigue_places.h"

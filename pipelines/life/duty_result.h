@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/channels/bearings.h"
 #include "pipelines/life/duty_fatigue.h"
-#include "pipelines/loads/bearings.h"
 
 namespace pipelines {
 

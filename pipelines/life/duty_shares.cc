@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "pipelines/common/name_lists.h"
+#include "pipelines/names/name_lists.h"
 
 namespace pipelines {
 namespace {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <map>
 
-#include "pipelines/analysis/place_stress.h"
 #include "pipelines/analysis/stress_under_changed_loads.h"
-#include "pipelines/analysis/time_sampling.h"
+#include "pipelines/between_instants/cycle_extremes.h"
+#include "pipelines/estimates/place_stress.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/life/damage_direction.h"
-#include "pipelines/superposition/cycle_extremes.h"
 #include "pipelines/superposition/nodal_cycles.h"
 #include "pipelines/superposition/stress_shares.h"
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
-#include "pipelines/analysis/stress_gradient.h"
+#include "pipelines/between_instants/amplitude_bound.h"
+#include "pipelines/between_instants/factor_course.h"
+#include "pipelines/body_figures/stress_gradient.h"
 #include "pipelines/life/fatigue_rules.h"
-#include "pipelines/superposition/amplitude_bound.h"
-#include "pipelines/superposition/factor_course.h"
 
 namespace pipelines {
 

@@ -3,11 +3,11 @@
 
 #include <vector>
 
+#include "pipelines/between_instants/stress_course.h"
 #include "pipelines/fatigue/endurance.h"
 #include "pipelines/fatigue/sn_curve.h"
-#include "pipelines/scene/fatigue_scene.h"
+#include "pipelines/scene_values/fatigue_scene.h"
 #include "pipelines/superposition/nodal_cycles.h"
-#include "pipelines/superposition/stress_course.h"
 
 namespace pipelines {
 

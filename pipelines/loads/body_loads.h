@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
+#include "pipelines/channels/closure.h"
+#include "pipelines/channels/load_collector.h"
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/closure.h"
-#include "pipelines/loads/load_collector.h"
 #include "pipelines/loads/machine_masses.h"
 #include "pipelines/scene/scene.h"
 

@@ -7,8 +7,8 @@
 #include "fem/model/model.h"
 #include "kinetics/vibratory_mill.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/loads/load_collector.h"
-#include "pipelines/scene/body_scene.h"
+#include "pipelines/channels/load_collector.h"
+#include "pipelines/scene_values/body_scene.h"
 
 namespace pipelines {
 

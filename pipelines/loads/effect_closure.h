@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/channels/closure.h"
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/closure.h"
 #include "pipelines/loads/machine_masses.h"
 #include "pipelines/scene/scene.h"
 

@@ -4,9 +4,9 @@
 
 #include "kinetics/machine_refused.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/effect_closure.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/scene/body_effects.h"
 #include "pipelines/scene/body_kind.h"
 

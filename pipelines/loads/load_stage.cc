@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "pipelines/channels/finite_loads.h"
 #include "pipelines/common/constants.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/loads/effect_closure.h"
-#include "pipelines/loads/finite_loads.h"
 #include "pipelines/loads/start_up_loads.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/machine_kind.h"
 

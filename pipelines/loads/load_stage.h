@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
+#include "pipelines/channels/bearings.h"
+#include "pipelines/channels/load_files.h"
 #include "pipelines/common/stage_clock.h"
-#include "pipelines/loads/bearings.h"
 #include "pipelines/loads/body_loads.h"
-#include "pipelines/loads/load_files.h"
 
 namespace pipelines {
 

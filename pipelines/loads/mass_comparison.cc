@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "pipelines/common/errors.h"
-#include "pipelines/common/name_lists.h"
+#include "pipelines/names/name_lists.h"
 
 namespace pipelines {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "pipelines/channels/finite_loads.h"
 #include "pipelines/common/refusal_of.h"
-#include "pipelines/loads/finite_loads.h"
 #include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {

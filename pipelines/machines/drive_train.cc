@@ -8,8 +8,8 @@
 #include "pipelines/machines/kinds.h"
 #include "pipelines/scene/body_effects.h"
 #include "pipelines/scene/plausibility.h"
-#include "pipelines/scene/scene_body.h"
-#include "pipelines/scene/scene_effects.h"
+#include "pipelines/scene_bodies/scene_body.h"
+#include "pipelines/scene_reader/scene_effects.h"
 
 namespace pipelines {
 namespace {

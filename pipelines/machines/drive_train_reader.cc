@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/common/nearest_name.h"
+#include "pipelines/names/nearest_name.h"
 
 namespace pipelines {
 namespace {

@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "pipelines/common/constants.h"
-#include "pipelines/common/name_lists.h"
 #include "pipelines/machines/kinds.h"
 #include "pipelines/machines/load_table_reader.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/scene/plausibility.h"
-#include "pipelines/scene/scene_effects.h"
+#include "pipelines/scene_reader/scene_effects.h"
 
 namespace pipelines {
 namespace {

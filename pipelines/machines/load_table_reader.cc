@@ -5,10 +5,10 @@
 #include <map>
 #include <optional>
 
-#include "pipelines/common/name_fault.h"
-#include "pipelines/common/nearest_name.h"
-#include "pipelines/common/units.h"
 #include "pipelines/files/table_file.h"
+#include "pipelines/names/name_fault.h"
+#include "pipelines/names/nearest_name.h"
+#include "pipelines/names/units.h"
 
 namespace pipelines {
 namespace {

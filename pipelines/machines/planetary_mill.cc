@@ -1,9 +1,9 @@
-#include "pipelines/common/name_lists.h"
 #include "pipelines/machines/kinds.h"
 #include "pipelines/machines/planetary_mill_reader.h"
-#include "pipelines/scene/effect_names.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/scene/plausibility.h"
-#include "pipelines/scene/scene_effects.h"
+#include "pipelines/scene_reader/scene_effects.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace pipelines {
 namespace {

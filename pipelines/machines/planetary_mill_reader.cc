@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pipelines/common/constants.h"
-#include "pipelines/scene/effect_names.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace pipelines {
 namespace {

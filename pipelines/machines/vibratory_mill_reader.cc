@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "pipelines/common/constants.h"
-#include "pipelines/common/name_lists.h"
-#include "pipelines/scene/effect_names.h"
+#include "pipelines/names/name_lists.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace pipelines {
 namespace {

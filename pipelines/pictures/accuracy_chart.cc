@@ -14,9 +14,9 @@
 
 #include "pipelines/accuracy/accuracy_report.h"
 #include "pipelines/common/constants.h"
-#include "pipelines/pictures/offscreen_window.h"
-#include "pipelines/pictures/picture_lines.h"
-#include "pipelines/pictures/picture_parts.h"
+#include "pipelines/drawing/offscreen_window.h"
+#include "pipelines/drawing/picture_lines.h"
+#include "pipelines/drawing/picture_parts.h"
 
 namespace pipelines {
 namespace {

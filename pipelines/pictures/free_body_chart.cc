@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "pipelines/common/constants.h"
-#include "pipelines/pictures/chart.h"
-#include "pipelines/report/free_body_report.h"
+#include "pipelines/drawing/chart.h"
+#include "pipelines/machine_reports/free_body_report.h"
 
 namespace pipelines {
 namespace {

@@ -9,7 +9,7 @@
 #include "kinetics/harmonics.h"
 #include "kinetics/load_spectrum.h"
 #include "pipelines/common/constants.h"
-#include "pipelines/pictures/chart.h"
+#include "pipelines/drawing/chart.h"
 
 namespace pipelines {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinetics/load_history.h"
-#include "pipelines/report/torsion_report.h"
+#include "pipelines/machine_reports/torsion_report.h"
 
 namespace pipelines {
 

@@ -30,12 +30,12 @@
 #include <cstdio>
 #include <vector>
 
-#include "pipelines/pictures/cut_surface.h"
-#include "pipelines/pictures/note_boxes.h"
-#include "pipelines/pictures/offscreen_window.h"
-#include "pipelines/pictures/picture_lines.h"
-#include "pipelines/pictures/picture_parts.h"
-#include "pipelines/pictures/picture_surface.h"
+#include "pipelines/drawing/cut_surface.h"
+#include "pipelines/drawing/note_boxes.h"
+#include "pipelines/drawing/offscreen_window.h"
+#include "pipelines/drawing/picture_lines.h"
+#include "pipelines/drawing/picture_parts.h"
+#include "pipelines/drawing/picture_surface.h"
 
 namespace pipelines {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/pictures/cut_surface.h"
+#include "pipelines/drawing/cut_surface.h"
 
 class vtkPolyData;
 

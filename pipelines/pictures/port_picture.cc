@@ -10,10 +10,10 @@
 #include <cmath>
 
 #include "pipelines/common/constants.h"
-#include "pipelines/pictures/label_rows.h"
-#include "pipelines/pictures/offscreen_window.h"
-#include "pipelines/pictures/picture_lines.h"
-#include "pipelines/pictures/picture_parts.h"
+#include "pipelines/drawing/label_rows.h"
+#include "pipelines/drawing/offscreen_window.h"
+#include "pipelines/drawing/picture_lines.h"
+#include "pipelines/drawing/picture_parts.h"
 #include "pipelines/pictures/port_views.h"
 
 namespace pipelines {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "pipelines/files/vtk_files.h"
+#include "pipelines/exports/vtk_files.h"
 
 namespace pipelines {
 namespace {

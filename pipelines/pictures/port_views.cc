@@ -15,8 +15,8 @@
 #include <cmath>
 
 #include "pipelines/common/constants.h"
-#include "pipelines/pictures/offscreen_window.h"
-#include "pipelines/pictures/picture_parts.h"
+#include "pipelines/drawing/offscreen_window.h"
+#include "pipelines/drawing/picture_parts.h"
 
 namespace pipelines {
 namespace {

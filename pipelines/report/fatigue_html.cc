@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/report/fatigue_report.h"
 #include "pipelines/report/html_values.h"
+#include "pipelines/report_parts/fatigue_report.h"
 
 namespace pipelines {
 namespace {

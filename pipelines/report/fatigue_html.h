@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipelines/files/html_page.h"
+#include "pipelines/exports/html_page.h"
 
 namespace pipelines {
 

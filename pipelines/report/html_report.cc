@@ -13,13 +13,13 @@
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/exports/html_page.h"
 #include "pipelines/files/atomic_file.h"
-#include "pipelines/files/html_page.h"
 #include "pipelines/files/json_file.h"
 #include "pipelines/report/fatigue_html.h"
 #include "pipelines/report/html_values.h"
 #include "pipelines/report/torsion_html.h"
-#include "pipelines/report/zone_text.h"
+#include "pipelines/report_parts/zone_text.h"
 
 namespace pipelines {
 namespace {

@@ -6,16 +6,16 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/analysis/shaft_torsion.h"
+#include "pipelines/body_stages/shaft_torsion.h"
+#include "pipelines/channels/load_figures.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
-#include "pipelines/loads/load_figures.h"
-#include "pipelines/report/duty_report.h"
-#include "pipelines/report/fatigue_report.h"
-#include "pipelines/report/results.h"
-#include "pipelines/report/shaft_torsion_report.h"
 #include "pipelines/report/summary.h"
-#include "pipelines/report/zone_text.h"
+#include "pipelines/report_parts/duty_report.h"
+#include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/report_parts/moment.h"
+#include "pipelines/report_parts/shaft_torsion_report.h"
+#include "pipelines/report_parts/zone_text.h"
 #include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {

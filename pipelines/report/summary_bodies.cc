@@ -1,18 +1,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/analysis/body_vibration.h"
-#include "pipelines/analysis/energy_errors.h"
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/analysis/shaft_torsion.h"
+#include "pipelines/body_stages/body_vibration.h"
+#include "pipelines/body_stages/shaft_torsion.h"
 #include "pipelines/common/statistics.h"
-#include "pipelines/report/fatigue_report.h"
-#include "pipelines/report/results.h"
-#include "pipelines/report/shaft_torsion_report.h"
-#include "pipelines/report/summary_values.h"
-#include "pipelines/report/zone_text.h"
-#include "pipelines/scene/effect_groups.h"
+#include "pipelines/estimates/energy_errors.h"
+#include "pipelines/report/summary_parts.h"
+#include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/report_parts/moment.h"
+#include "pipelines/report_parts/shaft_torsion_report.h"
+#include "pipelines/report_parts/zone_text.h"
+#include "pipelines/scene_values/effect_groups.h"
 
 namespace pipelines::summary {
 

@@ -1,9 +1,9 @@
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/life/body_fatigue.h"
-#include "pipelines/report/results.h"
-#include "pipelines/report/summary_values.h"
-#include "pipelines/report/zone_text.h"
-#include "pipelines/scene/effect_groups.h"
+#include "pipelines/report/summary_parts.h"
+#include "pipelines/report_parts/moment.h"
+#include "pipelines/report_parts/zone_text.h"
+#include "pipelines/scene_values/effect_groups.h"
 
 namespace pipelines::summary {
 namespace {

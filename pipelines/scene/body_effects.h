@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "kinetics/effect_info.h"
-#include "pipelines/scene/body_scene.h"
 #include "pipelines/scene/machine.h"
+#include "pipelines/scene_values/body_scene.h"
 
 namespace pipelines {
 

@@ -9,14 +9,15 @@
 
 #include "kinetics/effect_info.h"
 #include "kinetics/load_history.h"
-#include "pipelines/scene/body_scene.h"
 #include "pipelines/scene/machine.h"
-#include "pipelines/scene/scene_body.h"
+#include "pipelines/scene/scene_table.h"
+#include "pipelines/scene_values/body_scene.h"
 
 namespace pipelines {
 
 struct BodyLoads;
 struct Closure;
+struct ContourRules;
 struct LoadedBody;
 struct MassAgreement;
 struct MeshedBody;

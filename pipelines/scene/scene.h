@@ -9,12 +9,12 @@
 
 #include "kinetics/run_up.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/scene/bearing_scene.h"
-#include "pipelines/scene/body_scene.h"
-#include "pipelines/scene/duty_scene.h"
 #include "pipelines/scene/machine.h"
-#include "pipelines/scene/method.h"
-#include "pipelines/scene/requested_accuracy.h"
+#include "pipelines/scene_values/bearing_scene.h"
+#include "pipelines/scene_values/body_scene.h"
+#include "pipelines/scene_values/duty_scene.h"
+#include "pipelines/scene_values/method.h"
+#include "pipelines/scene_values/requested_accuracy.h"
 
 namespace pipelines {
 

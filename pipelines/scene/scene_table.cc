@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "pipelines/common/name_fault.h"
-#include "pipelines/common/nearest_name.h"
-#include "pipelines/common/units.h"
+#include "pipelines/names/name_fault.h"
+#include "pipelines/names/nearest_name.h"
+#include "pipelines/names/units.h"
 
 namespace pipelines {
 namespace {

@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "kinetics/run_up.h"
-#include "pipelines/analysis/time_sampling.h"
+#include "pipelines/between_instants/factor_spectrum.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/loads/same_body.h"
 #include "pipelines/loads/start_up_loads.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/search/found_body.h"
-#include "pipelines/superposition/factor_spectrum.h"
 
 namespace pipelines {
 namespace {

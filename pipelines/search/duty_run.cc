@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/analysis/hot_spots.h"
-#include "pipelines/analysis/respond.h"
-#include "pipelines/analysis/served_loads.h"
-#include "pipelines/analysis/time_sampling.h"
+#include "pipelines/body_figures/served_loads.h"
+#include "pipelines/body_stages/respond.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/estimates/hot_spots.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/life/duty_shares.h"
 #include "pipelines/search/duty_loads.h"
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "pipelines/common/refusal_of.h"
-#include "pipelines/search/refinement.h"
-#include "pipelines/search/solid_refinement.h"
+#include "pipelines/refinement/refinement.h"
+#include "pipelines/refinement/solid_refinement.h"
 
 namespace pipelines {
 namespace {

@@ -3,12 +3,12 @@
 #include <new>
 
 #include "fem/beam/beam_responses.h"
-#include "pipelines/analysis/fineness.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/beam_run.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/refusal_of.h"
-#include "pipelines/scene/why_not.h"
+#include "pipelines/estimates/fineness.h"
+#include "pipelines/scene_reader/why_not.h"
 
 namespace pipelines {
 

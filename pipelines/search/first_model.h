@@ -5,7 +5,7 @@
 
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/search/second_model.h"
+#include "pipelines/refinement/second_model.h"
 
 namespace pipelines {
 

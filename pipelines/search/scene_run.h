@@ -12,7 +12,7 @@
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/loads/start_up_loads.h"
-#include "pipelines/scene/requested_accuracy.h"
+#include "pipelines/scene_values/requested_accuracy.h"
 
 namespace pipelines {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <set>
 
-#include "pipelines/search/local_refinement.h"
-#include "pipelines/search/peak_growth.h"
-#include "pipelines/search/place_history.h"
-#include "pipelines/search/refinement.h"
+#include "pipelines/refinement/local_refinement.h"
+#include "pipelines/refinement/peak_growth.h"
+#include "pipelines/refinement/place_history.h"
+#include "pipelines/refinement/refinement.h"
 
 namespace pipelines {
 

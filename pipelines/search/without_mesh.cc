@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/search/refinement.h"
+#include "pipelines/refinement/refinement.h"
 
 namespace pipelines {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "pipelines/common/parallel.h"
-#include "pipelines/superposition/linear_extremes_kernel.h"
-#include "pipelines/superposition/walked_factors.h"
+#include "pipelines/kernels/linear_extremes_kernel.h"
+#include "pipelines/kernels/walked_factors.h"
 
 namespace pipelines {
 namespace {

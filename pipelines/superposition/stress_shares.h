@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "fem/values/unit_responses.h"
-#include "pipelines/loads/channels.h"
+#include "pipelines/channels/channels.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "pipelines/common/parallel.h"
-#include "pipelines/superposition/batch_walk.h"
-#include "pipelines/superposition/lode_cosine.h"
-#include "pipelines/superposition/walked_factors.h"
+#include "pipelines/kernels/batch_walk.h"
+#include "pipelines/kernels/lode_cosine.h"
+#include "pipelines/kernels/walked_factors.h"
 
 namespace pipelines {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fem/values/unit_responses.h"
-#include "pipelines/loads/channels.h"
+#include "pipelines/channels/channels.h"
 
 namespace pipelines {
 

@@ -8,8 +8,8 @@
 #include <list>
 #include <vector>
 
-#include "pipelines/sweep/sweep_points.h"
 #include "pipelines/sweep/sweep_run.h"
+#include "pipelines/variations/sweep_points.h"
 
 namespace pipelines {
 

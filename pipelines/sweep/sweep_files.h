@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/sweep/sweep_points.h"
 #include "pipelines/sweep/sweep_row.h"
+#include "pipelines/variations/sweep_points.h"
 
 namespace pipelines {
 

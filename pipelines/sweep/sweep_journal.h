@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/sweep/sweep_points.h"
 #include "pipelines/sweep/sweep_row.h"
+#include "pipelines/variations/sweep_points.h"
 
 namespace pipelines {
 

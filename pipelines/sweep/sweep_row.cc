@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/channels/load_figures.h"
 #include "pipelines/common/statistics.h"
-#include "pipelines/loads/load_figures.h"
 
 namespace pipelines {
 

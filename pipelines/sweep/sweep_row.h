@@ -8,9 +8,9 @@
 
 #include "kinetics/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
-#include "pipelines/loads/bearings.h"
-#include "pipelines/sweep/sweep_figures.h"
+#include "pipelines/channels/bearings.h"
 #include "pipelines/sweep/swept_zones.h"
+#include "pipelines/variations/sweep_figures.h"
 
 namespace pipelines {
 

@@ -8,13 +8,13 @@
 #include <map>
 #include <set>
 
-#include "pipelines/analysis/respond.h"
+#include "pipelines/body_stages/respond.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/loads/same_body.h"
-#include "pipelines/scene/scene_tree.h"
-#include "pipelines/sweep/point_work.h"
+#include "pipelines/scene_reader/scene_tree.h"
 #include "pipelines/sweep/swept_bodies.h"
+#include "pipelines/variations/point_work.h"
 
 namespace pipelines {
 namespace {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "pipelines/common/stage_clock.h"
-#include "pipelines/sweep/sweep_options.h"
-#include "pipelines/sweep/sweep_points.h"
 #include "pipelines/sweep/sweep_row.h"
+#include "pipelines/variations/sweep_options.h"
+#include "pipelines/variations/sweep_points.h"
 
 namespace pipelines {
 

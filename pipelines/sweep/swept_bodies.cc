@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <set>
 
-#include "pipelines/analysis/respond.h"
-#include "pipelines/analysis/shaft_torsion.h"
+#include "pipelines/body_stages/respond.h"
+#include "pipelines/body_stages/shaft_torsion.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/loads/same_body.h"
-#include "pipelines/scene/scene_tree.h"
-#include "pipelines/sweep/point_work.h"
+#include "pipelines/scene_reader/scene_tree.h"
+#include "pipelines/variations/point_work.h"
 
 namespace pipelines {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "pipelines/common/stage_clock.h"
 #include "pipelines/loads/load_stage.h"
-#include "pipelines/sweep/body_design.h"
-#include "pipelines/sweep/sweep_options.h"
 #include "pipelines/sweep/sweep_row.h"
+#include "pipelines/variations/body_design.h"
+#include "pipelines/variations/sweep_options.h"
 
 namespace pipelines {
 

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/sweep/sweep_points.h"
 #include "pipelines/sweep/sweep_row.h"
+#include "pipelines/variations/sweep_points.h"
 
 namespace pipelines {
 namespace {

@@ -16,9 +16,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/mesh/manifolds.h"
-#include "fem/mesh/triangulation.h"
 #include "fem/operators/stiffness.h"
+#include "fem/triangulation/manifolds.h"
+#include "fem/triangulation/triangulation.h"
 #include "tests/benchmarks/elastic_matrix_free.h"
 #include "tests/benchmarks/wide_matrix_free.h"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/operators/elastic_operator.h"
 #include "fem/operators/stiffness.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/benchmarks/dealii_operator.h"
 #include "tests/benchmarks/process.h"
 

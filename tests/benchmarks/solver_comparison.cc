@@ -8,11 +8,11 @@
 #include "fem/common/memory.h"
 #include "fem/common/parallel.h"
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/iterative_solve.h"
 #include "fem/solvers/solver_prediction.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/benchmarks/process.h"
 
 namespace measure {

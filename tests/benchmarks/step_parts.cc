@@ -11,8 +11,8 @@
 #include <fstream>
 
 #include "fem/model/model.h"
-#include "pipelines/analysis/fineness.h"
 #include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/estimates/fineness.h"
 #include "pipelines/search/scene_run.h"
 #include "tests/cases/step_shafts.h"
 

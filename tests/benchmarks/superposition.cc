@@ -10,9 +10,9 @@
 #include <numeric>
 
 #include "fem/common/memory.h"
-#include "pipelines/superposition/batch_walk.h"
+#include "pipelines/kernels/batch_walk.h"
+#include "pipelines/kernels/superposition_kernel.h"
 #include "pipelines/superposition/nodal_cycles.h"
-#include "pipelines/superposition/superposition_kernel.h"
 #include "tests/benchmarks/multiply_add_limit.h"
 #include "tests/benchmarks/process.h"
 

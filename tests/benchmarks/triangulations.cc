@@ -13,8 +13,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "fem/mesh/manifolds.h"
-#include "fem/mesh/triangulation.h"
+#include "fem/triangulation/manifolds.h"
+#include "fem/triangulation/triangulation.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/scene/scene.h"
 #include "tests/benchmarks/benchmark_shaft.h"

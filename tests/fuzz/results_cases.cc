@@ -3,8 +3,8 @@
 
 #include "pipelines/common/errors.h"
 #include "pipelines/report/html_report.h"
-#include "pipelines/report/manifest.h"
-#include "pipelines/report/staged_results.h"
+#include "pipelines/result_files/manifest.h"
+#include "pipelines/result_files/staged_results.h"
 #include "tests/fuzz/samples.h"
 #include "tests/fuzz/verdicts.h"
 

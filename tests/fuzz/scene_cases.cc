@@ -5,8 +5,8 @@
 
 #include "pipelines/common/statistics.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/machine_reports/torsion_report.h"
 #include "pipelines/report/summary.h"
-#include "pipelines/report/torsion_report.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/scene.h"
 #include "tests/fuzz/samples.h"

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "kinetics/planetary/segment.h"
+#include "kinetics/planetary_effects/segment.h"
 #include "kinetics/planetary_mill.h"
-#include "kinetics/vibratory/motion.h"
+#include "kinetics/vibratory_effects/motion.h"
 #include "kinetics/vibratory_mill.h"
 #include "tests/hard/hard_case.h"
 #include "tests/unit/kinetics/machines.h"

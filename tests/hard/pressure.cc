@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "pipelines/loads/load_collector.h"
-#include "pipelines/scene/pressure_pattern.h"
+#include "pipelines/channels/load_collector.h"
+#include "pipelines/scene_values/pressure_pattern.h"
 #include "tests/hard/hard_case.h"
 #include "tests/unit/pipelines/examples/bodies.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "pipelines/analysis/error_budget.h"
+#include "pipelines/estimates/error_budget.h"
 #include "pipelines/superposition/superposition.h"
 #include "tests/hard/hard_case.h"
 #include "tests/verification/fem/two_layers.h"

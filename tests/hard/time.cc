@@ -12,7 +12,7 @@
 #include "kinetics/machine_refused.h"
 #include "kinetics/torus_extremes.h"
 #include "kinetics/vibratory_mill.h"
-#include "pipelines/analysis/error_budget.h"
+#include "pipelines/estimates/error_budget.h"
 #include "tests/hard/hard_case.h"
 #include "tests/unit/kinetics/machines.h"
 

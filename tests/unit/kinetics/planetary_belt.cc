@@ -1,5 +1,5 @@
 // What the three models of the belt say about its strands, against textbook relations.
-#include "kinetics/planetary/belt.h"
+#include "kinetics/planetary_effects/belt.h"
 
 #include <gtest/gtest.h>
 

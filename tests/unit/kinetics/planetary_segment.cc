@@ -1,5 +1,5 @@
 // The charge's segment from nearly empty to nearly full, against bisection in extended precision.
-#include "kinetics/planetary/segment.h"
+#include "kinetics/planetary_effects/segment.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kinetics/vibratory/affine_optimum.h"
+#include "kinetics/vibratory_effects/affine_optimum.h"
 #include "tests/unit/kinetics/machines.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "kinetics/torsion/reduced.h"
+#include "kinetics/torsion_chain/reduced.h"
 #include "tests/unit/kinetics/trains.h"
 
 namespace {

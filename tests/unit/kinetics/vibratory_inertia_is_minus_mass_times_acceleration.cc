@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "kinetics/vibratory/effect.h"
+#include "kinetics/vibratory_effects/effect.h"
 #include "tests/unit/kinetics/machines.h"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kinetics/vibratory/pitch.h"
-#include "kinetics/vibratory/springs.h"
+#include "kinetics/vibratory_effects/springs.h"
 #include "tests/unit/kinetics/machines.h"
 
 namespace {

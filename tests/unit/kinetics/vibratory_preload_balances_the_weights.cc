@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "kinetics/vibratory/springs.h"
+#include "kinetics/vibratory_effects/springs.h"
 #include "tests/unit/kinetics/machines.h"
 
 namespace {

@@ -1,10 +1,10 @@
 // A rank recovers the stress of its nodes on a part of the mesh, and takes the same steps as on the whole.
 #include <gtest/gtest.h>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/ranks/helper_ranks.h"
-#include "fem/stress/recovery_on_ranks.h"
+#include "fem/recovery/recovery_on_ranks.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 

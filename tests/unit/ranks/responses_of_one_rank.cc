@@ -6,11 +6,11 @@
 #include <cmath>
 #include <set>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_order.h"
 #include "fem/model/model.h"
 #include "fem/operators/subdomain.h"
 #include "fem/ranks/helper_ranks.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 

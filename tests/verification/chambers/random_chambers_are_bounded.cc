@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/search/refinement.h"
+#include "pipelines/refinement/refinement.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 #include "tests/verification/chambers/chamber_scene.h"

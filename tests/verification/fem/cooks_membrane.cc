@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/body_grid.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/verification/fem/block_mesh.h"
 #include "tests/verification/fem/figures.h"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "fem/loads/clamps.h"
-#include "fem/mesh/body_grid.h"
-#include "fem/solvers/cholmod_factor.h"
+#include "fem/matrices/cholmod_factor.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/verification/fem/block_mesh.h"
 #include "tests/verification/fem/field_errors.h"
 

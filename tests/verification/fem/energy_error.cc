@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fem/mesh/body_grid.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/verification/fem/plane_strain_cylinder.h"
 
 namespace {

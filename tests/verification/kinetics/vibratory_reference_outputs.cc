@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "kinetics/vibratory/springs.h"
+#include "kinetics/vibratory_effects/springs.h"
 #include "kinetics/vibratory_mill.h"
 
 namespace {

@@ -1,3 +1,3 @@
 #include "pipelines/code.h"
 
-#include "fem/operators/symmetric_matrix.h"
+#include "fem/matrices/symmetric_matrix.h"

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "fem/adaptivity/goal_errors.h"
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

@@ -14,7 +14,7 @@
 #include "fem/values/body.h"
 #include "fem/values/unit_load.h"
 #include "fem/values/unit_responses.h"
-#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/shaft_layout/shaft_geometry.h"
 #include "meshes/values/body_mesh.h"
 
 namespace fem_tests {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/body_grid.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/charts.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

@@ -9,8 +9,8 @@
 #include <functional>
 #include <random>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/triangulation/body_grid.h"
 #include "fem/values/errors.h"
 #include "meshes/chamber/chamber.h"
 #include "meshes/shaft/shaft.h"

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
-#include "fem/stress/stress_recovery.h"
+#include "fem/recovery/stress_recovery.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

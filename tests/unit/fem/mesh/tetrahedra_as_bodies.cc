@@ -5,12 +5,12 @@
 #include <functional>
 #include <memory>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
 #include "fem/stress/cell_stress_at_node.h"
 #include "fem/stress/tetrahedra_error.h"
+#include "fem/triangulation/body_grid.h"
 #include "fem/values/constants.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 

@@ -3,9 +3,9 @@
 #include <functional>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/model/model.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/body_grid.h"
 #include "fem/model/model.h"
-#include "fem/stress/stress_recovery.h"
+#include "fem/recovery/stress_recovery.h"
+#include "fem/triangulation/body_grid.h"
 #include "fem/values/vtk_order.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 

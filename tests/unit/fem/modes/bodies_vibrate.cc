@@ -5,13 +5,13 @@
 #include <cmath>
 #include <random>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/reference_cell.h"
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/model.h"
 #include "fem/operators/mass_matrix.h"
 #include "fem/operators/stiffness.h"
+#include "fem/triangulation/body_grid.h"
 #include "fem/values/body_nodes.h"
 #include "fem/values/constants.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"

@@ -8,12 +8,12 @@
 #include <random>
 #include <stdexcept>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/mesh/cell_geometry.h"
 #include "fem/model/model.h"
 #include "fem/modes/krylov_schur.h"
 #include "fem/operators/mass_matrix.h"
 #include "fem/operators/stiffness.h"
+#include "fem/triangulation/body_grid.h"
 #include "fem/values/constants.h"
 #include "fem/values/errors.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "fem/mesh/body_grid.h"
+#include "fem/multigrid/coarse_space.h"
 #include "fem/operators/elastic_operator.h"
-#include "fem/solvers/coarse_space.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

@@ -5,13 +5,13 @@
 #include <set>
 
 #include "fem/loads/surface_loads.h"
-#include "fem/mesh/body_grid.h"
+#include "fem/matrices/cholmod_factor.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/multigrid/aggregates.h"
+#include "fem/multigrid/rigid_galerkin.h"
 #include "fem/operators/stiffness.h"
-#include "fem/solvers/aggregates.h"
-#include "fem/solvers/cholmod_factor.h"
 #include "fem/solvers/iterative_solve.h"
-#include "fem/solvers/rigid_galerkin.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

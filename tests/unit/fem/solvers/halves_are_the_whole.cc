@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/model/model.h"
 #include "fem/solvers/mirrored_halves.h"
+#include "fem/triangulation/body_grid.h"
 #include "meshes/chamber/chamber.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/unit/meshes/examples/example_chambers.h"

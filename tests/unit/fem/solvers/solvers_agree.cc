@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/mesh/body_grid.h"
 #include "fem/model/model.h"
 #include "fem/solvers/solver_prediction.h"
+#include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/shaft_layout/shaft_geometry.h"
 
 /// The laboratory shaft with the eccentric seat; coupling spec, section 7.1.
 meshes::Shaft laboratory_shaft();

@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/shaft_layout/shaft_geometry.h"
 
 /// Number of bodies to try: MILLSTRESS_RANDOM_BODIES, else 50.
 int n_random_bodies();

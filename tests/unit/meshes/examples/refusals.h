@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/shaft_layout/shaft_geometry.h"
 
 struct Refusal {
   std::string what;

@@ -1,7 +1,7 @@
 /// Volumes of shafts, less their bores, from their drawing alone: no mesh, none of the mesher's own code.
 #pragma once
 
-#include "meshes/shaft/shaft_geometry.h"
+#include "meshes/shaft_layout/shaft_geometry.h"
 
 /// Area of the regular polygon with n corners on a circle.
 double polygon_area(double radius_m, int n_corners);

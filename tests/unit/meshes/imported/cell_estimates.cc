@@ -7,7 +7,7 @@
 #include "meshes/gmsh/gmsh_session.h"
 #include "meshes/imported/imported.h"
 #include "meshes/shaft/shaft.h"
-#include "meshes/shaft/shaft_checks.h"
+#include "meshes/shaft_layout/shaft_checks.h"
 #include "meshes/solids/cell_estimate.h"
 #include "meshes/solids/model_mesh.h"
 #include "meshes/values/refused.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "pipelines/analysis/crest_elsewhere.h"
-#include "pipelines/analysis/error_budget.h"
-#include "pipelines/analysis/time_sampling.h"
+#include "pipelines/estimates/error_budget.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/superposition/superposition.h"
 
 using namespace pipelines;

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pipelines/channels/closure.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/loads/closure.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/scene/scene.h"
 #include "tests/unit/pipelines/examples/results_directory.h"

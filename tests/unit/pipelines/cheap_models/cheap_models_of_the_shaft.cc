@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "fem/beam/beam_responses.h"
+#include "pipelines/channels/statics.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/statics.h"
 #include "pipelines/superposition/zones.h"
 #include "tests/unit/pipelines/examples/laboratory.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/loads/closure.h"
-#include "pipelines/loads/load_collector.h"
+#include "pipelines/channels/closure.h"
+#include "pipelines/channels/load_collector.h"
 
 namespace bodies {
 

@@ -7,7 +7,7 @@
 #include "fem/values/body.h"
 #include "kinetics/vibratory_mill.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/loads/load_collector.h"
+#include "pipelines/channels/load_collector.h"
 #include "pipelines/scene/scene.h"
 
 namespace laboratory {

@@ -13,10 +13,10 @@
 
 #include <cmath>
 
+#include "pipelines/between_instants/stress_course.h"
 #include "pipelines/fatigue/critical_plane.h"
 #include "pipelines/fatigue/mean_stress.h"
 #include "pipelines/life/fatigue_rules.h"
-#include "pipelines/superposition/stress_course.h"
 
 namespace {
 

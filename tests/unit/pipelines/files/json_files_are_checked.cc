@@ -5,7 +5,7 @@
 
 #include "pipelines/accuracy/cost_calibration.h"
 #include "pipelines/files/json_file.h"
-#include "pipelines/report/manifest.h"
+#include "pipelines/result_files/manifest.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 
 using namespace pipelines;

@@ -11,13 +11,13 @@
 
 #include "meshes/shaft/shaft.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/exports/vtk_files.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/content_hash.h"
 #include "pipelines/files/hdf5_file.h"
 #include "pipelines/files/kept_file.h"
 #include "pipelines/files/replaceable.h"
-#include "pipelines/files/vtk_files.h"
-#include "pipelines/report/results.h"
+#include "pipelines/result_files/results.h"
 #include "tests/unit/pipelines/examples/results_bar.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "pipelines/files/vtk_files.h"
-#include "pipelines/pictures/cut_surface.h"
+#include "pipelines/drawing/cut_surface.h"
+#include "pipelines/drawing/picture_surface.h"
+#include "pipelines/exports/vtk_files.h"
 #include "pipelines/pictures/picture.h"
-#include "pipelines/pictures/picture_surface.h"
 #include "tests/unit/pipelines/examples/results_bar.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 

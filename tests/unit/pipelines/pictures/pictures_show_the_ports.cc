@@ -15,8 +15,8 @@
 #include <random>
 
 #include "fem/values/body_nodes.h"
+#include "pipelines/drawing/label_rows.h"
 #include "pipelines/loads/body_mesh.h"
-#include "pipelines/pictures/label_rows.h"
 #include "pipelines/pictures/port_picture.h"
 #include "pipelines/pictures/port_surface.h"
 #include "pipelines/pictures/port_visibility.h"

@@ -6,7 +6,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include "pipelines/files/vtk_files.h"
+#include "pipelines/exports/vtk_files.h"
 #include "pipelines/responses/response_files.h"
 #include "pipelines/superposition/zones.h"
 #include "tests/unit/pipelines/examples/results_bar.h"

@@ -9,8 +9,8 @@
 #include "pipelines/files/content_hash.h"
 #include "pipelines/files/kept_file.h"
 #include "pipelines/report/html_report.h"
-#include "pipelines/report/run_record.h"
-#include "pipelines/report/staged_results.h"
+#include "pipelines/result_files/run_record.h"
+#include "pipelines/result_files/staged_results.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 
 using namespace pipelines;

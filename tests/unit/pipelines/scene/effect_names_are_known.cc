@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "pipelines/scene/body_kind.h"
-#include "pipelines/scene/effect_names.h"
+#include "pipelines/scene_values/effect_names.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "pipelines/common/errors.h"
-#include "pipelines/scene/key_settings.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/scene_reader/key_settings.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
-#include "pipelines/common/nearest_name.h"
 #include "pipelines/files/toml_tree.h"
+#include "pipelines/names/nearest_name.h"
 #include "pipelines/scene/scene.h"
 
 namespace {

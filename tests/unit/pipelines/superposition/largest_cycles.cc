@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "pipelines/superposition/linear_extremes_kernel.h"
+#include "pipelines/kernels/linear_extremes_kernel.h"
+#include "pipelines/kernels/walked_factors.h"
 #include "pipelines/superposition/nodal_cycles.h"
-#include "pipelines/superposition/walked_factors.h"
 
 namespace {
 

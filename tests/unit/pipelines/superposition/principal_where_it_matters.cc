@@ -8,8 +8,8 @@
 #include <functional>
 #include <random>
 
+#include "pipelines/kernels/walked_factors.h"
 #include "pipelines/superposition/superposition.h"
-#include "pipelines/superposition/walked_factors.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include "pipelines/kernels/walked_factors.h"
 #include "pipelines/superposition/stress_shares.h"
 #include "pipelines/superposition/superposition.h"
-#include "pipelines/superposition/walked_factors.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 /// Which points of a sweep an MPI rank computes.
 #include <gtest/gtest.h>
 
-#include "pipelines/scene/scene_tree.h"
+#include "pipelines/scene_reader/scene_tree.h"
 #include "pipelines/sweep/points_on_ranks.h"
 
 using namespace pipelines;

@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "pipelines/loads/same_body.h"
-#include "pipelines/scene/scene_tree.h"
+#include "pipelines/scene_reader/scene_tree.h"
 
 using namespace pipelines;
 

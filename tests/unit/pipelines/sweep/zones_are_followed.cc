@@ -1,9 +1,9 @@
 /// Which zones of different points are called one.
 #include <gtest/gtest.h>
 
-#include "pipelines/sweep/sweep_points.h"
 #include "pipelines/sweep/sweep_row.h"
 #include "pipelines/sweep/swept_zones.h"
+#include "pipelines/variations/sweep_points.h"
 
 using namespace pipelines;
 

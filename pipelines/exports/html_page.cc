@@ -1,0 +1,97 @@
+#include "pipelines/exports/html_page.h"
+
+#include <fmt/core.h>
+
+#include <cctype>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+#include "pipelines/exports/markup.h"
+
+namespace pipelines {
+namespace {
+
+constexpr const char* style = R"(
+body { font: 15px/1.45 sans-serif; color: #222; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.6rem; margin-bottom: .2rem; } h2 { border-bottom: 1px solid #bbb; margin-top: 2.2rem; }
+table { border-collapse: collapse; margin: .6rem 0 1.2rem; }
+th, td { padding: .2rem .8rem .2rem 0; text-align: left; vertical-align: top; } th { border-bottom: 1px solid #888; }
+tr:nth-child(even) td { background: #f5f5f5; } .number { text-align: right; font-variant-numeric: tabular-nums; }
+.warning { background: #fff3d6; border-left: 4px solid #d69e00; padding: .4rem .8rem; }
+pre { overflow-x: auto; background: #f5f5f5; padding: .6rem; font-size: 12px; line-height: 1.35; }
+img { max-width: 100%; } figure { margin: 1rem 0; } figcaption { color: #555; }
+)";
+
+bool is_number(const std::string& cell) {
+  return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) || cell[0] == '-');
+}
+
+}  // namespace
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string result;
+  result.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) result += k <= n ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return result;
+}
+
+void HtmlPage::heading(int level, const std::string& text) {
+  body_ += fmt::format("<h{0}>{1}</h{0}>\n", level, escaped(text));
+}
+
+void HtmlPage::paragraph(const std::string& text) {
+  body_ += "<p>" + escaped(text) + "</p>\n";
+}
+
+void HtmlPage::warning(const std::string& text) {
+  body_ += "<p class=\"warning\">" + escaped(text) + "</p>\n";
+}
+
+void HtmlPage::preformatted(const std::string& text) {
+  body_ += "<pre>" + escaped(text) + "</pre>\n";
+}
+
+void HtmlPage::table(const std::vector<std::string>& titles,
+                     const std::vector<std::vector<std::string>>& rows) {
+  if (rows.empty()) return;
+  body_ += "<table>\n<tr>";
+  for (std::size_t i = 0; i < titles.size(); ++i)
+    body_ +=
+        fmt::format("<th{}>{}</th>", i < rows[0].size() && is_number(rows[0][i]) ? " class=\"number\"" : "",
+                    escaped(titles[i]));
+  body_ += "</tr>\n";
+  for (const auto& row : rows) {
+    if (row.empty()) continue;
+    body_ += "<tr>";
+    for (const auto& cell : row)
+      body_ += fmt::format("<td{}>{}</td>", is_number(cell) ? " class=\"number\"" : "", escaped(cell));
+    body_ += "</tr>\n";
+  }
+  body_ += "</table>\n";
+}
+
+void HtmlPage::picture(const std::filesystem::path& png, const std::string& what_it_shows) {
+  std::ifstream file(png, std::ios::binary);
+  if (!file) return;
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  body_ += fmt::format(
+      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+      escaped(what_it_shows), base64(bytes));
+}
+
+std::string HtmlPage::text() const {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n<style>{}"
+      "</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+      escaped(title_), style, body_);
+}
+
+}  // namespace pipelines

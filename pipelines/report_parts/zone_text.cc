@@ -1,0 +1,104 @@
+#include "pipelines/report_parts/zone_text.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/analysis/error_text.h"
+#include "pipelines/life/body_fatigue.h"
+#include "pipelines/names/name_lists.h"
+#include "pipelines/scene_values/effect_groups.h"
+#include "pipelines/superposition/zone_parts.h"
+
+namespace pipelines {
+namespace {
+
+constexpr std::size_t n_shares_named = 3;
+constexpr double least_named_share = 0.01;
+
+std::string whole_percent(double share) {
+  return fmt::format("{:.0f} %", 100 * share);
+}
+
+/// With which a number shows two digits at least.
+int decimals_of(double number) {
+  constexpr int most = 6;
+  return number > 0 ? std::clamp(1 - int(std::floor(std::log10(number))), 0, most) : 1;
+}
+
+}  // namespace
+
+std::vector<NamedShare> group_shares(const std::vector<std::string>& effects,
+                                     const std::vector<double>& shares) {
+  std::vector<NamedShare> sums;
+  for (const auto& group : effect_groups(effects)) {
+    NamedShare sum{group.name, 0};
+    for (std::size_t i = 0; i < effects.size(); ++i)
+      if (contains(group.effects, effects[i])) sum.share += shares[i];
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+std::string largest_shares(std::vector<NamedShare> shares) {
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a.share) > std::abs(b.share); });
+  std::string text;
+  double rest = 0;
+  std::size_t n_named = 0;
+  const auto add = [&](const std::string& name, double share) {
+    text += (text.empty() ? "" : ", ") + name + " " + whole_percent(share);
+  };
+  for (const auto& [name, share] : shares) {
+    if (n_named < n_shares_named && std::abs(share) >= least_named_share) {
+      add(name, share);
+      ++n_named;
+    } else {
+      rest += share;
+    }
+  }
+  if (std::abs(rest) >= least_named_share) add("others", rest);
+  return text;
+}
+
+std::string causes_text(const BodyAnalysis& analysis, std::size_t zone) {
+  if (zone >= analysis.zone_causes.size()) return {};
+  const auto& effects = analysis.loads.history.effects;
+  const auto& causes = analysis.zone_causes[zone];
+  const auto of_peak = group_shares(effects, causes.peak.effects);
+  if (of_peak.size() < 2) return {};
+  std::string text = "by " + largest_shares(of_peak);
+  if (causes.amplitude.effects.empty()) return text + "; constant over the cycle";
+  text += "; amplitude " + fixed(causes.cycle.amplitude_Pa / 1e6, 1) + " MPa by " +
+          largest_shares(group_shares(effects, causes.amplitude.effects));
+  if (!analysis.fatigue || zone >= analysis.fatigue->zones.size()) return text;
+  const auto& damage = analysis.fatigue->zones[zone];
+  if (!damage.is_on_surface) return text + "; inside the body, where no fatigue is judged";
+  if (!(damage.damage_per_turn > 0)) return text + "; no damage";
+  return text + "; damage by " + largest_shares(group_shares(effects, damage.shares.effects));
+}
+
+VolumeText volume_text(double volume_m3, const std::optional<double>& error_m3) {
+  constexpr double mm3 = 1e9;
+  if (!std::isfinite(volume_m3)) return {"-", "-"};
+  const double volume = volume_m3 * mm3;
+  if (!error_m3 || !std::isfinite(*error_m3)) return {fixed(volume, decimals_of(volume)), "-"};
+  const double error = *error_m3 * mm3;
+  if (error >= volume)
+    return {fixed(volume, decimals_of(volume)),
+            "up to " + fixed(volume + error, decimals_of(volume + error))};
+  const int decimals = decimals_of(error);
+  return {fixed(volume, decimals), fixed(error, decimals)};
+}
+
+std::string parts_text(const Zone& zone) {
+  std::string text;
+  for (const auto& split : splits_of(zone))
+    text += text.empty()
+                ? fmt::format("{} parts at {} of the peak", split.n_parts, whole_percent(split.share_of_peak))
+                : fmt::format(", {} at {}", split.n_parts, whole_percent(split.share_of_peak));
+  return text;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,54 @@
+#include <stdexcept>
+
+#include "pipelines/common/errors.h"
+#include "pipelines/names/nearest_name.h"
+#include "pipelines/scene/requested_method.h"
+#include "pipelines/scene_reader/scene_stages.h"
+#include "pipelines/scene_reader/why_not.h"
+
+namespace pipelines {
+namespace {
+
+std::string quoted_names() {
+  auto names = method_names();
+  for (auto& name : names) name = '"' + name + '"';
+  return listed(names);
+}
+
+/// What is wrong with a method for the scene's bodies, and what to do; empty: nothing.
+std::string remedy_for(Method method, const Scene& scene) {
+  for (const auto& body : scene.bodies)
+    if (const auto why = why_not(method, body); !why.empty())
+      return "the " + body.name + " " + why + "; write \"auto\" or \"solid\"";
+  return {};
+}
+
+}  // namespace
+
+Method read_method(SceneTable& root, const Scene& scene) {
+  const std::string text = root.text_or("method", "auto", "the cheapest model that meets the tolerance");
+  if (text.empty()) return Method::automatic;  // refused already
+  const auto method = method_of(text);
+  if (!method)
+    root.refuse("method", "unknown model; write one of " + quoted_names());
+  else if (const auto remedy = remedy_for(*method, scene); !remedy.empty())
+    root.refuse("method", remedy);
+  return method.value_or(Method::automatic);
+}
+
+Method requested_method(const std::string& option, const Scene& scene) {
+  if (option.empty()) return scene.method;
+  const auto method = method_of(option);
+  if (!method)
+    throw OptionError("--method " + option + ": unknown model; write one of " + listed(method_names()));
+  if (scene.bodies.empty())
+    throw OptionError(
+        "--method " + option +
+        ": the scene has no body, and only bodies have a model; leave it out, or add a body, as "
+        "[shaft], to the scene");
+  if (const auto remedy = remedy_for(*method, scene); !remedy.empty())
+    throw OptionError("--method " + option + ": " + remedy);
+  return *method;
+}
+
+}  // namespace pipelines
