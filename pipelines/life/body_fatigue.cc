@@ -421,7 +421,8 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
     fatigue.nominal = din_743_of_fillets(analysis, loads.history, [&](const std::string& fillet) {
       const auto place = std::find_if(fatigue.places.begin(), fatigue.places.end(),
                                       [&](const auto& p) { return p.feature == fillet; });
-      return place == fatigue.places.end() ? -1 : place->cycle.amplitude_Pa;
+      return place == fatigue.places.end() ? LocalAmplitude()
+                                           : LocalAmplitude{place->cycle.amplitude_Pa, place->error_share};
     });
   fatigue.welds = judge_welds(analysis, search.course(), loads.history, period);
   const auto& zones = analysis.zones.zones;

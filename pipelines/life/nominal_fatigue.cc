@@ -87,7 +87,7 @@ DinTriple din_shoulder_gradient_1_m(double small_m, double large_m, double fille
 
 std::vector<NominalFatigue> din_743_of_fillets(
     const BodyAnalysis& analysis, const ChannelHistory& loads,
-    const std::function<double(const std::string&)>& local_amplitude_Pa) {
+    const std::function<LocalAmplitude(const std::string&)>& local_amplitude) {
   std::vector<NominalFatigue> result;
   const ShaftShape* shaft = analysis.scene.shaft();
   if (shaft == nullptr || !analysis.diagrams) return result;
@@ -111,8 +111,10 @@ std::vector<NominalFatigue> din_743_of_fillets(
                                                  analysis.scene.material.density_kg_m3, section->plane.z_m);
     own.load = nominal_load(of_loads);
     const auto published = fem::fillet_factors(thin.diameter_m, thick.diameter_m, fillet_m);
+    const LocalAmplitude local = local_amplitude(own.fillet);
+    own.error_share = local.error_share;
     own.shape_factor = own_shape_factor({published.tension, published.bending, published.torsion},
-                                        own.load.amplitude_Pa, local_amplitude_Pa(own.fillet));
+                                        own.load.amplitude_Pa, local.value_Pa);
     DinShaft din;
     din.tensile_strength_Pa = scene.material.tensile_strength_Pa;
     din.yield_strength_Pa = scene.material.yield_strength_Pa;

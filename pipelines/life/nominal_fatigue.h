@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,14 @@ struct NominalFatigue {
   double diameter_m = 0;  ///< of the section
   DinLoad load;           ///< over the cycle (nominal_load)
   DinTriple shape_factor;
-  DinSafety safety;  ///< DIN asks for 1.2
+  DinSafety safety;        ///< DIN asks for 1.2
+  double error_share = 0;  ///< of the local amplitude, and so of the shape factor; infinite: not known
+};
+
+/// Of von Mises stress in a fillet.
+struct LocalAmplitude {
+  double value_Pa = -1;  ///< negative: not known
+  double error_share = std::numeric_limits<double>::infinity();
 };
 
 /// Nominal stresses of a solid round section over the cycle, from its resultants by statics about its own
@@ -42,9 +50,9 @@ bool has_din_fillet(const meshes::Shaft& shaft);
 
 /// Every fillet between solid segments of a parametric shaft, least safety first; none of other bodies.
 /// @param loads               with the channels of the analysis
-/// @param local_amplitude_Pa  of a fillet, by feature; negative: not known
+/// @param local_amplitude  of a fillet, by feature
 std::vector<NominalFatigue> din_743_of_fillets(
     const BodyAnalysis& analysis, const ChannelHistory& loads,
-    const std::function<double(const std::string&)>& local_amplitude_Pa);
+    const std::function<LocalAmplitude(const std::string&)>& local_amplitude);
 
 }  // namespace pipelines

@@ -64,12 +64,15 @@ void add_din_743(HtmlPage& page, const Json& fatigue) {
       return fmt::format("{} x {}", number(fillet.at("amplitude_Pa").at(stress), 1e-6, "{:.1f}"),
                          number(fillet.at("shape_factor").at(stress), 1, "{:.2f}"));
     };
+    const auto error =
+        fillet.value("stress_error", Json(nullptr));  // results of an earlier version have none
     rows.push_back({fillet.at("feature").get<std::string>(), nominal("tension"), nominal("bending"),
-                    nominal("torsion"), number(fillet.at("safety_against_fatigue"), 1, "{:.2f}"),
+                    nominal("torsion"), error.is_null() ? "not known" : number(error, 100, "{:.2g} %"),
+                    number(fillet.at("safety_against_fatigue"), 1, "{:.2f}"),
                     number(fillet.at("safety_against_yielding"), 1, "{:.2f}")});
   }
   page.table({"DIN 743, nominal stresses: fillet", "tension MPa x factor", "bending", "torsion",
-              "safety against fatigue", "against yielding"},
+              "error of factors", "safety against fatigue", "against yielding"},
              rows);
 }
 

@@ -181,10 +181,12 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
     const auto& least = fatigue.nominal.front();
     out << fmt::format(
         "    DIN 743 from nominal stresses, least safe of {} fillets: {}, safety {} (1.2 is asked; "
-        "bending {:.1f} MPa x {:.2f}, torsion {:.1f} MPa x {:.2f})\n",
+        "bending {:.1f} MPa x {:.2f}, torsion {:.1f} MPa x {:.2f}{})\n",
         fatigue.nominal.size(), least.fillet, safety_text(least.safety.fatigue),
         least.load.amplitude_Pa.bending / 1e6, least.shape_factor.bending,
-        least.load.amplitude_Pa.torsion / 1e6, least.shape_factor.torsion);
+        least.load.amplitude_Pa.torsion / 1e6, least.shape_factor.torsion,
+        std::isfinite(least.error_share) ? fmt::format("; factors +- {:.2g} %", 100 * least.error_share)
+                                         : "; the error of the factors is not known");
   }
   print_welds(out, fatigue, analysis.loads.history.effects);
   for (const auto& line : fatigue.assumptions) out << "    " << line << '\n';
@@ -322,6 +324,7 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
                                       {"amplitude_Pa", triple(nominal.load.amplitude_Pa)},
                                       {"mean_Pa", triple(nominal.load.mean_Pa)},
                                       {"shape_factor", triple(nominal.shape_factor)},
+                                      {"stress_error", number_or_none(nominal.error_share)},
                                       {"notch_effect", triple(nominal.safety.notch_effect)},
                                       {"safety_against_fatigue", number_or_none(nominal.safety.fatigue)},
                                       {"safety_against_yielding", number_or_none(nominal.safety.yielding)}}));

@@ -53,8 +53,10 @@ TEST(Fatigue, OfFilletsHasASecondOpinionByDin743) {
     const double local = shape["bending"].get<double>() * nominal["bending"].get<double>();
     const double amplitude = place["amplitude_Pa"];
     EXPECT_NEAR(local, amplitude, 1e-9 * amplitude) << "bending alone alternates there";
+    EXPECT_EQ(din[0]["stress_error"], place["stress_error"]) << "of that amplitude";
   }
   EXPECT_NE(run.out.find("DIN 743 from nominal stresses"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("; factors +- "), std::string::npos) << run.out;
   // The page has the first place's instants, what other rules say of it, and every fillet by DIN 743.
   const auto page = results_test::bytes(directory / "out/report.html");
   const auto& first = fatigue["places"][0];
