@@ -3,17 +3,22 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <new>
+#include <optional>
 
 #include "meshes/values/refused.h"
 
@@ -24,6 +29,24 @@ namespace {
 constexpr int exit_too_large = 90;  // any code that the libraries do not use
 constexpr double wall_share = 10;   // seconds on the wall for one of a core, where others take turns
 constexpr double least_bytes = 1e9;
+
+using Clock = std::chrono::steady_clock;
+std::optional<Clock::time_point> deadline;  // of DeadlineApart; a child has its parent's
+
+double seconds_to_deadline() {
+  if (!deadline) return std::numeric_limits<double>::infinity();
+  return std::chrono::duration<double>(*deadline - Clock::now()).count();
+}
+
+/// SIGALRM after so many seconds on the wall.
+void ring_after(double seconds) {
+  constexpr double least_s = 1e-3, most_s = 1e9;  // 0 would mean never
+  const double s = std::clamp(seconds, least_s, most_s);
+  itimerval timer{};
+  timer.it_value.tv_sec = time_t(s);
+  timer.it_value.tv_usec = suseconds_t(1e6 * (s - std::floor(s)));
+  ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
 
 /// A file without a name, in memory.
 class Sheet {
@@ -109,7 +132,15 @@ void limit_rest_apart(double seconds) {
   ::getrusage(RUSAGE_SELF, &used);
   const double so_far_s = double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1;
   set_limit(RLIMIT_CPU, std::ceil(so_far_s + seconds));
-  ::alarm(unsigned(std::min(1e9, std::ceil(1 + wall_share * seconds))));
+  ring_after(std::min(1 + wall_share * seconds, seconds_to_deadline()));
+}
+
+DeadlineApart::DeadlineApart(double seconds) {
+  constexpr double most_s = 1e9;
+  deadline = Clock::now() + std::chrono::microseconds(std::int64_t(1e6 * std::clamp(seconds, 0.0, most_s)));
+}
+DeadlineApart::~DeadlineApart() {
+  deadline.reset();
 }
 
 EndApart run_apart(const std::function<std::string()>& work, double seconds) {
@@ -129,7 +160,7 @@ EndApart run_apart(const std::function<std::string()>& work, double seconds) {
   end.log = log.read();
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal == SIGXCPU || signal == SIGALRM) {
-    end.kind = EndApart::Kind::too_slow;
+    end.kind = seconds_to_deadline() <= 0 ? EndApart::Kind::too_late : EndApart::Kind::too_slow;
   } else if (signal == 0 && WEXITSTATUS(status) == exit_too_large) {
     end.kind = EndApart::Kind::too_large;
   } else if (signal != 0 || WEXITSTATUS(status) != 0) {

@@ -14,7 +14,7 @@ namespace meshes {
 
 /// How work that was done apart has ended.
 struct EndApart {
-  enum class Kind { finished, crashed, too_slow, too_large };
+  enum class Kind { finished, crashed, too_slow, too_late, too_large };
   Kind kind = Kind::finished;
   int signal = 0;      ///< that ended it, if it crashed
   std::string result;  ///< what the work has returned, if it finished
@@ -24,6 +24,16 @@ struct EndApart {
 /// Limits the seconds of a core that the rest of the work may take; only to be called by the work itself.
 /// The clock on the wall may show ten times as much.
 void limit_rest_apart(double seconds);
+
+/// While it lives, work done apart ends on the clock on the wall after these seconds, whatever its own
+/// limits: what a search has left. One at a time.
+class DeadlineApart {
+public:
+  explicit DeadlineApart(double seconds);
+  ~DeadlineApart();
+  DeadlineApart(const DeadlineApart&) = delete;
+  DeadlineApart& operator=(const DeadlineApart&) = delete;
+};
 
 /// Does the work in a child process and waits for it. The child may take as much memory as is free, and
 /// prints into the log. An exception must not leave the work.

@@ -150,8 +150,7 @@ void name_surfaces(const Import& import, ModelMesh& model, BodyMesh& body) {
       continue;
     }
     const Piece& piece = model.pieces[i];
-    const std::string name =
-        unused(piece.name.empty() ? "surface " + std::to_string(piece.tag) : piece.name, used);
+    const std::string name = unused(name_of(piece), used);
     used.insert(name);
     id_of_piece.push_back(add(name, Feature::Kind::surface, shapes[i].low_m[2], shapes[i].high_m[2]));
   }

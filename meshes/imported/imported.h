@@ -15,10 +15,11 @@ namespace meshes {
 /// STEP: solids that touch are one body. A .msh keeps its cells:
 /// tetrahedra are raised to second order, hexahedra lowered to first; its groups of surfaces are features,
 /// its groups of volumes regions if there are several. Every boundary face belongs to one feature: that of a
-/// port, or of its group, or "surface <n>", n the surface's number in the CAD. Sharp edges: where faces meet
-/// at more than 60 degrees re-entrant. One call at a time in a process: gmsh is global.
-/// The file's text is checked first (file_checks.h); gmsh reads and meshes it in a process of its own, with
-/// limits of time and memory (apart.h), so that a file that makes it crash or hang is refused like any other.
+/// port, or of its group, or "hole d 12 mm (surface <n>)" as far as its shape is known, n the surface's
+/// number in the CAD. Sharp edges: where faces meet at more than 60 degrees re-entrant. One call at a time in
+/// a process: gmsh is global. The file's text is checked first (file_checks.h); gmsh reads and meshes it in a
+/// process of its own, with limits of time and memory (apart.h), so that a file that makes it crash or hang
+/// is refused like any other.
 /// @throws GeometryRefused naming file or port and the remedy: a file that is missing, cannot be read
 /// or has no solid, solids that do not touch, a port without surfaces (what there is, is listed), a surface
 /// that two ports claim, a seat or bore that is no cylinder, a surface that sticks out of the range of z

@@ -19,6 +19,7 @@
 #include "meshes/imported/apart.h"
 #include "meshes/imported/file_checks.h"
 #include "meshes/imported/model_bytes.h"
+#include "meshes/solids/cad_surfaces.h"
 #include "meshes/solids/cell_estimate.h"
 #include "meshes/values/refused.h"
 
@@ -160,6 +161,7 @@ ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
   SolidControl control = import.control;
   for (auto& spot : control.fine_spots) move(spot.centre_m, centre, -scale_to_m);
   ModelMesh model = mesh_and_collect(control, scale_to_m);
+  name_shapes(scale_to_m, {scale_to_m * centre[0], scale_to_m * centre[1], scale_to_m * centre[2]}, model);
   for (auto& point : model.mesh.points) move(point, centre, scale_to_m);
   for (auto* pieces : {&model.pieces, &model.volumes})
     for (auto& piece : *pieces) move(piece.centre_m, centre, scale_to_m);
@@ -188,6 +190,8 @@ std::string last_deed(const std::string& log) {
       throw GeometryRefused("gmsh did not come to an end " + where +
                             ": repair the geometry there and export it again, or give it longer with "
                             "time_limit in the table mesh");
+    case EndApart::Kind::too_late:
+      throw MeshRefused("the time was up " + where);
     case EndApart::Kind::too_large:
       throw GeometryRefused("gmsh ran out of memory " + where +
                             ": make the cells larger, or the part simpler");

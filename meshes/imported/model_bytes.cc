@@ -35,7 +35,12 @@ public:
     return *this;
   }
   ByteWriter& add(const Piece& piece) {
-    return add(piece.name).add(piece.tag).add(piece.size).add(piece.centre_m).add(piece.second_moment);
+    return add(piece.name)
+        .add(piece.shape)
+        .add(piece.tag)
+        .add(piece.size)
+        .add(piece.centre_m)
+        .add(piece.second_moment);
   }
   std::string take() { return std::move(bytes_); }
 
@@ -66,6 +71,7 @@ public:
   }
   void get(Piece& piece) {
     get(piece.name);
+    get(piece.shape);
     get(piece.tag);
     get(piece.size);
     get(piece.centre_m);

@@ -19,10 +19,6 @@ constexpr double range_share = 1e-3;  // of the length asked for, in z
   throw GeometryRefused("port " + port.name + ": " + what);
 }
 
-std::string name_of(const Piece& piece) {
-  return piece.name.empty() ? "surface " + std::to_string(piece.tag) : piece.name;
-}
-
 std::string candidates(const ModelMesh& model, const std::vector<PieceShape>& shapes, bool only_cylinders) {
   constexpr std::size_t most = 40;  // lines a person reads
   std::string list;

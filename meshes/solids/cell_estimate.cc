@@ -14,6 +14,7 @@ namespace {
 
 const double per_volume = 6 * std::sqrt(2.0);    // regular tetrahedra of edge 1 in a volume of 1
 const double per_area = 3 * 4 / std::sqrt(3.0);  // three for each regular triangle of edge 1
+constexpr double per_edge = 15;                  // around a curve with short edges
 
 /// Largest curvature found at a few places of a surface; 0 where gmsh knows none.
 double curvature_of(int surface) {
@@ -32,13 +33,34 @@ double curvature_of(int surface) {
   return largest;
 }
 
-double measure(int dimension, int tag) {
+}  // namespace
+
+double measure_of(int dimension, int tag) {
   double value = 0;
   gmsh::model::occ::getMass(dimension, tag, value);
   return std::isfinite(value) ? std::abs(value) : 0;
 }
 
-}  // namespace
+std::map<int, double> sizes_along_narrow_surfaces(double smallest, double largest) {
+  constexpr double widths = 8, most_edges = 3000;
+  std::map<int, double> most;
+  gmsh::vectorpair surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  for (const auto& surface : surfaces) {
+    gmsh::vectorpair curves;
+    gmsh::model::getBoundary({surface}, curves, false, false, false);
+    double around = 0;
+    for (const auto& curve : curves) around += measure_of(1, curve.second);
+    const double width = around > 0 ? 2 * measure_of(2, surface.second) / around : 0;
+    const double size = std::max(smallest, widths * width);
+    if (!(size > 0) || size >= largest || around > most_edges * size) continue;
+    for (const auto& curve : curves) {
+      const auto [known, is_new] = most.emplace(curve.second, size);
+      if (!is_new) known->second = std::min(known->second, size);
+    }
+  }
+  return most;
+}
 
 double estimated_cells(const SolidControl& control, double unit_m) {
   const double size = longest_edge(control, unit_m);
@@ -46,14 +68,16 @@ double estimated_cells(const SolidControl& control, double unit_m) {
   gmsh::model::getEntities(volumes, 3);
   gmsh::model::getEntities(surfaces, 2);
   double volume = 0, n_cells = 0;
-  for (const auto& [dimension, tag] : volumes) volume += measure(dimension, tag);
+  for (const auto& [dimension, tag] : volumes) volume += measure_of(dimension, tag);
   n_cells += per_volume * volume / std::pow(size, 3);
   for (const auto& [dimension, tag] : surfaces) {
     const double curvature = curvature_of(tag);
     const double curved = curvature > 0 ? 2 * pi / (control.cells_per_circle * curvature) : size;
     const double edge = std::min(size, std::max(curved, control.smallest_size_m / unit_m));
-    n_cells += per_area * measure(dimension, tag) / (edge * edge);
+    n_cells += per_area * measure_of(dimension, tag) / (edge * edge);
   }
+  for (const auto& [curve, edge] : sizes_along_narrow_surfaces(control.smallest_size_m / unit_m, size))
+    n_cells += per_edge * measure_of(1, curve) / edge;
   for (const auto& spot : control.fine_spots) {
     const double ball = 4 * pi / 3 * std::pow(spot.radius_m / unit_m, 3);
     n_cells += per_volume * std::min(volume, ball) / std::pow(std::min(size, spot.size_m / unit_m), 3);

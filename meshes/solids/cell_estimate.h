@@ -1,6 +1,7 @@
 /// How many tetrahedra a mesh control asks for, told from volumes and areas before anything is meshed.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "meshes/solids/solid_control.h"
@@ -15,5 +16,14 @@ double estimated_cells(const SolidControl& control, double unit_m);
 
 /// The field that most of the cells are owed to where there are too many.
 std::string control_of_cells(const SolidControl& control);
+
+/// Length of a curve, area of a surface or volume of gmsh's current model, by OpenCASCADE; 0 where not known.
+double measure_of(int dimension, int tag);
+
+/// The largest edges of cells along the curves of narrow surfaces, as chamfers and steps of a hair: cells
+/// that are longer than some ten widths are as good as flat. A surface that would take thousands of them is
+/// left alone: it is refused for its cells.
+/// @return by the number of the curve, in the model's unit
+std::map<int, double> sizes_along_narrow_surfaces(double smallest, double largest);
 
 }  // namespace meshes

@@ -15,7 +15,12 @@ constexpr int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};  /
 
 class Mover {
 public:
-  explicit Mover(CellMesh& mesh) : mesh_(mesh), cells_of_(mesh.points.size()), fixed_(mesh.points.size(), 0) {
+  explicit Mover(CellMesh& mesh)
+      : mesh_(mesh),
+        cells_of_(mesh.points.size()),
+        fixed_(mesh.points.size(), 0),
+        moved_at_(mesh.points.size(), 0),
+        failed_at_(mesh.points.size(), -1) {
     std::vector<int> volume(mesh.points.size(), 0);
     for (std::size_t c = 0; c < mesh.n_cells(); ++c)
       for (std::size_t i = 0; i < 10; ++i) {
@@ -31,6 +36,8 @@ public:
   bool improve(int node) {
     if (fixed_[node]) return false;
     const Group group = group_of(node);
+    if (newest_move(group) <= failed_at_[node]) return false;  // it would find the same again
+    bool moved = false;
     const double before = worst_of(group.cells);
     double best = before;
     for (double step = 0.3 * group.size; step > 0.01 * group.size; step /= 2) {
@@ -46,6 +53,14 @@ public:
         shift(group, move, -1);
       }
       shift(group, best_move, 1);
+      moved = moved || best_move != Point{};
+    }
+    if (moved) {
+      ++n_moves_;
+      moved_at_[node] = n_moves_;
+      for (const int m : group.middles) moved_at_[m] = n_moves_;
+    } else {
+      failed_at_[node] = n_moves_;
     }
     return best > before + 1e-6;
   }
@@ -76,6 +91,12 @@ private:
     group.cells.assign(cells.begin(), cells.end());
     return group;
   }
+  int newest_move(const Group& group) const {
+    int newest = 0;
+    for (const auto c : group.cells)
+      for (std::size_t i = 0; i < 10; ++i) newest = std::max(newest, moved_at_[mesh_.cell(c)[i]]);
+    return newest;
+  }
   double worst_of(const std::vector<std::size_t>& cells) const {
     double worst = 1;
     for (const auto c : cells) worst = std::min(worst, scaled_jacobian(mesh_, c));
@@ -91,6 +112,9 @@ private:
   CellMesh& mesh_;
   std::vector<std::vector<std::size_t>> cells_of_;  // nodes
   std::vector<char> fixed_;
+  int n_moves_ = 0;
+  std::vector<int> moved_at_;   // number of each node's last move; 0: none
+  std::vector<int> failed_at_;  // number of moves when nothing was better for a node; -1: never
 };
 
 }  // namespace

@@ -18,7 +18,12 @@ struct Piece {
   double size = 0;           ///< area [m2] or volume [m3]; 0: not known
   Point centre_m{};          ///< of that area or volume
   double second_moment = 0;  ///< of the area [m4] or volume [m5]: squared distances from that centre
+  std::string shape{};  ///< of a surface of a STEP file: "hole d 12 mm" (cad_surfaces.h); empty: not known
 };
+
+/// Of its group, else "hole d 12 mm (surface 8)", or "surface 8": unique, and the same for all meshes of a
+/// file.
+std::string name_of(const Piece& surface);
 
 /// face_id is a place among the pieces, volume_id among the volumes.
 struct ModelMesh {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "meshes/solids/cell_estimate.h"
 #include "meshes/solids/flat_cells.h"
 #include "meshes/values/refused.h"
 
@@ -45,12 +46,12 @@ struct CurvesOfSize {
   }
 };
 
-CurvesOfSize size_of(int curve, std::size_t n) {
+/// @param most  largest size wanted
+CurvesOfSize size_of(int curve, std::size_t n, double most) {
   constexpr int least_points = 200;
-  double length = 0;
-  gmsh::model::occ::getMass(1, curve, length);
-  CurvesOfSize size{int(std::floor(std::log(length / double(n)) / std::log(1.1))), least_points};
-  while (size.n_points < 2 * int(n)) size.n_points *= 2;
+  const double length = measure_of(1, curve), its_size = std::min(length / double(n), most);
+  CurvesOfSize size{int(std::floor(std::log(its_size) / std::log(1.1))), least_points};
+  while (size.n_points * its_size < 2 * length) size.n_points *= 2;
   return size;
 }
 
@@ -73,14 +74,18 @@ int field_of(const FineSpot& spot, double unit_m, double largest) {
 
 /// Cells grow gently with the distance from every curve: without this a narrow surface beside a fillet gets
 /// cells as long as its other edge asks for. Meshes the curves, and forgets them again.
-void limit_growth(const std::vector<FineSpot>& fine_spots, double unit_m, double largest) {
+void limit_growth(const SolidControl& control, double unit_m, double largest) {
+  const auto along_narrow = sizes_along_narrow_surfaces(control.smallest_size_m / unit_m, largest);
   gmsh::model::mesh::generate(1);
   std::map<CurvesOfSize, std::vector<double>> curves_of_size;
   gmsh::vectorpair curves;
   gmsh::model::getEntities(curves, 1);
   for (const auto& curve : curves)
-    if (const auto n = n_elements(curve.second); n > 0)
-      curves_of_size[size_of(curve.second, n)].push_back(curve.second);
+    if (const auto n = n_elements(curve.second); n > 0) {
+      const auto narrow = along_narrow.find(curve.second);
+      const double most = narrow == along_narrow.end() ? largest : narrow->second;
+      curves_of_size[size_of(curve.second, n, most)].push_back(curve.second);
+    }
   std::vector<double> fields;
   for (const auto& [its_size, its_curves] : curves_of_size) {
     const int distance = gmsh::model::mesh::field::add("Distance");
@@ -92,7 +97,7 @@ void limit_growth(const std::vector<FineSpot>& fine_spots, double unit_m, double
                                             std::to_string(growth) + "*F" + std::to_string(distance));
     fields.push_back(size);
   }
-  for (const auto& spot : fine_spots) fields.push_back(field_of(spot, unit_m, largest));
+  for (const auto& spot : control.fine_spots) fields.push_back(field_of(spot, unit_m, largest));
   const int smallest = gmsh::model::mesh::field::add("Min");
   gmsh::model::mesh::field::setNumbers(smallest, "FieldsList", fields);
   gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
@@ -136,7 +141,7 @@ void mesh_solids(const SolidControl& control, double unit_m) {
   set("Mesh.MeshSizeFromCurvature", control.cells_per_circle);
   set("Mesh.MeshSizeFromPoints", 0);
   set("Mesh.LcIntegrationPrecision", curve_precision);
-  limit_growth(control.fine_spots, unit_m, size);
+  limit_growth(control, unit_m, size);
   // Between two small holes gmsh would interpolate the size of their edges, and mesh all of a perforated
   // plate as finely as these. Volumes begin with the size of their surface's cells.
   set(extend_from_boundary, 0);

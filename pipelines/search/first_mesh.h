@@ -13,8 +13,10 @@ struct FirstMesh {
 };
 
 /// The first of first_meshes that the mesher takes. Of a STEP file, whose cells nobody knows before they are
-/// there, and a limit of time: the first of ever coarser meshes that gmsh makes in 0.3 of the time and that
-/// is likely to be solved in the rest, or the last one that is much coarser than the one before.
+/// there, and a limit of time: the first of ever coarser meshes that gmsh makes in 0.3 of the time that is
+/// left and that is likely to be solved in the rest, or the last one that is much coarser than the one
+/// before. Trials count: after one that took too long, and where there is no time for one, the coarsest mesh
+/// is made, without which there would be no result.
 /// @param mesh          makes the mesh of a body
 /// @param seconds_left  of the search's time; infinite without a limit
 /// @throws what `mesh` throws of the body's own mesh

@@ -1,5 +1,7 @@
 #include "pipelines/search/scene_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +9,7 @@
 #include <new>
 #include <utility>
 
+#include "meshes/imported/apart.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/body_stages/analyse_body.h"
 #include "pipelines/body_stages/body_vibration.h"
@@ -260,9 +263,16 @@ private:
     }
   }
 
+  /// Finer cells lock less, so that stress grows with them where nothing is sharp.
+  static bool is_locking(const GoverningStress& stress) {
+    constexpr double locked_share = 0.1;
+    return stress.errors.of("locking") > locked_share * stress.value_Pa;
+  }
+
   /// Enters the present mesh into what is known.
   void take_stock(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
-    if (state.growth.at(analysis, state.step ? state.step->ratio : 1)) leave_out(i, analysis);
+    const bool grows = state.growth.at(analysis, state.step ? state.step->ratio : 1);
+    if (grows && !is_locking(governing_stress(analysis))) leave_out(i, analysis);
     state.history.add(errors_of_places(analysis), state.step);
     auto judged = state.history.judged();
     if (is_refined_locally(run_.scene.bodies[i])) {
@@ -298,8 +308,25 @@ private:
           reason_to_end(state.search, governing_stress(analysis), is_block_shaft(analysis.scene));
       if (!state.search.ended.empty() || !next_step(i, state, analysis)) break;
     }
+    warn_of_overrun(i, state);
     analysis.search = std::move(state.search);
     return analysis;
+  }
+
+  /// One mesh has to be solved for a result, and that of a user's file may take longer than there is.
+  void warn_of_overrun(std::size_t i, const SearchState& state) {
+    constexpr double as_good_as_kept = 1.2;
+    const double now_s = seconds_since(start_);
+    const bool is_import = std::holds_alternative<meshes::Import>(run_.scene.bodies[i].shape);
+    if (!is_import || state.search.steps.size() != 1 || state.end_s <= 0 ||
+        now_s <= as_good_as_kept * state.end_s)
+      return;
+    warnings_.push_back(fmt::format(
+        "{}: the first mesh took until {:.2g} s, with a limit of {:.2g} s; no result takes less than a mesh "
+        "of "
+        "{} unknowns: make its cells larger (mesh.size, mesh.cells_per_circle, mesh.smallest_size), or leave "
+        "small features out",
+        run_.scene.bodies[i].name, now_s, state.end_s, state.search.steps.front().n_dofs));
   }
 
   /// Takes the step that promises most.
@@ -325,12 +352,30 @@ private:
       auto step = is_local ? refine_locally(finer.bodies[i], state.local)
                            : refine_mesh(finer.bodies[i], analysis, judged, part);
       if (!step) continue;
-      if (state.end_s > 0 && seconds_since(start_) + seconds_before > state.end_s) {
+      if (!is_time_left(state, seconds_before)) {
         state.search.next_seconds = seconds_before;  // at least: a finer mesh is not even made
         state.search.ended = "the time is up";
         return false;
       }
+      // A finer mesh would not be solved in less than this one.
+      std::optional<meshes::DeadlineApart> deadline;
+      if (state.end_s > 0) deadline.emplace(state.end_s - seconds_since(start_) - seconds_before);
       auto mesh = try_to_mesh(i, finer, refusal, is_local ? &run_.loaded.meshed[i] : nullptr);
+      for (std::size_t k = 0; !mesh && !is_local && is_time_left(state, seconds_before); ++k) {
+        const auto others = nearly_as_fine(finer.bodies[i]);
+        if (k >= others.size()) break;
+        Scene variant = finer;
+        variant.bodies[i] = others[k];
+        std::string its_refusal;
+        mesh = try_to_mesh(i, variant, its_refusal, nullptr);
+        if (mesh) finer = std::move(variant);
+      }
+      deadline.reset();
+      if (!mesh && !is_time_left(state, seconds_before)) {
+        state.search.next_seconds = seconds_before;
+        state.search.ended = "the time is up";
+        return false;
+      }
       if (!mesh) {
         state.exhausted.insert(part);
         continue;
@@ -340,6 +385,11 @@ private:
     }
     state.search.ended = "the mesh cannot be refined further" + (refusal.empty() ? "" : ": " + refusal);
     return false;
+  }
+
+  /// Whether a step that takes so many seconds would end in time.
+  bool is_time_left(const SearchState& state, double seconds) const {
+    return state.end_s <= 0 || seconds_since(start_) + seconds <= state.end_s;
   }
 
   /// The body's mesh in another version of the scene; nothing if the mesher refuses it.

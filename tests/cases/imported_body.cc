@@ -330,6 +330,12 @@ cells_per_circle = 24
     const auto outcome = millstress(
         directory.path, "run plate.toml --fresh -o out --tolerance '50 %' --time-limit '" + limit + "'");
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err << outcome.out;
+    if (limit == "0.1 s") {  // no time for trials: the coarsest mesh alone is made
+      const auto first = outcome.err.find("  mesh ");
+      EXPECT_NE(first, std::string::npos) << outcome.err;
+      EXPECT_EQ(outcome.err.find("  mesh ", first + 1), std::string::npos) << outcome.err;
+      EXPECT_NE(outcome.out.find("with a limit of 0.1 s"), std::string::npos) << outcome.out;
+    }
     return summary(directory / "out")["bodies"]["part"]["search"]["steps"].at(0);
   };
   const auto in_time = first_of("1000 s", 0);

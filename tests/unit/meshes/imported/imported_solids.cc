@@ -298,6 +298,82 @@ TEST(Imported, AFaceIsLoadedAboutTheCentreOfItsArea) {
   }
 }
 
+/// In mm: a link 100 x 40 x 8 with holes of 12 at both ends, along y a rounding of 5 and a fillet of 4 under
+/// a rib; exported by its own surfaces or by B-splines, which a scaling makes of all of them.
+void link(bool of_splines) {
+  const double height = of_splines ? 0.5 : 1;
+  gmsh::vectorpair whole, part, filleted;
+  std::vector<gmsh::vectorpair> map;
+  occ::fuse({{3, occ::addBox(-50, -20, 0, 100, 40, 8 * height)}},
+            {{3, occ::addBox(-10, -20, 8 * height, 20, 40, 12 * height)}}, whole, map);
+  gmsh::vectorpair holes;
+  for (const double x : {-35, 35}) holes.push_back({3, occ::addCylinder(x, 0, -1, 0, 0, 12, 6)});
+  occ::cut(whole, holes, part, map);
+  if (of_splines) occ::dilate(part, 0, 0, 0, 1, 1, 1 / height);
+  occ::synchronize();
+  gmsh::vectorpair edges;
+  gmsh::model::getEntitiesInBoundingBox(9.9, -21, 7.9, 10.1, 21, 8.1, edges, 1);
+  if (!of_splines) occ::fillet({part[0].second}, {edges[0].second}, {4}, filleted);
+  occ::synchronize();
+}
+
+ImportPort eye(const std::string& name, double x_m) {
+  CylinderSelection selection;
+  selection.axis_x_m = x_m;
+  selection.radius_m = 0.006;
+  selection.begin_m = -0.001;
+  selection.end_m = 0.01;
+  selection.side = CylinderSelection::Side::inside;
+  return {name, Port::Kind::face, selection};
+}
+
+// OpenCASCADE's area of a hole that is a B-spline had its centre 7 um beside the axis.
+TEST(Imported, HolesThatAreSplinesAreLoadedAboutTheirCentre) {
+  for (const bool of_splines : {false, true}) {
+    const auto step = written(of_splines ? "splines.step" : "link.step", [&] { link(of_splines); });
+    const auto body = meshes::build_imported(import_of(step, {eye("left", -0.035), eye("right", 0.035)}));
+    for (const auto& [port, x_m] : {std::pair(body.ports.at(0), -0.035), {body.ports.at(1), 0.035}}) {
+      EXPECT_NEAR(port.axis_x_m, x_m, 1e-12) << port.name << of_splines;
+      EXPECT_NEAR(port.axis_y_m, 0, 1e-12) << port.name << of_splines;
+      EXPECT_NEAR(port.begin_m, 0.004, 1e-12) << port.name << of_splines;
+    }
+  }
+}
+
+TEST(Imported, SurfacesAreNamedByTheirShape) {
+  for (const bool of_splines : {false, true}) {
+    const auto step = written(of_splines ? "splines.step" : "link.step", [&] { link(of_splines); });
+    const auto body = meshes::build_imported(import_of(step, {}));
+    std::string names;
+    for (const auto& feature : body.features) names += feature.name + "\n";
+    std::vector<std::string> wanted = {"hole d 12 mm (surface ", "plane z = 0 mm (surface ",
+                                       "plane z = 20 mm (surface ", "plane x = -50 mm (surface "};
+    if (!of_splines) wanted.push_back("fillet r 4 mm (surface ");
+    expect_words(names, wanted);
+  }
+}
+
+// Cells as long as the faces beside it were as good as flat on a chamfer of a hair, and no coarser or finer
+// size of the whole mesh helped.
+TEST(Imported, ANarrowChamferIsMeshed) {
+  for (const double chamfer_mm : {0.05}) {
+    const auto step = written("chamfer.step", [&] {
+      const int block = occ::addBox(0, 0, 0, 20, 12, 8);
+      occ::synchronize();
+      gmsh::vectorpair edges, faces, out;
+      gmsh::model::getEntitiesInBoundingBox(19.9, -1, 7.9, 20.1, 13, 8.1, edges, 1);
+      gmsh::model::getEntitiesInBoundingBox(-1, -1, 7.9, 21, 13, 8.1, faces, 2);
+      occ::chamfer({block}, {edges.at(0).second}, {faces.at(0).second}, {chamfer_mm}, out);
+      occ::synchronize();
+    });
+    auto import = import_of(step, {box("foot", -1e-6, 1e-6)});
+    import.control.size_m = 0.004;
+    const auto body = meshes::build_imported(import);
+    EXPECT_GT(body.quality.min_scaled_jacobian, 0.05) << chamfer_mm;
+    EXPECT_LT(body.cells->n_cells(), 20000u) << chamfer_mm;
+  }
+}
+
 // 145 m off the origin a pipe with a branch had other cells than at it, and a search for finer ones ended at
 // a cell that was nearly flat.
 TEST(Imported, APartFarFromTheOriginIsMeshedAsAtIt) {

@@ -66,6 +66,20 @@ TEST(WorkApart, WhatSleepsForEverIsEnded) {
   EXPECT_EQ(end.kind, EndApart::Kind::too_slow);
 }
 
+// Where a search's time is up the clock on the wall counts, also where others take the cores.
+TEST(WorkApart, AtADeadlineItIsEnded) {
+  const auto sleep = [] {
+    for (;;) ::pause();
+    return std::string();
+  };
+  {
+    const meshes::DeadlineApart deadline(0.2);
+    EXPECT_EQ(run_apart(sleep, 1000).kind, EndApart::Kind::too_late);
+    EXPECT_EQ(run_apart(sleep, 1000).kind, EndApart::Kind::too_late);  // it has passed
+  }
+  EXPECT_EQ(run_apart(sleep, 0.01).kind, EndApart::Kind::too_slow);
+}
+
 TEST(WorkApart, MemoryThatIsNotThereIsNotTaken) {
   const auto end = run_apart(
       [] {

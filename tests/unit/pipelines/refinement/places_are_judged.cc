@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
+#include "meshes/values/refused.h"
 #include "pipelines/analysis/exclusion_border.h"
+#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/estimates/place_stress.h"
 #include "pipelines/refinement/place_history.h"
 #include "pipelines/refinement/refinement.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/search/first_mesh.h"
 #include "tests/unit/pipelines/examples/row_of_cells.h"
 
 using namespace pipelines;
@@ -323,4 +327,47 @@ TEST(PlaceHistory, WhatSubmodelsTellIsKept) {
     history.add({toe}, MeshStep{MeshPart::all, 2, 1, {}});
     EXPECT_DOUBLE_EQ(error_of(history.judged(), "toe"), is_resolved ? 10 : 2);
   }
+}
+
+// A search for less than cells lose by locking refined the mesh for minutes, and met nothing.
+TEST(SearchesEnd, WhereLockingIsMoreThanWasAsked) {
+  Search search;
+  search.tolerance = 0.01;
+  search.steps.resize(1);
+  GoverningStress stress;
+  stress.value_Pa = 100;
+  const auto reason = [&](double numerical_Pa, double locking_Pa) {
+    search.met = numerical_Pa <= 1;
+    stress.errors = {};
+    stress.errors.set_numerical({"discretisation", "", numerical_Pa});
+    stress.errors.set_model({"locking", "", locking_Pa});
+    return reason_to_end(search, stress, false);
+  };
+  EXPECT_NE(reason(8, 50).find("Poisson's ratio"), std::string::npos) << reason(8, 50);
+  EXPECT_EQ(reason(30, 50), "");  // a finer mesh lowers the sum by much
+  EXPECT_EQ(reason(8, 0.5), "");  // locking is less than was asked
+  EXPECT_EQ(reason(0.5, 50), "the tolerance is met");
+}
+
+// Which cells come out flat is chance: the scene's own mesh was the last one tried.
+TEST(FirstMesh, OfTetrahedraABadCellLeadsToAnotherSize) {
+  BodyScene body;
+  meshes::Import import;
+  import.geometry = "part.step";
+  import.control.size_m = 0.01;
+  body.shape = import;
+  std::vector<double> sizes_m;
+  const auto size_m = [](const BodyScene& of) {
+    const auto& control = std::get<meshes::Import>(of.shape).control;
+    return control.size_m * control.size_factor;
+  };
+  const auto mesh = [&](const BodyScene& candidate) {
+    sizes_m.push_back(size_m(candidate));
+    if (sizes_m.back() >= 0.0095) throw meshes::MeshRefused("a flat cell");
+    return MeshedBody();
+  };
+  const auto first = first_mesh(body, mesh, [] { return std::numeric_limits<double>::infinity(); });
+  EXPECT_LT(size_m(first.body), 0.0095);
+  EXPECT_GT(size_m(first.body), 0.009);
+  EXPECT_GE(sizes_m.size(), 3u);
 }
