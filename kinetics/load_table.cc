@@ -352,6 +352,24 @@ ArrayXd samples_passed_over(const LoadTable& table, const std::vector<std::strin
   return Eigen::Map<const ArrayXd>(angle_rad.data(), Index(angle_rad.size()));
 }
 
+ArrayXd course_of_rough_samples(const LoadTable& table, const std::vector<std::string>& effects,
+                                const TimeGrid& grid, Index most) {
+  constexpr double rough = 0.2;
+  constexpr int times = 16;
+  check(table, effects, grid);
+  const TimeGrid denser{grid.turns, times * grid.instants_per_turn};
+  if (Index(denser.turns) * denser.instants_per_turn > most) return {};
+  bool is_rough = false;
+  evaluate_all(table, effects, grid, instants_of(grid), [&](const TableLoad& load, const ArrayXd& values) {
+    if (!std::holds_alternative<SampledCourse>(load.course)) return;
+    const Index n = values.size();
+    const double closing = std::abs(values[0] - values[n - 1]),
+                 step = std::max(closing, (values.tail(n - 1) - values.head(n - 1)).abs().maxCoeff());
+    is_rough = is_rough || step > rough * values.abs().maxCoeff();
+  });
+  return is_rough ? instants_of(denser) : ArrayXd();
+}
+
 std::vector<std::string> warnings_of_cycles(const LoadTable& table, const std::vector<std::string>& effects,
                                             const TimeGrid& grid) {
   constexpr double much = 0.2;

@@ -63,6 +63,14 @@ std::vector<ResamplingError> resampling_errors(const LoadTable& table, const Tim
 Eigen::ArrayXd samples_passed_over(const LoadTable& table, const std::vector<std::string>& effects,
                                    const TimeGrid& grid, Eigen::Index most = 4096);
 
+/// Angles of a whole course that knows what loads do between the instants where samples change by more than a
+/// fifth of the largest from one instant to the next (a square wave, a shock of few samples): sixteen from
+/// each instant to the next, the instants among them. No spectrum of the instants tells such a course, but
+/// the cubic between samples is the load. None: no such samples, or more than `most` angles.
+/// @throws MachineRefused as compute_loads
+Eigen::ArrayXd course_of_rough_samples(const LoadTable& table, const std::vector<std::string>& effects,
+                                       const TimeGrid& grid, Eigen::Index most = 4096);
+
 /// What lives do not know, however well the largest load is known: samples between two instants that are
 /// beyond both of their values by more than 20 % of the largest, of which whole cycles may lie there. One
 /// sentence for each such load.

@@ -116,7 +116,10 @@ void write_warnings(const torsion::PreparedTrain& p, const ForcedResponse& all, 
     if (samples < 4 || !missed.empty())
       history.warnings.push_back("the fastest harmonic has " + number(std::round(10 * samples) / 10) +
                                  " instants per period, its peaks fall between them; " +
-                                 (missed.empty() ? "" : "they miss the largest torque of " + missed + "; ") +
+                                 (missed.empty() ? ""
+                                                 : "they miss the largest torque of " + missed +
+                                                       ", which extremes of torques have and single instants "
+                                                       "have not; ") +
                                  "take more instants per turn");
   }
 }
@@ -165,6 +168,59 @@ LoadHistory history_at(const ArrayXd& phi_rad, const DriveTrain& train, const St
                                 ArrayXd::Constant(n, steady.all.rigid_acceleration_rad_s2)});
   torsion::write_closure(train, history);
   return history;
+}
+
+/// Largest, least, sums of a quantity over one block of instants after the other.
+class CourseSums {
+public:
+  void add(const Quantity& quantity, const ArrayXd& time_s) {
+    auto& f = figures_;
+    f.quantity = quantity.name;
+    const ArrayXd& x = quantity.values;
+    Index most = 0, least = 0;
+    const double largest = x.maxCoeff(&most), smallest = x.minCoeff(&least);
+    if (n_ == 0 || largest > f.largest) f.largest = largest, f.time_of_largest_s = time_s[most];
+    if (n_ == 0 || smallest < f.least) f.least = smallest, f.time_of_least_s = time_s[least];
+    sum_ += x.sum();
+    norm_ = std::hypot(norm_, x.matrix().stableNorm());
+    n_ += x.size();
+  }
+  CourseFigures figures() const {
+    auto f = figures_;
+    f.mean = sum_ / double(n_);
+    f.rms = norm_ / std::sqrt(double(n_));
+    return f;
+  }
+
+private:
+  CourseFigures figures_;
+  double sum_ = 0, norm_ = 0;
+  Index n_ = 0;
+};
+
+/// What a quantity times a factor amounts to.
+CourseFigures times_factor(const CourseFigures& of, double factor, const std::string& name) {
+  const bool keeps = factor >= 0;
+  return {name,
+          factor * (keeps ? of.largest : of.least),
+          factor * (keeps ? of.least : of.largest),
+          factor * of.mean,
+          std::abs(factor) * of.rms,
+          keeps ? of.time_of_largest_s : of.time_of_least_s,
+          keeps ? of.time_of_least_s : of.time_of_largest_s};
+}
+
+/// Torques of the elements on their inertias, of their own torques.
+std::vector<CourseFigures> on_inertias(const DriveTrain& train, const std::vector<CourseFigures>& figures) {
+  std::vector<CourseFigures> result;
+  for (const auto& element : train.elements)
+    for (const auto& of : figures)
+      if (of.quantity == element.name + ".torque") {
+        result.push_back(times_factor(of, -1, element.name + "_on_" + element.first + ".torque"));
+        result.push_back(
+            times_factor(of, 1 / element.ratio, element.name + "_on_" + element.second + ".torque"));
+      }
+  return result;
 }
 
 constexpr double counts = 1e-3;  // of an element's torque
@@ -238,6 +294,38 @@ std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
   for (Index i = 0; i < phi_rad.size(); ++i) phi_rad[i] = double(found[std::size_t(i)].second) * step_rad;
   std::sort(phi_rad.begin(), phi_rad.end());
   return history_at(phi_rad, train, steady, steady.motion_at(phi_rad));
+}
+
+std::vector<CourseFigures> figures_over_the_course(const DriveTrain& train,
+                                                   const std::vector<std::string>& effects,
+                                                   const TimeGrid& grid) {
+  torsion::check_effects(train, effects);
+  check_grid(grid);
+  const SteadyTrain steady(train, effects);
+  if (steady.all.harmonics.empty()) return {};
+  const auto counting = with_lines_that_count(steady.all);
+  if (counting.harmonics.empty()) return {};
+  const double times = std::ceil(instants_of_crests / instants_per_period(steady.prepared, counting, grid));
+  const double n = times * double(grid.turns) * grid.instants_per_turn;
+  if (times < 2 || n * double(counting.harmonics.size()) > most_work) return {};
+  const auto& lines = n * double(steady.all.harmonics.size()) > most_work ? counting : steady.all;
+  const double step_s = 2 * pi / grid.instants_per_turn / times / train.reference_speed_rad_s;
+  constexpr double at_once = 4096;
+  std::vector<CourseSums> sums;
+  for (double first = 0; first < n; first += at_once) {
+    const double count = std::min(at_once, n - first);
+    LoadHistory block;
+    block.time_s = ArrayXd::LinSpaced(Index(count), first, first + count - 1) * step_s;
+    torsion::write_parts(steady.prepared.train, over_time(steady.prepared.train, lines, block.time_s), {}, "",
+                         block);
+    sums.resize(block.quantities.size());
+    for (std::size_t q = 0; q < sums.size(); ++q) sums[q].add(block.quantities[q], block.time_s);
+  }
+  std::vector<CourseFigures> figures;
+  for (const auto& sum : sums) figures.push_back(sum.figures());
+  const auto more = on_inertias(steady.prepared.train, figures);
+  figures.insert(figures.end(), more.begin(), more.end());
+  return figures;
 }
 
 }  // namespace kinetics

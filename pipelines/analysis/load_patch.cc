@@ -80,7 +80,8 @@ double unsolved_Pa(const BodyAnalysis& analysis, const std::map<std::string, Pre
   for (const auto& [port, pressure] : pressures) {
     const auto varied = with_contact(pressure.model.pattern, factor);
     const auto& solved = pressure.harmonics;
-    for (int n = 2; n <= pressure.model.highest_harmonic; ++n) {
+    // A seat without harmonics above the force lacks at least the second, which ovalises it.
+    for (int n = 2; n <= std::max(2, pressure.model.highest_harmonic); ++n) {
       const auto above = solved.lower_bound(n);
       if (above != solved.end() && above->first == n) continue;
       double most_Pa = 0;

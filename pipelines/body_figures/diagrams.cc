@@ -8,6 +8,7 @@
 #include "pipelines/channels/statics.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/estimates/time_sampling.h"
 #include "pipelines/superposition/zones.h"
 
 namespace pipelines {
@@ -121,6 +122,7 @@ void leave_out(const std::vector<meshes::SharpEdge>& edges, std::vector<TorsionR
     if (left_out[r]) {
       rings[r].max_Pa = 0;
       rings[r].instant = 0;
+      rings[r].denser_instant = -1;
     }
 }
 
@@ -138,24 +140,31 @@ SectionHistory statics_over_the_cycle(const std::vector<fem::UnitLoad>& unit_loa
 }
 
 Array2Xd ring_shear_Pa(const ChannelHistory& loads, const fem::UnitResponses& responses, std::size_t ring) {
+  return ring_shear_Pa(loads.values, responses, ring);
+}
+
+Array2Xd ring_shear_Pa(const ArrayXXd& values, const fem::UnitResponses& responses, std::size_t ring) {
   const std::size_t n_channels = responses.channels.size();
   ArrayXXd unit(2, Index(n_channels));
   for (std::size_t k = 0; k < n_channels; ++k)
     for (std::size_t c = 0; c < 2; ++c)
       unit(Index(c), Index(k)) = responses.ring_shear_Pa[ring * n_channels + k][c];
-  return over_the_cycle(unit, loads);
+  return (unit.matrix() * values.matrix()).array();
 }
 
 std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitResponses& responses,
                                        const meshes::BodyMesh& mesh) {
   std::vector<TorsionRing> rings;
+  const bool is_whole = is_whole_course(loads.history);
+  const auto shear_of = [&](const ArrayXXd& values, std::size_t r) -> ArrayXd {
+    return ring_shear_Pa(values, responses, r).matrix().colwise().stableNorm().transpose();
+  };
   for (std::size_t r = 0; r < responses.rings.size(); ++r) {
-    const ArrayXd shear =
-        ring_shear_Pa(loads.history, responses, r).matrix().colwise().stableNorm().transpose();
     TorsionRing ring;
     ring.z_m = responses.rings[r].z_m;
     ring.radius_m = responses.rings[r].radius_m;
-    ring.max_Pa = shear.maxCoeff(&ring.instant);
+    ring.max_Pa = shear_of(loads.history.values, r).maxCoeff(&ring.instant);
+    if (is_whole) ring.max_Pa = shear_of(loads.history.passed_over, r).maxCoeff(&ring.denser_instant);
     for (const auto& feature : mesh.features)
       if (feature.boundary_id == responses.rings[r].boundary_id) ring.feature = feature.name;
     rings.push_back(ring);

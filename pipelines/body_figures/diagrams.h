@@ -38,8 +38,11 @@ struct SectionResult {
 struct TorsionRing {
   double z_m = 0, radius_m = 0;
   std::string feature;
-  double max_Pa = 0;  ///< over the cycle, hypot of the mean sigma_r_theta and sigma_theta_z
-  Eigen::Index instant = 0;
+  double max_Pa = 0;  ///< over the cycle, hypot of the mean sigma_r_theta and sigma_theta_z; over the whole
+                      ///< course where the loads that the instants pass over are that
+  Eigen::Index instant = 0;  ///< of the largest at the instants
+  Eigen::Index denser_instant =
+      -1;  ///< of max_Pa: column of ChannelHistory::passed_over; -1: it is `instant`
   /// What it may be more up to the border of what is left out, where that is next to it: from the ring within
   /// in a straight line, which is above a curve that steepens towards the corner.
   double rise_Pa = 0;
@@ -87,6 +90,9 @@ Diagrams section_diagrams(const BodyLoads& loads, const fem::UnitResponses& resp
 /// Mean torsional shear on a ring over the instants: rows sigma_r_theta and sigma_theta_z [Pa].
 /// @param ring  index into responses.rings
 Eigen::Array2Xd ring_shear_Pa(const ChannelHistory& loads, const fem::UnitResponses& responses,
+                              std::size_t ring);
+/// The same under other values of the channels, K x n.
+Eigen::Array2Xd ring_shear_Pa(const Eigen::ArrayXXd& values, const fem::UnitResponses& responses,
                               std::size_t ring);
 
 /// Of all rings of the responses, in their order, which section_diagrams has as well. Those that are left out

@@ -23,18 +23,39 @@ const meshes::Port* port_of(const meshes::BodyMesh& mesh, const std::string& nam
   return nullptr;
 }
 
-/// Torque of the stress field in the last section before a place, or the first one after it; zero beyond the
-/// shaft's end.
-ArrayXd torque_beside(const std::vector<SectionResult>& sections, double z_m, bool before) {
+/// The last section before a place, or the first one after it; none beyond the shaft's end.
+std::optional<std::size_t> section_beside(const std::vector<SectionResult>& sections, double z_m,
+                                          bool before) {
   const double tolerance_m = same_place * (sections.back().plane.z_m - sections.front().plane.z_m);
-  const SectionResult* found = nullptr;
-  for (const auto& section : sections) {
-    const double z = section.plane.z_m;
-    if (before && z <= z_m + tolerance_m) found = &section;
-    if (!before && found == nullptr && z >= z_m - tolerance_m) found = &section;
+  std::optional<std::size_t> found;
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    const double z = sections[s].plane.z_m;
+    if (before && z <= z_m + tolerance_m) found = s;
+    if (!before && !found && z >= z_m - tolerance_m) found = s;
   }
-  if (found == nullptr) return ArrayXd::Zero(sections.front().by_stress.cols());
-  return found->by_stress.row(5).transpose();
+  return found;
+}
+
+/// Torque of the stress field by which it changes from one side of a port to the other, under values of the
+/// channels.
+ArrayXd torque_by_stress_Nm(const BodyAnalysis& analysis, const meshes::Port& port,
+                            const Eigen::ArrayXXd& values) {
+  const auto& responses = analysis.responses;
+  const auto& sections = analysis.diagrams->sections;
+  const auto n_channels = responses.channels.size();
+  Eigen::RowVectorXd unit = Eigen::RowVectorXd::Zero(Index(n_channels));
+  const auto add = [&](const std::optional<std::size_t>& section, double sign) {
+    if (!section) return;
+    for (std::size_t k = 0; k < n_channels; ++k)
+      unit[Index(k)] += sign * responses.sections[*section * n_channels + k].resultant[5];
+  };
+  add(section_beside(sections, port.begin_m, true), 1);
+  add(section_beside(sections, port.end_m, false), -1);
+  return (unit * values.matrix()).transpose().array();
+}
+
+Course torque_course(const kinetics::CourseFigures& of) {
+  return {of.mean, (of.largest - of.least) / 2, std::max(of.largest, -of.least)};
 }
 
 /// Of the segments that a place lies in: at a shoulder there are two.
@@ -53,23 +74,46 @@ const SectionResult& nearest_section(const std::vector<SectionResult>& sections,
   });
 }
 
-RingTorsion ring_torsion(const BodyAnalysis& analysis, std::size_t index) {
+RingTorsion ring_torsion(const BodyAnalysis& analysis, std::size_t index, const BetweenInstants& between) {
   const auto& diagrams = *analysis.diagrams;
   RingTorsion result;
   result.ring = diagrams.rings[index];
-  result.stress_Pa = signed_ring_stress_Pa(ring_shear_Pa(analysis.loads.history, analysis.responses, index));
+  const auto& history = analysis.loads.history;
   const double z = result.ring.z_m;
-  const ArrayXd torque_Nm = nearest_section(diagrams.sections, z).by_statics.row(5).transpose();
-  result.nominal_Pa =
-      torque_Nm.abs() / least_modulus_m3(analysis.scene.shaft()->geometry, z) * result.stress_Pa.sign();
-  const double nominal = std::abs(result.nominal_Pa[result.ring.instant]);
-  if (nominal > 0) result.factor = result.ring.max_Pa / nominal;
+  const auto& geometry = analysis.scene.shaft()->geometry;
+  const double modulus_m3 = least_modulus_m3(geometry, z);
+  const auto& section = nearest_section(diagrams.sections, z);
+  // One direction for the instants and all between them.
+  const Index n = history.values.cols(), m = between.values.cols();
+  Eigen::Array2Xd shear_Pa(2, n + m);
+  shear_Pa.leftCols(n) = ring_shear_Pa(history, analysis.responses, index);
+  ArrayXd torque_Nm(n + m);
+  torque_Nm.head(n) = section.by_statics.row(5).transpose();
+  if (m > 0) {
+    shear_Pa.rightCols(m) = ring_shear_Pa(between.values, analysis.responses, index);
+    ChannelHistory denser;
+    denser.channels = history.channels;
+    denser.values = between.values;
+    torque_Nm.tail(m) = statics_over_the_cycle(analysis.loads.unit_loads, denser, geometry,
+                                               analysis.scene.material.density_kg_m3, section.plane.z_m)
+                            .row(5)
+                            .transpose();
+  }
+  const ArrayXd stress_Pa = signed_ring_stress_Pa(shear_Pa);
+  const ArrayXd nominal_Pa = torque_Nm.abs() / modulus_m3 * stress_Pa.sign();
+  result.stress_Pa = stress_Pa.head(n);
+  result.nominal_Pa = nominal_Pa.head(n);
+  result.stress = course_of(result.stress_Pa, stress_Pa.tail(m), between.is_whole);
+  result.nominal = course_of(result.nominal_Pa, nominal_Pa.tail(m), between.is_whole);
+  Index largest = 0;
+  const double most_Pa = stress_Pa.abs().maxCoeff(&largest), nominal = std::abs(nominal_Pa[largest]);
+  if (nominal > 0) result.factor = most_Pa / nominal;
   return result;
 }
 
 /// Of the rings that are nearer to the middle of this port than to that of any other, the one stressed most.
 std::optional<RingTorsion> largest_near(const BodyAnalysis& analysis, const std::vector<double>& middles_m,
-                                        std::size_t port) {
+                                        std::size_t port, const BetweenInstants& between) {
   const auto& rings = analysis.diagrams->rings;
   const auto nearest = [&](double z) {
     return std::min_element(middles_m.begin(), middles_m.end(),
@@ -82,7 +126,7 @@ std::optional<RingTorsion> largest_near(const BodyAnalysis& analysis, const std:
         (largest == rings.size() || rings[r].max_Pa > rings[largest].max_Pa))
       largest = r;
   if (largest == rings.size()) return std::nullopt;
-  return ring_torsion(analysis, largest);
+  return ring_torsion(analysis, largest, between);
 }
 
 /// Nodes of a feature's faces at a ring's height.
@@ -112,14 +156,17 @@ const std::array<double, 2>* shear_of(const fem::UnitResponses& responses, const
   return &responses.ring_shear_Pa[std::size_t(found - responses.rings.begin()) * responses.channels.size()];
 }
 
-/// What the largest stress of the ring between the instants may exceed that at them by.
+/// What the largest stress of the ring between the instants may exceed max_Pa by.
 double sampling_error_of_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
   const auto* shear_Pa = shear_of(analysis.responses, ring);
   if (shear_Pa == nullptr) return 0;
   std::vector<std::array<double, 6>> unit;
   for (std::size_t k = 0; k < analysis.responses.channels.size(); ++k)
     unit.push_back({0, 0, 0, shear_Pa[k][0], shear_Pa[k][1], 0});
-  return sampling_error_Pa(unit, analysis.loads.history) / std::sqrt(3);
+  const auto& history = analysis.loads.history;
+  const double error_Pa = ring.denser_instant >= 0 ? time_sampling(unit, history.passed_over).error_Pa()
+                                                   : sampling_error_Pa(unit, history);
+  return error_Pa / std::sqrt(3);
 }
 
 /// At the node of the ring's height that twist stresses most.
@@ -130,7 +177,9 @@ std::optional<double> error_of_twist_Pa(const BodyAnalysis& analysis, const Tors
   const auto nodes = nodes_at(analysis, ring);
   const auto* shear_Pa = shear_of(responses, ring);
   if (shear_Pa == nullptr || nodes.empty()) return std::nullopt;
-  ArrayXd factors = analysis.loads.history.values.col(ring.instant);
+  const auto& history = analysis.loads.history;
+  ArrayXd factors = ring.denser_instant >= 0 ? history.passed_over.col(ring.denser_instant)
+                                             : history.values.col(ring.instant);
   std::vector<std::vector<std::array<double, 6>>> unit_Pa;
   for (const auto node : nodes) unit_Pa.push_back(unit_stress_at(responses, {{{node, 1.0}}, 0}));
   for (std::size_t k = 0; k < n_channels; ++k) {
@@ -199,6 +248,16 @@ Course course_of(const ArrayXd& values) {
   return {values.mean(), (values.maxCoeff() - values.minCoeff()) / 2, values.abs().maxCoeff()};
 }
 
+Course course_of(const ArrayXd& values, const ArrayXd& between, bool is_whole) {
+  if (between.size() == 0) return course_of(values);
+  if (is_whole) return course_of(between);
+  ArrayXd both(values.size() + between.size());
+  both << values, between;
+  Course course = course_of(both);
+  course.mean = values.size() > 0 ? values.mean() : 0;
+  return course;
+}
+
 double polar_modulus_m3(double diameter_m, double bore_m) {
   return pi * (std::pow(diameter_m, 4) - std::pow(bore_m, 4)) / (16 * diameter_m);
 }
@@ -211,12 +270,14 @@ ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa) {
   return (shear_Pa.colwise() * direction).colwise().sum().transpose();
 }
 
-std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis,
-                                            const kinetics::LoadHistory& loads) {
+std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis, const kinetics::LoadHistory& loads,
+                                            const std::vector<kinetics::CourseFigures>& course) {
   std::vector<ElementTorsion> elements;
   const auto* shaft = analysis.scene.shaft();
   if (!analysis.diagrams || shaft == nullptr) return elements;
   const auto ports = kind_of(analysis.scene).element_ports(analysis.scene);
+  if (ports.empty()) return elements;
+  const auto between = between_instants(analysis.loads.history);
   std::vector<double> middles_m;
   for (const auto& at : ports) {
     const auto* port = port_of(analysis.mesh, at.port);
@@ -225,15 +286,22 @@ std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis,
   for (std::size_t e = 0; e < ports.size(); ++e) {
     const auto* port = port_of(analysis.mesh, ports[e].port);
     if (port == nullptr) continue;
-    ElementTorsion element{ports[e].element, ports[e].port, {}, {}, 0, {}, {}};
+    ElementTorsion element;
+    element.element = ports[e].element;
+    element.port = ports[e].port;
     element.torque_Nm = loads.resultant(ports[e].role).total.row(2).transpose();
-    const auto& sections = analysis.diagrams->sections;
-    element.by_stress_Nm =
-        torque_beside(sections, port->begin_m, true) - torque_beside(sections, port->end_m, false);
+    element.by_stress_Nm = torque_by_stress_Nm(analysis, *port, analysis.loads.history.values);
     element.largest_difference_Nm = (element.by_stress_Nm - element.torque_Nm).abs().maxCoeff();
-    element.nominal_Pa =
-        element.torque_Nm / least_modulus_m3(shaft->geometry, (port->begin_m + port->end_m) / 2);
-    element.largest = largest_near(analysis, middles_m, e);
+    const double modulus_m3 = least_modulus_m3(shaft->geometry, (port->begin_m + port->end_m) / 2);
+    element.nominal_Pa = element.torque_Nm / modulus_m3;
+    element.torque = course_of(element.torque_Nm);
+    for (const auto& of : course)
+      if (of.quantity == ports[e].role + ".torque") element.torque = torque_course(of);
+    element.by_stress = course_of(element.by_stress_Nm, torque_by_stress_Nm(analysis, *port, between.values),
+                                  between.is_whole);
+    element.nominal = {element.torque.mean / modulus_m3, element.torque.amplitude / modulus_m3,
+                       element.torque.largest / modulus_m3};
+    element.largest = largest_near(analysis, middles_m, e, between);
     elements.push_back(std::move(element));
   }
   return elements;

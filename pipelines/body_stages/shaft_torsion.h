@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kinetics/train_crests.h"
 #include "pipelines/analysis/body_analysis.h"
 
 namespace pipelines {
@@ -18,6 +19,9 @@ struct Course {
   double largest = 0;    ///< of |x|
 };
 Course course_of(const Eigen::ArrayXd& values);
+/// With what is known of it between the instants.
+/// @param is_whole  between is the whole course, of which the instants are a part
+Course course_of(const Eigen::ArrayXd& values, const Eigen::ArrayXd& between, bool is_whole);
 
 /// Polar section modulus of a round section, solid or bored: pi (d^4 - b^4) / (16 d) [m3].
 double polar_modulus_m3(double diameter_m, double bore_m);
@@ -28,6 +32,7 @@ struct RingTorsion {
   Eigen::ArrayXd stress_Pa;   ///< over the instants, along the direction in which it is largest
   Eigen::ArrayXd nominal_Pa;  ///< |T| r / I_p with the sign of stress_Pa: torque by statics in the section
                               ///< nearest to the ring, in the thinner of the segments that meet there
+  Course stress, nominal;     ///< of both, over the whole course where it is known between the instants
   double factor = 0;          ///< K_ts, largest stress over the nominal one at that instant; 0: no torque
 };
 
@@ -39,12 +44,15 @@ struct ElementTorsion {
                                 ///< to the other; the angular inertia of the piece between is in it
   double largest_difference_Nm = 0;
   Eigen::ArrayXd nominal_Pa;           ///< |torque_Nm| r / I_p in the port's segment, with the torque's sign
+  Course torque, by_stress, nominal;   ///< over the whole course where it is known between the instants
   std::optional<RingTorsion> largest;  ///< the ring stressed most of those nearest to this port
 };
 
 /// Of every element that joins the shaft; none of other bodies, and where no section diagrams are.
-/// @param loads  the load stage that the analysis is of
-std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis, const kinetics::LoadHistory& loads);
+/// @param loads   the load stage that the analysis is of
+/// @param course  what the machine knows of its quantities between the instants; empty: nothing
+std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis, const kinetics::LoadHistory& loads,
+                                            const std::vector<kinetics::CourseFigures>& course = {});
 
 /// Course of a ring's torsional stress along the direction that it has where it is largest: positive there.
 /// @param shear_Pa  ring_shear_Pa
@@ -58,7 +66,7 @@ Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 /// - the difference to Diagrams::by_harmonics with its error; that one, too, where the models differ by more
 ///   than both state.
 /// Of harmonics, their own error; infinite where nothing is known. To these comes what the ring's largest
-/// stress between the instants may exceed that at them by (sampling_error_Pa), and rounding.
+/// stress between the instants may exceed max_Pa by (sampling_error_Pa), and rounding.
 /// @param ring  largest_torsion_ring
 double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring);
 

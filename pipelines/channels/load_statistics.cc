@@ -5,7 +5,7 @@
 
 #include "kinetics/harmonics.h"
 #include "kinetics/load_spectrum.h"
-#include "pipelines/common/statistics.h"
+#include "pipelines/channels/load_figures.h"
 #include "pipelines/files/csv.h"
 
 namespace pipelines {
@@ -54,14 +54,13 @@ struct Rows {
 };
 
 void write_extremes(const path& file, const std::vector<StatisticsSeries>& all,
-                    const kinetics::LoadHistory& loads) {
+                    const kinetics::LoadHistory& loads, const std::vector<kinetics::CourseFigures>& course) {
   Rows rows(6);
   for (const auto& series : all) {
-    Eigen::Index at_max = 0, at_min = 0;
-    series.values.maxCoeff(&at_max);
-    series.values.minCoeff(&at_min);
-    const auto s = statistics(series.values);
-    rows.add(series, {s.max, s.min, s.mean, s.rms, loads.time_s[at_max], loads.time_s[at_min]});
+    auto of = figure_of(series.name, series.unit, series.values, loads.time_s);
+    take_course(course, of);
+    const auto& s = of.statistics;
+    rows.add(series, {s.max, s.min, s.mean, s.rms, of.time_of_max_s, of.time_of_min_s});
   }
   rows.write(file, {"max", "min", "mean", "rms", "time_of_max", "time_of_min"}, {"", "", "", "", "s", "s"});
 }
@@ -108,10 +107,11 @@ void write_spectra(const path& file, const std::vector<StatisticsSeries>& all, b
 
 }  // namespace
 
-void write_statistics(const path& directory, const kinetics::LoadHistory& loads, int turns) {
+void write_statistics(const path& directory, const kinetics::LoadHistory& loads, int turns,
+                      const std::vector<kinetics::CourseFigures>& course) {
   std::filesystem::create_directories(directory);
   const auto all = series_of(loads);
-  write_extremes(directory / "statistics.csv", all, loads);
+  write_extremes(directory / "statistics.csv", all, loads, course);
   if (turns > 0) write_harmonics(directory / "harmonics.csv", all, turns);
   write_polar(directory / "polar.csv", loads);
   write_spectra(directory / "spectrum.csv", all, turns > 0);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "kinetics/load_history.h"
+#include "kinetics/train_crests.h"
 
 namespace pipelines {
 
@@ -15,7 +17,9 @@ namespace pipelines {
 ///   spectrum.csv    rainflow (ASTM E1049): range, mean, count, of one period
 /// @param turns  of the drive that the history covers and after which it repeats; 0: it does not repeat (a
 ///               run-up): then there is no harmonics.csv, and spectrum.csv counts half cycles too
+/// @param course what is known of quantities between the instants (course_of_loads): goes into statistics.csv
 /// @throws FileError naming the file that cannot be written
-void write_statistics(const std::filesystem::path& directory, const kinetics::LoadHistory& loads, int turns);
+void write_statistics(const std::filesystem::path& directory, const kinetics::LoadHistory& loads, int turns,
+                      const std::vector<kinetics::CourseFigures>& course = {});
 
 }  // namespace pipelines

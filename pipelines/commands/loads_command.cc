@@ -5,6 +5,7 @@
 
 #include "fem/model/model.h"
 #include "pipelines/calculix/calculix_cards.h"
+#include "pipelines/channels/load_figures.h"
 #include "pipelines/channels/load_files.h"
 #include "pipelines/channels/load_statistics.h"
 #include "pipelines/command_options/option_value.h"
@@ -94,7 +95,8 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   std::vector<std::string> charts;
   if (!options.statistics.empty()) {
     const int turns = scene.run_up ? 0 : scene.sampling.turns;
-    clock.run("write", [&] { write_statistics(options.statistics, history, turns); });
+    clock.run("write",
+              [&] { write_statistics(options.statistics, history, turns, course_of_loads(scene, history)); });
     charts = clock.run("charts",
                        [&] { return write_load_charts(options.statistics, scene.title, history, turns); });
     say_if_nothing_draws(charts, !charts.empty() || make_offscreen_window());

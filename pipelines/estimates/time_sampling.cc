@@ -7,6 +7,7 @@
 
 #include "pipelines/between_instants/cycle_extremes.h"
 #include "pipelines/between_instants/factor_spectrum.h"
+#include "pipelines/common/constants.h"
 
 namespace pipelines {
 namespace {
@@ -51,14 +52,19 @@ Eigen::MatrixXd coordinates_of(const std::vector<std::array<double, 6>>& unit) {
   return deviatoric_coordinates(tensors).matrix();
 }
 
-/// Whether the loads that are passed over are the whole course, the instants among them at equal steps.
-bool is_whole_course(const ChannelHistory& loads) {
-  const Index n = loads.values.cols(), m = loads.passed_over.cols();
-  if (n < 1 || m < 2 * n || m % n != 0) return false;
-  const Eigen::ArrayXd rounding = 1e-9 * loads.values.abs().rowwise().maxCoeff();
-  for (Index i = 0; i < n; ++i)
-    if (((loads.passed_over.col(m / n * i) - loads.values.col(i)).abs() > rounding).any()) return false;
-  return true;
+/// The polynomial of a spectrum of rows at `times` as many instants.
+ArrayXXd denser_values(const FactorSpectrum& spectrum, Index times) {
+  const Index m = times * spectrum.n_instants;
+  ArrayXXd values = ArrayXXd::Zero(spectrum.lines.rows(), m);
+  const Eigen::ArrayXd turn = Eigen::ArrayXd::LinSpaced(m, 0, double(m - 1)) * (2 * pi / double(m));
+  for (Index h = 0; h < spectrum.lines.cols(); ++h) {
+    const Eigen::VectorXcd line = spectrum.lines.col(h);
+    if (line.isZero(0)) continue;
+    const Eigen::RowVectorXd cosine = (double(h) * turn).cos().matrix().transpose(),
+                             sine = (double(h) * turn).sin().matrix().transpose();
+    values += (line.real() * cosine - line.imag() * sine).array();
+  }
+  return values;
 }
 
 }  // namespace
@@ -76,6 +82,31 @@ bool passes_over_much(const ChannelHistory& loads) {
   const Eigen::ArrayXd above = between.rowwise().maxCoeff() - at.rowwise().maxCoeff(),
                        below = at.rowwise().minCoeff() - between.rowwise().minCoeff();
   return (above.max(below) > much * between.abs().rowwise().maxCoeff()).any();
+}
+
+bool is_whole_course(const ChannelHistory& loads) {
+  const Index n = loads.values.cols(), m = loads.passed_over.cols();
+  if (n < 1 || m < 2 * n || m % n != 0) return false;
+  const Eigen::ArrayXd rounding = 1e-9 * loads.values.abs().rowwise().maxCoeff();
+  for (Index i = 0; i < n; ++i)
+    if (((loads.passed_over.col(m / n * i) - loads.values.col(i)).abs() > rounding).any()) return false;
+  return true;
+}
+
+BetweenInstants between_instants(const ChannelHistory& loads) {
+  constexpr double enough = 24, most_work = 2e7;
+  if (loads.passed_over.cols() > 0) return {loads.passed_over, is_whole_course(loads)};
+  const Index n = loads.values.cols();
+  if (n < 3 || loads.values.rows() == 0 || !can_be_transformed(n)) return {};
+  const Eigen::ArrayXd sizes = loads.values.abs().rowwise().maxCoeff();
+  const Eigen::ArrayXd scale = (sizes > 0).select(sizes, 1.0);
+  auto spectrum = factor_spectrum(loads.values.colwise() / scale, no_line);
+  const Index highest = spectrum.lines.cols() - 1;
+  if (!spectrum.is_resolved() || highest < 1) return {};
+  const auto times = Index(std::ceil(enough * double(highest) / double(n)));
+  const double n_lines = double((spectrum.lines.abs2().colwise().sum() > 0).count());
+  if (times < 2 || n_lines * double(times * n * loads.values.rows()) > most_work) return {};
+  return {denser_values(spectrum, times).colwise() * scale, true};
 }
 
 std::optional<ChannelHistory> denser_course(const ChannelHistory& loads) {

@@ -46,6 +46,19 @@ bool passes_over_much(const ChannelHistory& loads);
 /// the instants; else none.
 std::optional<ChannelHistory> denser_course(const ChannelHistory& loads);
 
+/// Whether the loads that the instants pass over are the whole course at denser instants (denser_course).
+bool is_whole_course(const ChannelHistory& loads);
+
+/// What is known of the channels between the instants.
+struct BetweenInstants {
+  Eigen::ArrayXXd values;  ///< K x m; no columns: nothing
+  bool is_whole = false;   ///< the course at equal steps, the instants among them: means are those of it
+};
+
+/// The loads that the instants pass over; without any, where the instants resolve all channels but are fewer
+/// than 24 in a period of the highest line, the trigonometric polynomial through them.
+BetweenInstants between_instants(const ChannelHistory& loads);
+
 /// What the largest stress between the instants may exceed that at them by: the error_Pa of time_sampling, or
 /// passed_over_excess_Pa if that is more. Where the loads that the instants pass over are the whole course at
 /// denser ones, these are asked instead.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -144,30 +145,56 @@ std::vector<Vector3d> fan(const Vector3d& normal) {
 /// Longer paths are searched by their outermost points.
 constexpr Eigen::Index long_path = 2000;
 
+constexpr int n_lines = 8;
+
+/// The largest value of a series that comes in pieces, and where it is first.
+struct Farthest {
+  double value = -std::numeric_limits<double>::infinity();
+  Eigen::Index point = 0;
+
+  /// A value is compared at once, the place looked for only where a piece has a larger one.
+  template <class Piece>
+  void take(const Piece& piece, Eigen::Index first) {
+    if (!(piece.maxCoeff() > value)) return;
+    Eigen::Index most = 0;
+    value = piece.maxCoeff(&most);
+    point = first + most;
+  }
+};
+
 /// Of a long path the points with the largest normal stress on one of the planes, or farthest in one of
-/// sixteen directions of shear: what decides on planes near by. A short path as it is.
+/// sixteen directions of shear: what decides on planes near by. A short path as it is. The path is taken in
+/// pieces that stay in the processor's memory.
 StressPath outermost(const StressPath& history_Pa, const std::vector<Vector3d>& normals) {
   if (history_Pa.cols() <= long_path) return history_Pa;
-  constexpr int n_lines = 8;
-  std::vector<Eigen::Index> chosen;
-  const auto choose = [&](const auto& values) {
-    Eigen::Index most = 0;
-    values.maxCoeff(&most);
-    chosen.push_back(most);
-  };
-  for (const auto& normal : normals) {
-    const auto [u, v] = across(normal);
-    const Eigen::RowVectorXd a = weights(normal, u).transpose() * history_Pa,
-                             b = weights(normal, v).transpose() * history_Pa,
-                             along = weights(normal, normal).transpose() * history_Pa;
-    choose(along);
-    for (int i = 0; i < n_lines; ++i) {
-      const double angle = pi / n_lines * i;
-      const Eigen::RowVectorXd line = std::cos(angle) * a + std::sin(angle) * b;
-      choose(line);
-      choose(-line);
+  constexpr Eigen::Index at_once = 512;
+  std::vector<std::array<Farthest, 1 + 2 * n_lines>> farthest(normals.size());
+  std::array<double, n_lines> cosine{}, sine{};
+  for (int i = 0; i < n_lines; ++i) {
+    cosine[std::size_t(i)] = std::cos(pi / n_lines * i);
+    sine[std::size_t(i)] = std::sin(pi / n_lines * i);
+  }
+  Eigen::Matrix<double, Eigen::Dynamic, 6> piece;
+  Eigen::VectorXd a, b, along, line;
+  for (Eigen::Index first = 0; first < history_Pa.cols(); first += at_once) {
+    piece = history_Pa.middleCols(first, std::min(at_once, history_Pa.cols() - first)).transpose();
+    for (std::size_t n = 0; n < normals.size(); ++n) {
+      const auto [u, v] = across(normals[n]);
+      a = piece.lazyProduct(weights(normals[n], u));
+      b = piece.lazyProduct(weights(normals[n], v));
+      along = piece.lazyProduct(weights(normals[n], normals[n]));
+      auto& of = farthest[n];
+      of[0].take(along, first);
+      for (std::size_t i = 0; i < n_lines; ++i) {
+        line = cosine[i] * a + sine[i] * b;
+        of[1 + 2 * i].take(line, first);
+        of[2 + 2 * i].take(-line, first);
+      }
     }
   }
+  std::vector<Eigen::Index> chosen;
+  for (const auto& of : farthest)
+    for (const auto& one : of) chosen.push_back(one.point);
   std::sort(chosen.begin(), chosen.end());
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   StressPath result(6, Eigen::Index(chosen.size()));

@@ -31,6 +31,12 @@ std::vector<std::string> warnings_of_loads(const Scene& scene) {
   return warnings;
 }
 
+/// What a scene with a run-up has to be told of figures that are not of it.
+std::string steady_only(const Scene& scene, const std::string& what) {
+  return fmt::format("{} steady running at {:.4g} rpm; the scene's run-up ", what,
+                     scene.vibratory_mill().speed_rad_s * 30 / pi);
+}
+
 double degrees(double angle_rad) {
   return angle_rad * 180 / pi;
 }
@@ -69,7 +75,11 @@ void print_spring_choice(std::ostream& out, const Scene& scene, bool json) {
     return kinetics::choose_springs(mill, scene.kinetics_effects(), scene.sampling, aim);
   };
   const auto rms = choice(SpringAim::rms), peak = choice(SpringAim::peak);
-  const auto warnings = warnings_of_loads(scene);
+  auto warnings = warnings_of_loads(scene);
+  if (scene.run_up)
+    warnings.push_back(
+        steady_only(scene, "springs are chosen for") +
+        "is not looked at, with the resonances that it passes: run `loads` with these springs");
   if (json) {
     out << Json{{"rms", json_of(rms)}, {"peak", json_of(peak)}, {"warnings", warnings}}.dump(2) << '\n';
     return;
@@ -90,21 +100,23 @@ void print_extremes(std::ostream& out, const Scene& scene, bool json) {
     throw StageRefused(scene.machine_type_at +
                        ": extremes needs a scene whose machine.type is \"vibratory_mill\" or "
                        "\"planetary_mill\"; `loads` lists the extremes of the scene's window");
-  const auto window = compute_loads(scene.machine, scene.kinetics_effects(), scene.sampling);
+  const auto window = load_stage(scene, scene.machine);  // a run-up, where the scene has one
+  const std::string in = scene.run_up ? "run-up" : "window", key = scene.run_up ? "_in_run_up" : "_in_window";
   const auto extremes = kinetics::torus_extremes(*mill, scene.kinetics_effects());
   Json list;
   if (!json)
     out << fmt::format(
-        "\n{}: extremes over all angles of drive and charge\n\n  {:<22}{:>13}{:>13}{:>18}{:>18}\n",
-        scene.title, "load", "least", "largest", "least in window", "largest in window");
+        "\n{}: extremes over all angles of drive and charge{}\n\n  {:<22}{:>13}{:>13}{:>18}{:>18}\n",
+        scene.title, scene.run_up ? " in steady running, beside those of the run-up" : "", "load", "least",
+        "largest", "least in " + in, "largest in " + in);
   for (const auto& e : extremes) {
     const auto& values = window.quantity(e.quantity).values;
     if (json)
       list[e.quantity] = {{"unit", e.unit},
                           {"least", e.least.value},
                           {"largest", e.most.value},
-                          {"least_in_window", values.minCoeff()},
-                          {"largest_in_window", values.maxCoeff()},
+                          {"least" + key, values.minCoeff()},
+                          {"largest" + key, values.maxCoeff()},
                           {"phi_of_largest_rad", e.most.phi_rad},
                           {"chi_of_largest_rad", e.most.chi_rad}};
     else
@@ -114,6 +126,10 @@ void print_extremes(std::ostream& out, const Scene& scene, bool json) {
           degrees(e.most.phi_rad), degrees(e.most.chi_rad));
   }
   if (json) out << list.dump(2) << '\n';
+  if (!json && scene.run_up)
+    out << "  warning: "
+        << steady_only(scene, "least and largest over all angles are of") +
+               "may exceed them: it has columns of its own\n";
 }
 
 }  // namespace pipelines

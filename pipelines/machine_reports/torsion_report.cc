@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/channels/load_figures.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/finite.h"
 #include "pipelines/common/refusal_of.h"
@@ -32,10 +33,13 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
   auto& warnings = report.forced.warnings;
   for (const auto& warning : history.warnings)  // the largest torques are those of the window
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  const auto course = kinetics::figures_over_the_course(*train, effects, scene.sampling);
   for (std::size_t e = 0; e < on.elements.size(); ++e) {
     const auto& name = on.elements[e].name;
     const auto largest = [&](const std::string& quantity) {
-      return history.quantity(name + quantity).values.abs().maxCoeff();
+      const double at_instants = history.quantity(name + quantity).values.abs().maxCoeff();
+      const auto* of = find_course(course, name + quantity);
+      return of != nullptr ? std::max({at_instants, of->largest, -of->least}) : at_instants;
     };
     report.torques.push_back({name, report.forced.mean_torque_Nm[Eigen::Index(e)], largest(".torque"),
                               largest(".reduced_torque"),

@@ -59,6 +59,11 @@ std::optional<kinetics::LoadHistory> MachineKind::loads_passed_over(const Scene&
   return std::nullopt;
 }
 
+std::vector<kinetics::CourseFigures> MachineKind::figures_over_the_course(const Scene&, const Machine&,
+                                                                          const kinetics::TimeGrid&) const {
+  return {};
+}
+
 std::vector<kinetics::Spring> MachineKind::springs(const Machine&) const {
   return {};
 }

@@ -21,24 +21,18 @@
 namespace pipelines {
 namespace {
 
-void print_load(std::ostream& out, const std::string& name, const Eigen::ArrayXd& values) {
-  const auto s = statistics(values);
+void print_load(std::ostream& out, const LoadFigure& figure) {
+  const auto& s = figure.statistics;
   const double scale = std::max(std::abs(s.max), std::abs(s.min));
-  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", name, s.max, s.min,
-                     without_rounding(s.mean, scale), s.rms);
+  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", figure.name + " [" + figure.unit + "]",
+                     s.max, s.min, without_rounding(s.mean, scale), s.rms);
 }
 
 void print_loads(std::ostream& out, const RunReport& report) {
   out << fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}\n", "load", "max", "min", "mean", "rms");
   const MachineKind& kind = kind_of(report.scene.machine);
-  for (const auto& quantity : report.loads.quantities)
-    if (kind.is_headline(quantity.name))  // the rest is in summary.json
-      print_load(out, quantity.name + " [" + quantity.unit + "]", quantity.values);
-  if (kind.has_samples())
-    for_each_component(report.loads,
-                       [&](const std::string& name, const std::string& unit, const Eigen::ArrayXd& values) {
-                         print_load(out, name + " [" + unit + "]", values);
-                       });
+  for (const auto& figure : load_figures(report.scene, report.loads))
+    if (kind.is_headline(figure.name)) print_load(out, figure);  // the rest is in summary.json
 }
 
 std::string when(const RunReport& report, std::int32_t instant) {

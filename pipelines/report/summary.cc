@@ -106,15 +106,12 @@ std::string summary_json(const RunReport& report) {
   for (const auto* warnings : {&report.loads.warnings, &report.scene.warnings})
     for (const auto& warning : *warnings) json["warnings"].push_back(warning);
   const Machine& machine = report.scene.machine;
-  for_each_load(kind_of(machine), report.loads,
-                [&](const std::string& name, const std::string& unit, const Eigen::ArrayXd& values) {
-                  const auto s = statistics(values);
-                  json["loads"][name] = object({{"max", number(s.max)},
-                                                {"min", number(s.min)},
-                                                {"mean", number(s.mean)},
-                                                {"rms", number(s.rms)},
-                                                {"unit", unit}});
-                });
+  for (const auto& of : load_figures(report.scene, report.loads))
+    json["loads"][of.name] = object({{"max", number(of.statistics.max)},
+                                     {"min", number(of.statistics.min)},
+                                     {"mean", number(of.statistics.mean)},
+                                     {"rms", number(of.statistics.rms)},
+                                     {"unit", of.unit}});
   for (const double w : kind_of(machine).natural_frequencies_rad_s(machine))
     json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
   if (report.torsion != nullptr) {

@@ -8,6 +8,7 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/body_stages/shaft_torsion.h"
 #include "pipelines/body_stages/start_up_stress.h"
+#include "pipelines/channels/load_figures.h"
 #include "pipelines/files/csv.h"
 
 namespace pipelines {
@@ -28,8 +29,7 @@ CsvColumn series(std::string name, std::string unit, const ArrayXd& values) {
           std::vector<double>(values.data(), values.data() + values.size())};
 }
 
-summary::Json course_json(const ArrayXd& values, const char* unit) {
-  const Course course = course_of(values);
+summary::Json course_json(const Course& course, const char* unit) {
   return object({{"mean", number(course.mean)},
                  {"amplitude", number(course.amplitude)},
                  {"largest", number(course.largest)},
@@ -40,9 +40,9 @@ void print_torques(std::ostream& out, const std::vector<ElementTorsion>& element
   out << fmt::format("\n  {:<24}{:<16}{:>10}{:>12}{:>10}{:>17}{:>13}\n", "torque on the shaft N m", "at port",
                      "mean", "amplitude", "largest", "by stress field", "difference");
   for (const auto& e : elements) {
-    const Course torque = course_of(e.torque_Nm);
+    const Course& torque = e.torque;
     out << fmt::format("  {:<24}{:<16}{:>10.4g}{:>12.4g}{:>10.4g}{:>17.4g}{:>13.2g}\n", e.element, e.port,
-                       torque.mean, torque.amplitude, torque.largest, course_of(e.by_stress_Nm).largest,
+                       torque.mean, torque.amplitude, torque.largest, e.by_stress.largest,
                        e.largest_difference_Nm);
   }
 }
@@ -52,10 +52,10 @@ void print_stresses(std::ostream& out, const std::vector<ElementTorsion>& elemen
                      "static", "oscillating", "largest", "nominal T r/I_p", "K_ts", "where");
   for (const auto& e : elements) {
     if (!e.largest) continue;
-    const Course stress = course_of(e.largest->stress_Pa);
+    const Course& stress = e.largest->stress;
     out << fmt::format("  {:<40}{:>10.3g}{:>12.3g}{:>10.3g}{:>17.3g}{:>7.2f}  {}\n", "largest near " + e.port,
                        stress.mean / 1e6, stress.amplitude / 1e6, stress.largest / 1e6,
-                       course_of(e.largest->nominal_Pa).largest / 1e6, e.largest->factor,
+                       e.largest->nominal.largest / 1e6, e.largest->factor,
                        place_text(e.largest->ring.feature, e.largest->ring.z_m));
   }
 }
@@ -77,7 +77,7 @@ void print_figure(std::ostream& out, const std::string& name, const StartUpFigur
 }  // namespace
 
 void print_element_torsion(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
-  const auto elements = element_torsion(analysis, report.loads);
+  const auto elements = element_torsion(analysis, report.loads, course_of_loads(report.scene, report.loads));
   if (elements.empty()) return;
   print_torques(out, elements);
   print_stresses(out, elements);
@@ -85,18 +85,18 @@ void print_element_torsion(std::ostream& out, const RunReport& report, const Bod
 
 summary::Json element_torsion_json(const RunReport& report, const BodyAnalysis& analysis) {
   summary::Json json;
-  for (const auto& e : element_torsion(analysis, report.loads)) {
+  for (const auto& e : element_torsion(analysis, report.loads, course_of_loads(report.scene, report.loads))) {
     auto& entry = json[e.element];
     entry = object({{"port", e.port},
-                    {"torque", course_json(e.torque_Nm, "N m")},
-                    {"torque_by_stress", course_json(e.by_stress_Nm, "N m")},
+                    {"torque", course_json(e.torque, "N m")},
+                    {"torque_by_stress", course_json(e.by_stress, "N m")},
                     {"largest_difference", figure(e.largest_difference_Nm, "N m")},
-                    {"nominal_stress_at_port", course_json(e.nominal_Pa, "Pa")}});
+                    {"nominal_stress_at_port", course_json(e.nominal, "Pa")}});
     if (!e.largest) continue;
-    entry["largest_stress"] = course_json(e.largest->stress_Pa, "Pa");
+    entry["largest_stress"] = course_json(e.largest->stress, "Pa");
     entry["largest_stress"]["feature"] = e.largest->ring.feature;
     entry["largest_stress"]["z_m"] = e.largest->ring.z_m;
-    entry["largest_stress"]["nominal"] = course_json(e.largest->nominal_Pa, "Pa");
+    entry["largest_stress"]["nominal"] = course_json(e.largest->nominal, "Pa");
     entry["largest_stress"]["factor"] = number(e.largest->factor);
   }
   return json;

@@ -9,6 +9,7 @@
 
 #include "kinetics/effect_info.h"
 #include "kinetics/load_history.h"
+#include "kinetics/train_crests.h"
 #include "pipelines/scene/machine.h"
 #include "pipelines/scene/scene_table.h"
 
@@ -83,6 +84,11 @@ public:
   /// Loads between the scene's instants that these do not tell; empty: none.
   virtual std::optional<kinetics::LoadHistory> loads_passed_over(const Scene& scene,
                                                                  const Machine& machine) const;
+  /// Quantities whose extremes lie between the instants, over the whole course; empty: the instants tell
+  /// them, or nothing else does.
+  virtual std::vector<kinetics::CourseFigures> figures_over_the_course(const Scene& scene,
+                                                                       const Machine& machine,
+                                                                       const kinetics::TimeGrid& grid) const;
   /// That a body may stand on.
   virtual std::vector<kinetics::Spring> springs(const Machine& machine) const;
 

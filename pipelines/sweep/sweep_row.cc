@@ -4,25 +4,23 @@
 
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/channels/load_figures.h"
-#include "pipelines/common/statistics.h"
+#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 
 void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHistory& loads,
                       const std::vector<BearingResult>& bearings) {
   const MachineKind& kind = kind_of(scene.machine);
-  for_each_load(kind, loads,
-                [&](const std::string& name, const std::string& unit, const Eigen::ArrayXd& values) {
-                  const auto s = statistics(values);
-                  const auto add = [&](const char* what, double value) {
-                    row.figures.add({"loads.", name, what}, unit, value);
-                  };
-                  add(".max", s.max);
-                  add(".min", s.min);
-                  add(".mean", s.mean);
-                  add(".rms", s.rms);
-                  add(".first", values[0]);
-                });
+  for (const auto& of : load_figures(scene, loads)) {
+    const auto add = [&](const char* what, double value) {
+      row.figures.add({"loads.", of.name, what}, of.unit, value);
+    };
+    add(".max", of.statistics.max);
+    add(".min", of.statistics.min);
+    add(".mean", of.statistics.mean);
+    add(".rms", of.statistics.rms);
+    add(".first", of.first);
+  }
   int mode = 0;
   for (const double w : kind.natural_frequencies_rad_s(scene.machine))
     row.figures.add({"torsion.natural_frequency_", std::to_string(++mode)}, "rad/s", w);

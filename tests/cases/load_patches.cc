@@ -43,6 +43,39 @@ TEST(LoadPatches, EntryIsTheDifferenceOfRunsWithOtherContacts) {
               1e-12 * peak);
 }
 
+// A bored shaft ovalises under the second harmonic of its seats, which 0 harmonics leave out. Red where
+// nothing is said of it: 46.5 +- 5.1 MPa where 59.7 is right.
+TEST(LoadPatches, SeatsWithoutHarmonicsLackTheSecond) {
+  const results_test::Directory directory;
+  write(directory / "bored.toml", R"(effects = "all"
+[machine]
+type = "load_table"
+speed = "960 rpm"
+harmonics = [{ effect = "pull", load = "mid.fx", mean = 3000, amplitude = 1000 }]
+[shaft]
+contour = [
+  { port = "a", diameter = "30 mm", bore = "24 mm", length = "20 mm" },
+  { fillet = "1 mm" },
+  { port = "mid", diameter = "36 mm", bore = "24 mm", length = "30 mm" },
+  { fillet = "1 mm" },
+  { port = "b", diameter = "30 mm", bore = "24 mm", length = "20 mm" },
+]
+bearings = ["a", "b"])" + steel_of("shaft") +
+                                      "[results]\nsnapshots = 0\npictures = false\n");
+  const auto peak_with = [&](int harmonics) {
+    const auto run = millstress(directory.path,
+                                "run bored.toml --method axisymmetric --tolerance none -o r --set "
+                                "shaft.pressure_harmonics=" +
+                                    std::to_string(harmonics));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return summary(directory / "r")["bodies"]["shaft"]["peak_von_mises"];
+  };
+  const double right_Pa = peak_with(8)["value"];
+  const auto none = peak_with(0);
+  EXPECT_LT(none["value"].get<double>(), 0.9 * right_Pa);
+  EXPECT_GE(none["value"].get<double>() + none["error"]["total"].get<double>(), right_Pa);
+}
+
 namespace {
 
 /// A plain shaft of 40 mm, 72 mm long, pushed across on a seat of 12 mm in its middle; 10 mm on either side

@@ -246,6 +246,17 @@ TEST(LoadStage, StartUpEndsInSteadyRunning) {
   const auto steady = json_of(directory.path, "loads steady.toml --json")["loads"];
   const auto json = json_of(directory.path, "loads start.toml --csv start.csv --calculix start --json");
   const auto& start = json["loads"];
+  // Red where `extremes` takes a steady window for the scene's, and `springs` says nothing of the start.
+  const auto extremes = json_of(directory.path, "extremes start.toml --json")["theta"];
+  EXPECT_EQ(extremes["largest_in_run_up"].get<double>(), start["theta"]["max"].get<double>());
+  EXPECT_FALSE(extremes.contains("largest_in_window"));
+  EXPECT_NE(millstress(directory.path, "extremes start.toml").out.find("the scene's run-up may exceed them"),
+            std::string::npos);
+  const auto springs = millstress(directory.path, "springs start.toml").out;
+  EXPECT_NE(
+      springs.find("springs are chosen for steady running at 1450 rpm; the scene's run-up is not looked at"),
+      std::string::npos)
+      << springs;
   EXPECT_GT(start["theta"]["max"].get<double>(), 1.5 * steady["theta"]["max"].get<double>());
   EXPECT_LT(start["pitch_energy_residual"]["max"].get<double>(),
             1e-9 * start["pitch_energy"]["max"].get<double>());

@@ -163,7 +163,7 @@ TEST(ShaftTorsion, WarnsOnce) {
 }
 
 // 90 Hz with 2.7 instants per period. Red where the course between them is not asked: the stress was known to
-// three times itself.
+// three times itself, and then more than 3 % too small with as much of an error.
 TEST(ShaftTorsion, FewInstantsLeaveLittleUnresolved) {
   const results_test::Directory directory;
   const auto scene =
@@ -179,9 +179,9 @@ TEST(ShaftTorsion, FewInstantsLeaveLittleUnresolved) {
   const double mesh_share = right["error"].get<double>() / right["value"].get<double>();
   const double more_Pa = right["value"].get<double>() - known["value"].get<double>(),
                sampling_Pa = known["error"].get<double>() - mesh_share * known["value"].get<double>();
-  EXPECT_GT(more_Pa, 0.03 * right["value"].get<double>());
+  EXPECT_LT(std::abs(more_Pa), 0.01 * right["value"].get<double>());
   EXPECT_GE(sampling_Pa, 0.99 * more_Pa);
-  EXPECT_LT(sampling_Pa, 2 * more_Pa);
+  EXPECT_LT(sampling_Pa, 0.01 * right["value"].get<double>());
   // Cycles are those of the course between the instants, by 24 in a period: 1 % of an amplitude between two.
   const auto &judged = few["fatigue"]["places"][0], &all = many["fatigue"]["places"][0];
   EXPECT_EQ(judged["feature"], all["feature"]);

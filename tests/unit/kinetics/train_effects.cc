@@ -234,6 +234,36 @@ TEST(TrainEffects, CrestsBetweenTheInstantsAreTold) {
   EXPECT_TRUE(warnings_with(120).empty());
 }
 
+// 50 Hz at 25 turns a second, by seven, five and three instants in a period: red where figures are those of
+// the instants, which lack half of the range by three. Torques on inertias have the ratio of their side.
+TEST(TrainEffects, FiguresOverTheCourseHaveTheCrests) {
+  auto train = trains::mok150("working");
+  train.reference_speed_rad_s = 50 * M_PI;
+  std::vector<std::string> effects;
+  for (const auto& info : drive_train_effects(train)) effects.push_back(info.name);
+  const auto right = compute_loads(train, effects, {1, 240});
+  const auto course_of = [&](const std::string& name) -> Eigen::ArrayXd {
+    const auto role = name.substr(0, name.rfind('.'));
+    if (!right.has_resultant(role)) return right.quantity(name).values;
+    return right.resultant(role).total.row(2).transpose();
+  };
+  for (const int instants : {14, 10, 6}) {
+    const auto figures = figures_over_the_course(train, effects, {1, instants});
+    EXPECT_EQ(std::count_if(figures.begin(), figures.end(),
+                            [](const auto& of) { return of.quantity.find("_on_") != std::string::npos; }),
+              long(2 * train.elements.size()));
+    for (const auto& of : figures) {
+      const Eigen::ArrayXd values = course_of(of.quantity);
+      const double size = 1e-12 + values.abs().maxCoeff();
+      EXPECT_NEAR(of.largest, values.maxCoeff(), 0.01 * size) << instants << ' ' << of.quantity;
+      EXPECT_NEAR(of.least, values.minCoeff(), 0.01 * size) << instants << ' ' << of.quantity;
+      EXPECT_NEAR(of.mean, values.mean(), 1e-9 * size) << instants << ' ' << of.quantity;
+      EXPECT_NEAR(of.rms, std::sqrt(values.square().mean()), 1e-9 * size) << instants << ' ' << of.quantity;
+    }
+  }
+  EXPECT_TRUE(figures_over_the_course(train, effects, {1, 60}).empty()) << "as many themselves";
+}
+
 // Two to three instants in a period tell the line, but not that there is nothing above: the whole course
 // does, where it is not too long.
 TEST(TrainEffects, TheWholeCourseIsKnownWhereInstantsAreFew) {
