@@ -354,20 +354,28 @@ ArrayXd samples_passed_over(const LoadTable& table, const std::vector<std::strin
 
 ArrayXd course_of_rough_samples(const LoadTable& table, const std::vector<std::string>& effects,
                                 const TimeGrid& grid, Index most) {
-  constexpr double rough = 0.2;
-  constexpr int times = 16;
+  constexpr double rough = 0.2, wanted = 16, least = 4;
   check(table, effects, grid);
-  const TimeGrid denser{grid.turns, times * grid.instants_per_turn};
-  if (Index(denser.turns) * denser.instants_per_turn > most) return {};
   bool is_rough = false;
+  double step_rad = turn_rad / grid.instants_per_turn;
   evaluate_all(table, effects, grid, instants_of(grid), [&](const TableLoad& load, const ArrayXd& values) {
-    if (!std::holds_alternative<SampledCourse>(load.course)) return;
-    const Index n = values.size();
+    const auto* samples = std::get_if<SampledCourse>(&load.course);
+    if (samples == nullptr) return;
+    const Index n = values.size(), n_samples = samples->angle_rad.size();
     const double closing = std::abs(values[0] - values[n - 1]),
-                 step = std::max(closing, (values.tail(n - 1) - values.head(n - 1)).abs().maxCoeff());
-    is_rough = is_rough || step > rough * values.abs().maxCoeff();
+                 change = std::max(closing, (values.tail(n - 1) - values.head(n - 1)).abs().maxCoeff());
+    if (!(change > rough * values.abs().maxCoeff())) return;
+    is_rough = true;
+    step_rad = std::min(
+        step_rad,
+        (samples->angle_rad.tail(n_samples - 1) - samples->angle_rad.head(n_samples - 1)).minCoeff());
   });
-  return is_rough ? instants_of(denser) : ArrayXd();
+  if (!is_rough) return {};
+  const double per_instant = turn_rad / grid.instants_per_turn / step_rad * (1 - 1e-9),
+               room = std::floor(double(most) / (double(grid.turns) * grid.instants_per_turn));
+  if (std::ceil(least * per_instant) > room) return {};
+  const double times = std::min(std::ceil(wanted * per_instant), room);
+  return instants_of({grid.turns, int(times) * grid.instants_per_turn});
 }
 
 std::vector<std::string> warnings_of_cycles(const LoadTable& table, const std::vector<std::string>& effects,

@@ -65,8 +65,9 @@ Eigen::ArrayXd samples_passed_over(const LoadTable& table, const std::vector<std
 
 /// Angles of a whole course that knows what loads do between the instants where samples change by more than a
 /// fifth of the largest from one instant to the next (a square wave, a shock of few samples): sixteen from
-/// each instant to the next, the instants among them. No spectrum of the instants tells such a course, but
-/// the cubic between samples is the load. None: no such samples, or more than `most` angles.
+/// each sample or instant to the next, four where more than `most` would be needed, the instants among them.
+/// No spectrum of the instants tells such a course, but the cubic between samples is the load. None: no such
+/// samples, or too many angles even so.
 /// @throws MachineRefused as compute_loads
 Eigen::ArrayXd course_of_rough_samples(const LoadTable& table, const std::vector<std::string>& effects,
                                        const TimeGrid& grid, Eigen::Index most = 4096);

@@ -74,10 +74,10 @@ public:
                                                          const Machine& machine) const override {
     const auto& table = table_in(machine);
     const auto effects = scene.kinetics_effects();
+    const auto course_rad = kinetics::course_of_rough_samples(table, effects, scene.sampling);
+    if (course_rad.size() > 0) return kinetics::loads_at(table, effects, scene.sampling, course_rad);
     const auto phi_rad = kinetics::samples_passed_over(table, effects, scene.sampling);
-    auto denser_rad = phi_rad.size() > 0 ? phi_rad : denser_instants(table, effects, scene.sampling);
-    if (denser_rad.size() == 0)
-      denser_rad = kinetics::course_of_rough_samples(table, effects, scene.sampling);
+    const auto denser_rad = phi_rad.size() > 0 ? phi_rad : denser_instants(table, effects, scene.sampling);
     if (denser_rad.size() == 0) return std::nullopt;
     auto between = kinetics::loads_at(table, effects, scene.sampling, denser_rad);
     if (phi_rad.size() > 0) between.warnings = kinetics::warnings_of_cycles(table, effects, scene.sampling);
