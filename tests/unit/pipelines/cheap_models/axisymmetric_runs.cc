@@ -446,6 +446,24 @@ TEST(AxisymmetricRun, PlacesBesideSharpCornersAreWithinTheirErrors) {
   EXPECT_GE(2 * n_well_known, n) << "an error that holds everything says nothing";
 }
 
+// Natural frequencies need the solid; its stresses are compared with those of the harmonics all the same.
+TEST(AxisymmetricRun, StandsBesideASolidWithNaturalFrequencies) {
+  const LoadedShaft shaft(scene_of(overhung));
+  const auto stresses_of = [&](const BodyScene& solid) {
+    return axisymmetric_second_model(solid, shaft.loaded.meshed[0], shaft.loaded.body_loads[0], 0.05, 1);
+  };
+  auto vibrating = shaft.body();
+  vibrating.natural_frequencies = 3;
+  const auto without = stresses_of(shaft.body()), with = stresses_of(vibrating);
+  ASSERT_TRUE(without);
+  ASSERT_TRUE(with);
+  ASSERT_EQ(with->places.size(), without->places.size());
+  for (std::size_t i = 0; i < with->places.size(); ++i) {
+    EXPECT_EQ(with->places[i].value_Pa, without->places[i].value_Pa) << with->places[i].feature;
+    EXPECT_EQ(with->places[i].error_Pa, without->places[i].error_Pa) << with->places[i].feature;
+  }
+}
+
 TEST(AxisymmetricRun, IsRefusedWhereThereIsNoSuchModel) {
   const auto scene = laboratory::scene();
   EXPECT_EQ(why_not_axisymmetric(*scene.body("shaft")), "");
