@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "meshes/values/constants.h"
+#include "meshes/values/refused.h"
 
 namespace meshes {
 
@@ -35,6 +37,19 @@ double curvature_of(int surface) {
 
 }  // namespace
 
+namespace {
+
+[[noreturn]] void refuse_narrow(int surface, double width, double length) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "its surface " << surface << " is " << width << " wide and " << length
+       << " long (mm, unless length_unit says otherwise), too narrow for cells: leave that chamfer, step or "
+          "sliver out in CAD, or make it wider, and export again";
+  throw GeometryRefused(text.str());
+}
+
+}  // namespace
+
 double measure_of(int dimension, int tag) {
   double value = 0;
   gmsh::model::occ::getMass(dimension, tag, value);
@@ -42,7 +57,7 @@ double measure_of(int dimension, int tag) {
 }
 
 std::map<int, double> sizes_along_narrow_surfaces(double smallest, double largest) {
-  constexpr double widths = 8, most_edges = 3000;
+  constexpr double widths = 8, most_edges = 3000, hopeless_widths = 100;
   std::map<int, double> most;
   gmsh::vectorpair surfaces;
   gmsh::model::getEntities(surfaces, 2);
@@ -53,6 +68,8 @@ std::map<int, double> sizes_along_narrow_surfaces(double smallest, double larges
     for (const auto& curve : curves) around += measure_of(1, curve.second);
     const double width = around > 0 ? 2 * measure_of(2, surface.second) / around : 0;
     const double size = std::max(smallest, widths * width);
+    if (width > 0 && around > most_edges * widths * width && largest > hopeless_widths * width)
+      refuse_narrow(surface.second, width, around / 2);
     if (!(size > 0) || size >= largest || around > most_edges * size) continue;
     for (const auto& curve : curves) {
       const auto [known, is_new] = most.emplace(curve.second, size);

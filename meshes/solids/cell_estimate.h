@@ -22,8 +22,9 @@ double measure_of(int dimension, int tag);
 
 /// The largest edges of cells along the curves of narrow surfaces, as chamfers and steps of a hair: cells
 /// that are longer than some ten widths are as good as flat. A surface that would take thousands of them is
-/// left alone: it is refused for its cells.
+/// refused, or left alone where cells are small enough for it.
 /// @return by the number of the curve, in the model's unit
+/// @throws GeometryRefused naming the surface
 std::map<int, double> sizes_along_narrow_surfaces(double smallest, double largest);
 
 }  // namespace meshes
