@@ -207,7 +207,9 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
   const double there = own_share(analysis, feature, node, loads, instant);
   const double here = own_share(analysis, feature, place->node, analysis.loads.history,
                                 analysis.envelope.von_mises.instant[place->node]);
-  return std::max(judged, here > 0 ? std::min(there, std::sqrt(judged / here) * there) : there);
+  constexpr double weight_of_search = 0.25;
+  return std::max(judged,
+                  here > 0 ? std::min(there, std::pow(judged / here, weight_of_search) * there) : there);
 }
 
 double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {

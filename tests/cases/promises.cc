@@ -149,20 +149,27 @@ axial_support = "b2")" + steel_of("shaft") +
   };
   const auto solid = zones_by("--method solid --tolerance '5 %'"),
              harmonics = zones_by("--method axisymmetric --tolerance '1 %'");
+  const auto apart_m = [](const nlohmann::json& a, const nlohmann::json& b) {
+    double squares = 0;
+    for (int c = 0; c < 3; ++c)
+      squares += std::pow(a["position_m"][c].get<double>() - b["position_m"][c].get<double>(), 2);
+    return std::sqrt(squares);
+  };
   int n = 0;
-  for (const auto& zone : solid)
-    for (const auto& known : harmonics) {
-      double apart_m = 0;
-      for (int c = 0; c < 3; ++c)
-        apart_m =
-            std::hypot(apart_m, zone["position_m"][c].get<double>() - known["position_m"][c].get<double>());
-      if (zone["feature"] != known["feature"] || apart_m > 15e-3) continue;
-      ++n;
-      EXPECT_LE(std::abs(zone["peak_von_mises_Pa"].get<double>() - known["peak_von_mises_Pa"].get<double>()),
-                zone["error_Pa"].get<double>() + known["error_Pa"].get<double>())
-          << zone << " and " << known;
-    }
-  EXPECT_GE(n, 6);
+  for (const auto& known :
+       harmonics) {  // a piece that the level cuts off one mesh's zone is none of the other
+    const nlohmann::json* zone = nullptr;
+    for (const auto& other : solid)
+      if (other["feature"] == known["feature"] &&
+          (zone == nullptr || apart_m(other, known) < apart_m(*zone, known)))
+        zone = &other;
+    if (zone == nullptr || apart_m(*zone, known) > 15e-3) continue;
+    ++n;
+    EXPECT_LE(std::abs((*zone)["peak_von_mises_Pa"].get<double>() - known["peak_von_mises_Pa"].get<double>()),
+              (*zone)["error_Pa"].get<double>() + known["error_Pa"].get<double>())
+        << *zone << " and " << known;
+  }
+  EXPECT_GE(n, 5);
 }
 
 // One mesh with two cells on the fillet's quarter finds the seat: its stated error has to reach the fillet.
