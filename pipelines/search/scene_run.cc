@@ -1,7 +1,5 @@
 #include "pipelines/search/scene_run.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +7,6 @@
 #include <new>
 #include <utility>
 
-#include "meshes/imported/apart.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/body_stages/analyse_body.h"
 #include "pipelines/body_stages/body_vibration.h"
@@ -30,8 +27,8 @@
 #include "pipelines/refinement/refinement.h"
 #include "pipelines/refinement/singular_edge.h"
 #include "pipelines/search/duty_loads.h"
-#include "pipelines/search/first_mesh.h"
 #include "pipelines/search/first_model.h"
+#include "pipelines/search/search_mesh.h"
 #include "pipelines/search/search_state.h"
 #include "pipelines/search/without_mesh.h"
 
@@ -134,9 +131,10 @@ private:
                                           i, tolerance(), end_of(i));
   }
 
-  MeshedBody mesh(std::size_t i, const MeshedBody* coarse = nullptr) {
-    return clock_.run("mesh",
-                      [&] { return mesh_body(run_.scene.bodies[i], springs_of(run_.scene), coarse); });
+  MeshedBody mesh(std::size_t i) { return mesh(run_.scene, run_.scene.bodies[i], nullptr); }
+  /// @param coarse  the same mesh with fewer refinements; null: none is there
+  MeshedBody mesh(const Scene& scene, const BodyScene& body, const MeshedBody* coarse) {
+    return clock_.run("mesh", [&] { return mesh_body(body, springs_of(scene), coarse); });
   }
 
   void load(std::vector<MeshedBody> meshed) {
@@ -200,14 +198,10 @@ private:
 
   MeshedBody first_mesh_of(std::size_t i) {
     const double end_s = end_of(i);
-    const BodyScene own = run_.scene.bodies[i];
     auto [body, meshed] = first_mesh(
-        own,
-        [&](const BodyScene& candidate) {
-          run_.scene.bodies[i] = candidate;
-          return mesh(i);
-        },
-        [&] { return end_s > 0 ? end_s - seconds_since(start_) : std::numeric_limits<double>::infinity(); });
+        run_.scene.bodies[i],
+        [&](const BodyScene& candidate) { return mesh(run_.scene, candidate, nullptr); },
+        [&] { return seconds_until(end_s); });
     run_.scene.bodies[i] = std::move(body);
     return std::move(meshed);
   }
@@ -308,25 +302,12 @@ private:
           reason_to_end(state.search, governing_stress(analysis), is_block_shaft(analysis.scene));
       if (!state.search.ended.empty() || !next_step(i, state, analysis)) break;
     }
-    warn_of_overrun(i, state);
+    const auto& first = state.search.steps.front();
+    const auto overrun = warning_of_overrun(run_.scene.bodies[i], state.search.steps.size(), first.n_dofs,
+                                            state.end_s, seconds_since(start_));
+    if (!overrun.empty()) warnings_.push_back(overrun);
     analysis.search = std::move(state.search);
     return analysis;
-  }
-
-  /// One mesh has to be solved for a result, and that of a user's file may take longer than there is.
-  void warn_of_overrun(std::size_t i, const SearchState& state) {
-    constexpr double as_good_as_kept = 1.2;
-    const double now_s = seconds_since(start_);
-    const bool is_import = std::holds_alternative<meshes::Import>(run_.scene.bodies[i].shape);
-    if (!is_import || state.search.steps.size() != 1 || state.end_s <= 0 ||
-        now_s <= as_good_as_kept * state.end_s)
-      return;
-    warnings_.push_back(fmt::format(
-        "{}: the first mesh took until {:.2g} s, with a limit of {:.2g} s; no result takes less than a mesh "
-        "of "
-        "{} unknowns: make its cells larger (mesh.size, mesh.cells_per_circle, mesh.smallest_size), or leave "
-        "small features out",
-        run_.scene.bodies[i].name, now_s, state.end_s, state.search.steps.front().n_dofs));
   }
 
   /// Takes the step that promises most.
@@ -352,57 +333,34 @@ private:
       auto step = is_local ? refine_locally(finer.bodies[i], state.local)
                            : refine_mesh(finer.bodies[i], analysis, judged, part);
       if (!step) continue;
-      if (!is_time_left(state, seconds_before)) {
-        state.search.next_seconds = seconds_before;  // at least: a finer mesh is not even made
-        state.search.ended = "the time is up";
-        return false;
-      }
       // A finer mesh would not be solved in less than this one.
-      std::optional<meshes::DeadlineApart> deadline;
-      if (state.end_s > 0) deadline.emplace(state.end_s - seconds_since(start_) - seconds_before);
-      auto mesh = try_to_mesh(i, finer, refusal, is_local ? &run_.loaded.meshed[i] : nullptr);
-      for (std::size_t k = 0; !mesh && !is_local && is_time_left(state, seconds_before); ++k) {
-        const auto others = nearly_as_fine(finer.bodies[i]);
-        if (k >= others.size()) break;
-        Scene variant = finer;
-        variant.bodies[i] = others[k];
-        std::string its_refusal;
-        mesh = try_to_mesh(i, variant, its_refusal, nullptr);
-        if (mesh) finer = std::move(variant);
-      }
-      deadline.reset();
-      if (!mesh && !is_time_left(state, seconds_before)) {
-        state.search.next_seconds = seconds_before;
+      const auto seconds_left = [&] { return seconds_until(state.end_s) - seconds_before; };
+      const auto* coarse = is_local ? &run_.loaded.meshed[i] : nullptr;
+      const auto make = [&](BodyScene& body) {
+        return mesh_refined(body, [&] { return mesh(finer, body, coarse); });
+      };
+      std::optional<SearchMesh> found;
+      if (seconds_left() >= 0) found = finer_mesh(finer.bodies[i], make, seconds_left, refusal);
+      if (!found && !(seconds_left() >= 0)) {
+        state.search.next_seconds = seconds_before;  // at least
         state.search.ended = "the time is up";
         return false;
       }
-      if (!mesh) {
+      if (!found) {
         state.exhausted.insert(part);
         continue;
       }
       state.step = std::move(step);
-      return take(std::move(finer), i, std::move(*mesh), state, analysis, seconds_before);
+      finer.bodies[i] = std::move(found->body);
+      return take(std::move(finer), i, std::move(found->meshed), state, analysis, seconds_before);
     }
     state.search.ended = "the mesh cannot be refined further" + (refusal.empty() ? "" : ": " + refusal);
     return false;
   }
 
-  /// Whether a step that takes so many seconds would end in time.
-  bool is_time_left(const SearchState& state, double seconds) const {
-    return state.end_s <= 0 || seconds_since(start_) + seconds <= state.end_s;
-  }
-
-  /// The body's mesh in another version of the scene; nothing if the mesher refuses it.
-  /// @param coarse  the same mesh with fewer refinements
-  std::optional<MeshedBody> try_to_mesh(std::size_t i, Scene& scene, std::string& refusal,
-                                        const MeshedBody* coarse) {
-    std::swap(run_.scene, scene);
-    std::optional<MeshedBody> result;
-    const auto refused =
-        refusal_of([&] { result = mesh_refined(run_.scene.bodies[i], [&] { return mesh(i, coarse); }); });
-    if (!refused.empty()) refusal = refused;
-    std::swap(run_.scene, scene);
-    return result;
+  /// Infinite without a limit.
+  double seconds_until(double end_s) const {
+    return end_s > 0 ? end_s - seconds_since(start_) : std::numeric_limits<double>::infinity();
   }
 
   /// A stress that grows with every refinement has no peak to report: its place joins the sharp edges, which

@@ -11,7 +11,7 @@
 #include "pipelines/refinement/place_history.h"
 #include "pipelines/refinement/refinement.h"
 #include "pipelines/scene/scene.h"
-#include "pipelines/search/first_mesh.h"
+#include "pipelines/search/search_mesh.h"
 #include "tests/unit/pipelines/examples/row_of_cells.h"
 
 using namespace pipelines;
