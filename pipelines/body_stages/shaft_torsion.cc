@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipelines/channels/load_figures.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/estimates/time_sampling.h"
 #include "pipelines/scene/body_kind.h"
@@ -295,8 +296,7 @@ std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis, const 
     const double modulus_m3 = least_modulus_m3(shaft->geometry, (port->begin_m + port->end_m) / 2);
     element.nominal_Pa = element.torque_Nm / modulus_m3;
     element.torque = course_of(element.torque_Nm);
-    for (const auto& of : course)
-      if (of.quantity == ports[e].role + ".torque") element.torque = torque_course(of);
+    if (const auto* of = find_course(course, ports[e].role + ".torque")) element.torque = torque_course(*of);
     element.by_stress = course_of(element.by_stress_Nm, torque_by_stress_Nm(analysis, *port, between.values),
                                   between.is_whole);
     element.nominal = {element.torque.mean / modulus_m3, element.torque.amplitude / modulus_m3,
