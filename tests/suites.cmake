@@ -1,6 +1,6 @@
 # Run by ctest before it starts: one test per eight suites of an executable, named EXECUTABLE/SUITE+SUITE+... Programs that link
 # deal.II take a third of a second to start, and most suites less to run.
-# NAME, EXECUTABLE, LABEL, LONG and DIRECTORY are set by the file that includes this one. Tests that fit the filter LONG are left
+# NAME, EXECUTABLE, LABEL, LONG, FIRST, COST and DIRECTORY are set by the file that includes this one. Tests that fit the filter LONG are left
 # out of their suites and run one after the other as EXECUTABLE/long.
 if(NOT EXISTS "${EXECUTABLE}")
   add_test("${NAME}/not_built" "${EXECUTABLE}")
@@ -28,6 +28,12 @@ foreach(suite IN LISTS suites)
     string(REPLACE ";" ".*:" filter "${some}")
     add_test("${NAME}/${name}" "${EXECUTABLE}" "--gtest_filter=${filter}.*-${LONG}")
     set_tests_properties("${NAME}/${name}" PROPERTIES LABELS "${LABEL}" TIMEOUT 900 WORKING_DIRECTORY "${DIRECTORY}")
+    foreach(suite IN LISTS FIRST)
+      list(FIND some "${suite}" found)
+      if(NOT found EQUAL -1)
+        set_tests_properties("${NAME}/${name}" PROPERTIES COST ${COST})
+      endif()
+    endforeach()
     set(some)
   endif()
 endforeach()

@@ -1,13 +1,18 @@
 #include "tests/cases/program.h"
 
 #define XXH_INLINE_ALL
+#include <fcntl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
+#include <unistd.h>
 #include <xxhash.h>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "tests/cases/start_request.h"
 
 namespace cases {
 
@@ -120,8 +125,39 @@ Outcome outcome_of(const Start& start, int status) {
   return outcome;
 }
 
+namespace {
+
+/// Begins a process of the program that waits for starts (waiting_program.cc) until this one has ended.
+/// @return what stands before the program to have it started there; nothing if none waits
+std::string begin_waiting_program() {
+#ifdef WAITING_PROGRAM
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) != 0) return "";
+  const auto own = std::to_string(ends[0]), others = std::to_string(ends[1]);
+  if (fork() == 0) {
+    close(ends[1]);
+    const int nowhere = open("/dev/null", O_RDWR);
+    for (int stream = 0; stream < 3; ++stream) dup2(nowhere, stream);
+    setenv("LD_PRELOAD", WAITING_PROGRAM, 1);
+    setenv(start_request::socket_variable, own.c_str(), 1);
+    execl(MILLSTRESS, MILLSTRESS, nullptr);
+    _exit(start_request::cannot_start);
+  }
+  close(ends[0]);
+  return start_request::socket_variable + ("=" + others) + " '" HAND_OVER "'";
+#else
+  return "";
+#endif
+}
+
+}  // namespace
+
 Outcome as_a_user(const fs::path& directory, const std::string& arguments, const std::string& before) {
-  const Start start{directory, arguments, before};
+  Start start{directory, arguments, before};
+  if (before == Start().before) {
+    static const auto waiting = begin_waiting_program();
+    start.launcher = waiting;
+  }
   return outcome_of(start, std::system(shell_command(start).c_str()));
 }
 

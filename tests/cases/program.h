@@ -58,11 +58,19 @@ struct Outcome {
 /// tolerance or a time: what is tested is what becomes of one mesh.
 std::string on_its_own_mesh(const fs::path& directory, const std::string& arguments);
 
+/// For runs that must not share what a process begins with, such as the places of its memory.
+inline const std::string as_a_new_process = ":";
+
 /// Runs `millstress ARGUMENTS` in `directory` on the scene's own mesh, unless they ask for more; what it
 /// learns of the machine's speed stays in there. Stresses are computed on one thread unless the arguments say
 /// otherwise: tests run two at a time, and the threads of BLAS wait for each other by yielding, which beside
 /// another program costs many times the seconds.
-/// @param before  a command of the shell that sets the stage
+///
+/// To load the program takes a third of a second, more than most of what is tested takes then. So a process
+/// of it waits behind its loading, and a run is a fork of that: the same program from main on, with its own
+/// arguments, environment, folder and streams (waiting_program.cc). Where something else comes before, such
+/// as a limit or a setting that counts while it is loaded, the program is loaded anew.
+/// @param before  a command of the shell that sets the stage; as_a_new_process: nothing, but loaded anew
 Outcome millstress(const fs::path& directory, const std::string& arguments,
                    const std::string& before = "true");
 

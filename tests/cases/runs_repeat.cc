@@ -52,7 +52,9 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse() + Edits{{"pictures = false", "pictures = true"}}));
   for (const char* out : {"first", "second"})
-    ASSERT_EQ(millstress(directory.path, std::string("run mill.toml --threads 2 -o ") + out).exit_code, 0);
+    ASSERT_EQ(millstress(directory.path, std::string("run mill.toml --threads 2 -o ") + out, as_a_new_process)
+                  .exit_code,
+              0);
   const auto first = contents(directory / "first");
   const auto second = contents(directory / "second");
   const std::set<std::string> wanted{"loads.h5",
@@ -100,7 +102,7 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   // would repeat is no more on record.
   const auto before = fs::last_write_time(directory / "first/shaft/unit_responses.h5");
   fs::remove(directory / "first/run.json");
-  ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
+  ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first", as_a_new_process).exit_code, 0);
   EXPECT_EQ(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
   const auto reused = contents(directory / "first");
   for (const auto& [name, bytes] : first)

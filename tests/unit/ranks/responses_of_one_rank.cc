@@ -109,9 +109,10 @@ std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
   return loads;
 }
 
+// Of the eccentric shaft below, with hanging nodes.
 TEST_F(Ranks, HexahedraDirectly) {
-  const auto shaft = fem_tests::eccentric_shaft(2);
-  const auto responses = expect_same(shaft.body, some_loads(shaft), fem::Solver::direct);
+  const auto rod = fem_tests::rod(8);
+  const auto responses = expect_same(rod.body, some_loads(rod), fem::Solver::direct);
   EXPECT_LT(responses.support_reaction, 1e-9) << "balanced loads leave round-off to the support";
   EXPECT_GT(responses.factor_gigabytes, 0);
 }
@@ -227,10 +228,6 @@ TEST_F(Ranks, IterationRepeatsBitByBit) {
              second = solve(shaft.body, loads, fem::Solver::iterative, MPI_COMM_WORLD);
   EXPECT_EQ(first.displacement_m, second.displacement_m);
   EXPECT_EQ(first.stress_Pa, second.stress_Pa);
-  const auto direct = solve(shaft.body, loads, fem::Solver::direct, MPI_COMM_WORLD),
-             again = solve(shaft.body, loads, fem::Solver::direct, MPI_COMM_WORLD);
-  std::cout << "  MUMPS twice: " << difference(direct.displacement_m, again.displacement_m, loads.size(), 3)
-            << '\n';
 }
 
 TEST_F(Ranks, ClampedRod) {

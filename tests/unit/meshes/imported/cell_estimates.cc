@@ -30,15 +30,15 @@ void bored_block() {
 void perforated_plate() {
   gmsh::vectorpair holes, parts;
   std::vector<gmsh::vectorpair> map;
-  for (int row = 0; row < 3; ++row)
-    for (int k = 0; k < 3; ++k)
+  for (int row = 0; row < 2; ++row)
+    for (int k = 0; k < 2; ++k)
       holes.push_back({3, occ::addCylinder(10 + 20 * row, 10 + 20 * k, -1, 0, 0, 6, 1.5)});
-  occ::cut({{3, occ::addBox(0, 0, 0, 60, 60, 4)}}, holes, parts, map);
+  occ::cut({{3, occ::addBox(0, 0, 0, 40, 40, 4)}}, holes, parts, map);
   occ::synchronize();
 }
 
 void bar_with_small_fillets() {
-  const int bar = occ::addBox(0, 0, 0, 20, 20, 100);
+  const int bar = occ::addBox(0, 0, 0, 20, 20, 50);
   occ::synchronize();
   gmsh::vectorpair parts;
   occ::fillet({bar}, {1, 3}, {1}, parts);

@@ -157,11 +157,11 @@ TEST(AxisymmetricRun, FindsTheFilletThatGoverns) {
   EXPECT_EQ(analysis.peak.value_Pa, analysis.envelope.von_mises.value_Pa[analysis.peak.node]);
 }
 
-// What a run states holds against a run ten times stricter, place by place.
+// What a run states holds against a run five times stricter, place by place.
 TEST(AxisymmetricRun, ErrorsOfPlacesHold) {
   for (const auto& scene : {scene_of(overhung), edited::scene("stub_axle", {})}) {
     LoadedShaft shaft(scene);
-    const auto usual = shaft.stresses(0.01).places, strict = shaft.stresses(0.001).places;
+    const auto usual = shaft.stresses(0.01).places, strict = shaft.stresses(0.002).places;
     ASSERT_EQ(usual.size(), strict.size());
     for (std::size_t i = 0; i < usual.size(); ++i) {
       EXPECT_EQ(usual[i].feature, strict[i].feature);
@@ -225,7 +225,7 @@ TEST(AxisymmetricRun, PlacesAreThoseOfTheSolid) {
 TEST(AxisymmetricRun, ABeamIsWithinItsOwnError) {
   LoadedShaft shaft(edited::scene("load_table", {}));
   auto beam = shaft.beam();
-  const auto own = shaft.axisymmetric();
+  const auto own = shaft.axisymmetric(0.05);
   add_zones(shaft.scene.zones, beam);
   EXPECT_EQ(beam.method, Method::beam);
   EXPECT_NEAR(beam.peak.value_Pa, own.peak.value_Pa, beam.peak.errors.total_Pa());

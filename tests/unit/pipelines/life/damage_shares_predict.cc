@@ -172,7 +172,7 @@ TEST(DamageShares, ArePredictionsOfWholeJudgements) {
   constexpr double step = 1e-3;
   for (const bool with_gradients : {false, true}) {
     std::vector<double> off;
-    for (int trial = 0; trial < 25; ++trial) {
+    for (int trial = 0; trial < 16; ++trial) {
       const auto body = random_body(random, with_gradients);
       const auto place = body.judged();
       ASSERT_EQ(place.damage_share.size(), 3u);
