@@ -9,7 +9,7 @@ using namespace cases;
 TEST(WrongInput, LeavesEarlierResultsUntouched) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));
-  ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
+  ASSERT_EQ(millstress(directory.path, "run mill.toml --method beam -o out").exit_code, 0);
   std::map<std::string, fs::file_time_type> times;
   for (const auto& entry : fs::recursive_directory_iterator(directory / "out"))
     times[entry.path().string()] = fs::last_write_time(entry.path());
@@ -107,10 +107,10 @@ TEST(WrongInput, OfTheProcessItselfIsTold) {
 TEST(WrongInput, AFolderInTheManifestsPlaceIsNamed) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()));
-  ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
+  ASSERT_EQ(millstress(directory.path, "run mill.toml --method beam -o out").exit_code, 0);
   fs::remove(directory / "out/manifest.json");
   fs::create_directory(directory / "out/manifest.json");
-  const auto run = millstress(directory.path, "run mill.toml -o out");
+  const auto run = millstress(directory.path, "run mill.toml --method beam -o out");
   EXPECT_EQ(run.exit_code, 2) << run.err;
   EXPECT_NE(run.err.find("manifest.json: is a directory"), std::string::npos) << run.err;
 }
