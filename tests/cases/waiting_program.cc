@@ -82,6 +82,7 @@ int wait_for_starts(int argc, char** argv, char** environment) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): the C library's
 extern "C" int __libc_start_main(Main* main, int argc, char** argv, void (*init)(), void (*fini)(),
                                  void (*rtld_fini)(), void* stack_end) {
   program = main;
