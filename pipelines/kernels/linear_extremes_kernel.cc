@@ -33,15 +33,7 @@ inline double smallest_of(Lanes lanes) {
 inline void take(const double* weights, const double* a, std::size_t n_channels, double* values,
                  std::size_t stride, Range* ranges) {
   Lanes sum[n_forms][n_groups] = {};
-  for (std::size_t k = 0; k < n_channels; ++k, a += block, weights += forms_at_once) {
-    Lanes factor[n_groups];
-#pragma GCC unroll 3
-    for (std::size_t r = 0; r < n_groups; ++r) factor[r] = load(a + r * n_lanes);
-#pragma GCC unroll 8
-    for (std::size_t i = 0; i < n_forms; ++i)
-#pragma GCC unroll 3
-      for (std::size_t r = 0; r < n_groups; ++r) sum[i][r] += weights[i] * factor[r];
-  }
+  add_channels<forms_at_once>(weights, a, n_channels, sum);
 #pragma GCC unroll 8
   for (std::size_t i = 0; i < n_forms; ++i)
 #pragma GCC unroll 3

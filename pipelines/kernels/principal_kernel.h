@@ -16,15 +16,7 @@ struct Stresses {
 
   /// @param a  factors of the group's first instant
   [[gnu::always_inline]] Stresses(const double* unit, const double* a, std::size_t n_channels) : s{} {
-    for (std::size_t k = 0; k < n_channels; ++k, a += block, unit += n_coordinates) {
-      Lanes factor[n];
-#pragma GCC unroll 4
-      for (std::size_t r = 0; r < n; ++r) factor[r] = load(a + r * n_lanes);
-#pragma GCC unroll 6
-      for (std::size_t c = 0; c < n_of_it; ++c)
-#pragma GCC unroll 4
-        for (std::size_t r = 0; r < n; ++r) s[c][r] += unit[c] * factor[r];
-    }
+    add_channels<n_coordinates>(unit, a, n_channels, s);
   }
 
   /// Squared von Mises stress.

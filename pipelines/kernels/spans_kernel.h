@@ -72,6 +72,24 @@ inline const double* factors_at(const Factors& factors, std::size_t instant) {
   return factors.values + instant / block * factors.n_channels * block + instant % block;
 }
 
+/// Adds the channels up at a group of instants.
+/// @tparam stride   from one channel's numbers to the next one's
+/// @param numbers  of the first channel: one for each sum
+/// @param a        factors of the first channel at the group's first instant
+template <std::size_t stride, std::size_t n_sums, std::size_t n>
+[[gnu::always_inline]] inline void add_channels(const double* numbers, const double* a,
+                                                std::size_t n_channels, Lanes (&sum)[n_sums][n]) {
+  for (std::size_t k = 0; k < n_channels; ++k, a += block, numbers += stride) {
+    Lanes factor[n];
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < n; ++r) factor[r] = load(a + r * n_lanes);
+#pragma GCC unroll 8
+    for (std::size_t i = 0; i < n_sums; ++i)
+#pragma GCC unroll 4
+      for (std::size_t r = 0; r < n; ++r) sum[i][r] += numbers[i] * factor[r];
+  }
+}
+
 /// Bits of as many lanes as a word has. What follows from them branches once for each, not for each register.
 /// @param of_lanes  of a number: the bits of n_lanes lanes from it on
 /// @param n         only lanes below it count

@@ -94,9 +94,11 @@ double PlaceHistory::from_changes(const Record& record) const {
   const bool all_varied = std::all_of(parts_.begin(), parts_.end(),
                                       [&](MeshPart part) { return record.missing_Pa.count(part) > 0; });
   const double kept = !all_varied || record.now.is_resolved   ? 1
-                      : record.n_changes > int(parts_.size()) ? kept_share_.after_more
-                                                              : kept_share_.after_one;
-  return std::max({missing_Pa(record), kept * record.now.error_Pa, record.now.least_error_Pa});
+                      : record.n_changes > int(parts_.size()) ? trust_.kept_after_more
+                                                              : trust_.kept_after_one;
+  const bool is_compared = record.n_changes > 0 || record.now.is_resolved;
+  const double open_Pa = is_compared ? 0 : trust_.open_on_one_mesh * record.now.value_Pa;
+  return std::max({missing_Pa(record), kept * record.now.error_Pa, record.now.least_error_Pa, open_Pa});
 }
 
 std::vector<PlaceStress> PlaceHistory::judged() const {

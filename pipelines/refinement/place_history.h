@@ -42,19 +42,22 @@ struct SecondModel {
   LargestTorsion torsion{};  ///< with what that model may be off by, too
 };
 
-/// Of what one mesh tells by itself of an error, the share that later meshes cannot take back, since two
-/// meshes may agree by chance: after the first change of a stress that every part of the mesh has told of,
-/// and after more.
-struct KeptShare {
-  double after_one = 0.1, after_more = 0.1;
+/// How far a search believes its meshes.
+struct TrustInMeshes {
+  /// Of what one mesh tells by itself of an error, the share that later meshes cannot take back, since two
+  /// meshes may agree by chance: after the first change of a stress that every part of the mesh has told of,
+  /// and after more.
+  double kept_after_one = 0.1, kept_after_more = 0.1;
+  /// Of a stress, what is open at least where no finer mesh has been compared: cells may be too large to
+  /// show that they miss something.
+  double open_on_one_mesh = 0;
 };
 
 class PlaceHistory {
 public:
   /// @param parts  that have to be varied before the error of a place is known from changes alone
-  /// @param kept_share  of what a mesh tells by itself, once every part has been varied
-  explicit PlaceHistory(std::vector<MeshPart> parts, KeptShare kept_share = {})
-      : parts_(std::move(parts)), kept_share_(kept_share) {}
+  explicit PlaceHistory(std::vector<MeshPart> parts, TrustInMeshes trust = {})
+      : parts_(std::move(parts)), trust_(trust) {}
 
   /// The places on the next mesh.
   /// @param now   values, and as errors what the mesh tells by itself
@@ -66,8 +69,9 @@ public:
   /// The places of the last mesh with all that is known of their errors:
   /// - from changes: for each part |change| / (ratio^order - 1), added up, times 1.25 (Roache's safety factor
   ///   for series of meshes). The order is the step's on fillets and 1 elsewhere: ends of loads and of
-  ///   exclusion distances. While a part has not been varied, at least what the mesh tells by itself; later
-  ///   at least the kept share of it. Away from fillets, the fillets beside the place are a part as well:
+  ///   exclusion distances. While a part has not been varied, at least what the mesh tells by itself, before
+  ///   the first change at least the share of the stress that is open on one mesh; later at least the kept
+  ///   share of what the mesh tells. Away from fillets, the fillets beside the place are a part as well:
   ///   their rows of cells run through to it.
   /// - from a second model of the same problem: at least the difference, at most that with the model's error;
   /// and
@@ -94,7 +98,7 @@ private:
   bool is_explained(const Record& record) const;
 
   std::vector<MeshPart> parts_;
-  KeptShare kept_share_;
+  TrustInMeshes trust_;
   std::vector<std::string> order_;
   std::map<std::string, Record> records_;
   std::optional<SecondModel> second_;

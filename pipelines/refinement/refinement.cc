@@ -190,10 +190,11 @@ std::vector<MeshPart> mesh_parts(const BodyScene& body) {
   return parts;
 }
 
-KeptShare kept_share_of_own_error(const BodyScene& body) {
-  if (is_block_shaft(body)) return {};
-  if (std::holds_alternative<ChamberShape>(body.shape))
-    return {1 / discretisation_safety, 0.5 / discretisation_safety};
+TrustInMeshes trust_in_meshes(const BodyScene& body) {
+  constexpr double after_one = 1 / discretisation_safety, after_more = 0.5 / discretisation_safety;
+  if (is_block_shaft(body))
+    return is_refined_locally(body) ? TrustInMeshes{after_one, after_more, 0.12} : TrustInMeshes{};
+  if (std::holds_alternative<ChamberShape>(body.shape)) return {after_one, after_more};
   return {1, 1};
 }
 

@@ -19,7 +19,7 @@ inline double seconds_since(Clock::time_point start) {
 }
 
 struct SearchState {
-  explicit SearchState(const BodyScene& body) : history(mesh_parts(body), kept_share_of_own_error(body)) {}
+  explicit SearchState(const BodyScene& body) : history(mesh_parts(body), trust_in_meshes(body)) {}
   Search search;
   PlaceHistory history;
   PeakGrowth growth;

@@ -14,6 +14,7 @@ Reference by_places(const std::vector<PlaceStress>& places) {
   Reference result;
   for (const auto& place : places) {
     result.places[place.feature] = place.value_Pa;
+    result.errors[place.feature] = place.error_Pa;
     if (place.value_Pa <= result.peak_Pa) continue;
     result.peak_Pa = place.value_Pa;
     result.feature = place.feature;

@@ -12,6 +12,7 @@ struct Reference {
   double peak_Pa = 0;
   std::string feature;                   ///< that holds the peak
   std::map<std::string, double> places;  ///< largest von Mises stress of every feature [Pa]
+  std::map<std::string, double> errors;  ///< of these [Pa]
   double change = 0;                     ///< what may be missing of the peak, relative
 };
 
