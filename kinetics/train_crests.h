@@ -32,8 +32,9 @@ struct CourseFigures {
 
 /// Of angles, accelerations, torques and shear stresses of compute_loads, and of what elements do to
 /// inertias, over the grid's window, by instants that are twenty-four or more in a period of the fastest
-/// harmonic that counts, the grid's own among them: a crest is missed by 0.9 % of that harmonic at most.
-/// Empty: the grid has as many itself, there is no harmonic, or they would be too many.
+/// harmonic that counts, the grid's own among them, and by parabolas between them: a crest is missed by 0.01 %
+/// of that harmonic. Where the accelerations' lines would be too many instants, those that count for torques.
+/// Empty: there is no harmonic, or they would be too many.
 /// @throws MachineRefused as compute_loads
 std::vector<CourseFigures> figures_over_the_course(const DriveTrain& train,
                                                    const std::vector<std::string>& effects,

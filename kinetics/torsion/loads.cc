@@ -46,13 +46,33 @@ ArrayXd whole_torque_Nm(const ForcedResponse& all) {
   return whole.max(std::max(1e-300, rounding * whole.maxCoeff()));
 }
 
-/// Without the many small harmonics of a table that together are less than 0.5 % of every element's torque.
-ForcedResponse with_lines_that_count(const ForcedResponse& all) {
+/// The same of each inertia's angle and acceleration, without means.
+ArrayXd whole_motion(const ForcedResponse& all, double power_of_frequency) {
+  constexpr double rounding = 1e-9;
+  ArrayXd whole = ArrayXd::Zero(all.mean_angle_rad.size());
+  for (const auto& line : all.harmonics)
+    whole += std::pow(line.frequency_rad_s, power_of_frequency) * line.angle_rad.abs();
+  return whole.max(std::max(1e-300, rounding * whole.maxCoeff()));
+}
+
+enum class Of { torques, torques_and_motions };
+
+/// Without the many small harmonics of a table that together are less than 0.5 % of every element's torque,
+/// and of every inertia's angle and acceleration where these matter.
+ForcedResponse with_lines_that_count(const ForcedResponse& all, Of of = Of::torques) {
   constexpr double left_out = 0.005;
-  const ArrayXd whole = whole_torque_Nm(all);
+  const ArrayXd torques = whole_torque_Nm(all), angles = whole_motion(all, 0),
+                accelerations = whole_motion(all, 2);
   std::vector<std::pair<double, std::size_t>> shares;
-  for (std::size_t l = 0; l < all.harmonics.size(); ++l)
-    shares.emplace_back((all.harmonics[l].torque_Nm.abs() / whole).maxCoeff(), l);
+  for (std::size_t l = 0; l < all.harmonics.size(); ++l) {
+    const auto& line = all.harmonics[l];
+    double share = (line.torque_Nm.abs() / torques).maxCoeff();
+    if (of == Of::torques_and_motions)
+      share =
+          std::max({share, (line.angle_rad.abs() / angles).maxCoeff(),
+                    (std::pow(line.frequency_rad_s, 2) * line.angle_rad.abs() / accelerations).maxCoeff()});
+    shares.emplace_back(share, l);
+  }
   std::sort(shares.begin(), shares.end());
   std::vector<char> counts(shares.size(), 1);
   double sum = 0;
@@ -173,17 +193,26 @@ LoadHistory history_at(const ArrayXd& phi_rad, const DriveTrain& train, const St
 /// Largest, least, sums of a quantity over one block of instants after the other.
 class CourseSums {
 public:
+  /// @param time_s  of the block, at equal steps, and one instant before and one behind: a crest between
+  ///                instants is that of the parabola through three of them
   void add(const Quantity& quantity, const ArrayXd& time_s) {
-    auto& f = figures_;
-    f.quantity = quantity.name;
+    figures_.quantity = quantity.name;
     const ArrayXd& x = quantity.values;
-    Index most = 0, least = 0;
-    const double largest = x.maxCoeff(&most), smallest = x.minCoeff(&least);
-    if (n_ == 0 || largest > f.largest) f.largest = largest, f.time_of_largest_s = time_s[most];
-    if (n_ == 0 || smallest < f.least) f.least = smallest, f.time_of_least_s = time_s[least];
-    sum_ += x.sum();
-    norm_ = std::hypot(norm_, x.matrix().stableNorm());
-    n_ += x.size();
+    const Index n = x.size() - 2;
+    for (Index i = 1; i <= n; ++i) {
+      double value = x[i], time = time_s[i];
+      const double before = x[i - 1] - value, after = x[i + 1] - value;
+      if (before * after >= 0 && before + after != 0) {
+        const double steps = (before - after) / (2 * (before + after));
+        value += (after - before) / 4 * steps;
+        time += steps * (time_s[1] - time_s[0]);
+      }
+      if (n_ == 0 || value > figures_.largest) figures_.largest = value, figures_.time_of_largest_s = time;
+      if (n_ == 0 || value < figures_.least) figures_.least = value, figures_.time_of_least_s = time;
+      ++n_;
+    }
+    sum_ += x.segment(1, n).sum();
+    norm_ = std::hypot(norm_, x.segment(1, n).matrix().stableNorm());
   }
   CourseFigures figures() const {
     auto f = figures_;
@@ -303,19 +332,27 @@ std::vector<CourseFigures> figures_over_the_course(const DriveTrain& train,
   check_grid(grid);
   const SteadyTrain steady(train, effects);
   if (steady.all.harmonics.empty()) return {};
-  const auto counting = with_lines_that_count(steady.all);
+  const auto n_with = [&](const ForcedResponse& lines) {
+    return std::ceil(std::max(1.0, instants_of_crests / instants_per_period(steady.prepared, lines, grid))) *
+           double(grid.turns) * grid.instants_per_turn;
+  };
+  const auto is_too_much = [](double n, const ForcedResponse& lines) {
+    return n * double(lines.harmonics.size()) > most_work;
+  };
+  auto counting = with_lines_that_count(steady.all, Of::torques_and_motions);
+  if (!counting.harmonics.empty() && is_too_much(n_with(counting), counting))
+    counting = with_lines_that_count(steady.all, Of::torques);
   if (counting.harmonics.empty()) return {};
-  const double times = std::ceil(instants_of_crests / instants_per_period(steady.prepared, counting, grid));
-  const double n = times * double(grid.turns) * grid.instants_per_turn;
-  if (times < 2 || n * double(counting.harmonics.size()) > most_work) return {};
-  const auto& lines = n * double(steady.all.harmonics.size()) > most_work ? counting : steady.all;
+  const double n = n_with(counting), times = n / (double(grid.turns) * grid.instants_per_turn);
+  if (is_too_much(n, counting)) return {};
+  const auto& lines = is_too_much(n, steady.all) ? counting : steady.all;
   const double step_s = 2 * pi / grid.instants_per_turn / times / train.reference_speed_rad_s;
   constexpr double at_once = 4096;
   std::vector<CourseSums> sums;
   for (double first = 0; first < n; first += at_once) {
     const double count = std::min(at_once, n - first);
     LoadHistory block;
-    block.time_s = ArrayXd::LinSpaced(Index(count), first, first + count - 1) * step_s;
+    block.time_s = ArrayXd::LinSpaced(Index(count) + 2, first - 1, first + count) * step_s;
     torsion::write_parts(steady.prepared.train, over_time(steady.prepared.train, lines, block.time_s), {}, "",
                          block);
     sums.resize(block.quantities.size());
