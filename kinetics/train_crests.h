@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kinetics/course_figures.h"
 #include "kinetics/drive_train.h"
 
 namespace kinetics {
@@ -22,13 +23,6 @@ namespace kinetics {
 std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
                                                   const std::vector<std::string>& effects,
                                                   const TimeGrid& grid, Eigen::Index most = 4096);
-
-/// A quantity over the whole course between the instants.
-struct CourseFigures {
-  std::string quantity;  ///< as in compute_loads: "<element>.torque" ..., "<element>_on_<inertia>.torque"
-  double largest = 0, least = 0, mean = 0, rms = 0;  ///< in its unit
-  double time_of_largest_s = 0, time_of_least_s = 0;
-};
 
 /// Of angles, accelerations, torques and shear stresses of compute_loads, and of what elements do to
 /// inertias, over the grid's window, by instants that are twenty-four or more in a period of the fastest

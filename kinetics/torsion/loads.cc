@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kinetics/constants.h"
+#include "kinetics/course_figures.h"
 #include "kinetics/torsion/forced.h"
 #include "kinetics/torsion_chain/checks.h"
 #include "kinetics/torsion_chain/effects.h"
@@ -190,43 +191,6 @@ LoadHistory history_at(const ArrayXd& phi_rad, const DriveTrain& train, const St
   return history;
 }
 
-/// Largest, least, sums of a quantity over one block of instants after the other.
-class CourseSums {
-public:
-  /// @param time_s  of the block, at equal steps, and one instant before and one behind: a crest between
-  ///                instants is that of the parabola through three of them
-  void add(const Quantity& quantity, const ArrayXd& time_s) {
-    figures_.quantity = quantity.name;
-    const ArrayXd& x = quantity.values;
-    const Index n = x.size() - 2;
-    for (Index i = 1; i <= n; ++i) {
-      double value = x[i], time = time_s[i];
-      const double before = x[i - 1] - value, after = x[i + 1] - value;
-      if (before * after >= 0 && before + after != 0) {
-        const double steps = (before - after) / (2 * (before + after));
-        value += (after - before) / 4 * steps;
-        time += steps * (time_s[1] - time_s[0]);
-      }
-      if (n_ == 0 || value > figures_.largest) figures_.largest = value, figures_.time_of_largest_s = time;
-      if (n_ == 0 || value < figures_.least) figures_.least = value, figures_.time_of_least_s = time;
-      ++n_;
-    }
-    sum_ += x.segment(1, n).sum();
-    norm_ = std::hypot(norm_, x.segment(1, n).matrix().stableNorm());
-  }
-  CourseFigures figures() const {
-    auto f = figures_;
-    f.mean = sum_ / double(n_);
-    f.rms = norm_ / std::sqrt(double(n_));
-    return f;
-  }
-
-private:
-  CourseFigures figures_;
-  double sum_ = 0, norm_ = 0;
-  Index n_ = 0;
-};
-
 /// What a quantity times a factor amounts to.
 CourseFigures times_factor(const CourseFigures& of, double factor, const std::string& name) {
   const bool keeps = factor >= 0;
@@ -355,8 +319,9 @@ std::vector<CourseFigures> figures_over_the_course(const DriveTrain& train,
     block.time_s = ArrayXd::LinSpaced(Index(count) + 2, first - 1, first + count) * step_s;
     torsion::write_parts(steady.prepared.train, over_time(steady.prepared.train, lines, block.time_s), {}, "",
                          block);
-    sums.resize(block.quantities.size());
-    for (std::size_t q = 0; q < sums.size(); ++q) sums[q].add(block.quantities[q], block.time_s);
+    if (sums.empty())
+      for (const auto& quantity : block.quantities) sums.emplace_back(quantity.name);
+    for (std::size_t q = 0; q < sums.size(); ++q) sums[q].add(block.quantities[q].values, block.time_s);
   }
   std::vector<CourseFigures> figures;
   for (const auto& sum : sums) figures.push_back(sum.figures());

@@ -59,9 +59,14 @@ std::optional<kinetics::LoadHistory> MachineKind::loads_passed_over(const Scene&
   return std::nullopt;
 }
 
-std::vector<kinetics::CourseFigures> MachineKind::figures_over_the_course(const Scene&, const Machine&,
-                                                                          const kinetics::TimeGrid&) const {
-  return {};
+std::vector<kinetics::CourseFigures> MachineKind::figures_over_the_course(
+    const Scene& scene, const Machine& machine, const kinetics::TimeGrid& grid) const {
+  constexpr int fine = 360;  // per turn: by the samples alone they would miss 4e-5 of a harmonic once a turn
+  if (has_samples() || grid.instants_per_turn >= fine) return {};
+  Scene finer = scene;
+  finer.sampling = {grid.turns,
+                    (fine + grid.instants_per_turn - 1) / grid.instants_per_turn * grid.instants_per_turn};
+  return kinetics::course_figures(loads(finer, machine));
 }
 
 std::vector<kinetics::Spring> MachineKind::springs(const Machine&) const {

@@ -84,8 +84,8 @@ public:
   /// Loads between the scene's instants that these do not tell; empty: none.
   virtual std::optional<kinetics::LoadHistory> loads_passed_over(const Scene& scene,
                                                                  const Machine& machine) const;
-  /// Quantities whose extremes lie between the instants, over the whole course; empty: the instants tell
-  /// them, or nothing else does.
+  /// Quantities whose extremes lie between the instants, over the whole course: where a turn has fewer than
+  /// 360 instants, by as many. Empty: the instants tell them, or, of samples, nothing else does.
   virtual std::vector<kinetics::CourseFigures> figures_over_the_course(const Scene& scene,
                                                                        const Machine& machine,
                                                                        const kinetics::TimeGrid& grid) const;
