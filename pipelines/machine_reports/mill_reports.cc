@@ -8,6 +8,7 @@
 
 #include "kinetics/spring_choice.h"
 #include "kinetics/torus_extremes.h"
+#include "pipelines/channels/load_figures.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/load_stage.h"
@@ -103,6 +104,7 @@ void print_extremes(std::ostream& out, const Scene& scene, bool json) {
   const auto window = load_stage(scene, scene.machine);  // a run-up, where the scene has one
   const std::string in = scene.run_up ? "run-up" : "window", key = scene.run_up ? "_in_run_up" : "_in_window";
   const auto extremes = kinetics::torus_extremes(*mill, scene.kinetics_effects());
+  const auto course = course_of_loads(scene, window);
   Json list;
   if (!json)
     out << fmt::format(
@@ -110,19 +112,21 @@ void print_extremes(std::ostream& out, const Scene& scene, bool json) {
         scene.title, scene.run_up ? " in steady running, beside those of the run-up" : "", "load", "least",
         "largest", "least in " + in, "largest in " + in);
   for (const auto& e : extremes) {
-    const auto& values = window.quantity(e.quantity).values;
+    auto figure = figure_of(e.quantity, e.unit, window.quantity(e.quantity).values, window.time_s);
+    take_course(course, figure);
+    const auto& of_window = figure.statistics;
     if (json)
       list[e.quantity] = {{"unit", e.unit},
                           {"least", e.least.value},
                           {"largest", e.most.value},
-                          {"least" + key, values.minCoeff()},
-                          {"largest" + key, values.maxCoeff()},
+                          {"least" + key, of_window.min},
+                          {"largest" + key, of_window.max},
                           {"phi_of_largest_rad", e.most.phi_rad},
                           {"chi_of_largest_rad", e.most.chi_rad}};
     else
       out << fmt::format(
           "  {:<22}{:>13.6g}{:>13.6g}{:>18.6g}{:>18.6g}   largest at phi {:.1f}, chi {:.1f} deg\n",
-          e.quantity + " [" + e.unit + "]", e.least.value, e.most.value, values.minCoeff(), values.maxCoeff(),
+          e.quantity + " [" + e.unit + "]", e.least.value, e.most.value, of_window.min, of_window.max,
           degrees(e.most.phi_rad), degrees(e.most.chi_rad));
   }
   if (json) out << list.dump(2) << '\n';
