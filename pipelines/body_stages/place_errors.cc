@@ -16,9 +16,6 @@
 namespace pipelines {
 namespace {
 
-/// Of the largest stress: below it a place is taken to be as wrong as it can be.
-constexpr double worth_a_look = 0.4;
-
 /// A bored shaft may have a single cell through its wall. In a disc that spins, whose outer radius is four
 /// times the inner, the stress at the bore was off by 4.4 times what single cells differ by;
 /// discretisation_safety takes three.
@@ -115,6 +112,27 @@ std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
   return places;
 }
 
+std::vector<PlaceStress> without_weld_toes(const BodyAnalysis& analysis,
+                                           const std::vector<PlaceStress>& judged) {
+  std::vector<PlaceStress> others;
+  for (const auto& place : judged)
+    if (std::none_of(analysis.hot_spots.begin(), analysis.hot_spots.end(),
+                     [&](const auto& spot) { return spot.name == place.feature; }))
+      others.push_back(place);
+  return others;
+}
+
+/// What places tell of the largest stress of all of them.
+void enter(ErrorBudget& errors, const std::vector<PlaceStress>& judged, const std::string& method) {
+  const auto judgement = judge(judged);
+  errors.set_numerical({"discretisation", method, judged[judgement.governing].error_Pa});
+  errors.set_numerical({"other_places",
+                        judgement.other_place.empty()
+                            ? "no other place exceeds it, with its own error"
+                            : fmt::format("{} with its own error exceeds it by that", judgement.other_place),
+                        judgement.other_places_Pa});
+}
+
 /// The largest angle that a face at the node takes of the fillet's quarter circle; 0: no face of it is there.
 double arc_at(const BodyAnalysis& analysis, const meshes::TorusChart& torus, std::size_t node) {
   const auto& nodes = analysis.responses.nodes;
@@ -157,7 +175,7 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
   const double largest_Pa = governing_stress(analysis).value_Pa;
   const bool of_blocks = is_of_blocks(analysis);
   for (auto& place : places) {
-    if (place.value_Pa < worth_a_look * largest_Pa) {
+    if (place.value_Pa < share_worth_a_look * largest_Pa) {
       place.error_Pa = place.value_Pa;
       continue;
     }
@@ -187,14 +205,11 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
 void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
                        const std::string& method) {
   if (judged.empty()) return;
-  const auto judgement = judge(judged);
   auto& errors = errors_of_governing(analysis);
-  errors.set_numerical({"discretisation", method, judged[judgement.governing].error_Pa});
-  errors.set_numerical({"other_places",
-                        judgement.other_place.empty()
-                            ? "no other place exceeds it, with its own error"
-                            : fmt::format("{} with its own error exceeds it by that", judgement.other_place),
-                        judgement.other_places_Pa});
+  enter(errors, judged, method);
+  const bool toe_governs = &errors != &analysis.peak.errors;
+  if (const auto others = without_weld_toes(analysis, judged); toe_governs && !others.empty())
+    enter(analysis.peak.errors, others, method);
   analysis.place_stresses = judged;
   take_zone_errors(analysis);
 }

@@ -13,6 +13,9 @@ namespace pipelines {
 /// shafts halved from 4 to 8 cells were off by up to 1.4 times what second order made of the change.
 constexpr int cells_that_converge = 6;
 
+/// Of the largest stress: below it a place is taken to be as wrong as it can be.
+constexpr double share_worth_a_look = 0.4;
+
 /// The features of a body and its inside, and its weld toes by their hot-spot stress. The error of a place is
 /// that of self_estimate there; far below the largest stress it is the stress itself, which is cheaper and
 /// says enough. On shafts of blocks it counts half as much again at bores,
@@ -25,7 +28,8 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
 
 /// Enters what is known of the places into the error budget of the governing stress: its own error as the
 /// entry `discretisation`, and as `other_places` by how much another place with its error exceeds it with its
-/// own. Keeps the places, and gives the zones their errors.
+/// own; likewise into that of the peak, where a weld toe governs, from the places that are no weld toes.
+/// Keeps the places, and gives the zones their errors.
 void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
                        const std::string& method);
 

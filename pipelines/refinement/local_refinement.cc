@@ -10,6 +10,7 @@
 #include "pipelines/body_stages/place_errors.h"
 #include "pipelines/estimates/error_budget.h"
 #include "pipelines/estimates/submodels.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {
@@ -35,7 +36,7 @@ constexpr double alike = 1e-3;
 constexpr double concentration = 11;
 /// Below this share of the place's maximum a node counts nothing: 0.5^11 is 5e-4.
 constexpr double least_share = 0.5;
-/// Places by falling sum of stress and error: solving for more of them costs more than it tells.
+/// Places by falling sum of stress and error: cutting cells for more of them costs more than it tells.
 constexpr std::size_t most_goals = 6;
 
 /// Of a fillet's stress beside larger cells: 8 and 16 cells on one that held 152.2 MPa gave 146.9 and 150.2.
@@ -53,9 +54,13 @@ struct Goal {
   bool is_toe = false;
   double value_Pa = 0;
 
-  bool is_at(const std::string& name) const {
-    return feature == name || std::find(images.begin(), images.end(), name) != images.end();
+  std::vector<std::string> features() const {
+    auto all = images;
+    all.insert(all.begin(), feature);
+    return all;
   }
+
+  bool is_at(const std::string& name) const { return contains(features(), name); }
 
   /// The error, from the contributions of all cells.
   double error_Pa(const std::vector<double>& contributions_Pa) const {
@@ -131,12 +136,33 @@ Goal goal_at(const BodyAnalysis& analysis, const PlaceStress& place) {
   return goal;
 }
 
+double leading_Pa(const std::vector<PlaceStress>& judged) {
+  return judged[judge(judged).governing].value_Pa;
+}
+
 std::vector<const PlaceStress*> places_that_may_lead(const std::vector<PlaceStress>& judged) {
-  const double leading_Pa = judged[judge(judged).governing].value_Pa;
   std::vector<const PlaceStress*> leading;
   for (const auto& place : judged)
-    if (place.value_Pa > 0 && place.value_Pa + place.error_Pa >= leading_Pa) leading.push_back(&place);
+    if (place.value_Pa > 0 && place.value_Pa + place.error_Pa >= leading_Pa(judged))
+      leading.push_back(&place);
   return leading;
+}
+
+/// Those whose error is not the stress itself.
+std::vector<const PlaceStress*> places_worth_a_look(const std::vector<PlaceStress>& judged) {
+  std::vector<const PlaceStress*> places;
+  for (const auto& place : judged)
+    if (place.value_Pa > 0 && place.value_Pa >= share_worth_a_look * leading_Pa(judged))
+      places.push_back(&place);
+  return places;
+}
+
+/// By falling sum of stress and error.
+std::vector<const PlaceStress*> by_bound(std::vector<const PlaceStress*> places) {
+  std::stable_sort(places.begin(), places.end(), [](const auto* a, const auto* b) {
+    return a->value_Pa + a->error_Pa > b->value_Pa + b->error_Pa;
+  });
+  return places;
 }
 
 double range_Pa(const HotSpotStress& spot) {
@@ -147,7 +173,6 @@ double range_Pa(const HotSpotStress& spot) {
 /// asked for.
 std::vector<const HotSpotStress*> coarse_toes(const BodyAnalysis& analysis,
                                               const std::vector<PlaceStress>& judged) {
-  const double leading_Pa = judged[judge(judged).governing].value_Pa;
   double leading_range_Pa = 0;
   for (const auto& spot : analysis.hot_spots) leading_range_Pa = std::max(leading_range_Pa, range_Pa(spot));
   std::vector<const HotSpotStress*> toes;
@@ -157,7 +182,7 @@ std::vector<const HotSpotStress*> coarse_toes(const BodyAnalysis& analysis,
         continue;
       const double most = 1 + place.error_Pa / place.value_Pa;
       const bool leads_range = analysis.scene.fatigue && most * range_Pa(spot) >= leading_range_Pa;
-      if (most * place.value_Pa >= leading_Pa || leads_range) toes.push_back(&spot);
+      if (most * place.value_Pa >= leading_Pa(judged) || leads_range) toes.push_back(&spot);
     }
   return toes;
 }
@@ -169,13 +194,12 @@ bool are_images(const fem::MirrorImages& images, const std::vector<std::size_t>&
                                             [&](auto a, auto b) { return std::size_t(images.node[a]) == b; });
 }
 
-std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
-  auto leading = places_that_may_lead(judged);
-  std::stable_sort(leading.begin(), leading.end(), [](const auto* a, const auto* b) {
-    return a->value_Pa + a->error_Pa > b->value_Pa + b->error_Pa;
-  });
+/// Places that are mirror images of each other share a goal.
+/// @param most  goals
+std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<const PlaceStress*>& places,
+                           std::size_t most) {
   std::vector<Goal> goals;
-  for (const auto* place : leading) {
+  for (const auto* place : places) {
     const auto spot = std::find_if(analysis.hot_spots.begin(), analysis.hot_spots.end(),
                                    [&](const auto& s) { return s.name == place->feature; });
     const bool is_toe = spot != analysis.hot_spots.end();
@@ -186,10 +210,21 @@ std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<Place
     });
     if (known != goals.end())
       known->images.push_back(goal.feature);
-    else if (goals.size() < most_goals)
+    else if (goals.size() < most)
       goals.push_back(std::move(goal));
   }
   return goals;
+}
+
+/// Of these goals, by index, those whose places may lead, at most most_goals.
+std::vector<std::size_t> goals_to_cut_for(const std::vector<Goal>& goals,
+                                          const std::vector<PlaceStress>& judged) {
+  std::vector<std::size_t> leading;
+  for (const auto* place : by_bound(places_that_may_lead(judged)))
+    for (std::size_t g = 0; g < goals.size() && leading.size() < most_goals; ++g)
+      if (goals[g].is_at(place->feature) && std::find(leading.begin(), leading.end(), g) == leading.end())
+        leading.push_back(g);
+  return leading;
 }
 
 /// Beside a sharp shoulder stress is too high where cells are large, and a single cut moves the maximum to
@@ -233,10 +268,9 @@ void mark_largest(const std::vector<double>& contributions, double part, std::ve
 }  // namespace
 
 std::vector<PlaceStress> with_goal_errors(std::vector<PlaceStress> judged, const LocalRefinement& local) {
-  for (std::size_t g = 0; g < local.features.size(); ++g)
-    for (auto& place : judged)
-      if (place.feature == local.features[g])
-        place.error_Pa = std::max(place.error_Pa, local.goal_error_Pa[g]);
+  for (auto& place : judged)
+    if (const auto error = local.goal_errors_Pa.find(place.feature); error != local.goal_errors_Pa.end())
+      place.error_Pa = std::max(place.error_Pa, error->second);
   return judged;
 }
 
@@ -247,29 +281,38 @@ bool is_refined_locally(const BodyScene& body) {
 }
 
 LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,
-                             const std::vector<PlaceStress>& judged, double tolerance) {
-  const auto goals = goals_of(analysis, judged);
-  const double allowed_Pa = (1 + tolerance) * judged[judge(judged).governing].value_Pa;
+                             const std::vector<PlaceStress>& by_changes, GoalPlaces places,
+                             double tolerance) {
+  const auto goals = places == GoalPlaces::all
+                         ? goals_of(analysis, by_bound(places_worth_a_look(by_changes)), by_changes.size())
+                         : goals_of(analysis, by_bound(places_that_may_lead(by_changes)), most_goals);
   std::vector<fem::StressGoal> stresses;
   for (const auto& goal : goals) stresses.push_back(goal.stress);
   const auto errors_Pa = model.goal_errors_Pa(analysis.responses, stresses);
+  LocalRefinement result;
+  for (std::size_t g = 0; g < goals.size(); ++g)
+    for (const auto& feature : goals[g].features())
+      result.goal_errors_Pa[feature] = goals[g].error_Pa(errors_Pa[g]);
+  const auto judged = with_goal_errors(by_changes, result);
+  const auto leading = goals_to_cut_for(goals, judged);
+  const double allowed_Pa = (1 + tolerance) * leading_Pa(judged);
   const auto& nodes = analysis.responses.nodes;
   std::vector<char> marked(nodes.n_cells(), 0), is_place(nodes.n, 0);
-  for (std::size_t g = 0; g < goals.size(); ++g)
+  for (const auto g : leading) {
     mark_largest(
         errors_Pa[g],
         part_to_cut(goals[g].error_Pa(errors_Pa[g]), allowed_Pa - goals[g].value_Pa, goals[g].is_toe),
         marked);
-  for (const auto& goal : goals)
-    for (const auto node : goal.nodes) is_place[node] = 1;
+    for (const auto node : goals[g].nodes) is_place[node] = 1;
+  }
   for (const auto* place : places_that_may_lead(judged))
     if (analysis.scene.shaft() != nullptr && place->least_error_Pa > aim * (allowed_Pa - place->value_Pa) &&
         is_at_border(analysis.mesh, place->position_m))
       for (const auto node : nodes_at_border(analysis, *place)) is_place[node] = 1;
-  LocalRefinement result;
+  for (const auto g : leading)
+    for (const auto& feature : goals[g].features()) result.features.push_back(feature);
   for (const auto* toe : coarse_toes(analysis, judged)) {
-    const bool is_goal =
-        std::any_of(goals.begin(), goals.end(), [&](const auto& goal) { return goal.is_at(toe->name); });
+    const bool is_goal = contains(result.features, toe->name);
     for (const auto& part : toe->parts) {
       is_place[part.node] = 1;
       const double* x_m = &nodes.xyz_m[3 * part.node];
@@ -288,14 +331,6 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
     if (marked[c] != 0) marked[std::size_t(images[c])] = 1;
   for (std::size_t c = 0; c < marked.size(); ++c)
     if (marked[c] != 0) result.cells.push_back(std::int32_t(c));
-  for (std::size_t g = 0; g < goals.size(); ++g) {
-    auto features = goals[g].images;
-    features.insert(features.begin(), goals[g].feature);
-    for (const auto& feature : features) {
-      result.features.push_back(feature);
-      result.goal_error_Pa.push_back(goals[g].error_Pa(errors_Pa[g]));
-    }
-  }
   for (const auto& place : judged)
     if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < cells_that_converge)
       result.coarse.push_back(place.feature);

@@ -268,24 +268,52 @@ private:
     const bool grows = state.growth.at(analysis, state.step ? state.step->ratio : 1);
     if (grows && !is_locking(governing_stress(analysis))) leave_out(i, analysis);
     state.history.add(errors_of_places(analysis), state.step);
-    auto judged = state.history.judged();
-    if (is_refined_locally(run_.scene.bodies[i])) {
-      const auto& model = *run_.loaded.meshed[i].model;
-      state.local =
-          clock_.run("refine", [&] { return cells_to_cut(model, analysis, judged, state.search.tolerance); });
-      judged = with_goal_errors(std::move(judged), state.local);
-    }
-    take_place_errors(analysis, judged,
-                      state.history.second_model()
-                          ? "changes of the stress with the mesh, and harmonics around the axis beside it"
-                          : "changes of the stress with the mesh, or cells around");
-    if (analysis.diagrams && state.history.second_model())
-      analysis.diagrams->by_harmonics = state.history.second_model()->torsion;
+    judge_places(i, state, analysis, may_be_last(state) ? GoalPlaces::all : GoalPlaces::leading);
     const auto stress = governing_stress(analysis);
     state.search.quantity = stress.name();
     state.search.steps.push_back(step_of(run_.scene, i, stress, analysis, seconds_since(state.step_start)));
     state.search.steps.back().refined = state.step ? to_string(state.step->part) : "";
-    state.search.met = state.search.tolerance == 0 || stress.relative_error() <= state.search.tolerance;
+    state.search.met = is_met(state.search, stress);
+  }
+
+  static bool is_met(const Search& search, const GoverningStress& stress) {
+    return search.tolerance == 0 || stress.relative_error() <= search.tolerance;
+  }
+
+  /// Whether the changes of the stress alone would meet the tolerance.
+  static bool may_be_last(const SearchState& state) {
+    const auto places = state.history.judged();
+    const auto judgement = judge(places);
+    const auto& leading = places[judgement.governing];
+    return leading.error_Pa + judgement.other_places_Pa <= state.search.tolerance * leading.value_Pa;
+  }
+
+  /// What the meshes so far, and all cells of the present one, tell of the places.
+  void judge_places(std::size_t i, SearchState& state, BodyAnalysis& analysis, GoalPlaces places) {
+    const auto& second = state.history.second_model();
+    auto judged = state.history.judged();
+    if (is_refined_locally(run_.scene.bodies[i])) {
+      const bool others_are_known = second && second->model_error == 0;
+      state.others_are_judged = places == GoalPlaces::all || others_are_known;
+      state.local = clock_.run("refine", [&] {
+        return cells_to_cut(*run_.loaded.meshed[i].model, analysis, judged,
+                            others_are_known ? GoalPlaces::leading : places, state.search.tolerance);
+      });
+      judged = with_goal_errors(std::move(judged), state.local);
+    }
+    take_place_errors(analysis, judged,
+                      second ? "changes of the stress with the mesh, and harmonics around the axis beside it"
+                             : "changes of the stress with the mesh, or cells around");
+    if (analysis.diagrams && second) analysis.diagrams->by_harmonics = second->torsion;
+  }
+
+  /// Before a search ends: places that no step was for have errors of their own.
+  void judge_others(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
+    if (state.others_are_judged) return;
+    judge_places(i, state, analysis, GoalPlaces::all);
+    const auto stress = governing_stress(analysis);
+    state.search.steps.back().errors = stress.errors;
+    state.search.met = is_met(state.search, stress);
   }
 
   /// Runs body i until its governing stress is good enough, or nothing more can be done.
@@ -298,10 +326,17 @@ private:
     BodyAnalysis analysis = analyse(i);
     while (true) {
       take_stock(i, state, analysis);
-      state.search.ended =
-          reason_to_end(state.search, governing_stress(analysis), is_block_shaft(analysis.scene));
+      const auto ended = [&] {
+        return reason_to_end(state.search, governing_stress(analysis), is_block_shaft(analysis.scene));
+      };
+      state.search.ended = ended();
+      if (!state.search.ended.empty()) {
+        judge_others(i, state, analysis);
+        state.search.ended = ended();
+      }
       if (!state.search.ended.empty() || !next_step(i, state, analysis)) break;
     }
+    judge_others(i, state, analysis);
     const auto& first = state.search.steps.front();
     const auto overrun = warning_of_overrun(run_.scene.bodies[i], state.search.steps.size(), first.n_dofs,
                                             state.end_s, seconds_since(start_));

@@ -23,10 +23,11 @@ struct SearchState {
   Search search;
   PlaceHistory history;
   PeakGrowth growth;
-  std::optional<MeshStep> step;  ///< that led to the present mesh
-  LocalRefinement local{};       ///< what the next step would cut
-  std::set<MeshPart> exhausted;  ///< parts that cannot be finer
-  double end_s = 0;              ///< when the time is up, from the start of the run; 0: never
+  std::optional<MeshStep> step;   ///< that led to the present mesh
+  LocalRefinement local{};        ///< what the next step would cut
+  bool others_are_judged = true;  ///< on the present mesh, places that do not lead, too
+  std::set<MeshPart> exhausted;   ///< parts that cannot be finer
+  double end_s = 0;               ///< when the time is up, from the start of the run; 0: never
   Clock::time_point step_start = Clock::now();
   double second_model_s = 0;  ///< of the step, which a finer mesh does not take again
 };
