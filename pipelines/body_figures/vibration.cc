@@ -200,9 +200,12 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
                     const std::vector<ShakenPlace>& places, const std::vector<ShakenPlace>& toes) {
   Vibration result;
   const auto held = held_body(body, meshed);
-  for (const auto& mode : fem::Model(held, ranks_of_a_body())
-                              .natural_frequencies(body.natural_frequencies, attached_to(body, meshed.mesh)))
+  for (const auto& mode :
+       fem::Model(held, ranks_of_a_body())
+           .natural_frequencies(body.natural_frequencies, attached_to(body, meshed.mesh))) {
     result.natural_frequencies_Hz.push_back(mode.frequency_Hz);
+    result.frequency_errors_Hz.push_back(mode.error * mode.frequency_Hz);
+  }
   const BodyKind& kind = kind_of(body);
   const auto ports = kind.supporting_ports(body);
   result.held = ports.empty() ? "free" : (kind.is_clamped(body) ? "held at " : "pinned at ") + joined(ports);
@@ -240,6 +243,19 @@ std::string warning_of(const BodyScene& body, const Vibration& vibration) {
       is_beyond ? fmt::format(", above the {} lowest natural frequencies: ask for more, which it may meet",
                               natural_Hz.size())
                 : "");
+}
+
+std::string warning_of_frequencies(const BodyScene& body, const Vibration& vibration) {
+  for (std::size_t i = 0; i < vibration.frequency_errors_Hz.size(); ++i) {
+    const double f_Hz = vibration.natural_frequencies_Hz[i], error_Hz = vibration.frequency_errors_Hz[i];
+    if (error_Hz > frequency_error_limit * f_Hz)
+      return fmt::format(
+          "the {}'s natural frequency {}, {:.4g} Hz, may be lower by {:.2g} %, and others may be missing: "
+          "the mesh "
+          "was made for the stress; ask for more by a finer [{}.mesh] and --tolerance none",
+          body.name, i + 1, f_Hz, 100 * error_Hz / f_Hz, body.name);
+  }
+  return {};
 }
 
 }  // namespace pipelines

@@ -176,6 +176,16 @@ bool is_block_shaft(const BodyScene& body) {
   return body.shaft() != nullptr && body.shaft()->keyways.empty();
 }
 
+namespace {
+
+bool is_bored(const BodyScene& body) {
+  const auto& segments = body.shaft()->geometry.segments;
+  return std::any_of(segments.begin(), segments.end(),
+                     [](const auto& segment) { return segment.bore_m > 0; });
+}
+
+}  // namespace
+
 std::vector<MeshPart> mesh_parts(const BodyScene& body) {
   if (is_refined_locally(body)) return {MeshPart::local};
   if (!is_block_shaft(body)) return {MeshPart::all};
@@ -184,9 +194,7 @@ std::vector<MeshPart> mesh_parts(const BodyScene& body) {
       std::any_of(fillets.begin(), fillets.end(), [](const auto& name) { return !name.empty(); });
   std::vector<MeshPart> parts{MeshPart::around, MeshPart::along};
   if (has_fillets) parts.insert(parts.begin(), MeshPart::fillets);
-  const auto& segments = body.shaft()->geometry.segments;
-  if (std::any_of(segments.begin(), segments.end(), [](const auto& segment) { return segment.bore_m > 0; }))
-    parts.push_back(MeshPart::through);
+  if (is_bored(body)) parts.push_back(MeshPart::through);
   return parts;
 }
 
@@ -209,12 +217,14 @@ std::vector<BodyScene> first_meshes(const BodyScene& body) {
       mesh.toe_walls = meshes::ChamberMeshControl::lean_toe_walls;
     }
   } else {
+    // Eight cells around hold a shell round, whose ovals then are missing among the lowest modes.
+    const int for_ovals = body.natural_frequencies > 0 && is_bored(body) ? body.shaft()->mesh.n_sectors : 0;
     const auto add = [&](const std::array<int, 2>& cells_and_sectors, bool lean) {
       meshes.push_back(body);
       auto& mesh = std::get<ShaftShape>(meshes.back().shape).mesh;
       mesh.cells_per_fillet_quarter = cells_and_sectors[0];
       mesh.fillet_cells.clear();
-      mesh.n_sectors = cells_and_sectors[1];
+      mesh.n_sectors = std::max(cells_and_sectors[1], for_ovals);
       mesh.lean = lean;
     };
     if (is_refined_locally(body)) add(first_shaft_meshes.front(), true);

@@ -132,8 +132,10 @@ Json torsion_json(const BodyAnalysis& analysis) {
 /// put on the peak.
 void add_vibration(const Vibration& vibration, Json& json) {
   json["natural_frequencies"] = Json::array();
-  for (const double f : vibration.natural_frequencies_Hz)
-    json["natural_frequencies"].push_back(figure(f, "Hz"));
+  for (std::size_t i = 0; i < vibration.natural_frequencies_Hz.size(); ++i) {
+    json["natural_frequencies"].push_back(figure(vibration.natural_frequencies_Hz[i], "Hz"));
+    json["natural_frequencies"].back()["error"] = number(vibration.frequency_errors_Hz[i]);
+  }
   const auto& dynamic = vibration.amplification;
   json["dynamic_amplification"] = figure(1 + vibration.to_peak.share, "1");
   if (!vibration.to_peak.place.empty()) json["dynamic_amplification"]["place"] = vibration.to_peak.place;

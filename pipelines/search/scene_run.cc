@@ -167,8 +167,10 @@ private:
       run_.kept_under[run_.scene.bodies[i].name + '/' + kept_responses_name(Method::solid)] =
           keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
     add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
-    for (auto& warning : {analysis.vibration ? warning_of(analysis.scene, *analysis.vibration) : "",
-                          warning_of_covered(analysis.scene.name, run_.loaded.meshed[i].mesh)})
+    for (auto& warning :
+         {analysis.vibration ? warning_of(analysis.scene, *analysis.vibration) : "",
+          analysis.vibration ? warning_of_frequencies(analysis.scene, *analysis.vibration) : "",
+          warning_of_covered(analysis.scene.name, run_.loaded.meshed[i].mesh)})
       if (!warning.empty()) warnings_.push_back(warning);
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
     run_.loaded.meshed[i].model.reset();

@@ -71,6 +71,30 @@ TEST(NaturalFrequencies, OfASlenderShaftAreThoseOfABeam) {
   EXPECT_NEAR(shaft["natural_frequencies"][0]["value"].get<double>(), by_beam_Hz, 0.01 * by_beam_Hz);
 }
 
+// The shell's first two ovals are at 540.6 Hz by 48 sectors and 648 k unknowns. Eight sectors, which are
+// enough for the stress, hold it round: that pair was missing, below 604.9, 739 and 1002 Hz.
+TEST(NaturalFrequencies, OfADrumHaveItsOvals) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", edited("planetary_mill.toml", {}));
+  const auto run =
+      millstress(directory.path,
+                 "run scene.toml -o out --tolerance '20 %' --set machine.drum.mass=removed "
+                 "--set drum.natural_frequencies=4 --set 'effects=[\"drum_gravity\", \"drum_spin\"]' "
+                 "--set sampling.instants_per_turn=24 --set drum.mesh.sectors=16 "
+                 "--set results.pictures=false --set results.snapshots=0");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  constexpr double oval_Hz = 540.6;
+  int n_ovals = 0;
+  const auto json = summary(directory / "out");
+  for (const auto& f : json["bodies"]["drum"]["natural_frequencies"]) {
+    const double most_Hz = f["value"], least_Hz = most_Hz - f["error"].get<double>();
+    std::printf("%.2f Hz, at least %.2f\n", most_Hz, least_Hz);
+    n_ovals += least_Hz <= oval_Hz && oval_Hz <= most_Hz;
+  }
+  EXPECT_EQ(n_ovals, 2);
+  EXPECT_NE(json["warnings"].dump().find("may be lower by"), std::string::npos) << json["warnings"];
+}
+
 // A mass beside the bearings swings on the shaft like one on a spring: four times as much at half the
 // frequency. The shaft's own, 0.4 kg, is beside them.
 TEST(NaturalFrequencies, KnowAddedMasses) {
