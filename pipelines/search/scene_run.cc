@@ -285,6 +285,7 @@ private:
   /// Whether the changes of the stress alone would meet the tolerance.
   static bool may_be_last(const SearchState& state) {
     const auto places = state.history.judged();
+    if (places.empty()) return false;
     const auto judgement = judge(places);
     const auto& leading = places[judgement.governing];
     return leading.error_Pa + judgement.other_places_Pa <= state.search.tolerance * leading.value_Pa;
