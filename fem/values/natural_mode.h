@@ -15,8 +15,8 @@ struct NaturalMode {
   /// largest entry is positive. A repeated frequency's shapes are any orthogonal ones of theirs.
   std::vector<double> shape;
   double residual = 0;  ///< |K x - w^2 M x| / |w^2 M x|
-  /// Share of the frequency by which the mesh may have it too high, estimated: three times the energy that the
-  /// cells' stress misses by the recovered one.
+  /// Share of the frequency by which the mesh may have it too high, estimated: three times the energy that
+  /// the cells' stress misses by the recovered one.
   double error = 0;
 };
 
