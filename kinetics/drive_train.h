@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/effect_info.h"
-#include "kinetics/load_history.h"
+#include "kinetics/values/effect_info.h"
+#include "kinetics/values/load_history.h"
 
 namespace kinetics {
 

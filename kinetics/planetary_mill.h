@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "kinetics/effect_info.h"
-#include "kinetics/load_history.h"
+#include "kinetics/values/effect_info.h"
+#include "kinetics/values/load_history.h"
 
 namespace kinetics {
 

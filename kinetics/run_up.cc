@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/constants.h"
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/constants.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 #include "kinetics/vibratory/balance.h"
 #include "kinetics/vibratory/checks.h"
 #include "kinetics/vibratory/pitch.h"
 #include "kinetics/vibratory/pitch_transient.h"
 #include "kinetics/vibratory_effects/drive_motion.h"
-#include "kinetics/wrong_input.h"
 
 namespace kinetics {
 namespace {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 #include "kinetics/vibratory/checks.h"
 #include "kinetics/vibratory/spring_choice.h"
 #include "kinetics/vibratory_effects/affine_optimum.h"
 #include "kinetics/vibratory_effects/effect.h"
 #include "kinetics/vibratory_effects/springs.h"
-#include "kinetics/wrong_input.h"
 
 namespace kinetics {
 namespace {

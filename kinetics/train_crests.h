@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/course_figures.h"
 #include "kinetics/drive_train.h"
+#include "kinetics/series/course_figures.h"
 
 namespace kinetics {
 
@@ -26,9 +26,9 @@ std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
 
 /// Of angles, accelerations, torques and shear stresses of compute_loads, and of what elements do to
 /// inertias, over the grid's window, by instants that are twenty-four or more in a period of the fastest
-/// harmonic that counts, the grid's own among them, and by parabolas between them: a crest is missed by 0.01 %
-/// of that harmonic. Where the accelerations' lines would be too many instants, those that count for torques.
-/// Empty: there is no harmonic, or they would be too many.
+/// harmonic that counts, the grid's own among them, and by parabolas between them: a crest is missed by 0.01
+/// % of that harmonic. Where the accelerations' lines would be too many instants, those that count for
+/// torques. Empty: there is no harmonic, or they would be too many.
 /// @throws MachineRefused as compute_loads
 std::vector<CourseFigures> figures_over_the_course(const DriveTrain& train,
                                                    const std::vector<std::string>& effects,

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "kinetics/values/wrong_input.h"
 #include "kinetics/vibratory/balance.h"
 #include "kinetics/vibratory/checks.h"
 #include "kinetics/vibratory/published.h"
-#include "kinetics/wrong_input.h"
 
 namespace kinetics {
 

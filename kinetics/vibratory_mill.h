@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "kinetics/vibratory_effects/mill.h"
 
 namespace kinetics {

@@ -60,7 +60,7 @@ endforeach()
 
 # Rooms from the ground floor up: a room includes only itself and rooms before it.
 set(rooms_fem values common mesh triangulation ranks matrices operators loads stress recovery multigrid solvers submodel adaptivity modes beam axisymmetric model)
-set(rooms_kinetics vibratory_effects vibratory planetary_effects planetary torsion_chain torsion table)
+set(rooms_kinetics values series vibratory_effects vibratory planetary_effects planetary torsion_chain torsion table)
 set(rooms_meshes values gmsh spacing checks shaft_layout shaft chamber solids keyed_shaft imported)
 set(rooms_pipelines
     common names files exports fatigue scene_values scene scene_bodies scene_reader machines responses channels loads bodies
@@ -85,7 +85,7 @@ foreach(folder fem kinetics meshes pipelines)
     endif()
   endforeach()
   file(GLOB strays ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cc)
-  list(FILTER strays EXCLUDE REGEX "/precompiled[a-z_]*\\.h$|/kinetics/[a-z_]+\\.(h|cc)$")  # kinetics: the machines themselves
+  list(FILTER strays EXCLUDE REGEX "/precompiled[a-z_]*\\.h$|/kinetics/[a-z_]+\\.(h|cc)$")  # kinetics: what its machines offer
   foreach(stray IN LISTS strays)
     list(APPEND faults "${stray} lies in no room")
   endforeach()
@@ -96,6 +96,21 @@ foreach(folder fem kinetics meshes pipelines)
       list(APPEND faults "${ROOT}/${folder}/${room} is not in the list of rooms")
     endif()
   endforeach()
+endforeach()
+
+# Tests, and what kinetics offers, lie no denser.
+file(GLOB_RECURSE files ${ROOT}/tests/*.h ${ROOT}/tests/*.cc)
+list(FILTER files EXCLUDE REGEX "/tests/data/")
+file(GLOB fronts ${ROOT}/kinetics/*.h ${ROOT}/kinetics/*.cc)
+list(APPEND files ${fronts})
+list(TRANSFORM files REPLACE "/[^/]*$" "" OUTPUT_VARIABLE rooms)
+list(REMOVE_DUPLICATES rooms)
+foreach(room IN LISTS rooms)
+  file(GLOB files ${room}/*.h ${room}/*.cc)
+  list(LENGTH files n_files)
+  if(n_files GREATER 20)
+    list(APPEND faults "${room} holds ${n_files} files: a room has at most 20")
+  endif()
 endforeach()
 
 if(faults)

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/constants.h"
 #include "kinetics/planetary/checks.h"
+#include "kinetics/values/constants.h"
 
 namespace kinetics::planetary {
 namespace {

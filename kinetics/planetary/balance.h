@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "kinetics/load_history.h"
 #include "kinetics/planetary_effects/effect.h"
+#include "kinetics/values/load_history.h"
 
 namespace kinetics::planetary {
 

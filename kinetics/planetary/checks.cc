@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "kinetics/machine_refused.h"
 #include "kinetics/planetary/table.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics::planetary {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "kinetics/load_history.h"
 #include "kinetics/planetary_effects/belt.h"
+#include "kinetics/values/load_history.h"
 
 namespace kinetics::planetary {
 

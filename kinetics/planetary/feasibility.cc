@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "kinetics/machine_refused.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics::planetary {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "kinetics/constants.h"
 #include "kinetics/planetary_effects/belt.h"
 #include "kinetics/planetary_effects/effect.h"
+#include "kinetics/values/constants.h"
 
 namespace kinetics {
 

@@ -5,7 +5,7 @@
 #include "kinetics/planetary/balance.h"
 #include "kinetics/planetary/closure.h"
 #include "kinetics/planetary_effects/belt.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics::planetary {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kinetics/planetary_effects/effect.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics::planetary {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/constants.h"
-#include "kinetics/machine_refused.h"
 #include "kinetics/planetary_effects/segment.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/constants.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/constants.h"
+#include "kinetics/values/constants.h"
 
 namespace kinetics::planetary {
 namespace {

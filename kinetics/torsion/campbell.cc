@@ -3,7 +3,7 @@
 #include "kinetics/drive_train.h"
 #include "kinetics/torsion/spectrum.h"
 #include "kinetics/torsion_chain/excitation.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics {
 namespace {

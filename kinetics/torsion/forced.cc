@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "kinetics/torsion/steady.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics::torsion {
 namespace {

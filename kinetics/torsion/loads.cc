@@ -3,14 +3,14 @@
 #include <functional>
 #include <utility>
 
-#include "kinetics/constants.h"
-#include "kinetics/course_figures.h"
+#include "kinetics/series/course_figures.h"
 #include "kinetics/torsion/forced.h"
 #include "kinetics/torsion_chain/checks.h"
 #include "kinetics/torsion_chain/effects.h"
 #include "kinetics/torsion_chain/load_parts.h"
 #include "kinetics/train_crests.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/constants.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics {
 namespace {

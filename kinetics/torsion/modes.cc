@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include "kinetics/drive_train.h"
-#include "kinetics/machine_refused.h"
 #include "kinetics/torsion/spectrum.h"
 #include "kinetics/torsion_chain/reduced.h"
+#include "kinetics/values/machine_refused.h"
 
 namespace kinetics {
 namespace {

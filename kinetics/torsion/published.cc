@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/constants.h"
 #include "kinetics/drive_train.h"
-#include "kinetics/machine_refused.h"
 #include "kinetics/torsion_chain/checks.h"
 #include "kinetics/torsion_chain/dense_algebra.h"
 #include "kinetics/torsion_chain/published_chain.h"
 #include "kinetics/torsion_chain/reduced.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/constants.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics {
 namespace {

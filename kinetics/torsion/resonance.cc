@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/constants.h"
-#include "kinetics/machine_refused.h"
 #include "kinetics/torsion/forced.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/constants.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics {
 namespace torsion {

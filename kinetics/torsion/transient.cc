@@ -6,7 +6,7 @@
 #include "kinetics/torsion/stepper.h"
 #include "kinetics/torsion_chain/checks.h"
 #include "kinetics/torsion_chain/excitation.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics {
 namespace {

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/constants.h"
 #include "kinetics/torsion/spectrum.h"
 #include "kinetics/torsion_chain/checks.h"
 #include "kinetics/torsion_chain/effects.h"
 #include "kinetics/torsion_chain/excitation.h"
 #include "kinetics/torsion_chain/load_parts.h"
 #include "kinetics/torsion_chain/reduced.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/constants.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics {
 namespace {

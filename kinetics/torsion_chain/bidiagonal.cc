@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 
 extern "C" void dbdsqr_(const char* uplo, const int* n, const int* ncvt, const int* nru, const int* ncc,
                         double* d, double* e, double* vt, const int* ldvt, double* u, const int* ldu,

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "kinetics/machine_refused.h"
 #include "kinetics/torsion_chain/effects.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics::torsion {
 namespace {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 
 namespace kinetics::torsion {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "kinetics/constants.h"
-#include "kinetics/machine_refused.h"
 #include "kinetics/torsion_chain/checks.h"
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/constants.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics::torsion {
 namespace {

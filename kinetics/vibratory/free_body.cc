@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "kinetics/vibratory/pitch.h"
 #include "kinetics/vibratory_effects/effect.h"
 #include "kinetics/vibratory_effects/motion.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "kinetics/constants.h"
+#include "kinetics/values/constants.h"
+#include "kinetics/values/wrong_input.h"
 #include "kinetics/vibratory_effects/springs.h"
-#include "kinetics/wrong_input.h"
 
 namespace kinetics::vibratory {
 namespace {

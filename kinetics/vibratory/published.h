@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "kinetics/vibratory_effects/effect.h"
 
 namespace kinetics::vibratory {

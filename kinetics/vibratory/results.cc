@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "kinetics/values/wrong_input.h"
 #include "kinetics/vibratory_effects/effect_sums.h"
 #include "kinetics/vibratory_effects/kinematics.h"
-#include "kinetics/wrong_input.h"
 
 namespace kinetics::vibratory {
 namespace {

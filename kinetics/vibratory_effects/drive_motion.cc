@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace kinetics::vibratory {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "kinetics/constants.h"
+#include "kinetics/values/constants.h"
 
 namespace kinetics::vibratory {
 namespace {

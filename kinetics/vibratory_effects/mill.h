@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "kinetics/effect_info.h"
+#include "kinetics/values/effect_info.h"
 
 namespace kinetics {
 

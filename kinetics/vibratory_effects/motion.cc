@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "kinetics/constants.h"
+#include "kinetics/values/constants.h"
 
 namespace kinetics::vibratory {
 namespace {

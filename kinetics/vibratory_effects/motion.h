@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "kinetics/vibratory_effects/mill.h"
 
 namespace kinetics::vibratory {

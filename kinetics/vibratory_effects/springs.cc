@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinetics/values/wrong_input.h"
 #include "kinetics/vibratory_effects/effect.h"
-#include "kinetics/wrong_input.h"
 
 namespace kinetics::vibratory {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fem/values/unit_responses.h"
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/body_figures/diagrams.h"
 #include "pipelines/body_figures/vibration.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "kinetics/load_spectrum.h"
+#include "kinetics/series/load_spectrum.h"
 #include "pipelines/between_instants/cycle_extremes.h"
 #include "pipelines/kernels/deviatoric_coordinates.h"
 

@@ -1,8 +1,8 @@
 /// What the drum and the stub axles of a planetary mill have in common.
 #pragma once
 
-#include "kinetics/load_history.h"
 #include "kinetics/planetary_mill.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/load_collector.h"
 
 namespace pipelines::planetary {

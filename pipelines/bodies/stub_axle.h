@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/load_history.h"
 #include "kinetics/planetary_mill.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/load_collector.h"
 #include "pipelines/scene/body_kind.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/load_collector.h"
 #include "pipelines/scene/body_kind.h"
 

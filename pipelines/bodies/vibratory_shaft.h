@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/load_collector.h"
 #include "pipelines/scene/body_kind.h"
 

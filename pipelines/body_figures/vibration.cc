@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "fem/model/model.h"
-#include "kinetics/harmonics.h"
+#include "kinetics/series/harmonics.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/scene/body_kind.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fem/values/body.h"
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/channels.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/scene/scene.h"

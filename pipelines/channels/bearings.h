@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/bearing_life.h"
-#include "kinetics/load_history.h"
+#include "kinetics/series/bearing_life.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/channels.h"
 #include "pipelines/scene_values/bearing_scene.h"
 #include "pipelines/scene_values/known_forces.h"

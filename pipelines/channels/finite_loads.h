@@ -1,7 +1,7 @@
 /// No load that is not finite leaves the load stage or the distribution.
 #pragma once
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/load_collector.h"
 
 namespace pipelines {

@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
-#include "kinetics/load_history.h"
 #include "kinetics/train_crests.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/scene/scene.h"
 

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/channels.h"
 
 namespace pipelines {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/harmonics.h"
-#include "kinetics/load_spectrum.h"
+#include "kinetics/series/harmonics.h"
+#include "kinetics/series/load_spectrum.h"
 #include "pipelines/channels/load_figures.h"
 #include "pipelines/files/csv.h"
 

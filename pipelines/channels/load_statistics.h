@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "kinetics/load_history.h"
 #include "kinetics/train_crests.h"
+#include "kinetics/values/load_history.h"
 
 namespace pipelines {
 

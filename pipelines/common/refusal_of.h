@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fem/values/errors.h"
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "meshes/values/refused.h"
 #include "pipelines/common/errors.h"
 

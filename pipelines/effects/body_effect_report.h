@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/effect_info.h"
+#include "kinetics/values/effect_info.h"
 #include "pipelines/channels/load_collector.h"
 #include "pipelines/effects/effect_report.h"
 #include "pipelines/scene/scene.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/analysis/stress_under_changed_loads.h"
 #include "pipelines/common/errors.h"

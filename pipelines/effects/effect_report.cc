@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/names/name_lists.h"
 #include "pipelines/scene/machine_kind.h"

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "kinetics/load_spectrum.h"
+#include "kinetics/series/load_spectrum.h"
 #include "pipelines/fatigue/sn_curve.h"
 
 namespace pipelines {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "kinetics/load_spectrum.h"
+#include "kinetics/series/load_spectrum.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/body_stages/place_errors.h"
 #include "pipelines/common/parallel.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/closure.h"
 #include "pipelines/channels/load_collector.h"
 #include "pipelines/loads/body_mesh.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/load_stage.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/loads/body_loads.h"
 #include "pipelines/loads/effect_closure.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/channels/bearings.h"
 #include "pipelines/channels/load_files.h"
 #include "pipelines/common/stage_clock.h"

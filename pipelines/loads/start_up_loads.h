@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/common/stage_clock.h"
 #include "pipelines/loads/load_stage.h"
 

@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "kinetics/spring_choice.h"
-#include "kinetics/torus_extremes.h"
+#include "kinetics/vibratory/torus_extremes.h"
 #include "pipelines/channels/load_figures.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"

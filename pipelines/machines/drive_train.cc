@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinetics/machine_refused.h"
 #include "kinetics/train_crests.h"
+#include "kinetics/values/machine_refused.h"
 #include "pipelines/machines/coarse_transient.h"
 #include "pipelines/machines/drive_train_reader.h"
 #include "pipelines/machines/kinds.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "kinetics/edit_distance.h"
+#include "kinetics/values/edit_distance.h"
 
 namespace pipelines {
 

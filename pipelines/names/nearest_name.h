@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/wrong_input.h"
+#include "kinetics/values/wrong_input.h"
 
 namespace pipelines {
 

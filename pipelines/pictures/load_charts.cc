@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "kinetics/harmonics.h"
-#include "kinetics/load_spectrum.h"
+#include "kinetics/series/harmonics.h"
+#include "kinetics/series/load_spectrum.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/drawing/chart.h"
 

@@ -93,11 +93,14 @@ double PlaceHistory::missing_Pa(const Record& record) {
 double PlaceHistory::from_changes(const Record& record) const {
   const bool all_varied = std::all_of(parts_.begin(), parts_.end(),
                                       [&](MeshPart part) { return record.missing_Pa.count(part) > 0; });
+  const bool is_solved_twice =
+      second_ && second_->model_error == 0 && find(second_->places, record.now.feature) != nullptr;
+  const TrustInMeshes trust = is_solved_twice ? TrustInMeshes{} : trust_;
   const double kept = !all_varied || record.now.is_resolved   ? 1
-                      : record.n_changes > int(parts_.size()) ? trust_.kept_after_more
-                                                              : trust_.kept_after_one;
+                      : record.n_changes > int(parts_.size()) ? trust.kept_after_more
+                                                              : trust.kept_after_one;
   const bool is_compared = record.n_changes > 0 || record.now.is_resolved;
-  const double open_Pa = is_compared ? 0 : trust_.open_on_one_mesh * record.now.value_Pa;
+  const double open_Pa = is_compared ? 0 : trust.open_on_one_mesh * record.now.value_Pa;
   return std::max({missing_Pa(record), kept * record.now.error_Pa, record.now.least_error_Pa, open_Pa});
 }
 

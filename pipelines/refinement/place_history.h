@@ -42,7 +42,8 @@ struct SecondModel {
   LargestTorsion torsion{};  ///< with what that model may be off by, too
 };
 
-/// How far a search believes its meshes.
+/// How far a search believes its meshes. The values here hold for places that a second model of the same
+/// problem has, too.
 struct TrustInMeshes {
   /// Of what one mesh tells by itself of an error, the share that later meshes cannot take back, since two
   /// meshes may agree by chance: after the first change of a stress that every part of the mesh has told of,

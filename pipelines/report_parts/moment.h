@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/channels/bearings.h"
 #include "pipelines/common/stage_clock.h"

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/scene/scene.h"
 

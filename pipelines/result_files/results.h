@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/channels/load_files.h"
 #include "pipelines/scene/scene.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/effect_info.h"
+#include "kinetics/values/effect_info.h"
 #include "pipelines/scene/machine.h"
 #include "pipelines/scene_values/body_scene.h"
 

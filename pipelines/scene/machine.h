@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "kinetics/drive_train.h"
-#include "kinetics/effect_info.h"
-#include "kinetics/load_history.h"
-#include "kinetics/load_table.h"
 #include "kinetics/planetary_mill.h"
+#include "kinetics/table/load_table.h"
+#include "kinetics/values/effect_info.h"
+#include "kinetics/values/load_history.h"
 #include "kinetics/vibratory_mill.h"
 
 namespace pipelines {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/effect_info.h"
-#include "kinetics/load_history.h"
 #include "kinetics/train_crests.h"
+#include "kinetics/values/effect_info.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/scene/machine.h"
 #include "pipelines/scene/scene_table.h"
 

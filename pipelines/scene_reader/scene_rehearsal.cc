@@ -1,4 +1,4 @@
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "meshes/chamber/chamber_checks.h"
 #include "meshes/keyed_shaft/solid_shaft.h"
 #include "meshes/shaft_layout/shaft_checks.h"

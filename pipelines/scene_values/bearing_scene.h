@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "kinetics/bearing_life.h"
+#include "kinetics/series/bearing_life.h"
 
 namespace pipelines {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 
 namespace pipelines {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinetics/load_history.h"
+#include "kinetics/values/load_history.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/channels/bearings.h"
 #include "pipelines/sweep/swept_zones.h"

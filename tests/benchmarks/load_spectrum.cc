@@ -1,5 +1,5 @@
 // Rainflow counting of a long random series.
-#include "kinetics/load_spectrum.h"
+#include "kinetics/series/load_spectrum.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // The planetary mill's load stage, all effects, one turn of the carrier.
-#include "../unit/kinetics/planetary_machines.h"
-#include "tests/benchmarks/measure.h"
+#include "tests/benchmarks/solvers/measure.h"
+#include "tests/unit/kinetics/planetary/planetary_machines.h"
 
 namespace {
 

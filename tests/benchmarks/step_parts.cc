@@ -14,7 +14,7 @@
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/estimates/fineness.h"
 #include "pipelines/search/scene_run.h"
-#include "tests/cases/step_shafts.h"
+#include "tests/cases/program/step_shafts.h"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "pipelines/kernels/superposition_kernel.h"
 #include "pipelines/superposition/nodal_cycles.h"
 #include "tests/benchmarks/multiply_add_limit.h"
-#include "tests/benchmarks/process.h"
+#include "tests/benchmarks/solvers/process.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The vibratory mill's load stage: what an instant costs, and that effects which are off cost nothing.
-#include "../unit/kinetics/machines.h"
-#include "tests/benchmarks/measure.h"
+#include "tests/benchmarks/solvers/measure.h"
+#include "tests/unit/kinetics/vibratory/machines.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/cases/program.h"
+#include "tests/cases/program/program.h"
 
 namespace faults {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/fuzz/cases.h"
+#include "tests/fuzz/kinds/cases.h"
 
 namespace fuzz {
 

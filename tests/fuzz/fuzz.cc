@@ -10,7 +10,7 @@
 #include <string>
 
 #include "tests/fuzz/batch.h"
-#include "tests/fuzz/samples.h"
+#include "tests/fuzz/kinds/samples.h"
 #include "tests/fuzz/self_test.h"
 
 namespace {

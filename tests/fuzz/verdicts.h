@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/fuzz/cases.h"
+#include "tests/fuzz/kinds/cases.h"
 
 namespace fuzz {
 

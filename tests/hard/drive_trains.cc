@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "tests/hard/hard_case.h"
-#include "tests/unit/kinetics/trains.h"
+#include "tests/unit/kinetics/torsion/trains.h"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include "tests/hard/hard_case.h"
 #include "tests/unit/fem/examples/meridian_tube.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/distorted_beam.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/distorted_beam.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

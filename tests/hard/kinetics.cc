@@ -9,8 +9,8 @@
 #include "kinetics/vibratory_effects/motion.h"
 #include "kinetics/vibratory_mill.h"
 #include "tests/hard/hard_case.h"
-#include "tests/unit/kinetics/machines.h"
-#include "tests/unit/kinetics/planetary_machines.h"
+#include "tests/unit/kinetics/planetary/planetary_machines.h"
+#include "tests/unit/kinetics/vibratory/machines.h"
 
 namespace {
 

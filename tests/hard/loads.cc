@@ -6,8 +6,8 @@
 
 #include "pipelines/superposition/superposition.h"
 #include "tests/hard/hard_case.h"
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "tests/hard/hard_case.h"
-#include "tests/verification/fem/distorted_beam.h"
-#include "tests/verification/fem/figures.h"
-#include "tests/verification/fem/plane_strain_cylinder.h"
-#include "tests/verification/fem/two_layers.h"
+#include "tests/verification/fem/bodies/distorted_beam.h"
+#include "tests/verification/fem/bodies/figures.h"
+#include "tests/verification/fem/bodies/plane_strain_cylinder.h"
+#include "tests/verification/fem/bodies/two_layers.h"
 
 namespace {
 

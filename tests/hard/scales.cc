@@ -9,10 +9,10 @@
 
 #include "kinetics/vibratory_mill.h"
 #include "tests/hard/hard_case.h"
-#include "tests/unit/kinetics/machines.h"
-#include "tests/unit/kinetics/planetary_machines.h"
-#include "tests/verification/fem/distorted_beam.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/unit/kinetics/planetary/planetary_machines.h"
+#include "tests/unit/kinetics/vibratory/machines.h"
+#include "tests/verification/fem/bodies/distorted_beam.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "pipelines/estimates/error_budget.h"
 #include "pipelines/superposition/superposition.h"
 #include "tests/hard/hard_case.h"
-#include "tests/verification/fem/two_layers.h"
+#include "tests/verification/fem/bodies/two_layers.h"
 
 namespace {
 

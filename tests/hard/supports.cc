@@ -8,8 +8,8 @@
 
 #include "fem/values/body_nodes.h"
 #include "tests/hard/hard_case.h"
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

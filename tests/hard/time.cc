@@ -7,14 +7,14 @@
 #include <limits>
 #include <string>
 
-#include "kinetics/harmonics.h"
-#include "kinetics/load_table.h"
-#include "kinetics/machine_refused.h"
-#include "kinetics/torus_extremes.h"
+#include "kinetics/series/harmonics.h"
+#include "kinetics/table/load_table.h"
+#include "kinetics/values/machine_refused.h"
+#include "kinetics/vibratory/torus_extremes.h"
 #include "kinetics/vibratory_mill.h"
 #include "pipelines/estimates/error_budget.h"
 #include "tests/hard/hard_case.h"
-#include "tests/unit/kinetics/machines.h"
+#include "tests/unit/kinetics/vibratory/machines.h"
 
 namespace {
 

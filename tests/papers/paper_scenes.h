@@ -1,7 +1,7 @@
 /// What the program says of a shipped scene.
 #pragma once
 
-#include "tests/cases/program.h"
+#include "tests/cases/program/program.h"
 
 namespace papers {
 

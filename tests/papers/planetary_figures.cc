@@ -2,7 +2,7 @@
 // of the same formulas (tests/data/planetary_mill_sweeps.json) and the paper's claims.
 #include <fstream>
 
-#include "tests/cases/program.h"
+#include "tests/cases/program/program.h"
 
 using namespace cases;
 

@@ -3,7 +3,7 @@
 // same command.
 #include <cmath>
 
-#include "tests/cases/program.h"
+#include "tests/cases/program/program.h"
 
 using namespace cases;
 

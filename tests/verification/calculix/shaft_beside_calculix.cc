@@ -9,7 +9,7 @@
 #include "pipelines/calculix/calculix_comparison.h"
 #include "pipelines/calculix/calculix_model.h"
 #include "pipelines/loads/body_mesh.h"
-#include "tests/benchmarks/benchmark_shaft.h"
+#include "tests/benchmarks/solvers/benchmark_shaft.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/unit/fem/examples/shaft_bodies.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "fem/stress/cell_stress_at_node.h"
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include "fem/loads/surface_loads.h"
 #include "fem/triangulation/body_grid.h"
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

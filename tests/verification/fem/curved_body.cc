@@ -9,8 +9,8 @@
 #include "fem/loads/clamps.h"
 #include "fem/matrices/cholmod_factor.h"
 #include "fem/triangulation/body_grid.h"
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/field_errors.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/field_errors.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fem/triangulation/body_grid.h"
-#include "tests/verification/fem/plane_strain_cylinder.h"
+#include "tests/verification/fem/bodies/plane_strain_cylinder.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/figures.h"
-#include "tests/verification/fem/two_layers.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/figures.h"
+#include "tests/verification/fem/bodies/two_layers.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 
 #include "fem/values/body_nodes.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "tests/unit/fem/examples/shaft_bodies.h"
-#include "tests/verification/fem/cylinder_quarter.h"
-#include "tests/verification/fem/field_errors.h"
+#include "tests/verification/fem/bodies/cylinder_quarter.h"
+#include "tests/verification/fem/bodies/field_errors.h"
 
 namespace {
 

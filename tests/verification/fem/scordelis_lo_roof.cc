@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "tests/verification/fem/block_mesh.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 #include "fem/model/model.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
-#include "tests/verification/fem/figures.h"
+#include "tests/verification/fem/bodies/figures.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 // symmetry planes, its ends held along z.
 #include <gtest/gtest.h>
 
-#include "tests/verification/fem/cylinder_quarter.h"
-#include "tests/verification/fem/field_errors.h"
+#include "tests/verification/fem/bodies/cylinder_quarter.h"
+#include "tests/verification/fem/bodies/field_errors.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kinetics/bearing_life.h"
+#include "kinetics/series/bearing_life.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "kinetics/load_spectrum.h"
+#include "kinetics/series/load_spectrum.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../../unit/kinetics/trains.h"
+#include "tests/unit/kinetics/torsion/trains.h"
 
 namespace {
 

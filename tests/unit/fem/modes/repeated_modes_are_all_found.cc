@@ -17,7 +17,7 @@
 #include "fem/values/constants.h"
 #include "fem/values/errors.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
-#include "tests/verification/fem/block_mesh.h"
+#include "tests/verification/fem/bodies/block_mesh.h"
 
 namespace {
 

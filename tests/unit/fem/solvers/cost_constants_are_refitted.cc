@@ -4,7 +4,7 @@
 
 #include "fem/solvers/solver_prediction.h"
 #include "fem/values/cost_constants.h"
-#include "tests/benchmarks/cost_fit.h"
+#include "tests/benchmarks/solvers/cost_fit.h"
 
 namespace {
 

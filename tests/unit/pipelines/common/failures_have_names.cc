@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "fem/values/errors.h"
-#include "kinetics/machine_refused.h"
+#include "kinetics/values/machine_refused.h"
 #include "meshes/values/refused.h"
 #include "pipelines/accuracy/accuracy_report.h"
 #include "pipelines/accuracy/cost_forecast.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "kinetics/load_spectrum.h"
+#include "kinetics/series/load_spectrum.h"
 #include "pipelines/fatigue/sn_curve.h"
 
 namespace {
