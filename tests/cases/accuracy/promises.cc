@@ -11,7 +11,7 @@ const nlohmann::json& shaft_of(const nlohmann::json& summary) {
 }
 
 std::string seat_beside_fillet() {
-  return results_test::bytes(fs::path(TEST_DATA) / "seat_beside_fillet.toml");
+  return results_test::bytes(fs::path(TEST_DATA) / "accuracy/seat_beside_fillet.toml");
 }
 
 /// Bending and a pull, that stand still in the shaft: one side of the fillet of 0.3 mm has more than the
