@@ -109,7 +109,7 @@ void factorise(const Work& work) {
   fem::assemble_stiffness(grid, colours, graph, fem::lame(material), matrix);
   const fem::Supports supports(fem::choose_supports(grid), matrix);
   Eigen::MatrixXd force = loads.force;
-  supports.clear(force);
+  for (const auto row : supports.unknowns()) force.row(row).setZero();
 
   Smallest whole, solution, bare;
   Eigen::MatrixXd ours, theirs;
