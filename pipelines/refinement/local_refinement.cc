@@ -216,6 +216,22 @@ std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<const
   return goals;
 }
 
+/// Of each goal, what each cell contributes to its error. Some at a time: dual solutions and their stresses
+/// are as large as those of unit loads.
+std::vector<std::vector<double>> contributions_Pa(const fem::Model& model, const BodyAnalysis& analysis,
+                                                  const std::vector<Goal>& goals) {
+  constexpr std::size_t at_once = 12;
+  std::vector<std::vector<double>> all;
+  for (std::size_t first = 0; first < goals.size(); first += at_once) {
+    std::vector<fem::StressGoal> stresses;
+    for (std::size_t g = first; g < std::min(first + at_once, goals.size()); ++g)
+      stresses.push_back(goals[g].stress);
+    for (auto& of_goal : model.goal_errors_Pa(analysis.responses, stresses))
+      all.push_back(std::move(of_goal));
+  }
+  return all;
+}
+
 /// Of these goals, by index, those whose places may lead, at most most_goals.
 std::vector<std::size_t> goals_to_cut_for(const std::vector<Goal>& goals,
                                           const std::vector<PlaceStress>& judged) {
@@ -286,9 +302,7 @@ LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analys
   const auto goals = places == GoalPlaces::all
                          ? goals_of(analysis, by_bound(places_worth_a_look(by_changes)), by_changes.size())
                          : goals_of(analysis, by_bound(places_that_may_lead(by_changes)), most_goals);
-  std::vector<fem::StressGoal> stresses;
-  for (const auto& goal : goals) stresses.push_back(goal.stress);
-  const auto errors_Pa = model.goal_errors_Pa(analysis.responses, stresses);
+  const auto errors_Pa = contributions_Pa(model, analysis, goals);
   LocalRefinement result;
   for (std::size_t g = 0; g < goals.size(); ++g)
     for (const auto& feature : goals[g].features())

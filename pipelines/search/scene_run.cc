@@ -28,6 +28,7 @@
 #include "pipelines/refinement/singular_edge.h"
 #include "pipelines/search/duty_loads.h"
 #include "pipelines/search/first_model.h"
+#include "pipelines/search/search_judgement.h"
 #include "pipelines/search/search_mesh.h"
 #include "pipelines/search/search_state.h"
 #include "pipelines/search/without_mesh.h"
@@ -253,9 +254,8 @@ private:
       std::optional<MeshedBody> guided;
       if (refusal_of([&] { guided = mesh(i); }).empty())
         exchange_mesh(i, std::move(*guided));
-      else {
+      else
         run_.scene = unguided;
-      }
     }
   }
 
@@ -270,52 +270,11 @@ private:
     const bool grows = state.growth.at(analysis, state.step ? state.step->ratio : 1);
     if (grows && !is_locking(governing_stress(analysis))) leave_out(i, analysis);
     state.history.add(errors_of_places(analysis), state.step);
-    judge_places(i, state, analysis, may_be_last(state) ? GoalPlaces::all : GoalPlaces::leading);
+    judge_places(run_.loaded.meshed[i], state, analysis, clock_);
     const auto stress = governing_stress(analysis);
     state.search.quantity = stress.name();
     state.search.steps.push_back(step_of(run_.scene, i, stress, analysis, seconds_since(state.step_start)));
     state.search.steps.back().refined = state.step ? to_string(state.step->part) : "";
-    state.search.met = is_met(state.search, stress);
-  }
-
-  static bool is_met(const Search& search, const GoverningStress& stress) {
-    return search.tolerance == 0 || stress.relative_error() <= search.tolerance;
-  }
-
-  /// Whether the changes of the stress alone would meet the tolerance.
-  static bool may_be_last(const SearchState& state) {
-    const auto places = state.history.judged();
-    if (places.empty()) return false;
-    const auto judgement = judge(places);
-    const auto& leading = places[judgement.governing];
-    return leading.error_Pa + judgement.other_places_Pa <= state.search.tolerance * leading.value_Pa;
-  }
-
-  /// What the meshes so far, and all cells of the present one, tell of the places.
-  void judge_places(std::size_t i, SearchState& state, BodyAnalysis& analysis, GoalPlaces places) {
-    const auto& second = state.history.second_model();
-    auto judged = state.history.judged();
-    if (is_refined_locally(run_.scene.bodies[i])) {
-      const bool others_are_known = second && second->model_error == 0;
-      state.others_are_judged = places == GoalPlaces::all || others_are_known;
-      state.local = clock_.run("refine", [&] {
-        return cells_to_cut(*run_.loaded.meshed[i].model, analysis, judged,
-                            others_are_known ? GoalPlaces::leading : places, state.search.tolerance);
-      });
-      judged = with_goal_errors(std::move(judged), state.local);
-    }
-    take_place_errors(analysis, judged,
-                      second ? "changes of the stress with the mesh, and harmonics around the axis beside it"
-                             : "changes of the stress with the mesh, or cells around");
-    if (analysis.diagrams && second) analysis.diagrams->by_harmonics = second->torsion;
-  }
-
-  /// Before a search ends: places that no step was for have errors of their own.
-  void judge_others(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
-    if (state.others_are_judged) return;
-    judge_places(i, state, analysis, GoalPlaces::all);
-    const auto stress = governing_stress(analysis);
-    state.search.steps.back().errors = stress.errors;
     state.search.met = is_met(state.search, stress);
   }
 
@@ -334,12 +293,12 @@ private:
       };
       state.search.ended = ended();
       if (!state.search.ended.empty()) {
-        judge_others(i, state, analysis);
+        judge_other_places(run_.loaded.meshed[i], state, analysis, clock_);
         state.search.ended = ended();
       }
       if (!state.search.ended.empty() || !next_step(i, state, analysis)) break;
     }
-    judge_others(i, state, analysis);
+    judge_other_places(run_.loaded.meshed[i], state, analysis, clock_);
     const auto& first = state.search.steps.front();
     const auto overrun = warning_of_overrun(run_.scene.bodies[i], state.search.steps.size(), first.n_dofs,
                                             state.end_s, seconds_since(start_));

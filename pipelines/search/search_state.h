@@ -1,4 +1,4 @@
-/// All that the search for one body's mesh knows on its way. Internal to scene_run.cc.
+/// All that the search for one body's mesh knows on its way. Internal to the search.
 #pragma once
 
 #include <chrono>
