@@ -38,22 +38,25 @@ constexpr double instants_of_crests = 24;  // per period: they miss (pi / 24)^2 
 constexpr double missed_worth_a_warning = 0.02;
 constexpr double most_work = 2e7;  // instants times harmonics, about two seconds
 
-/// The size of each element's torque at most, of its mean and all harmonics together; above rounding of the
-/// largest.
-ArrayXd whole_torque_Nm(const ForcedResponse& all) {
+/// Above rounding of the largest.
+ArrayXd above_rounding(const ArrayXd& sizes) {
   constexpr double rounding = 1e-9;
-  ArrayXd whole = all.mean_torque_Nm.abs();
-  for (const auto& line : all.harmonics) whole += line.torque_Nm.abs();
-  return whole.max(std::max(1e-300, rounding * whole.maxCoeff()));
+  return sizes.max(std::max(1e-300, rounding * sizes.maxCoeff()));
 }
 
-/// The same of each inertia's angle and acceleration, without means.
-ArrayXd whole_motion(const ForcedResponse& all, double power_of_frequency) {
-  constexpr double rounding = 1e-9;
+/// The size of each element's torque at most, of its mean and all harmonics together.
+ArrayXd whole_torque_Nm(const ForcedResponse& all) {
+  ArrayXd whole = all.mean_torque_Nm.abs();
+  for (const auto& line : all.harmonics) whole += line.torque_Nm.abs();
+  return above_rounding(whole);
+}
+
+/// The same of each inertia's angle times a power of the frequency: 2 of its acceleration. Without means.
+ArrayXd whole_motion(const ForcedResponse& all, int power) {
   ArrayXd whole = ArrayXd::Zero(all.mean_angle_rad.size());
   for (const auto& line : all.harmonics)
-    whole += std::pow(line.frequency_rad_s, power_of_frequency) * line.angle_rad.abs();
-  return whole.max(std::max(1e-300, rounding * whole.maxCoeff()));
+    whole += std::pow(line.frequency_rad_s, power) * line.angle_rad.abs();
+  return above_rounding(whole);
 }
 
 enum class Of { torques, torques_and_motions };

@@ -28,7 +28,7 @@ std::vector<kinetics::CourseFigures> course_of_loads(const Scene& scene, const k
   const int turns = scene.sampling.turns;
   const auto n = loads.n_instants();
   if (scene.run_up || turns < 1 || n < 4 * turns || n % turns != 0) return {};
-  return kind_of(scene.machine).figures_over_the_course(scene, scene.machine, {turns, int(n / turns)});
+  return kind_of(scene.machine).figures_over_the_course(scene, scene.machine, {turns, int(n / turns)}, loads);
 }
 
 void take_course(const std::vector<kinetics::CourseFigures>& course, LoadFigure& figure) {

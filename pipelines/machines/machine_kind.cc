@@ -60,9 +60,13 @@ std::optional<kinetics::LoadHistory> MachineKind::loads_passed_over(const Scene&
 }
 
 std::vector<kinetics::CourseFigures> MachineKind::figures_over_the_course(
-    const Scene& scene, const Machine& machine, const kinetics::TimeGrid& grid) const {
-  constexpr int fine = 360;  // per turn: by the samples alone they would miss 4e-5 of a harmonic once a turn
-  if (has_samples() || grid.instants_per_turn >= fine) return {};
+    const Scene& scene, const Machine& machine, const kinetics::TimeGrid& grid,
+    const kinetics::LoadHistory& at_instants) const {
+  constexpr int fine = 120;  // per turn: 24 in a period of the fifth harmonic
+  // By the samples alone they would miss 4e-5 of a harmonic once a turn.
+  constexpr int so_fine_that_they_tell = 360;
+  if (has_samples() || grid.instants_per_turn >= so_fine_that_they_tell) return {};
+  if (grid.instants_per_turn >= fine) return kinetics::course_figures(at_instants);
   Scene finer = scene;
   finer.sampling = {grid.turns,
                     (fine + grid.instants_per_turn - 1) / grid.instants_per_turn * grid.instants_per_turn};

@@ -85,10 +85,11 @@ public:
   virtual std::optional<kinetics::LoadHistory> loads_passed_over(const Scene& scene,
                                                                  const Machine& machine) const;
   /// Quantities whose extremes lie between the instants, over the whole course: where a turn has fewer than
-  /// 360 instants, by as many. Empty: the instants tell them, or, of samples, nothing else does.
-  virtual std::vector<kinetics::CourseFigures> figures_over_the_course(const Scene& scene,
-                                                                       const Machine& machine,
-                                                                       const kinetics::TimeGrid& grid) const;
+  /// 120 instants, by as many. Empty: the instants tell them, or, of samples, nothing else does.
+  /// @param at_instants  loads of the grid's instants
+  virtual std::vector<kinetics::CourseFigures> figures_over_the_course(
+      const Scene& scene, const Machine& machine, const kinetics::TimeGrid& grid,
+      const kinetics::LoadHistory& at_instants) const;
   /// That a body may stand on.
   virtual std::vector<kinetics::Spring> springs(const Machine& machine) const;
 
