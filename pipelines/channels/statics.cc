@@ -109,7 +109,6 @@ struct LoadBelow {
   Resultant6 operator()(const fem::SeatPressure&) const { return {}; }
 
   Resultant6 operator()(const fem::BodyForce& load) const {
-    using Field = fem::BodyForce::Field;
     Resultant6 sum{};
     for (const auto& segment : shaft.segments) {
       const double end = std::min(segment.end_m, z_m);
@@ -118,25 +117,67 @@ struct LoadBelow {
       // The disc about its own, shifted axis, less the bore about the z axis.
       const auto add = [&](double diameter, double sign, double ex, double ey) {
         const double radius = diameter / 2, mass = sign * density_kg_m3 * pi * radius * radius * length;
-        switch (load.field) {
-          case Field::translation_x:
-            return add_force(sum, {mass, 0, 0}, ex, ey, centre, z_m);
-          case Field::translation_y:
-            return add_force(sum, {0, mass, 0}, ex, ey, centre, z_m);
-          case Field::translation_z:
-            return add_force(sum, {0, 0, mass}, ex, ey, centre, z_m);
-          case Field::rotation:  // the centre's share as a force through it, the rest as a couple
-            sum[5] += mass * radius * radius / 2;
-            return add_force(sum, {-mass * ey, mass * ex, 0}, ex, ey, centre, z_m);
-          case Field::spin:
-            return add_force(sum, {mass * ex, mass * ey, 0}, ex, ey, centre, z_m);
-        }
+        add_slice(sum, load.field, {mass, mass * radius * radius / 2, ex, ey, centre});
       };
       add(segment.diameter_m, 1, segment.eccentricity_m * std::cos(segment.eccentricity_angle_rad),
           segment.eccentricity_m * std::sin(segment.eccentricity_angle_rad));
       if (segment.bore_m > 0) add(segment.bore_m, -1, 0, 0);
     }
+    for (std::size_t i = 0; i < shaft.fillets_m.size(); ++i)
+      if (shaft.fillets_m[i] > 0) add_fillet(sum, load.field, i);
     return sum;
+  }
+
+private:
+  /// A piece of the body along z, on an axis of its own.
+  struct Slice {
+    double mass_kg, polar_inertia_kg_m2;  ///< the latter about its own axis
+    double x_m, y_m, z_m;                 ///< of its centre
+  };
+
+  void add_slice(Resultant6& sum, fem::BodyForce::Field field, const Slice& slice) const {
+    using Field = fem::BodyForce::Field;
+    const double mass = slice.mass_kg, x = slice.x_m, y = slice.y_m;
+    const auto add = [&](const std::array<double, 3>& force) { add_force(sum, force, x, y, slice.z_m, z_m); };
+    switch (field) {
+      case Field::translation_x:
+        return add({mass, 0, 0});
+      case Field::translation_y:
+        return add({0, mass, 0});
+      case Field::translation_z:
+        return add({0, 0, mass});
+      case Field::rotation:  // the centre's share as a force through it, the rest as a couple
+        sum[5] += slice.polar_inertia_kg_m2;
+        return add({-mass * y, mass * x, 0});
+      case Field::spin:
+        return add({mass * x, mass * y, 0});
+    }
+  }
+
+  /// The ring between a fillet and the thinner one of its neighbours: slices along its arc by Gauss' rule.
+  void add_fillet(Resultant6& sum, fem::BodyForce::Field field, std::size_t shoulder) const {
+    constexpr std::array<double, 4> places{0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                           0.9602898564975363},
+        weights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+    const auto &left = shaft.segments[shoulder], &right = shaft.segments[shoulder + 1];
+    const bool rises = left.diameter_m < right.diameter_m;  // towards larger z
+    const auto& thinner = rises ? left : right;
+    const double r = thinner.diameter_m / 2, fillet = shaft.fillets_m[shoulder];
+    const double x = thinner.eccentricity_m * std::cos(thinner.eccentricity_angle_rad),
+                 y = thinner.eccentricity_m * std::sin(thinner.eccentricity_angle_rad);
+    const double foot = left.end_m + (rises ? -fillet : fillet);  // where the arc leaves the thinner one
+    const double reach = std::clamp((rises ? z_m - foot : foot - z_m) / fillet, 0.0, 1.0);
+    const double from = rises ? 0 : std::asin(reach), to = rises ? std::asin(reach) : pi / 2;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (const double side : {-1.0, 1.0}) {
+        const double angle = 0.5 * (from + to + side * places[i] * (to - from));
+        const double height = fillet * (1 - std::cos(angle)), outer = r + height;
+        const double length = 0.5 * weights[i] * (to - from) * fillet * std::cos(angle);
+        const double along = fillet * std::sin(angle);
+        const double mass = density_kg_m3 * pi * (outer * outer - r * r) * length;
+        add_slice(sum, field,
+                  {mass, mass * (outer * outer + r * r) / 2, x, y, foot + (rises ? along : -along)});
+      }
   }
 };
 

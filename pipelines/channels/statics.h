@@ -1,5 +1,5 @@
-/// Internal resultants of a stepped shaft by statics, from its unit loads and its cylinders alone: no finite
-/// elements.
+/// Internal resultants of a stepped shaft by statics, from its unit loads, cylinders and fillets alone: no
+/// finite elements.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace pipelines {
 ///
 /// Along a seat: fx, fy as its axial profile, less the part linear in z that makes a couple; mx, my linear in
 /// z; fz and torque tapered by 1 - (2 z/b)^2. Harmonics of pressure other than the first carry nothing at any
-/// z. A face carries all of its load at its height. Body forces act on the cylinders of `shaft`; the small
-/// volume of its fillets is left out.
+/// z. A face carries all of its load at its height. Body forces act on the cylinders of `shaft` and the rings
+/// of its fillets.
 std::array<double, 6> internal_resultant(const fem::UnitLoad& load, const meshes::Shaft& shaft,
                                          double density_kg_m3, double z_m);
 
