@@ -181,19 +181,34 @@ std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machi
   return torsion;
 }
 
+/// Lives of bearings over the operating blocks of a scene without bodies; none: it has no blocks.
+/// @param loads  of the scene's own running; takes the blocks' warnings
+std::optional<DutyResult> duty_of_loads(const Scene& given, const Scene& scene, kinetics::LoadHistory& loads,
+                                        int n_threads, StageClock& clock) {
+  if (scene.duty.empty()) return std::nullopt;
+  SceneRun run;
+  run.scene = scene;
+  run.loaded.loads = loads;
+  auto duty = run_duty(given, run, n_threads, clock);
+  for (const auto& sentence : duty.warnings) warn(loads, sentence);
+  return duty;
+}
+
 void run_load_stage(const Request& request, const Scene& given, StageClock& clock) {
   const Scene scene = with_effects_chosen(given, {}, negligible_share(request.accuracy.tolerance));
   auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
   warn_beyond_ratings(scene.bearings, lives, loads);
+  const auto duty = duty_of_loads(given, scene, loads, request.options.n_threads, clock);
   StagedResults staged(request.directory, {});
   warn_of_earlier(staged);
   clock.run("write",
             [&] { write_load_results(staged.folder(), loads, {}, threads(request.options.n_threads)); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
-  finish_run(request, staged,
-             {scene, loads, {}, {}, clock.costs(), lives, nullptr, torsion ? &*torsion : nullptr}, torsion,
-             {request.key, {}, {}, ""});
+  finish_run(
+      request, staged,
+      {scene, loads, {}, {}, clock.costs(), lives, duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
+      torsion, {request.key, {}, {}, ""});
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.

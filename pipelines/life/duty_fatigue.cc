@@ -313,7 +313,10 @@ private:
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const auto own = places_[b].at(node);
       place.utilisation = std::max(place.utilisation, own.utilisation);
-      count(own, places_[b], blocks_[b], kind, counted.blocks.emplace_back(), counted.derivatives);
+      auto& cycles = counted.blocks.emplace_back();
+      count(own, places_[b], blocks_[b], kind, cycles, counted.derivatives);
+      for (const auto& cycle : cycles.starting)
+        place.utilisation = std::max(place.utilisation, cycle.amplitude_Pa * rules_.scene().safety);
     }
     std::copy_n(&analysis_.responses.nodes.xyz_m[3 * node], 3, place.position_m.begin());
     take_damage(

@@ -138,12 +138,14 @@ void add_duty(HtmlPage& page, const Json& summary) {
   const Json& duty = summary.at("duty");
   page.heading(2, "Operating blocks");
   Rows rows;
-  for (const auto& [name, block] : duty.at("blocks").items())
+  for (const auto& [name, block] : duty.at("blocks").items()) {
+    const auto share = number(block.at("share"), 100, "{:.4g}"),
+               starts = number(block.at("starts_per_day"), 1, "{:.4g}");
+    if (block.at("bodies").empty()) rows.push_back({name, share, starts, "-", "-", "-", "-"});
     for (const auto& [body, stress] : block.at("bodies").items())
-      rows.push_back({name, number(block.at("share"), 100, "{:.4g}"),
-                      number(block.at("starts_per_day"), 1, "{:.4g}"), body,
-                      number(stress.at("von_mises").at("value"), 1e-6, "{:.1f}"),
+      rows.push_back({name, share, starts, body, number(stress.at("von_mises").at("value"), 1e-6, "{:.1f}"),
                       number(stress.at("safety"), 1, "{:.2f}"), stress.at("feature").get<std::string>()});
+  }
   page.table({"block", "share %", "starts per day", "body", "largest stress MPa", "safety", "at"}, rows);
   if (duty.contains("places"))
     for (const auto& [body, places] : duty.at("places").items()) add_duty_places(page, body, places);

@@ -28,8 +28,10 @@ std::string sampling_text(const BlockStress& stress) {
 }
 
 void print_blocks(std::ostream& out, const DutyResult& duty) {
-  out << fmt::format("\n  {:<24}{:>8}{:>12}  {}\n", "operating block", "share", "starts/day",
-                     "largest stress");
+  const bool have_bodies =
+      std::any_of(duty.blocks.begin(), duty.blocks.end(), [](const auto& b) { return !b.stresses.empty(); });
+  out << fmt::format("\n  {:<24}{:>8}{:>12}{}\n", "operating block", "share", "starts/day",
+                     have_bodies ? "  largest stress" : "");
   for (const auto& block : duty.blocks) {
     std::string stresses;
     for (const auto& stress : block.stresses)
@@ -37,11 +39,11 @@ void print_blocks(std::ostream& out, const DutyResult& duty) {
           fmt::format("{}{} {} MPa (safety {}) at {}", stresses.empty() ? "" : "; ", stress.body,
                       fixed(stress.value_Pa / 1e6, 1), fixed(stress.safety, 2),
                       stress.feature + (stress.is_hot_spot ? " (weld toe)" : "") + sampling_text(stress));
-    out << fmt::format("  {:<24}{:>6.4g} %{:>12}  {}\n", block.name, 100 * block.share,
+    out << fmt::format("  {:<24}{:>6.4g} %{:>12}{}{}\n", block.name, 100 * block.share,
                        block.starts_per_day > 0
                            ? fmt::format("{:.4g}{}", block.starts_per_day, block.has_transient ? "" : " *")
                            : "-",
-                       stresses);
+                       stresses.empty() ? "" : "  ", stresses);
   }
   const bool at_once = std::any_of(duty.blocks.begin(), duty.blocks.end(), [](const auto& block) {
     return block.starts_per_day > 0 && !block.has_transient;
@@ -165,7 +167,8 @@ summary::Json duty_json(const DutyResult& duty) {
     auto& entry = json["blocks"][block.name];
     entry = object({{"share", number(block.share)},
                     {"starts_per_day", number(block.starts_per_day)},
-                    {"start_transient", block.has_transient}});
+                    {"start_transient", block.has_transient},
+                    {"bodies", summary::Json::object()}});
     for (const auto& stress : block.stresses)
       entry["bodies"][stress.body] = object({{"von_mises", figure(stress.value_Pa, "Pa")},
                                              {"time_sampling", figure(stress.sampling_error_Pa, "Pa")},

@@ -127,6 +127,34 @@ TEST(OperatingBlocks, DamageAddsByShares) {
   EXPECT_NE(page.find("shaft: life over all blocks"), std::string::npos);
 }
 
+// Loads alone: bearings live over all blocks too. Turns red: blocks that are passed over in silence.
+TEST(OperatingBlocks, BearingsOfASceneWithoutBodies) {
+  const results_test::Directory directory;
+  const auto lives = [&](const std::string& newton, const std::string& blocks) {
+    write(directory / "scene.toml",
+          "effects = [\"pull\"]\n[machine]\ntype = \"load_table\"\nspeed = \"600 rpm\"\n"
+          "constants = [{ effect = \"pull\", load = \"seat.fx\", value = " +
+              newton +
+              " }]\n[[bearings]]\nname = \"left\"\nload = \"seat\"\ndynamic_rating = \"5 kN\"\n"
+              "element = \"ball\"\n" +
+              blocks);
+    const auto outcome = millstress(directory.path, "run scene.toml -o out");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return std::pair{summary(directory / "out"), outcome.out};
+  };
+  const auto hours = [](const Json& json) { return json["bearings"]["left"]["L10h"]["value"].get<double>(); };
+  const double light = hours(lives("200", "").first), heavy = hours(lives("540", "").first);
+  const auto [both, table] =
+      lives("200", block("light", "50 %") +
+                       block("heavy", "25 %", "set.\"machine.constants[1].value\" = \"540 N\"\n"));
+  EXPECT_EQ(hours(both), light);
+  ASSERT_TRUE(both.contains("duty"));
+  const double expected = 1 / (2. / 3 / light + 1. / 3 / heavy);
+  EXPECT_NEAR(hours(both["duty"]), expected, 1e-9 * expected);
+  EXPECT_NE(table.find("bearings over all blocks"), std::string::npos) << table;
+  EXPECT_FALSE(fs::exists(directory / "out/duty.csv"));
+}
+
 // 100 N are below the limit and endure alone. Beside a block above it, Miner's elementary rule counts them by
 // the same slope: N = N_D (limit / amplitude)^5.
 TEST(OperatingBlocks, ABlockBelowTheLimitCountsBesideOneAboveIt) {

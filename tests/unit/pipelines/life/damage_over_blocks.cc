@@ -8,6 +8,7 @@
 #include <random>
 
 #include "pipelines/life/duty_fatigue.h"
+#include "pipelines/life/fatigue_places.h"
 #include "tests/unit/pipelines/examples/row_of_cells.h"
 
 namespace {
@@ -156,6 +157,46 @@ TEST(DamageOverBlocks, OfOneBlockIsThatOfTheScene) {
       // Duty may look at one node more, never at one less.
       EXPECT_LE(*same->life_safety, *place.life_safety * (1 + 1e-12)) << trial << ", " << place.feature;
       EXPECT_GE(*same->life_safety, *place.life_safety * (1 - 0.02)) << trial << ", " << place.feature;
+    }
+  }
+}
+
+// One block alternates, the other is steady and only starts: where all endures, places are ranked by what
+// uses their limit most, a start's largest cycle among it. Turns red: the ranking knows running alone.
+TEST(DamageOverBlocks, StartsRankPlacesThatEndure) {
+  std::mt19937 random(29);
+  for (int trial = 0; trial < 60; ++trial) {
+    Example example(random);
+    auto& body = example.body;
+    auto& material = body.scene.fatigue->material;
+    material.tensile_strength_Pa = 250e6;  // without sensitivity to mean stress
+    material.yield_strength_Pa = 200e6;
+    for (std::size_t b = 0; b < 2; ++b) {
+      auto& block = example.blocks[b];
+      block.loads.values *= b == 0 ? 0.01 : 0.03;
+      if (b == 1) block.loads.values.colwise() = Eigen::ArrayXd(block.loads.values.col(0));
+      block.loads.by_effect = {block.loads.values};
+      block.von_mises = envelope(block.loads, body.responses, 1).von_mises;
+      block.cycles =
+          nodal_cycles(block.loads, body.responses, block.von_mises, surface_nodes(body.responses.nodes), 1);
+    }
+    auto blocks = example.on_body();
+    blocks.resize(2);
+    blocks[1].starts_per_s = 1e-3;
+    blocks[1].start_von_mises = &example.blocks[1].von_mises;
+    const auto places = judge_duty(body, blocks, 1);
+    double above = 1;
+    for (const auto& place : places) {
+      double largest_Pa = 0;
+      for (const auto& [feature, nodes] : nodes_by_feature(body))
+        for (const auto node : nodes)
+          if (feature == place.feature)
+            largest_Pa = std::max({largest_Pa, example.blocks[0].von_mises.value_Pa[node],
+                                   example.blocks[1].von_mises.value_Pa[node] / 2});
+      EXPECT_EQ(place.damage_per_s, 0) << trial;
+      EXPECT_NEAR(place.utilisation, largest_Pa / (0.45 * 250e6 / 1.5), 1e-9) << trial << place.feature;
+      EXPECT_LE(place.utilisation, above) << trial << place.feature;
+      above = place.utilisation;
     }
   }
 }
