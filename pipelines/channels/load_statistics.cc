@@ -6,6 +6,7 @@
 #include "kinetics/series/harmonics.h"
 #include "kinetics/series/load_spectrum.h"
 #include "pipelines/channels/load_figures.h"
+#include "pipelines/common/constants.h"
 #include "pipelines/files/csv.h"
 
 namespace pipelines {
@@ -65,7 +66,15 @@ void write_extremes(const path& file, const std::vector<StatisticsSeries>& all,
   rows.write(file, {"max", "min", "mean", "rms", "time_of_max", "time_of_min"}, {"", "", "", "", "s", "s"});
 }
 
-void write_harmonics(const path& file, const std::vector<StatisticsSeries>& all, int turns) {
+/// In (-pi, pi].
+double wrapped(double angle_rad) {
+  const double rest = std::remainder(angle_rad, 2 * pi);
+  return rest > -pi ? rest : pi;
+}
+
+/// @param begin_rad  the drive's angle at the first instant, from where a line spectrum counts its own
+void write_harmonics(const path& file, const std::vector<StatisticsSeries>& all, int turns,
+                     double begin_rad) {
   Rows rows(3);
   for (const auto& series : all) {
     const int n_lines = std::min<int>(most_order * turns, int(series.values.size() / 2));
@@ -75,7 +84,7 @@ void write_harmonics(const path& file, const std::vector<StatisticsSeries>& all,
     rows.add(series, {0, spectrum.mean, 0});
     for (const auto& line : spectrum.lines)
       if (line.amplitude > worth_a_line * largest)
-        rows.add(series, {line.order, line.amplitude, line.phase_rad});
+        rows.add(series, {line.order, line.amplitude, wrapped(line.phase_rad + line.order * begin_rad)});
   }
   rows.write(file, {"order", "amplitude", "phase"}, {"", "", "rad"});
 }
@@ -112,7 +121,7 @@ void write_statistics(const path& directory, const kinetics::LoadHistory& loads,
   std::filesystem::create_directories(directory);
   const auto all = series_of(loads);
   write_extremes(directory / "statistics.csv", all, loads, course);
-  if (turns > 0) write_harmonics(directory / "harmonics.csv", all, turns);
+  if (turns > 0) write_harmonics(directory / "harmonics.csv", all, turns, loads.phi_rad[0]);
   write_polar(directory / "polar.csv", loads);
   write_spectra(directory / "spectrum.csv", all, turns > 0);
 }

@@ -132,7 +132,7 @@ void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis&
   for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i) {
     const auto error = error_Pa(analysis, zones[i]);
     const auto volume = volume_text(zones[i].volume_m3, zones[i].volume_error_m3);
-    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13}{:>14}  {:<20}{}\n", i + 1, zones[i].feature,
+    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13} {:>13}  {:<20}{}\n", i + 1, zones[i].feature,
                        stress_in_MPa(zones[i].peak_Pa, error.value_or(0)),
                        error ? fixed(*error / 1e6, 1) : "-", fixed(zones[i].safety, 2), volume.volume,
                        volume.error, "  " + when(report, zones[i].instant), to_string(zones[i].place));

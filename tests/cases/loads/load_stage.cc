@@ -75,6 +75,34 @@ TEST(LoadStage, PlanetaryMillGivesTheSpecsTable) {
   EXPECT_NEAR(cycles[0][0], extremes[0][0] - extremes[0][1], 1e-9 * extremes[0][0]);
 }
 
+// Phases count from the drive's zero, wherever the window begins. Red where they count from its first
+// instant.
+TEST(LoadStage, HarmonicsAreOfTheDrivesAngle) {
+  const results_test::Directory directory;
+  const auto run =
+      millstress(directory.path, "loads '" + shipped("vibratory_mill.toml").string() +
+                                     "' --set machine.drive.initial_angle='\"71 deg\"' --set chamber=removed "
+                                     "--set machine.charge.turn_ratio=-0.5 --set sampling.turns=2 "
+                                     "--csv loads.csv --statistics s");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto loads = csv(directory / "loads.csv");
+  const auto& phi = loads.at("phi");
+  EXPECT_NEAR(phi[0], 71 * M_PI / 180, 1e-12);
+  for (const std::string name : {"debalance.fx", "B_x", "T"}) {
+    const auto lines = rows_of(directory / "s/harmonics.csv", name);
+    ASSERT_GE(lines.size(), 2u) << name;
+    for (const std::size_t i : {0, 50, 200}) {
+      double sum = 0, size = 0;
+      for (const auto& line : lines) {
+        sum += line[1] * std::cos(line[0] * phi[i] - line[2]);
+        size += std::abs(line[1]);
+        EXPECT_LE(std::abs(line[2]), M_PI);
+      }
+      EXPECT_NEAR(sum, loads.at(name)[i], 1e-6 * size) << name << " at " << i;
+    }
+  }
+}
+
 // Smooth curves have the extremes that many instants show, by however few. Red where the instants alone are
 // asked: the drive torque was 6 % low by twelve. Angles that jump back once a turn have none.
 TEST(LoadStage, ExtremesOfMillsDoNotDependOnTheInstants) {
