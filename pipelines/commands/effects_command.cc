@@ -2,6 +2,7 @@
 #include <ostream>
 
 #include "pipelines/command_options/option_value.h"
+#include "pipelines/command_options/scene_machine.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/effects/effect_choice.h"
@@ -21,7 +22,8 @@ double usual_threshold(const Scene& scene) {
 }
 
 void effects(const EffectsCommandOptions& options, std::ostream& out) {
-  const Scene scene = read_scene(options.scene, options.settings);
+  Scene scene = read_scene(options.scene, options.settings);
+  scene.machine = machine_with_masses(scene);
   const double threshold = options.threshold.empty() ? usual_threshold(scene)
                                                      : option_in_si("--threshold", options.threshold, "1");
   const EffectReport worth = report_effects(scene, threshold);
