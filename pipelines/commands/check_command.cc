@@ -125,11 +125,13 @@ void try_torsion(const Scene& scene, const Machine& machine) {
 }
 
 void check_load_stage(std::ostream& out, Scene scene) {
+  require_blocks(scene);
   const double limit = negligible_share(scene.accuracy.tolerance);
   scene = with_effects_chosen(std::move(scene), {}, limit);
   print_effect_choice(out, scene, {});
   print_load_warnings(out, load_stage(for_a_look(scene), scene.machine));
   try_torsion(scene, scene.machine);
+  print_blocks(out, scene, {});
 }
 
 /// A large mesh keeps silent for long: it is told before.

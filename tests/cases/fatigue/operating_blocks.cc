@@ -153,6 +153,8 @@ TEST(OperatingBlocks, BearingsOfASceneWithoutBodies) {
   EXPECT_NEAR(hours(both["duty"]), expected, 1e-9 * expected);
   EXPECT_NE(table.find("bearings over all blocks"), std::string::npos) << table;
   EXPECT_FALSE(fs::exists(directory / "out/duty.csv"));
+  const auto check = millstress(directory.path, "check scene.toml");
+  EXPECT_NE(check.out.find("block heavy: 25 % of the time"), std::string::npos) << check.out << check.err;
 }
 
 // 100 N are below the limit and endure alone. Beside a block above it, Miner's elementary rule counts them by
