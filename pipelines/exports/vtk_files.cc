@@ -15,6 +15,7 @@
 #include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <array>
@@ -241,6 +242,22 @@ std::string joining_text(const std::vector<NodalField>& fields, const std::vecto
 }
 
 }  // namespace
+
+std::vector<std::int32_t> read_node_ids(const std::filesystem::path& vtu, const std::string& name) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  if (!reader->CanReadFile(vtu.c_str())) throw FileError(vtu.string() + ": is no VTU file that can be read");
+  reader->SetFileName(vtu.c_str());
+  reader->UpdateInformation();
+  for (int i = 0; i < reader->GetNumberOfPointArrays(); ++i)
+    reader->SetPointArrayStatus(reader->GetPointArrayName(i), name == reader->GetPointArrayName(i) ? 1 : 0);
+  reader->Update();
+  auto* values = reader->GetOutput()->GetPointData()->GetArray(name.c_str());
+  std::vector<std::int32_t> ids;
+  if (values != nullptr)
+    for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+      ids.push_back(std::int32_t(values->GetComponent(i, 0)));
+  return ids;
+}
 
 void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& nodes,
                            const std::vector<int>& piece_of_cell, int n_pieces,

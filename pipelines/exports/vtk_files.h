@@ -73,6 +73,11 @@ void write_envelope_vtu(const std::filesystem::path& path, const fem::Nodes& nod
                         const std::vector<NodalField>& fields, const std::vector<IdField>& ids = {},
                         VtuCompression compression = VtuCompression::zlib, const FieldData& data = {});
 
+/// Ids at the nodes of a file that write_envelope_vtu wrote, in the order of the nodes; empty: it has none of
+/// that name.
+/// @throws FileError if it is no such file
+std::vector<std::int32_t> read_node_ids(const std::filesystem::path& vtu, const std::string& name);
+
 /// The whole body in pieces, one file each beside the .pvtu that joins them: envelope.pvtu, envelope_0.vtu,
 /// envelope_1.vtu ... Nodes between pieces are in each of them.
 /// @param pvtu  path of the file that joins them

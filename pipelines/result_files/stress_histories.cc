@@ -11,11 +11,13 @@
 
 #include "pipelines/body_stages/respond.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/exports/vtk_files.h"
 #include "pipelines/files/hdf5_file.h"
 #include "pipelines/files/json_file.h"
 #include "pipelines/names/name_lists.h"
 #include "pipelines/names/nearest_name.h"
 #include "pipelines/responses/response_files.h"
+#include "pipelines/result_files/envelope_files.h"
 #include "pipelines/superposition/superposition.h"
 
 namespace pipelines {
@@ -33,6 +35,9 @@ struct RunBody {
   const ordered_json& summary;
   fem::UnitResponses responses;
   ChannelHistory channels;
+  std::vector<std::int32_t> left_out{};  ///< by node, 0: not; empty: none is, or it is not known
+
+  bool is_left_out(std::size_t node) const { return node < left_out.size() && left_out[node] != 0; }
 };
 
 std::array<double, 3> position_of(const ordered_json& place) {
@@ -180,6 +185,7 @@ FoundPoint point_near(const RunBody& body, const std::string& what, const std::a
   const double* x = &nodes.xyz_m[3 * nearest.node];
   HistoryPoint point{body.name, what, "", {x[0], x[1], x[2]}, {{nearest.node, 1}}, 0};
   point.distance_m = nearest.distance_m;
+  point.is_left_out = body.is_left_out(nearest.node);
   return point;
 }
 
@@ -195,7 +201,9 @@ FoundPoint find_point(const RunBody& body, const std::string& what) {
   const auto& nodes = body.responses.nodes;
   const auto at_node = [&](std::size_t i) {
     const double* x = &nodes.xyz_m[3 * i];
-    return HistoryPoint{body.name, what, "", {x[0], x[1], x[2]}, {{i, 1}}, 0};
+    HistoryPoint point{body.name, what, "", {x[0], x[1], x[2]}, {{i, 1}}, 0};
+    point.is_left_out = body.is_left_out(i);
+    return point;
   };
   if (std::regex_match(what, match, node)) {
     const auto number = std::stoull(match[1]);
@@ -248,6 +256,16 @@ std::vector<std::pair<std::size_t, HistoryPoint>> find_points(const std::vector<
 Eigen::ArrayXd column(const Hdf5Reader& file, const std::string& name) {
   const auto values = file.numbers(name);
   return Eigen::Map<const Eigen::ArrayXd>(values.data(), Index(values.size()));
+}
+
+/// Nodes beside sharp edges, where the run's results have no stress. The pieces of a run on several ranks do
+/// not tell.
+std::vector<std::int32_t> left_out_of(const ordered_json& summary, const std::filesystem::path& envelope,
+                                      std::size_t n_nodes) {
+  if (!summary.contains("singular") || !std::filesystem::exists(envelope)) return {};
+  auto left_out = read_node_ids(envelope, excluded_field);
+  if (left_out.size() != n_nodes) left_out.clear();
+  return left_out;
 }
 
 ChannelHistory channels_of(const Hdf5Reader& loads, const std::string& body,
@@ -339,7 +357,9 @@ StressHistories read_stress_histories(const std::filesystem::path& results,
     auto responses = read_unit_responses(file, Hdf5Reader(file).text_attribute("/", "key"));
     if (!responses) throw FileError(file.string() + ": cannot be read; run the scene with --fresh");
     auto channels = channels_of(loads, name, *responses, histories.time_s.size());
-    bodies.push_back({name, json, std::move(*responses), std::move(channels)});
+    auto left_out = wanted.empty() ? std::vector<std::int32_t>()
+                                   : left_out_of(json, results / name / "envelope.vtu", responses->nodes.n);
+    bodies.push_back({name, json, std::move(*responses), std::move(channels), std::move(left_out)});
   }
   if (bodies.empty()) {
     std::string reasons;

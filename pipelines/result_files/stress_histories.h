@@ -19,8 +19,9 @@ struct HistoryPoint {
   std::string feature;                 ///< that it lies on, as the run says; empty where it does not
   std::array<double, 3> position_m{};  ///< in the body's frame; of a toe the toe's own
   std::vector<Part> parts;
-  double stated_Pa = 0;   ///< the run's largest von Mises stress there; 0 where it states none
-  double distance_m = 0;  ///< of the node from the place that was asked for
+  double stated_Pa = 0;      ///< the run's largest von Mises stress there; 0 where it states none
+  double distance_m = 0;     ///< of the node from the place that was asked for
+  bool is_left_out = false;  ///< beside a sharp edge: the run reports no stress there, as none converges
 };
 
 struct StressHistory {

@@ -125,6 +125,7 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
                                {"feature", history.point.feature},
                                {"position_m", history.point.position_m},
                                {"distance_m", history.point.distance_m},
+                               {"left_out", history.point.is_left_out},
                                {"file", names[p] + ".csv"},
                                {"von_mises_max_Pa", history.von_mises_Pa().maxCoeff()},
                                {"signed_von_mises_min_Pa", with_sign.minCoeff()},
@@ -153,6 +154,12 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
       out << fmt::format("  {}, {}: at the nearest node, ({:.6g}, {:.6g}, {:.6g}) mm, {:.3g} mm from it\n",
                          point.body, point.name, 1e3 * point.position_m[0], 1e3 * point.position_m[1],
                          1e3 * point.position_m[2], 1e3 * point.distance_m);
+  for (const auto& [point, stress_Pa] : histories.points)
+    if (point.is_left_out)
+      out << fmt::format(
+          "  {}, {}: beside a sharp edge, where the run reports no stress: this one is of its mesh alone, a "
+          "finer one has another\n",
+          point.body, point.name);
   for (const auto& text : histories.left_out) out << "  without: " << text << '\n';
 }
 

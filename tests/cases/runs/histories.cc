@@ -122,6 +122,39 @@ TEST(Histories, ZonesHaveTheTensorOfTheRun) {
   }
 }
 
+// A shoulder without a fillet: the run leaves out what is beside its edge, and a history there says so. Red
+// if a stress that no mesh makes converge stands without a word.
+TEST(Histories, BesideSharpEdgesSayThatNoneConverges) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", R"(method = "solid"
+effects = ["pull"]
+[machine]
+type = "load_table"
+speed = "600 rpm"
+constants = [{ effect = "pull", load = "middle.fx", value = 500 }]
+[sampling]
+instants_per_turn = 8
+[shaft]
+contour = [{ port = "left", diameter = "20 mm", length = "20 mm" },
+           { port = "middle", diameter = "30 mm", length = "40 mm" },
+           { port = "right", diameter = "20 mm", length = "20 mm" }]
+bearings = ["left", "right"]
+mesh = { sectors = 8 }
+[shaft.material]
+name = "steel"
+youngs_modulus = "206 GPa"
+poisson_ratio = 0.3
+density = "7850 kg/m3"
+yield_strength = "300 MPa"
+)");
+  const auto json = history(directory.path, "--at '10, 0, 20 mm' --at '15, 0, 40 mm' -o h");
+  ASSERT_EQ(json["points"].size(), 2u);
+  EXPECT_EQ(json["points"][0]["left_out"], true);
+  EXPECT_EQ(json["points"][1]["left_out"], false);
+  const auto run = millstress(directory.path, "history scene.toml --at '10, 0, 20 mm' -o h");
+  EXPECT_NE(run.out.find("shaft, 10, 0, 20 mm: beside a sharp edge"), std::string::npos) << run.out;
+}
+
 TEST(Histories, ArePutOutWithoutAnotherRunIfNothingHasChanged) {
   const results_test::Directory directory;
   write(directory / "scene.toml", bent_shaft());
