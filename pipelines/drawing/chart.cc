@@ -61,12 +61,12 @@ void style(vtkChart* chart, const std::string& title) {
   plain(chart->GetTitleProperties(), title_size);
 }
 
-vtkDoubleArray* add_column(vtkTable* table, const char* name, const std::vector<double>& values) {
+/// @param name  no other column's, which would be replaced
+void add_column(vtkTable* table, const char* name, const std::vector<double>& values) {
   vtkNew<vtkDoubleArray> column;
   column->SetName(name);
   for (const double value : values) column->InsertNextValue(value);
   table->AddColumn(column);
-  return column;
 }
 
 void write_svg(vtkRenderWindow* window, const std::filesystem::path& svg) {
@@ -106,7 +106,7 @@ void add_curve(vtkChartXY* chart, const ChartCurve& curve, std::size_t i) {
   const auto& colour = curve_colours[i % curve_colours.size()];
   vtkNew<vtkTable> table;
   add_column(table, "x", curve.x);
-  add_column(table, curve.name.c_str(), curve.y);
+  add_column(table, "y", curve.y);
   const bool is_line = curve.is_joined && curve.x.size() > 1;
   if (curve.error.size() == curve.y.size() && is_line) {
     std::vector<double> x, low, high;
@@ -139,7 +139,7 @@ void add_curve(vtkChartXY* chart, const ChartCurve& curve, std::size_t i) {
       }
     vtkNew<vtkTable> path;
     add_column(path, "x", x);
-    add_column(path, curve.name.c_str(), y);
+    add_column(path, "y", y);
     auto* const stems = chart->AddPlot(vtkChart::LINE);
     stems->SetInputData(path, 0, 1);
     stems->SetColor(colour[0], colour[1], colour[2], 255);
@@ -148,6 +148,7 @@ void add_curve(vtkChartXY* chart, const ChartCurve& curve, std::size_t i) {
   }
   auto* const plot = chart->AddPlot(is_line ? vtkChart::LINE : vtkChart::POINTS);
   plot->SetInputData(table, 0, 1);
+  plot->SetLabel(curve.name);
   plot->SetColor(colour[0], colour[1], colour[2], 255);
   plot->SetWidth(curve.x.size() > 200 ? 1.5F : 2.5F);
   auto* const points = vtkPlotPoints::SafeDownCast(plot);

@@ -84,6 +84,20 @@ TEST(Charts, ShowEachCurveAtItsHeight) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
+// The curve of a port "x" took the place of the numbers along x: an internal error ended all charts.
+TEST(Charts, ShowACurveNamedAsAnAxis) {
+  const Directory directory;
+  LineChart chart;
+  chart.curves.push_back({"x", {0, 1, 2, 3}, {1, 1, 1, 1}, {}, true});
+  ChartCurve stems{"y", {1, 3}, {900, 150}, {}, false};
+  stems.has_stems = true;
+  chart.curves.push_back(stems);
+  ASSERT_TRUE(write_chart(chart, directory / "chart"));
+  const PictureOfChart picture(directory / "chart.png");
+  EXPECT_GT(picture.area_of(first_colour).first, 300);
+  EXPECT_GT(picture.area_of(second_colour).first, 300);
+}
+
 // Two points of a sweep, as the refusal of a third leaves them: the band of the error was missing, though the
 // legend named it.
 TEST(Charts, ShowTheErrorOfTwoPoints) {
