@@ -29,9 +29,12 @@ std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
 /// harmonic that counts, the grid's own among them, and by parabolas between them: a crest is missed by 0.01
 /// % of that harmonic. Where the accelerations' lines would be too many instants, those that count for
 /// torques. Empty: there is no harmonic, or they would be too many.
+/// @param at_instants  what compute_loads gave for the same: where the grid is dense enough, the course is
+///                     not evaluated once more
 /// @throws MachineRefused as compute_loads
 std::vector<CourseFigures> figures_over_the_course(const DriveTrain& train,
                                                    const std::vector<std::string>& effects,
-                                                   const TimeGrid& grid);
+                                                   const TimeGrid& grid,
+                                                   const LoadHistory* at_instants = nullptr);
 
 }  // namespace kinetics

@@ -156,10 +156,12 @@ ArrayXd instants_of(const TimeGrid& grid) {
 /// A train under its effects in its steady state.
 /// @throws MachineRefused for a line at a natural frequency that nothing damps
 struct SteadyTrain {
-  SteadyTrain(const DriveTrain& train, const std::vector<std::string>& effects)
+  /// @param is_known  compute_loads has not refused it: resonances are not looked for again
+  SteadyTrain(const DriveTrain& train, const std::vector<std::string>& effects, bool is_known = false)
       : prepared(with_effects(train, effects)),
         excitation(torsion::spectral(prepared.train, prepared.reduced)),
-        resonances(torsion::resonance_warnings(prepared, excitation.lines)),
+        resonances(is_known ? std::vector<std::string>()
+                            : torsion::resonance_warnings(prepared, excitation.lines)),
         all(torsion::respond(prepared, excitation)) {}
 
   TrainMotion motion_at(const ArrayXd& phi_rad) const {
@@ -294,10 +296,10 @@ std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
 
 std::vector<CourseFigures> figures_over_the_course(const DriveTrain& train,
                                                    const std::vector<std::string>& effects,
-                                                   const TimeGrid& grid) {
+                                                   const TimeGrid& grid, const LoadHistory* at_instants) {
   torsion::check_effects(train, effects);
   check_grid(grid);
-  const SteadyTrain steady(train, effects);
+  const SteadyTrain steady(train, effects, at_instants != nullptr);
   if (steady.all.harmonics.empty()) return {};
   const auto n_with = [&](const ForcedResponse& lines) {
     return std::ceil(std::max(1.0, instants_of_crests / instants_per_period(steady.prepared, lines, grid))) *
@@ -314,17 +316,32 @@ std::vector<CourseFigures> figures_over_the_course(const DriveTrain& train,
   if (is_too_much(n, counting)) return {};
   const auto& lines = is_too_much(n, steady.all) ? counting : steady.all;
   const double step_s = 2 * pi / grid.instants_per_turn / times / train.reference_speed_rad_s;
-  constexpr double at_once = 4096;
-  std::vector<CourseSums> sums;
-  for (double first = 0; first < n; first += at_once) {
-    const double count = std::min(at_once, n - first);
+  const auto at = [&](const ArrayXd& time_s) {
     LoadHistory block;
-    block.time_s = ArrayXd::LinSpaced(Index(count) + 2, first - 1, first + count) * step_s;
-    torsion::write_parts(steady.prepared.train, over_time(steady.prepared.train, lines, block.time_s), {}, "",
+    block.time_s = time_s;
+    torsion::write_parts(steady.prepared.train, over_time(steady.prepared.train, lines, time_s), {}, "",
                          block);
-    if (sums.empty())
-      for (const auto& quantity : block.quantities) sums.emplace_back(quantity.name);
-    for (std::size_t q = 0; q < sums.size(); ++q) sums[q].add(block.quantities[q].values, block.time_s);
+    return block;
+  };
+  std::vector<CourseSums> sums;
+  if (at_instants != nullptr && times == 1 && &lines == &steady.all &&
+      double(at_instants->n_instants()) == n) {
+    const auto around = at((ArrayXd(2) << -step_s, n * step_s).finished());
+    ArrayXd time_s(Index(n) + 2), values(Index(n) + 2);
+    time_s << around.time_s[0], at_instants->time_s, around.time_s[1];
+    for (const auto& ends : around.quantities) {
+      values << ends.values[0], at_instants->quantity(ends.name).values, ends.values[1];
+      sums.emplace_back(ends.name).add(values, time_s);
+    }
+  } else {
+    constexpr double at_once = 4096;
+    for (double first = 0; first < n; first += at_once) {
+      const double count = std::min(at_once, n - first);
+      const auto block = at(ArrayXd::LinSpaced(Index(count) + 2, first - 1, first + count) * step_s);
+      if (sums.empty())
+        for (const auto& quantity : block.quantities) sums.emplace_back(quantity.name);
+      for (std::size_t q = 0; q < sums.size(); ++q) sums[q].add(block.quantities[q].values, block.time_s);
+    }
   }
   std::vector<CourseFigures> figures;
   for (const auto& sum : sums) figures.push_back(sum.figures());

@@ -33,7 +33,7 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
   auto& warnings = report.forced.warnings;
   for (const auto& warning : history.warnings)  // the largest torques are those of the window
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
-  const auto course = kinetics::figures_over_the_course(*train, effects, scene.sampling);
+  const auto course = kinetics::figures_over_the_course(*train, effects, scene.sampling, &history);
   for (std::size_t e = 0; e < on.elements.size(); ++e) {
     const auto& name = on.elements[e].name;
     const auto largest = [&](const std::string& quantity) {

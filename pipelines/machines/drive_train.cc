@@ -109,10 +109,10 @@ public:
                                                          const Machine& machine) const override {
     return kinetics::loads_between_instants(train_in(machine), scene.kinetics_effects(), scene.sampling);
   }
-  std::vector<kinetics::CourseFigures> figures_over_the_course(const Scene& scene, const Machine& machine,
-                                                               const kinetics::TimeGrid& grid,
-                                                               const kinetics::LoadHistory&) const override {
-    return kinetics::figures_over_the_course(train_in(machine), scene.kinetics_effects(), grid);
+  std::vector<kinetics::CourseFigures> figures_over_the_course(
+      const Scene& scene, const Machine& machine, const kinetics::TimeGrid& grid,
+      const kinetics::LoadHistory& at_instants) const override {
+    return kinetics::figures_over_the_course(train_in(machine), scene.kinetics_effects(), grid, &at_instants);
   }
   std::string why_no_run_up_of_given_duration() const override {
     return "a train's start is [machine.transient], which says how long it takes; leave it out";

@@ -265,6 +265,32 @@ TEST(TrainEffects, FiguresOverTheCourseHaveTheCrests) {
   }
 }
 
+// The instants at hand are the course where they are dense; red where their ends are no crests, or where
+// instants of another number are taken for the course.
+TEST(TrainEffects, FiguresOverTheCourseTakeInstantsThatAreThere) {
+  auto train = trains::mok150("working");
+  train.reference_speed_rad_s = 50 * M_PI;
+  std::vector<std::string> effects;
+  for (const auto& info : drive_train_effects(train)) effects.push_back(info.name);
+  for (const int instants : {14, 60, 240}) {
+    const kinetics::TimeGrid grid{1, instants};
+    const auto evaluated = figures_over_the_course(train, effects, grid);
+    for (const auto& at_hand :
+         {compute_loads(train, effects, grid), compute_loads(train, effects, {1, 33})}) {
+      const auto taken = figures_over_the_course(train, effects, grid, &at_hand);
+      ASSERT_EQ(taken.size(), evaluated.size());
+      for (std::size_t q = 0; q < taken.size(); ++q) {
+        EXPECT_EQ(taken[q].quantity, evaluated[q].quantity);
+        const double near = 1e-12 + 1e-11 * std::max(evaluated[q].largest, -evaluated[q].least);
+        EXPECT_NEAR(taken[q].largest, evaluated[q].largest, near) << instants << ' ' << taken[q].quantity;
+        EXPECT_NEAR(taken[q].least, evaluated[q].least, near) << instants << ' ' << taken[q].quantity;
+        EXPECT_NEAR(taken[q].mean, evaluated[q].mean, near) << instants << ' ' << taken[q].quantity;
+        EXPECT_NEAR(taken[q].rms, evaluated[q].rms, near) << instants << ' ' << taken[q].quantity;
+      }
+    }
+  }
+}
+
 // A fast line that brings 0.2 % of the torques and half of an acceleration. Red where the lines that count
 // for torques decide how many instants there are: 802 rad/s2 stood where 883 is right.
 TEST(TrainEffects, FiguresOverTheCourseHaveFastAccelerations) {
