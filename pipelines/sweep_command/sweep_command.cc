@@ -227,7 +227,9 @@ void sweep_beside_first_rank(const SweepCommandOptions& options) {
 }
 
 /// The rows of all points, in the journal too; on rank 0.
-std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep& sweep, StageClock& clock) {
+/// @param environment  begun where there are bodies
+std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep& sweep, StageClock& clock,
+                                 std::optional<fem::Environment>& environment) {
   const auto& plan = sweep.plan;
   const int n_threads = own_threads(options), n_ranks = fem::n_ranks(MPI_COMM_WORLD);
   if (n_ranks > 1) work_on_bodies_alone();
@@ -235,7 +237,6 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
   auto outputs = charts_in(sweep.directory);
   for (const char* name : {"sweep.csv", "sweep.h5", "zones.csv", "journal"}) outputs.emplace_back(name);
   require_writable(output_files("-o", sweep.directory, outputs));
-  std::optional<fem::Environment> environment;
   if (!sweep.first.bodies.empty()) environment.emplace(n_threads);
 
   KnownRows known(options, sweep);
@@ -278,7 +279,10 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   const Sweep sweep(options);
   const auto& [tree, settings, request, plan, directory, first, accuracy, loads_only] = sweep;
   StageClock clock(progress_on_stderr(options.verbosity()));
-  auto rows = run_points(options, sweep, clock);
+  // It outlives the charts: its end unloads Open MPI's libraries, and nothing is drawn in a process that
+  // these have left.
+  std::optional<fem::Environment> environment;
+  auto rows = run_points(options, sweep, clock, environment);
   const auto numbers = follow_zones(plan, rows);
   add_zone_figures(rows, numbers);
   clock.run("write", [&] {

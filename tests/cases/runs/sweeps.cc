@@ -107,6 +107,34 @@ TEST(Sweeps, OfBeamsLeaveNoEmptyFolder) {
     EXPECT_FALSE(entry.is_directory() && fs::is_empty(entry.path())) << entry.path();
 }
 
+// Open MPI's libraries were unloaded, with threads of the solvers alive, before those that draw were loaded:
+// one sweep ended by a segmentation fault there, which no other command ever did.
+TEST(Sweeps, DrawBeforeTheLibrariesOfSolversGo) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", small_shaft({{"pull", "middle.fy", "1 kN"}}, "mm", "600 rpm", ""));
+  const auto outcome = as_a_user(
+      directory.path, "sweep scene.toml -o out --set method=beam --vary 'machine.speed = 600, 700 rpm'",
+      "export LD_DEBUG=files LD_DEBUG_OUTPUT=loaded");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  ASSERT_TRUE(fs::exists(directory / "out/chart.png"));
+  std::size_t n_processes = 0;
+  for (const auto& entry : fs::directory_iterator(directory.path)) {
+    if (entry.path().filename().string().rfind("loaded.", 0) != 0) continue;
+    const auto log = results_test::bytes(entry.path());
+    const auto last = [&](const std::string& event, const std::string& library) {
+      std::size_t found = std::string::npos;
+      for (auto line = log.find(event); line != std::string::npos; line = log.find(event, line + 1))
+        if (log.substr(line, log.find('\n', line) - line).find(library) != std::string::npos) found = line;
+      return found;
+    };
+    const auto draws = last("calling init: ", "libEGL"), ends = last("calling fini: ", "mca_pml_");
+    if (draws == std::string::npos || ends == std::string::npos) continue;
+    ++n_processes;
+    EXPECT_LT(draws, ends);
+  }
+  EXPECT_EQ(n_processes, 1u);
+}
+
 // A model is searched by itself: one row must not have another one's stress under its own name.
 TEST(Sweeps, AModelIsAValueLikeAnyOther) {
   const results_test::Directory directory;
