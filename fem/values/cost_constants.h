@@ -42,4 +42,9 @@ inline constexpr double program_bytes = 2e8, grid_bytes_per_dof = 40, load_bytes
 // Harmonics around the axis: of one unknown of one harmonic, on shafts.
 inline constexpr double harmonic_s_per_dof = 2e-5;
 
+// A few natural frequencies, on shafts, drums and parts of 63 k to 282 k unknowns; three submodels of a weld
+// toe under 29 loads, on a chamber of hexahedra. Mostly one thread; 2026-11-27, within a half.
+inline constexpr double frequencies_s_per_dof = 1.2e-4;
+inline constexpr double submodels_s_per_toe = 4.5;
+
 }  // namespace fem::cost

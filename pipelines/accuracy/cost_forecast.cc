@@ -9,6 +9,7 @@
 
 #include "fem/solvers/cost_prediction.h"
 #include "fem/values/cost_constants.h"
+#include "pipelines/analysis/crest_elsewhere.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/estimates/fineness.h"
 #include "pipelines/refinement/refinement.h"
@@ -127,10 +128,25 @@ void print_models(std::ostream& out, const std::vector<ModelForecast>& models) {
   }
 }
 
+std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed,
+                            const CostCalibration& calibration) {
+  std::string text;
+  if (body.natural_frequencies > 0)
+    text +=
+        fmt::format("  natural frequencies take about {:.2g} s more on the scene's mesh\n",
+                    calibration.direct * fem::cost::frequencies_s_per_dof * double(meshed.model->n_dofs()));
+  if (const auto n_toes = meshed.mesh.hot_spots.size(); n_toes > 0)
+    text += fmt::format(
+        "  with --tolerance none submodels take about {:.2g} s more for each weld toe that may lead, of {}\n",
+        calibration.direct * fem::cost::submodels_s_per_toe, n_toes);
+  return text;
+}
+
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
                     const ForecastLoads& loads) {
   const auto calibration = read_calibration(calibration_file());
   print_models(out, forecast_ladder(body, meshed, loads, calibration));
+  out << forecast_beside(body, meshed, calibration);
   if (!calibration.fault.empty()) out << "  (" << calibration.fault << ")\n";
   out << (calibration.n_runs > 0
               ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)
@@ -145,7 +161,7 @@ void learn_from(const SceneRun& run) {
         calibration_file(), responses.solver.used,
         analysis.solve_s > 0 && predicted_s > 0 ? analysis.solve_s / predicted_s : 0,
         analysis.superpose_s / predicted_superposition_s(responses.nodes.n,
-                                                         std::size_t(analysis.loads.history.values.cols()),
+                                                         std::size_t(n_superposed(analysis.loads.history)),
                                                          responses.channels.size()));
   }
 }

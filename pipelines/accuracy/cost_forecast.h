@@ -24,7 +24,7 @@ struct ModelForecast {
 
 /// What the loads ask of every model.
 struct ForecastLoads {
-  std::size_t n_channels = 0, n_instants = 0;
+  std::size_t n_channels = 0, n_instants = 0;  ///< instants: n_superposed
   std::vector<kinetics::Spring> springs{};
   const BodyLoads* of_body = nullptr;  ///< tell where a search's first mesh is fine; null: nowhere
 };
@@ -34,6 +34,11 @@ struct ForecastLoads {
 /// that the body does not have are left out; one whose mesh is refused says why.
 std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
                                            const ForecastLoads& loads, const CostCalibration& calibration);
+
+/// What the table has not, in lines: natural frequencies, submodels of weld toes. Empty where neither is
+/// asked for.
+std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed,
+                            const CostCalibration& calibration);
 
 /// A table with one line for each model.
 void print_models(std::ostream& out, const std::vector<ModelForecast>& models);

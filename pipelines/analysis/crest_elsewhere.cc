@@ -99,4 +99,9 @@ void add_crest_elsewhere(BodyAnalysis& analysis, int n_threads) {
   if (denser.values.cols() != loads.values.cols()) add(denser);
 }
 
+Index n_superposed(const ChannelHistory& loads) {
+  const Index own = loads.values.cols(), denser = at_denser_instants(loads).values.cols();
+  return own + loads.passed_over.cols() + (denser != own ? denser : 0);
+}
+
 }  // namespace pipelines

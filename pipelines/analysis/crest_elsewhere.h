@@ -21,4 +21,7 @@ ChannelHistory at_denser_instants(const ChannelHistory& loads, Eigen::Index most
 /// table that the instants pass over. Costs nothing where the instants are dense.
 void add_crest_elsewhere(BodyAnalysis& analysis, int n_threads);
 
+/// Instants at which all nodes are superposed: the history's own, and those of add_crest_elsewhere.
+Eigen::Index n_superposed(const ChannelHistory& loads);
+
 }  // namespace pipelines

@@ -75,6 +75,14 @@ Zones zones_of(const BodyAnalysis& analysis, const ZoneRule& rule) {
                     zone_level_Pa(rule, analysis.peak.value_Pa, yield_Pa), yield_Pa);
 }
 
+/// Wall time.
+template <typename Work>
+double seconds_taken_by(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
 double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
@@ -109,15 +117,16 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
   require_closure(body.name, analysis.closure);
 
-  const auto start = std::chrono::steady_clock::now();
   const bool is_known = known.envelope.has_value();
-  analysis.envelope = clock.run("superpose", [&] {
-    return is_known ? std::move(*known.envelope)
-                    : envelope(analysis.loads.history, analysis.responses, threads(n_threads));
+  clock.run("superpose", [&] {
+    if (is_known)
+      analysis.envelope = std::move(*known.envelope);
+    else
+      analysis.superpose_s = seconds_taken_by([&] {
+        analysis.envelope = envelope(analysis.loads.history, analysis.responses, threads(n_threads));
+      });
   });
   require_finite(body.name, analysis.envelope);
-  if (!is_known)
-    analysis.superpose_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   clock.run("zones", [&] {
     analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
                                    analysis.mesh.sharp_edges);
@@ -132,7 +141,8 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
     });
   clock.run("zones", [&] { estimate_error_of_largest_toe(analysis); });
   clock.run("superpose", [&] {
-    add_crest_elsewhere(analysis, threads(n_threads));
+    const double crest_s = seconds_taken_by([&] { add_crest_elsewhere(analysis, threads(n_threads)); });
+    if (!is_known) analysis.superpose_s += crest_s;
     add_load_patch_error(analysis);
     add_load_edge_error(analysis);
   });

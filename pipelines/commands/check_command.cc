@@ -11,6 +11,7 @@
 #include "fem/model/model.h"
 #include "meshes/shaft_layout/shaft_checks.h"
 #include "pipelines/accuracy/cost_forecast.h"
+#include "pipelines/analysis/crest_elsewhere.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/between_instants/factor_spectrum.h"
 #include "pipelines/command_options/scene_options.h"
@@ -108,9 +109,11 @@ void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, co
           port.begin_m * 1e3, port.end_m * 1e3, port.radius_m * 2e3, port.axis_x_m * 1e3,
           port.axis_y_m * 1e3);
   const auto& channels = loads.history.channels;
+  const double n_instants = double(scene.sampling.turns) * scene.sampling.instants_per_turn,
+               n_looked_at = double(loads.history.values.cols());
   print_forecast(
       out, body, meshed,
-      {channels.size(), std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn),
+      {channels.size(), std::size_t(n_instants / n_looked_at * double(n_superposed(loads.history))),
        springs_of(scene), &loads});
   print_effect_sizes(out, loads, meshed.regions);
   print_instants(out, scene, loads.history);
