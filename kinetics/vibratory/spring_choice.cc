@@ -68,7 +68,10 @@ std::vector<PitchResonance> pitch_resonances(const ScalableMill& scalable, const
   for (const MomentHarmonic& forcing : moment_harmonics(scalable.mill, made)) {
     const double w = std::abs(forcing.frequency_rad_s);
     const double scale = chamber.inertia_kg_m2 * w * w / chamber.stiffness_Nm;
-    if (scale >= search.least_scale && scale <= search.most_scale)
+    const bool is_known = std::any_of(resonances.begin(), resonances.end(), [&](const PitchResonance& other) {
+      return std::abs(other.frequency_rad_s - w) <= 1e-9 * w;  // of a charge that keeps step with the drive
+    });
+    if (!is_known && scale >= search.least_scale && scale <= search.most_scale)
       resonances.push_back({scale, scale * given_N_m, w, forcing.p, forcing.q, false});
   }
   std::sort(resonances.begin(), resonances.end(),

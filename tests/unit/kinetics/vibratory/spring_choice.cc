@@ -196,6 +196,17 @@ TEST(SpringChoice, ResonancesAreNamed) {
   EXPECT_FALSE(std::isfinite(beside.reaction_given_N));
 }
 
+// A charge that stands still in space brings several harmonics of one frequency, which were told one by one.
+TEST(SpringChoice, AResonanceIsToldOnce) {
+  auto mill = machines::laboratory();
+  mill.charge_relative_speed_rad_s = -mill.speed_rad_s;
+  const auto choice =
+      choose_springs(mill, effects_without(mill, {"charge_lag"}), {1, 24}, SpringAim::rms, {0.01, 100, 80});
+  ASSERT_FALSE(choice.resonances.empty());
+  for (std::size_t i = 1; i < choice.resonances.size(); ++i)
+    EXPECT_GT(choice.resonances[i].frequency_rad_s, 1.001 * choice.resonances[i - 1].frequency_rad_s);
+}
+
 TEST(SpringChoice, WrongInputIsRefused) {
   auto mill = machines::laboratory();
   EXPECT_NE(refusal(mill, {"structure_inertia"}).find("the effect is off"), std::string::npos);
