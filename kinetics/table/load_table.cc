@@ -155,6 +155,28 @@ void warn(const ResamplingError& error, LoadHistory& history) {
                                "that much where the samples are that coarse");
 }
 
+std::string in_degrees(double angle_rad) {
+  return number(std::round(1800 / pi * angle_rad) / 10);
+}
+
+/// A part of the period without samples amid others that are close together: a logger that lost some. What
+/// every second sample tells of interpolation does not hold there.
+void warn_of_gap_within(const TableLoad& load, const SampledCourse& samples, LoadHistory& history) {
+  constexpr double unusual = 5, worth_a_word_rad = pi / 12;
+  const Index n = samples.angle_rad.size();
+  ArrayXd steps = samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1);
+  Index widest = 0;
+  const double gap_rad = steps.maxCoeff(&widest);
+  std::nth_element(steps.begin(), steps.begin() + (n - 1) / 2, steps.end());
+  const double usual_rad = steps[(n - 1) / 2];
+  if (gap_rad <= unusual * usual_rad * (1 + 1e-9) || gap_rad < worth_a_word_rad) return;
+  history.warnings.push_back(load.effect + "/" + name_of(load) + " has no sample over " +
+                             in_degrees(gap_rad) + " degrees from " + in_degrees(samples.angle_rad[widest]) +
+                             " degrees on, and elsewhere one every " + in_degrees(usual_rad) +
+                             " degrees most often: what lies there is drawn from one end to the other; check "
+                             "the file");
+}
+
 /// Samples that end well before the next period begins: another speed, another number of turns, or a file cut
 /// short.
 void warn_of_gap(const TableLoad& load, const SampledCourse& samples, double period_rad,
@@ -164,13 +186,12 @@ void warn_of_gap(const TableLoad& load, const SampledCourse& samples, double per
   const double usual_rad = (samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1)).maxCoeff();
   const double gap_rad = period_rad - (samples.angle_rad[n - 1] - samples.angle_rad[0]);
   if (gap_rad <= unusual * usual_rad) return;
-  const auto degrees = [](double angle_rad) { return number(std::round(1800 / pi * angle_rad) / 10); };
-  history.warnings.push_back(load.effect + "/" + name_of(load) + " has no sample over " + degrees(gap_rad) +
-                             " degrees where its period closes, and elsewhere one every " +
-                             degrees(usual_rad) +
-                             " degrees at least: what lies there is drawn from one end to the other; check "
-                             "speed, number of turns and "
-                             "the end of the file");
+  history.warnings.push_back(
+      load.effect + "/" + name_of(load) + " has no sample over " + in_degrees(gap_rad) +
+      " degrees where its period closes, and elsewhere one every " + in_degrees(usual_rad) +
+      " degrees at least: what lies there is drawn from one end to the other; check "
+      "speed, number of turns and "
+      "the end of the file");
 }
 
 /// Where the instants lie further apart than the samples, they may miss the largest or the smallest one:
@@ -425,6 +446,7 @@ LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>
     const auto& samples = std::get<SampledCourse>(load.course);
     warn(error_of(load, samples, grid.turns * turn_rad), history);
     warn_of_gap(load, samples, grid.turns * turn_rad, history);
+    warn_of_gap_within(load, samples, history);
     check_missed(load, samples, values, grid, history);
   });
   return history;

@@ -214,6 +214,34 @@ TEST(LoadTable, SamplesThatEndBeforeTheirPeriodAreWarnedOf) {
 }
 
 // A ramp does not close; a wave sampled eight times per turn is coarse. Both are stated with their size.
+// A cosine whose samples from 110 to 240 degrees were lost: its trough of -1000 is -342 then, and the figure
+// of interpolation said 17 %. Samples every 90 degrees beside a pulse are no loss.
+TEST(LoadTable, SamplesThatLeaveAGapAreWarnedOf) {
+  const auto warnings_of = [](const std::vector<double>& degrees) {
+    SampledCourse samples;
+    samples.angle_rad =
+        Eigen::Map<const Eigen::ArrayXd>(degrees.data(), Eigen::Index(degrees.size())) * (M_PI / 180);
+    samples.values = 1000 * samples.angle_rad.cos();
+    std::string text;
+    for (const auto& warning : loads_of({"measured", "pulley_seat", "fx", "N", samples}, 360).warnings)
+      text += warning + '\n';
+    return text;
+  };
+  std::vector<double> whole, with_a_gap, with_one_lost;
+  for (int degree = 0; degree < 360; degree += 10) {
+    whole.push_back(degree);
+    if (degree <= 100 || degree >= 250) with_a_gap.push_back(degree);
+    if (degree != 110) with_one_lost.push_back(degree);
+  }
+  EXPECT_NE(warnings_of(with_a_gap)
+                .find("no sample over 150 degrees from 100 degrees on, and elsewhere one every "
+                      "10 degrees most often"),
+            std::string::npos)
+      << warnings_of(with_a_gap);
+  for (const auto& complete : {whole, with_one_lost, {0, 1, 2, 3, 90, 180, 270, 359}})
+    EXPECT_EQ(warnings_of(complete).find("no sample over"), std::string::npos) << warnings_of(complete);
+}
+
 TEST(LoadTable, StatesWhatMakingItPeriodicChanges) {
   const auto ramp = sampled(20, [](double phi) { return phi; });
   const auto errors = resampling_errors({100, {ramp}}, {1, 20});
