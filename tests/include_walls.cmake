@@ -4,8 +4,8 @@
 # headers of fem. Inside a folder, a room (subfolder) includes only rooms below it.
 cmake_policy(VERSION 3.25)
 set(fem_public axisymmetric_responses beam_responses beam_shaft body body_nodes cell_shares cell_stress_at_node constants
-    cost_constants cost_prediction errors fillet_factors helper_ranks memory meridian_body model natural_mode
-    near_loads nodal_loads plated_tube region_volume solver_choice stress_goal submodel surface_stress tetrahedra_error
+    cost_constants cost_prediction errors fillet_factors memory meridian_body model natural_mode
+    near_loads nodal_loads plated_tube ranks region_volume solver_choice stress_goal submodel surface_stress tetrahedra_error
     unit_load unit_responses vtk_order)
 set(faults "")
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 
 #include "fem/mesh/cell_geometry.h"
@@ -35,10 +34,8 @@ Fields load_cases(const UnitResponses& responses, const std::vector<StressGoal>&
       throw std::invalid_argument("a stress goal needs one factor for every channel");
     factors.col(g) = Eigen::Map<const Eigen::VectorXd>(goals[std::size_t(g)].factors.data(), n_channels);
   }
-  std::vector<std::int32_t> all(responses.nodes.n);
-  std::iota(all.begin(), all.end(), 0);
-  return {sum_of_channels(responses.displacement_m, 3, all, factors),
-          sum_of_channels(responses.stress_Pa, 6, all, factors)};
+  return {sum_of_channels(responses, NodalField::displacement, factors),
+          sum_of_channels(responses, NodalField::stress, factors)};
 }
 
 /// Faces where the dual stress has no traction: those without a load of the goals, or its image. A dual load

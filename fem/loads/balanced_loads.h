@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/mesh/grid.h"
+#include "fem/mesh/rigid_modes.h"
 #include "fem/values/body.h"
 #include "fem/values/solver_choice.h"
 
@@ -25,6 +26,14 @@ struct BalancedLoads {
   std::vector<std::int64_t> supports{};
   Eigen::RowVectorXd norm, largest_entry;
 };
+
+/// Powers of two that bring the largest entry of each column to size 1, so that squares of neither small nor
+/// large loads leave the range of numbers, and no bit changes; 1 for a column of zeros.
+Eigen::RowVectorXd to_unit_size(const Eigen::MatrixXd& force);
+
+/// Takes their resultants out, unless clamps hold the body.
+BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>& clamped,
+                      Eigen::MatrixXd force);
 
 /// Rounding alone leaves eps |K| |u| / |f|, up to 1e-9 in slender bodies: refinement cannot go below that.
 inline constexpr double acceptable_residual = 1e-8;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "fem/common/dense_algebra.h"
 #include "fem/loads/surface_loads.h"
@@ -50,15 +51,23 @@ ElasticSupports::ElasticSupports(const Grid& grid, const std::vector<ElasticSupp
 }
 
 Eigen::MatrixXd ElasticSupports::apply(Eigen::MatrixXd displacement) const {
+  return apply(std::move(displacement), forces_, [](Eigen::MatrixXd&) {});
+}
+
+Eigen::MatrixXd ElasticSupports::apply(Eigen::MatrixXd displacement, const Eigen::MatrixXd& forces,
+                                       const std::function<void(Eigen::MatrixXd&)>& complete) const {
   const auto n_springs = forces_.cols(), n_loads = displacement.cols() - n_springs;
   if (n_springs == 0) return displacement;
   Eigen::MatrixXd result = displacement.leftCols(n_loads);
   if (closed_.cols() == 0) return result;
   const auto of_forces = displacement.rightCols(n_springs);
-  Eigen::MatrixXd flexibility = transposed_product(forces_, of_forces);
+  Eigen::MatrixXd flexibility = transposed_product(forces, of_forces),
+                  along = transposed_product(forces, result);
+  complete(flexibility);
+  complete(along);
   flexibility.diagonal() += stiffness_N_m_.cwiseInverse();
   const Eigen::MatrixXd small = product(transposed_product(closed_, flexibility), closed_);
-  const Eigen::MatrixXd wanted = transposed_product(closed_, transposed_product(forces_, result));
+  const Eigen::MatrixXd wanted = transposed_product(closed_, along);
   subtract_product(of_forces, product(closed_, solve_symmetric(small, wanted)), result);
   return result;
 }

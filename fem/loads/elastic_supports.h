@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
 #include "fem/mesh/grid.h"
@@ -28,6 +29,12 @@ public:
   /// @param displacement  of the loads, then of the m unit forces, on the free body without rigid part
   /// @return of the loads with springs
   Eigen::MatrixXd apply(Eigen::MatrixXd displacement) const;
+
+  /// The same of some nodes.
+  /// @param forces    rows of unit_forces() of the nodes that count in sums over the body, zeros of others
+  /// @param complete  makes sums over these nodes those over all
+  Eigen::MatrixXd apply(Eigen::MatrixXd displacement, const Eigen::MatrixXd& forces,
+                        const std::function<void(Eigen::MatrixXd&)>& complete) const;
 
 private:
   Eigen::MatrixXd forces_, closed_;  // closed_: N

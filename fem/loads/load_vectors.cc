@@ -81,8 +81,7 @@ private:
 
 }  // namespace
 
-Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
-                             const std::vector<UnitLoad>& loads, const PerCell<double>& relative_density) {
+void check_channels(const std::vector<UnitLoad>& loads) {
   if (loads.empty()) throw std::invalid_argument("no unit loads: nothing to solve");
   std::set<std::string> channels;
   for (const auto& load : loads) {
@@ -90,6 +89,11 @@ Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, d
     if (!channels.insert(load.channel).second)
       throw std::invalid_argument("channel " + load.channel + " appears twice among the unit loads");
   }
+}
+
+Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
+                             const std::vector<UnitLoad>& loads, const PerCell<double>& relative_density) {
+  check_channels(loads);
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * grid.n_nodes, loads.size());
   Columns columns(grid, integrals, density_kg_m3, relative_density);
   for (std::size_t k = 0; k < loads.size(); ++k) {

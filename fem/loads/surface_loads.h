@@ -63,6 +63,9 @@ bool same_surface(const LoadSurface& a, const LoadSurface& b);
 /// Body force on all nodes (3 n_nodes); `integrals` over the cells it acts on.
 Eigen::VectorXd body_force(const NodeIntegrals& integrals, double density_kg_m3, BodyForce::Field field);
 
+/// @throws std::invalid_argument for an empty list, an empty or repeated channel
+void check_channels(const std::vector<UnitLoad>& loads);
+
 /// All load vectors as applied, one column per load.
 /// @throws std::invalid_argument for an empty list, an empty or repeated channel, a body force on a volume
 /// group without cells, and as LoadedSurface, naming the channel

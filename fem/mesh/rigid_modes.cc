@@ -197,6 +197,32 @@ void RigidBalance::remove_motion(Eigen::MatrixXd& displacement) const {
   });
 }
 
+void RigidBalance::remove_motion(const std::vector<std::int32_t>& node, const std::vector<char>& counted,
+                                 const std::function<void(Eigen::MatrixXd&)>& complete,
+                                 Eigen::MatrixXd& displacement) const {
+  const auto n = Eigen::Index(node.size());
+  Eigen::MatrixXd momentum(6, displacement.cols());
+  parallel_for(displacement.cols(), 1, [&](std::size_t first, std::size_t last) {
+    for (auto k = Eigen::Index(first); k < Eigen::Index(last); ++k) {
+      const Eigen::Map<const Eigen::Matrix3Xd> u(displacement.col(k).data(), 3, n);
+      momentum.col(k) = sum_in_pieces(n, [&](Eigen::Index i, auto& sum) {
+        if (counted[std::size_t(i)] == 0) return;
+        sum.template head<3>() += mass(node[std::size_t(i)]) * u.col(i);
+        sum.template tail<3>() += moment(node[std::size_t(i)]).cross(u.col(i));
+      });
+    }
+  });
+  complete(momentum);
+  const Eigen::MatrixXd motion = inverse_ * momentum;
+  parallel_for(displacement.cols(), 1, [&](std::size_t first, std::size_t last) {
+    for (auto k = Eigen::Index(first); k < Eigen::Index(last); ++k) {
+      Eigen::Map<Eigen::Matrix3Xd> u(displacement.col(k).data(), 3, n);
+      const Eigen::Vector3d along = motion.col(k).head<3>(), about = motion.col(k).tail<3>();
+      for (Eigen::Index i = 0; i < n; ++i) u.col(i) -= along + about.cross(place_m(node[std::size_t(i)]));
+    }
+  });
+}
+
 WithoutModes::WithoutModes(const Eigen::MatrixXd& modes) {
   basis_ = orthonormal_basis(modes, std::numeric_limits<double>::epsilon() * double(modes.cols()));
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "fem/mesh/grid.h"
@@ -40,6 +42,14 @@ public:
   RigidBalance(const Grid& grid, NodeIntegrals&& integrals) = delete;  // would be gone
   void balance(Eigen::MatrixXd& force) const;                          ///< f - M R (R'MR)^-1 R'f
   void remove_motion(Eigen::MatrixXd& displacement) const;             ///< u - R (R'MR)^-1 R'M u
+
+  /// The same of some nodes.
+  /// @param node      theirs
+  /// @param counted   whether each counts in the sum, R'M u
+  /// @param complete  given the sums of these nodes (6 x columns), makes them those of all nodes
+  void remove_motion(const std::vector<std::int32_t>& node, const std::vector<char>& counted,
+                     const std::function<void(Eigen::MatrixXd&)>& complete,
+                     Eigen::MatrixXd& displacement) const;
 
 private:
   Eigen::Vector3d place_m(Eigen::Index node) const;  // from the centre of mass

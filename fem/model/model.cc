@@ -16,17 +16,15 @@
 #include "fem/mesh/grid.h"
 #include "fem/mesh/hanging_nodes.h"
 #include "fem/mesh/rigid_modes.h"
+#include "fem/model/responses_on_ranks.h"
 #include "fem/modes/natural_frequencies.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/operators/material_interfaces.h"
 #include "fem/operators/nodes_export.h"
 #include "fem/operators/stiffness.h"
-#include "fem/ranks/helper_ranks.h"
 #include "fem/ranks/ranks.h"
 #include "fem/recovery/recovery_on_ranks.h"
-#include "fem/solvers/direct_on_ranks.h"
 #include "fem/solvers/direct_solve.h"
-#include "fem/solvers/iterative_on_ranks.h"
 #include "fem/solvers/iterative_solve.h"
 #include "fem/solvers/mirrored_halves.h"
 #include "fem/solvers/solver_prediction.h"
@@ -42,6 +40,9 @@ constexpr double safety_of_modes = 3;
 
 struct Model::Impl {
   void estimate_errors(std::vector<NaturalMode>& modes, const std::vector<AttachedMass>& attached) const;
+  std::vector<NaturalMode> natural_frequencies(int n_modes, const std::vector<AttachedMass>& attached) const;
+  Eigen::MatrixXd dual_solutions(const BalancedLoads& loads, const MirroredHalf* half,
+                                 SolverReport report) const;
 
   /// Where stress lives, if not on the nodes of displacement.
   struct Seen {
@@ -62,6 +63,10 @@ struct Model::Impl {
 
   PerCell<double> relative_density() const { return materials.density(body.material.density_kg_m3); }
 
+  BodyOfRanks on_ranks(const std::function<const MirroredHalf*()>& half_of_body) const {
+    return {communicator, grid, cells, materials, half_of_body};
+  }
+
   /// Of a body of one material that is its own mirror image, and free; null for others. Looked for once.
   const MirroredHalf* half() const {
     if (!half_) {
@@ -79,9 +84,6 @@ private:
 
 Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
     : impl_(std::make_unique<Impl>()) {
-  if (this_rank(communicator) != 0)
-    throw std::logic_error("a model was made on MPI rank " + std::to_string(this_rank(communicator)) +
-                           ": models live on rank 0, every other rank calls help_first_rank");
   refuse_impossible(body.material);
   if (progress) progress(0, "read mesh");
   impl_->communicator = communicator;
@@ -132,17 +134,33 @@ SolverReport Model::predict_solver(std::size_t n_loads, const SolverChoice& choi
 
 std::vector<NaturalMode> Model::natural_frequencies(int n_modes,
                                                     const std::vector<AttachedMass>& attached) const {
-  auto modes = fem::natural_frequencies(
-      VibratingBody(impl_->grid, impl_->cells, impl_->colours, impl_->body, impl_->materials, attached),
-      n_modes);
+  std::vector<NaturalMode> modes;
+  on_first_rank(impl_->communicator, [&] { modes = impl_->natural_frequencies(n_modes, attached); });
+  if (n_ranks(impl_->communicator) == 1) return modes;
+  std::size_t n = modes.size();
+  take_from_first(impl_->communicator, &n, sizeof n);
+  modes.resize(n);
+  const std::size_t n_nodes = (impl_->seen ? impl_->seen->split.grid : impl_->grid).n_nodes;
+  for (auto& mode : modes) {
+    mode.shape.resize(3 * n_nodes);
+    for (double* value : {&mode.frequency_Hz, &mode.residual, &mode.error})
+      take_from_first(impl_->communicator, value, sizeof *value);
+    take_from_first(impl_->communicator, mode.shape.data(), sizeof(double) * mode.shape.size());
+  }
+  return modes;
+}
+
+std::vector<NaturalMode> Model::Impl::natural_frequencies(int n_modes,
+                                                          const std::vector<AttachedMass>& attached) const {
+  auto modes =
+      fem::natural_frequencies(VibratingBody(grid, cells, colours, body, materials, attached), n_modes);
   for (auto& mode : modes)
-    set_hanging_rows(impl_->grid.hanging,
-                     Eigen::Map<NodeRows>(mode.shape.data(), Eigen::Index(impl_->grid.n_nodes), 3));
-  if (impl_->seen)
+    set_hanging_rows(grid.hanging, Eigen::Map<NodeRows>(mode.shape.data(), Eigen::Index(grid.n_nodes), 3));
+  if (seen)
     for (auto& mode : modes)
-      for (const auto node : impl_->seen->split.copy)
+      for (const auto node : seen->split.copy)
         for (int d = 0; d < 3; ++d) mode.shape.push_back(mode.shape[3 * std::size_t(node) + d]);
-  impl_->estimate_errors(modes, attached);
+  estimate_errors(modes, attached);
   return modes;
 }
 
@@ -172,48 +190,13 @@ void Model::Impl::estimate_errors(std::vector<NaturalMode>& modes,
 
 namespace {
 
-/// Powers of two that bring the largest entry of each column to size 1, so that squares of neither small nor
-/// large loads leave the range of numbers, and no bit changes; 1 for a column of zeros.
-Eigen::RowVectorXd to_unit_size(const Eigen::MatrixXd& force) {
-  Eigen::RowVectorXd scale = Eigen::RowVectorXd::Ones(force.cols());
-  for (Eigen::Index k = 0; k < force.cols(); ++k) {
-    const double largest = force.col(k).lpNorm<Eigen::Infinity>();
-    if (largest > 0 && std::isfinite(largest))
-      scale[k] = std::ldexp(1.0, std::max(-1000, std::min(1000, -std::ilogb(largest))));
-  }
-  return scale;
-}
-
-BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>& clamped,
-                      Eigen::MatrixXd force) {
-  BalancedLoads loads;
-  loads.clamped = clamped;
-  loads.norm = force.colwise().norm().cwiseMax(1e-300);
-  loads.largest_entry = force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300);
-  if (clamped.empty()) rigid.balance(force);
-  loads.force = std::move(force);
-  return loads;
-}
-
 /// Nothing if it gives up, which the report then tells.
-std::optional<Solution> try_iteratively(const Grid& grid, const CellsOfNodes& cells,
-                                        const CellMaterials& materials, BalancedLoads& loads,
-                                        const SolverChoice& choice, const Progress& progress,
-                                        SolverReport& report, MPI_Comm communicator) {
+std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& materials,
+                                        const BalancedLoads& loads, const SolverChoice& choice,
+                                        const Progress& progress, SolverReport& report) {
   std::string failure;
   try {
-    if (n_ranks(communicator) == 1) {
-      if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure))
-        return solution;
-    } else {
-      std::optional<Solution> solution;
-      call_helpers(Task::solve_iteratively, communicator);
-      together(communicator, [&] {
-        solution = solve_iteratively_on_ranks(grid, cells, materials, loads, choice, progress, failure,
-                                              communicator);
-      });
-      if (solution) return solution;
-    }
+    if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure)) return solution;
   } catch (const SolveFailed& error) {
     failure = error.what();
   }
@@ -223,32 +206,19 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellsOfNodes& ce
   return std::nullopt;
 }
 
-/// By the solver that the report names; by the other one if the iterative one gives up, if the factor does
-/// not fit into memory, or if it turns out too expensive for cells of middling stretch; the report then
-/// tells.
+/// On one rank, by the solver that the report names; by the other one if the iterative one gives up, if the
+/// factor does not fit into memory, or if it turns out too expensive for cells of middling stretch; the
+/// report then tells.
 /// @param half_of_body  that of a body that is solved by halves, or null; not looked for before it is needed
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
-               const std::function<const MirroredHalf*()>& half_of_body, BalancedLoads& loads,
-               SolverChoice choice, const Progress& progress, SolverReport& report, MPI_Comm communicator,
+               const std::function<const MirroredHalf*()>& half_of_body, const BalancedLoads& loads,
+               SolverChoice choice, const Progress& progress, SolverReport& report,
                DirectSolveOptions direct) {
-  const bool alone = n_ranks(communicator) == 1;
   choice.coarse_level = report.coarse_level;
-  const auto iterate = [&] {
-    return try_iteratively(grid, cells, materials, loads, choice, progress, report, communicator);
-  };
+  const auto iterate = [&] { return try_iteratively(grid, materials, loads, choice, progress, report); };
   if (report.used == Solver::iterative)
     if (auto solution = iterate()) return std::move(*solution);
-  const auto factorise_on_ranks = [&] {
-    std::optional<Solution> solution;
-    call_helpers(Task::solve_directly, communicator);
-    together(communicator, [&] {
-      solution = solve_directly_on_ranks(grid, cells, materials, loads, progress, communicator);
-    });
-    return std::move(*solution);
-  };
-  // Halves take a third of the work or less: rank 0 factorises them alone.
-  if (!alone && half_of_body() == nullptr) return factorise_on_ranks();
   const auto factorise = [&](DirectSolveOptions options) {
     const auto* half = half_of_body();
     return half != nullptr
@@ -261,27 +231,17 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
   try {
     if (auto solution = factorise(std::move(direct))) return std::move(*solution);
   } catch (const DoesNotFit&) {
-    if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) {
-      if (!alone) return factorise_on_ranks();
-      throw;
-    }
+    if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) throw;
     report.used = Solver::iterative;
     report.reason += ", but the factor does not fit into memory";
     choice.max_iterations *= patience;
     if (auto solution = iterate()) return std::move(*solution);
-    if (!alone) return factorise_on_ranks();
     throw;
   }
   report.used = Solver::iterative;
   report.reason += ", but the factor is expensive";
   if (auto solution = iterate()) return std::move(*solution);
   return *factorise({});
-}
-
-double memory_of_ranks(MPI_Comm communicator) {
-  if (n_ranks(communicator) == 1) return physical_memory();
-  call_helpers(Task::tell_memory, communicator);
-  return memory_of_all_machines(communicator);
 }
 
 }  // namespace
@@ -298,8 +258,6 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   if (!clamped.empty() && !impl_->body.elastic_supports.empty())
     throw std::invalid_argument(
         "a body with clamps cannot have elastic supports, which act on a free body: leave one of them out");
-  const bool alone = n_ranks(impl_->communicator) == 1;
-  if (!alone) release_free_memory();  // of meshing
   UnitResponses responses;
   responses.n_dofs = n_dofs();
   for (const auto& load : loads) responses.channels.push_back(load.channel);
@@ -308,16 +266,27 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   const ElasticSupports springs(grid, impl_->body.elastic_supports);
   responses.solver =
       choose_solver(grid, impl_->materials, loads.size() + std::size_t(springs.unit_forces().cols()), choice,
-                    memory_of_ranks(impl_->communicator));
+                    memory_of_all_machines(impl_->communicator));
   if (!clamped.empty()) {
     responses.solver.used = Solver::direct;
     responses.solver.by_analysis = false;
     responses.solver.reason = "the body is clamped";
   }
+  const auto half_of_body = [&] { return choice.by_halves ? impl_->half() : nullptr; };
+  if (n_ranks(impl_->communicator) > 1) {
+    const SeenMesh mesh{seen, seen_cells, impl_->seen ? impl_->seen->split.copy : std::vector<std::int32_t>(),
+                        impl_->seen ? impl_->seen->volumes : impl_->integrals};
+    respond_on_ranks(impl_->on_ranks(half_of_body), mesh,
+                     {loads, springs, clamped, impl_->body, impl_->integrals, impl_->relative_density()},
+                     recovery == Recovery::patch, report, choice,
+                     choice.keep_factor ? &impl_->factor : nullptr, responses);
+    respond_on_sections(seen, planes, responses);
+    respond_on_rings(seen, impl_->body, responses);
+    return responses;
+  }
   DirectSolveOptions direct;
   direct.kept = choice.keep_factor ? &impl_->factor : nullptr;
-  const auto half_of_body = [&] { return choice.by_halves ? impl_->half() : nullptr; };
-  if (responses.solver.used == Solver::direct && (alone || half_of_body() != nullptr)) {
+  if (responses.solver.used == Solver::direct) {
     const auto* planned = half_of_body();
     direct.plan = std::async(std::launch::async, [&, planned] {  // beside the loads
       return planned != nullptr ? PlannedFactor(planned->grid(), planned->cells())
@@ -341,25 +310,14 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     BalancedLoads balanced = balance(rigid, clamped, std::move(force));
     move_to_masters(grid.hanging, balanced.force);
     Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, half_of_body, balanced,
-                              choice, report, responses.solver, impl_->communicator, std::move(direct));
-    responses.solver.n_iterations = solution.n_iterations;
-    if (solution.factor.n_dofs > 0) {
-      responses.solver.factor = solution.factor;
-      responses.solver.predicted_direct =
-          predict_direct(solution.factor, static_cast<std::size_t>(balanced.force.cols()));
-    }
+                              choice, report, responses.solver, std::move(direct));
+    take_report(solution, std::size_t(balanced.force.cols()), responses);
     balanced = {};
     if (responses.solver.used == Solver::direct && half_of_body() != nullptr) {
       responses.solver.reason += solution.is_even ? "; one half, of which the other is the mirror image"
                                                   : "; half by half, the body being its own mirror image";
       if (solution.is_even) half = half_of_body();
     }
-    responses.residual = responses.solver.relative_residual = solution.residual;
-    responses.support_reaction = solution.support_reaction;
-    responses.solver.rounding = solution.rounding;
-    responses.factor_gigabytes = solution.factor_gigabytes;
-    responses.solver.used_bytes = solution.bytes;
-    responses.solver.ranks = solution.ranks;
     set_hanging_unknowns(grid.hanging, solution.displacement);
     if (clamped.empty()) rigid.remove_motion(solution.displacement);
     solution.displacement.array().rowwise() *= scale.array().inverse();
@@ -374,24 +332,13 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   }
 
   report(0.85, "recover");
-  if (!alone) release_free_memory();
   const auto elastic = impl_->materials.elastic();
   const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), seen.n_nodes, 3 * n_loads);
-  const bool by_patches = recovery == Recovery::patch;
-  const auto loaded = loaded_groups(loads, impl_->body);
-  if (alone || half != nullptr) {
-    responses.stress_Pa.resize(seen.n_nodes * n_loads * 6);
-    Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
-    recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches, displacement, stress,
-                   half != nullptr ? NodeSelection(half->nodes()) : std::nullopt);
-  } else {
-    call_helpers(Task::recover_stress, impl_->communicator);
-    together(impl_->communicator, [&] {
-      recover_stress_on_ranks(seen, seen_cells, elastic, impl_->body.cylinders, loaded, by_patches,
-                              displacement, responses.stress_Pa, impl_->communicator);
-    });
-  }
+  responses.stress_Pa.resize(seen.n_nodes * std::size_t(n_loads) * 6);
   Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
+  recover_stress(seen, seen_cells, elastic, impl_->body.cylinders, loaded_groups(loads, impl_->body),
+                 recovery == Recovery::patch, displacement, stress,
+                 half != nullptr ? NodeSelection(half->nodes()) : std::nullopt);
   set_hanging_rows(grid.hanging, stress);
   if (half != nullptr) half->mirror_rows(half->signs_of_tensors(), stress);
   responses.energy_error =
@@ -401,6 +348,49 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   respond_on_sections(seen, planes, responses);
   respond_on_rings(seen, impl_->body, responses);
   return responses;
+}
+
+/// By the factor that is kept, or by the solver that the responses have, with as much patience as any has.
+Eigen::MatrixXd Model::Impl::dual_solutions(const BalancedLoads& loads, const MirroredHalf* half,
+                                            SolverReport report) const {
+  const auto n_columns = loads.force.cols();
+  const int n = n_ranks(communicator);
+  char is_kept = factor && (half != nullptr || !factor->takes_even_loads_only()) ? 1 : 0;  // on rank 0
+  take_from_first(communicator, &is_kept, 1);
+  if (is_kept != 0) {
+    Eigen::MatrixXd dual(loads.force.rows(), n_columns);
+    on_first_rank(communicator, [&] { dual = factor->solve(loads.force); });
+    take_from_first(communicator, dual.data(), sizeof(double) * std::size_t(dual.size()));
+    return dual;
+  }
+  SolverChoice choice;
+  choice.max_iterations *= patience;
+  const auto no_progress = [](double, const std::string&) {};
+  const auto half_of_body = [&] { return half; };
+  if (n == 1) {
+    DirectSolveOptions direct;
+    direct.kept = &factor;
+    return solve(grid, cells, colours, materials, half_of_body, loads, choice, no_progress, report,
+                 std::move(direct))
+        .displacement;
+  }
+  const auto of_part = [&](const RankPart& part) {
+    BalancedLoads own;
+    own.clamped = loads.clamped;
+    own.norm = loads.norm;
+    own.largest_entry = loads.largest_entry;
+    own.force = part.rows_of(loads.force, 3);
+    return own;
+  };
+  const auto found = solve_on_ranks(on_ranks(half_of_body), of_part, choice, no_progress, report, &factor);
+  Eigen::MatrixXd dual = Eigen::MatrixXd::Zero(loads.force.rows(), n_columns);
+  const auto& node = found.part.share.part.node;
+  for (std::size_t i = 0; i < node.size(); ++i)
+    if (found.part.counted[i] != 0)
+      dual.middleRows<3>(3 * Eigen::Index(node[i])) =
+          found.solution.displacement.middleRows<3>(3 * Eigen::Index(i));
+  complete(communicator, dual.data(), std::size_t(dual.size()));
+  return dual;
 }
 
 std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& responses,
@@ -423,20 +413,7 @@ std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& resp
   // Of a dual solution the part that is mirrored alone meets errors that are.
   const MirroredHalf* half = responses.images.node.empty() ? nullptr : impl_->half();
   if (half != nullptr) half->make_even(loads.force);
-  Eigen::MatrixXd dual;
-  if (impl_->factor && (half != nullptr || !impl_->factor->takes_even_loads_only())) {
-    dual = impl_->factor->solve(loads.force);
-  } else {
-    SolverReport report = responses.solver;  // by the solver that they have, with as much patience as any has
-    SolverChoice choice;
-    choice.max_iterations *= patience;
-    DirectSolveOptions direct;
-    direct.kept = &impl_->factor;
-    dual = solve(
-               grid, impl_->cells, impl_->colours, impl_->materials, [&] { return half; }, loads, choice,
-               [](double, const std::string&) {}, report, impl_->communicator, std::move(direct))
-               .displacement;
-  }
+  Eigen::MatrixXd dual = impl_->dual_solutions(loads, half, responses.solver);
   set_hanging_unknowns(grid.hanging, dual);
   if (loads.clamped.empty()) rigid.remove_motion(dual);
   const Eigen::MatrixXd errors = goal_errors(grid, impl_->cells, impl_->body.cylinders, elastic, responses,

@@ -51,11 +51,10 @@ enum class Recovery {
 class Model {
 public:
   /// Reads the mesh, attaches the charts, numbers the unknowns.
-  /// @param communicator  whose ranks share the work: the model lives on rank 0, the others are in
-  /// help_first_rank
+  /// @param communicator  whose ranks share the work: every one makes the model of the same body, and calls
+  /// what solves together with the others
   /// @param progress told that reading starts; may be empty
-  /// @throws MeshUnusable if the mesh cannot be read, has inverted cells or several pieces, or this is
-  /// not rank 0
+  /// @throws MeshUnusable if the mesh cannot be read, has inverted cells or several pieces
   /// @throws std::invalid_argument for impossible material values, or a material of a group without cells
   explicit Model(const Body& body, MPI_Comm communicator = MPI_COMM_WORLD, const Progress& progress = {});
   ~Model();

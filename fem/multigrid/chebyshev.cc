@@ -6,7 +6,7 @@
 
 #include "fem/common/dense_algebra.h"
 #include "fem/common/parallel.h"
-#include "fem/ranks/ranks.h"
+#include "fem/ranks/array_sums.h"
 
 namespace fem {
 

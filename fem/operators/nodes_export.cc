@@ -2,6 +2,7 @@
 
 #include "fem/mesh/cell_geometry.h"
 #include "fem/operators/material_interfaces.h"
+#include "fem/ranks/ranks.h"
 #include "fem/triangulation/body_grid.h"
 #include "fem/values/body_nodes.h"
 #include "fem/values/vtk_order.h"
@@ -38,16 +39,40 @@ Nodes export_nodes(const Grid& grid) {
   return nodes;
 }
 
-NodeRows sum_of_channels(const std::vector<double>& of_channels, int n_components,
+namespace {
+
+int n_components(NodalField field) {
+  return field == NodalField::displacement ? 3 : 6;
+}
+
+/// @param unit  channels x components
+void sum(const double* unit, int n_components, const Eigen::MatrixXd& factors, double* row) {
+  const Eigen::Map<const Eigen::MatrixXd> of_channels(unit, n_components, factors.rows());
+  Eigen::Map<Eigen::MatrixXd>(row, n_components, factors.cols()).noalias() = of_channels * factors;
+}
+
+}  // namespace
+
+NodeRows sum_of_channels(const UnitResponses& responses, NodalField field,
                          const std::vector<std::int32_t>& nodes, const Eigen::MatrixXd& factors) {
-  NodeRows sum(Eigen::Index(nodes.size()), n_components * factors.cols());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto first = std::size_t(nodes[i]) * std::size_t(n_components * factors.rows());
-    const Eigen::Map<const Eigen::MatrixXd> unit(&of_channels[first], n_components, factors.rows());
-    Eigen::Map<Eigen::MatrixXd>(&sum(Eigen::Index(i), 0), n_components, factors.cols()).noalias() =
-        unit * factors;
+  responses.bring(nodes);
+  NodeRows rows(Eigen::Index(nodes.size()), n_components(field) * factors.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    sum(field == NodalField::stress ? responses.stress_anywhere_Pa(std::size_t(nodes[i]))
+                                    : responses.displacement_anywhere_m(std::size_t(nodes[i])),
+        n_components(field), factors, &rows(Eigen::Index(i), 0));
+  return rows;
+}
+
+NodeRows sum_of_channels(const UnitResponses& responses, NodalField field, const Eigen::MatrixXd& factors) {
+  NodeRows rows = NodeRows::Zero(Eigen::Index(responses.nodes.n), n_components(field) * factors.cols());
+  for (std::size_t row = 0; row < responses.n_rows(); ++row) {
+    const std::size_t node = responses.node_of_row(row);
+    sum(field == NodalField::stress ? responses.unit_stress_Pa(node) : responses.unit_displacement_m(node),
+        n_components(field), factors, &rows(Eigen::Index(node), 0));
   }
-  return sum;
+  if (responses.shared) complete(responses.shared->communicator, rows.data(), std::size_t(rows.size()));
+  return rows;
 }
 
 Nodes body_nodes(const Body& body) {

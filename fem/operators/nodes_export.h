@@ -17,12 +17,17 @@ Nodes export_nodes(const Grid& grid, const NodeIntegrals& integrals);
 /// The same without the nodes' volumes.
 Nodes export_nodes(const Grid& grid);
 
-/// Load cases, each the sum of all channels times their factors.
-/// @param of_channels   displacement (3 components) or stress (6) of UnitResponses
+/// Which rows of unit responses.
+enum class NodalField { displacement, stress };
+
+/// Load cases, each the sum of all channels times their factors. Called on all ranks for the same nodes.
 /// @param nodes         at which they are wanted
 /// @param factors       channels x load cases
-/// @return nodes x (n_components per load case)
-NodeRows sum_of_channels(const std::vector<double>& of_channels, int n_components,
+/// @return nodes x (3 or 6 components per load case)
+NodeRows sum_of_channels(const UnitResponses& responses, NodalField field,
                          const std::vector<std::int32_t>& nodes, const Eigen::MatrixXd& factors);
+
+/// At all nodes, on all ranks.
+NodeRows sum_of_channels(const UnitResponses& responses, NodalField field, const Eigen::MatrixXd& factors);
 
 }  // namespace fem

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "fem/ranks/ranks.h"
+#include "fem/ranks/array_sums.h"
 
 namespace fem {
 

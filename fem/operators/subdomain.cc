@@ -4,8 +4,10 @@
 #include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "fem/mesh/cell_order.h"
+#include "fem/ranks/ranks.h"
 #include "fem/values/cell_shares.h"
 #include "fem/values/vtk_order.h"
 
@@ -209,19 +211,51 @@ std::vector<std::int32_t> nodes_of_cells(const Grid& grid, const std::vector<std
   return nodes;
 }
 
-std::vector<std::vector<Neighbour>> find_neighbours(
-    const std::vector<std::vector<std::int32_t>>& nodes_of_ranks, std::size_t n_nodes) {
-  std::vector<std::vector<int>> ranks(n_nodes);
-  for (std::size_t r = 0; r < nodes_of_ranks.size(); ++r)
-    for (const auto node : nodes_of_ranks[r]) ranks[node].push_back(static_cast<int>(r));
-  std::vector<std::vector<Neighbour>> result(nodes_of_ranks.size());
-  for (std::size_t r = 0; r < nodes_of_ranks.size(); ++r) {
-    std::vector<std::vector<std::int32_t>> with(nodes_of_ranks.size());
-    for (std::size_t i = 0; i < nodes_of_ranks[r].size(); ++i)
-      for (const int other : ranks[nodes_of_ranks[r][i]])
-        if (other != int(r)) with[other].push_back(static_cast<std::int32_t>(i));
-    for (std::size_t other = 0; other < with.size(); ++other)
-      if (!with[other].empty()) result[r].push_back({static_cast<int>(other), std::move(with[other])});
+std::shared_ptr<SharedRows> share_rows(MPI_Comm communicator, const Grid& grid,
+                                       const std::vector<int>& rank_of_cell) {
+  auto shared = std::make_shared<SharedRows>();
+  shared->communicator = communicator;
+  shared->rank_of_node = ranks_of_nodes(grid, rank_of_cell);
+  shared->row.assign(grid.n_nodes, -1);
+  shared->is_everywhere.assign(grid.n_nodes, 0);
+  const int rank = this_rank(communicator);
+  for (std::size_t i = 0; i < grid.n_nodes; ++i)
+    if (shared->rank_of_node[i] == rank) {
+      shared->row[i] = std::int32_t(shared->node.size());
+      shared->node.push_back(std::int32_t(i));
+    }
+  return shared;
+}
+
+RankPart::RankPart(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic, int of_rank,
+                   const std::vector<double>& weights)
+    : rank(of_rank),
+      rank_of_cell(deal_out_cells(grid, weights)),
+      rank_of_node(ranks_of_nodes(grid, rank_of_cell)),
+      share(share_of_rank(grid, cells, rank_of_cell, rank, elastic)),
+      n_unknowns(n_unknowns_of_rank(grid, rank_of_node, rank)) {
+  for (const auto node : share.part.node) counted.push_back(rank_of_node[std::size_t(node)] == rank ? 1 : 0);
+}
+
+std::size_t RankPart::n_counted() const {
+  return std::size_t(std::count(counted.begin(), counted.end(), 1));
+}
+
+std::vector<Neighbour> neighbours_of(const RankPart& part, const Grid& grid, const CellsOfNodes& cells,
+                                     int n_ranks) {
+  const auto& own = part.share.part.node;
+  std::vector<Neighbour> result;
+  for (int r = 0; r < n_ranks; ++r) {
+    if (r == part.rank) continue;
+    const auto nodes =
+        nodes_of_cells(grid, with_cells_hung_on(grid, cells, cells_of_rank(part.rank_of_cell, r)));
+    Neighbour neighbour{r, {}};
+    auto other = nodes.begin();
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      other = std::lower_bound(other, nodes.end(), own[i]);
+      if (other != nodes.end() && *other == own[i]) neighbour.nodes.push_back(std::int32_t(i));
+    }
+    if (!neighbour.nodes.empty()) result.push_back(std::move(neighbour));
   }
   return result;
 }

@@ -1,8 +1,9 @@
 /// The parts of a body that the ranks work on. Internal to fem.
 #pragma once
 
+#include <Eigen/Dense>
 #include <cstdint>
-#include <tuple>
+#include <memory>
 #include <vector>
 
 #include "fem/mesh/grid.h"
@@ -18,11 +19,6 @@ struct Subdomain {
   Grid grid;
   std::vector<std::int32_t> node;  ///< number in the body of each node, ascending
   std::vector<std::int32_t> cell;  ///< likewise of each cell
-
-  template <typename Self>
-  static auto members(Self& self) {
-    return std::tie(self.grid, self.node, self.cell);
-  }
 };
 /// @param cells  ascending
 /// @throws std::logic_error if a node hangs on one that is left out
@@ -34,6 +30,10 @@ Subdomain make_subdomain(const Nodes& nodes);
 
 /// The rank that counts each node: the first of those of its cells.
 std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell);
+
+/// Each rank has the rows of the nodes that it counts.
+std::shared_ptr<SharedRows> share_rows(MPI_Comm communicator, const Grid& grid,
+                                       const std::vector<int>& rank_of_cell);
 
 /// Unknowns at the nodes that a rank counts; hanging nodes have none.
 std::size_t n_unknowns_of_rank(const Grid& grid, const std::vector<int>& rank_of_node, int rank);
@@ -59,11 +59,6 @@ struct StiffnessShare {
   Subdomain part;
   std::vector<Lame> elastic;  ///< of the part's cells; zero where another rank has the cell
   std::size_t n_own_cells() const;
-
-  template <typename Self>
-  static auto members(Self& self) {
-    return std::tie(self.part, self.elastic);
-  }
 };
 StiffnessShare share_of_rank(const Grid& grid, const CellsOfNodes& cells_of_nodes,
                              const std::vector<int>& rank_of_cell, int rank, const PerCell<Lame>& elastic);
@@ -72,16 +67,35 @@ StiffnessShare share_of_rank(const Grid& grid, const CellsOfNodes& cells_of_node
 struct Neighbour {
   int rank = 0;
   std::vector<std::int32_t> nodes;  ///< numbers in the subdomain
+};
 
-  template <typename Self>
-  static auto members(Self& self) {
-    return std::tie(self.rank, self.nodes);
+/// What a rank has of a body. All ranks have the mesh, and deal its cells out alike.
+struct RankPart {
+  RankPart(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic, int rank,
+           const std::vector<double>& weights);
+
+  int rank;
+  std::vector<int> rank_of_cell, rank_of_node;
+  StiffnessShare share;
+  std::vector<char> counted;      ///< of the share's nodes: those that this rank counts
+  std::size_t n_unknowns = 0;     ///< at those nodes
+  std::size_t n_counted() const;  ///< those nodes
+
+  /// Rows of the share's nodes, `n_rows` each, of those of the whole body.
+  template <typename Whole>
+  typename Whole::PlainObject rows_of(const Whole& whole, int n_rows) const {
+    const auto& node = share.part.node;
+    typename Whole::PlainObject part(n_rows * Eigen::Index(node.size()), whole.cols());
+    for (std::size_t i = 0; i < node.size(); ++i)
+      part.middleRows(n_rows * Eigen::Index(i), n_rows) =
+          whole.middleRows(n_rows * Eigen::Index(node[i]), n_rows);
+    return part;
   }
 };
-/// Of every rank, ranks ascending.
-/// @param nodes_of_ranks  numbers in the body of the nodes of each rank's cells, ascending
-std::vector<std::vector<Neighbour>> find_neighbours(
-    const std::vector<std::vector<std::int32_t>>& nodes_of_ranks, std::size_t n_nodes);
+
+/// Of that rank, ranks ascending.
+std::vector<Neighbour> neighbours_of(const RankPart& part, const Grid& grid, const CellsOfNodes& cells,
+                                     int n_ranks);
 
 /// Lame's constants of a subdomain's cells, one after another.
 std::vector<Lame> elastic_of(const Subdomain& subdomain, const PerCell<Lame>& elastic);

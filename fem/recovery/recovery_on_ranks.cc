@@ -1,14 +1,10 @@
 #include "fem/recovery/recovery_on_ranks.h"
-#include "fem/mesh/cell_order.h"
 
 #include <utility>
 
 #include "fem/common/memory.h"
-#include "fem/operators/subdomain.h"
-#include "fem/ranks/node_exchange.h"
 #include "fem/ranks/ranks.h"
-#include "fem/recovery/stress_recovery.h"
-#include "fem/recovery/stress_samples.h"
+#include "fem/ranks/row_exchange.h"
 #include "fem/recovery/volumetric_stress.h"
 
 namespace fem {
@@ -20,49 +16,24 @@ namespace {
 // the body (1 more).
 constexpr int n_layers = 6;
 
-/// Rank 0 has the responses of the whole body: it leaves the work to the others where they are several.
-std::vector<double> weights_of_recovery(int n_ranks) {
-  auto weights = even_weights(n_ranks);
-  if (n_ranks > 2) weights.front() = 0;
-  return weights;
-}
-
-/// What a rank is given.
-struct RecoveryJob {
-  Subdomain part;
-  std::vector<Lame> elastic;
-  std::vector<CylinderChart> charts;
-  std::vector<int> loaded_groups;
-  int by_patches = 1, hardly_compresses = 0;
-  std::vector<std::int32_t> counted;  // nodes of the part that this rank counts
-
-  template <typename Self>
-  static auto members(Self& self) {
-    return std::tie(self.part, self.elastic, self.charts, self.loaded_groups, self.by_patches,
-                    self.hardly_compresses, self.counted);
+/// Hanging nodes have the stress that their masters fix, wherever these are.
+void set_own_hanging_rows(const HangingNodes& hanging, const SharedRows& shared, RowMajor& stress) {
+  std::vector<std::int32_t> masters;
+  std::vector<std::size_t> own;
+  for (std::size_t i = 0; i < hanging.n(); ++i) {
+    if (shared.row[std::size_t(hanging.node[i])] < 0) continue;
+    own.push_back(i);
+    masters.insert(masters.end(), hanging.master.begin() + std::ptrdiff_t(hanging.begin[i]),
+                   hanging.master.begin() + std::ptrdiff_t(hanging.begin[i + 1]));
   }
-};
-
-/// Called on all ranks.
-/// @return of the nodes that this rank counts
-RowMajor recover_share(MPI_Comm communicator, const RecoveryJob& job, const NodeExchange& all_nodes,
-                       const ConstBlock& displacement) {
-  const RowMajor own = all_nodes.from_first(displacement, 1);
-  RowMajor counted(0, 2 * own.cols());
-  agree(communicator, [&] {
-    const auto& grid = job.part.grid;
-    if (grid.n_cells() == 0) return;
-    RowMajor result(grid.n_nodes, 2 * own.cols());
-    const auto cells = cells_of_nodes(grid);
-    const auto elastic = cell_after_cell(job.elastic);
-    if (job.by_patches != 0)
-      recover_stress(grid, cells, job.charts, free_faces(grid, job.loaded_groups), elastic,
-                     job.hardly_compresses != 0, own, result);
-    else
-      average_stress(grid, cells, elastic, own, result);
-    counted = result(job.counted, Eigen::all);
-  });
-  return counted;
+  const RowMajor of_masters = RowExchange(shared, std::move(masters))(stress);
+  Eigen::Index at = 0;
+  for (const auto i : own) {
+    auto row = stress.row(shared.row[std::size_t(hanging.node[i])]);
+    row.setZero();
+    for (auto k = hanging.begin[i]; k < hanging.begin[i + 1]; ++k)
+      row += hanging.weight[k] * of_masters.row(at++);
+  }
 }
 
 }  // namespace
@@ -79,52 +50,36 @@ void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<L
                  any_hardly_compresses(grid, elastic), displacement, stress, selection);
 }
 
-void recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
-                             const std::vector<CylinderChart>& charts, const std::vector<int>& loaded_groups,
-                             bool by_patches, const ConstBlock& displacement, std::vector<double>& stress_Pa,
-                             MPI_Comm communicator) {
-  const int n = n_ranks(communicator);
-  const auto rank_of_cell = deal_out_cells(grid, weights_of_recovery(n));
-  const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
-  std::vector<std::vector<std::int32_t>> nodes(n), counted_nodes(n);
-  RecoveryJob job;
-  job.charts = charts;
-  job.loaded_groups = loaded_groups;
-  job.by_patches = by_patches ? 1 : 0;
-  job.hardly_compresses = any_hardly_compresses(grid, elastic) ? 1 : 0;  // somewhere in the body
-  for (int r = n - 1; r >= 0; --r) {
-    job.part = make_subdomain(
-        grid,
-        with_cells_hung_on(grid, cells, with_layers(grid, cells, cells_of_rank(rank_of_cell, r), n_layers)));
-    job.elastic = elastic_of(job.part, elastic);
-    nodes[r] = job.part.node;
-    job.counted.clear();
-    for (std::size_t i = 0; i < job.part.node.size(); ++i)
-      if (rank_of_node[job.part.node[i]] == r) {
-        job.counted.push_back(static_cast<std::int32_t>(i));
-        counted_nodes[r].push_back(job.part.node[i]);
-      }
-    if (r == 0) continue;
-    Message message;
-    message << job;
-    message.send(r, communicator);
+RowMajor recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
+                                 const std::vector<CylinderChart>& charts,
+                                 const std::vector<int>& loaded_groups, bool by_patches,
+                                 const std::vector<int>& rank_of_cell, const SharedRows& shared,
+                                 const ConstBlock& displacement) {
+  const auto own_cells = cells_of_rank(rank_of_cell, this_rank(shared.communicator));
+  const Subdomain part =
+      make_subdomain(grid, with_cells_hung_on(grid, cells, with_layers(grid, cells, own_cells, n_layers)));
+  RowMajor stress(Eigen::Index(shared.node.size()), 2 * displacement.cols());
+  {
+    const RowMajor around = RowExchange(shared, part.node)(displacement);
+    const bool hardly_compresses = any_hardly_compresses(grid, elastic);  // somewhere in the body
+    agree(shared.communicator, [&] {
+      if (part.grid.n_cells() == 0) return;
+      RowMajor result(Eigen::Index(part.grid.n_nodes), stress.cols());
+      const auto cells_of_part = cells_of_nodes(part.grid);
+      const auto elastic_of_part = cell_after_cell(elastic_of(part, elastic));
+      if (by_patches)
+        recover_stress(part.grid, cells_of_part, charts, free_faces(part.grid, loaded_groups),
+                       elastic_of_part, hardly_compresses, around, result);
+      else
+        average_stress(part.grid, cells_of_part, elastic_of_part, around, result);
+      for (std::size_t i = 0; i < part.node.size(); ++i)
+        if (const auto row = shared.row[std::size_t(part.node[i])]; row >= 0)
+          stress.row(row) = result.row(Eigen::Index(i));
+    });
   }
-  const RowMajor counted = recover_share(communicator, job, {communicator, nodes}, displacement);
-  job = {};
-  release_free_memory();  // of the patches: the whole body's stress needs it
-  stress_Pa.assign(grid.n_nodes * std::size_t(counted.cols()), 0);
-  Eigen::Map<RowMajor> stress(stress_Pa.data(), Eigen::Index(grid.n_nodes), counted.cols());
-  NodeExchange(communicator, std::move(counted_nodes)).add_on_first(counted, 1, stress);
-}
-
-void help_to_recover_stress(MPI_Comm communicator) {
-  RecoveryJob job;
-  Message message = Message::receive(0, communicator);
-  message >> job;
-  message = {};
-  RowMajor none(0, 0);
-  const RowMajor counted = recover_share(communicator, job, {communicator, {}}, none);
-  NodeExchange(communicator, {}).add_on_first(counted, 1, none);
+  release_free_memory();  // of the patches
+  if (grid.hanging.n() > 0) set_own_hanging_rows(grid.hanging, shared, stress);
+  return stress;
 }
 
 }  // namespace fem

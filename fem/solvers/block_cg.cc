@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fem/common/parallel.h"
-#include "fem/ranks/ranks.h"
+#include "fem/ranks/array_sums.h"
 
 namespace fem {
 

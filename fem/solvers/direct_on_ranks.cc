@@ -1,5 +1,4 @@
 #include "fem/solvers/direct_on_ranks.h"
-#include "fem/mesh/cell_order.h"
 
 #include <algorithm>
 #include <memory>
@@ -11,205 +10,193 @@
 #include "fem/matrices/cholmod_factor.h"
 #include "fem/matrices/mumps_factor.h"
 #include "fem/operators/stiffness.h"
-#include "fem/operators/subdomain.h"
-#include "fem/ranks/node_exchange.h"
-#include "fem/ranks/ranks.h"
+#include "fem/ranks/array_sums.h"
 #include "fem/solvers/direct_solve.h"
 
 namespace fem {
 
 namespace {
 
-/// What a rank is given.
-struct DirectJob {
-  StiffnessShare share;
-  std::int64_t n_unknowns = 0;     // of the body
-  bool clamped = false;            // else supported
-  std::vector<std::int64_t> held;  // unknowns of the part, ascending
-
-  template <typename Self>
-  static auto members(Self& self) {
-    return std::tie(self.share, self.n_unknowns, self.clamped, self.held);
+/// Those of some of the body's unknowns that a part has, in its numbers, ascending.
+std::vector<std::int64_t> in_part(const Subdomain& part, const std::vector<std::int64_t>& unknowns) {
+  std::vector<std::int64_t> result;
+  for (const auto unknown : unknowns) {
+    const auto found = std::lower_bound(part.node.begin(), part.node.end(), unknown / 3);
+    if (found != part.node.end() && *found == unknown / 3)
+      result.push_back(3 * (found - part.node.begin()) + unknown % 3);
   }
-};
-
-DirectJob make_job(const Grid& grid, const CellsOfNodes& cells, const std::vector<int>& rank_of_cell,
-                   int rank, const PerCell<Lame>& elastic, const BalancedLoads& loads) {
-  DirectJob job;
-  job.share = share_of_rank(grid, cells, rank_of_cell, rank, elastic);
-  const auto& own = job.share.part.node;
-  job.n_unknowns = static_cast<std::int64_t>(3 * grid.n_nodes);
-  job.clamped = !loads.clamped.empty();
-  const auto supports = choose_supports(grid);
-  const auto held = job.clamped ? loads.clamped : std::vector<std::int64_t>(supports.begin(), supports.end());
-  for (const auto unknown : held) {
-    const auto found = std::lower_bound(own.begin(), own.end(), unknown / 3);
-    if (found != own.end() && *found == unknown / 3)
-      job.held.push_back(3 * (found - own.begin()) + unknown % 3);
-  }
-  return job;
+  return result;
 }
 
-/// The stiffness of one rank's cells and its part of the factor. Called on all ranks.
+std::vector<std::int64_t> six_supports(const Grid& grid) {
+  const auto six = choose_supports(grid);
+  return {six.begin(), six.end()};
+}
+
+/// Sums on rank 0 of what the ranks have at the nodes of their parts, column by column.
+/// @param counted  that alone; null: all
+Eigen::MatrixXd sum_on_first(const Grid& grid, const RankPart& part, const std::vector<char>* counted,
+                             const Eigen::MatrixXd& own, MPI_Comm communicator) {
+  const bool is_first = part.rank == 0;
+  const auto& node = part.share.part.node;
+  const auto n_unknowns = 3 * Eigen::Index(grid.n_nodes);
+  Eigen::MatrixXd whole(is_first ? n_unknowns : 0, is_first ? own.cols() : 0);
+  Eigen::VectorXd column;
+  for (Eigen::Index k = 0; k < own.cols(); ++k) {
+    column.setZero(n_unknowns);
+    for (std::size_t i = 0; i < node.size(); ++i)
+      if (counted == nullptr || (*counted)[i] != 0)
+        column.segment<3>(3 * Eigen::Index(node[i])) = own.col(k).segment<3>(3 * Eigen::Index(i));
+    add_on_first(communicator, column.data(), std::size_t(column.size()));
+    if (is_first) whole.col(k) = column;
+  }
+  return whole;
+}
+
+/// The stiffness of one rank's cells and its part of the factor.
 class Share {
 public:
-  Share(MPI_Comm communicator, DirectJob job, NodeExchange exchange)
-      : communicator_(communicator), job_(std::move(job)), exchange_(std::move(exchange)) {}
+  Share(MPI_Comm communicator, const Grid& grid, const RankPart& part)
+      : communicator_(communicator), grid_(grid), part_(part) {}
 
-  void assemble() {
-    const auto& grid = job_.share.part.grid;
+  /// @param held  unknowns of the body
+  void assemble(const std::vector<std::int64_t>& held, bool clamped) {
+    const auto& grid = part_.share.part.grid;
     const auto cells = cells_of_nodes(grid);
     const NodeGraph graph = make_node_graph(grid, cells);
     matrix_ = make_matrix(graph);
-    assemble_stiffness(grid, colour_cells(grid, cells), graph, cell_after_cell(job_.share.elastic), matrix_);
-    if (job_.clamped)
-      clamp(job_.held, matrix_);
+    assemble_stiffness(grid, colour_cells(grid, cells), graph, cell_after_cell(part_.share.elastic), matrix_);
+    if (clamped)
+      clamp(in_part(part_.share.part, held), matrix_);
     else
-      supports_.emplace(job_.held, matrix_);
+      supports_.emplace(in_part(part_.share.part, held), matrix_);
   }
 
+  /// @param node_order  on rank 0
   void factorise(const std::vector<std::int32_t>& node_order) {
-    factor_ = std::make_unique<MumpsFactor>(communicator_, job_.n_unknowns, matrix_, job_.share.part.node,
-                                            node_order);
+    factor_ = std::make_unique<MumpsFactor>(communicator_, 3 * std::int64_t(grid_.n_nodes), matrix_,
+                                            part_.share.part.node, node_order);
   }
 
   /// @param columns  replaced on rank 0
   void solve(Eigen::MatrixXd& columns) const { factor_->solve(columns); }
 
-  /// K u, in the supported rows too.
-  /// @param u      on rank 0
-  /// @param image  on rank 0: zero on entry
-  void multiply(const Eigen::MatrixXd& u, Eigen::MatrixXd& image) const {
-    const Eigen::MatrixXd own = exchange_.from_first(u, 3);
-    Eigen::MatrixXd result;
-    agree(communicator_, [&] {
-      result = fem::multiply(matrix_, own);
-      if (!supports_) return;
+  /// K u on rank 0, in the supported rows too.
+  /// @param own  at the nodes of the part
+  Eigen::MatrixXd multiply(const Eigen::MatrixXd& own) const {
+    Eigen::MatrixXd result = fem::multiply(matrix_, own);
+    if (supports_) {
       const Eigen::MatrixXd at_supports = supports_->images(own);
       for (std::size_t s = 0; s < supports_->unknowns().size(); ++s)
-        result.row(supports_->unknowns()[s]) = at_supports.row(s);
-    });
-    exchange_.add_on_first(result, 3, image);
+        result.row(supports_->unknowns()[s]) = at_supports.row(Eigen::Index(s));
+    }
+    return sum_on_first(grid_, part_, nullptr, result, communicator_);
   }
 
-  /// Rank 0 gets that of all ranks, and the factor's bytes.
-  std::vector<RankWork> work(std::size_t n_unknowns, double& factor_bytes) const {
+  /// Of all ranks, and the factor's bytes.
+  std::vector<RankWork> work(double& factor_bytes) const {
     factor_bytes = sum_over_ranks(communicator_, Eigen::ArrayXd::Constant(1, factor_->bytes()))[0];
-    return gather_work(communicator_, {job_.share.n_own_cells(), n_unknowns,
+    return gather_work(communicator_, {part_.share.n_own_cells(), part_.n_unknowns,
                                        factor_->bytes() + 16.0 * double(matrix_.value.size())});
   }
 
 private:
   MPI_Comm communicator_;
-  DirectJob job_;
-  NodeExchange exchange_;
+  const Grid& grid_;
+  const RankPart& part_;
   SymmetricMatrix matrix_;
   std::optional<Supports> supports_;
   std::unique_ptr<MumpsFactor> factor_;
 };
 
-/// What all ranks do after rank 0 has solved: once more with the residual, or no more.
-bool once_more(MPI_Comm communicator, bool wanted) {
-  int more = wanted ? 1 : 0;
-  MPI_Bcast(&more, 1, MPI_INT, 0, communicator);
-  return more != 0;
-}
+/// What rank 0 has found, on all.
+struct Found {
+  double residual = 0, rounding = 0, support_reaction = 0;
+};
 
 }  // namespace
 
-Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, const CellMaterials& materials,
+Eigen::MatrixXd on_first(const Grid& grid, const RankPart& part, const Eigen::MatrixXd& own,
+                         MPI_Comm communicator) {
+  return sum_on_first(grid, part, &part.counted, own, communicator);
+}
+
+Eigen::MatrixXd from_first(const Grid& grid, const RankPart& part, const Eigen::MatrixXd& whole,
+                           Eigen::Index n_columns, MPI_Comm communicator) {
+  Eigen::MatrixXd own(3 * Eigen::Index(part.share.part.node.size()), n_columns);
+  Eigen::MatrixXd column(3 * Eigen::Index(grid.n_nodes), 1);
+  for (Eigen::Index k = 0; k < n_columns; ++k) {
+    if (part.rank == 0) column = whole.col(k);
+    take_from_first(communicator, column.data(), sizeof(double) * std::size_t(column.size()));
+    own.col(k) = part.rows_of(column, 3);
+  }
+  return own;
+}
+
+Solution solve_directly_on_ranks(const Grid& grid, const CellsOfNodes& cells, const RankPart& part,
                                  const BalancedLoads& loads, const StepReport& progress,
                                  MPI_Comm communicator) {
   progress(0.05, "assemble");
-  const int n = n_ranks(communicator);
-  const auto rank_of_cell = deal_out_cells(grid, even_weights(n));
-  const auto rank_of_node = ranks_of_nodes(grid, rank_of_cell);
-  const auto elastic = materials.elastic();
-  std::vector<std::vector<std::int32_t>> nodes(n);
-  DirectJob own;
-  for (int r = n - 1; r >= 0; --r) {
-    DirectJob job = make_job(grid, cells, rank_of_cell, r, elastic, loads);
-    nodes[r] = job.share.part.node;
-    if (r > 0) {
-      Message message;
-      message << job << n_unknowns_of_rank(grid, rank_of_node, r);
-      message.send(r, communicator);
-    } else {
-      own = std::move(job);
-    }
-  }
-  Share share(communicator, std::move(own), {communicator, nodes});
+  const bool is_first = part.rank == 0;
+  const auto n_loads = loads.force.cols();
+  const auto supported = loads.clamped.empty() ? six_supports(grid) : std::vector<std::int64_t>{};
+  Share share(communicator, grid, part);
   std::vector<std::int32_t> order;
   agree(communicator, [&] {
-    share.assemble();
-    order = order_nodes(make_node_graph(grid, cells));
+    share.assemble(loads.clamped.empty() ? supported : loads.clamped, !loads.clamped.empty());
+    if (is_first) order = order_nodes(make_node_graph(grid, cells));
   });
   progress(0.25, "factorise");
   share.factorise(order);
 
   progress(0.75, "solve");
-  const auto six = choose_supports(grid);
-  const std::vector<std::int64_t> supported =
-      loads.clamped.empty() ? std::vector<std::int64_t>(six.begin(), six.end()) : std::vector<std::int64_t>{};
-  Eigen::MatrixXd free_force = loads.force;
-  clear_rows(supported, free_force);
-  clear_rows(loads.clamped, free_force);
-  Eigen::MatrixXd image;
-  /// free_force - K u
-  const auto rest_of = [&](const Eigen::MatrixXd& u) {
-    image = Eigen::MatrixXd::Zero(u.rows(), u.cols());
-    share.multiply(u, image);
-    Eigen::MatrixXd rest = free_force - image;
-    clear_rows(supported, rest);
-    return rest;
-  };
+  const Eigen::MatrixXd force = on_first(grid, part, loads.force, communicator);
+  Eigen::MatrixXd free_force = force, image, rest, u;  // on rank 0
+  if (is_first) {
+    clear_rows(supported, free_force);
+    clear_rows(loads.clamped, free_force);
+  }
   Solution solution;
-  solution.displacement = free_force;
-  share.solve(solution.displacement);
-  Eigen::MatrixXd rest = rest_of(solution.displacement);
-  const auto residual = [&] { return rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff(); };
-  solution.residual = residual();
-  if (once_more(communicator, solution.residual > acceptable_residual)) {
+  Found found;
+  /// Of the displacement on rank 0, and what it leaves of the forces.
+  const auto take = [&] {
+    solution.displacement = from_first(grid, part, u, n_loads, communicator);
+    image = share.multiply(solution.displacement);
+    if (is_first) {
+      rest = free_force - image;
+      clear_rows(supported, rest);
+      found.residual = rest.colwise().norm().cwiseQuotient(loads.norm).maxCoeff();
+    }
+    take_from_first(communicator, &found, sizeof found);
+  };
+  u = free_force;
+  share.solve(u);
+  take();
+  if (found.residual > acceptable_residual) {
     Eigen::MatrixXd correction = rest;
     share.solve(correction);
-    solution.rounding = rounding(rest, correction, solution.displacement, loads);
-    agree(communicator, [&] { refuse_rounding(grid, solution.rounding); });
-    solution.displacement += correction;
-    rest = rest_of(solution.displacement);
-    solution.residual = residual();
+    agree(communicator, [&] {
+      if (!is_first) return;
+      found.rounding = rounding(rest, correction, u, loads);
+      refuse_rounding(grid, found.rounding);
+      u += correction;
+    });
+    take();
   }
-  for (const auto unknown : supported)
-    solution.support_reaction =
-        std::max(solution.support_reaction, (image.row(unknown) - loads.force.row(unknown))
-                                                .cwiseAbs()
-                                                .cwiseQuotient(loads.largest_entry)
-                                                .maxCoeff());
+  if (is_first)
+    for (const auto unknown : supported)
+      found.support_reaction = std::max(
+          found.support_reaction,
+          (image.row(unknown) - force.row(unknown)).cwiseAbs().cwiseQuotient(loads.largest_entry).maxCoeff());
+  take_from_first(communicator, &found, sizeof found);
+  solution.residual = found.residual;
+  solution.rounding = found.rounding;
+  solution.support_reaction = found.support_reaction;
   double factor_bytes = 0;
-  solution.ranks = share.work(n_unknowns_of_rank(grid, rank_of_node, 0), factor_bytes);
+  solution.ranks = share.work(factor_bytes);
   for (const auto& work : solution.ranks) solution.bytes += work.bytes;
   solution.factor_gigabytes = 1e-9 * factor_bytes;
   return solution;
-}
-
-void help_to_solve_directly(MPI_Comm communicator) {
-  Message message = Message::receive(0, communicator);
-  DirectJob job;
-  std::size_t n_unknowns = 0;
-  message >> job >> n_unknowns;
-  message = {};
-  Share share(communicator, std::move(job), {communicator, {}});
-  agree(communicator, [&] { share.assemble(); });
-  share.factorise({});
-  Eigen::MatrixXd none;
-  share.solve(none);
-  share.multiply(none, none);
-  if (once_more(communicator, false)) {
-    share.solve(none);
-    agree(communicator, [] {});
-    share.multiply(none, none);
-  }
-  double factor_bytes = 0;
-  share.work(n_unknowns, factor_bytes);
 }
 
 }  // namespace fem

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "fem/operators/subdomain.h"
+#include "fem/ranks/row_exchange.h"
 #include "fem/stress/cell_stress.h"
 
 namespace fem {
@@ -35,9 +36,11 @@ std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
   if (around.empty())
     throw std::invalid_argument("cell_stress_at_node_Pa: no cell holds node " + std::to_string(node));
   const Subdomain part = make_subdomain(nodes, around);
-  const Eigen::Map<const RowMajor> whole(responses.displacement_m.data(), Eigen::Index(nodes.n),
-                                         3 * Eigen::Index(responses.channels.size()));
-  const RowMajor displacement = whole(part.node, Eigen::all);
+  responses.bring(part.node);
+  RowMajor displacement(Eigen::Index(part.node.size()), 3 * Eigen::Index(responses.channels.size()));
+  for (std::size_t i = 0; i < part.node.size(); ++i)
+    std::copy_n(responses.displacement_anywhere_m(std::size_t(part.node[i])), displacement.cols(),
+                displacement.row(Eigen::Index(i)).data());
   const auto place = std::find(part.node.begin(), part.node.end(), std::int32_t(node)) - part.node.begin();
   std::vector<std::vector<std::array<double, 6>>> stress_Pa;
   for (std::size_t c = 0; c < around.size(); ++c) {
@@ -57,19 +60,23 @@ std::vector<double> largest_cell_differences_Pa(const UnitResponses& responses, 
                                                 const std::vector<const double*>& factors) {
   const auto& nodes = responses.nodes;
   std::vector<double> largest(nodes.n, 0.0);
+  const auto is_asked = [&](std::size_t node) { return factors[node] != nullptr && responses.has(node); };
   std::vector<std::int32_t> asked;
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
     const auto cell = nodes.cell(c);
-    if (std::any_of(cell.begin(), cell.end(),
-                    [&](auto node) { return factors[std::size_t(node)] != nullptr; }))
+    if (std::any_of(cell.begin(), cell.end(), [&](auto node) { return is_asked(std::size_t(node)); }))
       asked.push_back(std::int32_t(c));
   }
-  if (asked.empty()) return largest;
   const Subdomain part = make_subdomain(nodes, asked);
   const auto n_channels = Eigen::Index(responses.channels.size());
-  const Eigen::Map<const RowMajor> whole(responses.displacement_m.data(), Eigen::Index(nodes.n),
+  const Eigen::Map<const RowMajor> whole(responses.displacement_m.data(), Eigen::Index(responses.n_rows()),
                                          3 * n_channels);
-  const RowMajor displacement = whole(part.node, Eigen::all);
+  const RowMajor displacement = responses.shared ? RowExchange(*responses.shared, part.node)(whole)
+                                                 : RowMajor(whole(part.node, Eigen::all));
+  if (asked.empty()) {
+    responses.complete(largest);
+    return largest;
+  }
   const int n_local = part.grid.nodes_per_cell();
   RowMajor stress(n_local, 6 * n_channels);
   CellStress of_cell(part.grid, nodes_in_cell(nodes.shape()), lame(material), displacement);
@@ -83,12 +90,13 @@ std::vector<double> largest_cell_differences_Pa(const UnitResponses& responses, 
     of_cell(c, stress);
     for (int i = 0; i < n_local; ++i) {
       const auto node = std::size_t(part.node[std::size_t(part.grid.nodes_of(c)[i])]);
-      if (factors[node] == nullptr) continue;
+      if (!is_asked(node)) continue;
       const double recovered = summed(responses.unit_stress_Pa(node), factors[node]);
       largest[node] =
           std::max(largest[node], std::abs(summed(stress.row(i).data(), factors[node]) - recovered));
     }
   }
+  responses.complete(largest);
   return largest;
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fem/common/parallel.h"
 #include "fem/mesh/reference_cell.h"
+#include "fem/ranks/ranks.h"
 
 namespace fem {
 
@@ -107,23 +109,29 @@ private:
   Eigen::VectorXd weight_;
 };
 
-}  // namespace
+/// Largest stress of each load case.
+Eigen::VectorXd largest_of(const ConstBlock& stress) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(stress.cols() / 6);
+  if (stress.rows() > 0)
+    for (Eigen::Index k = 0; k < largest.size(); ++k)
+      largest[k] = stress.middleCols(6 * k, 6).cwiseAbs().maxCoeff();
+  return largest;
+}
 
-EnergyError energy_error(const Grid& grid, const PerCell<Lame>& elastic, const ConstBlock& displacement,
-                         const ConstBlock& stress, const MirrorPlane* plane) {
+/// Squares of neither small nor large stresses may leave the range of numbers.
+Eigen::VectorXd to_unit_size(Eigen::VectorXd largest) {
+  for (double& scale : largest)
+    scale = scale > 0 && std::isfinite(scale) ? std::ldexp(1.0, -std::ilogb(scale)) : 1.0;
+  return largest;
+}
+
+/// Sums over some cells.
+/// @param of_cells  their rows are written
+Products sum_over_cells(const Grid& grid, const PerCell<Lame>& elastic, const ConstBlock& displacement,
+                        const ConstBlock& stress, const Eigen::VectorXd& scale,
+                        const std::vector<std::size_t>& counted, std::vector<double>& of_cells) {
   const Tabulation at = energy_points(grid.shape());
-  const Eigen::Index n_loads = stress.cols() / 6;
-  // Squares of neither small nor large stresses may leave the range of numbers.
-  Eigen::VectorXd scale(n_loads);
-  for (Eigen::Index k = 0; k < n_loads; ++k) {
-    const double largest = stress.middleCols(6 * k, 6).cwiseAbs().maxCoeff();
-    scale[k] = largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, -std::ilogb(largest)) : 1.0;
-  }
-  EnergyError result;
-  result.of_cells.resize(grid.n_cells() * std::size_t(n_loads));
-  std::vector<std::size_t> counted;
-  for (std::size_t c = 0; c < grid.n_cells(); ++c)
-    if (plane == nullptr || std::size_t(plane->cell[c]) > c) counted.push_back(c);
+  const Eigen::Index n_loads = scale.size();
   // Sums over blocks of fixed size, then over blocks: the same for every number of threads.
   constexpr std::size_t block = 256;
   const std::size_t n_blocks = (counted.size() + block - 1) / block;
@@ -133,22 +141,21 @@ EnergyError energy_error(const Grid& grid, const PerCell<Lame>& elastic, const C
     CellEnergies cells(grid, at, elastic, displacement, stress, scale);
     for (std::size_t b = begin; b < end; ++b)
       for (std::size_t i = b * block; i < std::min((b + 1) * block, counted.size()); ++i)
-        cells.add(counted[i], sums[b], &result.of_cells[counted[i] * std::size_t(n_loads)]);
+        cells.add(counted[i], sums[b], &of_cells[counted[i] * std::size_t(n_loads)]);
   });
-  if (plane != nullptr)
-    for (const auto c : counted)
-      std::copy_n(&result.of_cells[c * std::size_t(n_loads)], n_loads,
-                  &result.of_cells[std::size_t(plane->cell[c]) * std::size_t(n_loads)]);
   Products total{zero, zero};
   for (const auto& part : sums) {
     total.energy += part.energy;
     total.error += part.error;
   }
-  if (plane != nullptr) {
-    total.energy *= 2;
-    total.error *= 2;
-  }
-  // In units of the loads' own norms.
+  return total;
+}
+
+/// In units of the loads' own norms.
+EnergyError in_own_norms(const Products& total, const Eigen::VectorXd& scale, std::vector<double> of_cells) {
+  const Eigen::Index n_loads = scale.size();
+  EnergyError result;
+  result.of_cells = std::move(of_cells);
   const Eigen::VectorXd norm = total.energy.diagonal().cwiseSqrt();
   const auto unit = [](double n) { return n > 0 ? 1 / n : 0.0; };
   result.norm_sqrtJ.resize(std::size_t(n_loads));
@@ -162,10 +169,51 @@ EnergyError energy_error(const Grid& grid, const PerCell<Lame>& elastic, const C
       result.energy[std::size_t(k * n_loads + l)] = units * total.energy(low, high);
       result.error[std::size_t(k * n_loads + l)] = units * total.error(low, high);
     }
-    for (std::size_t c = 0; c < grid.n_cells(); ++c)
-      result.of_cells[c * std::size_t(n_loads) + std::size_t(k)] *= unit(norm[k]) * unit(norm[k]);
+    for (std::size_t i = std::size_t(k); i < result.of_cells.size(); i += std::size_t(n_loads))
+      result.of_cells[i] *= unit(norm[k]) * unit(norm[k]);
   }
   return result;
+}
+
+}  // namespace
+
+EnergyError energy_error(const Grid& grid, const PerCell<Lame>& elastic, const ConstBlock& displacement,
+                         const ConstBlock& stress, const MirrorPlane* plane) {
+  const Eigen::VectorXd scale = to_unit_size(largest_of(stress));
+  const auto n_loads = std::size_t(scale.size());
+  std::vector<double> of_cells(grid.n_cells() * n_loads);
+  std::vector<std::size_t> counted;
+  for (std::size_t c = 0; c < grid.n_cells(); ++c)
+    if (plane == nullptr || std::size_t(plane->cell[c]) > c) counted.push_back(c);
+  auto total = sum_over_cells(grid, elastic, displacement, stress, scale, counted, of_cells);
+  if (plane != nullptr) {
+    for (const auto c : counted)
+      std::copy_n(&of_cells[c * n_loads], n_loads, &of_cells[std::size_t(plane->cell[c]) * n_loads]);
+    total.energy *= 2;
+    total.error *= 2;
+  }
+  return in_own_norms(total, scale, std::move(of_cells));
+}
+
+EnergyError energy_error_on_ranks(MPI_Comm communicator, const StiffnessShare& part, std::size_t n_cells,
+                                  const ConstBlock& displacement, const ConstBlock& stress) {
+  Eigen::VectorXd largest = largest_of(stress);
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), int(largest.size()), MPI_DOUBLE, MPI_MAX, communicator);
+  const Eigen::VectorXd scale = to_unit_size(largest);
+  const auto n_loads = std::size_t(scale.size());
+  std::vector<std::size_t> counted;
+  for (std::size_t c = 0; c < part.elastic.size(); ++c)
+    if (has_stiffness(part.elastic[c])) counted.push_back(c);
+  std::vector<double> of_part(part.elastic.size() * n_loads);
+  auto total = sum_over_cells(part.part.grid, cell_after_cell(part.elastic), displacement, stress, scale,
+                              counted, of_part);
+  for (auto* products : {&total.energy, &total.error})
+    sum_over_ranks(communicator, products->data(), std::size_t(products->size()));
+  std::vector<double> of_cells(n_cells * n_loads, 0.0);
+  for (const auto c : counted)
+    std::copy_n(&of_part[c * n_loads], n_loads, &of_cells[std::size_t(part.part.cell[c]) * n_loads]);
+  complete(communicator, of_cells);
+  return in_own_norms(total, scale, std::move(of_cells));
 }
 
 EnergyNorms energy_norms(const EnergyError& channels, const std::vector<double>& factors) {

@@ -134,14 +134,21 @@ Section make_section(const Grid& grid, const std::vector<FlatFace>& faces, const
   return section;
 }
 
-SectionResponse respond(const Grid& grid, const SectionPlane& plane, const Section& section,
-                        const UnitResponses& responses, std::size_t load) {
+/// Sums over the nodes of a section.
+struct SectionSums {
+  std::array<double, 6> resultant{}, motion{};
+  std::array<double, 2> mean_rim_shear_Pa{};
+};
+
+/// Of the nodes that this rank has.
+SectionSums sum(const Grid& grid, const SectionPlane& plane, const Section& section,
+                const UnitResponses& responses, std::size_t load) {
   const auto stress = [&](std::int32_t node) {
     return responses.unit_stress_Pa(std::size_t(node)) + 6 * load;
   };
-  SectionResponse r;
-  Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
+  SectionSums r;
   for (const auto& [node, weight] : section.weights) {
+    if (!responses.has(std::size_t(node))) continue;
     const double *s = stress(node), *u = responses.unit_displacement_m(std::size_t(node)) + 3 * load;
     const double xz = s[5], yz = s[4], zz = s[2];
     r.resultant[0] += weight.one * xz;
@@ -151,21 +158,30 @@ SectionResponse respond(const Grid& grid, const SectionPlane& plane, const Secti
     r.resultant[4] -= weight.x * zz;
     r.resultant[5] += weight.x * yz - weight.y * xz;
     const double x = weight.x - plane.axis_x_m * weight.one, y = weight.y - plane.axis_y_m * weight.one;
-    for (int d = 0; d < 3; ++d) motion[d] += weight.one * u[d];
-    motion[3] += y * u[2];
-    motion[4] -= x * u[2];
-    motion[5] += x * u[1] - y * u[0];
+    for (std::size_t d = 0; d < 3; ++d) r.motion[d] += weight.one * u[d];
+    r.motion[3] += y * u[2];
+    r.motion[4] -= x * u[2];
+    r.motion[5] += x * u[1] - y * u[0];
   }
   for (std::size_t i = 0; i < section.rim.size(); ++i) {
     const auto node = section.rim[i];
+    if (!responses.has(std::size_t(node))) continue;
     const auto shear = rim_shear(grid.position(node)[0] - plane.axis_x_m,
                                  grid.position(node)[1] - plane.axis_y_m, stress(node));
-    for (int c = 0; c < 2; ++c) r.mean_rim_shear_Pa[c] += section.rim_weight[i] * shear[c];
+    for (std::size_t c = 0; c < 2; ++c) r.mean_rim_shear_Pa[c] += section.rim_weight[i] * shear[c];
   }
-  motion = solve_symmetric(section.rigid, motion);
+  return r;
+}
+
+SectionResponse respond(const Section& section, const SectionSums& sums) {
+  const Eigen::Matrix<double, 6, 1> motion =
+      solve_symmetric(section.rigid, Eigen::Map<const Eigen::Matrix<double, 6, 1>>(sums.motion.data()));
+  SectionResponse r;
+  r.resultant = sums.resultant;
+  r.mean_rim_shear_Pa = sums.mean_rim_shear_Pa;
   for (int d = 0; d < 3; ++d) {
-    r.translation_m[d] = motion[d];
-    r.rotation_rad[d] = motion[3 + d];
+    r.translation_m[std::size_t(d)] = motion[d];
+    r.rotation_rad[std::size_t(d)] = motion[3 + d];
   }
   return r;
 }
@@ -242,8 +258,12 @@ void respond_on_sections(const Grid& grid, const std::vector<SectionPlane>& plan
   for (const auto& plane : planes) {
     const Section section = make_section(grid, faces, plane);
     responses.plane_area_m2.push_back(section.area_m2);
+    std::vector<SectionSums> sums;
     for (std::size_t k = 0; k < responses.channels.size(); ++k)
-      responses.sections.push_back(respond(grid, plane, section, responses, k));
+      sums.push_back(sum(grid, plane, section, responses, k));
+    static_assert(sizeof(SectionSums) == 14 * sizeof(double));
+    responses.sum_over_ranks(sums.front().resultant.data(), 14 * sums.size());
+    for (const auto& of_load : sums) responses.sections.push_back(respond(section, of_load));
   }
 }
 

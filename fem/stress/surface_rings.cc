@@ -97,6 +97,7 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
     for (std::size_t k = 0; k < n_loads; ++k) {
       std::array<double, 2> mean{};
       for (auto node = begin; node != end; ++node) {
+        if (!responses.has(std::size_t(node->node))) continue;
         const double* x = grid.position(node->node);
         const auto shear = rim_shear(x[0], x[1], responses.unit_stress_Pa(node->node) + 6 * k);
         for (int c = 0; c < 2; ++c) mean[c] += weights[std::size_t(node - begin)] * shear[c];
@@ -114,6 +115,8 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
                   first, last, 0.0, [](const RingNode& n) { return n.material; }, add_ring);
             });
       });
+  if (!responses.ring_shear_Pa.empty())
+    responses.sum_over_ranks(responses.ring_shear_Pa.front().data(), 2 * responses.ring_shear_Pa.size());
 }
 
 }  // namespace fem

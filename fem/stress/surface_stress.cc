@@ -112,11 +112,12 @@ std::vector<UnitStress> stress_on_faces_around_Pa(const UnitResponses& responses
     if (std::find(face.begin(), face.end(), std::int32_t(node)) == face.end() ||
         std::any_of(face.begin(), face.end(), is_left_out))
       continue;
+    responses.bring({face.begin(), face.end()});
     for (std::size_t q = 0; q < std::size_t(shapes.n_points); ++q) {
       auto& stress = stresses.emplace_back(n_channels);
       for (std::size_t v = 0; v < face.size(); ++v) {
         const double share = shapes.value[q * face.size() + shape_of(nodes.shape(), v)];
-        const double* of_node = responses.unit_stress_Pa(std::size_t(face[v]));
+        const double* of_node = responses.stress_anywhere_Pa(std::size_t(face[v]));
         for (std::size_t k = 0; k < n_channels; ++k)
           for (std::size_t c = 0; c < 6; ++c) stress[k][c] += share * of_node[6 * k + c];
       }

@@ -51,8 +51,8 @@ CellsAgainstRecovered cells_against_recovered(const UnitResponses& responses, co
   }
   const Subdomain part = make_subdomain(nodes, around);
   const Eigen::Map<const Eigen::VectorXd> load_case(factors.data(), Eigen::Index(factors.size()));
-  const RowMajor displacement = sum_of_channels(responses.displacement_m, 3, part.node, load_case),
-                 recovered = sum_of_channels(responses.stress_Pa, 6, part.node, load_case);
+  const RowMajor displacement = sum_of_channels(responses, NodalField::displacement, part.node, load_case),
+                 recovered = sum_of_channels(responses, NodalField::stress, part.node, load_case);
   const Tabulation at = tabulate_in_cell(nodes.shape(), points);
   CellStress of_cell(part.grid, at, lame(material), displacement);
   RowMajor difference(at.n_points, 6);
@@ -69,7 +69,7 @@ CellsAgainstRecovered cells_against_recovered(const UnitResponses& responses, co
       volume += determinant;
     }
   }
-  const RowMajor own = sum_of_channels(responses.stress_Pa, 6, {std::int32_t(node)}, load_case);
+  const RowMajor own = sum_of_channels(responses, NodalField::stress, {std::int32_t(node)}, load_case);
   return {von_mises(own.data()), std::sqrt(squares / volume)};
 }
 

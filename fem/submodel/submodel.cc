@@ -89,7 +89,7 @@ struct Part {
 Part cut_out(const UnitResponses& responses, const std::vector<std::int32_t>& cells,
              const Eigen::MatrixXd& cases) {
   auto [grid, node, cell] = make_subdomain(responses.nodes, cells);
-  auto field = sum_of_channels(responses.displacement_m, 3, node, cases);
+  auto field = sum_of_channels(responses, NodalField::displacement, node, cases);
   add_boundary(responses.nodes, node, grid);
   return {{std::move(grid), std::move(field)}, std::move(node)};
 }

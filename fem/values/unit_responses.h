@@ -2,8 +2,12 @@
 /// Tensor components are ordered xx, yy, zz, xy, yz, xz (VTK's order); tensile stress is positive.
 #pragma once
 
+#include <mpi.h>
+
 #include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -104,11 +108,24 @@ struct MirrorImages {
   std::vector<std::int32_t> node, cell;
 };
 
+/// Whose rows the nodes of a body are, where several MPI ranks share it.
+struct SharedRows {
+  MPI_Comm communicator;
+  std::vector<int> rank_of_node;   ///< n
+  std::vector<std::int32_t> node;  ///< this rank's own, ascending
+  std::vector<std::int32_t> row;   ///< n: place in `node`; -1: another rank has it
+
+  /// Rows of other ranks that UnitResponses::anywhere has brought here: K x 9, displacement and stress.
+  std::map<std::int32_t, std::vector<double>> brought;
+  std::vector<char> is_everywhere;  ///< n
+};
+
 struct UnitResponses {
-  std::vector<std::string> channels;  ///< K names, the order of all arrays
-  Nodes nodes;
-  std::vector<double> displacement_m;  ///< n x K x 3
-  std::vector<double> stress_Pa;       ///< n x K x 6, recovered at the nodes
+  std::vector<std::string> channels;   ///< K names, the order of all arrays
+  Nodes nodes;                         ///< of the whole body, on all ranks
+  std::shared_ptr<SharedRows> shared;  ///< null: this rank has the rows of all nodes
+  std::vector<double> displacement_m;  ///< n x K x 3; of a shared body the rows of SharedRows::node
+  std::vector<double> stress_Pa;       ///< n x K x 6, likewise, recovered at the nodes
   std::vector<std::array<double, 6>>
       resultants;  ///< K; fx, fy, fz, mx, my, mz about the origin of the load vector as applied
   std::vector<SectionPlane> planes;
@@ -127,13 +144,42 @@ struct UnitResponses {
   double factor_gigabytes = 0;  ///< 0: solved iteratively
   SolverReport solver;
 
-  /// Of one node for every unit load: K x 6 [Pa], and K x 3 [m].
+  bool has(std::size_t node) const noexcept { return !shared || shared->row[node] >= 0; }
+  std::size_t n_rows() const noexcept { return shared ? shared->node.size() : nodes.n; }
+  std::size_t node_of_row(std::size_t row) const noexcept {
+    return shared ? std::size_t(shared->node[row]) : row;
+  }
+  /// Of a node that this rank has.
+  std::size_t row_of(std::size_t node) const noexcept {
+    return shared ? std::size_t(shared->row[node]) : node;
+  }
+
+  /// Of one node that this rank has, for every unit load: K x 6 [Pa], and K x 3 [m].
   const double* unit_stress_Pa(std::size_t node) const noexcept {
-    return stress_Pa.data() + node * channels.size() * 6;
+    return stress_Pa.data() + row_of(node) * channels.size() * 6;
   }
   const double* unit_displacement_m(std::size_t node) const noexcept {
-    return displacement_m.data() + node * channels.size() * 3;
+    return displacement_m.data() + row_of(node) * channels.size() * 3;
   }
+
+  /// The same of any node, on all ranks. Called on all ranks for the same nodes in the same order, on one
+  /// thread.
+  const double* stress_anywhere_Pa(std::size_t node) const {
+    if (!shared) return unit_stress_Pa(node);
+    return brought(node) + 3 * channels.size();
+  }
+  const double* displacement_anywhere_m(std::size_t node) const {
+    return shared ? brought(node) : unit_displacement_m(node);
+  }
+  /// Brings rows of many nodes at once. Called as these.
+  void bring(const std::vector<std::int32_t>& wanted) const;
+
+  /// Sums over nodes, each taken by the rank that has it. Called on all ranks.
+  void sum_over_ranks(double* values, std::size_t n) const;
+  /// Values per node, zeros where another rank has the node: all of them. Called on all ranks.
+  void complete(std::vector<double>& values) const;
+  void complete(std::vector<float>& values) const;
+  void complete(std::vector<std::int32_t>& values) const;
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   UnitResponses();
@@ -142,6 +188,9 @@ struct UnitResponses {
   UnitResponses& operator=(const UnitResponses&);
   UnitResponses& operator=(UnitResponses&&) noexcept;
   ~UnitResponses();
+
+private:
+  const double* brought(std::size_t node) const;
 };
 
 }  // namespace fem

@@ -1,8 +1,11 @@
 // A rank recovers the stress of its nodes on a part of the mesh, and takes the same steps as on the whole.
 #include <gtest/gtest.h>
 
+#include "fem/mesh/cell_order.h"
+#include "fem/mesh/hanging_nodes.h"
 #include "fem/operators/cell_materials.h"
-#include "fem/ranks/helper_ranks.h"
+#include "fem/operators/subdomain.h"
+#include "fem/ranks/ranks.h"
 #include "fem/recovery/recovery_on_ranks.h"
 #include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
@@ -19,17 +22,19 @@ void expect_same(const fem::Grid& grid, const std::vector<fem::CylinderChart>& c
   const auto cells = fem::cells_of_nodes(grid);
   const auto elastic = fem::CellMaterials(fem_tests::steel).elastic();
   const fem::RowMajor displacement = 1e-6 * fem::RowMajor::Random(grid.n_nodes, 6);
+  const auto rank_of_cell = fem::deal_out_cells(grid, fem::even_weights(fem::n_ranks(MPI_COMM_WORLD)));
+  const auto shared = fem::share_rows(MPI_COMM_WORLD, grid, rank_of_cell);
+  ASSERT_LT(shared->node.size(), grid.n_nodes);
+  const fem::RowMajor own = displacement(shared->node, Eigen::all);
   for (const bool by_patches : {true, false}) {
     fem::RowMajor one(grid.n_nodes, 12);
-    std::vector<double> on_ranks;
     fem::recover_stress(grid, cells, elastic, charts, loaded, by_patches, displacement, one);
-    fem::call_helpers(fem::Task::recover_stress, MPI_COMM_WORLD);
-    fem::recover_stress_on_ranks(grid, cells, elastic, charts, loaded, by_patches, displacement, on_ranks,
-                                 MPI_COMM_WORLD);
-    ASSERT_EQ(on_ranks.size(), std::size_t(one.size()));
-    const Eigen::Map<const fem::RowMajor> several(on_ranks.data(), one.rows(), one.cols());
+    fem::set_hanging_rows(grid.hanging, one);
+    const auto several = fem::recover_stress_on_ranks(grid, cells, elastic, charts, loaded, by_patches,
+                                                      rank_of_cell, *shared, own);
     ASSERT_GT(one.norm(), 0);
-    EXPECT_LT((one - several).norm(), alignment * one.norm()) << (by_patches ? "patches" : "averages");
+    EXPECT_LT((one(shared->node, Eigen::all) - several).norm(), alignment * one.norm())
+        << (by_patches ? "patches" : "averages");
   }
 }
 

@@ -1,0 +1,43 @@
+/// One body solved by several MPI ranks, by whichever solver suits. Internal to fem.
+#pragma once
+
+#include <mpi.h>
+
+#include <functional>
+#include <memory>
+
+#include "fem/loads/balanced_loads.h"
+#include "fem/operators/cell_materials.h"
+#include "fem/operators/subdomain.h"
+#include "fem/solvers/direct_solve.h"
+#include "fem/solvers/mirrored_halves.h"
+#include "fem/values/solver_choice.h"
+
+namespace fem {
+
+/// All ranks have the mesh.
+struct BodyOfRanks {
+  MPI_Comm communicator;
+  const Grid& grid;
+  const CellsOfNodes& cells;
+  const CellMaterials& materials;
+  std::function<const MirroredHalf*()> half;  ///< of a body that is solved by halves, or null
+};
+
+/// Displacements at the nodes of a rank's part.
+struct PartSolution {
+  RankPart part;
+  Solution solution;
+};
+
+/// As on one rank by the solver that the report names, or by the other one if that gives up or does not fit:
+/// conjugate gradients on all ranks; the factor of halves on rank 0, which has a third of the work or less;
+/// MUMPS' of the whole body on all ranks. Called on all ranks.
+/// @param loads  forces at the nodes of a part; their sizes are those of the body
+/// @param kept   if given, has the factor of halves afterwards, on rank 0
+PartSolution solve_on_ranks(const BodyOfRanks& body,
+                            const std::function<BalancedLoads(const RankPart&)>& loads, SolverChoice choice,
+                            const StepReport& progress, SolverReport& report,
+                            std::shared_ptr<const FactorisedBody>* kept);
+
+}  // namespace fem
