@@ -95,6 +95,12 @@ std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares) {
   return deal_out_cells(make_subdomain(nodes).grid, even_weights(n_shares));
 }
 
+std::shared_ptr<SharedRows> share_rows(MPI_Comm communicator, const Nodes& nodes) {
+  const int n = n_ranks(communicator);
+  if (n == 1) return nullptr;
+  return share_rows(communicator, make_subdomain(nodes).grid, shares_of_cells(nodes, n));
+}
+
 std::vector<int> ranks_of_nodes(const Grid& grid, const std::vector<int>& rank_of_cell) {
   std::vector<int> rank(grid.n_nodes, -1);
   for (std::size_t c = 0; c < grid.n_cells(); ++c)

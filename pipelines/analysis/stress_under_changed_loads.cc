@@ -37,6 +37,12 @@ double best_first(std::vector<Candidate> candidates, const Value& value_Pa) {
   return best_Pa;
 }
 
+double largest_over_ranks(double value, const fem::UnitResponses& responses) {
+  if (responses.shared)
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, responses.shared->communicator);
+  return value;
+}
+
 /// @param value_Pa  of a point: (its unit stresses, its stress in the analysis) -> new stress
 template <typename Value>
 LargestStresses largest(const BodyAnalysis& analysis, const ArrayXXd& change, const MoreStress& more,
@@ -52,15 +58,16 @@ LargestStresses largest(const BodyAnalysis& analysis, const ArrayXXd& change, co
   const auto& own = analysis.envelope.von_mises.value_Pa;
   std::vector<Candidate> nodes, toes;
   for (std::size_t i = 0; i < own.size(); ++i)
-    if (!analysis.places.excluded[i]) nodes.push_back({reach(responses.unit_stress_Pa(i), own[i]), i});
+    if (!analysis.places.excluded[i] && responses.has(i))
+      nodes.push_back({reach(responses.unit_stress_Pa(i), own[i]), i});
   std::vector<std::vector<std::array<double, 6>>> at_toes;
   for (const auto& spot : analysis.hot_spots) {
     at_toes.push_back(unit_stress_at(responses, stress_point(spot)));
     toes.push_back({reach(at_toes.back().front().data(), spot.von_mises_Pa), toes.size()});
   }
-  return {best_first(std::move(nodes),
-                     [&](std::size_t i) { return value_Pa(responses.unit_stress_Pa(i), own[i]); }),
-          best_first(std::move(toes), [&](std::size_t i) {
+  const double of_own_nodes = best_first(
+      std::move(nodes), [&](std::size_t i) { return value_Pa(responses.unit_stress_Pa(i), own[i]); });
+  return {largest_over_ranks(of_own_nodes, responses), best_first(std::move(toes), [&](std::size_t i) {
             return value_Pa(at_toes[i].front().data(), analysis.hot_spots[i].von_mises_Pa);
           })};
 }

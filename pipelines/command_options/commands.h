@@ -17,9 +17,9 @@ namespace pipelines {
 /// it throws is no mistake of the command line.
 struct ChosenCommand {
   std::function<void(std::ostream& out)> run;
-  /// What the other MPI ranks do where `run` lets them; empty: nothing.
-  std::function<void()> beside_first_rank;
-  int n_threads = 0;  ///< that helper ranks use, too; 0: all cores
+  /// What the MPI ranks beside the first one do meanwhile; empty: nothing, and the first one works alone.
+  std::function<void()> on_other_ranks;
+  int n_threads = 0;  ///< 0: all cores
 };
 
 /// The callback of a command: it is chosen, and will be carried out with its options.

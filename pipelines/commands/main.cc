@@ -1,13 +1,15 @@
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "fem/model/model.h"
-#include "fem/ranks/helper_ranks.h"
+#include "fem/ranks/ranks.h"
 #include "pipelines/command_options/commands.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
@@ -64,8 +66,65 @@ int refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** a
   return pipelines::scene_is_wrong;
 }
 
-/// The program on this rank: rank 0 does what the arguments say, any other one helps it to solve or works
-/// beside it.
+/// Ranks that all fail alike say so once, by the first of them. One that fails by itself leaves the others
+/// waiting in what they do together: it says so, and ends them all.
+class CommonEnd {
+public:
+  CommonEnd() { MPI_Comm_dup(MPI_COMM_WORLD, &communicator_); }  // what ranks do together has the other one
+
+  /// @param failure  of this rank; its code is done if there is none
+  /// @param is_told  that has been printed
+  /// @return what the program ends with
+  int end(const pipelines::Failure& failure, bool is_told) const {
+    constexpr std::chrono::seconds patience(3);
+    MPI_Request all_are_here;
+    MPI_Ibarrier(communicator_, &all_are_here);
+    const auto start = std::chrono::steady_clock::now();
+    for (int are_here = 0; MPI_Test(&all_are_here, &are_here, MPI_STATUS_IGNORE), are_here == 0;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (failure.code == pipelines::done || std::chrono::steady_clock::now() - start < patience) continue;
+      if (!is_told) tell(failure);
+      MPI_Abort(MPI_COMM_WORLD, failure.code);
+    }
+    int code = failure.code, of_first = code;
+    MPI_Bcast(&of_first, 1, MPI_INT, 0, communicator_);
+    if (of_first == pipelines::done && code != pipelines::done && !is_told) tell(failure);
+    MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, communicator_);
+    return of_first == pipelines::done ? code : of_first;
+  }
+
+private:
+  static void tell(const pipelines::Failure& failure) {
+    std::cerr << "rank " << fem::this_rank(MPI_COMM_WORLD) << ": " << failure.message << std::endl;
+  }
+
+  MPI_Comm communicator_ = MPI_COMM_NULL;
+};
+
+/// The program on one of several ranks: the first does what the arguments say, the others their part of it.
+int run_on_ranks(const pipelines::ChosenCommand& chosen) {
+  const CommonEnd common;
+  if (fem::this_rank(MPI_COMM_WORLD) == 0) {
+    if (!chosen.on_other_ranks) pipelines::work_on_bodies_alone();
+    pipelines::Failure failure{pipelines::done, ""};
+    failure.code = pipelines::ExitCode(guarded([&] {
+      chosen.run(std::cout);
+      require_written_stdout();
+    }));
+    return common.end(failure, true);
+  }
+  auto* const terminal = std::cerr.rdbuf(nullptr);  // the first one tells
+  pipelines::Failure failure{pipelines::done, ""};
+  try {
+    const fem::Environment threads(chosen.n_threads);
+    if (chosen.on_other_ranks) chosen.on_other_ranks();
+  } catch (...) {
+    failure = pipelines::failure_in_flight();
+  }
+  std::cerr.rdbuf(terminal);
+  return common.end(failure, false);
+}
+
 int run(int argc, char** argv) {
   const bool first = fem::this_rank(MPI_COMM_WORLD) == 0;
   CLI::App app{"From the kinetics of a mill to stress zones in its shaft and chamber."};
@@ -84,15 +143,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (first) {
-      if (refuse(app, error, argc, argv) != 0) return pipelines::scene_is_wrong;
-      return guarded(require_written_stdout);
-    }
+    if (!first) return pipelines::done;
+    if (refuse(app, error, argc, argv) != 0) return pipelines::scene_is_wrong;
+    return guarded(require_written_stdout);
   }
-  if (!first) {
-    const fem::Environment threads(chosen.n_threads);
-    return fem::help_first_rank(MPI_COMM_WORLD, chosen.beside_first_rank);
-  }
+  if (fem::n_ranks(MPI_COMM_WORLD) > 1) return run_on_ranks(chosen);
   return guarded([&] {
     chosen.run(std::cout);
     require_written_stdout();
@@ -106,7 +161,6 @@ int main(int argc, char** argv) {
   std::optional<fem::Environment> ranks;
   if (pipelines::started_on_several_ranks()) ranks.emplace(0);
   const int code = run(argc, argv);
-  if (ranks && fem::this_rank(MPI_COMM_WORLD) == 0) fem::dismiss_helpers(code);
   if (code == pipelines::mesh_or_solve_failed && !ranks && pipelines::memory_is_limited()) {
     std::cout.flush();
     std::fflush(nullptr);

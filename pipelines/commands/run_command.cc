@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fem/model/model.h"
-#include "fem/ranks/helper_ranks.h"
+#include "fem/ranks/ranks.h"
 #include "pipelines/accuracy/cost_calibration.h"
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/analysis/body_analysis.h"
@@ -23,6 +23,7 @@
 #include "pipelines/commands/run_results.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/process_limits.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/replaceable.h"
@@ -132,16 +133,18 @@ std::string table_of(const RunReport& content, const std::optional<TorsionReport
   return table.str();
 }
 
+/// @param staged  null on ranks beside the first one, which make summary and table with it
 /// @param record  but for its table; without a key: this run is not to be taken for a later one
-void finish_run(const Request& request, StagedResults& staged, const RunReport& content,
+void finish_run(const Request& request, StagedResults* staged, const RunReport& content,
                 const std::optional<TorsionReport>& torsion, RunRecord record) {
   const auto summary = summary_json(content);
-  write_text_file(staged.folder() / "summary.json", summary);
-  write_html_report(staged.folder(), request.directory / "accuracy");
   record.table = table_of(content, torsion);
+  if (staged == nullptr) return;
+  write_text_file(staged->folder() / "summary.json", summary);
+  write_html_report(staged->folder(), request.directory / "accuracy");
   if (!are_as_noted(noted_inputs())) record.key.clear();
-  write_run_record(staged.folder(), record);
-  staged.publish();
+  write_run_record(staged->folder(), record);
+  staged->publish();
   print(request, summary, record.table);
 }
 
@@ -177,7 +180,8 @@ std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machi
                                         const std::filesystem::path& directory, StageClock& clock) {
   if (!kind_of(machine).is_torsional()) return std::nullopt;
   auto torsion = clock.run("torsion", [&] { return report_torsion(scene, machine); });
-  clock.run("write", [&] { write_torsion_files(directory / "torsion", scene, torsion); });
+  if (is_first_rank())
+    clock.run("write", [&] { write_torsion_files(directory / "torsion", scene, torsion); });
   return torsion;
 }
 
@@ -194,7 +198,10 @@ std::optional<DutyResult> duty_of_loads(const Scene& given, const Scene& scene, 
   return duty;
 }
 
+/// One rank is enough.
 void run_load_stage(const Request& request, const Scene& given, StageClock& clock) {
+  if (!is_first_rank()) return;
+  work_on_bodies_alone();
   const Scene scene = with_effects_chosen(given, {}, negligible_share(request.accuracy.tolerance));
   auto loads = clock.run("loads", [&] { return load_stage(scene, scene.machine); });
   const auto lives = bearing_lives(scene.bearings, loads, {});
@@ -206,7 +213,7 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
             [&] { write_load_results(staged.folder(), loads, {}, threads(request.options.n_threads)); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
   finish_run(
-      request, staged,
+      request, &staged,
       {scene, loads, {}, {}, clock.costs(), lives, duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
       torsion, {request.key, {}, {}, ""});
 }
@@ -248,8 +255,7 @@ void warn_of_damage(SceneRun& run) {
 /// @return as draw
 std::string draw_body(const std::filesystem::path& place, const Scene& scene, const SceneRun& run,
                       const BodyAnalysis& analysis, const DutyResult* duty) {
-  if (fem::n_ranks(MPI_COMM_WORLD) == 1)
-    return draw(place / "envelope.vtu", place, scene.title, analysis, duty);
+  if (n_ranks_of_a_body() == 1) return draw(place / "envelope.vtu", place, scene.title, analysis, duty);
   const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
   write_whole_envelope(whole.temporary(), run.scene, run.loaded.loads, analysis);
   return draw(whole.temporary(), place, scene.title, analysis, duty);
@@ -260,22 +266,24 @@ std::string draw_body(const std::filesystem::path& place, const Scene& scene, co
 std::vector<std::string> write_and_draw(const Request& request, const Scene& scene, const SceneRun& run,
                                         const DutyResult* duty, const std::filesystem::path& folder,
                                         StageClock& clock) {
-  const int n_threads = threads(request.options.n_threads), n_ranks = fem::n_ranks(MPI_COMM_WORLD);
+  const int n_threads = threads(request.options.n_threads), n_ranks = n_ranks_of_a_body();
   const auto& loads = run.loaded.loads;
   const auto place = [&](std::size_t i) { return folder / run.analyses[i].scene.name; };
   const auto write = [&](std::size_t i) {
+    wait_for_ranks();
     if (i < run.analyses.size())
       write_body_results(place(i), run.scene, loads, run.analyses[i], n_ranks, n_threads);
-    else
+    else if (is_first_rank())
       write_load_results(folder, loads, run.loaded.channels(), n_threads);
   };
-  const auto policy = scene.pictures && n_threads > 1 ? std::launch::async : std::launch::deferred;
+  const bool beside = scene.pictures && n_threads > 1 && n_ranks == 1;  // ranks stay in step
+  const auto policy = beside ? std::launch::async : std::launch::deferred;
   std::vector<std::string> faults;
   clock.run("write", [&] { write(0); });
   for (std::size_t i = 0; i < run.analyses.size(); ++i) {
     auto next = std::async(policy, write, i + 1);
     const auto fault =
-        scene.pictures
+        scene.pictures && is_first_rank()
             ? clock.run("pictures", [&] { return draw_body(place(i), scene, run, run.analyses[i], duty); })
             : std::string();
     clock.run("write", [&] { next.get(); });
@@ -291,8 +299,10 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   require_blocks(scene);
   const auto accuracy = with_default(request.accuracy);
   const fem::Environment environment(options.n_threads);
-  StagedResults staged(request.directory, body_names(scene));
-  warn_of_earlier(staged);
+  std::optional<StagedResults> staged;  // on the first rank
+  fem::on_first_rank(ranks_of_a_body(), [&] { staged.emplace(request.directory, body_names(scene)); });
+  if (staged) warn_of_earlier(*staged);
+  const auto folder = staged ? staged->folder() : std::filesystem::path();
   SceneRunOptions run_options{request.directory, options.n_threads, options.fresh, true, accuracy};
   run_options.duty = !scene.duty.empty();
   auto run = run_scene(scene, run_options, clock);
@@ -304,20 +314,20 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
     for (const auto& sentence : duty_lives_beyond_curves(*duty)) warn(run.loaded.loads, sentence);
   }
   warn_of_damage(run);
-  learn_from(run);
+  if (is_first_rank()) learn_from(run);
   const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();
   const auto& loads = run.loaded.loads;
   RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings, ""};
-  for (const auto& fault :
-       write_and_draw(request, scene, run, duty ? &*duty : nullptr, staged.folder(), clock))
+  for (const auto& fault : write_and_draw(request, scene, run, duty ? &*duty : nullptr, folder, clock))
     record.warnings.push_back(fault);
-  if (duty) clock.run("write", [&] { write_duty(staged.folder() / "duty.csv", *duty); });
+  if (duty && staged) clock.run("write", [&] { write_duty(folder / "duty.csv", *duty); });
   const Scene reported = with_machine(run.scene, run.loaded.masses.machine);
-  const auto torsion = torsion_of(reported, reported.machine, staged.folder(), clock);
-  finish_run(request, staged,
+  const auto torsion = torsion_of(reported, reported.machine, folder, clock);
+  finish_run(request, staged ? &*staged : nullptr,
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings,
               duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
              torsion, std::move(record));
+  wait_for_ranks();
   if (!run.met() && !accuracy.by_default)
     throw ToleranceNotMet("the tolerance is not met; the results are kept");
 }
@@ -341,8 +351,8 @@ void run(const RunCommandOptions& options, std::ostream& out) {
   const auto accuracy = requested_accuracy_of(options, scene);
   const Request request{
       options, out, directory, accuracy,
-      run_key(scene, accuracy, threads(options.n_threads), fem::n_ranks(MPI_COMM_WORLD), noted_inputs())};
-  if (is_unchanged(request, scene)) return;
+      run_key(scene, accuracy, threads(options.n_threads), n_ranks_of_a_body(), noted_inputs())};
+  if (as_on_first_rank(is_first_rank() && is_unchanged(request, scene))) return;
   StageClock clock(progress_on_stderr(options.verbosity()));
   (scene.bodies.empty() ? run_load_stage : run_bodies)(request, scene, clock);
 }
@@ -376,7 +386,14 @@ void add_run_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_flag("--fresh", options->fresh,
                     "reuse nothing of an earlier run, and compute even if nothing has changed");
   command->add_flag("--json", options->json, "print summary.json instead of the table");
-  command->callback(to_choose(chosen, options, run));
+  command->callback([options, choose = to_choose(chosen, options, run), &chosen] {
+    choose();
+    chosen.on_other_ranks = [silent = *options]() mutable {
+      silent.quiet = true;
+      std::ostringstream not_shown;
+      run(silent, not_shown);
+    };
+  });
 }
 
 }  // namespace pipelines

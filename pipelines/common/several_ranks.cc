@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "fem/ranks/helper_ranks.h"
+#include "fem/ranks/ranks.h"
 
 namespace pipelines {
 
@@ -26,6 +26,23 @@ int n_ranks_of_a_body() {
 
 void work_on_bodies_alone() {
   works_alone = true;
+}
+
+bool is_first_rank() {
+  return fem::this_rank(ranks_of_a_body()) == 0;
+}
+
+double as_on_first_rank(double value) {
+  fem::take_from_first(ranks_of_a_body(), &value, sizeof value);
+  return value;
+}
+
+bool as_on_first_rank(bool value) {
+  return as_on_first_rank(value ? 1.0 : 0.0) != 0;
+}
+
+void wait_for_ranks() {
+  fem::wait_for_all(ranks_of_a_body());
 }
 
 }  // namespace pipelines

@@ -15,4 +15,15 @@ int n_ranks_of_a_body();
 /// From here on this rank works on bodies of its own.
 void work_on_bodies_alone();
 
+/// Of the ranks that share a body, the one that reads, writes and tells.
+bool is_first_rank();
+
+/// What that rank found, on all of them: a time, what a file says. Called on all ranks that share a body, in
+/// the same order.
+bool as_on_first_rank(bool value);
+double as_on_first_rank(double value);
+
+/// Sleeps until all ranks that share a body are here.
+void wait_for_ranks();
+
 }  // namespace pipelines

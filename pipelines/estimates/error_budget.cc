@@ -155,10 +155,11 @@ std::vector<std::array<double, 6>> unit_stress_at(const fem::UnitResponses& resp
   if (point.resolved) return point.resolved->unit_Pa;
   const std::size_t n_channels = responses.channels.size();
   std::vector<std::array<double, 6>> unit(n_channels, std::array<double, 6>{});
-  for (const auto& part : point.parts)
+  for (const auto& part : point.parts) {
+    const double* of_node = responses.stress_anywhere_Pa(part.node);
     for (std::size_t k = 0; k < n_channels; ++k)
-      for (std::size_t c = 0; c < 6; ++c)
-        unit[k][c] += part.weight * responses.unit_stress_Pa(part.node)[6 * k + c];
+      for (std::size_t c = 0; c < 6; ++c) unit[k][c] += part.weight * of_node[6 * k + c];
+  }
   return unit;
 }
 

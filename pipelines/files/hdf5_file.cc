@@ -155,7 +155,8 @@ void write_dataset(hid_t root, const std::string& file, const std::string& path,
   }
   Handle dataset(H5Dcreate2(root, path.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
                  H5Dclose, file, path, "cannot make the dataset");
-  if (!empty && H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+  if (!empty && values != nullptr &&
+      H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     fail(file, path, "cannot write the dataset");
   if (!label.unit.empty()) set_text(dataset, file, path, "unit", label.unit);
   if (!label.description.empty()) set_text(dataset, file, path, "description", label.description);
@@ -187,6 +188,28 @@ void read_dataset(hid_t root, const std::string& file, const std::string& path, 
       H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, into) < 0)
     fail(file, path, "cannot read the dataset");
 }
+
+/// Of a dataset, and as much room in memory.
+struct Rows {
+  Rows(hid_t dataset, const std::string& file, const std::string& path, std::size_t first, std::size_t n)
+      : in_file(H5Dget_space(dataset), H5Sclose, file, path, "no data space"),
+        in_memory(chosen(file, path, first, n)) {}
+
+  Handle in_file, in_memory;
+
+private:
+  Handle chosen(const std::string& file, const std::string& path, std::size_t first, std::size_t n) const {
+    std::vector<hsize_t> extent(std::size_t(std::max(1, H5Sget_simple_extent_ndims(in_file))));
+    std::vector<hsize_t> start(extent.size(), 0);
+    if (H5Sget_simple_extent_dims(in_file, extent.data(), nullptr) < 0) fail(file, path, "has no shape");
+    start[0] = first;
+    extent[0] = n;
+    if (H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0)
+      fail(file, path, "has no such rows");
+    return {H5Screate_simple(int(extent.size()), extent.data(), nullptr), H5Sclose, file, path,
+            "no data space"};
+  }
+};
 
 Handle open_attribute(hid_t root, const std::string& file, const std::string& path, const std::string& name) {
   return {H5Aopen_by_name(root, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, file, path,
@@ -230,6 +253,23 @@ void Hdf5Writer::write(const std::string& object, const std::vector<std::string>
   for (const auto& value : values) texts.push_back(value.c_str());
   const Handle type = text_type(file_);
   write_dataset(id_, file_, object, type, type, texts.data(), {texts.size()}, label, Hdf5Compression::none);
+}
+
+void Hdf5Writer::make(const std::string& object, const std::vector<std::size_t>& shape,
+                      const Hdf5Label& label) {
+  write_dataset(id_, file_, object, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, nullptr, shape, label,
+                Hdf5Compression::none);
+}
+
+void Hdf5Writer::write_rows(const std::string& object, const double* values, std::size_t first_row,
+                            std::size_t n_rows) {
+  Handle dataset = open_dataset(id_, file_, object);
+  {
+    const Rows rows(dataset, file_, object, first_row, n_rows);
+    if (H5Dwrite(dataset, H5T_NATIVE_DOUBLE, rows.in_memory, rows.in_file, H5P_DEFAULT, values) < 0)
+      fail(file_, object, "cannot write the dataset");
+  }
+  dataset.close(file_, object);
 }
 
 void Hdf5Writer::make_group(const std::string& object) {
@@ -295,6 +335,14 @@ void Hdf5Reader::read(const std::string& dataset, double* into) const {
 
 void Hdf5Reader::read(const std::string& dataset, std::int32_t* into) const {
   read_dataset(id_, file_, dataset, H5T_NATIVE_INT32, H5T_INTEGER, into);
+}
+
+void Hdf5Reader::read_rows(const std::string& dataset, double* into, std::size_t first_row,
+                           std::size_t n_rows) const {
+  const Handle open = open_dataset(id_, file_, dataset);
+  const Rows rows(open, file_, dataset, first_row, n_rows);
+  if (H5Dread(open, H5T_NATIVE_DOUBLE, rows.in_memory, rows.in_file, H5P_DEFAULT, into) < 0)
+    fail(file_, dataset, "cannot read the dataset");
 }
 
 std::vector<double> Hdf5Reader::numbers(const std::string& dataset) const {

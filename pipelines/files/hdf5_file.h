@@ -39,6 +39,10 @@ public:
              const Hdf5Label& label = {}, Hdf5Compression compression = Hdf5Compression::none);
   void write(const std::string& object, const std::vector<double>& values, const Hdf5Label& label = {});
   void write(const std::string& object, const std::vector<std::string>& values, const Hdf5Label& label = {});
+  /// A dataset of doubles whose rows, of its first index, are written by write_rows.
+  void make(const std::string& object, const std::vector<std::size_t>& shape, const Hdf5Label& label = {});
+  /// @param values  of n_rows rows
+  void write_rows(const std::string& object, const double* values, std::size_t first_row, std::size_t n_rows);
   void make_group(const std::string& object);
   /// @param object  an existing group ("/" for the file as a whole) or dataset
   void attribute(const std::string& object, const std::string& name, const std::string& value);
@@ -67,6 +71,8 @@ public:
   /// @param into  room for the product of shape(dataset)
   void read(const std::string& dataset, double* into) const;
   void read(const std::string& dataset, std::int32_t* into) const;
+  /// Some rows, of the first index.
+  void read_rows(const std::string& dataset, double* into, std::size_t first_row, std::size_t n_rows) const;
   std::vector<double> numbers(const std::string& dataset) const;
   std::vector<std::string> texts(const std::string& dataset) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;

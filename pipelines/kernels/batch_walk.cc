@@ -15,7 +15,7 @@ BatchWalk::BatchWalk(const WalkedFactors& factors, const fem::UnitResponses& res
 const std::array<kernel::NodeMaximum, kernel::batch>& BatchWalk::of(std::size_t first, std::size_t n_nodes) {
   double* coordinates = coordinates_.data();
   for (std::size_t i = 0; i < n_nodes; ++i) {
-    factors_.gather(responses_.unit_stress_Pa(first + i), 6, coordinates);
+    factors_.gather(responses_.unit_stress_Pa(responses_.node_of_row(first + i)), 6, coordinates);
     for (std::size_t k = 0; k < factors_.n_channels(); ++k, coordinates += kernel::n_coordinates) {
       const double mean = (coordinates[0] + coordinates[1] + coordinates[2]) / 3;
       find_deviatoric_coordinates(coordinates, coordinates);

@@ -15,7 +15,7 @@ public:
   /// @param factors, responses  outlive this
   BatchWalk(const WalkedFactors& factors, const fem::UnitResponses& responses);
 
-  /// What the nodes from `first` on keep of all instants; the entries are overwritten by the next call.
+  /// What the nodes of the rows from `first` on keep of all instants; the entries are overwritten by the next call.
   /// @param n_nodes  at most kernel::batch
   const std::array<kernel::NodeMaximum, kernel::batch>& of(std::size_t first, std::size_t n_nodes);
 

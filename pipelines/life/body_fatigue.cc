@@ -409,7 +409,8 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
   const FatiguePlaces search(analysis, slopes, loads.history, loads.von_mises.value_Pa, rules);
   const auto features = nodes_by_feature(analysis);
   fatigue.places.resize(features.size());
-  for_each_parallel(features.size(), n_threads, [&](std::size_t, std::size_t i) {
+  const int at_once = threads_in_step(analysis.responses, n_threads);
+  for_each_parallel(features.size(), at_once, [&](std::size_t, std::size_t i) {
     const auto& [feature, of_feature] = features[i];
     fatigue.places[i] =
         place_of(feature, worst_of(search.worst_of(of_feature), search, rules, period.duration_s),
@@ -427,7 +428,7 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
   fatigue.welds = judge_welds(analysis, search.course(), loads.history, period);
   const auto& zones = analysis.zones.zones;
   fatigue.zones.resize(zones.size());
-  for_each_parallel(zones.size(), n_threads, [&](std::size_t, std::size_t i) {
+  for_each_parallel(zones.size(), at_once, [&](std::size_t, std::size_t i) {
     const auto& surface = fatigue.cycles.nodes;
     fatigue.zones[i] = damage_of(zones[i], search, analysis, loads.history, rules, period,
                                  std::binary_search(surface.begin(), surface.end(), zones[i].peak_node));

@@ -411,13 +411,14 @@ std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vecto
   const DutyJudge judge(analysis, blocks);
   const auto features = nodes_by_feature(analysis);
   std::vector<DutyPlace> result(features.size());
-  for_each_parallel(features.size(), n_threads, [&](std::size_t, std::size_t i) {
+  const int at_once = threads_in_step(analysis.responses, n_threads);
+  for_each_parallel(features.size(), at_once, [&](std::size_t, std::size_t i) {
     result[i] = judge.worst_of(features[i].first, features[i].second);
   });
   const auto welds = weld_places(analysis);
   const std::size_t n_features = features.size();
   result.resize(n_features + welds.size());
-  for_each_parallel(welds.size(), n_threads,
+  for_each_parallel(welds.size(), at_once,
                     [&](std::size_t, std::size_t i) { result[n_features + i] = judge.weld(welds[i]); });
   std::stable_sort(result.begin(), result.end(), DutyJudge::is_worse);
   return result;

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/kept_file.h"
 
@@ -20,12 +21,14 @@ std::filesystem::path file_in(const std::filesystem::path& directory) {
 bool iteration_gave_up_before(const std::filesystem::path& directory, const std::string& key,
                               const Tell& tell) {
   if (key.empty()) return false;
-  const auto state = check_kept_file(file_in(directory), key);
+  const auto state = KeptFile(
+      int(as_on_first_rank(is_first_rank() ? double(check_kept_file(file_in(directory), key)) : 0.0)));
   if (state == KeptFile::damaged && tell) tell(damaged_file_text(file_in(directory)));
   return state == KeptFile::whole;
 }
 
 void remember_iteration(const std::filesystem::path& directory, const std::string& key, bool gave_up) {
+  if (!is_first_rank()) return;
   const auto path = file_in(directory);
   std::error_code none;
   if (!gave_up) {

@@ -1,14 +1,19 @@
 #include "pipelines/responses/response_files.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "fem/ranks/ranks.h"
+#include "fem/values/cell_shares.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/hdf5_file.h"
 #include "pipelines/files/kept_file.h"
@@ -117,6 +122,47 @@ fem::SolverCost& predicted_of_used(fem::SolverReport& report) {
   return report.used == fem::Solver::iterative ? report.predicted_iterative : report.predicted_direct;
 }
 
+bool is_of_nodes(const std::string& name) {
+  return name == "/displacement" || name == "/stress";
+}
+
+/// Nodes whose rows are written or read at once.
+constexpr std::size_t nodes_at_once = 8192;
+
+/// Rows of all nodes, one piece after another, from the ranks that have them.
+void write_shared(Hdf5Writer* out, const std::string& name, const std::vector<double>& rows,
+                  const std::vector<std::size_t>& extents, const Hdf5Label& label,
+                  const fem::UnitResponses& responses) {
+  const std::size_t width = extents[1] * extents[2];
+  if (out != nullptr) out->make(name, extents, label);
+  std::vector<double> piece;
+  for (std::size_t first = 0; first < extents[0]; first += nodes_at_once) {
+    const std::size_t n = std::min(nodes_at_once, extents[0] - first);
+    piece.assign(n * width, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+      if (responses.has(first + i))
+        std::copy_n(&rows[responses.row_of(first + i) * width], width, &piece[i * width]);
+    fem::add_on_first(responses.shared->communicator, piece.data(), piece.size());
+    if (out != nullptr) out->write_rows(name, piece.data(), first, n);
+  }
+}
+
+void read_shared(const Hdf5Reader& in, const std::string& name, std::vector<double>& rows,
+                 const std::vector<std::size_t>& extents, const fem::UnitResponses& responses) {
+  const std::size_t width = extents[1] * extents[2];
+  rows.resize(responses.n_rows() * width);
+  std::vector<double> piece;
+  for (std::size_t first = 0; first < extents[0]; first += nodes_at_once) {
+    const std::size_t n = std::min(nodes_at_once, extents[0] - first);
+    piece.resize(n * width);
+    in.read_rows(name, piece.data(), first, n);
+    for (std::size_t i = 0; i < n; ++i)
+      if (responses.has(first + i))
+        std::copy_n(&piece[i * width], width, &rows[responses.row_of(first + i) * width]);
+  }
+}
+
+/// On every rank of those that share the body.
 fem::UnitResponses read(const Hdf5Reader& in) {
   fem::UnitResponses r;
   r.channels = in.texts("/channels");
@@ -137,6 +183,10 @@ fem::UnitResponses read(const Hdf5Reader& in) {
                     in.shape("/images/cell").at(0)};
   visit_arrays(r, n, [&](const char* name, auto& values, const auto& extents, const Hdf5Label&) {
     if (in.shape(name) != extents) throw FileError(std::string(name) + ": unexpected extents");
+    if constexpr (std::is_same_v<std::decay_t<decltype(values)>, std::vector<double>>) {
+      if (name == std::string("/displacement")) r.shared = fem::share_rows(ranks_of_a_body(), r.nodes);
+      if (r.shared && is_of_nodes(name)) return read_shared(in, name, values, extents, r);
+    }
     resize(values, extents);
     in.read(name, entries(values));
   });
@@ -167,6 +217,12 @@ fem::UnitResponses read(const Hdf5Reader& in) {
 
 void write_unit_responses(const std::filesystem::path& path, const std::string& key,
                           const fem::UnitResponses& responses) {
+  if (responses.shared && !is_first_rank()) {
+    const std::size_t n = responses.nodes.n, n_channels = responses.channels.size();
+    write_shared(nullptr, "/displacement", responses.displacement_m, {n, n_channels, 3}, {}, responses);
+    write_shared(nullptr, "/stress", responses.stress_Pa, {n, n_channels, 6}, {}, responses);
+    return;
+  }
   AtomicFile file(path);
   Hdf5Writer out(file.temporary());
   out.attribute("/", "key", key);
@@ -209,6 +265,9 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
   visit_arrays(
       const_cast<fem::UnitResponses&>(responses), n,
       [&](const char* name, auto& values, const auto& extents, const Hdf5Label& label) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(values)>, std::vector<double>>)
+          if (responses.shared && is_of_nodes(name))
+            return write_shared(&out, name, values, extents, label, responses);
         if (!fits(values, extents))
           throw std::invalid_argument(std::string("unit responses: the size of ") + name +
                                       " does not fit the number of nodes, cells, channels, planes or rings");
@@ -219,23 +278,34 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
   file.commit();
 }
 
+namespace {
+
+/// @throws FileError, std::bad_alloc, std::length_error
+std::optional<fem::UnitResponses> read_whole(const std::filesystem::path& path, const std::string& key) {
+  const Hdf5Reader in(path);
+  if (in.text_attribute("/", "key") != key || in.number_attribute("/", "arrangement") != arrangement)
+    return std::nullopt;
+  return read(in);
+}
+
+}  // namespace
+
 std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::path& path,
                                                       const std::string& key, const Tell& tell) {
   const auto damaged = [&] {
     if (tell) tell(damaged_file_text(path));
     return std::nullopt;
   };
-  const auto state = check_kept_file(path, key);
+  const auto state =
+      KeptFile(int(as_on_first_rank(is_first_rank() ? double(check_kept_file(path, key)) : 0.0)));
   if (state == KeptFile::damaged) return damaged();
   if (state != KeptFile::whole) return std::nullopt;
   try {
-    const Hdf5Reader in(path);
-    if (in.text_attribute("/", "key") != key || in.number_attribute("/", "arrangement") != arrangement)
-      return std::nullopt;
-    return read(in);
+    return read_whole(path, key);
   } catch (const FileError&) {  // whole, but not written by write_unit_responses
     return damaged();
-  } catch (const std::bad_alloc&) {  // more than this machine's memory now holds
+  } catch (const std::bad_alloc&) {      // more than this machine's memory now holds
+    if (n_ranks_of_a_body() > 1) throw;  // of this rank alone, it may be
     return std::nullopt;
   } catch (const std::length_error&) {
     return damaged();

@@ -10,6 +10,7 @@
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/parallel.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/exports/vtk_files.h"
 #include "pipelines/life/body_fatigue.h"
 #include "pipelines/report_parts/moment.h"
@@ -174,10 +175,14 @@ void write_snapshot(const path& file, const SurfaceSnapshots& files, const BodyA
   std::vector<double> von_mises(responses.nodes.n), displacement(3 * responses.nodes.n);
   for (const auto number : files.nodes()) {
     const auto node = std::size_t(number);
-    von_mises[node] = von_mises_Pa(stress_at(responses, loads, node, instant));
-    const auto moved_m = displacement_at(responses, loads, node, instant);
+    if (!responses.has(node)) continue;
+    von_mises[node] = von_mises_Pa(own_stress_at(responses, loads, node, instant));
+    const auto moved_m = own_displacement_at(responses, loads, node, instant);
     std::copy(moved_m.begin(), moved_m.end(), displacement.begin() + std::ptrdiff_t(3 * node));
   }
+  responses.complete(von_mises);
+  responses.complete(displacement);
+  if (!is_first_rank()) return;
   Fields fields(analysis.places);
   fields.add_result_and_whole("von Mises stress [Pa]", von_mises);
   fields.add("displacement [m]", std::move(displacement), 3, {"x", "y", "z"});
@@ -242,9 +247,11 @@ void write_cycle_files(const path& directory, const Scene& scene, const kinetics
   }
   if (!entries.empty()) {
     const SurfaceSnapshots files(analysis.responses.nodes, {excluded_ids(analysis.places)});
-    for_each_parallel(entries.size(), n_threads, [&](std::size_t, std::size_t s) {
+    const int at_once = threads_in_step(analysis.responses, n_threads);
+    for_each_parallel(entries.size(), at_once, [&](std::size_t, std::size_t s) {
       write_snapshot(directory / entries[s].file, files, analysis, instants[s]);
     });
+    if (!is_first_rank()) return;
     write_pvd(directory / "cycle.pvd", entries);
   }
   remove_other_snapshots(directory, entries);

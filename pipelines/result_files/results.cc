@@ -9,6 +9,7 @@
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/channels/load_files.h"
 #include "pipelines/common/constants.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
@@ -236,9 +237,12 @@ void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
 
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
                         const BodyAnalysis& analysis, int n_pieces, int n_threads) {
-  if (analysis.method == Method::solid) write_mesh(directory / "mesh.msh", analysis.mesh);
-  write_envelope_files(directory, scene, loads, analysis, n_pieces);
+  if (is_first_rank()) {
+    if (analysis.method == Method::solid) write_mesh(directory / "mesh.msh", analysis.mesh);
+    write_envelope_files(directory, scene, loads, analysis, n_pieces);
+  }
   write_cycle_files(directory, scene, loads, analysis, n_threads);
+  if (!is_first_rank()) return;
   write_zones(directory / "zones.csv", scene, loads, analysis);
   write_zone_tree(directory / "zone_tree.csv", scene, loads, analysis);
   if (!analysis.hot_spots.empty()) write_hot_spots(directory / "hot_spots.csv", scene, loads, analysis);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/refinement/local_refinement.h"
 #include "pipelines/refinement/peak_growth.h"
 #include "pipelines/refinement/place_history.h"
@@ -14,8 +15,9 @@ namespace pipelines {
 
 using Clock = std::chrono::steady_clock;
 
+/// On the first rank of those that share a body: all of them decide alike.
 inline double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return as_on_first_rank(std::chrono::duration<double>(Clock::now() - start).count());
 }
 
 struct SearchState {

@@ -41,6 +41,7 @@ void check_maximum(const std::string& stage, const std::string& what, const Noda
 
 void require_finite(const fem::UnitResponses& responses) {
   const auto n_channels = responses.channels.size();
+  // Of a body that ranks share, a node's number is its place among those of the rank.
   check_nodes("solve", "the displacement for a unit load [m]", responses.displacement_m, 3 * n_channels);
   check_nodes("stress recovery", "the stress for a unit load [Pa]", responses.stress_Pa, 6 * n_channels);
   for (const auto& section : responses.sections)

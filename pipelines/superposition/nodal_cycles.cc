@@ -57,8 +57,8 @@ public:
     find_extremes(nodes, n, kernel::Wanted::both);
     for (std::size_t i = 0; i < n; ++i) {
       const Index from = found_[i].smallest_instant, to = found_[i].largest_instant;
-      const auto cycle = cycle_between(stress_at(responses_, loads_, nodes[i], from),
-                                       stress_at(responses_, loads_, nodes[i], to), from, to);
+      const auto cycle = cycle_between(own_stress_at(responses_, loads_, nodes[i], from),
+                                       own_stress_at(responses_, loads_, nodes[i], to), from, to);
       cycles[i] = {std::int32_t(cycle.from), std::int32_t(cycle.to), cycle.amplitude_Pa,
                    cycle.signed_mean_Pa};
     }
@@ -109,20 +109,43 @@ NodalCycles nodal_cycles(const ChannelHistory& loads, const fem::UnitResponses& 
                          const NodalMaximum& von_mises, std::vector<std::size_t> nodes, int n_threads) {
   check_channels(loads, responses);
   const WalkedFactors factors(loads.values);
-  const std::size_t n = nodes.size();
-  NodalCycles result{std::move(nodes), std::vector<NodalCycle>(n)};
-  for_each_range(n, nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> own;  // that this rank has: their nodes, and their places in the list
+  std::vector<std::size_t> place;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (responses.has(nodes[i])) {
+      own.push_back(nodes[i]);
+      place.push_back(i);
+    }
+  std::vector<NodalCycle> cycles(own.size());
+  for_each_range(own.size(), nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
     CycleWalk walk(loads, responses, factors);
     for (std::size_t first = begin; first < end; first += kernel::forms_at_once)
-      walk.walk(&result.nodes[first], std::min(kernel::forms_at_once, end - first), von_mises,
-                &result.cycles[first]);
+      walk.walk(&own[first], std::min(kernel::forms_at_once, end - first), von_mises, &cycles[first]);
   });
+  NodalCycles result{std::move(nodes), {}};
+  if (!responses.shared) {
+    result.cycles = std::move(cycles);
+    return result;
+  }
+  std::vector<double> numbers(4 * result.nodes.size(), 0.0);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const auto& cycle = cycles[i];
+    double* to = &numbers[4 * place[i]];
+    to[0] = cycle.from, to[1] = cycle.to, to[2] = cycle.amplitude_Pa, to[3] = cycle.signed_mean_Pa;
+  }
+  responses.complete(numbers);
+  for (std::size_t i = 0; i < result.nodes.size(); ++i) {
+    const double* from = &numbers[4 * i];
+    result.cycles.push_back({std::int32_t(from[0]), std::int32_t(from[1]), from[2], from[3]});
+  }
   return result;
 }
 
 Eigen::ArrayXXd stress_history_Pa(const fem::UnitResponses& responses, const ChannelHistory& loads,
                                   std::size_t node) {
-  return (unit_stresses(responses, node).transpose() * loads.values.matrix()).array();
+  const Eigen::Map<const UnitRows> unit(responses.stress_anywhere_Pa(node), Index(responses.channels.size()),
+                                        6);
+  return (unit.transpose() * loads.values.matrix()).array();
 }
 
 }  // namespace pipelines

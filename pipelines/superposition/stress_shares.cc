@@ -37,7 +37,7 @@ StressShares shares_by(const UnitStresses& unit_Pa, const ChannelHistory& loads,
 }  // namespace
 
 UnitStresses unit_stresses_at(const fem::UnitResponses& responses, std::size_t node) {
-  return Eigen::Map<const UnitStresses>(responses.unit_stress_Pa(node), 6,
+  return Eigen::Map<const UnitStresses>(responses.stress_anywhere_Pa(node), 6,
                                         Eigen::Index(responses.channels.size()));
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "fem/ranks/ranks.h"
 #include "pipelines/common/parallel.h"
 #include "pipelines/kernels/batch_walk.h"
 #include "pipelines/kernels/lode_cosine.h"
@@ -91,6 +92,18 @@ Envelope unscaled(Envelope envelope, double scale) {
   return envelope;
 }
 
+/// What each rank has found at its nodes, on all of them.
+void complete(const fem::UnitResponses& responses, Envelope& envelope) {
+  const auto* communicator = &responses.shared->communicator;
+  for (NodalMaximum* maximum : {&envelope.von_mises, &envelope.principal}) {
+    responses.complete(maximum->value_Pa);
+    responses.complete(maximum->instant);
+    if (!maximum->stress_Pa.empty())
+      fem::complete(*communicator, maximum->stress_Pa.front().data(), 6 * maximum->stress_Pa.size());
+  }
+  responses.complete(envelope.effect_share);
+}
+
 /// Nodes that a thread takes at once.
 constexpr std::size_t nodes_at_once = 64 * kernel::batch;
 
@@ -111,9 +124,14 @@ double largest_principal_Pa(const Stress& s) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
+Stress own_stress_at(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node,
+                     Eigen::Index instant) {
+  return combine(responses.unit_stress_Pa(node), loads.values, instant);
+}
+
 Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node,
                  Eigen::Index instant) {
-  return combine(responses.unit_stress_Pa(node), loads.values, instant);
+  return combine(responses.stress_anywhere_Pa(node), loads.values, instant);
 }
 
 void check_channels(const ChannelHistory& loads, const fem::UnitResponses& responses) {
@@ -152,14 +170,14 @@ Envelope EnvelopeWalk::of(const fem::UnitResponses& responses, int n_threads) co
   }
   result.effect_share.assign(n_nodes * n_effects, 0.0f);
 
-  for_each_range(n_nodes, nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
+  for_each_range(responses.n_rows(), nodes_at_once, n_threads, [&](std::size_t begin, std::size_t end) {
     BatchWalk walk(*factors_, responses);
     Eigen::VectorXd along(loads.values.rows());
     for (std::size_t first = begin; first < end; first += kernel::batch) {
       const std::size_t n = std::min(kernel::batch, end - first);
       const auto& found = walk.of(first, n);
       for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t node = first + i;
+        const std::size_t node = responses.node_of_row(first + i);
         const double* unit = responses.unit_stress_Pa(node);
         const Eigen::Index of_mises = found[i].von_mises_instant, of_principal = found[i].principal_instant;
         const Stress stress = combine(unit, loads.values, of_mises);
@@ -171,6 +189,7 @@ Envelope EnvelopeWalk::of(const fem::UnitResponses& responses, int n_threads) co
       }
     }
   });
+  if (responses.shared) complete(responses, result);
   if (scale_ != 1) return unscaled(std::move(result), scale_);
   return result;
 }
@@ -190,24 +209,37 @@ Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& respons
   return EnvelopeWalk(loads).of(responses, n_threads);
 }
 
+namespace {
+
+std::array<double, 3> sum(const double* unit_m, const ChannelHistory& loads, Eigen::Index instant) {
+  std::array<double, 3> displacement{};
+  for (Eigen::Index k = 0; k < loads.values.rows(); ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      displacement[c] += loads.values(k, instant) * unit_m[3 * std::size_t(k) + c];
+  return displacement;
+}
+
+}  // namespace
+
 std::array<double, 3> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
                                       std::size_t node, Eigen::Index instant) {
-  const double* unit = responses.unit_displacement_m(node);
-  std::array<double, 3> displacement{};
-  for (std::size_t k = 0; k < responses.channels.size(); ++k)
-    for (std::size_t c = 0; c < 3; ++c)
-      displacement[c] += loads.values(Eigen::Index(k), instant) * unit[3 * k + c];
-  return displacement;
+  return sum(responses.displacement_anywhere_m(node), loads, instant);
+}
+
+std::array<double, 3> own_displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
+                                          std::size_t node, Eigen::Index instant) {
+  return sum(responses.unit_displacement_m(node), loads, instant);
 }
 
 std::vector<double> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
                                     Eigen::Index instant) {
-  std::vector<double> displacement;
-  displacement.reserve(responses.nodes.n * 3);
-  for (std::size_t node = 0; node < responses.nodes.n; ++node) {
-    const auto of_node = displacement_at(responses, loads, node, instant);
-    displacement.insert(displacement.end(), of_node.begin(), of_node.end());
+  std::vector<double> displacement(responses.nodes.n * 3, 0.0);
+  for (std::size_t row = 0; row < responses.n_rows(); ++row) {
+    const auto node = responses.node_of_row(row);
+    const auto of_node = own_displacement_at(responses, loads, node, instant);
+    std::copy(of_node.begin(), of_node.end(), displacement.begin() + std::ptrdiff_t(3 * node));
   }
+  responses.complete(displacement);
   return displacement;
 }
 

@@ -39,9 +39,18 @@ struct Envelope {
   std::vector<float> effect_share;
 };
 
-/// Stress at one node and instant.
+/// Stress at one node and instant. Called on all ranks that share a body, as UnitResponses::bring.
 Stress stress_at(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node,
                  Eigen::Index instant);
+
+/// The same of a node that this rank has.
+Stress own_stress_at(const fem::UnitResponses& responses, const ChannelHistory& loads, std::size_t node,
+                     Eigen::Index instant);
+
+/// Threads that may ask for the stress of any node at once: one where ranks share the body, and stay in step.
+inline int threads_in_step(const fem::UnitResponses& responses, int n_threads) {
+  return responses.shared ? 1 : n_threads;
+}
 
 /// Whether two histories have one envelope: the same channels and effects with the same values.
 bool have_same_values(const ChannelHistory& a, const ChannelHistory& b);
@@ -79,9 +88,12 @@ private:
   std::shared_ptr<const WalkedFactors> factors_;
 };
 
-/// Displacement of one node at one instant [m], as below.
+/// Displacement of one node at one instant [m], as below. Called as stress_at.
 std::array<double, 3> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
                                       std::size_t node, Eigen::Index instant);
+/// The same of a node that this rank has.
+std::array<double, 3> own_displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,
+                                          std::size_t node, Eigen::Index instant);
 
 /// Displacement of every node at one instant, n x 3 [m]; no rigid part in the mass norm.
 std::vector<double> displacement_at(const fem::UnitResponses& responses, const ChannelHistory& loads,

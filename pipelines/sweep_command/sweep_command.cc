@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fem/model/model.h"
-#include "fem/ranks/helper_ranks.h"
+#include "fem/ranks/ranks.h"
 #include "pipelines/body_stages/respond.h"
 #include "pipelines/command_options/option_value.h"
 #include "pipelines/command_options/output_files.h"
@@ -211,7 +211,7 @@ struct KnownRows {
                            : journal.known(sweep.plan)) {}
 };
 
-/// On every rank but the first, once that one has begun the journal.
+/// On every rank but the first.
 void sweep_beside_first_rank(const SweepCommandOptions& options) {
   work_on_bodies_alone();
   const Sweep sweep(options);
@@ -219,6 +219,7 @@ void sweep_beside_first_rank(const SweepCommandOptions& options) {
   SweepRun run(sweep.options(options, n_threads, rank), sweep.plan.points);
   run.keep_points(points_of_ranks(run)[std::size_t(rank)]);
   const fem::Environment environment(n_threads);
+  fem::wait_for_all(MPI_COMM_WORLD);  // until the first one has begun the journal
   RowsToFirstRank to_first(sweep.plan);
   StageClock silent;
   run.run(silent, KnownRows(options, sweep).rows,
@@ -259,7 +260,7 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
     const auto points = points_of_ranks(run);
     if (!options.quiet) tell_ranks(points);
     run.keep_points(points.front());
-    fem::let_others_work();
+    fem::wait_for_all(MPI_COMM_WORLD);  // they begin once the journal has begun
   }
   auto rows = run.run(clock, std::move(known.rows),
                       [&](const std::vector<std::size_t>& points, const std::vector<SweepRow>& all) {
@@ -267,7 +268,6 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
                         others.take(of_others, keep);
                       });
   others.take_all(of_others, keep);
-  fem::others_have_worked();
   for (const auto p : others.points()) rows[p] = std::move(of_others[p]);
   if (const auto n = run.n_improved_meshes() + others.n_improved_meshes(); n > 0)
     std::cerr << fmt::format("millstress: {} more mesh{} searched for points that the first knew less well\n",
@@ -365,7 +365,7 @@ void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
   add_threads_option(*command, options->n_threads, chosen);
   command->callback([options, choose = to_choose(chosen, options, carry_out), &chosen] {
     choose();
-    chosen.beside_first_rank = [options] { sweep_beside_first_rank(*options); };
+    chosen.on_other_ranks = [options] { sweep_beside_first_rank(*options); };
   });
 }
 

@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "fem/model/model.h"
-#include "fem/ranks/helper_ranks.h"
+#include "fem/ranks/ranks.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/responses/response_files.h"
 #include "pipelines/scene/scene.h"
@@ -52,12 +52,12 @@ struct Solved {
   int n_iterations = 0;
 };
 
-/// On rank 0.
+/// On every rank.
 Solved solve(const char* scene_file, const measure::Refinement& refinement) {
   const auto scene = pipelines::read_scene(scene_file);
   const auto directory =
       std::filesystem::temp_directory_path() / ("rank_benchmark_" + std::to_string(getpid()));
-  std::filesystem::create_directories(directory);
+  if (fem::this_rank(MPI_COMM_WORLD) == 0) std::filesystem::create_directories(directory);
   const auto meshed = pipelines::mesh_body(measure::refined_shaft(scene, refinement), {});
   fem::SolverChoice choice;
   choice.solver = fem::Solver::iterative;
@@ -84,19 +84,12 @@ int main(int argc, char** argv) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
   Solved solved;
-  int code = 0;
-  if (rank == 0) {
-    try {
-      solved = solve(argv[1], {std::atoi(argv[2]), std::atoi(argv[3])});
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "%s\n", error.what());
-      code = 3;
-    }
-    fem::dismiss_helpers(code);
-  } else {
-    code = fem::help_first_rank();
+  try {
+    solved = solve(argv[1], {std::atoi(argv[2]), std::atoi(argv[3])});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rank %d: %s\n", rank, error.what());
+    MPI_Abort(MPI_COMM_WORLD, 3);
   }
-  if (code != 0) return code;
   const std::array<double, 3> own{measure::memory_bytes("VmHWM:"), n_messages, sent_bytes};
   std::vector<std::array<double, 3>> all(static_cast<std::size_t>(n_ranks));
   MPI_Gather(own.data(), 3, MPI_DOUBLE, all.data(), 3, MPI_DOUBLE, 0, MPI_COMM_WORLD);
