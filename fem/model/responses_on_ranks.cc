@@ -170,9 +170,9 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
   release_free_memory();
   const auto elastic = body.materials.elastic();
   {
+    const auto patches = recovery_case(seen.grid, elastic, loaded_groups(loads.unit_loads, loads.body));
     RowMajor stress = recover_stress_on_ranks(seen.grid, seen.cells, elastic, loads.body.cylinders,
-                                              loaded_groups(loads.unit_loads, loads.body), by_patches,
-                                              rank_of_cell, shared, displacement);
+                                              by_patches ? &patches : nullptr, shared, displacement);
     if (half != nullptr) {
       mirror(*half, shared, stress);
       responses.images = {half->plane().node, half->plane().cell};

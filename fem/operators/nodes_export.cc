@@ -2,7 +2,6 @@
 
 #include "fem/mesh/cell_geometry.h"
 #include "fem/operators/material_interfaces.h"
-#include "fem/ranks/ranks.h"
 #include "fem/triangulation/body_grid.h"
 #include "fem/values/body_nodes.h"
 #include "fem/values/vtk_order.h"
@@ -64,14 +63,14 @@ NodeRows sum_of_channels(const UnitResponses& responses, NodalField field,
   return rows;
 }
 
-NodeRows sum_of_channels(const UnitResponses& responses, NodalField field, const Eigen::MatrixXd& factors) {
-  NodeRows rows = NodeRows::Zero(Eigen::Index(responses.nodes.n), n_components(field) * factors.cols());
+NodeRows sum_of_own_channels(const UnitResponses& responses, NodalField field,
+                             const Eigen::MatrixXd& factors) {
+  NodeRows rows(Eigen::Index(responses.n_rows()), n_components(field) * factors.cols());
   for (std::size_t row = 0; row < responses.n_rows(); ++row) {
     const std::size_t node = responses.node_of_row(row);
     sum(field == NodalField::stress ? responses.unit_stress_Pa(node) : responses.unit_displacement_m(node),
-        n_components(field), factors, &rows(Eigen::Index(node), 0));
+        n_components(field), factors, &rows(Eigen::Index(row), 0));
   }
-  if (responses.shared) complete(responses.shared->communicator, rows.data(), std::size_t(rows.size()));
   return rows;
 }
 

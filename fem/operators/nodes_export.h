@@ -27,7 +27,8 @@ enum class NodalField { displacement, stress };
 NodeRows sum_of_channels(const UnitResponses& responses, NodalField field,
                          const std::vector<std::int32_t>& nodes, const Eigen::MatrixXd& factors);
 
-/// At all nodes, on all ranks.
-NodeRows sum_of_channels(const UnitResponses& responses, NodalField field, const Eigen::MatrixXd& factors);
+/// At the nodes that this rank has.
+NodeRows sum_of_own_channels(const UnitResponses& responses, NodalField field,
+                             const Eigen::MatrixXd& factors);
 
 }  // namespace fem

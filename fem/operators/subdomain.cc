@@ -221,6 +221,7 @@ std::shared_ptr<SharedRows> share_rows(MPI_Comm communicator, const Grid& grid,
                                        const std::vector<int>& rank_of_cell) {
   auto shared = std::make_shared<SharedRows>();
   shared->communicator = communicator;
+  shared->rank_of_cell = rank_of_cell;
   shared->rank_of_node = ranks_of_nodes(grid, rank_of_cell);
   shared->row.assign(grid.n_nodes, -1);
   shared->is_everywhere.assign(grid.n_nodes, 0);

@@ -50,26 +50,29 @@ void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<L
                  any_hardly_compresses(grid, elastic), displacement, stress, selection);
 }
 
+RecoveryCase recovery_case(const Grid& grid, const PerCell<Lame>& elastic,
+                           const std::vector<int>& loaded_groups) {
+  return {[loaded_groups](const Subdomain& part) { return free_faces(part.grid, loaded_groups); },
+          any_hardly_compresses(grid, elastic)};
+}
+
 RowMajor recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
-                                 const std::vector<CylinderChart>& charts,
-                                 const std::vector<int>& loaded_groups, bool by_patches,
-                                 const std::vector<int>& rank_of_cell, const SharedRows& shared,
-                                 const ConstBlock& displacement) {
-  const auto own_cells = cells_of_rank(rank_of_cell, this_rank(shared.communicator));
+                                 const std::vector<CylinderChart>& charts, const RecoveryCase* by_patches,
+                                 const SharedRows& shared, const ConstBlock& displacement) {
+  const auto own_cells = cells_of_rank(shared.rank_of_cell, this_rank(shared.communicator));
   const Subdomain part =
       make_subdomain(grid, with_cells_hung_on(grid, cells, with_layers(grid, cells, own_cells, n_layers)));
   RowMajor stress(Eigen::Index(shared.node.size()), 2 * displacement.cols());
   {
     const RowMajor around = RowExchange(shared, part.node)(displacement);
-    const bool hardly_compresses = any_hardly_compresses(grid, elastic);  // somewhere in the body
     agree(shared.communicator, [&] {
       if (part.grid.n_cells() == 0) return;
       RowMajor result(Eigen::Index(part.grid.n_nodes), stress.cols());
       const auto cells_of_part = cells_of_nodes(part.grid);
       const auto elastic_of_part = cell_after_cell(elastic_of(part, elastic));
-      if (by_patches)
-        recover_stress(part.grid, cells_of_part, charts, free_faces(part.grid, loaded_groups),
-                       elastic_of_part, hardly_compresses, around, result);
+      if (by_patches != nullptr)
+        recover_stress(part.grid, cells_of_part, charts, by_patches->free_faces(part), elastic_of_part,
+                       by_patches->hardly_compresses, around, result);
       else
         average_stress(part.grid, cells_of_part, elastic_of_part, around, result);
       for (std::size_t i = 0; i < part.node.size(); ++i)

@@ -1,6 +1,7 @@
 /// Stress at the nodes of a whole body. Internal to fem.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fem/mesh/grid.h"
@@ -20,15 +21,21 @@ void recover_stress(const Grid& grid, const CellsOfNodes& cells, const PerCell<L
                     bool by_patches, const ConstBlock& displacement, Eigen::Ref<RowMajor> stress,
                     const NodeSelection& selection = {});
 
+/// Which faces of a part carry no traction, and whether any cell of the body hardly compresses.
+struct RecoveryCase {
+  std::function<std::vector<BoundaryFace>(const Subdomain&)> free_faces;
+  bool hardly_compresses = false;
+};
+RecoveryCase recovery_case(const Grid& grid, const PerCell<Lame>& elastic,
+                           const std::vector<int>& loaded_groups);
+
 /// The same at the nodes that this rank has, on its cells and as many layers around them as these nodes'
 /// patches reach: the same steps as on one rank. Called on all ranks.
-/// @param part          its cells
+/// @param by_patches    null: by averages
 /// @param displacement  of the nodes that this rank has, rows x 3 K
 /// @return rows x 6 K
 RowMajor recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic,
-                                 const std::vector<CylinderChart>& charts,
-                                 const std::vector<int>& loaded_groups, bool by_patches,
-                                 const std::vector<int>& rank_of_cell, const SharedRows& shared,
-                                 const ConstBlock& displacement);
+                                 const std::vector<CylinderChart>& charts, const RecoveryCase* by_patches,
+                                 const SharedRows& shared, const ConstBlock& displacement);
 
 }  // namespace fem

@@ -111,7 +111,8 @@ struct MirrorImages {
 /// Whose rows the nodes of a body are, where several MPI ranks share it.
 struct SharedRows {
   MPI_Comm communicator;
-  std::vector<int> rank_of_node;   ///< n
+  std::vector<int> rank_of_cell;
+  std::vector<int> rank_of_node;   ///< n; the first of those of its cells
   std::vector<std::int32_t> node;  ///< this rank's own, ascending
   std::vector<std::int32_t> row;   ///< n: place in `node`; -1: another rank has it
 
