@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "fem/values/cell_shape.h"
@@ -32,10 +31,6 @@ struct HangingNodes {
   std::vector<double> weight;         ///< sum to 1 at each node
 
   std::size_t n() const noexcept { return node.size(); }
-  template <typename Self>
-  static auto members(Self& self) {
-    return std::tie(self.node, self.begin, self.master, self.weight);
-  }
   /// @param masters  pairs of a master and its weight
   template <typename Masters>
   void add(std::int32_t hanging, const Masters& masters) {
@@ -66,13 +61,6 @@ struct Grid {
   int nodes_per_face() const noexcept { return shape().nodes_per_face(); }
   const std::int32_t* nodes_of(std::size_t cell) const { return cell_nodes.data() + cell * nodes_per_cell(); }
   const double* position(std::int32_t node) const { return xyz_m.data() + 3 * std::size_t(node); }
-
-  /// For messages between ranks (ranks/message.h).
-  template <typename Self>
-  static auto members(Self& self) {
-    return std::tie(self.kind, self.degree, self.n_nodes, self.xyz_m, self.cell_nodes, self.volume_id,
-                    self.boundary, self.interfaces, self.hanging);
-  }
 };
 
 /// Local node numbers of a face. Hexahedra: lexicographic in two directions whose cross product points out of

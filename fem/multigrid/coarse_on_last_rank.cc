@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "fem/ranks/message.h"
+#include "fem/ranks/arrays.h"
 #include "fem/ranks/ranks.h"
 
 namespace fem {
@@ -22,9 +22,40 @@ struct Part {
   std::vector<std::int32_t> corner;
 };
 
+/// The arrays of a part of a corner mesh, each handed to `use`.
+template <typename OfPart, typename Use>
+void for_arrays(OfPart& part, const Use& use) {
+  use(part.corner);
+  use(part.grid.xyz_m);
+  use(part.grid.cell_nodes);
+  use(part.grid.volume_id);
+  use(part.grid.hanging.node);
+  use(part.grid.hanging.begin);
+  use(part.grid.hanging.master);
+  use(part.grid.hanging.weight);
+}
+
+Part receive_part(CellKind kind, int from, MPI_Comm communicator) {
+  Part part;
+  for_arrays(part, [&](auto& array) { receive_array(array, from, communicator); });
+  part.grid.kind = kind;
+  part.grid.degree = 1;
+  part.grid.n_nodes = part.corner.size();
+  return part;
+}
+
+void send_matrix(const SymmetricMatrix& matrix, int to, MPI_Comm communicator) {
+  send_array(matrix.column_begin, to, communicator);
+  send_array(matrix.row, to, communicator);
+  send_array(matrix.value, to, communicator);
+}
+
 SymmetricMatrix receive_matrix(int from, MPI_Comm communicator) {
   SymmetricMatrix matrix;
-  Message::receive(from, communicator) >> matrix.n >> matrix.column_begin >> matrix.row >> matrix.value;
+  receive_array(matrix.column_begin, from, communicator);
+  receive_array(matrix.row, from, communicator);
+  receive_array(matrix.value, from, communicator);
+  matrix.n = std::int64_t(matrix.column_begin.size()) - 1;
   return matrix;
 }
 
@@ -90,13 +121,12 @@ CoarseOnLastRank::CoarseOnLastRank(MPI_Comm communicator, const Grid& coarse,
   const bool is_last = this_rank(communicator) == last;
   std::vector<Part> parts;
   if (is_last) {
-    parts.resize(std::size_t(last));
-    for (int r = 0; r < last; ++r)
-      Message::receive(r, communicator) >> parts[std::size_t(r)].grid >> parts[std::size_t(r)].corner;
+    for (int r = 0; r < last; ++r) parts.push_back(receive_part(coarse.kind, r, communicator));
     parts.push_back({coarse, corner});
   } else {
-    (Message() << coarse << corner).send(last, communicator);
-    (Message() << matrix.n << matrix.column_begin << matrix.row << matrix.value).send(last, communicator);
+    const Part part{coarse, corner};
+    for_arrays(part, [&](const auto& array) { send_array(array, last, communicator); });
+    send_matrix(matrix, last, communicator);
   }
   int next = 0;  // whose matrix comes next: one after the other, since all have as much as their sum
   const auto build = [&] {

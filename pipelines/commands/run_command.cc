@@ -344,7 +344,14 @@ bool is_unchanged(const Request& request, const Scene& scene) {
   return true;
 }
 
-void run(const RunCommandOptions& options, std::ostream& out) {
+/// The ranks of a machine share its cores.
+RunCommandOptions on_this_rank(RunCommandOptions options) {
+  if (options.n_threads == 0 && n_ranks_of_a_body() > 1) options.n_threads = fem::Environment::n_threads();
+  return options;
+}
+
+void run(const RunCommandOptions& as_given, std::ostream& out) {
+  const auto options = on_this_rank(as_given);
   Scene scene = read_scene(options.scene, options.settings);
   scene.method = requested_method(options.method, scene);
   const auto directory = results_directory(options.output, scene);

@@ -8,6 +8,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 
 #include "tests/cases/program/program.h"
@@ -118,6 +119,65 @@ TEST(SeveralRanks, GiveTheResultsOfOne) {
   EXPECT_TRUE(fs::exists(shaft / "envelope.vtu"));
   for (const char* gone : {"envelope.pvtu", "envelope_0.vtu", "envelope_1.vtu"})
     EXPECT_FALSE(fs::exists(shaft / gone)) << gone;
+}
+
+// Goals' errors, submodels, places, zones, lives, cycles and frequencies are found where the rows are; the
+// search takes the same steps.
+TEST(SeveralRanks, SearchAsOneDoes) {
+  const results_test::Directory directory;
+  auto text = small_scene();
+  text += "[shaft.fatigue]\nultimate_strength = \"580 MPa\"\nroughness = \"3.2 um\"\n";
+  write(directory / "scene.toml", text);
+  const std::string run = "run scene.toml --method solid --tolerance \"4 %\" --threads 1 -o ";
+  const auto one = millstress(directory.path, run + "one");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const auto two = on_two_ranks(directory.path, run + "two");
+  ASSERT_EQ(two.exit_code, 0) << two.err;
+  const auto expect_alike = [&](const char* of_one, const char* of_two) {
+    expect_same(summary(directory / of_one), summary(directory / of_two));
+    const auto &a = summary(directory / of_one)["bodies"]["shaft"],
+               &b = summary(directory / of_two)["bodies"]["shaft"];
+    const auto alike = [&](const std::string& pointer, double tolerance) {
+      const nlohmann::json::json_pointer at(pointer);
+      const double x = a.at(at), y = b.at(at);
+      EXPECT_GT(x, 0) << pointer;
+      EXPECT_NEAR(x, y, tolerance * x) << pointer;
+    };
+    EXPECT_EQ(a["accuracy"]["steps"].size(), b["accuracy"]["steps"].size());
+    // Errors are small differences of stresses.
+    alike("/peak_von_mises/error/total", 1e-6);
+    alike("/zones/0/volume/value", 1e-8);
+    alike("/fatigue/places/0/utilisation", 1e-8);
+  };
+  expect_alike("one", "two");
+
+  // Other loads on the responses that both have kept.
+  const std::string stronger = " --set \"machine.constants[0].value=120 N\"";
+  ASSERT_EQ(millstress(directory.path, run + "one" + stronger).exit_code, 0);
+  const auto again = on_two_ranks(directory.path, run + "two" + stronger);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  expect_alike("one", "two");
+  const auto unchanged = on_two_ranks(directory.path, run + "two" + stronger);
+  EXPECT_EQ(unchanged.exit_code, 0);
+  EXPECT_EQ(count(unchanged.err, "unchanged since the last run"), 1u) << unchanged.err;
+}
+
+// The other one would wait for ever.
+TEST(SeveralRanks, EndWhereOneOfThemFails) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml", small_scene());
+  const std::string program = "'" MILLSTRESS "' run scene.toml --tolerance none --threads 1 -o out";
+  auto launcher = two_ranks();
+  launcher.replace(launcher.rfind("-n 2"), 4, "-n 1");
+  const Start start{directory.path, "", "true",
+                    launcher + " " + program + " : -n 1 sh -c \"ulimit -v 900000; exec " + program + "\" #"};
+  const auto before = std::chrono::steady_clock::now();
+  const auto failed = outcome_of(start, std::system(shell_command(start).c_str()));
+  EXPECT_EQ(failed.exit_code, 3) << failed.err;
+  EXPECT_EQ(count(failed.err, "rank 1: "), 1u) << failed.err;
+  EXPECT_FALSE(fs::exists(directory / "out/summary.json"));
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(60))
+      << "at once but for patience";
 }
 
 TEST(SeveralRanks, EndTogetherWithOneMessage) {

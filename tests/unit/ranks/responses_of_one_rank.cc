@@ -216,7 +216,8 @@ TEST_F(Ranks, HalvesAreThoseOfOneRank) {
   };
   const auto one = solve(MPI_COMM_SELF), several = solve(MPI_COMM_WORLD);
   ASSERT_NE(one.solver.reason.find("mirror image"), std::string::npos) << one.solver.reason;
-  EXPECT_EQ(displacement(several), one.displacement_m);
+  EXPECT_LT(difference(displacement(several), one.displacement_m, loads.size(), 3), same_answer);
+  EXPECT_EQ(several.images.node, one.images.node);
   EXPECT_TRUE(several.solver.ranks.empty());
   EXPECT_LT(difference(stress(several), one.stress_Pa, loads.size(), 6), same_answer);
 }
