@@ -26,7 +26,7 @@ public:
 };
 
 /// A step of one's own that may fail. Called on all ranks.
-/// @throws FailedTogether on all ranks, with the message of the first one whose step threw
+/// @throws FailedTogether on all of several ranks, with the message of the first one whose step threw
 void agree(MPI_Comm communicator, const std::function<void()>& step);
 
 /// Sleeps until all ranks are here: one of them may be busy for long, and needs the processor.

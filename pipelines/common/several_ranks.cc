@@ -37,8 +37,13 @@ double as_on_first_rank(double value) {
   return value;
 }
 
+int as_on_first_rank(int value) {
+  fem::take_from_first(ranks_of_a_body(), &value, sizeof value);
+  return value;
+}
+
 bool as_on_first_rank(bool value) {
-  return as_on_first_rank(value ? 1.0 : 0.0) != 0;
+  return as_on_first_rank(value ? 1 : 0) != 0;
 }
 
 void wait_for_ranks() {

@@ -21,6 +21,7 @@ bool is_first_rank();
 /// What that rank found, on all of them: a time, what a file says. Called on all ranks that share a body, in
 /// the same order.
 bool as_on_first_rank(bool value);
+int as_on_first_rank(int value);
 double as_on_first_rank(double value);
 
 /// Sleeps until all ranks that share a body are here.

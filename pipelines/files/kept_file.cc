@@ -4,6 +4,7 @@
 #include <string>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/common/several_ranks.h"
 #include "pipelines/files/content_hash.h"
 
 namespace pipelines {
@@ -39,6 +40,10 @@ void append_checksum(const std::filesystem::path& file, std::string_view key) {
 
 KeptFile check_kept_file(const std::filesystem::path& file, std::string_view key) {
   return check_kept_file_of(file, text_hash(key));
+}
+
+KeptFile checked_on_first_rank(const std::filesystem::path& file, std::string_view key) {
+  return KeptFile(as_on_first_rank(is_first_rank() ? int(check_kept_file(file, key)) : 0));
 }
 
 KeptFile check_kept_file_of(const std::filesystem::path& file, std::string_view key_hash) {

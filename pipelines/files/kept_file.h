@@ -22,6 +22,9 @@ void append_checksum(const std::filesystem::path& file, std::string_view key);
 /// Reads the whole file if the key fits.
 KeptFile check_kept_file(const std::filesystem::path& file, std::string_view key);
 
+/// As the first of the ranks that share a body finds it. Called on all of them.
+KeptFile checked_on_first_rank(const std::filesystem::path& file, std::string_view key);
+
 /// The same for a key of which only its text_hash is known.
 /// @param key_hash  empty: any key will do
 KeptFile check_kept_file_of(const std::filesystem::path& file, std::string_view key_hash);

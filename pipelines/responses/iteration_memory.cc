@@ -21,8 +21,7 @@ std::filesystem::path file_in(const std::filesystem::path& directory) {
 bool iteration_gave_up_before(const std::filesystem::path& directory, const std::string& key,
                               const Tell& tell) {
   if (key.empty()) return false;
-  const auto state = KeptFile(
-      int(as_on_first_rank(is_first_rank() ? double(check_kept_file(file_in(directory), key)) : 0.0)));
+  const auto state = checked_on_first_rank(file_in(directory), key);
   if (state == KeptFile::damaged && tell) tell(damaged_file_text(file_in(directory)));
   return state == KeptFile::whole;
 }

@@ -296,16 +296,18 @@ std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::pat
     if (tell) tell(damaged_file_text(path));
     return std::nullopt;
   };
-  const auto state =
-      KeptFile(int(as_on_first_rank(is_first_rank() ? double(check_kept_file(path, key)) : 0.0)));
+  const auto state = checked_on_first_rank(path, key);
   if (state == KeptFile::damaged) return damaged();
   if (state != KeptFile::whole) return std::nullopt;
   try {
-    return read_whole(path, key);
+    std::optional<fem::UnitResponses> responses;
+    fem::agree(ranks_of_a_body(), [&] { responses = read_whole(path, key); });
+    return responses;
   } catch (const FileError&) {  // whole, but not written by write_unit_responses
     return damaged();
-  } catch (const std::bad_alloc&) {      // more than this machine's memory now holds
-    if (n_ranks_of_a_body() > 1) throw;  // of this rank alone, it may be
+  } catch (const fem::FailedTogether&) {  // on one of several ranks
+    return damaged();
+  } catch (const std::bad_alloc&) {  // more than this machine's memory now holds
     return std::nullopt;
   } catch (const std::length_error&) {
     return damaged();
