@@ -24,7 +24,8 @@ std::string remedy_of_model(const std::string& source) {
   if (source == "load_patches" || source == "load_edges")
     return "give the seats' pressure as it is known (half_angle, harmonics); no mesh lowers it";
   if (source == "quasi_static")
-    return "keep the natural frequencies away from the harmonics of the stress; no mesh lowers it";
+    return "keep the natural frequencies, which may be lower by their errors, away from the harmonics of the "
+           "stress; a mesh lowers their errors alone";
   for (const char* of_cheap_model :
        {"model", "beam_model", "near_loads", "ovalisation", "spin", "eccentric_segments", "offset_axis"})
     if (source == of_cheap_model) return "--method solid";

@@ -57,22 +57,33 @@ std::vector<fem::AttachedMass> attached_to(const BodyScene& scene, const meshes:
 }
 
 double amplification_at(double frequency_Hz, double natural_Hz) {
+  if (frequency_Hz == 0) return 1;
   const double ratio = frequency_Hz / natural_Hz, rest = std::abs(1 - ratio * ratio);
   return std::min(1 / rest, resonance_peak);
+}
+
+/// Of all that the natural frequency may be, the one that changes most: where it may meet the load that is
+/// resonance, elsewhere one of its bounds, since |amplification - 1| has no other maximum.
+double amplification_at(double frequency_Hz, const NaturalFrequency& natural) {
+  const double least_Hz = natural.least_Hz();
+  if (least_Hz <= frequency_Hz && frequency_Hz <= natural.value_Hz && frequency_Hz > 0) return resonance_peak;
+  const double high = amplification_at(frequency_Hz, natural.value_Hz),
+               low = amplification_at(frequency_Hz, least_Hz);
+  return std::abs(low - 1) > std::abs(high - 1) ? low : high;
 }
 
 /// By the natural frequency, and the frequency in axes at rest, that change most: which of the shapes a
 /// harmonic brings, and which way it turns, is not looked at.
 /// @param f_Hz  in the body's axes
 StressHarmonic amplified(double f_Hz, double share, const std::vector<double>& spins_Hz,
-                         const std::vector<double>& natural_Hz) {
+                         const std::vector<NaturalFrequency>& natural) {
   StressHarmonic line;
   line.frequency_Hz = f_Hz + spins_Hz.back();
   line.share = share;
   for (const double spin : spins_Hz)
     for (const double frequency : {f_Hz + spin, std::abs(f_Hz - spin)})
-      for (const double natural : natural_Hz) {
-        const double own = amplification_at(frequency, natural);
+      for (const auto& one : natural) {
+        const double own = amplification_at(frequency, one);
         if (std::abs(own - 1) > std::abs(line.amplification - 1)) {
           line.amplification = own;
           line.frequency_Hz = frequency;
@@ -116,7 +127,17 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string or_lower(const NaturalFrequency& natural) {
+  const auto value = fmt::format("{:.4g}", natural.value_Hz),
+             least = fmt::format("{:.4g}", natural.least_Hz());
+  return value == least ? "" : ", or down to " + least + " Hz on a finer mesh";
+}
+
 }  // namespace
+
+double NaturalFrequency::least_Hz() const {
+  return std::max(value_Hz - error_Hz, 0.0);
+}
 
 LoadLines::LoadLines(const Eigen::ArrayXXd& factors, const std::vector<bool>& across, int turns,
                      double turn_Hz, std::vector<double> spins_Hz)
@@ -135,11 +156,15 @@ LoadLines::LoadLines(const Eigen::ArrayXXd& factors, const std::vector<bool>& ac
 }
 
 DynamicAmplification LoadLines::amplification(const UnitStress& unit_Pa, double peak_Pa,
-                                              const std::vector<double>& natural_Hz) const {
-  if (natural_Hz.empty()) throw std::invalid_argument("no natural frequency is given");
-  for (const double natural : natural_Hz)
-    if (!(natural > 0))
-      throw std::invalid_argument(fmt::format("natural frequency {} Hz: must be positive", natural));
+                                              const std::vector<NaturalFrequency>& natural) const {
+  if (natural.empty()) throw std::invalid_argument("no natural frequency is given");
+  for (const auto& one : natural) {
+    if (!(one.value_Hz > 0))
+      throw std::invalid_argument(fmt::format("natural frequency {} Hz: must be positive", one.value_Hz));
+    if (!(one.error_Hz >= 0))
+      throw std::invalid_argument(
+          fmt::format("error of a natural frequency {} Hz: must not be negative", one.error_Hz));
+  }
   DynamicAmplification result;
   if (peak_Pa == 0) return result;
   const UnitStress unit = unit_Pa / peak_Pa;
@@ -152,8 +177,8 @@ DynamicAmplification LoadLines::amplification(const UnitStress& unit_Pa, double 
   };
   for (Eigen::Index k = 0; k < cosine_.cols(); ++k) {
     const double order = double(k) / turns_, f_Hz = order * turn_Hz_;
-    const auto shaking = amplified(f_Hz, share(cosine[0].col(k), sine[0].col(k)), spins_Hz_, natural_Hz),
-               turning = amplified(f_Hz, share(cosine[1].col(k), sine[1].col(k)), {0}, natural_Hz);
+    const auto shaking = amplified(f_Hz, share(cosine[0].col(k), sine[0].col(k)), spins_Hz_, natural),
+               turning = amplified(f_Hz, share(cosine[1].col(k), sine[1].col(k)), {0}, natural);
     result.factor += added_share(shaking) + added_share(turning);
     const double together = share(cosine[0].col(k) + cosine[1].col(k), sine[0].col(k) + sine[1].col(k));
     if (!(together > significant)) continue;
@@ -168,14 +193,14 @@ DynamicAmplification LoadLines::amplification(const UnitStress& unit_Pa, double 
 }
 
 DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
-                                           double spin_Hz, const std::vector<double>& natural_Hz) {
+                                           double spin_Hz, const std::vector<NaturalFrequency>& natural) {
   double peak_Pa = 0;
   for (Eigen::Index i = 0; i < stress_Pa.cols(); ++i)
     peak_Pa = std::max(peak_Pa, von_mises_Pa(stress_of(stress_Pa.col(i).matrix())));
   // Scaled: numbers of any size.
   const Eigen::ArrayXXd shares = peak_Pa > 0 ? Eigen::ArrayXXd(stress_Pa / peak_Pa) : stress_Pa;
   return LoadLines(shares, std::vector<bool>(6, true), turns, turn_Hz, {spin_Hz})
-      .amplification(Eigen::Matrix<double, 6, 6>::Identity(), peak_Pa > 0 ? 1 : 0, natural_Hz);
+      .amplification(Eigen::Matrix<double, 6, 6>::Identity(), peak_Pa > 0 ? 1 : 0, natural);
 }
 
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
@@ -200,12 +225,9 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
                     const std::vector<ShakenPlace>& places, const std::vector<ShakenPlace>& toes) {
   Vibration result;
   const auto held = held_body(body, meshed);
-  for (const auto& mode :
-       fem::Model(held, ranks_of_a_body())
-           .natural_frequencies(body.natural_frequencies, attached_to(body, meshed.mesh))) {
-    result.natural_frequencies_Hz.push_back(mode.frequency_Hz);
-    result.frequency_errors_Hz.push_back(mode.error * mode.frequency_Hz);
-  }
+  for (const auto& mode : fem::Model(held, ranks_of_a_body())
+                              .natural_frequencies(body.natural_frequencies, attached_to(body, meshed.mesh)))
+    result.natural_frequencies.push_back({mode.frequency_Hz, mode.error * mode.frequency_Hz});
   const BodyKind& kind = kind_of(body);
   const auto ports = kind.supporting_ports(body);
   result.held = ports.empty() ? "free" : (kind.is_clamped(body) ? "held at " : "pinned at ") + joined(ports);
@@ -217,7 +239,7 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
   const auto resonance = [&](const std::vector<ShakenPlace>& all) {
     std::vector<DynamicAmplification> dynamic;
     for (const auto& place : all)
-      dynamic.push_back(lines.amplification(place.unit_Pa, place.value_Pa, result.natural_frequencies_Hz));
+      dynamic.push_back(lines.amplification(place.unit_Pa, place.value_Pa, result.natural_frequencies));
     return dynamic;
   };
   const auto at_places = resonance(places), at_toes = resonance(toes);
@@ -232,22 +254,24 @@ std::string warning_of(const BodyScene& body, const Vibration& vibration) {
   const bool is_toe = vibration.to_hot_spot.share > vibration.to_peak.share;
   const auto& dynamic = is_toe ? vibration.at_hot_spot : vibration.amplification;
   const auto& added = is_toe ? vibration.to_hot_spot : vibration.to_peak;
-  const auto& natural_Hz = vibration.natural_frequencies_Hz;
-  const bool is_beyond = dynamic.highest_Hz > natural_Hz.back();
+  const auto& natural = vibration.natural_frequencies;
+  // The next one, which is not known, is at least as high as the last.
+  const bool is_beyond = dynamic.highest_Hz > natural.back().least_Hz();
   if (!(1 + added.share > amplification_limit) && !is_beyond) return {};
   return fmt::format(
-      "the {}'s lowest natural frequency is {:.4g} Hz ({}): resonance adds about {:.2g} % to its {} "
+      "the {}'s lowest natural frequency is {:.4g} Hz{} ({}): resonance adds up to {:.2g} % to its {} "
       "stress{}, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}",
-      body.name, natural_Hz.front(), vibration.held, 100 * added.share, is_toe ? "hot-spot" : "peak",
-      added.place.empty() ? "" : ", at another place: " + added.place, dynamic.highest_Hz,
+      body.name, natural.front().value_Hz, or_lower(natural.front()), vibration.held, 100 * added.share,
+      is_toe ? "hot-spot" : "peak", added.place.empty() ? "" : ", at another place: " + added.place,
+      dynamic.highest_Hz,
       is_beyond ? fmt::format(", above the {} lowest natural frequencies: ask for more, which it may meet",
-                              natural_Hz.size())
+                              natural.size())
                 : "");
 }
 
 std::string warning_of_frequencies(const BodyScene& body, const Vibration& vibration) {
-  for (std::size_t i = 0; i < vibration.frequency_errors_Hz.size(); ++i) {
-    const double f_Hz = vibration.natural_frequencies_Hz[i], error_Hz = vibration.frequency_errors_Hz[i];
+  for (std::size_t i = 0; i < vibration.natural_frequencies.size(); ++i) {
+    const auto& [f_Hz, error_Hz] = vibration.natural_frequencies[i];
     if (error_Hz > frequency_error_limit * f_Hz)
       return fmt::format(
           "the {}'s natural frequency {}, {:.4g} Hz, may be lower by {:.2g} %, and others may be missing: "

@@ -29,7 +29,8 @@ struct StressHarmonic {
   double frequency_Hz =
       0;             ///< at which the body is shaken: of those at which it may, the one that changes most
   double share = 0;  ///< of the static peak
-  double amplification = 1;  ///< 1 / |1 - (f / f_n)^2|, at most resonance_peak; of the f_n that changes most
+  /// 1 / |1 - (f / f_n)^2|, at most resonance_peak; of the f_n that changes most, and of all that it may be
+  double amplification = 1;
 };
 
 struct DynamicAmplification {
@@ -39,12 +40,19 @@ struct DynamicAmplification {
   double highest_Hz = 0;   ///< the highest frequency at which it may shake the body
 };
 
+/// A mesh holds a body too stiff: the true frequency lies between value_Hz - error_Hz and value_Hz.
+struct NaturalFrequency {
+  double value_Hz = 0;
+  double error_Hz = 0;  ///< by which it may be lower, for want of a finer mesh
+
+  double least_Hz() const;  ///< not below 0
+};
+
 struct Vibration {
-  std::vector<double> natural_frequencies_Hz;  ///< ascending, without free rigid motions
-  std::vector<double> frequency_errors_Hz;     ///< by which each may be lower, for want of a finer mesh
-  std::string held;                            ///< "pinned at bearing_1, bearing_2" ...
-  DynamicAmplification amplification;          ///< of the peak von Mises stress
-  DynamicAmplification at_hot_spot;            ///< of the largest hot-spot stress; factor 1 without weld toes
+  std::vector<NaturalFrequency> natural_frequencies;  ///< ascending, without free rigid motions
+  std::string held;                                   ///< "pinned at bearing_1, bearing_2" ...
+  DynamicAmplification amplification;                 ///< of the peak von Mises stress
+  DynamicAmplification at_hot_spot;  ///< of the largest hot-spot stress; factor 1 without weld toes
   /// What the body's largest stress with resonance has beyond the largest without: at the same place, or at
   /// another one that a load near resonance stresses more.
   struct Added {
@@ -69,11 +77,13 @@ inline constexpr double amplification_limit = 1.02;
 /// @param spin_Hz    of the body's axes against what holds it, the stress being of loads across the axis: one
 ///                   that stands still in them shakes the body once per turn, one that oscillates at f at
 ///                   f + spin and |f - spin|. A harmonic counts at that of the two that changes it most
-/// @param natural_Hz  natural frequencies; every harmonic counts as if it were in the shape of the one that
-///                    changes it most, so that beside a resonance the sum is a bound
-/// @throws std::invalid_argument as kinetics::line_spectrum; without a frequency, or for one not positive
+/// @param natural  natural frequencies; every harmonic counts as if it were in the shape of the one that
+///                 changes it most, and that one where within its error it changes it most, so that beside a
+///                 resonance the sum is a bound
+/// @throws std::invalid_argument as kinetics::line_spectrum; without a frequency, for one not positive,
+///         or a negative error
 DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
-                                           double spin_Hz, const std::vector<double>& natural_Hz);
+                                           double spin_Hz, const std::vector<NaturalFrequency>& natural);
 
 using UnitStress = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< of each channel, 6 x channels [Pa]
 
@@ -92,7 +102,7 @@ public:
   /// As the function above, of a place's unit stresses.
   /// @param peak_Pa  largest von Mises stress there over the cycle
   DynamicAmplification amplification(const UnitStress& unit_Pa, double peak_Pa,
-                                     const std::vector<double>& natural_Hz) const;
+                                     const std::vector<NaturalFrequency>& natural) const;
 
 private:
   Eigen::MatrixXd cosine_, sine_;  // channels x lines, from the mean on

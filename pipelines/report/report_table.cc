@@ -90,9 +90,9 @@ void print_search(std::ostream& out, const Search& search) {
 
 void print_vibration(std::ostream& out, const Vibration& vibration) {
   out << "\n  natural frequencies [Hz]";
-  for (const double f : vibration.natural_frequencies_Hz) out << fmt::format("  {:.5g}", f);
+  for (const auto& natural : vibration.natural_frequencies) out << fmt::format("  {:.5g}", natural.value_Hz);
   out << "\n  lower by at most    [Hz]";
-  for (const double error : vibration.frequency_errors_Hz) out << fmt::format("  {:.2g}", error);
+  for (const auto& natural : vibration.natural_frequencies) out << fmt::format("  {:.2g}", natural.error_Hz);
   const auto& dynamic = vibration.amplification;
   out << fmt::format(
       "   ({})\n  dynamic amplification    {:.4f} of the peak{}; harmonic {:.4g} at {:.4g} Hz: "

@@ -132,9 +132,9 @@ Json torsion_json(const BodyAnalysis& analysis) {
 /// put on the peak.
 void add_vibration(const Vibration& vibration, Json& json) {
   json["natural_frequencies"] = Json::array();
-  for (std::size_t i = 0; i < vibration.natural_frequencies_Hz.size(); ++i) {
-    json["natural_frequencies"].push_back(figure(vibration.natural_frequencies_Hz[i], "Hz"));
-    json["natural_frequencies"].back()["error"] = number(vibration.frequency_errors_Hz[i]);
+  for (const auto& natural : vibration.natural_frequencies) {
+    json["natural_frequencies"].push_back(figure(natural.value_Hz, "Hz"));
+    json["natural_frequencies"].back()["error"] = number(natural.error_Hz);
   }
   const auto& dynamic = vibration.amplification;
   json["dynamic_amplification"] = figure(1 + vibration.to_peak.share, "1");

@@ -32,7 +32,7 @@ TEST(Resonance, OfOneHarmonicIsThatOfAnOscillator) {
   const auto stress = tension(0, {{3, 5e6}});
   const double peak = stress.row(2).abs().maxCoeff();  // the cosine is not sampled at its peak
   for (const double f1 : {31.0, 60.0, 300.0, 1e4}) {
-    const auto d = dynamic_amplification(stress, turns, turn_Hz, 0, {f1});
+    const auto d = dynamic_amplification(stress, turns, turn_Hz, 0, {{f1}});
     EXPECT_NEAR(d.factor, 1 + 5e6 / peak * std::abs(1 / std::abs(1 - std::pow(30 / f1, 2)) - 1), 1e-9) << f1;
     EXPECT_NEAR(d.highest.order, 3, 1e-12);
     EXPECT_NEAR(d.highest.frequency_Hz, 30, 1e-12);
@@ -43,7 +43,7 @@ TEST(Resonance, OfOneHarmonicIsThatOfAnOscillator) {
 TEST(Resonance, OfSeveralHarmonicsAddsUpByTheirShares) {
   const auto stress = tension(4e6, {{1, 3e6}, {4, 1e6}});
   const double peak = stress.row(2).abs().maxCoeff(), f1 = 100;
-  const auto d = dynamic_amplification(stress, turns, turn_Hz, 0, {f1});
+  const auto d = dynamic_amplification(stress, turns, turn_Hz, 0, {{f1}});
   EXPECT_NEAR(d.factor, 1 + (3e6 * amplified(0.1) + 1e6 * amplified(0.4)) / peak, 1e-12);
   EXPECT_NEAR(d.highest.order, 4, 1e-12);
 }
@@ -55,14 +55,14 @@ TEST(Resonance, CountsCosineAndSineTogether) {
     stress(3, i) = std::cos(2 * M_PI * turns * i / n);
     stress(4, i) = std::sin(2 * M_PI * turns * i / n);
   }
-  const auto d = dynamic_amplification(stress, turns, turn_Hz, 0, {50});
+  const auto d = dynamic_amplification(stress, turns, turn_Hz, 0, {{50}});
   EXPECT_NEAR(d.highest.share, std::sqrt(2), 1e-12) << "a bound: no instant has more than the peak";
   EXPECT_NEAR(d.factor, 1 + std::sqrt(2) * amplified(0.2), 1e-12);
 }
 
 // In axes that turn, what stands still in them shakes once per turn.
 TEST(Resonance, InTurningAxesEveryFrequencyIsHigherByTheSpin) {
-  const auto d = dynamic_amplification(tension(2e6, {{1, 1e6}}), turns, turn_Hz, 10, {100});
+  const auto d = dynamic_amplification(tension(2e6, {{1, 1e6}}), turns, turn_Hz, 10, {{100}});
   const double peak = tension(2e6, {{1, 1e6}}).row(2).abs().maxCoeff();
   EXPECT_NEAR(d.factor, 1 + (2e6 * amplified(0.1) + 1e6 * amplified(0.2)) / peak, 1e-12);
   EXPECT_NEAR(d.highest.frequency_Hz, 20, 1e-12);
@@ -73,7 +73,7 @@ TEST(Resonance, InTurningAxesEveryFrequencyIsHigherByTheSpin) {
 // stress.
 TEST(Resonance, InTurningAxesTheLowerFrequencyMayMeetIt) {
   const auto stress = tension(0, {{3, 1e6}});
-  const auto d = dynamic_amplification(stress, turns, turn_Hz, 10, {20});
+  const auto d = dynamic_amplification(stress, turns, turn_Hz, 10, {{20}});
   EXPECT_NEAR(d.factor, 1 + 1e6 / stress.row(2).abs().maxCoeff() * (pipelines::resonance_peak - 1), 1e-9);
   EXPECT_NEAR(d.highest.frequency_Hz, 20, 1e-12);
   EXPECT_NEAR(d.highest_Hz, 40, 1e-12);
@@ -92,7 +92,7 @@ TEST(Resonance, OfATorqueIsAtItsOwnFrequency) {
   unit.row(2).setConstant(1);
   const auto at = [&](bool across, double natural_Hz) {
     return pipelines::LoadLines(factors, {across, false}, turns, turn_Hz, {10})
-        .amplification(unit, peak, {natural_Hz})
+        .amplification(unit, peak, {{natural_Hz}})
         .factor;
   };
   const double most = 1 + 0.5 * (pipelines::resonance_peak - 1);
@@ -102,39 +102,58 @@ TEST(Resonance, OfATorqueIsAtItsOwnFrequency) {
 }
 
 TEST(Resonance, OfAConstantStressInAxesAtRestIsNone) {
-  EXPECT_EQ(dynamic_amplification(tension(2e6, {}), turns, turn_Hz, 0, {100}).factor, 1);
+  EXPECT_EQ(dynamic_amplification(tension(2e6, {}), turns, turn_Hz, 0, {{100}}).factor, 1);
 }
 
 TEST(Resonance, OfNoStressIsNone) {
-  const auto d = dynamic_amplification(tension(0, {}), turns, turn_Hz, 10, {100});
+  const auto d = dynamic_amplification(tension(0, {}), turns, turn_Hz, 10, {{100}});
   EXPECT_EQ(d.factor, 1);
   EXPECT_EQ(d.highest.share, 0);
 }
 
 TEST(Resonance, MetExactlyIsLimitedByDamping) {
   const auto stress = tension(0, {{3, 1e6}});
-  EXPECT_NEAR(dynamic_amplification(stress, turns, turn_Hz, 0, {30}).factor,
+  EXPECT_NEAR(dynamic_amplification(stress, turns, turn_Hz, 0, {{30}}).factor,
               1 + 1e6 / stress.row(2).abs().maxCoeff() * (pipelines::resonance_peak - 1), 1e-9);
   // Rounding's share of that harmonic is none.
-  EXPECT_NEAR(dynamic_amplification(tension(1e6, {{1, 1e3}}), turns, turn_Hz, 0, {30}).factor, 1, 2e-4);
+  EXPECT_NEAR(dynamic_amplification(tension(1e6, {{1, 1e3}}), turns, turn_Hz, 0, {{30}}).factor, 1, 2e-4);
 }
 
 TEST(Resonance, DoesNotDependOnTheSizeOfStress) {
   const auto stress = tension(4e6, {{1, 3e6}, {4, 1e6}});
-  const double usual = dynamic_amplification(stress, turns, turn_Hz, 0, {100}).factor;
+  const double usual = dynamic_amplification(stress, turns, turn_Hz, 0, {{100}}).factor;
   for (const double size : {std::ldexp(1.0, -600), std::ldexp(1.0, 600)})
-    EXPECT_EQ(dynamic_amplification(stress * size, turns, turn_Hz, 0, {100}).factor, usual);
+    EXPECT_EQ(dynamic_amplification(stress * size, turns, turn_Hz, 0, {{100}}).factor, usual);
 }
 
 TEST(Resonance, NeedsAFrequency) {
-  EXPECT_THROW(dynamic_amplification(tension(1, {}), turns, turn_Hz, 0, {0}), std::invalid_argument);
+  EXPECT_THROW(dynamic_amplification(tension(1, {}), turns, turn_Hz, 0, {{0}}), std::invalid_argument);
+  EXPECT_THROW(dynamic_amplification(tension(1, {}), turns, turn_Hz, 0, {{40, -1}}), std::invalid_argument);
+}
+
+// A mesh has frequencies too high. At 30 Hz below them the lower bound counts; between both bounds the load
+// may meet the true one; beside both the nearer one; far above both, where stress falls, the one that leaves
+// least.
+TEST(Resonance, CountsAllThatAFrequencyMayBe) {
+  const auto stress = tension(0, {{3, 1e6}});
+  const double weight = 1e6 / stress.row(2).abs().maxCoeff();
+  const auto added = [&](double value_Hz, double error_Hz) {
+    return (dynamic_amplification(stress, turns, turn_Hz, 0, {{value_Hz, error_Hz}}).factor - 1) / weight;
+  };
+  EXPECT_NEAR(added(60, 20), amplified(30. / 40), 1e-9);
+  EXPECT_NEAR(added(32, 2.5), pipelines::resonance_peak - 1, 1e-9);
+  EXPECT_NEAR(added(28, 4), amplified(30. / 28), 1e-9);
+  EXPECT_NEAR(added(15, 5), -amplified(30. / 10), 1e-9);
+  EXPECT_NEAR(added(31, 62), pipelines::resonance_peak - 1, 1e-9) << "the mesh tells nothing";
+  EXPECT_NEAR(added(20, 20), 1, 1e-9) << "not below zero, where nothing of the stress is left";
+  EXPECT_EQ(dynamic_amplification(tension(2e6, {}), turns, turn_Hz, 0, {{100, 100}}).factor, 1);
 }
 
 // A harmonic beside the second frequency is not helped by being far above the first: 1 / |1 - (99 / 100)^2|
 // = 50.25, of which damping leaves 50. Far from both it is that of the nearer one.
 TEST(Resonance, MeetsHigherFrequenciesToo) {
   const auto stress = tension(2e6, {{1, 1e6}});
-  const auto d = dynamic_amplification(stress, turns, 99, 0, {25, 100});
+  const auto d = dynamic_amplification(stress, turns, 99, 0, {{25}, {100}});
   EXPECT_NEAR(d.factor, 1 + 49e6 / stress.row(2).abs().maxCoeff(), 1e-9);
   EXPECT_EQ(d.highest.amplification, pipelines::resonance_peak);
   EXPECT_THROW(dynamic_amplification(tension(1, {}), turns, turn_Hz, 0, {}), std::invalid_argument);
