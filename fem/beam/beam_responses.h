@@ -29,9 +29,10 @@ namespace fem {
 UnitResponses beam_responses(const BeamShaft& shaft, const std::vector<UnitLoad>& loads);
 
 /// Largest relative change of a fillet's bending factor when the shoulder is as high as it really is at an
-/// angle, instead of as high as with concentric segments. 0 without eccentric segments. It estimates, for
-/// peaks at fillets, what concentric shoulders cost (axisymmetric_responses.h), and for the beam, which takes
-/// the height at each angle, how far that may be off.
+/// angle, instead of as high as with concentric segments; at least a quarter of the change of the height,
+/// since bending also flows in from the thick segment's own axis. 0 without eccentric segments. It estimates,
+/// for peaks at fillets, what concentric shoulders cost (axisymmetric_responses.h), and for the beam, which
+/// takes the height at each angle, how far that may be off.
 /// @throws std::invalid_argument as beam_responses
 double eccentricity_error(const BeamShaft& shaft);
 

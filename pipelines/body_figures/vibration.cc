@@ -127,6 +127,11 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+/// Two digits, without an exponent.
+std::string in_percent(double share) {
+  return fmt::format(100 * share < 10 ? "{:.2g}" : "{:.0f}", 100 * share);
+}
+
 std::string or_lower(const NaturalFrequency& natural) {
   const auto value = fmt::format("{:.4g}", natural.value_Hz),
              least = fmt::format("{:.4g}", natural.least_Hz());
@@ -259,9 +264,9 @@ std::string warning_of(const BodyScene& body, const Vibration& vibration) {
   const bool is_beyond = dynamic.highest_Hz > natural.back().least_Hz();
   if (!(1 + added.share > amplification_limit) && !is_beyond) return {};
   return fmt::format(
-      "the {}'s lowest natural frequency is {:.4g} Hz{} ({}): resonance adds up to {:.2g} % to its {} "
+      "the {}'s lowest natural frequency is {:.4g} Hz{} ({}): resonance adds up to {} % to its {} "
       "stress{}, which is computed without; the highest harmonic of weight is at {:.4g} Hz{}",
-      body.name, natural.front().value_Hz, or_lower(natural.front()), vibration.held, 100 * added.share,
+      body.name, natural.front().value_Hz, or_lower(natural.front()), vibration.held, in_percent(added.share),
       is_toe ? "hot-spot" : "peak", added.place.empty() ? "" : ", at another place: " + added.place,
       dynamic.highest_Hz,
       is_beyond ? fmt::format(", above the {} lowest natural frequencies: ask for more, which it may meet",
@@ -274,10 +279,10 @@ std::string warning_of_frequencies(const BodyScene& body, const Vibration& vibra
     const auto& [f_Hz, error_Hz] = vibration.natural_frequencies[i];
     if (error_Hz > frequency_error_limit * f_Hz)
       return fmt::format(
-          "the {}'s natural frequency {}, {:.4g} Hz, may be lower by {:.2g} %, and others may be missing: "
+          "the {}'s natural frequency {}, {:.4g} Hz, may be lower by {} %, and others may be missing: "
           "the mesh "
           "was made for the stress; ask for more by a finer [{}.mesh] and --tolerance none",
-          body.name, i + 1, f_Hz, 100 * error_Hz / f_Hz, body.name);
+          body.name, i + 1, f_Hz, in_percent(error_Hz / f_Hz), body.name);
   }
   return {};
 }

@@ -264,13 +264,13 @@ TEST(Sweeps, PrintErrorsBesideTheirFigures) {
   EXPECT_EQ(first.find("nan"), std::string::npos) << first;
 }
 
-// The eccentric shaft as a body of revolution: 0.4 MPa by its mesh, 6 MPa since eccentric segments are taken
+// The eccentric shaft as a body of revolution: 0.4 MPa by its mesh, 9 MPa since eccentric segments are taken
 // as concentric. Sweeps, zones and places state both.
 TEST(Sweeps, ErrorsOfCheapModelsHoldTheModels) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone({{"instants_per_turn = 120", "instants_per_turn = 24"},
                                               {"pictures = true", "pictures = false"}}));
-  const std::string arguments = "mill.toml --set method=axisymmetric --tolerance '10 %'";
+  const std::string arguments = "mill.toml --set method=axisymmetric --tolerance '15 %'";
   const auto points =
       points_of(directory.path, arguments + " --zones -o swept --vary 'machine.drive.speed = 1350 rpm'");
   const auto outcome =
