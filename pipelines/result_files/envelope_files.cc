@@ -251,9 +251,9 @@ void write_cycle_files(const path& directory, const Scene& scene, const kinetics
     for_each_parallel(entries.size(), at_once, [&](std::size_t, std::size_t s) {
       write_snapshot(directory / entries[s].file, files, analysis, instants[s]);
     });
-    if (!is_first_rank()) return;
-    write_pvd(directory / "cycle.pvd", entries);
   }
+  if (!is_first_rank()) return;
+  if (!entries.empty()) write_pvd(directory / "cycle.pvd", entries);
   remove_other_snapshots(directory, entries);
 }
 
