@@ -40,16 +40,17 @@ Eigen::MatrixXd finished(const BodyOfRanks& body, const SharedLoads& loads, cons
 }
 
 /// Rows of the nodes that this rank has of the mesh with the nodes that stress has.
-RowMajor own_rows(const Subdomain& part, const SeenMesh& seen, const SharedRows& shared,
-                  const Eigen::MatrixXd& displacement) {
-  RowMajor rows(Eigen::Index(shared.node.size()), 3 * displacement.cols());
+std::vector<double> own_rows(const Subdomain& part, const SeenMesh& seen, const SharedRows& shared,
+                             const Eigen::MatrixXd& displacement) {
+  std::vector<double> rows;
+  rows.reserve(shared.node.size() * 3 * std::size_t(displacement.cols()));
   const std::size_t n_of_body = seen.grid.n_nodes - seen.copy.size();
-  for (std::size_t i = 0; i < shared.node.size(); ++i) {
-    const auto node = std::size_t(shared.node[i]);
-    const auto of_body = node < n_of_body ? std::int32_t(node) : seen.copy[node - n_of_body];
+  for (const auto own : shared.node) {
+    const auto node = std::size_t(own);
+    const auto of_body = node < n_of_body ? own : seen.copy[node - n_of_body];
     const auto at = std::lower_bound(part.node.begin(), part.node.end(), of_body) - part.node.begin();
     for (Eigen::Index k = 0; k < displacement.cols(); ++k)
-      for (Eigen::Index d = 0; d < 3; ++d) rows(Eigen::Index(i), 3 * k + d) = displacement(3 * at + d, k);
+      for (Eigen::Index d = 0; d < 3; ++d) rows.push_back(displacement(3 * at + d, k));
   }
   return rows;
 }
@@ -70,10 +71,6 @@ void mirror(const MirroredHalf& half, const SharedRows& shared, RowMajor& stress
     for (Eigen::Index c = 0; c < stress.cols(); ++c)
       stress(shared.row[std::size_t(below[i])], c) =
           sign[std::size_t(c) % sign.size()] * rows(Eigen::Index(i), c);
-}
-
-void take(const RowMajor& rows, std::vector<double>& values) {
-  values.assign(rows.data(), rows.data() + rows.size());
 }
 
 }  // namespace
@@ -145,7 +142,6 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
   const auto half_of_body = [&] { return body.half(); };
   std::vector<int> rank_of_cell;
   const MirroredHalf* half = nullptr;  // which tells of all
-  RowMajor displacement;
   {
     PartSolution found = solve_on_ranks(
         body,
@@ -161,10 +157,12 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
     rank_of_cell = found.part.rank_of_cell;
     responses.shared = share_rows(body.communicator, seen.grid, rank_of_cell);
     const Eigen::MatrixXd own = finished(body, loads, scale, found);
-    displacement = own_rows(found.part.share.part, seen, *responses.shared, own);
+    responses.displacement_m = own_rows(found.part.share.part, seen, *responses.shared, own);
   }
   const auto& shared = *responses.shared;
-  take(displacement, responses.displacement_m);
+  const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(),
+                                                Eigen::Index(responses.n_rows()),
+                                                3 * Eigen::Index(loads.unit_loads.size()));
 
   progress(0.85, "recover");
   release_free_memory();
@@ -182,7 +180,7 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
     const RowExchange exchange(shared, share.part.node);
     responses.energy_error = energy_error_on_ranks(body.communicator, share, seen.grid.n_cells(),
                                                    exchange(displacement), exchange(stress));
-    take(stress, responses.stress_Pa);
+    responses.stress_Pa.assign(stress.data(), stress.data() + stress.size());
   }
   responses.nodes = export_nodes(seen.grid, seen.volumes);
 }

@@ -62,24 +62,25 @@ RowMajor recover_stress_on_ranks(const Grid& grid, const CellsOfNodes& cells, co
   const auto own_cells = cells_of_rank(shared.rank_of_cell, this_rank(shared.communicator));
   const Subdomain part =
       make_subdomain(grid, with_cells_hung_on(grid, cells, with_layers(grid, cells, own_cells, n_layers)));
-  RowMajor stress(Eigen::Index(shared.node.size()), 2 * displacement.cols());
+  RowMajor of_part(Eigen::Index(part.grid.n_nodes), 2 * displacement.cols());
   {
     const RowMajor around = RowExchange(shared, part.node)(displacement);
     agree(shared.communicator, [&] {
       if (part.grid.n_cells() == 0) return;
-      RowMajor result(Eigen::Index(part.grid.n_nodes), stress.cols());
       const auto cells_of_part = cells_of_nodes(part.grid);
       const auto elastic_of_part = cell_after_cell(elastic_of(part, elastic));
       if (by_patches != nullptr)
         recover_stress(part.grid, cells_of_part, charts, by_patches->free_faces(part), elastic_of_part,
-                       by_patches->hardly_compresses, around, result);
+                       by_patches->hardly_compresses, around, of_part);
       else
-        average_stress(part.grid, cells_of_part, elastic_of_part, around, result);
-      for (std::size_t i = 0; i < part.node.size(); ++i)
-        if (const auto row = shared.row[std::size_t(part.node[i])]; row >= 0)
-          stress.row(row) = result.row(Eigen::Index(i));
+        average_stress(part.grid, cells_of_part, elastic_of_part, around, of_part);
     });
   }
+  RowMajor stress(Eigen::Index(shared.node.size()), of_part.cols());
+  for (std::size_t i = 0; i < part.node.size(); ++i)
+    if (const auto row = shared.row[std::size_t(part.node[i])]; row >= 0)
+      stress.row(row) = of_part.row(Eigen::Index(i));
+  of_part.resize(0, 0);
   release_free_memory();  // of the patches
   if (grid.hanging.n() > 0) set_own_hanging_rows(grid.hanging, shared, stress);
   return stress;

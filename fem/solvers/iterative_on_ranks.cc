@@ -36,7 +36,7 @@ SharedNodes share_nodes(MPI_Comm communicator, const RankPart& part, std::vector
 
 std::vector<double> weights_of_iteration(int n_ranks) {
   auto weights = even_weights(n_ranks);
-  if (n_ranks > 2) weights.back() = 0.5;
+  if (n_ranks > 2) weights.back() = 0.2;
   return weights;
 }
 

@@ -15,7 +15,7 @@
 namespace fem {
 
 /// Shares of the cells: the last rank has the trilinear level besides, which on four ranks takes the memory
-/// of some 15 % of the cells.
+/// of a quarter of the cells.
 std::vector<double> weights_of_iteration(int n_ranks);
 
 /// As solve_iteratively; every rank applies the stiffness of its own cells. Same bits in every run on the
