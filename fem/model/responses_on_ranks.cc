@@ -139,7 +139,6 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
   check_channels(loads.unit_loads);
   responses.resultants.resize(loads.unit_loads.size());
   Eigen::RowVectorXd scale;
-  const auto half_of_body = [&] { return body.half(); };
   std::vector<int> rank_of_cell;
   const MirroredHalf* half = nullptr;  // which tells of all
   {
@@ -152,7 +151,7 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
     if (solution.factor.n_dofs > 0) {
       responses.solver.reason += solution.is_even ? "; one half, of which the other is the mirror image"
                                                   : "; half by half, the body being its own mirror image";
-      if (solution.is_even) half = half_of_body();
+      if (solution.is_even) half = body.half();
     }
     rank_of_cell = found.part.rank_of_cell;
     responses.shared = share_rows(body.communicator, seen.grid, rank_of_cell);
