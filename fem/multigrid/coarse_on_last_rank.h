@@ -11,8 +11,7 @@ namespace fem {
 
 /// The last rank joins the corner meshes of all ranks and adds up their stiffness; forces are added up there,
 /// rank after rank, and displacements sent back. The trilinear level has an eighth of the unknowns of Q2
-/// cells. Rank 0 has the mesh and the responses of the whole body already. Everything here is called on all
-/// ranks.
+/// cells. Everything here is called on all ranks.
 class CoarseOnLastRank {
 public:
   /// @param coarse  corners of this rank's cells
