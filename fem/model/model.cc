@@ -200,9 +200,7 @@ std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& m
   } catch (const SolveFailed& error) {
     failure = error.what();
   }
-  report.used = Solver::direct;
-  report.gave_up = true;
-  report.reason = failure + "; solved directly";
+  turn_to_factor(failure, report);
   return std::nullopt;
 }
 

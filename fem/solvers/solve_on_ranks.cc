@@ -47,9 +47,7 @@ public:
     } catch (const FailedTogether& error) {
       failure = error.what();
     }
-    report_.used = Solver::direct;
-    report_.gave_up = true;
-    report_.reason = failure + "; solved directly";
+    turn_to_factor(failure, report_);
     return std::nullopt;
   }
 

@@ -230,4 +230,10 @@ void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_
                      ", " + gigabytes(memory_bytes) + " are left; " + remedy);
 }
 
+void turn_to_factor(const std::string& failure, SolverReport& report) {
+  report.used = Solver::direct;
+  report.gave_up = true;
+  report.reason = failure + "; solved directly";
+}
+
 }  // namespace fem

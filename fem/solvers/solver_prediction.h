@@ -1,6 +1,7 @@
 /// What the two solvers are predicted to cost. Internal to fem.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "fem/mesh/grid.h"
@@ -76,6 +77,10 @@ double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
 /// predicted to fit into memory, or the one asked for not even into a machine that holds nothing else
 SolverReport choose_solver(const Grid& grid, const CellMaterials& materials, std::size_t n_loads,
                            const SolverChoice& choice, double memory_bytes);
+
+/// After the iteration has given up.
+/// @param failure  what happened
+void turn_to_factor(const std::string& failure, SolverReport& report);
 
 /// As choose_solver, with this machine's memory; where it is direct and small enough, after an analysis of
 /// the matrix. Solves nothing.
