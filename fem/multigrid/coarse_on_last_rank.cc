@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "fem/common/memory.h"
 #include "fem/ranks/arrays.h"
 #include "fem/ranks/ranks.h"
 
@@ -151,6 +152,7 @@ CoarseOnLastRank::CoarseOnLastRank(MPI_Comm communicator, const Grid& coarse,
       throw;
     }
   });
+  if (is_last) release_free_memory();  // of what was joined: the operator comes next
 }
 
 CoarseOnLastRank::WorkSpace CoarseOnLastRank::work_space(const Lanes& lanes) const {

@@ -108,7 +108,7 @@ struct MirrorImages {
   std::vector<std::int32_t> node, cell;
 };
 
-/// Whose rows the nodes of a body are, where several MPI ranks share it.
+/// Whose rows the nodes of a body are, where several MPI ranks share it (ranks/shared_rows.cc).
 struct SharedRows {
   MPI_Comm communicator;
   std::vector<int> rank_of_cell;

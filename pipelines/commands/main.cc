@@ -125,6 +125,7 @@ int run_on_ranks(const pipelines::ChosenCommand& chosen) {
   return common.end(failure, false);
 }
 
+/// Reads the arguments and does what they say.
 int run(int argc, char** argv) {
   const bool first = fem::this_rank(MPI_COMM_WORLD) == 0;
   CLI::App app{"From the kinetics of a mill to stress zones in its shaft and chamber."};

@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     messages += all[r][1];
     bytes += all[r][2];
   }
-  std::printf("| %d | %zu | %.1f | %d | %.0f | %.2f | %.2f | %.2f |\n", n_ranks, solved.n_dofs, solved.wall_s,
+  std::printf("| %d | %zu | %.1f | %d | %.0f | %.2f | %.3f | %.3f |\n", n_ranks, solved.n_dofs, solved.wall_s,
               solved.n_iterations, messages, 1e-9 * bytes, 1e-9 * all[0][0], 1e-9 * others_bytes);
   return 0;
 }

@@ -69,9 +69,10 @@ void expect_same(const nlohmann::json& one, const nlohmann::json& two) {
 TEST(SeveralRanks, GiveTheResultsOfOne) {
   const results_test::Directory directory;
   write(directory / "scene.toml", small_scene());
-  const auto one = millstress(directory.path, "run scene.toml -o one --threads 1");
+  const std::string run = "run scene.toml --threads 1 --set results.snapshots=2 -o ";
+  const auto one = millstress(directory.path, run + "one");
   ASSERT_EQ(one.exit_code, 0) << one.err;
-  const auto two = on_two_ranks(directory.path, "run scene.toml -o two --threads 1");
+  const auto two = on_two_ranks(directory.path, run + "two");
   ASSERT_EQ(two.exit_code, 0) << two.err;
   EXPECT_EQ(count(two.out, "Small shaft"), count(one.out, "Small shaft")) << "told once:\n" << two.out;
   EXPECT_EQ(results_test::bytes(directory / "one/loads.csv"),
@@ -114,8 +115,25 @@ TEST(SeveralRanks, GiveTheResultsOfOne) {
     EXPECT_LE(difference, 1.2e-7 * largest) << name << ": fields are kept in single precision";
   }
 
+  // Each rank knows the surface that it has at an instant.
+  for (const char* name : {"von Mises stress [Pa]", "displacement [m]"}) {
+    const auto of_one = read<vtkXMLUnstructuredGridReader>(directory / "one/shaft/cycle_001.vtu"),
+               of_two = read<vtkXMLUnstructuredGridReader>(shaft / "cycle_001.vtu");
+    auto *a = of_one->GetPointData()->GetArray(name), *b = of_two->GetPointData()->GetArray(name);
+    ASSERT_TRUE(a != nullptr && b != nullptr) << name;
+    ASSERT_EQ(a->GetNumberOfTuples(), b->GetNumberOfTuples());
+    double largest = 0, difference = 0;
+    for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+      for (int c = 0; c < a->GetNumberOfComponents(); ++c) {
+        largest = std::max(largest, std::abs(a->GetComponent(i, c)));
+        difference = std::max(difference, std::abs(a->GetComponent(i, c) - b->GetComponent(i, c)));
+      }
+    EXPECT_GT(largest, 0) << name;
+    EXPECT_LE(difference, 1.2e-7 * largest) << name << ": fields are kept in single precision";
+  }
+
   // One rank into the same directory leaves its own files alone.
-  ASSERT_EQ(millstress(directory.path, "run scene.toml -o two --threads 1").exit_code, 0);
+  ASSERT_EQ(millstress(directory.path, run + "two").exit_code, 0);
   EXPECT_TRUE(fs::exists(shaft / "envelope.vtu"));
   for (const char* gone : {"envelope.pvtu", "envelope_0.vtu", "envelope_1.vtu"})
     EXPECT_FALSE(fs::exists(shaft / gone)) << gone;

@@ -65,19 +65,21 @@ struct Ranks : testing::Test {
   void SetUp() override { ASSERT_GT(number(), 1) << "to be started by mpirun -n 2"; }
 
   static fem::UnitResponses solve(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
-                                  fem::Solver solver, MPI_Comm communicator) {
+                                  fem::Solver solver, MPI_Comm communicator,
+                                  const std::vector<fem::SectionPlane>& planes = {}) {
     fem::SolverChoice choice;
     choice.solver = solver;
     choice.relative_tolerance = 1e-12;
     choice.by_halves = false;  // which rank 0 solves alone
-    return fem::Model(body, communicator).unit_responses(loads, {}, fem::Recovery::patch, {}, choice);
+    return fem::Model(body, communicator).unit_responses(loads, planes, fem::Recovery::patch, {}, choice);
   }
 
   /// @return of several ranks
   static fem::UnitResponses expect_same(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
-                                        fem::Solver solver) {
-    const auto one = solve(body, loads, solver, MPI_COMM_SELF);
-    auto several = solve(body, loads, solver, MPI_COMM_WORLD);
+                                        fem::Solver solver,
+                                        const std::vector<fem::SectionPlane>& planes = {}) {
+    const auto one = solve(body, loads, solver, MPI_COMM_SELF, planes);
+    auto several = solve(body, loads, solver, MPI_COMM_WORLD, planes);
     EXPECT_EQ(one.solver.used, solver) << one.solver.reason;
     EXPECT_EQ(several.solver.used, solver) << several.solver.reason;
     EXPECT_TRUE(one.solver.ranks.empty());
@@ -102,6 +104,23 @@ struct Ranks : testing::Test {
         return std::vector<double>(pairs.front().data(), pairs.front().data() + 2 * pairs.size());
       };
       same_numbers(numbers(several.ring_shear_Pa), numbers(one.ring_shear_Pa));
+    }
+    const auto resultants = [](const fem::UnitResponses& responses) {
+      std::vector<double> all;
+      for (const auto& section : responses.sections)
+        all.insert(all.end(), section.resultant.begin(), section.resultant.end());
+      return all;
+    };
+    const auto turns = [](const fem::UnitResponses& responses) {
+      std::vector<double> all;
+      for (const auto& section : responses.sections)
+        all.insert(all.end(), section.rotation_rad.begin(), section.rotation_rad.end());
+      return all;
+    };
+    EXPECT_EQ(one.sections.size(), planes.size() * loads.size());
+    if (!planes.empty()) {
+      same_numbers(resultants(several), resultants(one));
+      same_numbers(turns(several), turns(one));
     }
     expect_shares(several);
     return several;
@@ -145,7 +164,8 @@ std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
 // Of the eccentric shaft below, with hanging nodes.
 TEST_F(Ranks, HexahedraDirectly) {
   const auto rod = fem_tests::rod(8);
-  const auto responses = expect_same(rod.body, some_loads(rod), fem::Solver::direct);
+  const auto responses = expect_same(rod.body, some_loads(rod), fem::Solver::direct, rod.planes);
+  EXPECT_FALSE(responses.planes.empty());
   EXPECT_LT(responses.support_reaction, 1e-9) << "balanced loads leave round-off to the support";
   EXPECT_GT(responses.factor_gigabytes, 0);
 }
@@ -287,13 +307,18 @@ TEST_F(Ranks, RowsAreKnownAnywhere) {
   }
 }
 
-// Four ranks have a quarter of it each, and nodes in the middle that all of them share.
-TEST_F(Ranks, DiscIteratively) {
+/// Ranks meet in its ends, too.
+fem_tests::ShaftBody flat_disc() {
   meshes::Shaft shaft;
   shaft.segments = {{"disc", 0, 0.02, 0.1, 0, true}};
   meshes::ShaftMeshControl control;
   control.n_sectors = 8;
-  const auto disc = fem_tests::build(shaft, control);
+  return fem_tests::build(shaft, control);
+}
+
+// Four ranks have a quarter of it each, and nodes in the middle that all of them share.
+TEST_F(Ranks, DiscIteratively) {
+  const auto disc = flat_disc();
   const auto grid = fem::make_grid(disc.body);
   const auto rank = fem::deal_out_cells(grid, fem::even_weights(number()));
   std::vector<std::set<int>> at_node(grid.n_nodes);
@@ -302,7 +327,8 @@ TEST_F(Ranks, DiscIteratively) {
   std::size_t most = 0;
   for (const auto& ranks : at_node) most = std::max(most, ranks.size());
   EXPECT_EQ(int(most), number());
-  expect_same(disc.body, some_loads(disc), fem::Solver::iterative);
+  const auto responses = expect_same(disc.body, some_loads(disc), fem::Solver::iterative, disc.planes);
+  EXPECT_FALSE(responses.ring_shear_Pa.empty());
 }
 
 TEST_F(Ranks, CubicHexahedraIterativelyWithAggregates) {
@@ -340,12 +366,13 @@ TEST_F(Ranks, ClampedRod) {
   EXPECT_EQ(responses.support_reaction, 0);
 }
 
+// Turns red: nodes of the springs' surfaces that two ranks count.
 TEST_F(Ranks, Springs) {
   for (const auto solver : {fem::Solver::direct, fem::Solver::iterative}) {
-    auto rod = fem_tests::rod();
+    auto disc = flat_disc();
     for (const auto* end : {"end_1", "end_2"})
-      rod.body.elastic_supports.push_back({rod.ports.at(end), {1e8, 1e7, 1e9}});
-    expect_same(rod.body, some_loads(rod), solver);
+      disc.body.elastic_supports.push_back({disc.ports.at(end), {1e8, 1e7, 1e9}});
+    expect_same(disc.body, some_loads(disc), solver);
   }
 }
 
