@@ -2,10 +2,8 @@
 
 #include <iostream>
 
-#include "pipelines/channels/load_files.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/process_limits.h"
-#include "pipelines/files/replaceable.h"
 
 namespace pipelines {
 namespace {
@@ -28,23 +26,13 @@ std::vector<OutputFile> output_files(const std::string& option, const fs::path& 
   return files;
 }
 
-void require_writable(const std::vector<OutputFile>& outputs) {
-  for (const auto& output : outputs) require_replaceable(output.file, output.option);
+void require_different(const std::vector<OutputFile>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (resolved(outputs[i].file) == resolved(outputs[j].file))
         throw OptionError(outputs[i].option + ' ' + outputs[i].file.string() + ": is the file that " +
                           outputs[j].option +
                           " writes too, and one would replace the other; give them different names");
-}
-
-void require_own_loads(const OutputFile& output) {
-  std::error_code none;
-  const auto size = fs::file_size(output.file, none);
-  if (none || size == 0 || is_loads_file(output.file)) return;
-  throw OptionError(output.option + ' ' + output.file.string() +
-                    ": is there already, and holds no loads that this program has written; give " +
-                    output.option + " a new name, or move it away");
 }
 
 void say_if_nothing_draws(const std::vector<std::string>& charts, bool can_draw) {

@@ -26,14 +26,7 @@ void say_if_nothing_draws(const std::vector<std::string>& charts, bool can_draw)
 void print_files(std::ostream& out, const std::filesystem::path& directory,
                  const std::vector<std::string>& names);
 
-/// Call it after the scene was read: inputs are known then.
-/// @throws OptionError naming option, file and remedy if a file is there that must not be replaced
-///         (replaceable.h), or if two of them are one file
-void require_writable(const std::vector<OutputFile>& outputs);
-
-/// For outputs that are nothing but loads: what is there has to be loads as this program writes them, or
-/// empty.
-/// @throws OptionError naming option, file and remedy if it is another file
-void require_own_loads(const OutputFile& output);
+/// @throws OptionError naming option, file and remedy if two of them are one file
+void require_different(const std::vector<OutputFile>& outputs);
 
 }  // namespace pipelines

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/disk/open_directory.h"
 #include "pipelines/files/atomic_file.h"
 
 namespace pipelines {
@@ -88,7 +89,7 @@ void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& 
   }
   while (!parts.empty()) write_part();
   out.close();
-  if (!out) throw FileError(path.string() + ": cannot be written; check the directory and the free space");
+  if (!out) throw FileError(shown(path) + ": cannot be written; check the directory and the free space");
   file.commit();
 }
 

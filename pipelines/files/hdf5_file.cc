@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/disk/open_directory.h"
 
 namespace pipelines {
 namespace {
@@ -35,7 +36,8 @@ std::string last_cause() {
 
 [[noreturn]] void fail(const std::string& file, const std::string& object, const std::string& what) {
   const std::string cause = last_cause();
-  throw FileError(file + ": " + (object.empty() ? "" : object + ": ") + what + " (HDF5: " + cause + ")");
+  throw FileError(shown(file) + ": " + (object.empty() ? "" : object + ": ") + what + " (HDF5: " + cause +
+                  ")");
 }
 
 /// An HDF5 identifier and how to close it. Construction from a failed call throws. What was written through
@@ -183,7 +185,7 @@ void read_dataset(hid_t root, const std::string& file, const std::string& path, 
   const Handle dataset = open_dataset(root, file, path);
   const Handle type(H5Dget_type(dataset), H5Tclose, file, path, "has no type");
   if (H5Tget_class(type) != expected)
-    throw FileError(file + ": " + path + ": holds another type of data than expected");
+    throw FileError(shown(file) + ": " + path + ": holds another type of data than expected");
   if (count_of(shape_of(dataset, file, path)) > 0 &&
       H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, into) < 0)
     fail(file, path, "cannot read the dataset");

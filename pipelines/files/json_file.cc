@@ -1,9 +1,9 @@
 #include "pipelines/files/json_file.h"
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "pipelines/files/whole_file.h"
 
 namespace pipelines {
 namespace {
@@ -31,12 +31,9 @@ bool nests_too_deep(const std::string& text) {
 
 AnyJson read_json_file(const std::filesystem::path& file) {
   AnyJson none(AnyJson::value_t::discarded);
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return none;  // a stream on a directory throws
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || nests_too_deep(text)) return none;
-  return AnyJson::parse(text, nullptr, false);
+  const auto text = whole_file(file);
+  if (!text || nests_too_deep(*text)) return none;
+  return AnyJson::parse(*text, nullptr, false);
 }
 
 }  // namespace pipelines

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/disk/open_directory.h"
 #include "pipelines/files/content_hash.h"
 
 namespace pipelines {
@@ -107,7 +108,7 @@ std::string why_not_replaceable(const fs::path& file) {
 void require_replaceable(const fs::path& file, const std::string& option) {
   const auto why = why_not_replaceable(file);
   if (why.empty()) return;
-  throw OptionError((option.empty() ? "" : option + ' ') + file.string() + ": " + why +
+  throw OptionError((option.empty() ? "" : option + ' ') + shown(file) + ": " + why +
                     (option.empty() ? "; choose another output with -o, or move it away"
                                     : "; give " + option + " a new name, or move it away"));
 }

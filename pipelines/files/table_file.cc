@@ -1,13 +1,16 @@
 #include "pipelines/files/table_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <set>
 
 #include "meshes/values/utf8.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/replaceable.h"
+#include "pipelines/files/whole_file.h"
 
 namespace pipelines {
 namespace {
@@ -60,21 +63,82 @@ public:
       refuse(0, 0, "", "", "is no regular file, and a table is read more than once; write it into a file");
       throw SceneError(std::move(errors_));
     }
+    if (const auto size = size_of_file(table_.file); size > most_bytes_of_a_table) {
+      refuse(0, 0, "", "",
+             "has " + size_text(size) + ", and a table has " + size_text(most_bytes_of_a_table) +
+                 " at most; cut it to the turns that repeat, or write fewer samples");
+      throw SceneError(std::move(errors_));
+    }
     note_input(table_.file);
     std::ifstream in(table_.file, std::ios::binary);
     if (!std::filesystem::is_regular_file(status) || !in)
       refuse(0, 0, "", "", "cannot be read as a table; give the path of a CSV file, from the scene's folder");
     int number = 0;
-    for (std::string line; errors_.size() < most_errors && std::getline(in, line);) read_line(line, ++number);
+    for (std::string line; errors_.size() < most_errors && std::getline(in, line);) {
+      has_last_end_ = !in.eof();
+      read_line(line, ++number);
+    }
     if (errors_.empty() && table_.columns.empty())
       refuse(0, 0, "", "", "is empty; begin with a line of titles such as: time [s], pulley_seat.fx [N]");
     if (errors_.empty() && table_.lines.empty())
       refuse(0, 0, "", "", "has titles but no rows; add one row of numbers per sample");
     if (!errors_.empty()) throw SceneError(std::move(errors_));
+    table_.doubt = doubt();
     return std::move(table_);
   }
 
 private:
+  /// What speaks for a file that is cut off, at its last row.
+  std::string doubt() const {
+    std::string reasons;
+    const auto add = [&](const std::string& reason) {
+      reasons += (reasons.empty() ? "" : ", and ") + reason;
+    };
+    if (!has_last_end_) add("it has no end of line");
+    for (std::size_t c = 0; c < decimals_.size() && table_.n_rows() > 2; ++c)
+      if (const auto& of = decimals_[c]; of.are_alike && of.last < of.others)
+        add(table_.columns[c].name + " has " + std::to_string(of.last) + " digits behind the point, not " +
+            std::to_string(of.others) + " as in all rows before");
+    if (const auto step = odd_last_step(); !step.empty()) add(step);
+    if (reasons.empty()) return "";
+    return table_.file.string() + ":" + std::to_string(table_.lines.back()) + ": the last of " +
+           std::to_string(table_.n_rows()) + " rows may be cut off: " + reasons +
+           "; check that the file is whole";
+  }
+
+  /// Of a first column whose other steps are equal but for rounding.
+  std::string odd_last_step() const {
+    constexpr double rounding = 0.02, odd = 0.05;
+    const auto& at = table_.columns.front().values;
+    if (at.size() < 5) return "";
+    const double usual = (at[at.size() - 2] - at.front()) / double(at.size() - 2);
+    for (std::size_t i = 1; i + 1 < at.size(); ++i)
+      if (!(std::abs(at[i] - at[i - 1] - usual) <= rounding * std::abs(usual))) return "";
+    const double last = at.back() - at[at.size() - 2];
+    if (std::abs(last - usual) <= odd * std::abs(usual)) return "";
+    const auto rounded = [](double value) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.4g", value);
+      return std::string(text);
+    };
+    return table_.columns.front().name + " goes on by " + rounded(last) + ", and by " + rounded(usual) +
+           " in all rows before";
+  }
+
+  /// Digits behind the point, of the rows of a column.
+  struct Decimals {
+    int others = -1, last = -1;  ///< -1: no row yet
+    bool are_alike = true;       ///< those of the others
+
+    void take(const std::string& cell) {
+      const auto point = cell.find('.');
+      const auto end = std::min(cell.find_first_of("eE"), cell.size());
+      if (last >= 0) are_alike = are_alike && (others < 0 || others == last);
+      if (last >= 0) others = last;
+      last = point == std::string::npos ? 0 : int(end - point) - 1;
+    }
+  };
+
   void refuse(int line, int column, const std::string& key, const std::string& value,
               const std::string& remedy) {
     errors_.push_back({table_.file.string(), line, column, key, value, remedy});
@@ -127,6 +191,7 @@ private:
                     "has " + std::to_string(cells.size()) + " cells where the titles name " +
                         std::to_string(table_.columns.size()) + " columns; give one number per column");
     table_.lines.push_back(number);
+    decimals_.resize(cells.size());
     for (std::size_t c = 0; c < cells.size() && errors_.size() < most_errors; ++c) {
       double value = 0;
       const std::string& text = cells[c].text;
@@ -137,10 +202,13 @@ private:
         refuse(number, cells[c].column, table_.columns[c].name, text,
                "is not a finite number with a decimal point; correct the cell");
       table_.columns[c].values.push_back(value);
+      decimals_[c].take(text);
     }
   }
 
   TableFile table_;
+  std::vector<Decimals> decimals_;  ///< of each column
+  bool has_last_end_ = true;        ///< the last line ends with a line feed
   std::vector<SceneFinding> errors_;
   char separator_ = ',';
 };

@@ -22,11 +22,15 @@ struct TableFile {
   int title_line = 1;
   std::vector<TableColumn> columns;
   std::vector<int> lines;  ///< of each row, for messages
+  std::size_t n_rows() const { return lines.size(); }
+  /// A sentence about a file that may be cut off: its last line has no end, or fewer digits than all others
+  /// have alike, or its first column makes another step there after even ones. Empty: nothing speaks for it.
+  std::string doubt;
 };
 
 /// @throws SceneError with every wrong cell, up to ten, as file:line:column, column's name, cell, remedy: a
-///         file that cannot be read, no title line, no rows, a row of another length, a cell that is no
-///         finite number, a column without a name or with that of another
+///         file that cannot be read or has more than 500 MB, no title line, no rows, a row of another length,
+///         a cell that is no finite number, a column without a name or with that of another
 TableFile read_table_file(const std::filesystem::path& file);
 
 }  // namespace pipelines

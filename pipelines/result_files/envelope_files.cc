@@ -152,6 +152,8 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
                     names_of_components);
   fields.add_result("effect share", {envelope.effect_share.begin(), envelope.effect_share.end()},
                     int(effects.size()), effects);
+  if (auto beyond_m = beyond_left_out_m(nodes, analysis.places, analysis.mesh.sharp_edges); !beyond_m.empty())
+    fields.add(beyond_field, std::move(beyond_m));
   if (analysis.fatigue) add_fatigue(fields, analysis);
   if (!analysis.hot_spots.empty()) fields.add(hot_spot_field, hot_spot_values(analysis));
   const std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},
@@ -189,28 +191,6 @@ void write_snapshot(const path& file, const SurfaceSnapshots& files, const BodyA
   files.write(file, fields.fields());
 }
 
-/// What an earlier run on another number of ranks has left.
-void remove_other_envelopes(const path& directory, int n_pieces) {
-  if (n_pieces > 1)
-    std::filesystem::remove(directory / "envelope.vtu");
-  else
-    std::filesystem::remove(directory / "envelope.pvtu");
-  for (int piece = n_pieces > 1 ? n_pieces : 0;; ++piece)
-    if (!std::filesystem::remove(directory / ("envelope_" + std::to_string(piece) + ".vtu"))) return;
-}
-
-/// What an earlier run with other snapshots has left, so that the folder shows one run.
-void remove_other_snapshots(const path& directory, const std::vector<PvdEntry>& kept) {
-  std::vector<path> strangers;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    const auto name = entry.path().filename();
-    const bool snapshot = name.string().rfind("cycle_", 0) == 0 && name.extension() == ".vtu";
-    const bool listed = std::any_of(kept.begin(), kept.end(), [&](const auto& k) { return k.file == name; });
-    if ((snapshot && !listed) || (kept.empty() && name == "cycle.pvd")) strangers.push_back(entry.path());
-  }
-  for (const auto& stranger : strangers) std::filesystem::remove(stranger);
-}
-
 }  // namespace
 
 std::string unconverged(const std::string& field) {
@@ -225,7 +205,6 @@ void write_envelope_files(const path& directory, const Scene& scene, const kinet
                           const BodyAnalysis& analysis, int n_pieces) {
   write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
                  n_pieces);
-  remove_other_envelopes(directory, n_pieces);
 }
 
 void write_whole_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
@@ -252,9 +231,7 @@ void write_cycle_files(const path& directory, const Scene& scene, const kinetics
       write_snapshot(directory / entries[s].file, files, analysis, instants[s]);
     });
   }
-  if (!is_first_rank()) return;
-  if (!entries.empty()) write_pvd(directory / "cycle.pvd", entries);
-  remove_other_snapshots(directory, entries);
+  if (is_first_rank() && !entries.empty()) write_pvd(directory / "cycle.pvd", entries);
 }
 
 }  // namespace pipelines

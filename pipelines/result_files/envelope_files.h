@@ -23,6 +23,9 @@ inline constexpr const char* hot_spot_field = "hot-spot stress at weld toes [Pa]
 
 /// 1 within the exclusion distances.
 inline constexpr const char* excluded_field = "excluded";
+/// Distance from the border of what is left out, negative within, beside that border; only in files that leave
+/// something out.
+inline constexpr const char* beyond_field = "distance beyond what is left out [m]";
 
 /// 1 on the surface of the body.
 inline constexpr const char* surface_field = "on the surface";

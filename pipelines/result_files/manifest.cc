@@ -1,16 +1,15 @@
 #include "pipelines/result_files/manifest.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "pipelines/common/errors.h"
 #include "pipelines/common/version.h"
-#include "pipelines/files/atomic_file.h"
 #include "pipelines/files/content_hash.h"
 #include "pipelines/files/json_file.h"
+#include "pipelines/files/whole_file.h"
 #include "pipelines/names/nearest_name.h"
+#include "pipelines/result_files/result_names.h"
 
 namespace pipelines {
 namespace {
@@ -18,10 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using ManifestJson = nlohmann::ordered_json;
 
-struct ListedFile {
-  std::string name, checksum;
-  std::uintmax_t bytes = 0;
-};
+const std::string program_name = "millstress";
 
 std::string text_of_manifest(const ManifestJson& json) {
   return json.dump(2, ' ', false, ManifestJson::error_handler_t::replace) + "\n";
@@ -31,89 +27,91 @@ std::string list_checksum(const ManifestJson& files) {
   return text_hash(files.dump(-1, ' ', false, ManifestJson::error_handler_t::replace));
 }
 
-/// A damaged or malicious list must not lead out of the directory.
-bool stays_inside(const fs::path& name) {
-  return !name.empty() && name.is_relative() &&
-         std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
+/// A damaged or malicious list must not lead out of the directory, nor to what this program never writes.
+bool stays_inside(const std::string& name) {
+  const fs::path path(name);
+  return !name.empty() && name.find('\0') == std::string::npos && path.is_relative() &&
+         std::none_of(path.begin(), path.end(),
+                      [](const fs::path& part) { return part.empty() || part.string()[0] == '.'; });
 }
 
-/// @return false if the manifest cannot be believed
-bool read_list(const fs::path& file, std::vector<ListedFile>& list) {
+bool is_program(const ManifestJson& json) {
+  return json.contains("program") && json.at("program").is_object() &&
+         json.at("program").value("name", ManifestJson()) == program_name;
+}
+
+}  // namespace
+
+std::optional<FileList> read_manifest(const OpenDirectory& directory) {
+  const auto status = directory.look(manifest_name);
+  if (!status || !S_ISREG(status->st_mode)) return std::nullopt;
+  const auto file = directory.path() / manifest_name;
   const ManifestJson json = read_json_file(file);
-  if (!json.is_object() || !json.contains("files") || !json.contains("checksum")) return false;
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (text != text_of_manifest(json)) return false;  // spaces that are none any more mean nothing to JSON
+  if (!json.is_object() || !is_program(json) || !json.contains("files") || !json.contains("checksum"))
+    return std::nullopt;
+  if (whole_file(file) != text_of_manifest(json))
+    return std::nullopt;  // spaces that are none any more mean nothing to JSON
   const auto& files = json.at("files");
-  if (!files.is_object() || json.at("checksum") != list_checksum(files)) return false;
+  if (!files.is_object() || json.at("checksum") != list_checksum(files)) return std::nullopt;
+  FileList list;
   for (const auto& [name, entry] : files.items()) {
     if (!stays_inside(name) || !entry.is_object() || !entry.contains("bytes") ||
         !entry.at("bytes").is_number_unsigned() || !entry.contains("xxh3_128") ||
         !entry.at("xxh3_128").is_string())
-      return false;
-    list.push_back({name, entry.at("xxh3_128").get<std::string>(), entry.at("bytes").get<std::uintmax_t>()});
+      return std::nullopt;
+    list[name] = {entry.at("bytes").get<std::uintmax_t>(), entry.at("xxh3_128").get<std::string>()};
   }
-  return true;
+  return list;
 }
 
-bool is_as_listed(const fs::path& file, const ListedFile& listed) {
-  std::error_code none;
-  if (fs::symlink_status(file, none).type() != fs::file_type::regular ||
-      fs::file_size(file, none) != listed.bytes)
-    return false;
+std::string manifest_text(const FileList& list) {
+  ManifestJson files = ManifestJson::object();
+  for (const auto& [name, file] : list) files[name] = {{"bytes", file.bytes}, {"xxh3_128", file.checksum}};
+  const ManifestJson json{{"program", {{"name", program_name}, {"version", version}}},
+                          {"files", files},
+                          {"checksum", list_checksum(files)}};
+  return text_of_manifest(json);
+}
+
+bool is_as_listed(const OpenDirectory& directory, const std::string& name, const ListedFile& listed) {
+  const auto status = directory.look(name);
+  if (!status || !S_ISREG(status->st_mode) || std::uintmax_t(status->st_size) != listed.bytes) return false;
   try {
-    return content_hash(file) == listed.checksum;
+    return listed_now(directory, name).checksum == listed.checksum;
   } catch (const FileError&) {
     return false;
   }
 }
 
-}  // namespace
-
-void write_manifest(const fs::path& directory) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
-    const auto name = fs::relative(entry.path(), directory).generic_string();
-    if (entry.is_regular_file() && name != manifest_name && name != "report.html") names.push_back(name);
-  }
-  std::sort(names.begin(), names.end());
-  ManifestJson files = ManifestJson::object();
-  for (const auto& name : names)
-    files[name] = {{"bytes", fs::file_size(directory / name)}, {"xxh3_128", content_hash(directory / name)}};
-  const ManifestJson json{{"program", {{"name", "millstress"}, {"version", version}}},
-                          {"files", files},
-                          {"checksum", list_checksum(files)}};
-  write_text_file(directory / manifest_name, text_of_manifest(json));
+ListedFile listed_now(const OpenDirectory& directory, const std::string& name) {
+  const fs::path file(name);
+  const auto folder = directory.folder(file.parent_path());
+  const auto status = directory.look(name);
+  if (!folder || !status) throw FileError((directory.name() / name).string() + ": is gone");
+  return {std::uintmax_t(status->st_size), content_hash(folder->path() / file.filename())};
 }
 
-ManifestCheck check_manifest(const fs::path& directory) {
+ManifestCheck check_manifest(const fs::path& name) {
   ManifestCheck check;
-  std::error_code none;
-  check.is_there = fs::exists(fs::symlink_status(directory / manifest_name, none));
+  const auto directory = OpenDirectory::existing(name);
+  check.is_there = directory && directory->look(manifest_name);
   if (!check.is_there) return check;
-  std::vector<ListedFile> list;
-  check.damaged = !read_list(directory / manifest_name, list);
+  const auto list = read_manifest(*directory);
+  check.damaged = !list;
   if (check.damaged) return check;
-  for (const auto& listed : list) {
-    check.files.push_back(listed.name);
-    if (!fs::exists(fs::symlink_status(directory / listed.name, none)))
-      check.missing.push_back(listed.name);
-    else if (!is_as_listed(directory / listed.name, listed))
-      check.changed.push_back(listed.name);
+  for (const auto& [file, listed] : *list) {
+    if (!is_run_result(file)) continue;
+    check.files.push_back(file);
+    if (!directory->look(file))
+      check.missing.push_back(file);
+    else if (!is_as_listed(*directory, file, listed))
+      check.changed.push_back(file);
   }
   return check;
 }
 
-std::vector<std::string> files_of_manifest(const fs::path& directory) {
-  std::vector<ListedFile> list;
-  std::vector<std::string> names;
-  if (read_list(directory / manifest_name, list))
-    for (auto& listed : list) names.push_back(std::move(listed.name));
-  return names;
-}
-
 std::string ManifestCheck::text(const fs::path& directory) const {
-  if (damaged) return (directory / manifest_name).string() + ": is damaged";
+  if (damaged) return (directory / manifest_name).string() + ": is damaged, or not of this program";
   return directory.string() + ": " + listed(changed) + (changed.size() == 1 ? " is" : " are") +
          " not as the run wrote it that left manifest.json";
 }

@@ -1,25 +1,48 @@
-/// manifest.json of a result directory: the files that one run has written, with sizes and checksums. It
-/// tells whether what lies there together belongs together.
+/// manifest.json of a result directory: the files that commands of this program have written there, with
+/// sizes and checksums. A file that it lists as it is, is this program's and may be replaced or removed; and
+/// what a run has written shows as one whole.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "pipelines/disk/open_directory.h"
 
 namespace pipelines {
 
 inline constexpr const char* manifest_name = "manifest.json";
 
-/// Lists every file below `directory` but the manifest itself and report.html, which is made from the others
-/// and may be made again.
-/// @throws FileError if it cannot be written
-void write_manifest(const std::filesystem::path& directory);
+struct ListedFile {
+  std::uintmax_t bytes = 0;
+  std::string checksum;  ///< content_hash
+};
 
-/// What a manifest and the files beside it say about each other. Names are relative to the directory.
+/// By names relative to the directory.
+using FileList = std::map<std::string, ListedFile>;
+
+/// @return empty without a manifest, or with one that is damaged, not of this program, or that has names
+/// which
+///         lead out of the directory or are hidden
+std::optional<FileList> read_manifest(const OpenDirectory& directory);
+
+/// The whole text of a manifest.
+std::string manifest_text(const FileList& files);
+
+/// Whether a file, behind no link, has the size and the content that are listed. Reads all of it.
+bool is_as_listed(const OpenDirectory& directory, const std::string& name, const ListedFile& listed);
+
+/// A file as it is now.
+ListedFile listed_now(const OpenDirectory& directory, const std::string& name);
+
+/// What a manifest and the files of a run beside it say about each other. Names are relative to the
+/// directory.
 struct ManifestCheck {
   bool is_there = false;             ///< a manifest
   bool damaged = false;              ///< it cannot be read, or its own checksum does not fit
-  std::vector<std::string> files;    ///< that it lists
+  std::vector<std::string> files;    ///< of a run that it lists, but for report.html, which `report` replaces
   std::vector<std::string> changed;  ///< of another size or content, or no regular files any more
   std::vector<std::string> missing;
 
@@ -29,10 +52,7 @@ struct ManifestCheck {
   std::string text(const std::filesystem::path& directory) const;
 };
 
-/// Reads all files that are listed.
+/// Reads all files of a run that are listed.
 ManifestCheck check_manifest(const std::filesystem::path& directory);
-
-/// The list alone; empty without a manifest that can be believed.
-std::vector<std::string> files_of_manifest(const std::filesystem::path& directory);
 
 }  // namespace pipelines

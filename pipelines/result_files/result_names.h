@@ -1,26 +1,37 @@
-/// The names that a run gives to files, and what may be replaced or removed by them.
+/// The names that commands give to files below a directory.
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace pipelines {
 
-/// Whether a file in a body's folder has a name that the program gives.
-bool is_body_file(const std::string& name);
+/// All names that a command may give, those of an earlier call of it with other options too: a file that has
+/// one is either this program's or stops the command.
+struct OutputNames {
+  std::function<bool(const std::string&)> has;  ///< of a file, relative to the directory: "shaft/zones.csv"
+  std::function<bool(const std::string&)> enters;  ///< of a folder: whether files may be in it
+};
 
-/// Of those: kept for the next run, and no result of this one.
+/// Exactly these.
+OutputNames names_of(std::vector<std::string> names);
+
+/// These in the directory itself.
+/// @param form  a regular expression for the whole name
+OutputNames names_like(const std::string& form);
+
+/// Those of a run, kept files too.
+/// @param bodies  the folders that it will write; it removes results from those of other bodies
+OutputNames run_names(std::vector<std::string> bodies);
+
+/// Whether a run gives a name to a result, but for report.html, which `report` replaces alone.
+bool is_run_result(const std::string& name);
+
+/// Whether a file is kept for the next run by that name, and is no result of this one.
 bool is_kept_file(const std::string& name);
 
-/// Refuses a result directory in which a run would replace what is not its own: a link, a pipe, a device, an
-/// input of this run; or, where no earlier run has left its manifest or summary, any file with a result's
-/// name. Touches nothing.
-/// @param bodies  names of the folders that the run will write
-/// @throws OptionError naming -o, the file and the remedy
-void refuse_foreign_files(const std::filesystem::path& directory, const std::vector<std::string>& bodies);
-
-/// The bodies that the run had which wrote a summary.json; none if this program did not write it.
-std::vector<std::string> bodies_of_summary(const std::filesystem::path& file);
+/// The names of all kept files in a folder.
+const std::vector<std::string>& kept_file_names();
 
 }  // namespace pipelines

@@ -24,7 +24,6 @@ void write_mesh(const std::filesystem::path& file, const meshes::BodyMesh& mesh)
 /// In `directory`: mesh.msh of a solid; envelope.vtu, cycle.pvd with cycle_*.vtu, zones.csv, zone_tree.csv;
 /// hot_spots.csv for a body with weld toes; diagrams.csv, torsion.csv, torsion_cycle.csv for a parametric
 /// shaft or drum; element_torques.csv, start_up.csv for a shaft of a drive train (shaft_torsion_report.h).
-/// Snapshots of an earlier run that this one does not write are removed, so that the folder shows one run.
 /// @param n_pieces  of the envelope, one for each MPI rank: with several of them envelope.pvtu and
 /// envelope_<rank>.vtu stand for envelope.vtu
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,

@@ -1,20 +1,19 @@
 #include "pipelines/result_files/run_record.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "pipelines/disk/staging.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/content_hash.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/json_file.h"
 #include "pipelines/files/kept_file.h"
+#include "pipelines/files/whole_file.h"
 #include "pipelines/names/name_lists.h"
 #include "pipelines/report/html_report.h"
 #include "pipelines/responses/response_key.h"
-#include "pipelines/result_files/directory_lock.h"
 #include "pipelines/result_files/manifest.h"
 #include "pipelines/result_files/result_names.h"
 #include "pipelines/result_files/staged_results.h"
@@ -39,8 +38,7 @@ private:
 };
 
 std::string text_of_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return whole_file(file).value_or("");
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -120,18 +118,21 @@ std::optional<EarlierRun> earlier_run(const fs::path& directory, const std::vect
                                       const std::string& key) {
   if (key.empty()) return std::nullopt;
   finish_exchange(directory);
-  const DirectoryLock lock(directory);
+  const auto opened = OpenDirectory::existing(directory);
+  if (!opened) return std::nullopt;
+  remove_abandoned(*opened);
+  for (const auto& body : bodies)
+    if (const auto folder = opened->folder(body)) remove_abandoned(*folder);
+  const DirectoryLock lock(*opened);
   EarlierRun earlier{read_run_record(directory / run_record_name), ""};
   if (earlier.record.key != key) return std::nullopt;
   const auto check = check_manifest(directory);
   if (!check.is_there || check.is_mixed() || !check.missing.empty() ||
       !contains(check.files, run_record_name) || !contains(check.files, "summary.json"))
     return std::nullopt;
-  refuse_foreign_files(directory, bodies);
+  require_own_outputs(*opened, run_names(bodies));
   if (!is_rest_whole(directory, bodies, earlier.record)) return std::nullopt;
   earlier.summary = text_of_file(directory / "summary.json");
-  remove_partial_names(directory);
-  for (const auto& body : bodies) remove_partial_names(directory / body);
   return earlier;
 }
 

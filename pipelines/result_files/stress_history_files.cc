@@ -78,7 +78,6 @@ std::vector<std::string> stress_history_files(const StressHistories& histories) 
 }
 
 void write_stress_histories(const std::filesystem::path& directory, const StressHistories& histories) {
-  std::filesystem::create_directories(directory);
   const auto names = file_names(histories);
   AtomicFile file(directory / "histories.h5");
   {

@@ -1,5 +1,8 @@
 #include "pipelines/sweep/sweep_journal.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -11,8 +14,10 @@
 #include <string_view>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/disk/open_directory.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/content_hash.h"
+#include "pipelines/files/whole_file.h"
 
 namespace pipelines {
 namespace {
@@ -87,6 +92,15 @@ std::string_view checked(std::string_view line) {
   return line.substr(0, digits_of_hash) == text_hash(text) ? text : std::string_view();
 }
 
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const auto n = ::write(file, text.data(), text.size());
+    if (n <= 0) return false;
+    text.remove_prefix(std::size_t(n));
+  }
+  return true;
+}
+
 /// A line "N VALUES [SETTINGS, TEXTS]", or "N VALUES [SETTINGS, TEXTS, ZONES]".
 struct RowLine {
   std::size_t columns = 0;
@@ -130,26 +144,15 @@ bool SweepJournal::Columns::are_of(const SweepRow& row) const {
 SweepJournal::SweepJournal(std::filesystem::path file, std::string key)
     : file_(std::move(file)), key_(text_hash(key)) {}
 
-void SweepJournal::require_own() const {
-  std::error_code none;
-  const auto refuse = [](const std::filesystem::path& file) {
-    throw OptionError("-o: " + file.string() +
-                      " is there, but no sweep has written it; name another directory");
-  };
-  if (!std::filesystem::exists(file_, none)) {
-    for (const char* name : {"sweep.csv", "sweep.h5"})
-      if (const auto file = file_.parent_path() / name; std::filesystem::exists(file, none)) refuse(file);
-    return;
-  }
-  std::ifstream in(file_, std::ios::binary);
-  std::string line;
-  if (!std::getline(in, line) || checked(line).size() != digits_of_hash) refuse(file_);
+bool SweepJournal::is_journal(const std::filesystem::path& file) {
+  return checked(first_line(file)).size() == digits_of_hash;
 }
 
 std::vector<std::optional<SweepRow>> SweepJournal::known(const SweepPlan& plan) const {
   std::ifstream in(file_, std::ios::binary);
   std::string line;
-  if (!in || !std::getline(in, line) || checked(line) != key_)
+  if (checked(first_line(file_)) != key_ || size_of_file(file_) > most_bytes_of_a_result ||
+      !std::getline(in, line))
     return std::vector<std::optional<SweepRow>>(plan.points.size());
   return read_rows(in, plan);
 }
@@ -219,7 +222,7 @@ void SweepJournal::begin(const SweepPlan& plan, const std::vector<std::optional<
   pending_ = line_of(key_);
   for (std::size_t p = 0; p < known.size(); ++p)
     if (known[p]) append(plan.points[p], *known[p]);
-  write_text_file(file_, pending_);
+  write_text_file(file_, pending_, is_journal);
   pending_.clear();
 }
 
@@ -258,11 +261,10 @@ void SweepJournal::append(const SweepPoint& point, const SweepRow& row) {
 }
 
 void SweepJournal::flush() {
-  std::ofstream out(file_, std::ios::binary | std::ios::app);
-  out << pending_;
-  out.flush();
-  if (!out) throw FileError(file_.string() + " cannot be written; is the disk full?");
-  out.close();
+  const int file = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+  const bool is_written = file >= 0 && write_all(file, pending_);
+  if (file < 0 || ::close(file) != 0 || !is_written)
+    throw FileError(shown(file_) + ": cannot be written; check the directory and the free space");
   bring_to_disk(file_);
   pending_.clear();
 }

@@ -29,8 +29,8 @@ public:
   /// @param key  of all that the rows depend on beside their settings
   SweepJournal(std::filesystem::path file, std::string key);
 
-  /// @throws OptionError if a file of that name is there that no sweep has written
-  void require_own() const;
+  /// Whether a sweep has written a file.
+  static bool is_journal(const std::filesystem::path& file);
 
   /// Rows of an earlier sweep with the same key, by point; none if there is no such journal, or one of
   /// another form.

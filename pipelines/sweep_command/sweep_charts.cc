@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iostream>
 #include <map>
-#include <regex>
 
 #include "pipelines/common/process_limits.h"
 #include "pipelines/drawing/chart.h"
@@ -75,21 +74,6 @@ HeatMap heat_map(const std::string& title, const SweepPlan& plan, const std::vec
 }
 
 }  // namespace
-
-std::vector<std::string> charts_in(const std::filesystem::path& directory) {
-  static const std::regex of_sweep(R"((chart|map)(_[0-9]+)?\.(png|svg))");
-  std::vector<std::string> names;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, none))
-    if (const auto name = entry.path().filename().string(); std::regex_match(name, of_sweep))
-      names.push_back(name);
-  return names;
-}
-
-void remove_other_charts(const std::filesystem::path& directory, const std::vector<std::string>& drawn) {
-  for (const auto& name : charts_in(directory))
-    if (std::find(drawn.begin(), drawn.end(), name) == drawn.end()) std::filesystem::remove(directory / name);
-}
 
 std::vector<std::string> draw_charts(const std::filesystem::path& directory, const std::string& title,
                                      const SweepPlan& plan, const std::vector<SweepRow>& rows,

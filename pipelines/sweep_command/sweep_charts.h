@@ -10,12 +10,6 @@
 
 namespace pipelines {
 
-/// Files of this or an earlier sweep's charts and maps in a directory.
-std::vector<std::string> charts_in(const std::filesystem::path& directory);
-
-/// Those of an earlier sweep that this one has not drawn are of other points: they go.
-void remove_other_charts(const std::filesystem::path& directory, const std::vector<std::string>& drawn);
-
 /// A chart for each key and unit; of a grid of two keys a map of each of the first two figures.
 /// @return the files that were written
 std::vector<std::string> draw_charts(const std::filesystem::path& directory, const std::string& title,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,12 +13,13 @@
 #include "fem/ranks/ranks.h"
 #include "pipelines/body_stages/respond.h"
 #include "pipelines/command_options/option_value.h"
-#include "pipelines/command_options/output_files.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/several_ranks.h"
+#include "pipelines/files/atomic_file.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/responses/response_key.h"
+#include "pipelines/result_files/staged_results.h"
 #include "pipelines/scene_reader/key_settings.h"
 #include "pipelines/scene_reader/scene_tree.h"
 #include "pipelines/sweep/points_on_ranks.h"
@@ -134,6 +136,15 @@ TomlNode tree_without_duty(const SweepCommandOptions& options) {
   return without_duty(std::move(tree));
 }
 
+/// All files of a sweep but its journal, which knows itself; kept files of its bodies too.
+OutputNames sweep_names() {
+  auto names = names_like(R"(sweep\.(csv|h5)|zones\.csv|(chart|map)(_[0-9]+)?\.(png|svg))");
+  return {[results = names.has](const std::string& name) { return results(name) || is_kept_file(name); },
+          [folders = std::regex("bodies(/[0-9]+(/[^/]+)?)?")](const std::string& folder) {
+            return std::regex_match(folder, folders);
+          }};
+}
+
 /// What a sweep is about, the same on all ranks.
 struct Sweep {
   TomlNode tree;
@@ -166,9 +177,11 @@ struct Sweep {
     for (const auto& variation : plan.variations) require_swept(variation.key, request.zones, loads_only);
   }
 
-  SweepOptions options(const SweepCommandOptions& asked, int n_threads, int rank) const {
-    return {asked.scene, tree,       settings,    directory,     rank,
-            n_threads,   loads_only, asked.fresh, request.zones, accuracy};
+  /// @param at  the directory, as this rank writes to it
+  SweepOptions options(const SweepCommandOptions& asked, const std::filesystem::path& at, int n_threads,
+                       int rank) const {
+    return {asked.scene, tree,        settings,      at,      rank, n_threads,
+            loads_only,  asked.fresh, request.zones, accuracy};
   }
 };
 
@@ -204,8 +217,8 @@ struct KnownRows {
   std::vector<std::optional<SweepRow>> rows;
 
   /// Once every point was read.
-  KnownRows(const SweepCommandOptions& options, const Sweep& sweep)
-      : journal(sweep.directory / "journal",
+  KnownRows(const SweepCommandOptions& options, const Sweep& sweep, const std::filesystem::path& directory)
+      : journal(directory / "journal",
                 journal_key(options, sweep.accuracy, sweep.request.zones, options.n_threads)),
         rows(options.fresh ? std::vector<std::optional<SweepRow>>(sweep.plan.points.size())
                            : journal.known(sweep.plan)) {}
@@ -216,33 +229,32 @@ void sweep_beside_first_rank(const SweepCommandOptions& options) {
   work_on_bodies_alone();
   const Sweep sweep(options);
   const int n_threads = own_threads(options), rank = fem::this_rank(MPI_COMM_WORLD);
-  SweepRun run(sweep.options(options, n_threads, rank), sweep.plan.points);
+  SweepRun run(sweep.options(options, sweep.directory, n_threads, rank), sweep.plan.points);
   run.keep_points(points_of_ranks(run)[std::size_t(rank)]);
   const fem::Environment environment(n_threads);
   fem::wait_for_all(MPI_COMM_WORLD);  // until the first one has begun the journal
   RowsToFirstRank to_first(sweep.plan);
   StageClock silent;
-  run.run(silent, KnownRows(options, sweep).rows,
+  run.run(silent, KnownRows(options, sweep, sweep.directory).rows,
           [&](const auto& points, const auto& rows) { to_first.send(points, rows); });
   to_first.end(run.n_improved_meshes());
 }
 
 /// The rows of all points, in the journal too; on rank 0.
+/// @param directory  the sweep's, as it was opened
 /// @param environment  begun where there are bodies
-std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep& sweep, StageClock& clock,
+std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep& sweep,
+                                 const std::filesystem::path& directory, StageClock& clock,
                                  std::optional<fem::Environment>& environment) {
   const auto& plan = sweep.plan;
   const int n_threads = own_threads(options), n_ranks = fem::n_ranks(MPI_COMM_WORLD);
   if (n_ranks > 1) work_on_bodies_alone();
-  SweepRun run(sweep.options(options, n_threads, 0), plan.points);
-  auto outputs = charts_in(sweep.directory);
-  for (const char* name : {"sweep.csv", "sweep.h5", "zones.csv", "journal"}) outputs.emplace_back(name);
-  require_writable(output_files("-o", sweep.directory, outputs));
+  SweepRun run(sweep.options(options, directory, n_threads, 0), plan.points);
+  require_own(directory / "journal", SweepJournal::is_journal, "-o");
   if (!sweep.first.bodies.empty()) environment.emplace(n_threads);
 
-  KnownRows known(options, sweep);
+  KnownRows known(options, sweep, directory);
   auto& journal = known.journal;
-  journal.require_own();
   const auto n_known = std::size_t(
       std::count_if(known.rows.begin(), known.rows.end(), [](const auto& row) { return row.has_value(); }));
   if (!options.quiet) tell_forecast(run.forecast(), n_known, sweep.accuracy);
@@ -282,21 +294,26 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   // It outlives the charts: its end unloads Open MPI's libraries, and nothing is drawn in a process that
   // these have left.
   std::optional<fem::Environment> environment;
-  auto rows = run_points(options, sweep, clock, environment);
+  StagedResults staged(directory, sweep_names());
+  auto rows = run_points(options, sweep, staged.directory(), clock, environment);
   const auto numbers = follow_zones(plan, rows);
   add_zone_figures(rows, numbers);
   clock.run("write", [&] {
-    if (request.zones)
-      write_sweep_zones(directory / "zones.csv", plan, rows, numbers);
-    else
-      std::filesystem::remove(directory / "zones.csv");  // of a sweep before
-    write_sweep_csv(directory / "sweep.csv", plan, rows, threads(options.n_threads));
-    write_sweep_h5(directory / "sweep.h5", plan, rows, first.title);
+    if (request.zones) write_sweep_zones(staged.folder() / "zones.csv", plan, rows, numbers);
+    write_sweep_csv(staged.folder() / "sweep.csv", plan, rows, threads(options.n_threads));
+    write_sweep_h5(staged.folder() / "sweep.h5", plan, rows, first.title);
   });
-  const auto figures = shown_figures(options.figures, rows);
-  const auto charts = clock.run(
-      "charts", [&] { return draw_charts(directory, first.title, plan, rows, figures, request.design); });
-  remove_other_charts(directory, charts);
+  std::vector<std::string> figures;
+  try {
+    figures = shown_figures(options.figures, rows);
+  } catch (const OptionError&) {  // whose remedy is sweep.csv
+    staged.publish();
+    throw;
+  }
+  const auto charts = clock.run("charts", [&] {
+    return draw_charts(staged.folder(), first.title, plan, rows, figures, request.design);
+  });
+  staged.publish();
   for (const auto& key : keys_without_effect(plan, rows))
     std::cerr << "millstress: no figure of this sweep changes with " << key
               << (loads_only && !first.bodies.empty() ? "; stresses may, which --loads leaves out\n" : "\n");

@@ -1,6 +1,7 @@
 // The disk fails, or the process is killed, at any point of a run. SQLite's tests are the model: not only at
 // random moments, but at each operation on the disk that the run takes. MILLSTRESS_FAULTS says how many of
 // them are tried per kind of failure; 0 takes all.
+#include <csignal>
 #include <cstdio>
 
 #include "tests/faults/disturbed_runs.h"
@@ -49,6 +50,34 @@ protected:
     return points;
   }
 
+  /// A signal that asks the program to end, before an operation: it ends by that signal with one line, and
+  /// what is visible is the earlier run's or the next one's at once, without the help of a command.
+  void try_signal(const std::string& kind, const std::string& name, long by_default) {
+    const auto points = points_of("kill");
+    const long n_points = long(points.size()), n = asked_for(by_default, n_points);
+    long n_next = 0;
+    for (long i = 0; i < n && !HasFailure(); ++i) {
+      const long at = points.at(std::size_t(n == n_points ? i : (n_points - 1) * (i + 1) / n));
+      const std::string what = kind + " at " + std::to_string(at);
+      restore();
+      const auto outcome = run_next(failing(kind, at));
+      EXPECT_TRUE(outcome.exit_code > 128 || outcome.exit_code == -1) << what << ": " << outcome.exit_code;
+      const auto told = "millstress: ended by " + name +
+                        "; results are those of before, or all new if they were complete\n";
+      EXPECT_EQ(outcome.err.rfind(told, 0), 0u) << what << ": " << outcome.err;
+      // The shell may add a line of its own, such as "Terminated".
+      EXPECT_EQ(outcome.err.find("millstress", 1), std::string::npos) << what << ": " << outcome.err;
+      faults::Files visible;
+      for (auto& [file, bytes] : faults::results_in(directory_ / "out"))
+        if (file[0] != '.' && file.find("/.") == std::string::npos) visible.emplace(file, std::move(bytes));
+      EXPECT_TRUE(visible == earlier_ || visible == next_) << what << ": results of two runs are mixed";
+      n_next += visible == next_;
+      expect_nothing_lost(what);
+    }
+    std::printf("%s: %ld of %ld operations tried; the next results were there %ld times\n", name.c_str(), n,
+                n_points, n_next);
+  }
+
   void try_one(const std::string& kind, long at, Tally& tally) {
     const std::string what = kind + " at " + std::to_string(at);
     restore();
@@ -86,6 +115,17 @@ protected:
 TEST_F(Disk, AKillBeforeAnyOperationOfABeamLosesNothing) {
   prepare("beam");
   try_points("kill", 4);
+}
+
+// While PETSc handled them, five of seven such signals ended as a segmentation fault.
+TEST_F(Disk, ASignalWhileWritingEndsTheRunInOrder) {
+  prepare("beam");
+  // A test in the background inherits that they are ignored, and so would the program.
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGHUP, SIG_DFL);
+  try_signal("term", "SIGTERM", 4);
+  try_signal("int", "SIGINT", 2);
+  try_signal("hup", "SIGHUP", 2);
 }
 
 TEST_F(Disk, AWriteTornByAKillLosesNothing) {

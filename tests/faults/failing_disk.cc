@@ -10,6 +10,7 @@
 ///   - from: that operation and all after it fail, as on a disk that stays full.
 ///   - short: a write is cut in half there, and everything after it fails.
 ///   - kill: SIGKILL before that operation.
+///   - term, int, hup: SIGTERM, SIGINT, SIGHUP before it.
 ///   - torn: SIGKILL after half of the write that it is.
 ///   - bytes: writes fail as soon as FAULTS_AT bytes have been written in all.
 ///   - read_only: every operation fails with EROFS.
@@ -25,6 +26,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <climits>
@@ -42,7 +44,7 @@ Function* next(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-enum class Kind { count, once, from, cut, kill, torn, bytes, read_only };
+enum class Kind { count, once, from, cut, kill, term, interrupt, hang_up, torn, bytes, read_only };
 
 struct Faults {
   std::string below;
@@ -57,8 +59,9 @@ struct Faults {
     };
     below = text("FAULTS_BELOW");
     const std::pair<const char*, Kind> kinds[] = {
-        {"once", Kind::once}, {"from", Kind::from},   {"short", Kind::cut},   {"kill", Kind::kill},
-        {"torn", Kind::torn}, {"bytes", Kind::bytes}, {"count", Kind::count}, {"read_only", Kind::read_only}};
+        {"once", Kind::once},   {"from", Kind::from},     {"short", Kind::cut},          {"kill", Kind::kill},
+        {"term", Kind::term},   {"int", Kind::interrupt}, {"hup", Kind::hang_up},        {"torn", Kind::torn},
+        {"bytes", Kind::bytes}, {"count", Kind::count},   {"read_only", Kind::read_only}};
     for (const auto& [name, value] : kinds)
       if (text("FAULTS_KIND") == name) kind = value;
     if (const auto number = text("FAULTS_AT"); !number.empty()) at = std::atol(number.c_str());
@@ -75,11 +78,22 @@ const Faults& faults() {
 
 std::atomic<long> n_operations{0}, n_bytes{0};
 
-bool is_below(std::string_view path) {
+/// A name below an open directory as that directory's name now and the rest.
+std::string by_its_name(std::string_view path) {
+  const std::string_view open_files = "/proc/self/fd/";
+  if (path.substr(0, open_files.size()) != open_files) return std::string(path);
+  const auto end = std::min(path.find('/', open_files.size()), path.size());
+  char name[PATH_MAX];
+  const auto size = readlink(std::string(path.substr(0, end)).c_str(), name, sizeof name);
+  return (size > 0 ? std::string(name, std::size_t(size)) : "") + std::string(path.substr(end));
+}
+
+bool is_below(std::string_view as_given) {
+  const std::string path = by_its_name(as_given);
   std::string_view rest = faults().below;
   while (!rest.empty()) {
     const auto one = rest.substr(0, rest.find(':'));
-    if (path.substr(0, one.size()) == one && (path.size() == one.size() || path[one.size()] == '/'))
+    if (path.compare(0, one.size(), one) == 0 && (path.size() == one.size() || path[one.size()] == '/'))
       return true;
     rest.remove_prefix(one.size() == rest.size() ? rest.size() : one.size() + 1);
   }
@@ -138,6 +152,15 @@ Verdict judge(Operation operation, std::size_t size = 0) {
       break;
     case Kind::kill:
       if (number == all.at) kill(getpid(), SIGKILL);
+      break;
+    case Kind::term:
+      if (number == all.at) raise(SIGTERM);
+      break;
+    case Kind::interrupt:
+      if (number == all.at) raise(SIGINT);
+      break;
+    case Kind::hang_up:
+      if (number == all.at) raise(SIGHUP);
       break;
     case Kind::torn:
       if (number == all.at && operation == Operation::write) return Verdict::half;
@@ -274,6 +297,16 @@ TRUNCATE(ftruncate64)
 int rename(const char* from, const char* to) noexcept {
   if (is_below(AT_FDCWD, to) && judge(Operation::change) != Verdict::works) return -1;
   return next<int(const char*, const char*)>("rename")(from, to);
+}
+
+int renameat(int from_directory, const char* from, int to_directory, const char* to) noexcept {
+  if (is_below(to_directory, to) && judge(Operation::change) != Verdict::works) return -1;
+  return next<int(int, const char*, int, const char*)>("renameat")(from_directory, from, to_directory, to);
+}
+
+int mkdirat(int directory, const char* path, mode_t mode) noexcept {
+  if (is_below(directory, path) && judge(Operation::change) != Verdict::works) return -1;
+  return next<int(int, const char*, mode_t)>("mkdirat")(directory, path, mode);
 }
 
 int mkdir(const char* path, mode_t mode) noexcept {

@@ -63,7 +63,6 @@ TEST(Sweeps, LeaveNoChartOfOtherPoints) {
   const std::string speeds = "mill.toml --loads -o swept --vary 'machine.drive.speed = 1400, 1500 rpm'";
   points_of(directory.path, speeds + " --vary 'machine.charge.mass = 10, 20 kg'");
   const bool draws = fs::exists(directory / "swept/map.svg");
-  write(directory / "swept/map_7.png", "of an earlier sweep");
   write(directory / "swept/map_notes.txt", "the user's");
   points_of(directory.path, speeds);
   for (const auto& entry : fs::directory_iterator(directory / "swept"))
@@ -71,6 +70,12 @@ TEST(Sweeps, LeaveNoChartOfOtherPoints) {
         << entry.path();
   EXPECT_TRUE(fs::exists(directory / "swept/map_notes.txt"));
   EXPECT_EQ(fs::exists(directory / "swept/chart.svg"), draws);
+  write(directory / "swept/map_7.png", "the user's");
+  const auto foreign = as_a_user(directory.path, "sweep " + speeds);
+  EXPECT_EQ(foreign.exit_code, 2);
+  EXPECT_NE(foreign.err.find("-o swept/map_7.png: is there already"), std::string::npos) << foreign.err;
+  EXPECT_EQ(results_test::bytes(directory / "swept/map_7.png"), "the user's");
+  fs::remove(directory / "swept/map_7.png");
   fs::create_directory(directory / "swept/chart_3.svg");
   const auto refused = as_a_user(directory.path, "sweep " + speeds);
   EXPECT_EQ(refused.exit_code, 2);
@@ -86,7 +91,7 @@ TEST(Sweeps, ReplaceNothingThatIsNotTheirs) {
     const auto outcome = as_a_user(
         directory.path, "sweep mill.toml --loads -o mine --vary 'machine.drive.speed = 1400, 1500 rpm'");
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.err.find("no sweep has written it"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(name + std::string(": is there already")), std::string::npos) << outcome.err;
     EXPECT_EQ(results_test::bytes(directory / "mine" / name), "a diary\n");
     fs::remove_all(directory / "mine");
   }

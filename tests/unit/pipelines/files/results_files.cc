@@ -4,11 +4,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <thread>
+
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
 
+#include "pipelines/disk/staging.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/hdf5_file.h"
@@ -77,23 +80,59 @@ TEST(AtomicFile, WhatKilledProcessesLeftIsRemovedWhateverTheTarget) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    for (const char* name : {"a.vtu", "b.c.h5"})
-      std::ofstream(partial_name(at / name)) << "half" << std::flush;
-    std::filesystem::create_directories(partial_name(at / "results") / "shaft");
+    AtomicFile a(at / "a.vtu"), b(at / "b.c.h5");
+    for (auto* file : {&a, &b}) std::ofstream(file->temporary()) << "half" << std::flush;
+    const DirectoryLock lock(OpenDirectory::at(at.path));
     raise(SIGKILL);
   }
   int status = 0;
   waitpid(child, &status, 0);
   ASSERT_EQ(n_entries(at.path), 3U);
-  const AtomicFile of_a_living_process(at / "a.vtu");
+  const AtomicFile of_a_living_process(at / "c.vtu");
   std::ofstream(of_a_living_process.temporary()) << "half";
-  for (const char* name : {".partial", ".a.vtu.partial", ".a.elsewhere.1-0.partial", "zones.csv"})
+  EXPECT_EQ(n_entries(at.path), 1U) << "the living one has removed what the killed one left";
+  for (const char* name :
+       {".partial", ".a.vtu.partial", ".millstress-0123456789abcdef.partial.csv", "zones.csv"})
     std::ofstream(at / name) << "mine";
-  EXPECT_EQ(n_entries(at.path), 7U) << "the living one's name has removed one already";
-  remove_partial_names(at.path);
-  EXPECT_EQ(n_entries(at.path), 5U);
+  std::filesystem::create_directories(at / "elsewhere/inside");
+  std::filesystem::create_symlink("elsewhere", at / ".millstress-0123456789abcdef.partial");
+  remove_abandoned(OpenDirectory::at(at.path));
+  EXPECT_EQ(n_entries(at.path), 7U);
+  EXPECT_TRUE(std::filesystem::exists(at / "elsewhere/inside"));
   EXPECT_TRUE(std::filesystem::exists(of_a_living_process.temporary()));
-  remove_partial_names(at / "nowhere");
+}
+
+// A name that somebody has laid out before leads nowhere: the folder is new, and its user's alone.
+TEST(AtomicFile, IsWrittenInAFolderOfItsOwn) {
+  const Directory at;
+  const AtomicFile one(at / "a.vtu"), other(at / "a.vtu");
+  EXPECT_NE(std::filesystem::canonical(one.temporary().parent_path()),
+            std::filesystem::canonical(other.temporary().parent_path()));
+  for (const auto& entry : std::filesystem::directory_iterator(at.path))
+    EXPECT_EQ(entry.status().permissions(), std::filesystem::perms::owner_all) << entry.path();
+  std::filesystem::create_symlink(at / "elsewhere", at / ".millstress.lock");
+  EXPECT_THROW(AtomicFile(at / "b.vtu"), std::filesystem::filesystem_error);
+  EXPECT_FALSE(std::filesystem::exists(at / "elsewhere"));
+}
+
+// The lock's file is gone with its last holder; meanwhile everybody has the same.
+TEST(DirectoryLock, IsHeldByOneAndLeavesNothing) {
+  const Directory at;
+  const auto directory = OpenDirectory::at(at.path);
+  int n_inside = 0, most = 0;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t)
+    threads.emplace_back([&] {
+      for (int i = 0; i < 50; ++i) {
+        const DirectoryLock lock(directory);
+        most = std::max(most, ++n_inside);
+        std::this_thread::yield();
+        --n_inside;
+      }
+    });
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(most, 1);
+  EXPECT_EQ(n_entries(at.path), 0U);
 }
 
 TEST(AtomicFile, NamesTheFileThatCannotBeWritten) {

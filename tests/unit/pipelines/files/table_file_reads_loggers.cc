@@ -57,6 +57,44 @@ TEST(TableFile, ReadsCommasSemicolonsTabsQuotesAndWindowsLines) {
   EXPECT_EQ(read_table("# first\n\nt [s],x\n\n1,2\n3,4\n").lines, (std::vector<int>{5, 6}));
 }
 
+// A copy that broke off at its last character was read without a word.
+TEST(TableFile, DoubtsAFileThatMayBeCutOff) {
+  std::string whole = "time [s],a.fx [N],b.fy [N]\n";
+  for (int i = 0; i < 12; ++i)
+    whole += std::to_string(0.25 * i).substr(0, 4) + "," + std::to_string(10 + i) + "," +
+             std::to_string(1.5 + 0.01 * i).substr(0, 5) + "\n";
+  EXPECT_EQ(read_table(whole).doubt, "");
+  EXPECT_EQ(read_table(whole).n_rows(), 12u);
+  const auto doubt = [&](const std::string& text) { return read_table(text).doubt; };
+  const auto has = [](const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+  };
+  const auto end = whole.size();
+  EXPECT_TRUE(
+      has(doubt(whole.substr(0, end - 1)), "log.csv:13: the last of 12 rows may be cut off: it has no end"));
+  const auto two = doubt(whole.substr(0, end - 2));
+  EXPECT_TRUE(has(two, "it has no end of line") && has(two, "b.fy has 2 digits behind the point, not 3"))
+      << two;
+  EXPECT_TRUE(has(doubt(whole.substr(0, end - 2) + "\n"), "b.fy has 2 digits behind the point, not 3"));
+  EXPECT_TRUE(has(doubt(whole + "2.80,20,1.600\n"), "time goes on by 0.05, and by 0.25 in all rows before"));
+  // Loggers that drop zeros at the end, uneven samples, and a comment behind the rows are no reason.
+  EXPECT_EQ(doubt("time [s],a.fx [N]\n0,1.5\n0.1,2\n0.25,2.25\n0.3,1\n0.5,2\n0.9,3\n# end\n"), "");
+}
+
+TEST(TableFile, OfGigabytesIsNotRead) {
+  const Directory directory;
+  std::ofstream(directory / "log.csv") << "time [s],a.fx [N]\n0,1\n";
+  std::filesystem::resize_file(directory / "log.csv", 6'400'000'000);
+  try {
+    pipelines::read_table_file(directory / "log.csv");
+    FAIL() << "accepted";
+  } catch (const pipelines::SceneError& refused) {
+    EXPECT_NE(std::string(refused.what()).find("log.csv: has 6.4 GB, and a table has 500 MB at most"),
+              std::string::npos)
+        << refused.what();
+  }
+}
+
 TEST(TableFile, NamesEveryWrongCellAtItsPlace) {
   EXPECT_EQ(refusals("t [s],x [N]\n1,2\n3,4;5\n"), Places{"3:3 x = 4;5"});
   EXPECT_EQ(refusals("t [s],x [N]\n1,nan\n,2\n1e999,0x10\n"),

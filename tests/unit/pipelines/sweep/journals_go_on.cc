@@ -140,7 +140,7 @@ TEST_F(SweepJournals, BeginAgainWithWhatIsKnown) {
 }
 
 TEST_F(SweepJournals, OfOtherKeysAreNotTaken) {
-  of_key("another").require_own();
+  EXPECT_TRUE(SweepJournal::is_journal(file));
   for (const auto& row : of_key("another").known(plan)) EXPECT_FALSE(row);
 }
 
@@ -181,7 +181,7 @@ TEST_F(SweepJournals, OfTheOldFormAreOursAndComputedAgain) {
       R"({"settings":["machine.speed=1 rpm","b=\"é\""],"row":{"refused":"","figures":[["force","N","1"]],"texts":[]}})";
   all.push_back(text_hash(row) + ' ' + row);
   write(all);
-  of_key("key").require_own();
+  EXPECT_TRUE(SweepJournal::is_journal(file));
   EXPECT_EQ(whole(), "0000");
 }
 
@@ -198,5 +198,6 @@ TEST_F(SweepJournals, WithLinesOfNoRowGoOn) {
 
 TEST_F(SweepJournals, OfOthersAreRefused) {
   write({"a diary"});
-  EXPECT_THROW(of_key("key").require_own(), OptionError);
+  EXPECT_FALSE(SweepJournal::is_journal(file));
+  EXPECT_THROW(of_key("key").begin(plan, known()), OptionError);
 }
