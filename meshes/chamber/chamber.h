@@ -4,9 +4,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <map>
 #include <vector>
 
 #include "meshes/chamber/chamber_geometry.h"
+#include "meshes/spacing/swept_plan.h"
 #include "meshes/values/body_mesh.h"
 
 namespace meshes {
@@ -24,5 +27,15 @@ namespace meshes {
 ///         to each other, edges or faces closer than 0.05 walls that do not coincide, bad controls
 /// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian (place and value named)
 BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control);
+
+/// What is known of a chamber before it is meshed.
+struct ChamberDescription {
+  BodyMesh body;                       ///< as build_chamber's, without cells, quality and sharp edges
+  std::map<int, SweptVolume> volumes;  ///< by volume id: rings exact, plates with straight edges at the tube
+  std::size_t n_cells = 0;             ///< that build_chamber would make
+};
+
+/// @throws GeometryRefused as build_chamber
+ChamberDescription describe_chamber(const Chamber& chamber, const ChamberMeshControl& control);
 
 }  // namespace meshes

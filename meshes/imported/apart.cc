@@ -111,7 +111,8 @@ void set_limit(__rlimit_resource_t what, double value) {
                                const Sheet& result, const Sheet& log, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it was gone before it could be asked for
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGXCPU, SIGALRM, SIGTERM, SIGINT})
+  for (const int signal :
+       {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGXCPU, SIGALRM, SIGTERM, SIGINT, SIGHUP})
     std::signal(signal, SIG_DFL);
   ::dup2(log.file(), STDOUT_FILENO);
   ::dup2(log.file(), STDERR_FILENO);

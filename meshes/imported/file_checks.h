@@ -1,9 +1,14 @@
 /// Damage in the user's files that can be told with a line, before gmsh or OpenCASCADE trusts them.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace meshes {
+
+/// Of a geometry that is read: of this size gmsh takes minutes.
+constexpr std::uintmax_t most_bytes_of_a_geometry = 2'000'000'000;
 
 /// Of a STEP file (ISO 10303-21): cut off, an entity that is defined twice, or that refers to one that the
 /// file does not have. Readers pass over such entities, or crash: either way the solid would be another.
@@ -20,5 +25,8 @@ void check_step_unit(const std::string& text, double scale_to_m);
 /// coordinates that are finite. Other versions and binary files are left to gmsh.
 /// @throws GeometryRefused "line 12: ..."
 void check_msh_text(const std::string& text);
+
+/// Names of the groups of surfaces in a .msh in text form, used or not.
+std::vector<std::string> surface_groups_named(const std::string& text);
 
 }  // namespace meshes

@@ -10,6 +10,7 @@
 #include "meshes/checks/curved_quality.h"
 #include "meshes/checks/quality.h"
 #include "meshes/checks/reentrant_edges.h"
+#include "meshes/checks/reentrant_points.h"
 #include "meshes/imported/load_apart.h"
 #include "meshes/imported/port_selection.h"
 #include "meshes/values/refused.h"
@@ -21,18 +22,18 @@ namespace {
 
 /// Names of the file's groups become names of features, in tables and files.
 void check_group_names(const std::vector<Piece>& pieces) {
-  for (const Piece& piece : pieces) {
-    const std::string& name = piece.name;
-    const bool is_printed = std::none_of(name.begin(), name.end(),
-                                         [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '"'; });
-    if (!is_utf8(name))
-      throw GeometryRefused("the name of its physical group " + std::to_string(piece.tag) +
-                            " is not written in UTF-8; rename it");
-    if (!is_printed || (!name.empty() && std::string("=+-@").find(name[0]) != std::string::npos))
-      throw GeometryRefused("the name of its physical group " + std::to_string(piece.tag) +
-                            " holds quotes or control characters, or begins with = + - or @, which a "
-                            "spreadsheet takes for a formula; rename it");
-  }
+  for (const Piece& piece : pieces)
+    for (const std::string& name : piece.groups) {
+      const bool is_printed = std::none_of(name.begin(), name.end(),
+                                           [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '"'; });
+      if (!is_utf8(name))
+        throw GeometryRefused("the name of its physical group " + std::to_string(piece.tag) +
+                              " is not written in UTF-8; rename it");
+      if (!is_printed || (!name.empty() && std::string("=+-@").find(name[0]) != std::string::npos))
+        throw GeometryRefused("the name of its physical group " + std::to_string(piece.tag) +
+                              " holds quotes or control characters, or begins with = + - or @, which a "
+                              "spreadsheet takes for a formula; rename it");
+    }
 }
 
 Point middle_of_face(const CellMesh& mesh, std::size_t face) {
@@ -45,7 +46,7 @@ Point middle_of_face(const CellMesh& mesh, std::size_t face) {
 
 /// Cells that touch in a face without sharing its nodes are not joined there: the part would have a slit that
 /// nobody sees.
-void require_joined_faces(const CellMesh& mesh) {
+void require_joined_faces(const CellMesh& mesh, bool of_cad) {
   struct Face {
     double along;
     Point middle;
@@ -70,19 +71,45 @@ void require_joined_faces(const CellMesh& mesh) {
   std::ostringstream text;
   text.precision(4);
   text << n_twice << " faces of its cells lie on others without sharing their nodes, near (" << 1e3 * where[0]
-       << ", " << 1e3 * where[1] << ", " << 1e3 * where[2]
-       << ") mm: cells are not joined there. Merge nodes at the same place (gmsh: Coherence Mesh), or mesh "
-          "solids "
-          "that share their surfaces";
+       << ", " << 1e3 * where[1] << ", " << 1e3 * where[2] << ") mm: cells are not joined there. "
+       << (of_cad ? "Let the solids overlap in the CAD and unite them, or export them as one"
+                  : "Merge nodes at the same place (gmsh: Coherence Mesh), or mesh solids that share their "
+                    "surfaces");
+  throw GeometryRefused(text.str());
+}
+
+/// Parts that share a node or an edge of a cell, and no face, are not held together.
+void require_one_part(const CellMesh& mesh, bool of_cad) {
+  const auto part = separate_parts(mesh);
+  const int n = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
+  if (n < 2) return;
+  std::vector<int> part_of_node(mesh.points.size(), -1);
+  int shared = -1;
+  for (std::size_t c = 0; c < mesh.n_cells() && shared < 0; ++c)
+    for (std::size_t i = 0; i < mesh.nodes_per_cell(); ++i) {
+      const int node = mesh.cell(c)[i];
+      int& known = part_of_node[std::size_t(node)];
+      if (known >= 0 && known != part[c]) shared = node;
+      known = part[c];
+    }
+  if (shared < 0)
+    throw GeometryRefused("it has " + std::to_string(n) +
+                          " parts that do not touch: join them, or import one");
+  const Point& at = mesh.points[std::size_t(shared)];
+  std::ostringstream text;
+  text.precision(4);
+  text << "it has " << n << " parts that touch in a point or along a line alone, at (" << 1e3 * at[0] << ", "
+       << 1e3 * at[1] << ", " << 1e3 * at[2] << ") mm, where nothing holds them together: "
+       << (of_cad ? "let them overlap in the CAD and unite them" : "join them by faces of cells")
+       << ", or import one";
   throw GeometryRefused(text.str());
 }
 
 ModelMesh load(const Import& import, double scale_to_m) {
   ModelMesh model = load_apart(import, scale_to_m);
-  require_joined_faces(model.mesh);
-  if (const int n = n_separate_parts(model.mesh); n > 1)
-    throw GeometryRefused("it has " + std::to_string(n) +
-                          " parts that do not touch: join them, or import one");
+  const bool of_cad = format_of(import.geometry) == GeometryFormat::step;
+  require_joined_faces(model.mesh, of_cad);
+  require_one_part(model.mesh, of_cad);
   check_group_names(model.pieces);
   check_group_names(model.volumes);
   return model;
@@ -157,35 +184,48 @@ void name_surfaces(const Import& import, ModelMesh& model, BodyMesh& body) {
   for (int& id : model.mesh.face_id) id = id_of_piece[id];
 }
 
-/// What it throws does not name the file.
-BodyMesh build_unnamed(const Import& import) {
-  check_control(import.control);
+double scale_of(const Import& import) {
   const double default_scale = format_of(import.geometry) == GeometryFormat::step ? 1e-3 : 1;
   const double scale_to_m = import.scale_to_m == 0 ? default_scale : import.scale_to_m;
   if (!std::isfinite(scale_to_m) || !(scale_to_m > 0))
     throw GeometryRefused("scale_to_m = " + std::to_string(import.scale_to_m) +
                           " must be positive: the length of the file's unit");
+  return scale_to_m;
+}
+
+/// What it throws does not name the file.
+BodyMesh build_unnamed(const Import& import) {
+  check_control(import.control);
+  const double scale_to_m = scale_of(import);
   ModelMesh model = load(import, scale_to_m);
   require_likely_unit(import, model.mesh);
   BodyMesh body;
   name_surfaces(import, model, body);
   name_volumes(model, body);
   body.quality = measure_quality(model.mesh);
-  require_quality(body.quality, import.control.min_scaled_jacobian, "mesh",
-                  "mesh finer there, repair the geometry, or lower min_scaled_jacobian");
+  require_quality(
+      body.quality, least_scaled_jacobian(model, import.control), "mesh",
+      model.straight_edges.empty()
+          ? "mesh finer there, repair the geometry, or lower min_scaled_jacobian"
+          : "faces meet at a zero angle, where finer cells are flatter: make the cells larger there "
+            "(size, cells_per_circle), end the faces at an angle, or lower min_scaled_jacobian");
   const double exclusion_m =
       import.control.exclusion_m > 0 ? import.control.exclusion_m : usual_exclusion_m(model);
   body.sharp_edges = reentrant_edges(model.mesh, body.groups.boundaries, exclusion_m);
+  for (auto& tip : reentrant_points(model.mesh, body.sharp_edges, body.groups.boundaries, exclusion_m))
+    body.sharp_edges.push_back(std::move(tip));
+  body.straight_edges = std::move(model.straight_edges);
+  body.smallest_size_m = model.smallest_size_m;
   body.cells = std::make_shared<const CellMesh>(std::move(model.mesh));
   return body;
 }
 
-}  // namespace
-
-BodyMesh build_imported(const Import& import) {
+/// What the work throws names the file.
+template <typename Work>
+auto with_name(const Import& import, Work&& work) {
   const std::string name = "the geometry " + import.geometry.string() + ": ";
   try {
-    return build_unnamed(import);
+    return work();
   } catch (const TooManyCells& error) {
     throw TooManyCells(error.control(), name + error.what());
   } catch (const GeometryRefused& error) {
@@ -193,6 +233,23 @@ BodyMesh build_imported(const Import& import) {
   } catch (const MeshRefused& error) {
     throw MeshRefused(name + error.what());
   }
+}
+
+}  // namespace
+
+BodyMesh build_imported(const Import& import) {
+  return with_name(import, [&] { return build_unnamed(import); });
+}
+
+ImportOutline outline_imported(const Import& import) {
+  return with_name(import, [&] {
+    check_control(import.control);
+    const auto model = read_apart(import, scale_of(import));
+    ImportOutline outline;
+    for (const auto& volume : model.volumes) outline.volume_m3 += volume.size;
+    if (!model.mesh.points.empty()) outline.n_cells = model.mesh.points.front()[0];
+    return outline;
+  });
 }
 
 }  // namespace meshes

@@ -27,4 +27,13 @@ namespace meshes {
 /// @throws MeshRefused if the worst cell is below control.min_scaled_jacobian
 BodyMesh build_imported(const Import& import);
 
+/// What a STEP file tells before it is meshed.
+struct ImportOutline {
+  double volume_m3 = 0;  ///< of the CAD
+  double n_cells = 0;    ///< that the control asks for (cell_estimate.h)
+};
+
+/// @throws as build_imported, of what is wrong with the file or the control; ports are not looked for
+ImportOutline outline_imported(const Import& import);
+
 }  // namespace meshes

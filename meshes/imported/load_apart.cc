@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <sstream>
 #include <string>
@@ -34,6 +35,8 @@ constexpr double least_meshing_s = 4, s_per_cell = 2e-3;
 
 void import_solids(const Import& import) {
   gmsh::vectorpair shapes, volumes, fragments;
+  // Names and colours are not looked at, and gmsh refuses files that colour curves.
+  gmsh::option::setNumber("Geometry.OCCImportLabels", 0);
   gmsh::model::occ::importShapes(import.geometry.string(), shapes, true, "step");
   gmsh::model::occ::synchronize();
   gmsh::model::getEntities(volumes, 3);
@@ -135,9 +138,15 @@ void set_order_of_cells() {
 std::string text_of(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) throw GeometryRefused("is no file; check the path");
+  const auto size = std::filesystem::file_size(file, none);
+  if (!none && size > most_bytes_of_a_geometry)
+    throw GeometryRefused("has " + std::to_string(size / 1'000'000) + " MB, and at most " +
+                          std::to_string(most_bytes_of_a_geometry / 1'000'000) +
+                          " are read: export the part alone, or mesh it coarser");
   std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in) throw GeometryRefused("cannot be read; check its permissions");
+  std::string text(none ? 0 : size, '\0');
+  if (!in.read(text.data(), std::streamsize(text.size())))
+    throw GeometryRefused("cannot be read; check its permissions");
   return text;
 }
 
@@ -153,6 +162,7 @@ ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
     return collect_model(scale_to_m);
   }
   import_solids(import);
+  refuse_slender_tips();
   const double n_cells = estimated_cells(import.control, scale_to_m);
   require_affordable(n_cells, bytes_per_tetrahedron, control_of_cells(import.control),
                      "make the cells larger, or the fine parts fewer");
@@ -163,8 +173,31 @@ ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
   ModelMesh model = mesh_and_collect(control, scale_to_m);
   name_shapes(scale_to_m, {scale_to_m * centre[0], scale_to_m * centre[1], scale_to_m * centre[2]}, model);
   for (auto& point : model.mesh.points) move(point, centre, scale_to_m);
+  for (auto& edge : model.straight_edges) move(edge.middle_m, centre, scale_to_m);
   for (auto* pieces : {&model.pieces, &model.volumes})
     for (auto& piece : *pieces) move(piece.centre_m, centre, scale_to_m);
+  return model;
+}
+
+/// In the child: the volumes, and how many cells they would get.
+ModelMesh read_with_gmsh(const Import& import, double scale_to_m) {
+  const GmshSession session;
+  gmsh::option::setNumber("General.Terminal", 1);
+  gmsh::option::setNumber("General.Verbosity", 4);
+  import_solids(import);
+  const double n_cells = estimated_cells(import.control, scale_to_m);
+  require_affordable(n_cells, bytes_per_tetrahedron, control_of_cells(import.control),
+                     "make the cells larger, or the fine parts fewer");
+  ModelMesh model;
+  model.mesh.points.push_back({n_cells, 0, 0});
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  for (const auto& volume : volumes) {
+    Piece piece;
+    piece.tag = volume.second;
+    piece.size = std::pow(scale_to_m, 3) * measure_of(3, volume.second);
+    model.volumes.push_back(piece);
+  }
   return model;
 }
 
@@ -202,6 +235,17 @@ std::string last_deed(const std::string& log) {
   }
 }
 
+/// After gmsh has read the file: a group whose name no piece has is in the file by name alone.
+void note_empty_groups(const std::string& msh_text, ModelMesh& model) {
+  for (auto& name : surface_groups_named(msh_text)) {
+    const auto has_it = [&](const Piece& piece) {
+      return std::find(piece.groups.begin(), piece.groups.end(), name) != piece.groups.end();
+    };
+    if (std::none_of(model.pieces.begin(), model.pieces.end(), has_it))
+      model.empty_groups.push_back(std::move(name));
+  }
+}
+
 }  // namespace
 
 GeometryFormat format_of(const std::filesystem::path& file) {
@@ -212,7 +256,10 @@ GeometryFormat format_of(const std::filesystem::path& file) {
   throw GeometryRefused("must be a .step, .stp or .msh file");
 }
 
-ModelMesh load_apart(const Import& import, double scale_to_m) {
+namespace {
+
+/// @param work  of the child
+ModelMesh model_apart(const Import& import, double scale_to_m, const std::function<ModelMesh()>& work) {
   const std::string text = text_of(import.geometry);
   if (format_of(import.geometry) == GeometryFormat::step) {
     check_step_text(text);
@@ -222,10 +269,21 @@ ModelMesh load_apart(const Import& import, double scale_to_m) {
   }
   const double reading_s =
       import.time_limit_s > 0 ? import.time_limit_s : least_reading_s + s_per_byte * double(text.size());
-  const auto end =
-      run_apart([&] { return bytes_of([&] { return load_with_gmsh(import, scale_to_m); }); }, reading_s);
+  const auto end = run_apart([&] { return bytes_of(work); }, reading_s);
   if (end.kind != EndApart::Kind::finished) refuse_end(end);
-  return model_from(end.result);
+  auto model = model_from(end.result);
+  if (format_of(import.geometry) == GeometryFormat::msh) note_empty_groups(text, model);
+  return model;
+}
+
+}  // namespace
+
+ModelMesh load_apart(const Import& import, double scale_to_m) {
+  return model_apart(import, scale_to_m, [&] { return load_with_gmsh(import, scale_to_m); });
+}
+
+ModelMesh read_apart(const Import& import, double scale_to_m) {
+  return model_apart(import, scale_to_m, [&] { return read_with_gmsh(import, scale_to_m); });
 }
 
 }  // namespace meshes

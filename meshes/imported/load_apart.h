@@ -20,4 +20,9 @@ GeometryFormat format_of(const std::filesystem::path& file);
 /// gmsh that crashed, did not come to an end or ran out of memory, with what it was at
 ModelMesh load_apart(const Import& import, double scale_to_m);
 
+/// A STEP file read and not meshed: its volumes with the sizes of the CAD. Where a mesh has points there is
+/// one, whose first coordinate is the number of cells that the control asks for.
+/// @throws as load_apart
+ModelMesh read_apart(const Import& import, double scale_to_m);
+
 }  // namespace meshes

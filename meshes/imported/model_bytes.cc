@@ -36,6 +36,7 @@ public:
   }
   ByteWriter& add(const Piece& piece) {
     return add(piece.name)
+        .add(piece.groups)
         .add(piece.shape)
         .add(piece.tag)
         .add(piece.size)
@@ -71,6 +72,7 @@ public:
   }
   void get(Piece& piece) {
     get(piece.name);
+    get(piece.groups);
     get(piece.shape);
     get(piece.tag);
     get(piece.size);
@@ -111,6 +113,8 @@ std::string written(const ModelMesh& model) {
       .add(m.face_id)
       .add(model.pieces)
       .add(model.volumes)
+      .add(model.straight_edges)
+      .add(model.smallest_size_m)
       .take();
 }
 
@@ -125,6 +129,8 @@ ModelMesh read_model(ByteReader& in) {
   in.get(m.face_id);
   in.get(model.pieces);
   in.get(model.volumes);
+  in.get(model.straight_edges);
+  in.get(model.smallest_size_m);
   in.require_end();
   ByteReader::require_that(m.kind == CellKind::tetrahedra || m.kind == CellKind::hexahedra);
   ByteReader::require_that(m.cells.size() == m.n_cells() * m.nodes_per_cell() &&

@@ -245,6 +245,19 @@ void check_group_names(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> surface_groups_named(const std::string& text) {
+  std::vector<std::string> names;
+  const auto end = std::min(text.find("$EndPhysicalNames"), text.size());
+  for (auto at = std::min(text.find("$PhysicalNames"), end); at < end; at = text.find('\n', at)) {
+    ++at;
+    const auto open = text.find('"', at), line = text.find('\n', at);
+    if (text.compare(at, 2, "2 ") != 0 || open >= line) continue;
+    const auto close = text.rfind('"', line);
+    if (close > open && close < end) names.push_back(text.substr(open + 1, close - open - 1));
+  }
+  return names;
+}
+
 void check_msh_text(const std::string& text) {
   MshSection format(text, "MeshFormat");
   const double version = format.number("the version");

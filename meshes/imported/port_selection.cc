@@ -49,18 +49,31 @@ struct Select {
 
   std::vector<int> operator()(const GroupSelection& group) const {
     std::vector<int> chosen;
-    std::string names;
+    std::set<std::string> names;
     for (std::size_t i = 0; i < model.pieces.size(); ++i) {
-      if (model.pieces[i].name.empty()) continue;
-      names += (names.empty() ? "" : ", ") + model.pieces[i].name;
-      if (model.pieces[i].name == group.name) chosen.push_back(int(i));
+      const auto& groups = model.pieces[i].groups;
+      names.insert(groups.begin(), groups.end());
+      if (std::find(groups.begin(), groups.end(), group.name) != groups.end()) chosen.push_back(int(i));
     }
-    if (chosen.empty())
-      refuse(port, "the body has no group of surfaces \"" + group.name + "\"; " +
-                       (names.empty() ? "it has no groups at all (STEP carries none): choose by a box or a "
-                                        "cylinder"
-                                      : "its groups are " + names));
-    return chosen;
+    if (!chosen.empty()) return chosen;
+    const auto listed = [](const auto& all) {
+      std::string text;
+      for (const auto& name : all) text += (text.empty() ? "" : ", ") + name;
+      return text;
+    };
+    const auto& empty = model.empty_groups;
+    if (std::find(empty.begin(), empty.end(), group.name) != empty.end())
+      refuse(port,
+             "the file names the group \"" + group.name +
+                 "\", but none of its elements says that it belongs to it, as gmsh writes version 2.2 with "
+                 "Mesh.SaveAll = 1: write it with Mesh.SaveAll = 0, or as version 4.1");
+    refuse(port, "the body has no group of surfaces \"" + group.name + "\"; " +
+                     (!names.empty() ? "its groups are " + listed(names)
+                      : !empty.empty()
+                          ? "the file names the groups " + listed(empty) +
+                                ", but none of its elements says that it belongs to one: write it with "
+                                "gmsh's Mesh.SaveAll = 0, or as version 4.1"
+                          : "it has no groups at all (STEP carries none): choose by a box or a cylinder"));
   }
 
   std::vector<int> operator()(const BoxSelection& box) const {

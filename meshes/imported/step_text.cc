@@ -18,17 +18,35 @@ const char* const write_step_again = "; export the part from the CAD again";
   throw GeometryRefused("line " + std::to_string(line) + ": " + what + write_step_again);
 }
 
+constexpr std::string_view first_word = "ISO-10303-21", last_word = "END-ISO-10303-21";
+
+char upper(char c) {
+  return char(std::toupper(static_cast<unsigned char>(c)));
+}
+
+/// Keywords are the same in small and capital letters, for readers if not by ISO 10303-21. Blanks at the end
+/// do not count.
+bool is_same_word(std::string_view text, std::string_view word) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return std::equal(text.begin(), text.end(), word.begin(), word.end(),
+                    [](char a, char b) { return upper(a) == upper(b); });
+}
+
+std::string in_capitals(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), upper);
+  return text;
+}
+
 /// Goes through the text once, passing over strings and comments.
 class StepText {
 public:
   explicit StepText(const std::string& text) : text_(text) {}
 
   void check() {
-    while (at_ < text_.size()) step();
-    if (in_statement_) refuse_step(statement_line_, "this statement does not end: the file is cut off");
-    if (ended_at_ != std::string_view::npos &&
-        text_.find("END-ISO-10303-21", ended_at_) == std::string_view::npos)
-      refuse_step(line_, "there is no END-ISO-10303-21: the file is cut off");
+    while (at_ < text_.size() && !has_ended_) step();
+    if (!has_ended_ && in_statement_)
+      refuse_step(statement_line_, "this statement does not end: the file is cut off");
+    if (!has_ended_) refuse_step(line_, "there is no END-ISO-10303-21: the file is cut off");
     for (const auto& use : uses_)
       if (defined_.count(use.entity) == 0)
         refuse_step(use.line, "#" + std::to_string(use.by) + " refers to #" + std::to_string(use.entity) +
@@ -43,7 +61,7 @@ private:
 
   void step() {
     const char c = text_[at_];
-    if (c == '\n') ++line_;
+    if (ends_line(at_)) ++line_;
     if (std::isspace(static_cast<unsigned char>(c))) {
       ++at_;
     } else if (c == '\'') {
@@ -54,13 +72,18 @@ private:
     } else if (c == '#' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1])) {
       number();
     } else if (c == ';') {
+      has_ended_ = in_statement_ && is_same_word(text_.substr(statement_at_, at_ - statement_at_), last_word);
       in_statement_ = false;
-      ended_at_ = statement_at_;
       ++at_;
     } else {
       begin();
       ++at_;
     }
+  }
+
+  /// Old Macs ended lines by a carriage return alone.
+  bool ends_line(std::size_t at) const {
+    return text_[at] == '\n' || (text_[at] == '\r' && text_.compare(at, 2, "\r\n") != 0);
   }
 
   static bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -76,7 +99,7 @@ private:
   void pass(const char* closing, const std::string& what, std::size_t n_opening) {
     const auto end = text_.find(closing, at_ + n_opening);
     if (end == std::string_view::npos) refuse_step(line_, what + " that begins here does not end");
-    line_ += int(std::count(text_.begin() + long(at_), text_.begin() + long(end), '\n'));
+    for (std::size_t i = at_; i < end; ++i) line_ += int(ends_line(i));
     at_ = end + n_opening;
   }
 
@@ -99,7 +122,7 @@ private:
 
   std::string_view text_;
   std::size_t at_ = 0, statement_at_ = 0;
-  std::size_t ended_at_ = std::string_view::npos;  // begin of the last whole statement
+  bool has_ended_ = false;  // what follows the last statement, as zeros and blanks of old disks, is no STEP
   int line_ = 1, statement_line_ = 1;
   bool in_statement_ = false;
   long entity_ = 0;  // that the statement defines
@@ -140,14 +163,14 @@ bool is_millimetre(const std::string& statement) {
 }  // namespace
 
 void check_step_text(const std::string& text) {
-  if (text.find("ISO-10303-21") == std::string::npos)
+  if (in_capitals(text).find(first_word) == std::string::npos)
     refuse_step(1, "this is no STEP file: it does not begin with ISO-10303-21");
   StepText(text).check();
 }
 
 void check_step_unit(const std::string& text, double scale_to_m) {
   if (std::abs(scale_to_m / 1e-3 - 1) < 1e-12) return;
-  const std::string statement = length_unit_of(text);
+  const std::string statement = length_unit_of(in_capitals(text));
   if (statement.empty() || is_millimetre(statement)) return;
   throw GeometryRefused("it states its own length unit, " + statement +
                         ", and is read by it: length_unit would scale the part once more; leave it out, "

@@ -19,6 +19,7 @@
 #include "meshes/solids/cell_estimate.h"
 #include "meshes/solids/model_mesh.h"
 #include "meshes/solids/surface_pieces.h"
+#include "meshes/values/constants.h"
 #include "meshes/values/refused.h"
 
 namespace meshes {
@@ -193,6 +194,34 @@ void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, c
   check_keyways(shaft, lay_out_solid(shaft), keyways);
 }
 
+double estimated_cells(const Shaft& shaft, const SolidControl& control) {
+  const double per_volume = 6 * std::sqrt(2.0), per_area = 3 * 4 / std::sqrt(3.0);  // as cell_estimate.cc
+  const auto layout = lay_out_solid(shaft);
+  double largest_m = 0, volume_m3 = 0;
+  for (const auto& segment : layout.segments) {
+    largest_m = std::max(largest_m, segment.radius_m);
+    volume_m3 += pi * (std::pow(segment.radius_m, 2) - std::pow(layout.bore_radius_m, 2)) *
+                 (segment.end_m - segment.begin_m);
+  }
+  const double length_m = layout.segments.back().end_m - layout.segments.front().begin_m;
+  const double diagonal_m = std::hypot(length_m, 2 * std::sqrt(2.0) * largest_m);
+  const double size_m = control.size_factor * (control.size_m > 0 ? control.size_m : diagonal_m / 20);
+  double n_cells = per_volume * volume_m3 / std::pow(size_m, 3);
+  const auto add = [&](double area_m2, double radius_m) {
+    const double curved_m = std::max(control.smallest_size_m, 2 * pi * radius_m / control.cells_per_circle);
+    n_cells += per_area * area_m2 / std::pow(std::min(size_m, curved_m), 2);
+  };
+  for (const auto& segment : layout.segments)
+    add(2 * pi * segment.radius_m * (segment.end_m - segment.begin_m), segment.radius_m);
+  if (layout.bore_radius_m > 0) add(2 * pi * layout.bore_radius_m * length_m, layout.bore_radius_m);
+  for (std::size_t i = 0; i < layout.fillets_m.size(); ++i) {
+    const double fillet_m = layout.fillets_m[i],
+                 radius_m = std::min(layout.segments[i].radius_m, layout.segments[i + 1].radius_m);
+    if (fillet_m > 0) add(pi / 2 * fillet_m * 2 * pi * (radius_m + fillet_m), fillet_m);
+  }
+  return n_cells;
+}
+
 BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways,
                            const SolidControl& control) {
   check_solid_shaft(shaft, keyways, control);
@@ -214,12 +243,13 @@ BodyMesh build_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyway
   }
   body.ports = ports_of(shaft, layout, surfaces);
   body.quality = measure_quality(model.mesh);
-  require_quality(body.quality, control.min_scaled_jacobian, "mesh",
+  require_quality(body.quality, least_scaled_jacobian(model, control), "mesh",
                   "make the cells smaller there, change the keyway, or lower min_scaled_jacobian");
   body.sharp_edges =
       reentrant_edges(model.mesh, body.groups.boundaries,
                       control.exclusion_m > 0 ? control.exclusion_m : usual_exclusion_m(model));
   if (control.exclusion_m == 0) widen_at_shoulders(layout, 1e-6 * diagonal_m(model.mesh), body.sharp_edges);
+  body.straight_edges = std::move(model.straight_edges);
   body.cells = std::make_shared<const CellMesh>(std::move(model.mesh));
   return body;
 }

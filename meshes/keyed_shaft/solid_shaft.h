@@ -15,6 +15,10 @@ namespace meshes {
 /// @throws GeometryRefused as build_solid_shaft
 void check_solid_shaft(const Shaft& shaft, const std::vector<Keyway>& keyways, const SolidControl& control);
 
+/// About how many tetrahedra build_solid_shaft makes, as meshes/solids/cell_estimate.h reckons: by the
+/// shaft's volume, and the curvature of its cylinders and fillets; keyways are left out.
+double estimated_cells(const Shaft& shaft, const SolidControl& control);
+
 /// Meshes the shaft with its keyways. Ports, and features of cylinders, fillets, shoulders, end faces and
 /// bores, are named and lie as build_shaft's; what a keyway leaves of a seat is the port. Keyway surfaces are
 /// "keyway <segment>", further ones on the segment "keyway <segment> 2" ... The bore has one diameter from

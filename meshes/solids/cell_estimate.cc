@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "meshes/values/constants.h"
@@ -18,13 +19,14 @@ const double per_volume = 6 * std::sqrt(2.0);    // regular tetrahedra of edge 1
 const double per_area = 3 * 4 / std::sqrt(3.0);  // three for each regular triangle of edge 1
 constexpr double per_edge = 15;                  // around a curve with short edges
 
-/// Largest curvature found at a few places of a surface; 0 where gmsh knows none.
-double curvature_of(int surface) {
+/// Largest curvature found at some places of a surface, by shares of its parameters' ranges; 0 where gmsh
+/// knows none.
+double curvature_of(int surface, const std::vector<double>& shares) {
   std::vector<double> low, high, places, found;
   gmsh::model::getParametrizationBounds(2, surface, low, high);
   if (low.size() < 2 || high.size() < 2) return 0;
-  for (const double u : {0.2, 0.5, 0.8})
-    for (const double v : {0.2, 0.5, 0.8}) {
+  for (const double u : shares)
+    for (const double v : shares) {
       places.push_back(low[0] + u * (high[0] - low[0]));
       places.push_back(low[1] + v * (high[1] - low[1]));
     }
@@ -79,8 +81,67 @@ std::map<int, double> sizes_along_narrow_surfaces(double smallest, double larges
   return most;
 }
 
+void refuse_slender_tips() {
+  constexpr double most_slender =
+      5;  // height over radius: at 6 gmsh hung with three smallest sizes, at 4 with none
+  constexpr double near = 1. / 48, far = 1. / 24, as_at_a_tip = 1.8;  // curvature at half the distance: twice
+  gmsh::vectorpair surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  for (const auto& surface : surfaces) {
+    std::string type;
+    gmsh::model::getType(2, surface.second, type);
+    if (type != "Cone") continue;
+    std::vector<double> low, high, curvature, points;
+    gmsh::model::getParametrizationBounds(2, surface.second, low, high);
+    if (low.size() < 2 || high.size() < 2) continue;
+    const double around = (low[0] + high[0]) / 2;
+    for (const bool at_high : {false, true}) {
+      const double end = at_high ? high[1] : low[1], along = at_high ? low[1] - high[1] : high[1] - low[1];
+      gmsh::model::getCurvature(2, surface.second, {around, end + near * along, around, end + far * along},
+                                curvature);
+      gmsh::model::getValue(2, surface.second, {around, end, around, end + far * along}, points);
+      if (curvature.size() < 2 || points.size() < 6) continue;
+      const double slender = std::abs(curvature[1]) *
+                             std::hypot(points[3] - points[0], points[4] - points[1], points[5] - points[2]);
+      if (!(std::abs(curvature[0]) > as_at_a_tip * std::abs(curvature[1])) || !(slender > most_slender))
+        continue;
+      std::ostringstream text;
+      text.precision(3);
+      text
+          << "its surface " << surface.second << " comes to a tip of "
+          << 2 * std::atan(1 / slender) * 180 / pi << " degrees at (" << points[0] << ", " << points[1]
+          << ", " << points[2]
+          << ") (mm, unless length_unit says otherwise), too slender for cells: cut the tip off flat in CAD, "
+             "and export again";
+      throw GeometryRefused(text.str());
+    }
+  }
+}
+
+double smallest_edge(const SolidControl& control, double unit_m) {
+  if (control.smallest_size_m > 0) return control.smallest_size_m / unit_m;
+  constexpr double share = 0.25;               // of what the sharpest curvature found asks for
+  constexpr double least = 1e-4, most = 0.25;  // of the longest edge
+  std::vector<double> shares;
+  for (int i = 0; i < 12; ++i) shares.push_back((i + 0.5) / 12);
+  const double longest = longest_edge(control, unit_m);
+  double curvature = 0, shortest = most * longest;
+  gmsh::vectorpair surfaces, curves;
+  gmsh::model::getEntities(surfaces, 2);
+  gmsh::model::getEntities(curves, 1);
+  for (const auto& [dimension, tag] : surfaces) curvature = std::max(curvature, curvature_of(tag, shares));
+  if (curvature > 0) shortest = std::min(shortest, share * 2 * pi / (control.cells_per_circle * curvature));
+  for (const auto& [dimension, tag] : curves)
+    if (const double length = measure_of(dimension, tag); length > least * longest)  // the others are points
+      shortest = std::min(shortest, length);
+  for (const auto& spot : control.fine_spots) shortest = std::min(shortest, spot.size_m / unit_m);
+  for (const auto& [curve, edge] : sizes_along_narrow_surfaces(0, longest))
+    shortest = std::min(shortest, edge);
+  return std::max(shortest, least * longest);
+}
+
 double estimated_cells(const SolidControl& control, double unit_m) {
-  const double size = longest_edge(control, unit_m);
+  const double size = longest_edge(control, unit_m), smallest = smallest_edge(control, unit_m);
   gmsh::vectorpair volumes, surfaces;
   gmsh::model::getEntities(volumes, 3);
   gmsh::model::getEntities(surfaces, 2);
@@ -88,9 +149,9 @@ double estimated_cells(const SolidControl& control, double unit_m) {
   for (const auto& [dimension, tag] : volumes) volume += measure_of(dimension, tag);
   n_cells += per_volume * volume / std::pow(size, 3);
   for (const auto& [dimension, tag] : surfaces) {
-    const double curvature = curvature_of(tag);
+    const double curvature = curvature_of(tag, {0.2, 0.5, 0.8});
     const double curved = curvature > 0 ? 2 * pi / (control.cells_per_circle * curvature) : size;
-    const double edge = std::min(size, std::max(curved, control.smallest_size_m / unit_m));
+    const double edge = std::min(size, std::max(curved, smallest));
     n_cells += per_area * measure_of(dimension, tag) / (edge * edge);
   }
   for (const auto& [curve, edge] : sizes_along_narrow_surfaces(control.smallest_size_m / unit_m, size))

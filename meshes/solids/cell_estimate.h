@@ -17,6 +17,13 @@ double estimated_cells(const SolidControl& control, double unit_m);
 /// The field that most of the cells are owed to where there are too many.
 std::string control_of_cells(const SolidControl& control);
 
+/// The shortest edge that curvature may ask for in gmsh's current model, in its unit: smallest_size_m, or if
+/// that is not given a quarter of the shortest one that curvature within the surfaces asks for, and no longer
+/// than the shortest curve and the edges in fine spots. At the tip of a cone curvature has no bound, and
+/// cells would become ever smaller.
+/// @param unit_m  length of the model's unit
+double smallest_edge(const SolidControl& control, double unit_m);
+
 /// Length of a curve, area of a surface or volume of gmsh's current model, by OpenCASCADE; 0 where not known.
 double measure_of(int dimension, int tag);
 
@@ -26,5 +33,9 @@ double measure_of(int dimension, int tag);
 /// @return by the number of the curve, in the model's unit
 /// @throws GeometryRefused naming the surface
 std::map<int, double> sizes_along_narrow_surfaces(double smallest, double largest);
+
+/// Around a tip that is more slender than 23 degrees in all gmsh finds no triangles, whatever their size.
+/// @throws GeometryRefused naming the surface of gmsh's current model, its place and what helps
+void refuse_slender_tips();
 
 }  // namespace meshes

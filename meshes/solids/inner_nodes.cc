@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "meshes/checks/curved_quality.h"
@@ -35,10 +36,10 @@ public:
   /// Tries the 26 neighbours on a lattice whose step gets smaller; keeps the best.
   bool improve(int node) {
     if (fixed_[node]) return false;
-    const Group group = group_of(node);
+    Group group = group_of(node);
     if (newest_move(group) <= failed_at_[node]) return false;  // it would find the same again
     bool moved = false;
-    const double before = worst_of(group.cells);
+    const double before = sort_by_quality(group.cells);
     double best = before;
     for (double step = 0.3 * group.size; step > 0.01 * group.size; step /= 2) {
       Point best_move{};
@@ -46,7 +47,7 @@ public:
         const int steps[] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
         const Point move = {step * steps[0], step * steps[1], step * steps[2]};
         shift(group, move, 1);
-        if (const double quality = worst_of(group.cells); quality > best) {
+        if (const double quality = worst_of(group.cells, best); quality > best) {
           best = quality;
           best_move = move;
         }
@@ -97,9 +98,21 @@ private:
       for (std::size_t i = 0; i < 10; ++i) newest = std::max(newest, moved_at_[mesh_.cell(c)[i]]);
     return newest;
   }
-  double worst_of(const std::vector<std::size_t>& cells) const {
+  /// The worst first: of most moves it tells alone that they are no good.
+  /// @return its quality
+  double sort_by_quality(std::vector<std::size_t>& cells) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    order.reserve(cells.size());
+    for (const auto c : cells) order.emplace_back(scaled_jacobian(mesh_, c), c);
+    std::sort(order.begin(), order.end());
+    for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = order[i].second;
+    return order.empty() ? 1 : std::min(1.0, order.front().first);
+  }
+  /// Something not above `enough` as soon as a cell is not.
+  double worst_of(const std::vector<std::size_t>& cells, double enough) const {
     double worst = 1;
-    for (const auto c : cells) worst = std::min(worst, scaled_jacobian(mesh_, c));
+    for (std::size_t i = 0; i < cells.size() && worst > enough; ++i)
+      worst = std::min(worst, scaled_jacobian(mesh_, cells[i]));
     return worst;
   }
   void shift(const Group& group, const Point& move, double sign) {

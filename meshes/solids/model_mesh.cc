@@ -6,10 +6,15 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
+#include <stdexcept>
 
+#include "meshes/checks/curved_quality.h"
 #include "meshes/checks/reentrant_edges.h"
 #include "meshes/solids/cad_surfaces.h"
+#include "meshes/solids/cell_estimate.h"
 #include "meshes/solids/inner_nodes.h"
+#include "meshes/solids/straight_edges.h"
 #include "meshes/values/constants.h"
 #include "meshes/values/refused.h"
 
@@ -17,7 +22,8 @@ namespace meshes {
 
 namespace {
 
-/// The group of each entity of a dimension; entities that are in none are groups of their own.
+/// The groups of each entity of a dimension: entities of the same ones are one piece, and so is each that is
+/// in none.
 class Groups {
 public:
   explicit Groups(int dimension) : dimension_(dimension) {
@@ -26,22 +32,23 @@ public:
     for (const auto& group : groups) {
       std::vector<int> entities;
       gmsh::model::getEntitiesForPhysicalGroup(dimension, group.second, entities);
-      for (const int entity : entities)
-        if (!group_of_.emplace(entity, group.second).second)
-          throw GeometryRefused(std::string(dimension == 2 ? "surface " : "volume ") +
-                                std::to_string(entity) + " is in several physical groups; give it one");
+      for (const int entity : entities) groups_of_[entity].push_back(group.second);
     }
   }
-  /// Place of an entity's group in `pieces`, added at its first call.
+  bool are_several(int entity) const {
+    const auto groups = groups_of_.find(entity);
+    return groups != groups_of_.end() && groups->second.size() > 1;
+  }
+  /// Place of an entity's groups in `pieces`, added at its first call.
   int place(int entity) {
-    const auto group = group_of_.find(entity);
-    const bool in_group = group != group_of_.end();
-    const auto [known, is_new] =
-        places_.emplace(std::pair(in_group, in_group ? group->second : entity), int(pieces.size()));
+    const auto groups = groups_of_.find(entity);
+    const bool in_group = groups != groups_of_.end();
+    const auto [known, is_new] = places_.emplace(
+        std::pair(in_group, in_group ? groups->second : std::vector{entity}), int(pieces.size()));
     if (is_new) {
       Piece piece;
-      piece.tag = known->first.second;
-      if (in_group) gmsh::model::getPhysicalName(dimension_, piece.tag, piece.name);
+      piece.tag = known->first.second.front();
+      if (in_group) take_names(groups->second, piece);
       pieces.push_back(piece);
     }
     return known->second;
@@ -49,9 +56,19 @@ public:
   std::vector<Piece> pieces;
 
 private:
+  void take_names(const std::vector<int>& groups, Piece& piece) const {
+    for (const int group : groups) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension_, group, name);
+      if (name.empty()) continue;
+      piece.name += (piece.name.empty() ? "" : " + ") + name;
+      piece.groups.push_back(name);
+    }
+  }
+
   int dimension_;
-  std::map<int, int> group_of_;
-  std::map<std::pair<bool, int>, int> places_;
+  std::map<int, std::vector<int>> groups_of_;
+  std::map<std::pair<bool, std::vector<int>>, int> places_;
 };
 
 CellKind kind_of_cells() {
@@ -142,9 +159,16 @@ void collect_cells(Nodes& nodes, Groups& volumes, CellMesh& mesh) {
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, its_nodes;
     gmsh::model::mesh::getElements(types, tags, its_nodes, 3, entity.second);
+    std::set<std::vector<std::size_t>> known;
     for (std::size_t t = 0; t < types.size(); ++t)
       for (std::size_t e = 0; e < tags[t].size(); ++e) {
         const std::size_t n = mesh.nodes_per_cell();
+        // Version 2.2 writes a cell once for each of its groups.
+        if (volumes.are_several(entity.second)) {
+          std::vector<std::size_t> corners(&its_nodes[t][n * e], &its_nodes[t][n * e] + n);
+          std::sort(corners.begin(), corners.end());
+          if (!known.insert(corners).second) continue;
+        }
         for (std::size_t i = 0; i < n; ++i) mesh.cells.push_back(nodes.number(its_nodes[t][n * e + i], mesh));
         mesh.volume_id.push_back(volumes.place(entity.second));
         int* own = mesh.cells.data() + mesh.cells.size() - n;
@@ -258,6 +282,25 @@ BodySize size_of_mesh(const CellMesh& mesh) {
   return size_within(surface);
 }
 
+/// One mesh, as good as moves of its nodes make it.
+ModelMesh mesh_once(const SolidControl& control, double unit_m) {
+  constexpr double easily_reached = 0.15, hardly_reached = 0.3;  // the median is 0.6
+  mesh_solids(control, unit_m);
+  auto model = collect_model(unit_m);
+  model.smallest_size_m = unit_m * smallest_edge(control, unit_m);
+  measure(2, unit_m, model.pieces);
+  measure(3, unit_m, model.volumes);
+  const double wanted = std::clamp(control.min_scaled_jacobian, easily_reached, hardly_reached);
+  const CellMesh curved = model.mesh;
+  move_inner_nodes(model.mesh, wanted);
+  if (measure_quality(model.mesh).min_scaled_jacobian >= control.min_scaled_jacobian) return model;
+  // Beside a cell that no move mends, moves make others as bad: first the edges, then the nodes inside.
+  model.mesh = curved;
+  model.straight_edges = straighten_edges(model.mesh, control.min_scaled_jacobian);
+  move_inner_nodes(model.mesh, wanted);
+  return model;
+}
+
 }  // namespace
 
 std::string name_of(const Piece& surface) {
@@ -279,13 +322,27 @@ ModelMesh collect_model(double unit_m) {
 }
 
 ModelMesh mesh_and_collect(const SolidControl& control, double unit_m) {
-  constexpr double easily_reached = 0.15, hardly_reached = 0.3;  // the median is 0.6
-  mesh_solids(control, unit_m);
-  auto model = collect_model(unit_m);
-  measure(2, unit_m, model.pieces);
-  measure(3, unit_m, model.volumes);
-  move_inner_nodes(model.mesh, std::clamp(control.min_scaled_jacobian, easily_reached, hardly_reached));
-  return model;
+  constexpr double smaller = 0.85;  // another arrangement of the cells, at 1.6 times their number
+  constexpr int n_tries = 3;
+  SolidControl tried = control;
+  for (int i = 1;; ++i, tried.size_factor *= smaller) {
+    const bool is_last = i == n_tries;
+    try {
+      auto model = mesh_once(tried, unit_m);
+      if (is_last || measure_quality(model.mesh).min_scaled_jacobian >= least_scaled_jacobian(model, control))
+        return model;
+    } catch (const std::string&) {  // gmsh's
+      if (is_last) throw;
+    } catch (const std::runtime_error&) {  // of gmsh 4.9 and later
+      if (is_last) throw;
+    }
+    gmsh::model::mesh::clear();
+  }
+}
+
+double least_scaled_jacobian(const ModelMesh& model, const SolidControl& control) {
+  constexpr double share_in_wedges = 0.1;
+  return (model.straight_edges.empty() ? 1 : share_in_wedges) * control.min_scaled_jacobian;
 }
 
 double usual_exclusion_m(const ModelMesh& model) {
@@ -293,19 +350,26 @@ double usual_exclusion_m(const ModelMesh& model) {
   return usual_exclusion_m(of_cad ? size_of_cad(model) : size_of_mesh(model.mesh));
 }
 
-int n_separate_parts(const CellMesh& mesh) {
-  std::vector<int> parent(mesh.points.size());
+std::vector<int> separate_parts(const CellMesh& mesh) {
+  std::vector<int> parent(mesh.n_cells());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
+  std::map<Corners, int> cell_of;
   for (std::size_t c = 0; c < mesh.n_cells(); ++c)
-    for (std::size_t i = 1; i < mesh.nodes_per_cell(); ++i)
-      parent[root(mesh.cell(c)[i])] = root(mesh.cell(c)[0]);
-  int n = 0;
-  for (std::size_t i = 0; i < parent.size(); ++i) n += parent[i] == int(i);
-  return n;
+    for (const auto& local : local_faces(mesh.kind)) {
+      std::vector<int> face;
+      for (const int i : local) face.push_back(mesh.cell(c)[i]);
+      const auto [other, is_new] = cell_of.emplace(corners_of(face.data(), mesh.corners_per_face()), int(c));
+      if (!is_new) parent[root(int(c))] = root(other->second);
+    }
+  std::map<int, int> number;  // by root
+  std::vector<int> part(mesh.n_cells());
+  for (std::size_t c = 0; c < mesh.n_cells(); ++c)
+    part[c] = number.emplace(root(int(c)), int(number.size())).first->second;
+  return part;
 }
 
 }  // namespace meshes

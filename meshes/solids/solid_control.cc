@@ -137,7 +137,7 @@ void mesh_solids(const SolidControl& control, double unit_m) {
   set("Mesh.Algorithm", 6);
   set("Mesh.Algorithm3D", 1);
   set("Mesh.MeshSizeMax", size);
-  set("Mesh.MeshSizeMin", control.smallest_size_m / unit_m);
+  set("Mesh.MeshSizeMin", smallest_edge(control, unit_m));
   set("Mesh.MeshSizeFromCurvature", control.cells_per_circle);
   set("Mesh.MeshSizeFromPoints", 0);
   set("Mesh.LcIntegrationPrecision", curve_precision);

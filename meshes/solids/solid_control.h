@@ -17,8 +17,8 @@ struct FineSpot {
 struct SolidControl {
   double size_m = 0;           ///< longest edge wanted; 0: a 20th of the body's diagonal
   double size_factor = 1;      ///< of size_m, given or not
-  double smallest_size_m = 0;  ///< curvature asks for no shorter edges: limits what small fillets cost; 0: no
-                               ///< limit
+  double smallest_size_m = 0;  ///< no edges are shorter, whatever curvature asks for: limits what small
+                               ///< fillets cost; 0: from the sizes of the part (cell_estimate.h)
   int cells_per_circle =
       16;  ///< around every curved surface, >= 6; a quarter of a fillet gets a fourth of it
   double min_scaled_jacobian = 0.05;  ///< of the curved cells, refused below

@@ -95,4 +95,36 @@ HexMesh sweep(const Plan& plan, const std::vector<double>& stations_m) {
   return mesh;
 }
 
+std::map<int, SweptVolume> swept_volumes(const Plan& plan, const std::vector<double>& stations_m) {
+  std::map<int, SweptVolume> volumes;
+  for (const PlanBlock& block : plan.blocks) {
+    double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    for (const PlanQuad& quad : block.quads)
+      for (std::size_t i = 0; i < 4; ++i) {  // Green's theorem along the edges
+        const auto &a = plan.points[std::size_t(quad.corners[i])],
+                   &b = plan.points[std::size_t(quad.corners[(i + 1) % 4])];
+        const double twice = a[0] * b[1] - b[0] * a[1];
+        area += twice / 2;
+        x += twice * (a[0] + b[0]) / 6;
+        y += twice * (a[1] + b[1]) / 6;
+        xx += twice * (a[0] * a[0] + a[0] * b[0] + b[0] * b[0]) / 12;
+        yy += twice * (a[1] * a[1] + a[1] * b[1] + b[1] * b[1]) / 12;
+        xy += twice * (a[0] * b[1] + 2 * a[0] * a[1] + 2 * b[0] * b[1] + b[0] * a[1]) / 24;
+      }
+    for (const Slab& slab : block.slabs) {
+      SweptVolume& volume = volumes[slab.volume_id];
+      const int n = nearest_station(stations_m, slab.end_m) - nearest_station(stations_m, slab.begin_m);
+      const double p = slab.begin_m, q = slab.end_m;
+      const double length = q - p, z = (q * q - p * p) / 2, zz = (q * q * q - p * p * p) / 3;
+      volume.n_cells += block.quads.size() * std::size_t(n);
+      volume.volume_m3 += area * length;
+      const double first[3] = {x * length, y * length, area * z},
+                   second[6] = {xx * length, yy * length, area * zz, xy * length, y * z, x * z};
+      for (std::size_t i = 0; i < 3; ++i) volume.first_m4[i] += first[i];
+      for (std::size_t i = 0; i < 6; ++i) volume.second_m5[i] += second[i];
+    }
+  }
+  return volumes;
+}
+
 }  // namespace meshes

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <map>
 #include <vector>
 
 #include "meshes/values/hex_mesh.h"
@@ -36,5 +38,17 @@ struct Plan {
 /// A face is in a boundary group if no second cell shares it.
 /// @param stations_m ascending; they contain the ends of all slabs up to rounding
 HexMesh sweep(const Plan& plan, const std::vector<double>& stations_m);
+
+/// What is swept in one volume group, between straight edges.
+struct SweptVolume {
+  std::size_t n_cells = 0;
+  double volume_m3 = 0;
+  std::array<double, 3> first_m4{};   ///< integrals of x, y, z
+  std::array<double, 6> second_m5{};  ///< of xx, yy, zz, xy, yz, xz
+};
+
+/// Of all volume groups, by their ids, without sweeping anything.
+/// @param stations_m  as sweep takes them: they count the cells
+std::map<int, SweptVolume> swept_volumes(const Plan& plan, const std::vector<double>& stations_m);
 
 }  // namespace meshes

@@ -95,6 +95,14 @@ struct HotSpot {
   std::array<double, 3> toe_m{}, near_m{}, far_m{};
 };
 
+/// An edge of tetrahedra on a curved surface that is straighter than that surface, since cells as curved as it
+/// would be inverted.
+struct StraightEdge {
+  std::array<double, 3> middle_m{};
+  double length_m = 0;
+  double off_m = 0;  ///< of its middle from where the surface has it
+};
+
 struct MeshQuality {
   std::size_t n_cells = 0, n_vertices = 0;
   double min_scaled_jacobian = 0, median_scaled_jacobian = 0;
@@ -115,6 +123,8 @@ struct BodyMesh {
   std::vector<HotSpot> hot_spots;
   std::vector<std::string>
       covered_toes;  ///< names of hot spots that are not read: other plates are in the way
+  std::vector<StraightEdge> straight_edges;  ///< imported STEP files and keyed shafts only
+  double smallest_size_m = 0;                ///< no edge of an imported STEP file's mesh is wanted shorter
   MeshQuality quality;
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "meshes/imported/file_checks.h"
 #include "pipelines/files/replaceable.h"
+#include "pipelines/files/whole_file.h"
 #include "pipelines/names/nearest_name.h"
 #include "pipelines/scene_bodies/scene_body.h"
 
@@ -40,7 +42,7 @@ meshes::CylinderSelection read_cylinder(SceneTable table) {
 
 meshes::ImportPort read_port(SceneTable& table) {
   meshes::ImportPort port;
-  port.name = table.text("port");
+  port.name = table.name("port");
   std::vector<std::string> given;
   for (const char* way : {"group", "box", "cylinder"}) {
     table.know(way);
@@ -115,9 +117,15 @@ meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_
   meshes::Import import;
   const std::string file = body.text("file");
   import.geometry = scene_directory / file;
-  note_input(import.geometry);
-  if (std::error_code none; !file.empty() && !std::filesystem::is_regular_file(import.geometry, none))
+  std::error_code none;
+  if (!file.empty() && !std::filesystem::is_regular_file(import.geometry, none))
     body.refuse("file", "there is no such file; its path counts from the scene's folder");
+  else if (const auto size = size_of_file(import.geometry); size > meshes::most_bytes_of_a_geometry)
+    body.refuse("file", "the file has " + size_text(size) + ", and at most " +
+                            size_text(meshes::most_bytes_of_a_geometry) +
+                            " are read; export the part alone, or mesh it coarser");
+  else
+    note_input(import.geometry);
   body.know("length_unit");
   if (body.has("length_unit")) import.scale_to_m = body.quantity("length_unit", "m", positive(1e3));
   for (SceneTable& table : body.tables("ports")) import.ports.push_back(read_port(table));

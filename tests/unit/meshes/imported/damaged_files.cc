@@ -1,6 +1,8 @@
 // Damage that a file's own text shows is told with its line, before gmsh sees it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,6 +85,21 @@ TEST(DamagedFiles, SoundTextsPass) {
   EXPECT_NO_THROW(meshes::check_msh_text(msh_41));
   EXPECT_NO_THROW(meshes::check_msh_text(msh_22));
   EXPECT_NO_THROW(meshes::check_msh_text("$MeshFormat\n4 0 8\n$EndMeshFormat\nof another version"));
+}
+
+// OpenCASCADE reads all of these; the check of the text refused some of them as cut off.
+TEST(DamagedFiles, StepTextsThatReadersTakeAreNone) {
+  const std::string last = "END-ISO-10303-21;\n";
+  std::string small = step, old_mac = step;
+  for (char& c : small) c = char(std::tolower(c));
+  std::replace(old_mac.begin(), old_mac.end(), '\n', '\r');
+  for (const auto& text :
+       {with(step, last, "End-ISO-10303-21;"), small, old_mac, "\xEF\xBB\xBF" + step,
+        step + std::string(9, '\0'), step + "\x1a", step + "  \n\t\n", step + "what is this? '#77",
+        with(step, last, "END-ISO-10303-21 ;"), "/* by hand */\n" + step,
+        with(step, "ENDSEC;\nDATA;", "FILE_SCHEMA(('A','B'));\nENDSEC;\nDATA;")})
+    EXPECT_EQ(refusal_of([&] { meshes::check_step_text(text); }), "accepted") << text;
+  expect_words(refusal_of([&] { meshes::check_step_text(with(old_mac, "#1=CART", "#4=CART")); }), {"line 8"});
 }
 
 TEST(DamagedFiles, OfStepAreToldWithLineAndEntity) {

@@ -95,6 +95,65 @@ TEST(Imported, AFaceWithCurvedEdgesIsLoadedAboutTheCentreOfItsArea) {
   EXPECT_NEAR(body.ports[0].axis_y_m, 0, 1e-4);
 }
 
+/// A cube of side 1 with the group "foot" of its bottom, within "outside" of all its faces; the cube itself
+/// is in "part" and "steel".
+void cube_in_nested_groups(double version) {
+  occ::addBox(0, 0, 0, 1, 1, 1);
+  occ::synchronize();
+  gmsh::vectorpair faces;
+  gmsh::model::getBoundary({{3, 1}}, faces, true, false);
+  std::vector<int> foot, outside;
+  for (const auto& face : faces) {
+    double x[6];
+    gmsh::model::getBoundingBox(2, face.second, x[0], x[1], x[2], x[3], x[4], x[5]);
+    if (x[5] < 0.5) foot.push_back(face.second);
+    outside.push_back(face.second);
+  }
+  const auto name = [](int dimension, const std::vector<int>& entities, const char* group) {
+    gmsh::model::setPhysicalName(dimension, gmsh::model::addPhysicalGroup(dimension, entities), group);
+  };
+  name(2, foot, "foot");
+  name(2, outside, "outside");
+  name(3, {1}, "part");
+  name(3, {1}, "steel");
+  gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+  gmsh::option::setNumber("Mesh.MshFileVersion", version);
+  gmsh::model::mesh::generate(3);
+}
+
+TEST(Imported, ASurfaceInTwoGroupsIsFoundByBothNames) {
+  for (const double version : {2.2, 4.1}) {
+    const auto msh = written("nested.msh", [&] { cube_in_nested_groups(version); });
+    const auto area_of = [&](const char* group) {
+      const auto read = read_tetrahedra(
+          meshes::build_imported(import_of(msh, {{"chosen", Port::Kind::face, GroupSelection{group}}})));
+      EXPECT_NEAR(read.volume_m3, 1, 1e-9) << version;
+      EXPECT_NEAR(read.volume_of.at("part + steel"), 1, 1e-9) << version;
+      return read.area_of.at("chosen");
+    };
+    EXPECT_NEAR(area_of("foot"), 1, 1e-9) << version;
+    EXPECT_NEAR(area_of("outside"), 6, 1e-9) << version;
+    expect_words(refused(import_of(msh, {{"a", Port::Kind::face, GroupSelection{"foot"}},
+                                         {"b", Port::Kind::face, GroupSelection{"outside"}}})),
+                 {"already belongs to port a"});
+  }
+}
+
+// gmsh writes names without elements then, and the file was said to have no groups at all.
+TEST(Imported, AMshOfSaveAllSaysWhyItHasNoGroups) {
+  for (const double version : {2.2, 4.1}) {
+    const auto msh = written("all.msh", [&] {
+      cube_in_nested_groups(version);
+      gmsh::option::setNumber("Mesh.SaveAll", 1);
+    });
+    const auto import = import_of(msh, {{"base", Port::Kind::face, GroupSelection{"foot"}}});
+    if (version == 4.1)
+      EXPECT_NEAR(read_tetrahedra(meshes::build_imported(import)).area_of.at("base"), 1, 1e-9);
+    else
+      expect_words(refused(import), {"names the group \"foot\"", "Mesh.SaveAll = 0", "version 4.1"});
+  }
+}
+
 TEST(Imported, AMshWithGroupsGoesInAndOut) {
   for (const int order : {1, 2})
     for (const double version : {2.2, 4.1}) {

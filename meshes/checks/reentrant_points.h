@@ -1,0 +1,22 @@
+/// Points at which a hollow comes to a tip, found by looking at a mesh's boundary.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "meshes/values/body_mesh.h"
+
+namespace meshes {
+
+/// The tips of hollows, as a drill or a centre leaves them: vertices of the boundary from which all of it
+/// rises towards the outside within 70 degrees of one direction, which leaves out smooth hollows of ten cells
+/// around and more. Stress rises towards the tip of a conical notch without bound, if weakly, and no cell
+/// shows it. Tips on the edges given are passed over, but for edges within one surface. One entry each, named
+/// "tip of <surface>", with one piece of no length.
+/// @param edges  reentrant_edges of the same mesh
+/// @param names  of the surfaces by id
+std::vector<SharpEdge> reentrant_points(const CellMesh& mesh, const std::vector<SharpEdge>& edges,
+                                        const std::map<int, std::string>& names, double distance_m);
+
+}  // namespace meshes
