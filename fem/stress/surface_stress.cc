@@ -56,17 +56,22 @@ struct Nearest {
 Nearest nearest_on_face(const Nodes& nodes, const NodeList& face, const Vector3& wanted) {
   constexpr int most_steps = 20;
   constexpr double small_step = 1e-12;
-  Nearest nearest{{0.5, 0.5, 0}, 0};
+  const bool is_triangle = nodes.shape().is_tetrahedron();
+  const double middle = is_triangle ? 1.0 / 3 : 0.5;
+  Nearest nearest{{middle, middle, 0}, 0};
   for (int step = 0; step < most_steps; ++step) {
     const auto map = map_face(nodes, face, nearest.at);
     const Eigen::Vector2d change =
         (map.slope.transpose() * map.slope).ldlt().solve(map.slope.transpose() * (wanted - map.at));
-    double moved = 0;
-    for (int d = 0; d < 2; ++d) {
-      const double before = nearest.at[std::size_t(d)];
-      nearest.at[std::size_t(d)] = std::clamp(before + change[d], 0.0, 1.0);
-      moved = std::max(moved, std::abs(nearest.at[std::size_t(d)] - before));
+    double s = nearest.at[0] + change[0], t = nearest.at[1] + change[1];
+    if (const double beyond = s + t - 1; is_triangle && beyond > 0) {
+      s -= beyond / 2;
+      t -= beyond / 2;
     }
+    s = std::clamp(s, 0.0, 1.0);
+    t = std::clamp(t, 0.0, 1.0);
+    const double moved = std::max(std::abs(s - nearest.at[0]), std::abs(t - nearest.at[1]));
+    nearest.at = {s, t, 0};
     if (moved < small_step) break;
   }
   nearest.distance_m = (map_face(nodes, face, nearest.at).at - wanted).norm();
@@ -76,7 +81,6 @@ Nearest nearest_on_face(const Nodes& nodes, const NodeList& face, const Vector3&
 }  // namespace
 
 PointOnBoundary point_on_boundary(const Nodes& nodes, const std::array<double, 3>& at_m, double off_m) {
-  if (nodes.shape().is_tetrahedron()) return {};
   const Vector3 wanted(at_m.data());
   const auto node_at = [&](std::int32_t i) { return Vector3(&nodes.xyz_m[3 * std::size_t(i)]); };
   PointOnBoundary found;

@@ -29,8 +29,7 @@ struct PointOnBoundary {
   std::vector<NodeShare> shares;  ///< one node where one lies there, else the face's by their shape functions
 };
 
-/// A point of the surface by the boundary face that holds it; of two that share it, the first. Hexahedra
-/// only.
+/// A point of the surface by the boundary face that holds it; of two that share it, the first.
 /// @param at_m   the point
 /// @param off_m  what it may be off the meshed surface by
 /// @return no shares if no face comes so near

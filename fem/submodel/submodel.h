@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "fem/values/body.h"
@@ -24,6 +25,9 @@ struct SubmodelControl {
   int n_cuts = 1;    ///< how often edges are halved: once makes eight cells of one
   LoadedFaces loaded_faces = LoadedFaces::held;
 };
+
+/// Whether no stress is looked for at a place of the surface: position [m], boundary group.
+using LeftOut = std::function<bool(const std::array<double, 3>&, int)>;
 
 /// A node whose stress counts, and how much.
 struct WeightedNode {
@@ -47,13 +51,13 @@ struct SubmodelStress {
 /// @param loads      one per channel
 /// @param point      one node, or several whose weighted sum counts
 /// @param factors    one per channel
-/// @param left_out   one per node, or empty: cells with such a node are not searched for the largest stress
+/// @param left_out   places where the largest stress is not looked for, as beside sharp edges; null: none
 /// @throws std::invalid_argument if the cells are of another degree, the body is of several materials, there
 ///         is no such node, or numbers of loads and factors are not those of the channels
 /// @throws SolveFailed as the direct solver
 SubmodelStress submodel_stress(const UnitResponses& responses, const Body& body,
                                const std::vector<UnitLoad>& loads, const std::vector<WeightedNode>& point,
-                               const std::vector<double>& factors, const std::vector<char>& left_out = {},
+                               const std::vector<double>& factors, const LeftOut& left_out = {},
                                const SubmodelControl& control = {});
 
 /// Whether a node of the point lies on a surface with a load, a spring or a clamp. Where a submodel holds it,

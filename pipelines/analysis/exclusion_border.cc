@@ -61,26 +61,18 @@ private:
     return stress_Pa[outside] + share * rise_Pa;
   }
 
-  /// Distance to the nearest border; negative within.
   double beyond_m(std::size_t node, std::optional<int> boundary_id) const {
-    double least_m = std::numeric_limits<double>::max();
-    for (const auto& edge : body_.mesh.sharp_edges) {
-      double border_m = edge.distance_m;
-      if (boundary_id)
-        if (const auto own = edge.distance_on_m.find(*boundary_id); own != edge.distance_on_m.end())
-          border_m = std::max(border_m, own->second);
-      least_m = std::min(least_m, distance_m(point_m(node), edge) - border_m);
-    }
-    return least_m;
+    return beyond_border_m(body_.mesh, point_m(node), boundary_id);
   }
 
   const StressBesideEdges& body_;
   double largest_Pa_;
 };
 
+constexpr double beside = 1.5;  // of the exclusion distance
+
 /// The largest exclusion distance of the sharp edges beside a point; 0: none is near.
 double left_out_beside_m(const meshes::BodyMesh& mesh, const std::array<double, 3>& point_m) {
-  constexpr double beside = 1.5;  // of the exclusion distance
   double left_out_m = 0;
   for (const auto& edge : mesh.sharp_edges)
     if (distance_m(point_m, edge) < beside * edge.distance_m)
@@ -106,7 +98,45 @@ double longest_face_m(const fem::Nodes& nodes, std::size_t node) {
   return longest_m;
 }
 
+/// The edge whose border is nearest to a point; null: there are none.
+const meshes::SharpEdge* nearest_border(const std::vector<meshes::SharpEdge>& edges,
+                                        const std::array<double, 3>& at_m) {
+  const auto nearest = std::min_element(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
+    return distance_m(at_m, a) - a.distance_m < distance_m(at_m, b) - b.distance_m;
+  });
+  return nearest == edges.end() ? nullptr : &*nearest;
+}
+
+/// Of the edges of faces at a node.
+double longest_edge_m(const fem::Nodes& nodes, std::size_t node) {
+  double longest_m = 0;
+  const auto n_corners = std::size_t(nodes.shape().n_face_corners());
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    if (std::find(face.begin(), face.end(), std::int32_t(node)) == face.end()) continue;
+    for (std::size_t i = 0; i < n_corners; ++i) {
+      const double *a = &nodes.xyz_m[3 * std::size_t(face[i])],
+                   *b = &nodes.xyz_m[3 * std::size_t(face[(i + 1) % n_corners])];
+      longest_m = std::max(longest_m, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+    }
+  }
+  return longest_m;
+}
+
 }  // namespace
+
+double beyond_border_m(const meshes::BodyMesh& mesh, const std::array<double, 3>& point_m,
+                       std::optional<int> boundary_id) {
+  double least_m = std::numeric_limits<double>::max();
+  for (const auto& edge : mesh.sharp_edges) {
+    double border_m = edge.distance_m;
+    if (boundary_id)
+      if (const auto own = edge.distance_on_m.find(*boundary_id); own != edge.distance_on_m.end())
+        border_m = std::max(border_m, own->second);
+    least_m = std::min(least_m, distance_m(point_m, edge) - border_m);
+  }
+  return least_m;
+}
 
 double rise_to_border_Pa(const StressBesideEdges& body, const PlaceStress& place) {
   if (body.mesh.sharp_edges.empty()) return 0;
@@ -128,11 +158,57 @@ double rise_to_border_Pa(const BodyAnalysis& analysis, const PlaceStress& place)
       place);
 }
 
+double largest_at_border_Pa(const BodyAnalysis& analysis) {
+  const auto& nodes = analysis.responses.nodes;
+  const StressBesideEdges body{nodes, analysis.envelope.von_mises.value_Pa, analysis.places, analysis.mesh};
+  Border border(body, 0);
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) border.look_at(nodes.face(f), nodes.face_boundary_id[f]);
+  return border.largest_Pa();
+}
+
+const meshes::SharpEdge* edge_beside_peak(const BodyAnalysis& analysis) {
+  const auto* nearest = nearest_border(analysis.mesh.sharp_edges, analysis.peak.position_m);
+  if (nearest == nullptr) return nullptr;
+  if (distance_m(analysis.peak.position_m, *nearest) < beside * nearest->distance_m) return nearest;
+  const auto& nodes = analysis.responses.nodes;
+  const auto is_higher_within = [&](std::int32_t node) {
+    return analysis.places.excluded[std::size_t(node)] != 0 &&
+           analysis.envelope.von_mises.value_Pa[std::size_t(node)] > analysis.peak.value_Pa;
+  };
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    if (std::find(face.begin(), face.end(), std::int32_t(analysis.peak.node)) != face.end() &&
+        std::any_of(face.begin(), face.end(), is_higher_within))
+      return nearest;
+  }
+  return nullptr;
+}
+
 bool is_at_border(const meshes::BodyMesh& mesh, const std::array<double, 3>& point_m) {
   return left_out_beside_m(mesh, point_m) > 0;
 }
 
+namespace {
+
+/// Of tetrahedra that may be larger than what is left out: those count that reach from the place to within.
+double tetrahedra_to_border(const BodyAnalysis& analysis, const PlaceStress& place) {
+  const auto& nodes = analysis.responses.nodes;
+  const auto* edge = nearest_border(analysis.mesh.sharp_edges, place.position_m);
+  if (edge == nullptr) return 0;
+  const auto is_excluded = [&](std::int32_t i) { return analysis.places.excluded[std::size_t(i)] != 0; };
+  bool is_beside = distance_m(place.position_m, *edge) < beside * edge->distance_m;
+  for (std::size_t f = 0; f < nodes.n_faces() && !is_beside; ++f) {
+    const auto face = nodes.face(f);
+    is_beside = std::find(face.begin(), face.end(), std::int32_t(place.node)) != face.end() &&
+                std::any_of(face.begin(), face.end(), is_excluded);
+  }
+  return is_beside ? edge->distance_m / longest_edge_m(nodes, place.node) : 0;
+}
+
+}  // namespace
+
 double cells_to_border(const BodyAnalysis& analysis, const PlaceStress& place) {
+  if (analysis.responses.nodes.shape().is_tetrahedron()) return tetrahedra_to_border(analysis, place);
   const double left_out_m = left_out_beside_m(analysis.mesh, place.position_m);
   const double face_m = left_out_m > 0 ? longest_face_m(analysis.responses.nodes, place.node) : 0;
   return face_m > 0 ? left_out_m / face_m : 0;

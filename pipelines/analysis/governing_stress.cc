@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "pipelines/analysis/load_patch.h"
 
 namespace pipelines {
 namespace {
@@ -50,10 +53,18 @@ double error_of_cheap_model_Pa(const BodyAnalysis& analysis, double value_Pa, do
 /// shares of the largest stress are 20 and 9 MPa.
 constexpr double times_elsewhere_on_fillet = 2.5;
 
-bool is_maximum_of_its_place(const BodyAnalysis& analysis, const Zone& zone) {
-  return std::none_of(analysis.place_stresses.begin(), analysis.place_stresses.end(), [&](const auto& place) {
-    return place.feature == zone.feature && place.node != zone.peak_node;
-  });
+double of_load_patches_Pa(const ErrorBudget& errors) {
+  return errors.of("load_patches") + errors.of("charge_patch");
+}
+
+/// Of the assumptions.
+double without_load_patches_Pa(const ErrorBudget& errors) {
+  return errors.total_Pa() - errors.numerical_Pa() - of_load_patches_Pa(errors);
+}
+
+bool is_maximum_of_its_place(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {
+  return std::none_of(analysis.place_stresses.begin(), analysis.place_stresses.end(),
+                      [&](const auto& place) { return place.feature == feature && place.node != node; });
 }
 
 }  // namespace
@@ -94,12 +105,46 @@ std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone) {
   if (zone.peak_node == analysis.peak.node) return analysis.peak.errors.reducible_Pa();
   if (!zone.error_Pa) return std::nullopt;
   return *zone.error_Pa +
-         error_of_cheap_model_Pa(analysis, zone.peak_Pa, zone.peak_m[2],
-                                 is_maximum_of_its_place(analysis, zone) ? 1 : times_elsewhere_on_fillet);
+         error_of_cheap_model_Pa(
+             analysis, zone.peak_Pa, zone.peak_m[2],
+             is_maximum_of_its_place(analysis, zone.feature, zone.peak_node) ? 1 : times_elsewhere_on_fillet);
 }
 
 double error_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
   return place.error_Pa + error_of_cheap_model_Pa(analysis, place.value_Pa, place.position_m[2]);
+}
+
+double model_error_share(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {
+  const auto& peak = analysis.peak;
+  if (!(peak.value_Pa > 0)) return 0;
+  const double all = without_load_patches_Pa(peak.errors) / peak.value_Pa,
+               of_loads = all - share_of_cheap_model(analysis);
+  const double value_Pa = analysis.envelope.von_mises.value_Pa[node];
+  if (!(value_Pa > 0)) return all;
+  return of_loads + error_of_cheap_model_Pa(
+                        analysis, value_Pa, analysis.responses.nodes.xyz_m[3 * node + 2],
+                        is_maximum_of_its_place(analysis, feature, node) ? 1 : times_elsewhere_on_fillet) /
+                        value_Pa;
+}
+
+double stated_error_share(const BodyAnalysis& analysis, const std::string& feature) {
+  const auto& peak = analysis.peak;
+  return feature == peak.feature && peak.value_Pa > 0 ? peak.errors.total_Pa() / peak.value_Pa : 0;
+}
+
+double whole_error_share(const BodyAnalysis& analysis, const HotSpotStress& spot) {
+  const bool is_judged = std::any_of(analysis.place_stresses.begin(), analysis.place_stresses.end(),
+                                     [&](const auto& place) { return place.feature == spot.name; });
+  if (!is_judged) return std::numeric_limits<double>::infinity();
+  const double first_Pa = analysis.hot_spots.front().von_mises_Pa;
+  if (!(first_Pa > 0) || !(spot.von_mises_Pa > 0)) return 0;
+  const auto& errors = analysis.hot_spot_errors;
+  const double patches_Pa =
+      spot.name == analysis.hot_spots.front().name
+          ? of_load_patches_Pa(errors)
+          : load_patch_error_Pa(analysis, stress_point(spot), analysis.loads.history.values);
+  return (error_Pa(analysis, spot) + patches_Pa) / spot.von_mises_Pa +
+         without_load_patches_Pa(errors) / first_Pa;
 }
 
 double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot) {

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/between_instants/stress_course.h"
 #include "pipelines/body_figures/stress_gradient.h"
 #include "pipelines/common/errors.h"
@@ -31,12 +31,6 @@ Eigen::ArrayXd WeldPlace::along_Pa(const Eigen::ArrayXXd& factors, double angle_
   weights << d.x() * d.x(), d.y() * d.y(), d.z() * d.z(), 2 * d.x() * d.y(), 2 * d.y() * d.z(),
       2 * d.x() * d.z();
   return (weights * unit_Pa * factors.matrix()).transpose().array();
-}
-
-double error_share_of(const BodyAnalysis& analysis, const std::string& feature) {
-  for (const auto& place : analysis.place_stresses)
-    if (place.feature == feature) return place.value_Pa > 0 ? place.error_Pa / place.value_Pa : 0;
-  return std::numeric_limits<double>::infinity();
 }
 
 void require_toes(const BodyScene& body, const meshes::BodyMesh& mesh) {
@@ -99,7 +93,7 @@ std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis) {
     place.detail = {rules.class_Pa, drawing->thickness_m, thickness_exponent_of(rules.type),
                     rules.partial_factor};
     place.type = rules.type;
-    place.error_share = error_share_of(analysis, spot.name);
+    place.error_share = whole_error_share(analysis, spot);
     places.push_back(std::move(place));
   }
   return places;

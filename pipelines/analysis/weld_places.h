@@ -22,7 +22,7 @@ struct WeldPlace {
   Eigen::Vector3d surface_normal, across_toe;
   WeldDetail detail;
   std::string type;        ///< of weld_classes.h; empty: the class is the scene's own
-  double error_share = 0;  ///< numerical error of the stress; infinite: not known
+  double error_share = 0;  ///< whole error of the stress (whole_error_share); infinite: not known
 
   /// Stress along a direction in the surface, for ToeStress::angle_rad; a value per column of the factors.
   Eigen::ArrayXd along_Pa(const Eigen::ArrayXXd& factors, double angle_rad) const;
@@ -46,8 +46,5 @@ void require_toes(const BodyScene& body, const meshes::BodyMesh& mesh);
 
 /// Of all toes, in the order of BodyAnalysis::hot_spots.
 std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis);
-
-/// What is known of a stress's error at a place of the body, as a share; infinite: nothing.
-double error_share_of(const BodyAnalysis& analysis, const std::string& feature);
 
 }  // namespace pipelines

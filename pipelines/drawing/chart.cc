@@ -75,7 +75,7 @@ void write_svg(vtkRenderWindow* window, const std::filesystem::path& svg) {
   exporter->SetRenderWindow(window);
   exporter->SetFileName(file.temporary().c_str());
   exporter->Write();
-  file.commit();
+  file.commit("</svg>\n");  // the library does not tell that the disk was full
 }
 
 /// Draws one chart.

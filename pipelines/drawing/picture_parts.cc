@@ -18,6 +18,7 @@
 #include <algorithm>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/disk/open_directory.h"
 #include "pipelines/files/atomic_file.h"
 
 namespace pipelines {
@@ -117,7 +118,7 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
   if (writer->GetErrorCode() != 0)
-    throw FileError(png.string() + ": cannot be written; check the directory and the free space");
+    throw FileError(shown(png) + ": cannot be written; check the directory and the free space");
   file.commit(std::string_view("\0\0\0\0IEND\xAE\x42\x60\x82", 12));
 }
 

@@ -93,11 +93,12 @@ double shorter_side_m(vtkUnstructuredGrid* faces, vtkCell* face) {
 
 std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
                                                     const std::string& field, double scale,
-                                                    const std::string& excluded) {
+                                                    const std::string& excluded,
+                                                    const std::string& beyond) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   if (!reader->CanReadFile(vtu.c_str())) throw FileError(vtu.string() + ": is no VTU file that can be read");
   reader->SetFileName(vtu.c_str());
-  read_only({field, excluded, on_surface_array}, *reader);
+  read_only({field, excluded, beyond, on_surface_array}, *reader);
   vtkNew<vtkUnstructuredGridGeometryFilter> geometry;
   geometry->SetInputConnection(reader->GetOutputPort());
   geometry->Update();
@@ -116,10 +117,17 @@ std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path&
   marked->SetName(excluded_array);
   for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
     marked->InsertNextValue(marks && marks->GetComponent(i, 0) != 0 ? 1 : 0);
+  auto* distances = beyond.empty() ? nullptr : grid->GetPointData()->GetArray(beyond.c_str());
+  vtkNew<vtkFloatArray> within;
+  within->SetName(border_array);
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    within->InsertNextValue(distances ? static_cast<float>(-distances->GetComponent(i, 0))
+                                      : marked->GetValue(i) - 0.5F);
   auto faces = vtkSmartPointer<vtkUnstructuredGrid>::New();
   faces->CopyStructure(grid);
   faces->GetPointData()->SetScalars(shown);
   faces->GetPointData()->AddArray(marked);
+  faces->GetPointData()->AddArray(within);
   return shared(faces);
 }
 

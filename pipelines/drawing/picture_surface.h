@@ -17,17 +17,23 @@ using Colour = std::array<unsigned char, 3>;  ///< red, green, blue
 
 /// The point array that says where the field has no converged value: 1 there, 0 elsewhere.
 inline constexpr const char* excluded_array = "excluded";
+/// The point array that is positive where the field has no converged value, between the nodes too: its zero
+/// is the border.
+inline constexpr const char* border_array = "within the border";
 /// The nodal field of the file that is 1 on the surface of the body; files may have none.
 inline constexpr const char* on_surface_array = "on the surface";
 
 /// The boundary faces of the cells with their quadratic shape; the field times `scale` is the active scalars.
 /// @param excluded  a field of the file that is not 0 where the other counts for nothing; empty or absent:
 /// nowhere
+/// @param beyond    a field of the file that is negative where the other counts for nothing, such as the
+/// distance from a border; empty or absent: what lies half way between nodes that count and others
 /// @throws FileError naming the file if it cannot be read or has no such field of one component at
 ///         its nodes
 std::shared_ptr<vtkUnstructuredGrid> boundary_faces(const std::filesystem::path& vtu,
                                                     const std::string& field, double scale,
-                                                    const std::string& excluded);
+                                                    const std::string& excluded,
+                                                    const std::string& beyond = "");
 
 /// The faces in 4^subdivisions pieces each, with outward normals; sharp edges stay sharp.
 std::shared_ptr<vtkPolyData> smooth_surface(vtkUnstructuredGrid* faces, int subdivisions);

@@ -7,6 +7,7 @@
 #include <vtkColorTransferFunction.h>
 #include <vtkCoordinate.h>
 #include <vtkDataObject.h>
+#include <vtkFloatArray.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkNonMergingPointLocator.h>
@@ -28,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 #include "pipelines/drawing/cut_surface.h"
@@ -93,6 +95,32 @@ vtkSmartPointer<vtkActor> plain_actor(vtkPolyData* data, double grey) {
   return actor;
 }
 
+/// Stripes across x + y + z, which show on the faces of most bodies.
+/// @param width  of a light and a dark one together
+vtkSmartPointer<vtkActor> hatched_actor(vtkPolyData* data, double width) {
+  vtkNew<vtkFloatArray> along;
+  double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+    const double* x = data->GetPoint(i);
+    along->InsertNextValue(float((x[0] + x[1] + x[2]) / (std::sqrt(3.0) * width)));
+    least = std::min(least, double(along->GetValue(i)));
+    most = std::max(most, double(along->GetValue(i)));
+  }
+  constexpr int most_stripes = 1024;
+  const int n = std::clamp(int(std::ceil(most - least)), 1, most_stripes);
+  vtkNew<vtkLookupTable> stripes;
+  stripes->SetNumberOfTableValues(2 * n);
+  for (int i = 0; i < 2 * n; ++i) {
+    const double grey = i % 2 == 0 ? 0.85 : 0.55;
+    stripes->SetTableValue(i, grey, grey, grey);
+  }
+  stripes->SetTableRange(least, least + n);
+  vtkNew<vtkPolyData> striped;
+  striped->ShallowCopy(data);
+  striped->GetPointData()->SetScalars(along);
+  return actor_of(striped, stripes);
+}
+
 /// A ring around a place of the body that keeps its size in pixels.
 vtkSmartPointer<vtkActor2D> ring_at(const Vector& at, double radius) {
   vtkNew<vtkRegularPolygonSource> circle;
@@ -139,39 +167,39 @@ vtkSmartPointer<vtkPolyData> triangles_of(vtkPolyData* surface, vtkCellArray* tr
   return result;
 }
 
-/// A surface in parts: coloured where the field counts, grey where it does not.
+/// A surface in parts: coloured where the field counts, hatched where it does not.
 struct SurfaceParts {
-  std::vector<vtkSmartPointer<vtkPolyData>> coloured, grey;
+  std::vector<vtkSmartPointer<vtkPolyData>> coloured, hatched;
 };
 
 /// Triangles on the border between both are cut along it.
 SurfaceParts parts_of(vtkPolyData* surface) {
-  auto* marks = surface->GetPointData()->GetArray(excluded_array);
-  vtkNew<vtkCellArray> coloured, grey, between;
+  auto* within = surface->GetPointData()->GetArray(border_array);
+  vtkNew<vtkCellArray> coloured, hatched, between;
   for (vtkIdType c = 0; c < surface->GetPolys()->GetNumberOfCells(); ++c) {
     vtkIdType n = 0;
     const vtkIdType* points = nullptr;
     surface->GetPolys()->GetCellAtId(c, n, points);
     const auto n_excluded =
-        std::count_if(points, points + n, [&](vtkIdType i) { return marks->GetComponent(i, 0) > 0.5; });
-    (n_excluded == 0 ? coloured : n_excluded == n ? grey : between)->InsertNextCell(n, points);
+        std::count_if(points, points + n, [&](vtkIdType i) { return within->GetComponent(i, 0) > 0; });
+    (n_excluded == 0 ? coloured : n_excluded == n ? hatched : between)->InsertNextCell(n, points);
   }
   SurfaceParts parts{{triangles_of(surface, coloured)}, {}};
-  if (grey->GetNumberOfCells() > 0) parts.grey = {triangles_of(surface, grey)};
+  if (hatched->GetNumberOfCells() > 0) parts.hatched = {triangles_of(surface, hatched)};
   if (between->GetNumberOfCells() == 0) return parts;
   const auto border = triangles_of(surface, between);
   const std::string shown = border->GetPointData()->GetScalars()->GetName();
-  border->GetPointData()->SetActiveScalars(excluded_array);  // vtkClipPolyData looks at the active ones only
+  border->GetPointData()->SetActiveScalars(border_array);  // vtkClipPolyData looks at the active ones only
   vtkNew<vtkClipPolyData> clip;
   clip->SetInputData(border);
   clip->SetLocator(vtkNew<vtkNonMergingPointLocator>());  // merging takes long where cells crowd
-  clip->SetValue(0.5);
+  clip->SetValue(0);
   clip->InsideOutOn();
   clip->GenerateClippedOutputOn();
   clip->Update();
   clip->GetOutput()->GetPointData()->SetActiveScalars(shown.c_str());
   parts.coloured.push_back(clip->GetOutput());
-  parts.grey.push_back(clip->GetClippedOutput());
+  parts.hatched.push_back(clip->GetClippedOutput());
   return parts;
 }
 
@@ -180,10 +208,12 @@ struct Drawn {
   std::shared_ptr<vtkPolyData> surface, edges, section;
 };
 
+/// @param stripe  width of the hatching
 void add_drawn(vtkRenderer* renderer, const Drawn& drawn, const SurfaceParts& parts, vtkLookupTable* table,
-               bool with_edges) {
+               double stripe, bool with_edges) {
   for (const auto& part : parts.coloured) renderer->AddActor(actor_of(part, table));
-  for (const auto& part : parts.grey) renderer->AddActor(plain_actor(part, 0.72));
+  for (const auto& part : parts.hatched)
+    if (part->GetNumberOfPoints() > 0) renderer->AddActor(hatched_actor(part, stripe));
   if (drawn.section) renderer->AddActor(plain_actor(drawn.section.get(), 0.58));
   if (with_edges) add_lines(renderer, drawn.edges.get(), 0.25, 1);
 }
@@ -259,7 +289,7 @@ void add_notes(vtkRenderer* renderer, const std::vector<PictureMark>& notes, dou
   leaders.put(renderer, ink, 1.5);
 }
 
-/// What is ringed, and what the grey means; above the colours.
+/// What is ringed, and what is hatched; above the colours.
 /// @return the number of lines
 int add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::string& unit,
                     const PictureOptions& options, bool some_excluded, int font_size) {
@@ -272,7 +302,8 @@ int add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::str
   std::string words = (options.mark ? options.mark->text : maximum) + text;
   if (options.mark && distance(at, peak.at) > single_precision) words += "\nin colour: " + maximum;
   if (!options.notes.empty()) words += "\nboxes: " + options.notes_are;
-  if (some_excluded) words += "\ngrey: beside a sharp edge";
+  if (some_excluded)
+    words += "\nhatched: " + (options.excluded_is.empty() ? "beside a sharp edge" : options.excluded_is);
   const int n_lines = 1 + int(std::count(words.begin(), words.end(), '\n'));
   add_text(legend, words, font_size, 0.12, 0.92 - line_height * n_lines);
   return n_lines;
@@ -285,7 +316,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const auto window = make_offscreen_window();
   if (!window) return false;
 
-  const auto faces = boundary_faces(vtu, field, options.scale, options.excluded);
+  const auto faces = boundary_faces(vtu, field, options.scale, options.excluded, options.beyond);
   const int pieces = pieces_of(faces->GetNumberOfCells(), options.subdivisions);
   Drawn drawn{smooth_surface(faces.get(), pieces), {}, {}};
   const SurfacePeak peak = peak_of(faces.get(), drawn.surface.get());
@@ -297,7 +328,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const double from = std::min(0., lowest);
   const auto table = colours_of(
       options.range.value_or(std::array<double, 2>{from, peak.value > from ? peak.value : from + 1}));
-  const bool some_excluded = drawn.surface->GetPointData()->GetArray(excluded_array)->GetRange()[1] > 0;
+  const bool some_excluded = drawn.surface->GetPointData()->GetArray(border_array)->GetRange()[1] > 0;
   Frame all = frame_of(drawn.surface.get(), view);
   all.half_width *= 1.06;
   all.half_height *= 1.1;
@@ -323,8 +354,9 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
        *legend = add(layout.legend);
 
   const auto parts = parts_of(drawn.surface.get());
-  add_drawn(whole, drawn, parts, table, false);
-  add_drawn(detail, drawn, parts, table, options.edges);
+  constexpr double stripes_across_whole = 80, stripes_across_detail = 50;
+  add_drawn(whole, drawn, parts, table, 2 * extent / stripes_across_whole, false);
+  add_drawn(detail, drawn, parts, table, 2 * half_detail / stripes_across_detail, options.edges);
   whole->AddActor(ring_at(shown, font_size));
   look(whole, view, all, width_over_height(layout.whole, options), 4 * all.half_depth);
   look(detail, view, {shown, half_detail, 0, half_detail}, width_over_height(layout.detail, options),

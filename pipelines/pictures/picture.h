@@ -20,7 +20,9 @@ struct PictureOptions {
   double scale = 1;                 ///< from the field's unit to the one shown: 1e-6 for Pa to MPa
   std::optional<std::array<double, 2>>
       range;             ///< of the colours, in the unit shown; else from 0 (or below) to the peak
-  std::string excluded;  ///< field that is not 0 where the picture's has no converged value: grey there
+  std::string excluded;  ///< field that is not 0 where the picture's has no converged value: hatched there
+  std::string beyond;    ///< field of the distance from there, negative within; empty: half way between nodes
+  std::string excluded_is;  ///< what is hatched, for the legend, in lines
   std::optional<PictureMark> mark;  ///< ringed and named instead of the field's peak
   std::vector<PictureMark> notes;   ///< written beside their places, whether these are seen or hidden
   std::string notes_are;            ///< what they say, for the legend

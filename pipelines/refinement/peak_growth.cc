@@ -16,15 +16,10 @@ namespace {
 /// more of it with every refinement, but at a fixed distance it converges.
 constexpr double beside_edge = 2;
 
-/// A single spot is left out for want of an edge: beside it stress may well grow.
-bool is_spot(const meshes::SharpEdge& edge) {
-  return edge.pieces.size() == 1 && edge.pieces.front()[0] == edge.pieces.front()[1];
-}
-
 bool beside_left_out_edge(const BodyAnalysis& analysis) {
   const auto& edges = analysis.mesh.sharp_edges;
   return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    return !is_spot(edge) && distance_m(analysis.peak.position_m, edge) < beside_edge * edge.distance_m;
+    return distance_m(analysis.peak.position_m, edge) < beside_edge * edge.distance_m;
   });
 }
 

@@ -296,6 +296,14 @@ int more_instants_per_turn(int before, const ChannelHistory& loads, double share
   return int(instants_of_a_kind * std::ceil(more * before / instants_of_a_kind));
 }
 
+/// Half as many again, at least two, since the series of a narrow pattern ends late; an even number, as a
+/// scene has.
+int more_harmonics(const BodyScene& body) {
+  int highest = body.pressure_harmonics;
+  for (const auto& [port, pressure] : body.pressures) highest = std::max(highest, pressure.highest_harmonic);
+  return std::max(2, std::min(highest / 4 * 2, (most_pressure_harmonics - highest) / 2 * 2));
+}
+
 }  // namespace
 
 OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, const GoverningStress& stress,
@@ -315,8 +323,9 @@ OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, c
     result.possible = true;
   }
   if (harmonics > mended_along * largest && body.pressure_harmonics < most_pressure_harmonics) {
-    body.pressure_harmonics += 2;
-    for (auto& [port, pressure] : body.pressures) pressure.highest_harmonic += 2;
+    const int more = more_harmonics(body);
+    body.pressure_harmonics += more;
+    for (auto& [port, pressure] : body.pressures) pressure.highest_harmonic += more;
     result.possible = true;
   }
   result.mesh_matters = mesh >= largest;

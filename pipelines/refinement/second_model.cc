@@ -18,8 +18,6 @@ constexpr double any_accuracy = 10;
 /// The first section's stresses were within 2.3 % of the last one's on 30 shafts drawn at random, wherever
 /// they were at least half of the largest.
 constexpr double error_of_guide = 0.05;
-/// What nodes around the axis can miss of a peak of m = 1 between two of them: 1 - cos(pi / n), n = 48.
-constexpr double between_angles = 2.2e-3;
 
 }  // namespace
 
@@ -38,9 +36,8 @@ std::optional<SecondModel> axisymmetric_second_model(const BodyScene& solid, con
   result.places = std::move(stresses.places);
   result.torsion = stresses.torsion;
   result.torsion.error_Pa += result.model_error * result.torsion.value_Pa;
-  for (auto& place : result.places)
-    place.error_Pa =
-        is_guide ? error_of_guide * place.value_Pa : place.error_Pa + between_angles * place.value_Pa;
+  if (is_guide)
+    for (auto& place : result.places) place.error_Pa = error_of_guide * place.value_Pa;
   return result;
 }
 

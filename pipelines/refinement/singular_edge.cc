@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "pipelines/common/constants.h"
@@ -27,6 +26,7 @@ Vector position(const fem::Nodes& nodes, std::int32_t node) {
 /// Side k of a face, from its corner k to the next one.
 struct Side {
   std::int32_t begin = 0, middle = 0, end = 0;
+  bool is_loaded = false;
   Vector into_face;  ///< along the face, away from the side's middle
 };
 
@@ -34,7 +34,7 @@ Side side_of(const fem::Nodes& nodes, const fem::NodeList& face, std::size_t k) 
   const std::size_t n_sides = face.size() == 9 ? 4 : 3;
   const auto at = [&](std::size_t i) { return position(nodes, face[i]); };
   const std::size_t next = (k + 1) % n_sides;
-  Side side{face[k], face[n_sides + k], face[next], {}};
+  Side side{face[k], face[n_sides + k], face[next], false, {}};
   if (n_sides == 4) {  // the parabola through the middles of this side, the face and the side across
     side.into_face = -3 * at(4 + k) + 4 * at(8) - at(4 + (k + 2) % 4);
   } else {
@@ -58,20 +58,24 @@ bool is_concave(const fem::Nodes& nodes, const Side& one, const Side& other) {
 
 }  // namespace
 
-std::vector<std::array<std::array<double, 3>, 2>> concave_edge_through(const fem::Nodes& nodes,
-                                                                       std::size_t node, double reach_m) {
+std::vector<std::array<std::array<double, 3>, 2>> singular_edge_through(const fem::Nodes& nodes,
+                                                                        std::size_t node, double reach_m,
+                                                                        const std::set<int>& loaded) {
   if (nodes.nodes_per_face() != 9 && nodes.nodes_per_face() != 6) return {};
   const std::size_t n_sides = nodes.nodes_per_face() == 9 ? 4 : 3;
   std::map<std::int32_t, Side> first;  // by the middle, which two faces share
-  std::vector<Side> concave;
+  std::vector<Side> singular;
   for (std::size_t f = 0; f < nodes.n_faces(); ++f)
     for (std::size_t k = 0; k < n_sides; ++k) {
-      const Side side = side_of(nodes, nodes.face(f), k);
+      Side side = side_of(nodes, nodes.face(f), k);
+      side.is_loaded = loaded.count(nodes.face_boundary_id[f]) > 0;
       const auto [found, is_new] = first.try_emplace(side.middle, side);
-      if (!is_new && is_concave(nodes, found->second, side)) concave.push_back(side);
+      if (is_new) continue;
+      const auto& other = found->second;
+      if (other.is_loaded != side.is_loaded || is_concave(nodes, other, side)) singular.push_back(side);
     }
   std::multimap<std::int32_t, const Side*> at;
-  for (const auto& side : concave)
+  for (const auto& side : singular)
     for (const auto n : {side.begin, side.middle, side.end}) at.emplace(n, &side);
 
   std::set<const Side*> taken;
@@ -102,18 +106,20 @@ std::vector<std::array<std::array<double, 3>, 2>> concave_edge_through(const fem
   return segments;
 }
 
-SpotWithoutBound spot_without_bound(const BodyAnalysis& analysis) {
+std::optional<EdgeWithoutBound> edge_without_bound(const BodyAnalysis& analysis) {
   const auto& p = analysis.peak.position_m;
   const auto& nodes = analysis.responses.nodes;
   const double distance_m = left_out_around_edges_m(nodes);
-  auto edge = concave_edge_through(nodes, analysis.peak.node, distance_m);
-  const bool is_edge = !edge.empty();
-  if (!is_edge) edge = {{p, p}};
-  return {{"stress grows without bound at " + analysis.peak.feature, distance_m, std::move(edge)},
-          fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} mm "
-                      "around {}({:.1f}, {:.1f}, {:.1f}) mm are left out of the peak",
-                      analysis.scene.name, analysis.peak.feature, 1e3 * distance_m,
-                      is_edge ? "the edge at " : "", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2])};
+  std::set<int> loaded;
+  for (const auto& port : analysis.mesh.ports) loaded.insert(port.boundary_id);
+  auto edge = singular_edge_through(nodes, analysis.peak.node, distance_m, loaded);
+  if (edge.empty()) return std::nullopt;
+  return EdgeWithoutBound{
+      {"stress grows without bound at " + analysis.peak.feature, distance_m, std::move(edge)},
+      fmt::format("{}: the stress at {} grows with every refinement, like at a sharp corner: {:.2g} mm "
+                  "around the edge at ({:.1f}, {:.1f}, {:.1f}) mm are left out of the peak",
+                  analysis.scene.name, analysis.peak.feature, 1e3 * distance_m, 1e3 * p[0], 1e3 * p[1],
+                  1e3 * p[2])};
 }
 
 }  // namespace pipelines

@@ -1,6 +1,8 @@
 /// What a body is judged by, and how it is told.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
 
@@ -68,6 +70,41 @@ TEST(GoverningStress, TakesWhatASearchHasLearnt) {
   analysis.hot_spot_errors.set_numerical({"other_places", "", 3e6});
   EXPECT_DOUBLE_EQ(error_Pa(analysis, analysis.hot_spots[0]), 5.4e6);
   EXPECT_DOUBLE_EQ(error_Pa(analysis, analysis.hot_spots[1]), 1.7e6);
+}
+
+// What lives are judged by: a toe was 37.7 +- 1.1 and +- 2.4 MPa from load patches, and its life took the
+// mesh's share alone. Turns red: any entry that is left out, or the second toe by the first one's own error.
+TEST(GoverningStress, ToesHaveTheWholeErrorOfTheirStatement) {
+  auto analysis = body(22.2, 40);
+  const auto share = [&](std::size_t toe) { return whole_error_share(analysis, analysis.hot_spots[toe]); };
+  EXPECT_FALSE(std::isfinite(share(0))) << "not judged";
+  analysis.place_stresses = {{"web 1, lower edge", 0, 40e6, 2e6, {}},
+                             {"web 2, lower edge", 0, 20e6, 3e6, {}}};
+  EXPECT_DOUBLE_EQ(share(0), 2.0 / 40);
+  EXPECT_DOUBLE_EQ(share(1), 3.0 / 20);
+  analysis.hot_spot_errors.set_numerical({"pressure_harmonics", "", 0.4e6});
+  analysis.hot_spot_errors.set_model({"load_patches", "", 2.4e6});
+  analysis.hot_spot_errors.set_model({"quasi_static", "", 0.8e6});
+  EXPECT_DOUBLE_EQ(share(0), analysis.hot_spot_errors.total_Pa() / 40e6);
+  EXPECT_NEAR(share(1), 3.0 / 20 + 0.4 / 40 + 0.8 / 40, 1e-12) << "no pressure reaches it";
+}
+
+// Of places on the surface: what is stated of the peak's assumptions counts everywhere, its whole statement
+// at its own feature.
+TEST(GoverningStress, PlacesHaveTheAssumptionsOfThePeak) {
+  auto analysis = body(50, 0);
+  analysis.envelope.von_mises.value_Pa = {50e6, 10e6};
+  analysis.responses.nodes.xyz_m.assign(6, 0.0);
+  analysis.peak.errors.set_model({"quasi_static", "", 4e6});
+  for (const std::size_t node : {0, 1})
+    EXPECT_NEAR(model_error_share(analysis, "seat", node), 0.08, 1e-12) << node;
+  EXPECT_NEAR(stated_error_share(analysis, "tube outside"), 0.1, 1e-12) << "1 and 4 of 50 MPa";
+  EXPECT_EQ(stated_error_share(analysis, "seat"), 0);
+  analysis.peak.errors.set_model({"load_patches", "", 3e6});
+  EXPECT_NEAR(model_error_share(analysis, "seat", 1), 0.08, 1e-12) << "these are asked of each place";
+  EXPECT_NEAR(stated_error_share(analysis, "tube outside"), 0.16, 1e-12);
+  analysis.peak.errors.set_model({"model", "", 2e6});
+  EXPECT_NEAR(model_error_share(analysis, "seat", 1), 0.12, 1e-12) << "a cheap model's share, too";
 }
 
 TEST(GoverningStress, ZonesHaveTheirOwnErrorsAndTheFirstThatOfThePeak) {
