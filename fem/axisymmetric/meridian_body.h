@@ -42,7 +42,7 @@ struct MeridianBody {
   Material material;
   int degree = 3;     ///< of displacement and geometry, 1 to 4
   int n_angles = 48;  ///< nodes around in the result, even, the first one at +x
-  int n_cuts = 0;     ///< of all cells, each in four, before those near the fine circles
+  int n_cuts = 0;     ///< of all cells, each in four, after those near the fine circles
   std::vector<FineCircle> fine_circles{};
   double fine_growth = 0.5;
   /// Of the body as its loads know it, where that is not this section: the resultants of body forces become

@@ -88,7 +88,6 @@ bool is_too_long(const Cell& cell, const MeridianBody& body) {
 void make_meridian_mesh(const MeridianBody& body, dealii::Triangulation<2>& mesh) {
   create(body, mesh);
   require_all_edges(body, mesh);
-  if (body.n_cuts > 0) mesh.refine_global(unsigned(body.n_cuts));
   for (int i = 0; i < most_cuts; ++i) {
     bool any = false;
     for (const auto& cell : mesh.active_cell_iterators())
@@ -96,9 +95,10 @@ void make_meridian_mesh(const MeridianBody& body, dealii::Triangulation<2>& mesh
         cell->set_refine_flag();
         any = true;
       }
-    if (!any) return;
+    if (!any) break;
     mesh.execute_coarsening_and_refinement();
   }
+  if (body.n_cuts > 0) mesh.refine_global(unsigned(body.n_cuts));
 }
 
 }  // namespace fem

@@ -13,6 +13,8 @@
 #include "pipelines/body_stages/respond.h"
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
+#include "pipelines/cheap_models/nodes_at_maxima.h"
+#include "pipelines/cheap_models/torsion_by_feature.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/scene_reader/why_not.h"
 
@@ -24,10 +26,15 @@ namespace {
 constexpr double size_on_fillet = 0.5, size_at_seat = 0.25, size_at_sharp_edge = 0.25;
 constexpr double size_of_more = 0.1;  // of the radius, at the largest stress of a place
 constexpr double first_growth = 1.5;  // of cells with the distance from a fine circle
-/// The order that a place has shown counts up to that. At a seam, whose nodes belong to the fillet beside it,
-/// a place's values creep with less than first order: hence the safety. A last change may be small by chance:
-/// of the one before an eighth counts still, what cubic cells leave of it, and of the value this much.
-constexpr double largest_order = 2, safety = 1.5, hidden_share = 1.0 / 8, unseen_share = 0.002;
+/// Every cell of a section is halved in the next one, so that a place's change from section to section falls
+/// by its order. What is missing of the last value is the rest of that geometric series, times a safety.
+/// Ratios of two changes count between a least one, third order (that of the stress of cubic cells), and
+/// somewhat less than first order, as beside the end of a load or at a seam. A change may be small by chance:
+/// of the one before it a share counts still, and of the value another. The first section is coarse: where
+/// its change is the one before, less of an order is believed. From two sections alone none is known.
+constexpr double least_ratio = 1.0 / 8, least_ratio_from_first = 1.0 / 4, most_ratio = 0.6, safety = 2;
+constexpr double hidden_share = 1.0 / 24, hidden_share_from_first = 1.0 / 6, least_share = 1e-4;
+constexpr double safety_of_two = 1.5, least_share_of_two = 0.002;
 
 void add(std::vector<fem::FineCircle>& circles, double z_m, double r_m, double size_m) {
   const auto same = std::find_if(circles.begin(), circles.end(), [&](const auto& c) {
@@ -37,6 +44,15 @@ void add(std::vector<fem::FineCircle>& circles, double z_m, double r_m, double s
     circles.push_back({z_m, r_m, size_m});
   else
     same->size_m = std::min(same->size_m, size_m);
+}
+
+/// Half planes by which the stress at any angle is known: more than twice as many as the highest harmonic.
+int angles_for(const BodyLoads& loads, int usual) {
+  int highest = 1;
+  for (const auto& load : loads.unit_loads)
+    if (const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape))
+      highest = std::max(highest, pressure->harmonic);
+  return std::max(usual, 2 * highest + 2);
 }
 
 std::set<int> loaded_seats(const BodyLoads& loads) {
@@ -81,10 +97,13 @@ double missing_Pa(const std::vector<double>& values) {
   const std::size_t n = values.size();
   if (n < 2) return values.back();
   const double last = std::abs(values[n - 1] - values[n - 2]);
-  if (n < 3) return std::max(safety * last, unseen_share * values.back());
+  if (n < 3) return std::max(safety_of_two * last, least_share_of_two * values.back());
   const double before = std::abs(values[n - 2] - values[n - 3]);
-  const double order = last > 0 ? std::clamp(std::log2(before / last), 1.0, largest_order) : largest_order;
-  return std::max(safety * last / (std::exp2(order) - 1), hidden_share * before);
+  const bool from_first = n == 3;
+  const double least = from_first ? least_ratio_from_first : least_ratio,
+               hidden = from_first ? hidden_share_from_first : hidden_share;
+  const double ratio = before > 0 ? std::clamp(last / before, least, most_ratio) : most_ratio;
+  return std::max({safety * last * ratio / (1 - ratio), hidden * before, least_share * values.back()});
 }
 
 /// Of torsional stress on one section alone: largest error of 53 twisted shafts 0.31 %, but for what lies
@@ -94,83 +113,6 @@ constexpr double error_of_one_section = 0.02;
 /// Inside, of a node's value: sections keep their points there. A seat that is tilted had 6.86 MPa at 16 mm
 /// from the axis, where the solid had 7.06 at 15 mm.
 constexpr double unseen_inside = 0.04;
-
-/// What the parabola through a point of a curve and those before and behind it adds to the point's value;
-/// nothing where one of these is higher.
-double above_points_Pa(double value_Pa, double before_Pa, double h1, double behind_Pa, double h2) {
-  const double slope_1 = (before_Pa - value_Pa) / h1, slope_2 = (behind_Pa - value_Pa) / h2;
-  if (slope_1 > 0 || slope_2 > 0) return 0;  // the place ends here: what is higher belongs to the next one
-  const double curvature = (slope_1 + slope_2) / (h1 + h2);
-  const double slope = (slope_2 * h1 - slope_1 * h2) / (h1 + h2);
-  return curvature < 0 ? slope * slope / (-4 * curvature) : 0;
-}
-
-/// What a parabola through the nodes before and behind it on the half plane's surface adds to a node's value:
-/// points of one section are among those of the next, so that a change does not tell of what lies between.
-double between_points_Pa(const fem::Nodes& nodes, const std::vector<double>& value_Pa, std::size_t node) {
-  std::set<std::int32_t> beside;
-  constexpr std::size_t along[4] = {1, 0, 3, 2};  // the other end of a face's edge in the half plane
-  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
-    const auto face = nodes.face(f);
-    for (std::size_t i = 0; i < 4; ++i)
-      if (std::size_t(face[i]) == node) beside.insert(face[along[i]]);
-  }
-  if (beside.empty()) return unseen_inside * value_Pa[node];
-  if (beside.size() != 2) return 0;
-  const auto distance_m = [&](std::int32_t other) {
-    const double *a = &nodes.xyz_m[3 * node], *b = &nodes.xyz_m[3 * std::size_t(other)];
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-  };
-  const double h1 = distance_m(*beside.begin()), h2 = distance_m(*beside.rbegin());
-  return above_points_Pa(value_Pa[node], value_Pa[std::size_t(*beside.begin())], h1,
-                         value_Pa[std::size_t(*beside.rbegin())], h2);
-}
-
-/// Of one step: the largest ring of a feature, and what lies between rings, or between them and the border of
-/// what is left out: by the parabola through its neighbours, and by TorsionRing::rise_Pa.
-struct FeatureTorsion {
-  double value_Pa = 0, between_Pa = 0;
-};
-
-double distance_m(const TorsionRing& a, const TorsionRing& b) {
-  return std::hypot(a.z_m - b.z_m, a.radius_m - b.radius_m);
-}
-
-/// The nearest ring of another feature; null: there is none.
-const TorsionRing* next_beyond(const std::vector<TorsionRing>& rings, const TorsionRing& end) {
-  const TorsionRing* nearest = nullptr;
-  for (const auto& ring : rings)
-    if (ring.feature != end.feature &&
-        (nearest == nullptr || distance_m(ring, end) < distance_m(*nearest, end)))
-      nearest = &ring;
-  return nearest;
-}
-
-/// Rings at seams count to both features, as nodes do.
-std::map<std::string, FeatureTorsion> torsion_by_feature(const std::vector<TorsionRing>& rings) {
-  std::map<std::string, std::vector<const TorsionRing*>> by_feature;  // ascending z: a bore's are apart
-  for (const auto& ring : rings) by_feature[ring.feature].push_back(&ring);
-  std::map<std::string, FeatureTorsion> result;
-  for (auto& [feature, own] : by_feature) {
-    const auto *first = next_beyond(rings, *own.front()), *last = next_beyond(rings, *own.back());
-    if (first != nullptr) own.insert(own.begin(), first);
-    if (last != nullptr) own.push_back(last);
-    const auto largest =
-        std::max_element(own.begin(), own.end(), [](auto* a, auto* b) { return a->max_Pa < b->max_Pa; });
-    const auto& here = **largest;
-    auto& torsion = result[feature];
-    torsion.value_Pa = here.max_Pa;
-    for (const auto* ring : own)
-      torsion.between_Pa = std::max(torsion.between_Pa, ring->max_Pa + ring->rise_Pa - here.max_Pa);
-    if (largest == own.begin() || largest + 1 == own.end()) continue;
-    const auto &before = **(largest - 1), &behind = **(largest + 1);
-    if (before.max_Pa == 0 || behind.max_Pa == 0) continue;  // left out beside a sharp edge
-    torsion.between_Pa =
-        std::max(torsion.between_Pa, above_points_Pa(here.max_Pa, before.max_Pa, distance_m(before, here),
-                                                     behind.max_Pa, distance_m(here, behind)));
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -195,6 +137,7 @@ AxisymmetricRefinement::AxisymmetricRefinement(const BodyScene& body, const Mesh
         return meridian_body(with_coarse_blocks(body), meshed.mesh);
       }()) {
   section_.masses_of_loads = meshed.masses;
+  section_.n_angles = angles_for(loads, section_.n_angles);
   circles_ = first_circles(section_, meshed.mesh, loads);
   for (const auto& plane : meshed.mesh.sections)
     planes_.push_back({plane.z_m, plane.radius_m, plane.axis_x_m, plane.axis_y_m, plane.inner_radius_m});
@@ -202,11 +145,9 @@ AxisymmetricRefinement::AxisymmetricRefinement(const BodyScene& body, const Mesh
 
 AxisymmetricStep AxisymmetricRefinement::next(StageClock& clock) {
   const auto start = std::chrono::steady_clock::now();
-  const double scale = std::exp2(-n_steps_);
-  section_.n_cuts = std::min(n_steps_, 1);
-  section_.fine_growth = first_growth * scale;
+  section_.n_cuts = n_steps_;
+  section_.fine_growth = first_growth;
   section_.fine_circles = circles_;
-  for (auto& circle : section_.fine_circles) circle.size_m *= scale;
   AxisymmetricStep step;
   step.responses =
       clock.run("solve", [&] { return fem::axisymmetric_responses(section_, loads_->unit_loads, planes_); });
@@ -217,14 +158,15 @@ AxisymmetricStep AxisymmetricRefinement::next(StageClock& clock) {
                                     meshed_->mesh.sharp_edges);
     step.places = largest_by_feature(step.responses.nodes, step.envelope.von_mises.value_Pa,
                                      meshed_->mesh.features, step.node_places);
+    move_nodes_to_maxima(loads_->history, meshed_->mesh, section_.n_angles,
+                         {step.responses, step.envelope, step.node_places, step.places});
+    move_rings_to_maxima(*loads_, meshed_->mesh, step.responses);
   });
+  double least_m = 0;  // before all cells are cut
+  for (const auto& circle : circles_)
+    least_m = least_m == 0 ? circle.size_m : std::min(least_m, circle.size_m);
   step.fineness = fmt::format("section cut {} times, {} fine circles of {:.3g} mm and more", section_.n_cuts,
-                              circles_.size(), [&] {
-                                double least = 0;
-                                for (const auto& c : section_.fine_circles)
-                                  least = least == 0 ? c.size_m : std::min(least, c.size_m);
-                                return 1e3 * least;
-                              }());
+                              circles_.size(), 1e3 * least_m * std::exp2(-n_steps_));
   learn(step);
   learn_torsion(step);
   ++n_steps_;
@@ -239,22 +181,22 @@ void AxisymmetricRefinement::learn(AxisymmetricStep& step) {
   for (auto& place : step.places) {
     auto& values = values_Pa_[place.feature];
     values.push_back(place.value_Pa);
-    place.error_Pa = missing_Pa(values) + between_points_Pa(nodes, von_mises_Pa, place.node);
-    if (place.feature != inside_the_body)  // has unseen_inside
-      place.error_Pa += rise_to_border_Pa({nodes, von_mises_Pa, step.node_places, meshed_->mesh}, place);
+    place.error_Pa = missing_Pa(values);
+    place.error_Pa += place.feature == inside_the_body
+                          ? unseen_inside * place.value_Pa
+                          : rise_to_border_Pa({nodes, von_mises_Pa, step.node_places, meshed_->mesh}, place);
   }
 }
 
 /// Twist is the harmonic m = 0 alone: bending and what its section is wrong by have no part in it.
 void AxisymmetricRefinement::learn_torsion(AxisymmetricStep& step) {
   double own_error_Pa = 0, most_Pa = 0;
-  for (const auto& [feature, now] :
-       torsion_by_feature(torsion_rings(*loads_, step.responses, meshed_->mesh))) {
+  for (const auto& [feature, now] : torsion_by_feature(*loads_, step.responses, meshed_->mesh)) {
     if (now.value_Pa == 0) continue;  // not twisted, or no ring of it is outside what is left out
     auto& values_Pa = torsion_Pa_[feature];
     values_Pa.push_back(now.value_Pa);
     const double error_Pa =
-        now.between_Pa + (values_Pa.size() < 2 ? error_of_one_section * now.value_Pa : missing_Pa(values_Pa));
+        now.rise_Pa + (values_Pa.size() < 2 ? error_of_one_section * now.value_Pa : missing_Pa(values_Pa));
     most_Pa = std::max(most_Pa, now.value_Pa + error_Pa);
     if (now.value_Pa < step.torsion.value_Pa) continue;
     step.torsion.value_Pa = now.value_Pa;

@@ -27,10 +27,11 @@ struct AxisymmetricStep {
   double peak_error_Pa() const;
 };
 
-/// Each step has cells half as large as the one before on fillets, at the ends of loaded seats and at sharp
-/// edges; from the second on all cells are cut once, and where a place holds the accuracy back there is one
-/// more fine circle at its largest stress. Stress at the ends of loaded zones converges with first order: of
-/// a change d, d is missing still. From the third step on the order is seen, and counts up to 2.
+/// Each step cuts every cell of the one before in four, with cells half as large around fillets, ends of
+/// loaded seats and sharp edges; where a place holds the accuracy back there is one more fine circle at its
+/// largest stress from the third on. A place that no cut reaches would stand still and seem to be known.
+/// Stress at the ends of loaded zones converges with first order, elsewhere with third; which one a place
+/// shows from the third step on says what its last value misses.
 class AxisymmetricRefinement {
 public:
   /// References have to outlive this object.
@@ -41,8 +42,8 @@ public:
 
   /// Whether no place with its error exceeds the largest stress by more than that share.
   static bool is_met(const AxisymmetricStep& step, double target);
-  /// After this many the cells are small enough for every promise that was ever tried.
-  static constexpr int most_steps = 5;
+  /// The next would have millions of unknowns.
+  static constexpr int most_steps = 4;
 
 private:
   void learn(AxisymmetricStep& step);

@@ -13,6 +13,7 @@
 #include "pipelines/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/constants.h"
+#include "pipelines/estimates/in_time.h"
 #include "pipelines/common/stage_clock.h"
 
 namespace pipelines {
@@ -20,36 +21,6 @@ namespace {
 
 /// Of the discretisation: half of a tolerance, and without one what a second buys.
 constexpr double share_of_tolerance = 0.5, usual_target = 0.01;
-
-/// The node at the place of another one, turned about the axis; that one itself on the axis.
-std::size_t turned_node(const fem::Nodes& nodes, std::size_t node, double angle) {
-  const double *p = &nodes.xyz_m[3 * node], c = std::cos(angle), s = std::sin(angle);
-  const std::array<double, 3> to{c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
-  std::size_t nearest = node;
-  double least = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < nodes.n; ++i) {
-    const double* q = &nodes.xyz_m[3 * i];
-    const double distance = std::hypot(q[0] - to[0], q[1] - to[1], q[2] - to[2]);
-    if (distance < least) {
-      least = distance;
-      nearest = i;
-    }
-  }
-  return nearest;
-}
-
-/// What a parabola through the nodes beside the peak adds to it, at the peak's instant.
-double between_nodes_around_Pa(const BodyAnalysis& analysis, int n_angles) {
-  const auto at = [&](std::size_t node) {
-    return von_mises_Pa(stress_at(analysis.responses, analysis.loads.history, node, analysis.peak.instant));
-  };
-  const double step = 2 * pi / n_angles;
-  const auto& nodes = analysis.responses.nodes;
-  const double before = at(turned_node(nodes, analysis.peak.node, -step)), here = at(analysis.peak.node),
-               after = at(turned_node(nodes, analysis.peak.node, step));
-  const double curvature = before - 2 * here + after;
-  return curvature < 0 ? std::max(0.0, (before - after) / (-8 * curvature) * (before - after)) : 0;
-}
 
 SearchStep record(const Scene& scene, const BodyScene& body, const AxisymmetricStep& step) {
   SearchStep entry;
@@ -90,8 +61,6 @@ void enter_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& places
   auto& errors = analysis.peak.errors;
   errors.set_numerical(
       {"geometry", "arcs are curves of degree 3: their changes are those of the discretisation", 0});
-  errors.set_numerical({"nodes_around", "parabola through the neighbouring nodes around the axis",
-                        between_nodes_around_Pa(analysis, fem::MeridianBody().n_angles)});
   if (const auto beam = beam_shaft(analysis.scene, analysis.mesh))
     if (const double share = fem::eccentricity_error(*beam); share > 0)
       errors.set_model({"eccentric_segments",
@@ -106,7 +75,7 @@ void enter_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& places
 
 BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                                   BodyLoads loads, const RunOptions& options, StageClock& clock,
-                                  double tolerance) {
+                                  double tolerance, double seconds) {
   const auto start = std::chrono::steady_clock::now();
   const int n_threads = threads(options.n_threads);
   MeshedBody own = meshed;
@@ -124,7 +93,11 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
       search.ended = "too many steps";
       break;
     }
-    step = refinement.next(clock);
+    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - start;
+    if (!in_time(seconds - so_far.count(), [&] { step = refinement.next(clock); })) {
+      search.ended = time_is_up;
+      break;
+    }
     search.steps.push_back(record(scene, body, step));
   }
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
