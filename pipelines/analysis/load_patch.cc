@@ -1,11 +1,15 @@
 #include "pipelines/analysis/load_patch.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "pipelines/analysis/stress_under_changed_loads.h"
 #include "pipelines/common/constants.h"
+#include "pipelines/estimates/solved_pressure.h"
 
 namespace pipelines {
 namespace {
@@ -13,124 +17,219 @@ namespace {
 using Eigen::ArrayXXd;
 using Eigen::Index;
 
-/// The channels of a port's harmonic n: one or two, with what they are solved for.
-struct Harmonic {
-  double coefficient = 0;
-  std::vector<Index> channels;
+using Pressures = std::map<std::string, SolvedPressure>;
+
+/// Where between the least and the largest half angle patterns are looked at.
+constexpr std::array<double, 4> shares_of_range = {0, 1.0 / 3, 2.0 / 3, 1};
+/// Of the stress: what harmonics that were not solved may bring before they are.
+constexpr double felt_share = 1.0 / 500;
+const std::string charge_patch = "charge_patch";
+/// Of an entry: what a port brings whose range is told.
+constexpr double told_share = 0.02;
+
+PressurePattern varied(const PressureModel& model, double share) {
+  PressurePattern pattern = model.pattern;
+  const auto [least, most] = model.half_angles;
+  pattern.half_angle_rad = least + share * (most - least);
+  return pattern;
+}
+
+bool is_own(const PressureModel& model, const PressurePattern& pattern) {
+  return std::abs(pattern.half_angle_rad - model.pattern.half_angle_rad) < 1e-9;
+}
+
+/// Change of the channels' factors when a port has another pattern.
+void enter_change(const SolvedPressure& pressure, const PressurePattern& pattern, const ArrayXXd& values,
+                  ArrayXXd& change) {
+  if (is_own(pressure.model, pattern)) return;
+  for (const auto& [n, harmonic] : pressure.harmonics) {
+    const double own = solved_coefficient(pressure.model, n);
+    for (const auto k : harmonic.channels)
+      change.row(Index(k)) = values.row(Index(k)) * (pattern_coefficient(pattern, n) / own - 1);
+  }
+}
+
+/// How much higher and lower a stress may be, both not negative.
+struct Rise {
+  double up_Pa = 0, down_Pa = 0;
+  double most_Pa() const { return std::max(up_Pa, down_Pa); }
+  void take(double change_Pa, double unsolved_Pa) {
+    up_Pa = std::max(up_Pa, change_Pa + unsolved_Pa);
+    down_Pa = std::max(down_Pa, unsolved_Pa - change_Pa);
+  }
 };
 
-/// A port's pressure: its model, and the harmonics that were solved.
-struct Pressure {
-  PressureModel model;
-  std::map<int, Harmonic> harmonics;
+/// The governing point of peak or weld toe.
+struct FeltPoint {
+  double value_Pa = 0;
+  std::vector<std::array<double, 6>> unit_Pa;
+  std::map<std::string, StressByHarmonic> harmonics;  // by port
+
+  FeltPoint(const BodyAnalysis& analysis, const StressPoint& point, double stress_Pa,
+            const Pressures& pressures)
+      : value_Pa(stress_Pa), unit_Pa(unit_stress_at(analysis.responses, point)) {
+    for (const auto& [port, pressure] : pressures)
+      harmonics.emplace(port, StressByHarmonic(pressure, unit_Pa));
+  }
+  double under(const ArrayXXd& factors) const {
+    return largest_von_mises_Pa(unit_Pa.front().data(), factors);
+  }
 };
 
-std::map<std::string, Pressure> pressures_of(const BodyAnalysis& analysis) {
-  std::map<std::string, Pressure> pressures;
-  const auto& loads = analysis.loads.unit_loads;
-  for (std::size_t k = 0; k < loads.size(); ++k) {
-    const auto* shape = std::get_if<fem::SeatPressure>(&loads[k].shape);
-    if (shape == nullptr) continue;
-    const std::string port = loads[k].channel.substr(0, loads[k].channel.rfind('.'));
-    Pressure& pressure = pressures[port];
-    PressureModel usual;
-    usual.highest_harmonic = analysis.scene.pressure_harmonics;
-    const auto own = analysis.scene.pressures.find(port);
-    pressure.model = own != analysis.scene.pressures.end() ? own->second : usual;
-    Harmonic& harmonic = pressure.harmonics[shape->harmonic];
-    harmonic.coefficient = shape->coefficient;
-    harmonic.channels.push_back(Index(k));
-  }
-  return pressures;
+FeltPoint peak_of(const BodyAnalysis& analysis, const Pressures& pressures) {
+  return {analysis, {{{analysis.peak.node, 1.0}}, analysis.peak.instant}, analysis.peak.value_Pa, pressures};
 }
 
-/// Change of the channels' factors when every pattern reaches `factor` times as far.
-ArrayXXd change_by_contact(const BodyAnalysis& analysis, const std::map<std::string, Pressure>& pressures,
-                           double factor) {
-  const auto& values = analysis.loads.history.values;
-  ArrayXXd change = ArrayXXd::Zero(values.rows(), values.cols());
+FeltPoint toe_of(const BodyAnalysis& analysis, const Pressures& pressures) {
+  const auto& spot = analysis.hot_spots.front();
+  return {analysis, stress_point(spot), spot.von_mises_Pa, pressures};
+}
+
+/// By port, of the place alone.
+/// @param values  channels x instants
+std::map<std::string, Rise> rise_by_port(const BodyAnalysis& analysis, const Pressures& pressures,
+                                         const FeltPoint& place, const ArrayXXd& values) {
+  const double own_Pa = place.under(values);
+  std::map<std::string, Rise> result;
   for (const auto& [port, pressure] : pressures) {
-    const auto varied = with_contact(pressure.model.pattern, factor);
-    for (const auto& [n, harmonic] : pressure.harmonics)
-      for (const Index k : harmonic.channels)
-        change.row(k) = values.row(k) * (pattern_coefficient(varied, n) / harmonic.coefficient - 1);
-  }
-  return change;
-}
-
-/// Largest stress at a point from one unit of the coefficient of a harmonic, in whatever direction.
-double per_coefficient_Pa(const std::vector<std::array<double, 6>>& unit, const ArrayXXd& values,
-                          const Harmonic& harmonic) {
-  double stress_Pa = 0, force_N = 0;
-  for (const Index k : harmonic.channels)
-    stress_Pa = std::hypot(stress_Pa, von_mises_Pa(unit[std::size_t(k)]));
-  for (Index i = 0; i < values.cols(); ++i) {
-    double now_N = 0;
-    for (const Index k : harmonic.channels) now_N = std::hypot(now_N, values(k, i));
-    force_N = std::max(force_N, now_N);
-  }
-  return stress_Pa * force_N / std::abs(harmonic.coefficient);
-}
-
-/// What harmonics that were not solved would bring to a point, by their nearest solved neighbours.
-double unsolved_Pa(const BodyAnalysis& analysis, const std::map<std::string, Pressure>& pressures,
-                   const StressPoint& point, double factor) {
-  const auto unit = unit_stress_at(analysis.responses, point);
-  double sum_Pa = 0;
-  for (const auto& [port, pressure] : pressures) {
-    const auto varied = with_contact(pressure.model.pattern, factor);
-    const auto& solved = pressure.harmonics;
-    // A seat without harmonics above the force lacks at least the second, which ovalises it.
-    for (int n = 2; n <= std::max(2, pressure.model.highest_harmonic); ++n) {
-      const auto above = solved.lower_bound(n);
-      if (above != solved.end() && above->first == n) continue;
-      double most_Pa = 0;
-      if (above != solved.end())
-        most_Pa = per_coefficient_Pa(unit, analysis.loads.history.values, above->second);
-      if (above != solved.begin())
-        most_Pa = std::max(most_Pa,
-                           per_coefficient_Pa(unit, analysis.loads.history.values, std::prev(above)->second));
-      sum_Pa += std::abs(pattern_coefficient(varied, n)) * most_Pa;
+    const auto& stress = place.harmonics.at(port);
+    const double of_loads = share_of_loads(analysis.loads, port, values);
+    for (const double share : shares_of_range) {
+      const auto pattern = varied(pressure.model, share);
+      if (is_own(pressure.model, pattern)) continue;
+      ArrayXXd change = ArrayXXd::Zero(values.rows(), values.cols());
+      enter_change(pressure, pattern, values, change);
+      result[port].take(place.under(values + change) - own_Pa, of_loads * unsolved_Pa(stress, pattern));
     }
+  }
+  return result;
+}
+
+double unsolved_Pa(const Pressures& pressures, const FeltPoint& place, double share) {
+  double sum_Pa = 0;
+  for (const auto& [port, pressure] : pressures)
+    sum_Pa += unsolved_Pa(place.harmonics.at(port), varied(pressure.model, share));
+  return sum_Pa;
+}
+
+/// "if main_bearing_1 presses on 80 to 180 degrees in all"
+std::string condition_of(const std::map<std::string, Rise>& by_port, const Pressures& pressures,
+                         double entry_Pa) {
+  std::vector<std::string> ports, ranges;
+  for (const auto& [port, rise] : by_port) {
+    if (!(rise.most_Pa() > told_share * entry_Pa)) continue;
+    const auto& [least, most] = pressures.at(port).model.half_angles;
+    const auto range = fmt::format("{:.0f} to {:.0f}", 2 * least * 180 / pi, 2 * most * 180 / pi);
+    ports.push_back(port);
+    if (std::find(ranges.begin(), ranges.end(), range) == ranges.end()) ranges.push_back(range);
+  }
+  if (ports.empty()) return "";
+  std::string text = ports.size() > 1 ? "if seats press on " : "if " + ports.front() + " presses on ";
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < ranges.size() ? ", " : " or ") + ranges[i];
+  return text + " degrees in all";
+}
+
+void enter(ErrorBudget& budget, const std::string& source, const BodyAnalysis& analysis,
+           const Pressures& pressures, const FeltPoint& place, Rise rise) {
+  const auto by_port = rise_by_port(analysis, pressures, place, analysis.loads.history.values);
+  Rise sum;
+  for (const auto& [port, of_port] : by_port) {
+    sum.up_Pa += of_port.up_Pa;
+    sum.down_Pa += of_port.down_Pa;
+  }
+  rise.up_Pa = std::max({rise.up_Pa, sum.up_Pa, 0.0});
+  rise.down_Pa = std::max({rise.down_Pa, sum.down_Pa, 0.0});
+  if (!(rise.most_Pa() > 0)) return;
+  const auto condition = condition_of(by_port, pressures, rise.most_Pa());
+  ErrorEntry entry{
+      source,
+      fmt::format("{} over other half angles{}: from {:.1f} MPa less to {:.1f} MPa more, with an "
+                  "estimate of the harmonics that were not solved",
+                  source == charge_patch ? "charge" : "seat pressure",
+                  condition.empty() ? "" : ", " + condition, rise.down_Pa / 1e6, rise.up_Pa / 1e6),
+      rise.most_Pa()};
+  entry.condition = condition;
+  budget.set_model(entry);
+}
+
+void add_entries(BodyAnalysis& analysis, const std::string& source, const Pressures& pressures) {
+  if (pressures.empty()) return;
+  const auto& values = analysis.loads.history.values;
+  const auto own = largest_stresses(analysis);
+  const auto peak = peak_of(analysis, pressures);
+  std::optional<FeltPoint> toe;
+  if (!analysis.hot_spots.empty()) toe = toe_of(analysis, pressures);
+  Rise of_peak, of_toe;
+  for (const double share : shares_of_range) {
+    ArrayXXd change = ArrayXXd::Zero(values.rows(), values.cols());
+    for (const auto& [port, pressure] : pressures)
+      enter_change(pressure, varied(pressure.model, share), values, change);
+    if ((change == 0).all()) continue;
+    const auto then = largest_under(analysis, change);
+    of_peak.take(then.peak_Pa - own.peak_Pa, unsolved_Pa(pressures, peak, share));
+    if (toe) of_toe.take(then.hot_spot_Pa - own.hot_spot_Pa, unsolved_Pa(pressures, *toe, share));
+  }
+  enter(analysis.peak.errors, source, analysis, pressures, peak, of_peak);
+  if (toe) enter(analysis.hot_spot_errors, source, analysis, pressures, *toe, of_toe);
+}
+
+Pressures that_are(const Pressures& pressures, bool charge) {
+  Pressures result;
+  for (const auto& [port, pressure] : pressures)
+    if (pressure.model.is_charge == charge) result.emplace(port, pressure);
+  return result;
+}
+
+/// What harmonics up to the third, or the scene's highest one, that were not solved bring at most.
+double between_solved_Pa(const SolvedPressure& pressure, const StressByHarmonic& stress) {
+  double sum_Pa = 0;
+  PressureModel all = pressure.model;
+  all.solves_missing = true;
+  for (int n = 2; n <= highest_solved(all); ++n) {
+    double most = 0;
+    if (!stress.is_solved(n))
+      for (const double share : shares_of_range)
+        most = std::max(most, std::abs(pattern_coefficient(varied(pressure.model, share), n)));
+    sum_Pa += most * stress.at(n);
   }
   return sum_Pa;
 }
 
-void enter(ErrorBudget& budget, double change_Pa, double unsolved_Pa) {
-  if (change_Pa + unsolved_Pa > 0)
-    budget.set_model({"load_patches",
-                      std::string("seat pressure over half angles 25 % narrower and wider") +
-                          (unsolved_Pa > 0 ? ", harmonics that were not solved by their neighbours" : ""),
-                      change_Pa + unsolved_Pa});
-}
-
 }  // namespace
 
-PressurePattern with_contact(PressurePattern pattern, double factor) {
-  const double half_way = (pattern.half_angle_rad + pi) / 2;
-  const double most = pattern.kind == PressurePattern::Kind::uniform ? half_way : pi;
-  pattern.half_angle_rad = std::min(factor * pattern.half_angle_rad, most);
-  return pattern;
+void add_load_patch_error(BodyAnalysis& analysis) {
+  const auto pressures = solved_pressures(analysis.loads);
+  add_entries(analysis, "load_patches", that_are(pressures, false));
+  add_entries(analysis, charge_patch, that_are(pressures, true));
 }
 
-void add_load_patch_error(BodyAnalysis& analysis) {
-  const auto pressures = pressures_of(analysis);
-  if (pressures.empty()) return;
+double load_patch_error_Pa(const BodyAnalysis& analysis, const StressPoint& point, const ArrayXXd& values) {
+  const auto pressures = solved_pressures(analysis.loads);
+  if (pressures.empty()) return 0;
+  double sum_Pa = 0;
+  for (const auto& [port, rise] :
+       rise_by_port(analysis, pressures, FeltPoint(analysis, point, 0, pressures), values))
+    sum_Pa += std::max(0.0, rise.most_Pa());
+  return sum_Pa;
+}
+
+std::set<std::string> felt_seats(const BodyAnalysis& analysis) {
+  const auto pressures = solved_pressures(analysis.loads);
+  std::set<std::string> ports;
+  const auto look_at = [&](const FeltPoint& place) {
+    for (const auto& [port, pressure] : pressures)
+      if (!pressure.model.solves_missing &&
+          between_solved_Pa(pressure, place.harmonics.at(port)) > felt_share * place.value_Pa)
+        ports.insert(port);
+  };
+  if (pressures.empty()) return ports;
   const auto own = largest_stresses(analysis);
-  LargestStresses change, unsolved;
-  for (const double factor : {1 - contact_variation, 1 + contact_variation}) {
-    const auto varied = largest_under(analysis, change_by_contact(analysis, pressures, factor));
-    change.peak_Pa = std::max(change.peak_Pa, std::abs(varied.peak_Pa - own.peak_Pa));
-    change.hot_spot_Pa = std::max(change.hot_spot_Pa, std::abs(varied.hot_spot_Pa - own.hot_spot_Pa));
-    const StressPoint peak{{{analysis.peak.node, 1.0}}, analysis.peak.instant};
-    unsolved.peak_Pa = std::max(unsolved.peak_Pa, unsolved_Pa(analysis, pressures, peak, factor));
-    if (!analysis.hot_spots.empty())
-      unsolved.hot_spot_Pa =
-          std::max(unsolved.hot_spot_Pa,
-                   unsolved_Pa(analysis, pressures, stress_point(analysis.hot_spots.front()), factor));
-  }
-  enter(analysis.peak.errors, change.peak_Pa, unsolved.peak_Pa);
-  if (!analysis.hot_spots.empty()) enter(analysis.hot_spot_errors, change.hot_spot_Pa, unsolved.hot_spot_Pa);
+  if (analysis.hot_spots.empty() || own.peak_Pa >= own.hot_spot_Pa)
+    look_at(peak_of(analysis, pressures));
+  else
+    look_at(toe_of(analysis, pressures));
+  return ports;
 }
 
 }  // namespace pipelines

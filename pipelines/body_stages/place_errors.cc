@@ -6,11 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/common/deadline.h"
 #include "fem/submodel/submodel.h"
 #include "pipelines/analysis/exclusion_border.h"
 #include "pipelines/analysis/governing_stress.h"
+#include "pipelines/analysis/load_patch.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/estimates/fineness.h"
+#include "pipelines/estimates/solved_pressure.h"
 #include "pipelines/estimates/submodels.h"
 
 namespace pipelines {
@@ -38,11 +41,22 @@ double for_want_of_cells(const BodyAnalysis& analysis, int cells) {
   return cells < 4 ? 0.5 : cells < 6 ? of_four : 0.04;
 }
 
+/// Of tetrahedra, in place of it, and never less than submodels tell: assumed, not measured; the parts of
+/// tests/verification/sharp_edges show whether it holds.
+constexpr double of_one_tetrahedron = 0.05, largest_of_tetrahedra = 0.5;
+
 /// Relative error of the stress on the border of what is left out around a sharp shoulder, by
 /// cells_to_border. Cells that touch the edge disturb those beside them: solids were 17 % too high with one
 /// cell, 5.5 % with 2.5, 1.2 % with 5, while the changes from mesh to mesh told of a third.
-double for_want_of_cells_to_border(double cells) {
-  return 0.2 / std::pow(cells, 1.25);
+double for_want_of_cells_to_border(double cells, bool of_tetrahedra) {
+  return of_tetrahedra ? std::min(largest_of_tetrahedra, of_one_tetrahedron / std::sqrt(cells))
+                       : 0.2 / std::pow(cells, 1.25);
+}
+
+double geometry_share_at(const StressPoint& point, const BodyAnalysis& analysis) {
+  const auto& nodes = analysis.responses.nodes;
+  return geometry_share(analysis.geometry_error, nodes, point) +
+         straight_edge_share(analysis.mesh.straight_edges, nodes, point);
 }
 
 double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
@@ -51,21 +65,43 @@ double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
   return entry ? entry->value_Pa : 0;
 }
 
+/// What cells around tell of a place that a submodel should have looked at: the estimate is calibrated on the
+/// largest places of shafts, and cells around one node agree by chance.
+constexpr double unasked_safety = 2;
+
 /// Of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is looked at by
-/// a submodel. Beside a spring or a clamp, which holds the submodel's displacement, single cells have the
-/// word.
-void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, std::vector<PlaceStress>& places) {
+/// a submodel, as long as there is time. Beside a spring or a clamp, which holds the submodel's displacement,
+/// single cells have the word.
+void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, double seconds,
+                   std::vector<PlaceStress>& places) {
   const auto& responses = analysis.responses;
-  if (responses.nodes.n_cells() == 0 || !responses.nodes.shape().is_tetrahedron()) return;
+  if (seconds == 0 || responses.nodes.n_cells() == 0 || !responses.nodes.shape().is_tetrahedron()) return;
   const auto body = to_fem_body(analysis.mesh, analysis.scene.material);
+  std::vector<PlaceStress*> may_lead;
+  const auto left_out = [&](const std::array<double, 3>& point_m, int boundary_id) {
+    return is_left_out(point_m, boundary_id, analysis.mesh.sharp_edges);
+  };
   for (auto& place : places)
     if (place.value_Pa + place.error_Pa >= largest_Pa &&
-        !fem::is_beside_support(responses, body, {{place.node}})) {
-      place.is_resolved = true;
-      place.error_Pa =
+        !fem::is_beside_support(responses, body, {{place.node}}))
+      may_lead.push_back(&place);
+  std::stable_sort(may_lead.begin(), may_lead.end(), [](const auto* a, const auto* b) {
+    return a->value_Pa + a->error_Pa > b->value_Pa + b->error_Pa;
+  });
+  const fem::Deadline deadline(seconds);
+  auto next = may_lead.begin();
+  try {
+    for (; next != may_lead.end(); ++next) {
+      auto& place = **next;
+      const double error_Pa =
           submodel_error_Pa({{{place.node, 1.0}}, analysis.envelope.von_mises.instant[place.node]}, responses,
-                            body, analysis.loads, analysis.places.excluded);
+                            body, analysis.loads, left_out);
+      place.error_Pa = std::max(error_Pa, place.least_error_Pa);
+      place.is_resolved = true;
     }
+  } catch (const fem::OutOfTime&) {
+    std::for_each(next, may_lead.end(), [](auto* place) { place->error_Pa *= unasked_safety; });
+  }
 }
 
 /// What single cells tell of the error of a stress at a node of a feature [Pa], and what few cells on its
@@ -91,6 +127,18 @@ double own_share(const BodyAnalysis& analysis, const std::string& feature, std::
   const double value_Pa = von_mises_of(unit, loads.values.col(instant));
   const auto error_Pa = error_by_cells_Pa(analysis, feature, node, loads, instant);
   return error_Pa && value_Pa > 0 ? std::min(1.0, *error_Pa / value_Pa) : 0;
+}
+
+/// What harmonics of pressures that were left out may bring to half a change of the loads [Pa]: of each port
+/// what they may bring to the stress, by the share of its loads that change.
+double tail_of_change_Pa(const BodyAnalysis& analysis, const std::vector<std::array<double, 6>>& unit,
+                         const Eigen::ArrayXXd& half_change) {
+  double sum_Pa = 0;
+  for (const auto& [port, pressure] : solved_pressures(analysis.loads))
+    sum_Pa +=
+        share_of_loads(analysis.loads, port, half_change) *
+        harmonics_from_Pa({pressure, unit}, pressure.model.pattern, pressure.model.highest_harmonic + 1);
+  return sum_Pa;
 }
 
 const PlaceStress* judged_place(const BodyAnalysis& analysis, const std::string& feature) {
@@ -168,12 +216,13 @@ int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place) {
   return analysis.scene.shaft()->mesh.cells_at(int(fillet - names.begin()));
 }
 
-std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool with_submodels) {
+std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, double submodels_s) {
   const auto& maximum = analysis.envelope.von_mises;
   auto places =
       largest_by_feature(analysis.responses.nodes, maximum.value_Pa, analysis.mesh.features, analysis.places);
   const double largest_Pa = governing_stress(analysis).value_Pa;
-  const bool of_blocks = is_of_blocks(analysis);
+  const bool of_blocks = is_of_blocks(analysis),
+             of_tetrahedra = analysis.responses.nodes.shape().is_tetrahedron();
   for (auto& place : places) {
     if (place.value_Pa < share_worth_a_look * largest_Pa) {
       place.error_Pa = place.value_Pa;
@@ -187,8 +236,8 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
     } else if (of_blocks && is_bore(analysis.mesh, place.feature)) {
       place.error_Pa *= safety_of_few_rows;
     }
-    if (const double cells = of_blocks ? cells_to_border(analysis, place) : 0; cells > 0) {
-      const double wanting_Pa = for_want_of_cells_to_border(cells) * place.value_Pa;
+    if (const double cells = of_blocks || of_tetrahedra ? cells_to_border(analysis, place) : 0; cells > 0) {
+      const double wanting_Pa = for_want_of_cells_to_border(cells, of_tetrahedra) * place.value_Pa;
       place.error_Pa = std::max(place.error_Pa, wanting_Pa);
       place.least_error_Pa = std::max(place.least_error_Pa, wanting_Pa);
     }
@@ -196,7 +245,7 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool w
     place.error_Pa += rise_Pa;
     place.least_error_Pa = std::max(place.least_error_Pa, rise_Pa);
   }
-  if (with_submodels) ask_submodels(analysis, largest_Pa, places);
+  ask_submodels(analysis, largest_Pa, submodels_s, places);
   const auto toes = weld_toes(analysis);
   places.insert(places.end(), toes.begin(), toes.end());
   return places;
@@ -262,18 +311,30 @@ double error_share_of_change(const BodyAnalysis& analysis, const std::string& fe
                                        (judged * std::abs(along) * largest_Pa + rest_Pa) / value_Pa}));
   }
   const auto others = self_estimate(point, analysis.responses, change, analysis.scene.material,
-                                    geometry_share(analysis.geometry_error, analysis.responses.nodes, point),
-                                    analysis.places.excluded);
+                                    geometry_share_at(point, analysis), analysis.places.excluded);
   for (const auto& entry : others.numerical)
-    if (entry.source != "discretisation" && entry.source != "time_sampling")
+    if (entry.source != "discretisation" && entry.source != "time_sampling" &&
+        entry.source != "pressure_harmonics")
       share += entry.value_Pa / value_Pa;
-  return share;
+  return share + tail_of_change_Pa(analysis, unit, change.history.values) / value_Pa;
+}
+
+double whole_error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+                                   const BodyLoads& change, double unresolved_share) {
+  const double own = error_share_of_change(analysis, feature, node, change),
+               stated = stated_error_share(analysis, feature);
+  if (!std::isfinite(own)) return stated > 0 ? stated + unresolved_share : own;
+  const StressPoint point{{{node, 1.0}}, 0};
+  const double value_Pa =
+      von_mises_of(unit_stress_at(analysis.responses, point), change.history.values.col(0));
+  const double patches =
+      value_Pa > 0 ? load_patch_error_Pa(analysis, point, change.history.values) / value_Pa : 0;
+  return std::max(own + unresolved_share + patches + model_error_share(analysis, feature, node), stated);
 }
 
 ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
   return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
-                       geometry_share(analysis.geometry_error, analysis.responses.nodes, point),
-                       analysis.places.excluded);
+                       geometry_share_at(point, analysis), analysis.places.excluded);
 }
 
 void take_zone_errors(BodyAnalysis& analysis) {

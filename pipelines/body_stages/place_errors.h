@@ -1,6 +1,7 @@
 /// What one mesh tells of the stress at each place of a body.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
@@ -23,8 +24,11 @@ constexpr double share_worth_a_look = 0.4;
 /// with few cells has an error that says so: half of its stress with 2 cells on its quarter, 15 % with 4, 4 %
 /// with more (the largest found on 60 random shafts, `tests/benchmarks/run promises`, are 31, 10 and 3 %).
 /// Below cells_that_converge it keeps that error, however well meshes agree.
-/// @param with_submodels  of tetrahedra: whether submodels tell the errors of places that may lead
-std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, bool with_submodels = true);
+/// @param submodels_s  of tetrahedra: seconds in which submodels may tell the errors of places that may lead,
+///                     those first that may be largest; 0: none. What is left then has twice the error that
+///                     cells around tell.
+std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis,
+                                            double submodels_s = std::numeric_limits<double>::infinity());
 
 /// Enters what is known of the places into the error budget of the governing stress: its own error as the
 /// entry `discretisation`, and as `other_places` by how much another place with its error exceeds it with its
@@ -58,6 +62,15 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
 /// @return infinite if the feature is not judged
 double error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
                              const BodyLoads& change);
+
+/// The whole error of an amplitude, as a share of it: error_share_of_change, what the instants leave
+/// unresolved, and what load patches (load_patch_error_Pa) and the other assumptions leave open
+/// (model_error_share); where the body's peak is, not less
+/// than what is stated of that.
+/// @param unresolved_share  by how much the amplitude may be larger than at the instants
+/// @return infinite if the feature is neither judged nor has the peak
+double whole_error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+                                   const BodyLoads& change, double unresolved_share);
 
 /// What the mesh and the loads tell of the error at a point (self_estimate).
 ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis);

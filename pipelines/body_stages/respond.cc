@@ -84,7 +84,6 @@ std::string keep_harmonics(const BodyAnalysis& analysis, const RunOptions& optio
     key += text_hash({reinterpret_cast<const char*>(values->data()), sizeof(double) * values->size()}) + '\n';
   clock.run("write", [&] {
     if (!is_first_rank()) return;
-    std::filesystem::create_directories(options.directory);
     write_unit_responses(options.directory / kept_responses_name(analysis.method), key, responses);
   });
   return text_hash(key);

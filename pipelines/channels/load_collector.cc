@@ -7,6 +7,7 @@
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/names/nearest_name.h"
+#include "pipelines/scene_values/contact_arc.h"
 
 namespace pipelines {
 
@@ -23,6 +24,17 @@ constexpr double negligible =
 
 double largest(const ArrayXd& values) {
   return values.size() > 0 ? values.abs().maxCoeff() : 0;
+}
+
+/// The half angle that a clearance leaves under the largest force; without a clearance, or a force, the model
+/// as it is.
+PressureModel in_contact(PressureModel model, const meshes::Port& port, double plane_modulus_Pa,
+                         double force_N) {
+  if (!model.clearance_m || !(force_N > 0)) return model;
+  model.pattern.half_angle_rad = half_arc_rad(
+      {port.radius_m, *model.clearance_m, force_N / (port.end_m - port.begin_m), plane_modulus_Pa});
+  model.half_angles = half_angles_around(model.pattern);
+  return model;
 }
 
 }  // namespace
@@ -176,7 +188,6 @@ void LoadCollector::pressure(const std::string& port_name) {
   const auto forces = forces_.find(port_name);
   if (forces == forces_.end() || port.kind == meshes::Port::Kind::face) return;
   const auto found = body_.pressures.find(port_name);
-  const PressureModel model = found != body_.pressures.end() ? found->second : PressureModel{};
   Array2Xd total = Array2Xd::Zero(2, n_instants_);
   for (const auto& [effect, force] : forces->second) total += force;
   // beta is where the pressure is centred: opposite the force on an outer seat, along it inside a bore.
@@ -188,20 +199,24 @@ void LoadCollector::pressure(const std::string& port_name) {
     const double magnitude = std::hypot(total(0, i), total(1, i));
     if (magnitude > 0) direction.col(i) = total.col(i) / magnitude;
   }
+  const PressureModel& model = pressures_[port_name] =
+      in_contact(found != body_.pressures.end() ? found->second : PressureModel{}, port,
+                 body_.plane_modulus_Pa, largest(total.matrix().colwise().norm().transpose().array()));
   using Phase = fem::SeatPressure::Phase;
   const auto surface = surface_of(port);
   for (const auto& [effect, force] : forces->second) {
     const ArrayXd share = (force * direction).colwise().sum().transpose();
-    for (int n = 0; n <= model.highest_harmonic; ++n) {
-      if (n == 1) continue;
-      const double c = pattern_coefficient(model.pattern, n);
+    for (int n = 0; n <= highest_solved(model); ++n) {
+      const double c = solved_coefficient(model, n);
       if (c == 0) continue;
+      // A half angle that follows from the forces is another one at each operating point: unit loads are not.
+      const double unit = model.clearance_m ? 1 : c, factor = c / unit;
       const std::string channel = port_name + ".p" + std::to_string(n);
-      add({channel + "c", fem::SeatPressure{surface, n, c, Phase::cosine}}, "N", effect,
-          share * (n * beta).cos(), force_scale_N_);
+      add({channel + "c", fem::SeatPressure{surface, n, unit, Phase::cosine}}, "N", effect,
+          factor * share * (n * beta).cos(), factor * force_scale_N_);
       if (n > 0)
-        add({channel + "s", fem::SeatPressure{surface, n, c, Phase::sine}}, "N", effect,
-            share * (n * beta).sin(), force_scale_N_);
+        add({channel + "s", fem::SeatPressure{surface, n, unit, Phase::sine}}, "N", effect,
+            factor * share * (n * beta).sin(), factor * force_scale_N_);
     }
   }
 }
@@ -298,6 +313,7 @@ BodyLoads LoadCollector::finish() const {
   const auto n_channels = Index(loading.size());
   result.history.body = body_.name;
   result.history.effects = effects_;
+  result.pressures = pressures_;
   result.history.by_effect.assign(effects_.size(), Eigen::ArrayXXd::Zero(n_channels, n_instants_));
   result.history.values = Eigen::ArrayXXd::Zero(n_channels, n_instants_);
   for (Index k = 0; k < n_channels; ++k) {

@@ -31,7 +31,8 @@ struct LoadedBody {
   std::vector<meshes::Port> ports;
   std::vector<RegionMass> regions;  ///< at least one
   std::map<std::string, PressureModel>
-      pressures;  ///< by port; a half-cosine to the fourth harmonic where missing
+      pressures;                ///< by port; a half-cosine to the fourth harmonic where missing
+  double plane_modulus_Pa = 0;  ///< E / (1 - nu^2), for contact with clearance
 
   /// @throws std::out_of_range naming the region
   const RegionMass& region(const std::string& region_name = "") const;
@@ -48,6 +49,7 @@ struct AccelerationField {
 struct BodyLoads {
   ChannelHistory history;
   std::vector<fem::UnitLoad> unit_loads;
+  std::map<std::string, PressureModel> pressures;  ///< by port that a pressure loads; half angles known
   Eigen::Array2Xd
       frame_bearing_force_N;  ///< vibratory shaft: what the bearings carry, own mass included; fixed frame
   Eigen::ArrayXd drive_torque_Nm;      ///< vibratory shaft: clockwise positive, own mass included
@@ -82,7 +84,7 @@ public:
 
   /// Harmonics of the pressure that the forces entered at the port so far make, by the port's model. They
   /// carry |F| cos(n beta), which is not linear in the effects; effect e gets the share F_e . F/|F|, so that
-  /// the shares add up exactly.
+  /// the shares add up exactly. With a clearance the half angle is that under the largest force.
   void pressure(const std::string& port_name);
 
   void accelerate(const RegionMass& region, const std::string& effect, const AccelerationField& field);
@@ -136,6 +138,7 @@ private:
   std::map<std::string, Wrench> sums_;
   std::map<std::string, std::map<std::string, Eigen::Array2Xd>> forces_;  // by port, effect
   std::map<std::string, Eigen::Array3Xd> moments_Nm_;                     // by place: x F_y, y F_x, couple
+  std::map<std::string, PressureModel> pressures_;                        // by port
 };
 
 /// Resolves a planar force along axes that are turned counter-clockwise by alpha.

@@ -118,7 +118,6 @@ void write_spectra(const path& file, const std::vector<StatisticsSeries>& all, b
 
 void write_statistics(const path& directory, const kinetics::LoadHistory& loads, int turns,
                       const std::vector<kinetics::CourseFigures>& course) {
-  std::filesystem::create_directories(directory);
   const auto all = series_of(loads);
   write_extremes(directory / "statistics.csv", all, loads, course);
   if (turns > 0) write_harmonics(directory / "harmonics.csv", all, turns, loads.phi_rad[0]);

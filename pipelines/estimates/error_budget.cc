@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 #include "fem/stress/cell_stress_at_node.h"
+#include "pipelines/estimates/solved_pressure.h"
 #include "pipelines/estimates/submodels.h"
 #include "pipelines/estimates/tetrahedra_estimate.h"
 #include "pipelines/estimates/time_sampling.h"
@@ -35,25 +35,13 @@ void set(std::vector<ErrorEntry>& entries, const ErrorEntry& entry) {
     *same = entry;
 }
 
-/// Whether each channel is of the highest harmonic that was solved of its seat's pressure: of seats apart,
-/// for each has a pattern of its own. The first harmonic is the resultant, which no pattern leaves out.
-std::vector<bool> highest_harmonics(const std::vector<fem::UnitLoad>& loads) {
-  const auto pattern = [](const fem::UnitLoad& load) {
-    const auto* pressure = std::get_if<fem::SeatPressure>(&load.shape);
-    return pressure != nullptr && pressure->harmonic != 1 ? pressure : nullptr;
-  };
-  std::map<int, int> highest;  // by the seat's boundary group
-  for (const auto& load : loads)
-    if (const auto* pressure = pattern(load)) {
-      int& of_seat = highest[pressure->surface.boundary_id];
-      of_seat = std::max(of_seat, pressure->harmonic);
-    }
-  std::vector<bool> belongs;
-  for (const auto& load : loads) {
-    const auto* pressure = pattern(load);
-    belongs.push_back(pressure != nullptr && pressure->harmonic == highest[pressure->surface.boundary_id]);
-  }
-  return belongs;
+/// What the harmonics that the seats' pressures go on with above those of the scene would bring.
+double pressure_tail_Pa(const BodyLoads& loads, const std::vector<std::array<double, 6>>& unit) {
+  double sum_Pa = 0;
+  for (const auto& [port, pressure] : solved_pressures(loads))
+    sum_Pa +=
+        harmonics_from_Pa({pressure, unit}, pressure.model.pattern, pressure.model.highest_harmonic + 1);
+  return sum_Pa;
 }
 
 /// Nodes of the boundary faces that hold the node; of its own alone if none does.
@@ -244,12 +232,10 @@ ErrorBudget self_estimate(const StressPoint& point, const fem::UnitResponses& re
                                     ? "crest between the instants, which resolve the channels"
                                     : "crest between the instants, and what they leave unresolved",
                                 sampling.error_Pa()});
-  Eigen::ArrayXd without = factors;
-  const auto belongs = highest_harmonics(loads.unit_loads);
-  for (std::size_t k = 0; k < belongs.size(); ++k)
-    if (belongs[k]) without[Eigen::Index(k)] = 0;
-  budget.numerical.push_back({"pressure_harmonics", "what the highest harmonic of each seat contributes",
-                              std::abs(von_mises_of(unit, without) - value)});
+  budget.numerical.push_back(
+      {"pressure_harmonics",
+       "the patterns' harmonics that were left out, by the stress of those that were not",
+       pressure_tail_Pa(loads, unit)});
   if (auto entry = discretisation_estimate(point, responses, loads.history, material, left_out))
     budget.numerical.push_back(std::move(*entry));
   if (const double share = locking_share(responses, material); share > 0)
@@ -279,6 +265,19 @@ double geometry_share(const fem::GeometryError& error, const fem::Nodes& nodes, 
       largest = std::max(largest, 3 * surface->second.of_axis + surface->second.of_fillet / 2);
     }
   return is_curved ? largest : 3 * error.relative;
+}
+
+double straight_edge_share(const std::vector<meshes::StraightEdge>& edges, const fem::Nodes& nodes,
+                           const StressPoint& point) {
+  double largest = 0;
+  for (const auto& edge : edges)
+    for (const auto& part : point.parts) {
+      const double* x = &nodes.xyz_m[3 * std::size_t(part.node)];
+      if (std::hypot(x[0] - edge.middle_m[0], x[1] - edge.middle_m[1], x[2] - edge.middle_m[2]) <
+          edge.length_m)
+        largest = std::max(largest, 4 * edge.off_m / edge.length_m);
+    }
+  return largest;
 }
 
 }  // namespace pipelines

@@ -11,6 +11,7 @@
 #include "fem/model/model.h"
 #include "fem/values/body.h"
 #include "fem/values/unit_responses.h"
+#include "meshes/values/body_mesh.h"
 #include "pipelines/channels/load_collector.h"
 
 namespace pipelines {
@@ -25,6 +26,7 @@ struct ErrorEntry {
   double value_Pa = 0;  ///< estimate of the size, not negative
   /// How many times the plain estimate the value is: what several meshes that agree may take back.
   double safety = discretisation_safety;
+  std::string condition{};  ///< "if bearings press on 80 to 180 degrees in all": on what the value rests
 };
 
 /// Entries add up: signs are not known.
@@ -86,8 +88,9 @@ double von_mises_of(const std::vector<std::array<double, 6>>& unit, const Eigen:
 /// What one run can tell about itself:
 ///   time_sampling       what the crest between the instants exceeds theirs by, and what they leave
 ///                       unresolved (time_sampling.h)
-///   pressure_harmonics  what the highest harmonic of each seat's pressure contributes; of a seat with the
-///                       mean pressure alone, that
+///   pressure_harmonics  what the harmonics above the highest one of each seat would bring, by their
+///   pattern's
+///                       closed form and the stress of those that were solved (solved_pressure.h)
 ///   discretisation      the largest difference between the recovered stress and that of one cell, over the
 ///                       faces around the point, times discretisation_safety: a single cell may agree by
 ///                       chance; of tetrahedra as tetrahedra_estimate.h, of resolved points as submodels.h
@@ -114,5 +117,11 @@ std::optional<ErrorEntry> discretisation_estimate(const StressPoint& point,
 /// Creager and Paris 1967). The largest over the surfaces around the point, 3 of_axis + of_fillet / 2; three
 /// times the largest error of the body, in radii, where none of them is curved.
 double geometry_share(const fem::GeometryError& error, const fem::Nodes& nodes, const StressPoint& point);
+
+/// What edges that are straighter than their surface (meshes::StraightEdge) cost at a point within their
+/// length, relative: the angle in rad by which the largest of them leaves the surface at its ends, 4 off /
+/// length of a parabola. Stress at a free surface turns with it, and a kink raises it by as much.
+double straight_edge_share(const std::vector<meshes::StraightEdge>& edges, const fem::Nodes& nodes,
+                           const StressPoint& point);
 
 }  // namespace pipelines

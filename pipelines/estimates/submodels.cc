@@ -24,7 +24,7 @@ std::vector<fem::WeightedNode> nodes_of(const StressPoint& point) {
 }  // namespace
 
 double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& responses, const fem::Body& body,
-                         const BodyLoads& loads, const std::vector<char>& left_out) {
+                         const BodyLoads& loads, const fem::LeftOut& left_out) {
   const Eigen::ArrayXd column = loads.history.values.col(point.instant);
   const std::vector<double> factors(column.begin(), column.end());
   const double value_Pa = von_mises_of(unit_stress_at(responses, point), column);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "fem/submodel/submodel.h"
 #include "pipelines/estimates/error_budget.h"
 #include "pipelines/estimates/hot_spots.h"
 
@@ -19,9 +20,9 @@ inline constexpr const char* submodel_method =
 /// 3/2: cells a quarter as large find two thirds of what is missing at order 0.8 and more. On five shafts of
 /// tetrahedra, 8 to 20 cells around a circle, S22 was 0 to 5 % off, from 10 cells on 0 to 1 %
 /// (tests/README.md).
-/// @param left_out  one per node, or empty: nodes kept out of the peak
+/// @param left_out  places kept out of the peak; null: none
 double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& responses, const fem::Body& body,
-                         const BodyLoads& loads, const std::vector<char>& left_out);
+                         const BodyLoads& loads, const fem::LeftOut& left_out);
 
 /// Toes that are not resolved may be off by this much: less than their own cells tell, which end at the toe.
 /// On meshes of a search submodels moved the stress of toes by 3 to 22 %.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -56,6 +57,9 @@ struct BodyScene {
   double yield_strength_Pa = 0;
   int pressure_harmonics = 4;                      ///< where `pressures` has no entry
   std::map<std::string, PressureModel> pressures;  ///< by port
+  /// Ports whose pressure a search has found to be felt where stress leads: harmonics that their patterns
+  /// have not are solved too (PressureModel::solves_missing).
+  std::set<std::string> felt_seats;
   std::vector<AddedMass> added_masses;
   fem::Solver solver = fem::Solver::automatic;
   int degree =
@@ -79,5 +83,9 @@ struct BodyScene {
 
   const ShaftShape* shaft() const { return std::get_if<ShaftShape>(&shape); }
 };
+
+/// The pressure on a port of which the scene says nothing: a half-cosine; under a mill's charge, on
+/// inner_wall, of a sector that is taken as known to half_angle_share.
+PressureModel usual_pressure(const BodyScene& body, const std::string& port);
 
 }  // namespace pipelines

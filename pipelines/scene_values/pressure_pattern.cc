@@ -73,4 +73,29 @@ double pattern_coefficient(const PressurePattern& pattern, int n) {
   return std::abs(c) < 1e-14 ? 0 : c;  // what vanishes by symmetry leaves rounding
 }
 
+double pattern_pressure(const PressurePattern& pattern, double t_rad) {
+  refuse_impossible(pattern);
+  const double a = pattern.half_angle_rad, t = std::abs(std::remainder(t_rad, 2 * pi));
+  if (t > a) return 0;
+  const bool uniform = pattern.kind == PressurePattern::Kind::uniform;
+  return (uniform ? 1 : 2 * std::sin((a + t) / 2) * std::sin((a - t) / 2)) / harmonic(pattern, 1);
+}
+
+HalfAngles half_angles_around(const PressurePattern& pattern) {
+  const double a = pattern.half_angle_rad;
+  const double most = pattern.kind == PressurePattern::Kind::uniform ? (a + pi) / 2 : pi;
+  return {(1 - half_angle_share) * a, std::min((1 + half_angle_share) * a, most)};
+}
+
+int highest_solved(const PressureModel& model) {
+  constexpr int least = 3;  // two harmonics tell how the response decays
+  return model.solves_missing ? std::max(model.highest_harmonic, least) : model.highest_harmonic;
+}
+
+double solved_coefficient(const PressureModel& model, int n) {
+  if (n == 1 || n > highest_solved(model)) return 0;
+  const double c = n <= model.highest_harmonic ? pattern_coefficient(model.pattern, n) : 0;
+  return c == 0 && model.solves_missing ? missing_coefficient : c;
+}
+
 }  // namespace pipelines

@@ -24,7 +24,8 @@ nlohmann::json peak_of(const fs::path& directory, const std::string& half_angle)
 }  // namespace
 
 // The entry is one superposition; runs with the other contacts in the scene solve everything anew. A pattern
-// of 80 degrees has all harmonics, so nothing is estimated: both agree to the rounding of 1e5 unknowns.
+// of 80 degrees has all harmonics up to the fourth, so that what is added is that of harmonics above it
+// alone.
 TEST(LoadPatches, EntryIsTheDifferenceOfRunsWithOtherContacts) {
   const results_test::Directory directory;
   const auto here = peak_of(directory.path, "80"), narrow = peak_of(directory.path, "60"),
@@ -35,9 +36,10 @@ TEST(LoadPatches, EntryIsTheDifferenceOfRunsWithOtherContacts) {
       std::max(std::abs(narrow["value"].get<double>() - peak), std::abs(wide["value"].get<double>() - peak));
   EXPECT_GT(wanted, 1e-4 * peak);  // else the comparison shows nothing
   const double entry = here["error"]["load_patches"].get<double>();
-  EXPECT_NEAR(entry, wanted, 1e-8 * peak);
-  EXPECT_EQ(here["error"]["methods"]["load_patches"].get<std::string>(),
-            "seat pressure over half angles 25 % narrower and wider");
+  EXPECT_GE(entry, wanted * (1 - 1e-6));
+  EXPECT_LE(entry, wanted + 2e-3 * peak);  // of solid seats and fillets of 3 mm
+  const auto method = here["error"]["methods"]["load_patches"].get<std::string>();
+  EXPECT_NE(method.find("120 to 200 degrees in all: from "), std::string::npos) << method;
   // A model error: no finer mesh mends it.
   EXPECT_NEAR(here["error"]["total"].get<double>() - here["error"]["numerical"].get<double>(), entry,
               1e-12 * peak);
@@ -74,6 +76,154 @@ bearings = ["a", "b"])" + steel_of("shaft") +
   const auto none = peak_with(0);
   EXPECT_LT(none["value"].get<double>(), 0.9 * right_Pa);
   EXPECT_GE(none["value"].get<double>() + none["error"]["total"].get<double>(), right_Pa);
+}
+
+namespace {
+
+/// A tube of 60/50 mm pushed across on a seat between two others, all three under the same pattern.
+std::string tube(const std::string& pressure) {
+  std::string text = R"(effects = ["w"]
+[machine]
+type = "load_table"
+speed = "600 rpm"
+constants = [{ effect = "w", load = "p2.fx", value = "20000 N" }]
+[sampling]
+instants_per_turn = 16
+turns = 1
+[shaft]
+contour = [
+  { port = "p1", diameter = "60 mm", length = "20 mm", bore = "50 mm" },
+  { name = "a", diameter = "60 mm", length = "50 mm", bore = "50 mm" },
+  { port = "p2", diameter = "60 mm", length = "20 mm", bore = "50 mm" },
+  { name = "b", diameter = "60 mm", length = "50 mm", bore = "50 mm" },
+  { port = "p3", diameter = "60 mm", length = "20 mm", bore = "50 mm" },
+]
+bearings = ["p1", "p3"]
+axial_support = "p1"
+torque_support = "p1"
+)";
+  for (const std::string port : {"p1", "p2", "p3"})
+    text += "[shaft.pressure." + port + "]\n" + pressure + "\n";
+  return text + steel_of("shaft") + "[results]\nsnapshots = 0\npictures = false\n";
+}
+
+nlohmann::json tube_peak(const fs::path& directory, const std::string& pressure, const std::string& options) {
+  write(directory / "tube.toml", tube(pressure));
+  const auto run = millstress(directory, "run tube.toml --fresh -o tube " + options);
+  EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
+  return summary(directory / "tube")["bodies"]["shaft"]["peak_von_mises"];
+}
+
+/// Whether the numbers alone, without a model error, bound what many harmonics of the same pattern bring.
+void expect_bounded(const std::string& pattern, int highest) {
+  const results_test::Directory directory;
+  const std::string options = "--method axisymmetric --tolerance none";
+  const auto few = tube_peak(directory.path, pattern + "\nharmonics = " + std::to_string(highest), options),
+             many = tube_peak(directory.path, pattern + "\nharmonics = 40", options);
+  const double missed_Pa = std::abs(many["value"].get<double>() - few["value"].get<double>());
+  EXPECT_GE(few["error"]["numerical"].get<double>() + many["error"]["numerical"].get<double>(), missed_Pa)
+      << pattern << ' ' << highest << few["error"];
+}
+
+}  // namespace
+
+// A belt over 60 degrees to either side has no third and no sixth harmonic, and the fifth is small where the
+// stress is largest. Red where the last harmonic's share is the tail's: 147.0 +- 2.7 MPa. 149.9 is right,
+// with 64 harmonics.
+TEST(PressureTail, AHarmonicThatVanishesTellsNothing) {
+  const results_test::Directory directory;
+  const auto peak =
+      tube_peak(directory.path, "pattern = \"uniform\"\nhalf_angle = \"60 deg\"", "--tolerance \"5 %\"");
+  EXPECT_NEAR(peak["value"].get<double>(), 149.9e6, peak["error"]["numerical"].get<double>() + 0.05e6)
+      << peak["error"];
+}
+
+// 90 degrees have no even harmonic, 45 no fourth and eighth, 36 no fifth; and seats with the mean pressure
+// alone.
+TEST(PressureTail, BoundsOtherPatterns) {
+  const std::string uniform = "pattern = \"uniform\"\nhalf_angle = ", cosine = "half_angle = ";
+  expect_bounded(uniform + "\"45 deg\"", 4);
+  expect_bounded(cosine + "\"90 deg\"", 0);
+}
+
+TEST(PressureTail, BoundsAllPatterns) {
+  const std::string uniform = "pattern = \"uniform\"\nhalf_angle = ", cosine = "half_angle = ";
+  for (const std::string half :
+       {"\"36 deg\"", "\"45 deg\"", "\"60 deg\"", "\"72 deg\"", "\"90 deg\"", "\"120 deg\""})
+    for (const int highest : {0, 2, 3, 4, 5, 6, 8, 10}) {
+      expect_bounded(uniform + half, highest);
+      expect_bounded(cosine + half, highest);
+    }
+}
+
+namespace {
+
+/// A shaft under a wheel's force of 6 kN that turns once per turn against it, half of it in each of two
+/// bearings.
+std::string two_bearings(const std::string& contour) {
+  return R"(effects = ["pull"]
+[machine]
+type = "load_table"
+speed = "960 rpm"
+harmonics = [
+  { effect = "pull", load = "wheel.fx", amplitude = 6000, order = 1, phase = "0 deg" },
+  { effect = "pull", load = "wheel.fy", amplitude = 6000, order = 1, phase = "90 deg" },
+]
+[sampling]
+instants_per_turn = 24
+turns = 1
+[shaft]
+bearings = ["bearing_1", "bearing_2"]
+contour = [
+)" + contour +
+         "]\n" + steel_of("shaft") + "[results]\nsnapshots = 0\npictures = false\n";
+}
+
+/// A bearing of 60 mm on a wall of 5 mm, with a fillet of 2 mm beside it.
+std::string thin_seats() {
+  const std::string seat = "\", diameter = \"60 mm\", length = \"40 mm\", bore = \"50 mm\" },\n",
+                    fillet = "  { fillet = \"2 mm\" },\n";
+  return two_bearings(
+      "  { port = \"bearing_1" + seat + fillet +
+      "  { port = \"wheel\", diameter = \"80 mm\", length = \"120 mm\", bore = \"50 mm\" },\n" + fillet +
+      "  { port = \"bearing_2" + seat);
+}
+
+/// A solid seat of 35 mm with a fillet of 1 mm beside it.
+std::string small_fillets() {
+  const std::string seat = "\", diameter = \"35 mm\", length = \"23 mm\" },\n",
+                    small = "  { fillet = \"1 mm\" },\n", large = "  { fillet = \"5 mm\" },\n",
+                    collar = "\", diameter = \"42 mm\", length = \"10 mm\" },\n";
+  return two_bearings("  { port = \"bearing_1" + seat + small + "  { name = \"collar_1" + collar + large +
+                      "  { port = \"wheel\", diameter = \"60 mm\", length = \"30 mm\" },\n" + large +
+                      "  { name = \"collar_2" + collar + small + "  { port = \"bearing_2" + seat);
+}
+
+nlohmann::json peak_under(const fs::path& directory, const std::string& scene, const std::string& options) {
+  write(directory / "seats.toml", scene);
+  const auto run = millstress(
+      directory, "run seats.toml --fresh -o out --method axisymmetric --tolerance none " + options);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  return summary(directory / "out")["bodies"]["shaft"]["peak_von_mises"];
+}
+
+}  // namespace
+
+// Contact by complementarity, a ring of 5 mm or 4 mm between seat and rolling elements, 0 to 50 um of
+// clearance, load zones of 90 and 45 degrees: the fillet beside the thin seat has 2.5 to 27.3 MPa more than
+// under a half-cosine, the one beside the solid seat 0.3 to 5.5 MPa. Red with half angles of 67.5 to 112.5
+// degrees: 16.4 and 1.7 MPa.
+TEST(LoadPatches, HoldTheContactOfElasticRings) {
+  const results_test::Directory directory;
+  const auto thin = peak_under(directory.path, thin_seats(), "");
+  EXPECT_GE(thin["error"]["load_patches"].get<double>(), 27.3e6);
+  EXPECT_LE(thin["error"]["load_patches"].get<double>(), 55e6) << "no idle bound";
+  EXPECT_NE(thin["error"]["methods"]["load_patches"].get<std::string>().find(
+                "if seats press on 80 to 180 degrees in all"),
+            std::string::npos);
+  const auto solid = peak_under(directory.path, small_fillets(), "");
+  EXPECT_GE(solid["error"]["load_patches"].get<double>(), 5.5e6);
+  EXPECT_LE(solid["error"]["load_patches"].get<double>(), 11e6) << "no idle bound";
 }
 
 namespace {

@@ -190,4 +190,30 @@ TEST(PressureShares, NoForceNoPressure) {
   EXPECT_EQ(bodies::largest(loads.history.values.col(3)), 0);
 }
 
+// With a clearance the arc follows from the largest force, 1300 N on 40 mm: 0.5 MN m / m^2 and 226 GPa leave
+// what a scene with that half angle has. Unit loads do not know the force, so that other operating points
+// share them.
+TEST(PressureOfClearance, IsThatOfItsHalfAngle) {
+  auto loaded = body(90 * degree_rad, 8);
+  loaded.plane_modulus_Pa = 226e9;
+  loaded.pressures["outside"].clearance_m = 10e-6;
+  const auto loads = loads_at(loaded, "outside");
+  const double a = loads.pressures.at("outside").pattern.half_angle_rad;
+  const double Q = 1300 / 0.04, dR = 5e-6, R = 0.05;
+  EXPECT_NEAR(a, std::sqrt(4 * Q * R * R / dR / (M_PI * 226e9)) / R, 0.02 * a) << "Hertz";
+  EXPECT_NEAR(loads.pressures.at("outside").half_angles.least_rad, 0.75 * a, 1e-12);
+  const auto same = loads_at(body(a, 8), "outside");
+  ASSERT_EQ(loads.unit_loads.size(), same.unit_loads.size());
+  for (std::size_t k = 0; k < loads.unit_loads.size(); ++k) {
+    const auto* own = std::get_if<fem::SeatPressure>(&loads.unit_loads[k].shape);
+    const auto* other = std::get_if<fem::SeatPressure>(&same.unit_loads[k].shape);
+    if (own == nullptr) continue;
+    EXPECT_EQ(own->coefficient, 1);
+    const auto i = Eigen::Index(k);
+    EXPECT_LT(bodies::largest(loads.history.values.row(i) - other->coefficient * same.history.values.row(i)),
+              1e-9 * 1300)
+        << loads.unit_loads[k].channel;
+  }
+}
+
 }  // namespace
