@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,25 +32,34 @@ std::optional<double> life_of(double damage, double duration_s) {
   return damage > 0 ? std::optional(duration_s / damage) : std::nullopt;
 }
 
+/// @param cycle  the largest one
+LifeCertainty certainty_at(const FatigueRules& rules, double error_share, const StressCycle& cycle,
+                           const std::vector<StressBlock>& blocks, const LoadPeriod& period) {
+  return certainty_of(
+      error_share,
+      beyond_curve(cycle.amplitude_Pa + std::abs(cycle.signed_mean_Pa),
+                   rules.scene().material.yield_strength_Pa, rules.design_curve(blocks), blocks),
+      [&](double factor) {
+        const auto other = scaled(blocks, factor);
+        return life_of(miner_damage(rules.design_curve(other), other), period.duration_s);
+      });
+}
+
 void take_life(const FatigueRules& rules, const CountedNode& counted, const LoadPeriod& period,
                FatiguePlace& place) {
   const auto& blocks = counted.blocks;
   place.n_counted = blocks.size();
-  if (blocks.empty()) return;
+  if (blocks.empty()) {  // nothing changes
+    place.certainty.range.emplace();
+    return;
+  }
   const auto curve = rules.design_curve(blocks);
   const double damage = miner_damage(curve, blocks);
   place.damage_per_turn = damage / period.turns;
   if (damage > 0) place.life_s = period.duration_s / damage;
   if (const auto wanted = rules.scene().wanted_life_s)
     place.life_safety = life_safety(curve, blocks, *wanted / period.duration_s);
-  place.certainty =
-      certainty_of(place.error_share,
-                   beyond_curve(place.cycle.amplitude_Pa + std::abs(place.cycle.signed_mean_Pa),
-                                rules.scene().material.yield_strength_Pa, curve, blocks),
-                   [&](double factor) {
-                     const auto other = scaled(blocks, factor);
-                     return life_of(miner_damage(rules.design_curve(other), other), period.duration_s);
-                   });
+  place.certainty = certainty_at(rules, place.error_share, place.cycle, blocks, period);
 }
 
 MeanStressSafety lines_of(const FatigueRules& rules, const EnduranceLimit& limit, const CyclicStress& cycle) {
@@ -111,89 +121,6 @@ SecondOpinions second_opinions(const FatigueRules& rules, const FatigueNode& wor
   return least;
 }
 
-/// DIN 743 is for shafts of rolled and forged steel.
-bool is_steel(const GroupConstants& group) {
-  return !group.is_cast && group.group != MaterialGroup::wrought_aluminium;
-}
-
-/// Empty where it has one.
-std::string why_no_din_743(const FatigueRules& rules, const BodyAnalysis& analysis) {
-  if (!is_steel(rules.group()))
-    return fmt::format("it is for rolled and forged steel, not for {}", rules.group().name);
-  if (analysis.scene.shaft() == nullptr) return "it is for shafts of round solid sections";
-  if (!analysis.diagrams)
-    return fmt::format("a run with method {} has no resultants of the sections", to_string(analysis.method));
-  if (!has_din_fillet(analysis.scene.shaft()->geometry))
-    return "the shaft has no fillet between solid segments";
-  return "";
-}
-
-std::vector<std::string> assumptions_of(const FatigueRules& rules, const BodyAnalysis& analysis) {
-  const auto& scene = rules.scene();
-  const auto limit = rules.limit(0, {});
-  std::vector<std::string> lines;
-  const auto size =
-      scene.size_factor == 1
-          ? std::string("of the part at its size: size_factor 1")
-          : fmt::format("{:.0f} MPa by size_factor {:.3g}",
-                        scene.material.tensile_strength_Pa / scene.size_factor / 1e6, scene.size_factor);
-  lines.push_back(
-      fmt::format("FKM, local stresses, {}: R_m {:.0f} MPa ({}), reversed limit {:.1f} MPa with R_z {:.4g} "
-                  "um (K_R {:.3f}), "
-                  "treatment {:.3g}, survival {:.8g} %",
-                  rules.group().name, scene.material.tensile_strength_Pa / 1e6, size, limit.reversed_Pa / 1e6,
-                  scene.roughness_m * 1e6, limit.roughness, scene.treatment, 100 * scene.reliability));
-  lines.push_back(
-      fmt::format("safety factor {:.3g} ({}); mean-stress sensitivity {:.3f}; S-N slope {:.3g}, knee at "
-                  "{:.0e} cycles",
-                  scene.safety, scene.safety_reason, limit.mean_stress_sensitivity,
-                  rules.group().slope_normal, rules.group().knee_cycles));
-  lines.emplace_back(
-      "amplitude: half the von Mises stress of the difference of two instants; mean: signed von Mises stress "
-      "of their middle, by FKM's Haigh diagram at constant stress ratio (F2)");
-  const auto& second = rules.group().second_slope_normal;
-  lines.push_back(fmt::format(
-      "cycles by rainflow along the direction of most damage; Palmgren-Miner, damage sum 1, {}",
-      second ? fmt::format("S-N slope {:.3g} behind the knee", *second)
-             : std::string("elementary: beside a cycle above the knee all others count by the same slope")));
-  const double shear = rules.group().f_W_tau;
-  lines.push_back(shear > 0.5 && shear < 1
-                      ? fmt::format("Findley with tau_W / sigma_W {:.3f}", shear)
-                      : fmt::format("no Findley: tau_W / sigma_W {:.3f} is outside 0.5 to 1", shear));
-  if (scene.endurance_Pa)
-    lines.push_back(
-        fmt::format("the smooth specimen's limit is the scene's, {:.1f} MPa", *scene.endurance_Pa / 1e6));
-  if (!analysis.hot_spots.empty())
-    lines.push_back(fmt::format(
-        "weld toes: IIW, structural hot-spot stress, FAT {:.0f}{} / gamma_M {:.3g}, 95 % survival, "
-        "as welded; range of the principal stress within 60 degrees of the toe's normal; "
-        "thickness factor f(t) = (25 mm / t)^n above 25 mm",
-        scene.toes.class_Pa / 1e6, scene.toes.type.empty() ? "" : " (" + scene.toes.type + ")",
-        scene.toes.partial_factor));
-  if (!analysis.hot_spots.empty()) {
-    const auto one = weld_curve({scene.toes.class_Pa}, LoadAmplitude::constant),
-               several = weld_curve({scene.toes.class_Pa}, LoadAmplitude::variable);
-    lines.push_back(fmt::format(
-        "  Palmgren-Miner, S-N slope {:.3g}, knee at {:.0e} cycles; behind it {:.3g} and damage sum 1 with "
-        "one "
-        "cycle a period, {:.3g} and damage sum {:.3g} with several",
-        one.slope, one.knee_cycles, *one.second_slope, *several.second_slope, damage_sum_of_spectra));
-  }
-  if (!analysis.hot_spots.empty())
-    lines.emplace_back(
-        "  of webs and lugs on the tube; welds of webs on the housing, of lugs on pads and of flanges on the "
-        "tube are not judged");
-  if (!analysis.hot_spots.empty() && scene.toes.type == "load-carrying")
-    lines.emplace_back(
-        "  load-carrying fillet welds: webs carry the load from the housings to the tube, lugs that of the "
-        "springs; another type of a toe stands in [[chamber.fatigue.welds.toes]]");
-  if (const auto reason = why_no_din_743(rules, analysis); !reason.empty())
-    lines.push_back("DIN 743 gives no second opinion: " + reason);
-  if (analysis.method == Method::beam)
-    lines.push_back("a beam knows no stress gradient: no support by it is counted (n_sigma 1)");
-  return lines;
-}
-
 /// Of the nodes that may be the worst of a feature.
 struct JudgedNode {
   FatigueNode node;
@@ -240,9 +167,9 @@ FatiguePlace place_of(const std::string& feature, const JudgedNode& worst,
   place.endurance_Pa = limit.amplitude_Pa;
   place.safety = place.cycle.amplitude_Pa > 0 ? limit.amplitude_Pa / place.cycle.amplitude_Pa : never;
   place.unresolved_share = search.unresolved_share(worst.node, worst.counted);
-  place.error_share = error_share_of_change(analysis, feature, place.node,
-                                            search.half_change_between(worst.node.from, worst.node.to)) +
-                      place.unresolved_share;
+  place.error_share = whole_error_share_of_change(analysis, feature, place.node,
+                                                  search.half_change_between(worst.node.from, worst.node.to),
+                                                  place.unresolved_share);
   take_life(rules, worst.counted, period, place);
   place.others = second_opinions(rules, worst.node, by_lines, search);
   place.effect_share = shares_of_change(unit_stresses_at(analysis.responses, place.node),
@@ -329,12 +256,67 @@ ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const BodyAn
   if (!is_on_surface) return result;
   const auto node = search.at(zone.peak_node);
   const auto counted = search.stationary(node, search.counted(node, period.duration_s));
-  if (counted.blocks.empty()) return result;
+  if (counted.blocks.empty()) {  // nothing changes
+    result.certainty.range.emplace();
+    return result;
+  }
   const double damage = miner_damage(rules.design_curve(counted.blocks), counted.blocks);
   result.damage_per_turn = damage / period.turns;
   result.life_s = life_of(damage, period.duration_s);
+  result.error_share = whole_error_share_of_change(analysis, zone.feature, zone.peak_node,
+                                                   search.half_change_between(node.from, node.to),
+                                                   search.unresolved_share(node, counted));
+  result.certainty = certainty_at(rules, result.error_share, node.cycle, counted.blocks, period);
   result.shares = shares_in_damage(analysis, loads, search, rules, node, counted, true);
   return result;
+}
+
+/// FKM's d_eff: of a contour the largest of its segments, by 4 V / O of a long bar or tube; of other bodies
+/// 4 V / O. 0 where a rank knows a part of the body.
+double effective_diameter(const BodyAnalysis& analysis) {
+  if (const auto* shaft = analysis.scene.shaft()) {
+    double largest_m = 0;
+    for (const auto& segment : shaft->geometry.segments)
+      largest_m = std::max(largest_m, segment.diameter_m - segment.bore_m);
+    return largest_m;
+  }
+  const auto& nodes = analysis.responses.nodes;
+  if (analysis.responses.shared) return 0;
+  double surface_m2 = 0;
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const auto face = nodes.face(f);
+    const auto corner = [&](std::size_t i) {
+      return Eigen::Map<const Eigen::Vector3d>(&nodes.xyz_m[3 * std::size_t(face[i])]);
+    };
+    for (std::size_t i = 2; i < std::size_t(nodes.shape().n_face_corners()); ++i)
+      surface_m2 += (corner(i - 1) - corner(0)).cross(corner(i) - corner(0)).norm() / 2;
+  }
+  return surface_m2 > 0 ? 4 * analysis.masses.volume_m3 / surface_m2 : 0;
+}
+
+/// Every kind of material of the group, at the place that is used most. The direction of counting is that
+/// of the strength as given.
+void take_sizes(const BodyAnalysis& analysis, const FatiguePlaces& search, const FatigueRules& rules,
+                const LoadPeriod& period, BodyFatigue& fatigue) {
+  fatigue.effective_diameter_m = effective_diameter(analysis);
+  if (!(fatigue.effective_diameter_m > 0) || fatigue.places.empty() || rules.scene().endurance_Pa) return;
+  const auto node = search.at(fatigue.places.front().node);
+  const auto counted = search.stationary(node, search.counted(node, period.duration_s));
+  for (const auto& size : sizes_of(rules.group().group, fatigue.effective_diameter_m)) {
+    FatigueScene scene = rules.scene();
+    scene.material.tensile_strength_Pa *= size.tensile_factor;
+    scene.material.yield_strength_Pa =
+        std::min(scene.material.yield_strength_Pa, scene.material.tensile_strength_Pa);
+    const FatigueRules at_size(scene);
+    const auto limit = at_size.limit(node.gradient_per_m, scalar(node.cycle));
+    LifeAtSize life{size, node.cycle.amplitude_Pa > 0 ? limit.amplitude_Pa / node.cycle.amplitude_Pa : never,
+                    std::nullopt};
+    if (!counted.blocks.empty()) {
+      const auto blocks = at_size.counted(search.stress_of(node.node).cycles_along(counted.direction), limit);
+      life.life_s = life_of(miner_damage(at_size.design_curve(blocks), blocks), period.duration_s);
+    }
+    fatigue.at_size.push_back(life);
+  }
 }
 
 /// The places of a list where the curve does not hold.
@@ -418,7 +400,7 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
   });
   std::stable_sort(fatigue.places.begin(), fatigue.places.end(),
                    [](const auto& a, const auto& b) { return a.utilisation > b.utilisation; });
-  if (is_steel(rules.group()))
+  if (is_din_steel(rules.group()))
     fatigue.nominal = din_743_of_fillets(analysis, loads.history, [&](const std::string& fillet) {
       const auto place = std::find_if(fatigue.places.begin(), fatigue.places.end(),
                                       [&](const auto& p) { return p.feature == fillet; });
@@ -433,7 +415,7 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
     fatigue.zones[i] = damage_of(zones[i], search, analysis, loads.history, rules, period,
                                  std::binary_search(surface.begin(), surface.end(), zones[i].peak_node));
   });
-  fatigue.assumptions = assumptions_of(rules, analysis);
+  if (rules.scene().size_factor == 1) take_sizes(analysis, search, rules, period, fatigue);
   fatigue.warnings = warnings_of(rules, analysis.scene.name, fatigue);
   if (const auto corners = corners_left_out(analysis); !corners.empty())
     fatigue.warnings.push_back(

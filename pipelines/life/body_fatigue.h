@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
+#include "pipelines/fatigue/technological_size.h"
 #include "pipelines/life/life_certainty.h"
 #include "pipelines/life/nominal_fatigue.h"
 #include "pipelines/superposition/nodal_cycles.h"
@@ -52,7 +53,7 @@ struct FatiguePlace {
   std::vector<double> effect_share;  ///< of the amplitude, in the order of ChannelHistory::effects; sums to 1
   std::vector<double> damage_share;  ///< likewise of the damage (damage_shares.h); empty: nothing changes
   double unresolved_share = 0;       ///< what the instants leave unresolved of the amplitude
-  double error_share = 0;            ///< numerical error of the stress at the place, with unresolved_share;
+  double error_share = 0;            ///< whole error of the amplitude (whole_error_share_of_change);
                                      ///< infinite: not known
   LifeCertainty certainty;           ///< of the life
 };
@@ -76,7 +77,7 @@ struct WeldFatigue {
   std::optional<double> life_s;       ///< none: endures
   std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
   double unresolved_share = 0;        ///< what the instants leave unresolved of the range
-  double error_share = 0;             ///< numerical error of the stress, with that; infinite: not known
+  double error_share = 0;             ///< whole error of the stress, with that; infinite: not known
   LifeCertainty certainty;            ///< of the life
 };
 
@@ -85,18 +86,28 @@ struct ZoneDamage {
   bool is_on_surface = false;  ///< else nothing is judged: fatigue is one of the surface
   double damage_per_turn = 0;
   std::optional<double> life_s;  ///< none: endures
+  double error_share = 0;        ///< whole error of the amplitude; infinite: not known
+  LifeCertainty certainty;       ///< of the life
   StressShares shares;           ///< of the damage (damage_shares.h); empty: nothing changes
 };
 
+/// The place that is used most, if the strength of the scene is that of the standard's reference size.
+struct LifeAtSize {
+  SizeOfMaterial size;  ///< with the factors for the body's effective diameter
+  double safety = 0;    ///< against endurance
+  std::optional<double> life_s;
+};
+
 struct BodyFatigue {
-  NodalCycles cycles;                    ///< of all nodes of the surface
-  std::vector<double> utilisation_at;    ///< of these nodes, without support by the gradient
-  std::vector<FatiguePlace> places;      ///< by falling utilisation
-  std::vector<NominalFatigue> nominal;   ///< fillets of steel shafts by DIN 743, least safety first
-  std::vector<WeldFatigue> welds;        ///< by rising life, then by falling range
-  std::vector<ZoneDamage> zones;         ///< in the order of BodyAnalysis::zones
-  std::vector<std::string> assumptions;  ///< sentences: rules, factors and defaults
-  std::vector<std::string> warnings;     ///< where the rules do not hold
+  NodalCycles cycles;                   ///< of all nodes of the surface
+  std::vector<double> utilisation_at;   ///< of these nodes, without support by the gradient
+  std::vector<FatiguePlace> places;     ///< by falling utilisation
+  std::vector<NominalFatigue> nominal;  ///< fillets of steel shafts by DIN 743, least safety first
+  std::vector<WeldFatigue> welds;       ///< by rising life, then by falling range
+  std::vector<ZoneDamage> zones;        ///< in the order of BodyAnalysis::zones
+  double effective_diameter_m = 0;      ///< d_eff of FKM; 0: with a size_factor, or not known
+  std::vector<LifeAtSize> at_size;      ///< by kind of material of the group (technological_size.h)
+  std::vector<std::string> warnings;    ///< where the rules do not hold
 };
 
 /// @param analysis  with envelope, places and loads; its scene asks for fatigue

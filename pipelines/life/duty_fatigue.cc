@@ -193,13 +193,16 @@ public:
     return place;
   }
 
-  /// Of the amplitudes of all blocks.
+  /// The largest of the amplitudes of all blocks and starts, without what the instants leave unresolved.
   double error_share(const std::string& feature, std::size_t node) const {
     double most = 0;
-    for (const auto& places : places_) {
-      const auto own = places.at(node);
-      most = std::max(most, error_share_of_change(analysis_, feature, node,
-                                                  places.half_change_between(own.from, own.to)));
+    const auto take = [&](const BodyLoads& half_change) {
+      most = std::max(most, whole_error_share_of_change(analysis_, feature, node, half_change, 0));
+    };
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      const auto own = places_[b].at(node);
+      take(places_[b].half_change_between(own.from, own.to));
+      if (blocks_[b].starts_per_s > 0) take(half_change_of_start(node, b));
     }
     return most;
   }
@@ -296,6 +299,19 @@ private:
     for (Index k = 0; k < unit_Pa.cols(); ++k)
       std::copy_n(unit_Pa.col(k).data(), 6, tensors[std::size_t(k)].begin());
     return time_sampling(tensors, starting, SeriesKind::transient).error_Pa() / amplitude_Pa;
+  }
+
+  /// Half of the change of the loads over the largest cycle of a start, as loads of one instant.
+  BodyLoads half_change_of_start(std::size_t node, std::size_t b) const {
+    const ArrayXXd sequence =
+        start_sequence(places_[b].course().fine(),
+                       blocks_[b].starting != nullptr ? blocks_[b].starting->values : ArrayXXd());
+    const UnitStresses unit = unit_stresses_at(analysis_.responses, node);
+    const auto cycle = StressCourse((unit * sequence.matrix()).array()).largest(slack_of_long_series);
+    BodyLoads change;
+    change.unit_loads = analysis_.loads.unit_loads;
+    change.history.values = 0.5 * (sequence.col(Index(cycle.to)) - sequence.col(Index(cycle.from)));
+    return change;
   }
 
   static double amplitude_and_mean_Pa(const StressCycle& cycle) {

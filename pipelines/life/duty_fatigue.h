@@ -49,8 +49,9 @@ struct DutyPlace {
   std::optional<double> life_s;       ///< in operation; none: endures
   std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
   double utilisation = 0;   ///< by the largest cycle of the block or start that uses it most; toes: 0
-  double error_share = 0;   ///< numerical error of the stress, with what the instants leave
-                            ///< unresolved, by the damage of the blocks; infinite: not known
+  double error_share = 0;   ///< whole error of the stress (whole_error_share_of_change), the largest of the
+                            ///< blocks and starts, with what the instants leave unresolved, by the damage of
+                            ///< the blocks; infinite: not known
   LifeCertainty certainty;  ///< of the life
   /// Of the damage of all blocks (damage_shares.h), in the order of effects_of_blocks; empty: nothing
   /// changes.

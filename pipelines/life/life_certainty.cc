@@ -9,12 +9,22 @@ namespace pipelines {
 
 LifeCertainty certainty_of(double error_share, const std::string& beyond,
                            const std::function<std::optional<double>(double)>& life_s) {
-  if (!beyond.empty() || !std::isfinite(error_share)) return {std::nullopt, beyond};
+  if (!beyond.empty()) return {std::nullopt, beyond};
+  if (!std::isfinite(error_share)) {
+    constexpr double any = 1e30;  // times a stress that changes at all
+    if (life_s(any)) return {};
+    return {LifeRange{}, ""};
+  }
   if (error_share >= 1) {  // nothing is known of a life; what seems to endure may not
     if (life_s(1)) return {std::nullopt, ""};
     return {LifeRange{life_s(1 + error_share), std::nullopt}, ""};
   }
   return {LifeRange{life_s(1 + error_share), life_s(1 - error_share)}, ""};
+}
+
+std::optional<double> least_safety(double safety, double error_share) {
+  if (!std::isfinite(error_share)) return std::nullopt;
+  return safety / (1 + error_share);
 }
 
 std::vector<StressBlock> scaled(std::vector<StressBlock> blocks, double factor) {

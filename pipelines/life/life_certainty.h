@@ -26,12 +26,17 @@ struct LifeCertainty {
 constexpr double least_cycles_of_curves = 1e4;
 
 /// Lives at all stresses times 1 + error and 1 - error.
-/// @param error_share  numerical error of the stress; from 1 on nothing is known of a life, and of what
-///                     seems to endure the least life alone
+/// @param error_share  whole error of the stress; from 1 on nothing is known of a life, and of what
+///                     seems to endure the least life alone; infinite: nothing, but that what has no
+///                     amplitude endures
 /// @param beyond       of beyond_curve: with a text there is no range
 /// @param life_s       with all stresses times a factor; none: endures
 LifeCertainty certainty_of(double error_share, const std::string& beyond,
                            const std::function<std::optional<double>(double)>& life_s);
+
+/// What an error of the stress leaves of a safety, or of another factor on all stresses, at least; none
+/// where the error is not known.
+std::optional<double> least_safety(double safety, double error_share);
 
 /// Amplitudes times a factor.
 std::vector<StressBlock> scaled(std::vector<StressBlock> blocks, double factor);

@@ -37,6 +37,10 @@ bool is_din_fillet(const meshes::Shaft& shaft, std::size_t i) {
 
 }  // namespace
 
+bool is_din_steel(const GroupConstants& group) {
+  return !group.is_cast && group.group != MaterialGroup::wrought_aluminium;
+}
+
 bool has_din_fillet(const meshes::Shaft& shaft) {
   for (std::size_t i = 0; i < shaft.fillets_m.size(); ++i)
     if (is_din_fillet(shaft, i)) return true;
@@ -113,8 +117,11 @@ std::vector<NominalFatigue> din_743_of_fillets(
     const auto published = fem::fillet_factors(thin.diameter_m, thick.diameter_m, fillet_m);
     const LocalAmplitude local = local_amplitude(own.fillet);
     own.error_share = local.error_share;
-    own.shape_factor = own_shape_factor({published.tension, published.bending, published.torsion},
-                                        own.load.amplitude_Pa, local.value_Pa);
+    const auto shape_factor = [&](double local_Pa) {
+      return own_shape_factor({published.tension, published.bending, published.torsion},
+                              own.load.amplitude_Pa, local_Pa);
+    };
+    own.shape_factor = shape_factor(local.value_Pa);
     DinShaft din;
     din.tensile_strength_Pa = scene.material.tensile_strength_Pa;
     din.yield_strength_Pa = scene.material.yield_strength_Pa;
@@ -124,6 +131,10 @@ std::vector<NominalFatigue> din_743_of_fillets(
     din.shape_factor = own.shape_factor;
     din.gradient_1_m = din_shoulder_gradient_1_m(thin.diameter_m, thick.diameter_m, fillet_m);
     own.safety = din_743_safety(din, own.load);
+    if (std::isfinite(local.error_share)) {
+      din.shape_factor = shape_factor((1 + local.error_share) * local.value_Pa);
+      own.least_safety = din_743_safety(din, own.load).fatigue;
+    }
     result.push_back(std::move(own));
   }
   std::stable_sort(result.begin(), result.end(),

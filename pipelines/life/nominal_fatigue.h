@@ -3,11 +3,13 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/fatigue/din_743.h"
+#include "pipelines/fatigue/fatigue_material.h"
 
 namespace pipelines {
 
@@ -20,6 +22,8 @@ struct NominalFatigue {
   DinTriple shape_factor;
   DinSafety safety;        ///< DIN asks for 1.2
   double error_share = 0;  ///< of the local amplitude, and so of the shape factor; infinite: not known
+  /// Against fatigue, with the local amplitude larger by that; none: not known.
+  std::optional<double> least_safety;
 };
 
 /// Of von Mises stress in a fillet.
@@ -44,6 +48,9 @@ DinTriple own_shape_factor(const DinTriple& published, const DinTriple& nominal_
 /// phi = 1 / (4 sqrt(t / r) + 2), t = (D - d) / 2, where d/D > 0.67, else 0. Source: DIN 743-2, table 2.
 /// @param small_m, large_m  diameters
 DinTriple din_shoulder_gradient_1_m(double small_m, double large_m, double fillet_m);
+
+/// Whether DIN 743 is for it: rolled and forged steel.
+bool is_din_steel(const GroupConstants& group);
 
 /// Whether there is a fillet between solid segments: the only notch that is taken.
 bool has_din_fillet(const meshes::Shaft& shaft);

@@ -20,6 +20,26 @@ std::string life(const Json& hours) {
   return hours.is_null() ? "endures" : number(hours, 1, "{:.3g}");
 }
 
+/// What a place's error leaves of its life: null where it endures, too; none of results of earlier versions,
+/// of lives beyond the curve and where the error is not known.
+const Json* life_range(const Json& place) {
+  if (!place.contains("life_range_h") || place.at("life_range_h").is_null()) return nullptr;
+  return &place.at("life_range_h");
+}
+
+/// In h; what endures by its stress alone, and not with the error of that, says so.
+std::string life_of(const Json& place) {
+  const auto text = life(place.at("life_h"));
+  if (!place.at("life_h").is_null() || !place.contains("life_range_h")) return text;
+  const auto* range = life_range(place);
+  return range != nullptr && (*range)[0].is_null() ? text : text + ", without the error of its stress";
+}
+
+/// "1.09": a figure that results of earlier versions do not have.
+std::string figure_of(const Json& place, const char* key, double unit, const char* format) {
+  return place.contains(key) ? number(place.at(key), unit, format) : "-";
+}
+
 /// What the error of the stress leaves of a life at least, h; results of earlier versions have none.
 std::string least_life(const Json& place) {
   if (!place.contains("life_range_h")) return "-";
@@ -33,7 +53,7 @@ void add_welds(HtmlPage& page, const Json& welds) {
   for (const auto& weld : welds) {
     if (rows.size() == n_rows_of_fatigue) break;
     rows.push_back({weld.at("name").get<std::string>(), number(weld.at("range_Pa"), 1e-6, "{:.1f}"),
-                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), life(weld.at("life_h")), least_life(weld)});
+                    number(weld.at("class_Pa"), 1e-6, "{:.0f}"), life_of(weld), least_life(weld)});
   }
   page.table({"weld toe", "range MPa", "FAT MPa", "life h", "at least h"}, rows);
 }
@@ -69,10 +89,11 @@ void add_din_743(HtmlPage& page, const Json& fatigue) {
     rows.push_back({fillet.at("feature").get<std::string>(), nominal("tension"), nominal("bending"),
                     nominal("torsion"), error.is_null() ? "not known" : number(error, 100, "{:.2g} %"),
                     number(fillet.at("safety_against_fatigue"), 1, "{:.2f}"),
-                    number(fillet.at("safety_against_yielding"), 1, "{:.2f}")});
+                    number(fillet.at("safety_against_yielding"), 1, "{:.2f}"),
+                    figure_of(fillet, "safety_against_fatigue_least", 1, "{:.2f}")});
   }
   page.table({"DIN 743, nominal stresses: fillet", "tension MPa x factor", "bending", "torsion",
-              "error of factors", "safety against fatigue", "against yielding"},
+              "error of factors", "safety against fatigue", "against yielding", "against fatigue at least"},
              rows);
 }
 
@@ -80,15 +101,15 @@ void add_duty_places(HtmlPage& page, const std::string& body, const Json& places
   Rows rows;
   for (const auto& place : places) {
     if (rows.size() == n_rows_of_fatigue) break;
-    rows.push_back({place.at("feature").get<std::string>(),
-                    place.at("weld_toe").get<bool>() ? "weld toe" : "",
-                    number(place.at("damage_per_hour"), 1, "{:.3g}"), life(place.at("life_h")),
-                    least_life(place), number(place.at("life_safety"), 1, "{:.2f}")});
+    rows.push_back(
+        {place.at("feature").get<std::string>(), place.at("weld_toe").get<bool>() ? "weld toe" : "",
+         number(place.at("damage_per_hour"), 1, "{:.3g}"), life_of(place), least_life(place),
+         number(place.at("life_safety"), 1, "{:.2f}"), figure_of(place, "life_safety_least", 1, "{:.2f}")});
   }
   page.heading(3, body + ": life over all blocks");
-  page.table(
-      {"place", "", "damage per hour", "life h in operation", "at least h", "safety against the wanted life"},
-      rows);
+  page.table({"place", "", "damage per hour", "life h in operation", "at least h",
+              "safety against the wanted life", "at least"},
+             rows);
 }
 
 }  // namespace
@@ -99,16 +120,17 @@ void add_fatigue(HtmlPage& page, const Json& body) {
   Rows rows;
   for (const auto& place : fatigue.at("places")) {
     if (rows.size() == n_rows_of_fatigue) break;
-    rows.push_back({place.at("feature").get<std::string>(), number(place.at("amplitude_Pa"), 1e-6, "{:.1f}"),
-                    number(place.at("mean_Pa"), 1e-6, "{:.1f}"),
-                    number(place.at("endurance_Pa"), 1e-6, "{:.1f}"),
-                    number(place.at("safety_against_endurance"), 1, "{:.2f}"),
-                    number(place.at("utilisation"), 100, "{:.0f}"), life(place.at("life_h")),
-                    least_life(place), moment_of(place, "from"), moment_of(place, "to")});
+    rows.push_back(
+        {place.at("feature").get<std::string>(), number(place.at("amplitude_Pa"), 1e-6, "{:.1f}"),
+         number(place.at("mean_Pa"), 1e-6, "{:.1f}"), number(place.at("endurance_Pa"), 1e-6, "{:.1f}"),
+         number(place.at("safety_against_endurance"), 1, "{:.2f}"),
+         figure_of(place, "safety_least", 1, "{:.2f}"), number(place.at("utilisation"), 100, "{:.0f}"),
+         figure_of(place, "utilisation_most", 100, "{:.0f}"), life_of(place), least_life(place),
+         moment_of(place, "from"), moment_of(place, "to")});
   }
   page.heading(3, "Fatigue");
-  page.table({"place", "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation %", "life h",
-              "at least h", "from", "to"},
+  page.table({"place", "amplitude MPa", "mean MPa", "endured MPa", "safety", "at least", "utilisation %",
+              "at most %", "life h", "at least h", "from", "to"},
              rows);
   add_other_rules(page, fatigue.at("places"));
   add_din_743(page, fatigue);
@@ -125,12 +147,13 @@ void add_fatigue_ranking(HtmlPage& page, const Json& summary) {
   for (const auto i : rows_shown(bodies, n_rows_of_fatigue)) {
     const auto& place = ranking.at(i);
     rows.push_back({fmt::format("{}", i + 1), bodies[i], place.at("feature").get<std::string>(),
-                    place.at("weld_toe").get<bool>() ? "weld toe" : "", life(place.at("life_h")),
-                    number(place.at("utilisation"), 100, "{:.0f}")});
+                    place.at("weld_toe").get<bool>() ? "weld toe" : "", life_of(place), least_life(place),
+                    number(place.at("utilisation"), 100, "{:.0f}"),
+                    figure_of(place, "utilisation_most", 100, "{:.0f}")});
   }
   page.heading(2, std::string("Fatigue of all bodies") +
                       (summary.contains("duty") ? ", over all operating blocks" : ""));
-  page.table({"", "body", "place", "", "life h", "utilisation %"}, rows);
+  page.table({"", "body", "place", "", "life h", "at least h", "utilisation %", "at most %"}, rows);
 }
 
 void add_duty(HtmlPage& page, const Json& summary) {

@@ -81,14 +81,14 @@ std::string rule_of_lives() {
 
 void print_places(std::ostream& out, const DutyResult& duty) {
   for (const auto& [body, places] : duty.places) {
-    out << fmt::format("\n  {:<40}{:>13}{:>32}  {}\n", body + " over all blocks", "amplitude MPa", "life",
+    out << fmt::format("\n  {:<40}{:>13}{:>44}  {}\n", body + " over all blocks", "amplitude MPa", "life",
                        "damage by");
     const auto n = std::min(n_duty_places_shown, places.size());
     for (std::size_t i = 0; i < n; ++i) {
       double amplitude_Pa = 0;
       for (const auto& block : places[i].blocks)
         amplitude_Pa = std::max({amplitude_Pa, block.amplitude_Pa, block.start_amplitude_Pa});
-      out << fmt::format("  {:<40}{:>13.1f}{:>32}  {}\n",
+      out << fmt::format("  {:<40}{:>13.1f}{:>44}  {}\n",
                          places[i].feature + (places[i].is_weld ? " (weld toe)" : ""), amplitude_Pa / 1e6,
                          life_text(places[i].life_s, places[i].certainty), causes_of(duty, places[i]));
       if (const auto text =
@@ -96,8 +96,8 @@ void print_places(std::ostream& out, const DutyResult& duty) {
           !text.empty())
         out << "    effects: " << text << '\n';
       if (places[i].life_safety)
-        out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
-                           *places[i].life_safety);
+        out << fmt::format("    safety against the wanted life, beyond the safety factor: {}\n",
+                           safety_text(*places[i].life_safety, places[i].error_share));
     }
     print_may_last_less(out, places.empty() ? "" : places.front().feature,
                         may_last_less(places, [](const auto& place) { return place.feature; }));
@@ -142,6 +142,7 @@ summary::Json place_json(const DutyResult& duty, const std::string& body, const 
        {"life_range_h", life_range_json(place.certainty)},
        {"beyond_sn_curve", beyond_json(place.certainty)},
        {"life_safety", number_or_none(or_infinite(place.life_safety))},
+       {"life_safety_least", least_safety_json(or_infinite(place.life_safety), place.error_share)},
        {"stress_error", number_or_none(place.error_share)},
        {"by_block", by_block},
        {"effect_share_of_damage", effect_shares_json(duty.effects.at(body), place.effect_share)}});

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <tuple>
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/life/duty_result.h"
 #include "pipelines/report_parts/damage_share_text.h"
+#include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/moment.h"
 #include "pipelines/report_parts/zone_text.h"
 
@@ -39,6 +41,18 @@ CsvColumn texts(const char* name, const char* unit, const std::vector<FatiguePla
   std::vector<std::string> cells;
   for (const auto& place : places) cells.push_back(get(place));
   return {name, unit, std::move(cells)};
+}
+
+std::string utilisation_text(double utilisation, double error_share) {
+  return fmt::format("{:.1f}% ({})", 100 * utilisation,
+                     std::isfinite(error_share)
+                         ? fmt::format("{:.1f}%", 100 * utilisation * (1 + error_share))
+                         : std::string("-"));
+}
+
+std::string least_cell(double safety, double error_share) {
+  const auto least = least_safety(safety, error_share);
+  return least && std::isfinite(*least) ? shortest(*least) : std::string();
 }
 
 /// Empty where there is none: a place that endures has no life.
@@ -86,6 +100,8 @@ summary::Json welds_json(const BodyFatigue& fatigue, const std::vector<std::stri
          {"life_range_h", life_range_json(weld.certainty)},
          {"beyond_sn_curve", beyond_json(weld.certainty)},
          {"life_safety", weld.life_safety ? summary::number(*weld.life_safety) : summary::Json(nullptr)},
+         {"life_safety_least",
+          weld.life_safety ? least_safety_json(*weld.life_safety, weld.error_share) : summary::Json(nullptr)},
          {"stress_error", summary::number_or_none(weld.error_share)},
          {"effect_share_of_range", effect_shares_json(effects, weld.effect_share)},
          {"effect_share_of_damage", effect_shares_json(effects, weld.damage_share)}}));
@@ -102,11 +118,23 @@ std::string life_text(const std::optional<double>& life_s, const LifeCertainty& 
   const auto text = life_text(life_s);
   if (!certainty.beyond.empty()) return text + ", beyond the S-N curve";
   const auto& range = certainty.range;
+  if (!life_s && !range) return text + ", its error not known";
   if (!life_s)
-    return text + (range && range->least_s ? " (" + life_text(range->least_s) + " at least)" : std::string());
+    return range->least_s ? text + "; " + life_text(range->least_s) + " with the stated error" : text;
   if (!range) return text + ", not known well";
   return fmt::format("{} ({:.2g} to {})", text, range->least_s.value_or(*life_s) / seconds_per_hour,
                      range->most_s ? fmt::format("{:.2g}", *range->most_s / seconds_per_hour) : "ever");
+}
+
+std::string safety_text(double safety, double error_share) {
+  if (!std::isfinite(safety)) return "-";
+  const auto least = least_safety(safety, error_share);
+  return fmt::format("{} ({})", fixed(safety, 2), least ? fixed(*least, 2) : "-");
+}
+
+summary::Json least_safety_json(double safety, double error_share) {
+  const auto least = least_safety(safety, error_share);
+  return least ? summary::number_or_none(*least) : summary::Json(nullptr);
 }
 
 summary::Json life_range_json(const LifeCertainty& certainty) {
@@ -145,14 +173,15 @@ double rounded_mean_Pa(const StressCycle& cycle) {
 void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   if (!analysis.fatigue) return;
   const auto& fatigue = *analysis.fatigue;
-  out << fmt::format("\n  {:<30}{:>13}{:>10}{:>12}{:>9}{:>13}  {}\n", "fatigue of the surface",
-                     "amplitude MPa", "mean MPa", "endured MPa", "safety", "utilisation",
+  out << fmt::format("\n  {:<30}{:>13}{:>10}{:>12}{:>15}{:>18}  {}\n", "fatigue of the surface",
+                     "amplitude MPa", "mean MPa", "endured MPa", "safety (least)", "utilis. (most)",
                      "life at the design limit");
   for (std::size_t i = 0; i < std::min(n_places_shown, fatigue.places.size()); ++i) {
     const auto& place = fatigue.places[i];
-    out << fmt::format("  {:<30}{:>13}{:>10}{:>12}{:>9}{:>12.1f}%  {}\n", place.feature,
+    out << fmt::format("  {:<30}{:>13}{:>10}{:>12}{:>15}{:>18}  {}\n", place.feature,
                        fixed(place.cycle.amplitude_Pa / 1e6, 1), fixed(rounded_mean_Pa(place.cycle) / 1e6, 1),
-                       fixed(place.endurance_Pa / 1e6, 1), safety_text(place.safety), 100 * place.utilisation,
+                       fixed(place.endurance_Pa / 1e6, 1), safety_text(place.safety, place.error_share),
+                       utilisation_text(place.utilisation, place.error_share),
                        life_text(place.life_s, place.certainty));
   }
   if (fatigue.places.empty()) return;
@@ -163,33 +192,37 @@ void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysi
   };
   if (first.cycle.amplitude_Pa > 0)
     out << fmt::format(
-        "    {}: from {} to {}; amplitude by {}; {}; n_sigma {:.3f} at {:.3g}/mm; numerical error of the "
-        "stress {}\n",
+        "    {}: from {} to {}; amplitude by {}; {}; n_sigma {:.3f} at {:.3g}/mm; error of the "
+        "amplitude {}, which the least and the most have\n",
         first.feature, at(first.from), at(first.to),
         largest_shares(group_shares(analysis.loads.history.effects, first.effect_share)),
         damage_text(analysis.loads.history.effects, first.damage_share, first.damage_per_turn > 0),
         first.support, first.gradient_per_m * 1e-3,
         std::isfinite(first.error_share) ? fmt::format("{:.1f} %", 100 * first.error_share) : "not known");
   if (first.life_safety)
-    out << fmt::format("    safety against the wanted life, beyond the safety factor: {:.2f}\n",
-                       *first.life_safety);
+    out << fmt::format("    safety against the wanted life, beyond the safety factor: {}\n",
+                       safety_text(*first.life_safety, first.error_share));
   out << fmt::format(
       "    safety by other rules, same limit: Findley {}, Goodman {}, Gerber {}, Soderberg {}\n",
-      safety_text(first.others.findley), safety_text(first.others.goodman), safety_text(first.others.gerber),
-      safety_text(first.others.soderberg));
+      safety_text(first.others.findley, first.error_share),
+      safety_text(first.others.goodman, first.error_share),
+      safety_text(first.others.gerber, first.error_share),
+      safety_text(first.others.soderberg, first.error_share));
   if (!fatigue.nominal.empty()) {
     const auto& least = fatigue.nominal.front();
     out << fmt::format(
         "    DIN 743 from nominal stresses, least safe of {} fillets: {}, safety {} (1.2 is asked; "
         "bending {:.1f} MPa x {:.2f}, torsion {:.1f} MPa x {:.2f}{})\n",
-        fatigue.nominal.size(), least.fillet, safety_text(least.safety.fatigue),
+        fatigue.nominal.size(), least.fillet,
+        fmt::format("{} ({})", safety_text(least.safety.fatigue),
+                    least.least_safety ? safety_text(*least.least_safety) : "-"),
         least.load.amplitude_Pa.bending / 1e6, least.shape_factor.bending,
         least.load.amplitude_Pa.torsion / 1e6, least.shape_factor.torsion,
         std::isfinite(least.error_share) ? fmt::format("; factors +- {:.2g} %", 100 * least.error_share)
                                          : "; the error of the factors is not known");
   }
   print_welds(out, fatigue, analysis.loads.history.effects);
-  for (const auto& line : fatigue.assumptions) out << "    " << line << '\n';
+  for (const auto& line : fatigue_assumptions(analysis)) out << "    " << line << '\n';
 }
 
 std::vector<RankedPlace> fatigue_ranking(const RunReport& report) {
@@ -203,21 +236,26 @@ std::vector<RankedPlace> fatigue_ranking(const RunReport& report) {
       const auto places = report.duty->places.find(body);
       if (places == report.duty->places.end()) continue;
       for (const auto& place : places->second)
-        ranking.push_back({body, place.feature, place.is_weld, place.life_s,
-                           place.is_weld ? std::nullopt : std::optional(place.utilisation)});
+        ranking.push_back({body, place.feature, place.is_weld, place.life_s, place.certainty,
+                           place.is_weld ? std::nullopt : std::optional(place.utilisation),
+                           place.error_share});
       continue;
     }
     for (const auto& place : analysis.fatigue->places)
-      ranking.push_back({body, place.feature, false, place.life_s, place.utilisation});
+      ranking.push_back(
+          {body, place.feature, false, place.life_s, place.certainty, place.utilisation, place.error_share});
     for (const auto& weld : analysis.fatigue->welds)
-      ranking.push_back({body, weld.name, true, weld.life_s, std::nullopt});
+      ranking.push_back({body, weld.name, true, weld.life_s, weld.certainty, std::nullopt, weld.error_share});
   }
   if (n_judged < 2) return {};
   std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) {
-    constexpr double never = std::numeric_limits<double>::infinity();
-    const double life_of_a = a.life_s.value_or(never), life_of_b = b.life_s.value_or(never);
-    return life_of_a != life_of_b ? life_of_a < life_of_b
-                                  : a.utilisation.value_or(0) > b.utilisation.value_or(0);
+    const auto order = [](const RankedPlace& place) {
+      constexpr double never = std::numeric_limits<double>::infinity();
+      const auto& range = place.certainty.range;
+      return std::make_tuple(place.life_s.value_or(never), range ? range->least_s.value_or(never) : never,
+                             -place.utilisation.value_or(0));
+    };
+    return order(a) < order(b);
   });
   return ranking;
 }
@@ -243,9 +281,9 @@ void print_shortest_lives(std::ostream& out, const RunReport& report) {
   for (const auto& place : ranking) bodies.push_back(place.body);
   for (const auto i : rows_shown(bodies, most)) {
     const auto& place = ranking[i];
-    const auto life = place.life_s || !place.utilisation
-                          ? life_text(place.life_s)
-                          : fmt::format("endures, {:.0f} % used", 100 * *place.utilisation);
+    auto life = life_text(place.life_s, place.certainty);
+    if (!place.life_s && place.utilisation)
+      life += "; used " + utilisation_text(*place.utilisation, place.error_share);
     out << fmt::format("  {:>4}  {:<56}{}\n", i + 1,
                        place.body + ", " + place.feature + (place.is_weld ? " (weld toe)" : ""), life);
   }
@@ -260,7 +298,12 @@ summary::Json fatigue_ranking_json(const RunReport& report) {
          {"weld_toe", place.is_weld},
          {"life_h",
           place.life_s ? summary::number(*place.life_s / seconds_per_hour) : summary::Json(nullptr)},
-         {"utilisation", place.utilisation ? summary::number(*place.utilisation) : summary::Json(nullptr)}}));
+         {"life_range_h", life_range_json(place.certainty)},
+         {"beyond_sn_curve", beyond_json(place.certainty)},
+         {"utilisation", place.utilisation ? summary::number(*place.utilisation) : summary::Json(nullptr)},
+         {"utilisation_most", place.utilisation
+                                  ? summary::number_or_none(*place.utilisation * (1 + place.error_share))
+                                  : summary::Json(nullptr)}}));
   return places;
 }
 
@@ -272,7 +315,7 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
   const auto& fatigue = *analysis.fatigue;
   const auto& effects = analysis.loads.history.effects;
   summary::Json json;
-  json["assumptions"] = fatigue.assumptions;
+  json["assumptions"] = fatigue_assumptions(analysis);
   json["safety_factor"] = figure(analysis.scene.fatigue->safety, "1");
   json["size_factor"] = figure(analysis.scene.fatigue->size_factor, "1");
   json["places"] = summary::Json::array();
@@ -296,7 +339,9 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
          {"support_factor", number(place.support)},
          {"endurance_Pa", number(place.endurance_Pa)},
          {"safety_against_endurance", number_or_none(place.safety)},
+         {"safety_least", least_safety_json(place.safety, place.error_share)},
          {"utilisation", number(place.utilisation)},
+         {"utilisation_most", number_or_none(place.utilisation * (1 + place.error_share))},
          {"counted_cycles", place.n_counted},
          {"damage_per_turn", number(place.damage_per_turn)},
          {"damage_per_hour", number(place.life_s ? seconds_per_hour / *place.life_s : 0)},
@@ -305,6 +350,9 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
          {"life_range_h", life_range_json(place.certainty)},
          {"beyond_sn_curve", beyond_json(place.certainty)},
          {"life_safety", number_or_none(place.life_safety.value_or(std::numeric_limits<double>::infinity()))},
+         {"life_safety_least",
+          least_safety_json(place.life_safety.value_or(std::numeric_limits<double>::infinity()),
+                            place.error_share)},
          {"safety_by", object({{"findley", number_or_none(place.others.findley)},
                                {"goodman", number_or_none(place.others.goodman)},
                                {"gerber", number_or_none(place.others.gerber)},
@@ -318,16 +366,19 @@ summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis
       return object(
           {{"tension", number(t.tension)}, {"bending", number(t.bending)}, {"torsion", number(t.torsion)}});
     };
-    json["din_743"].push_back(object({{"feature", nominal.fillet},
-                                      {"z_m", nominal.z_m},
-                                      {"diameter_m", nominal.diameter_m},
-                                      {"amplitude_Pa", triple(nominal.load.amplitude_Pa)},
-                                      {"mean_Pa", triple(nominal.load.mean_Pa)},
-                                      {"shape_factor", triple(nominal.shape_factor)},
-                                      {"stress_error", number_or_none(nominal.error_share)},
-                                      {"notch_effect", triple(nominal.safety.notch_effect)},
-                                      {"safety_against_fatigue", number_or_none(nominal.safety.fatigue)},
-                                      {"safety_against_yielding", number_or_none(nominal.safety.yielding)}}));
+    json["din_743"].push_back(
+        object({{"feature", nominal.fillet},
+                {"z_m", nominal.z_m},
+                {"diameter_m", nominal.diameter_m},
+                {"amplitude_Pa", triple(nominal.load.amplitude_Pa)},
+                {"mean_Pa", triple(nominal.load.mean_Pa)},
+                {"shape_factor", triple(nominal.shape_factor)},
+                {"stress_error", number_or_none(nominal.error_share)},
+                {"notch_effect", triple(nominal.safety.notch_effect)},
+                {"safety_against_fatigue", number_or_none(nominal.safety.fatigue)},
+                {"safety_against_fatigue_least",
+                 nominal.least_safety ? number_or_none(*nominal.least_safety) : summary::Json(nullptr)},
+                {"safety_against_yielding", number_or_none(nominal.safety.yielding)}}));
   }
   if (!fatigue.welds.empty()) json["welds"] = welds_json(fatigue, effects);
   return json;
@@ -386,7 +437,11 @@ void write_fatigue(const std::filesystem::path& file, const Scene& scene, const 
   columns.push_back(numbers("endurance", "Pa", places, [](const auto& p) { return p.endurance_Pa; }));
   columns.push_back(
       texts("safety_against_endurance", "", places, [](const auto& p) { return cell(p.safety); }));
+  columns.push_back(
+      texts("safety_least", "", places, [](const auto& p) { return least_cell(p.safety, p.error_share); }));
   columns.push_back(numbers("utilisation", "", places, [](const auto& p) { return p.utilisation; }));
+  columns.push_back(texts("utilisation_most", "", places,
+                          [](const auto& p) { return cell(p.utilisation * (1 + p.error_share)); }));
   columns.push_back(numbers("damage_per_turn", "", places, [](const auto& p) { return p.damage_per_turn; }));
   columns.push_back(numbers("damage_per_hour", "1/h", places,
                             [](const auto& p) { return p.life_s ? seconds_per_hour / *p.life_s : 0; }));

@@ -21,11 +21,14 @@ struct RankedPlace {
   std::string body, feature;
   bool is_weld = false;
   std::optional<double> life_s;       ///< none: endures
+  LifeCertainty certainty;            ///< of the life
   std::optional<double> utilisation;  ///< of what is allowed; toes have none
+  double error_share = 0;             ///< whole error of the stress; infinite: not known
 };
 
 /// Places and weld toes of all bodies by rising life, over all operating blocks where the scene has some;
-/// those that endure by falling utilisation. Empty where fewer than two bodies are judged.
+/// those that endure by the least life that their errors leave, then by falling utilisation. Empty where
+/// fewer than two bodies are judged.
 std::vector<RankedPlace> fatigue_ranking(const RunReport& report);
 
 /// Rows of a ranking that are shown: the first ones, and the first of each body.
@@ -50,9 +53,17 @@ void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& a
 /// "endures", "1.2e+04 h": of a life in seconds.
 std::string life_text(const std::optional<double>& life_s);
 
-/// The same with what the error of the stress leaves possible: "5e+03 h (4e+03 to 9e+03)", "endures (1e+04 h
-/// at least)", "5e+03 h, not known well", "0.01 h, beyond the S-N curve".
+/// The same with what the whole error of the stress leaves possible: "5e+03 h (4e+03 to 9e+03)", "endures;
+/// 1e+04 h with the stated error", "endures, its error not known", "5e+03 h, not known well", "0.01 h, beyond
+/// the S-N curve". What endures alone does so with the error added.
 std::string life_text(const std::optional<double>& life_s, const LifeCertainty& certainty);
+
+/// "1.20 (1.09)": a factor on all stresses and what their error leaves of it at least; "1.20 (-)" where the
+/// error is not known, "-" where nothing changes.
+std::string safety_text(double safety, double error_share);
+
+/// least_safety for summary.json; null: not known, or nothing changes.
+summary::Json least_safety_json(double safety, double error_share);
 
 /// life_range_h: [least, most], null where one endures; null where nothing is known.
 summary::Json life_range_json(const LifeCertainty& certainty);

@@ -8,6 +8,7 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/life/body_fatigue.h"
 #include "pipelines/names/name_lists.h"
+#include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/scene_values/effect_groups.h"
 #include "pipelines/superposition/zone_parts.h"
 
@@ -75,7 +76,11 @@ std::string causes_text(const BodyAnalysis& analysis, std::size_t zone) {
   if (!analysis.fatigue || zone >= analysis.fatigue->zones.size()) return text;
   const auto& damage = analysis.fatigue->zones[zone];
   if (!damage.is_on_surface) return text + "; inside the body, where no fatigue is judged";
-  if (!(damage.damage_per_turn > 0)) return text + "; no damage";
+  if (!(damage.damage_per_turn > 0)) {
+    const auto& range = damage.certainty.range;
+    if (range && !range->least_s) return text + "; no damage";
+    return text + "; no damage by itself, " + life_text(damage.life_s, damage.certainty);
+  }
   return text + "; damage by " + largest_shares(group_shares(effects, damage.shares.effects));
 }
 

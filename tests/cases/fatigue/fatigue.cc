@@ -210,6 +210,11 @@ TEST(Fatigue, WeldToesHaveAtLeastTheDamageAcrossThem) {
   for (const auto& weld : welds)
     for (const auto& spot : spots) {
       if (weld["name"] != spot["name"]) continue;
+      // Not less than all that is stated of the toe's stress: numbers, load patches and the rest.
+      const auto stated = spot.contains("error") ? spot["error"]["total"] : spot["error_Pa"];
+      EXPECT_GE(weld["stress_error"].get<double>() * (1 + 1e-9),
+                stated.get<double>() / spot["von_mises_Pa"].get<double>())
+          << weld;
       const double across = spot["normal_max_Pa"].get<double>() - spot["normal_min_Pa"].get<double>();
       const double knee_Pa = 90e6 * std::cbrt(2e6 / 1e7), ratio = across / knee_Pa;
       const double damage = std::min(std::pow(ratio, 3), std::pow(ratio, 5)) / 1e7 / 20;
@@ -336,8 +341,21 @@ TEST(Fatigue, HaveASizeFactor) {
   };
   const auto plain = shaft("");
   EXPECT_NE(out.find("R_m 600 MPa (of the part at its size: size_factor 1)"), std::string::npos) << out;
+  // Which size the strength is for stands before all safeties and lives, in one line.
+  const auto line = out.find("shaft: fatigue strength: R_m 600 MPa, taken as that of the part at its size");
+  ASSERT_NE(line, std::string::npos) << out;
+  EXPECT_LT(line, out.find("safety against"));
+  EXPECT_LT(line, out.find("endures"));
+  EXPECT_NE(out.substr(line, out.find('\n', line) - line).find("survival 97.5 %"), std::string::npos) << out;
+  const auto page = results_test::bytes(directory / "out/report.html");
+  EXPECT_LT(page.find("fatigue strength: R_m 600 MPa"), page.find("afety against"));
+  const auto text = results_test::bytes(directory / "out/summary.json");
+  EXPECT_LT(text.find("\"fatigue_strength\""), text.find("safety"));
   const auto scaled = shaft("size_factor = 0.9\n");
   EXPECT_NE(out.find("R_m 540 MPa (600 MPa by size_factor 0.9)"), std::string::npos) << out;
+  EXPECT_NE(out.find("R_m 540 MPa of the part at its size, 600 MPa times size_factor 0.9"), std::string::npos)
+      << out;
+  EXPECT_EQ(out.find("K_d at"), std::string::npos) << "asked and answered";
   EXPECT_EQ(scaled["size_factor"]["value"].get<double>(), 0.9);
   auto by_hand =
       small_shaft(fixed_in_space("pull", "middle", "100 N"), "mm", "600 rpm", "pressure_harmonics = 0");

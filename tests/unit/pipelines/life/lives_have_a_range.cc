@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "pipelines/life/life_certainty.h"
+#include "pipelines/report_parts/fatigue_report.h"
 
 using namespace pipelines;
 
@@ -54,6 +55,33 @@ TEST(LifeCertainty, WhatSeemsToEndureHasALeastLifeWhateverTheError) {
   EXPECT_FALSE(missed->most_s);
   EXPECT_FALSE(small->least_s) << "endures all the same";
   EXPECT_FALSE(certainty(60e6, std::numeric_limits<double>::infinity()).range);
+}
+
+// A place that nothing changes endures, whether its stress is known or not.
+TEST(LifeCertainty, WithoutAnAmplitudeNoErrorMatters) {
+  const auto range = certainty(0, std::numeric_limits<double>::infinity()).range;
+  ASSERT_TRUE(range);
+  EXPECT_FALSE(range->least_s || range->most_s);
+  EXPECT_TRUE(certainty(0, 3).range);
+}
+
+TEST(LifeCertainty, SafetiesAreLessByTheError) {
+  EXPECT_NEAR(*least_safety(1.2, 0.25), 0.96, 1e-12);
+  EXPECT_FALSE(least_safety(1.2, std::numeric_limits<double>::infinity()));
+}
+
+// "endures" stands alone only where the error leaves no life.
+TEST(LifeCertainty, HasWords) {
+  const auto text = [](double amplitude_Pa, double error, const std::string& beyond = "") {
+    return life_text(cycles_to_failure(falling, amplitude_Pa), certainty(amplitude_Pa, error, beyond));
+  };
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(text(80e6, 0.1), "endures");
+  EXPECT_EQ(text(95e6, 0.1), "endures; 2.2e+02 h with the stated error") << "1e6 / 1.045^5 s";
+  EXPECT_EQ(text(95e6, unknown), "endures, its error not known");
+  EXPECT_EQ(text(0, unknown), "endures");
+  EXPECT_EQ(text(105e6, 0.1), "2.2e+02 h (1.4e+02 to ever)");
+  EXPECT_EQ(text(105e6, unknown), "2.2e+02 h, not known well");
 }
 
 // 1e4 cycles are endured at 100 MPa (1e6 / 1e4)^(1/5) = 251.19 MPa.
