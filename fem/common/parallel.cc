@@ -2,6 +2,7 @@
 
 #include <deal.II/base/parallel.h>
 
+#include "fem/common/deadline.h"
 #include "fem/common/library_function.h"
 
 namespace fem {
@@ -18,7 +19,11 @@ int blas_threads() {
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   if (n == 0) return;
-  dealii::parallel::apply_to_subranges(std::size_t{0}, n, body, static_cast<unsigned>(grain));
+  const std::function<void(std::size_t, std::size_t)> in_time = [&](std::size_t begin, std::size_t end) {
+    require_time();
+    body(begin, end);
+  };
+  dealii::parallel::apply_to_subranges(std::size_t{0}, n, in_time, static_cast<unsigned>(grain));
 }
 
 void set_blas_threads(int n_threads) {

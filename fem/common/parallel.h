@@ -10,6 +10,7 @@ namespace fem {
 /// @param grain  smallest range worth a task of its own
 /// The ranges depend on the machine; results do not as long as no item writes what another one reads or
 /// writes.
+/// @throws OutOfTime (deadline.h) before a range once the time is up, and what the body throws
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 

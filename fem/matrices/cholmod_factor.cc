@@ -4,6 +4,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <new>
@@ -11,7 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "fem/common/deadline.h"
 #include "fem/common/parallel.h"
+#include "fem/values/cost_constants.h"
 #include "fem/values/errors.h"
 
 namespace fem {
@@ -95,6 +98,11 @@ void touch(Eigen::ArrayXd& memory) {
   parallel_for(std::size_t(memory.size()) / page, 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) memory[Eigen::Index(page * k)] = 0;
   });
+}
+
+double factorisation_s(double flops) {
+  return flops *
+         (flops < flops_worth_threads ? cost::factor_s_per_flop_alone : cost::factor_s_per_flop_shared);
 }
 
 }  // namespace
@@ -229,9 +237,13 @@ void CholmodFactor::factorise_in_order(const SymmetricMatrix& matrix) {
   auto a = lower_triangle(std::size_t(matrix.n), std::size_t(matrix.value.size()), matrix.column_begin.data(),
                           matrix.row.data(), matrix.value.data());
   auto& factor = *impl_->factor;
+  const double predicted_s = factorisation_s(size().flops);
+  require_time(at_present_pace(predicted_s));
   take_memory();
   double no_shift[2] = {0, 0};
+  const auto start = std::chrono::steady_clock::now();
   cholmod_l_super_numeric(&a, nullptr, no_shift, &factor, &impl_->common);
+  note_pace(predicted_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   impl_->check("factorise");
   if (impl_->common.status == CHOLMOD_NOT_POSDEF || factor.minor < factor.n)
     throw SolveFailed(

@@ -11,6 +11,11 @@
 
 namespace fem {
 
+/// Factorisations below stay on one thread: CHOLMOD's many small products gain little from more, and BLAS
+/// threads wait for each other by yielding, which beside any other program costs five to ten times the
+/// seconds.
+constexpr double flops_worth_threads = 3e11;
+
 /// Nested dissection of the nodes: position p of the new order is node result[p].
 /// @throws SolveFailed if METIS fails; DoesNotFit as refuse_large_graph
 std::vector<std::int32_t> order_nodes(const NodeGraph& graph);
@@ -40,7 +45,8 @@ public:
   void take_memory();
 
   /// @param matrix  of the graph
-  /// @throws SolveFailed if the matrix is not positive definite or memory does not suffice
+  /// @throws SolveFailed if the matrix is not positive definite or memory does not suffice; OutOfTime, before
+  ///   it begins, if its flops would take longer than there is until a deadline
   void factorise(const SymmetricMatrix& matrix);
 
   /// @param matrix  of the graph with its nodes in node_order(): nothing is copied

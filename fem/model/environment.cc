@@ -15,13 +15,14 @@
 namespace fem {
 
 /// deal.II begins PETSc and SLEPc too (fem/modes/krylov_schur.cc): they would take options from the command
-/// line, which is this program's, from the environment and from files, and print and trap as these say.
+/// line, which is this program's, from the environment and from files, and print and trap as these say. Nor
+/// shall PETSc handle signals: it would print and end MPI beside threads that still work.
 struct Environment::Impl {
   explicit Impl(unsigned n_threads) : mpi(argc, argv, n_threads) {}
-  char name[11] = "millstress", no_files[14] = "-skip_petscrc";
-  char* arguments[3] = {name, no_files, nullptr};
+  char name[11] = "millstress", no_files[14] = "-skip_petscrc", no_handler[19] = "-no_signal_handler";
+  char* arguments[4] = {name, no_files, no_handler, nullptr};
   char** argv = arguments;
-  int argc = 2;
+  int argc = 3;
   dealii::Utilities::MPI::MPI_InitFinalize mpi;
 };
 

@@ -58,7 +58,7 @@ struct Model::Impl {
   std::vector<std::vector<std::int32_t>> colours;
   CellMaterials materials{Material{}};
   NodeIntegrals integrals;   // of the volume, weighted with the density relative to body.material's
-  std::optional<Seen> seen;  // only of several materials
+  std::optional<Seen> seen;  // only of several materials, or with sharp edges of tetrahedra
   mutable std::shared_ptr<const FactorisedBody> factor{};
 
   PerCell<double> relative_density() const { return materials.density(body.material.density_kg_m3); }
@@ -71,7 +71,7 @@ struct Model::Impl {
   const MirroredHalf* half() const {
     if (!half_) {
       half_.emplace();
-      if (materials.is_uniform() && body.clamps.empty())
+      if (!seen && body.clamps.empty())
         if (auto plane = find_mirror_plane(grid, cells))
           *half_ = std::make_unique<MirroredHalf>(grid, std::move(*plane));
     }
@@ -93,11 +93,12 @@ Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
   impl_->cells = cells_of_nodes(impl_->grid);
   impl_->colours = colour_cells(impl_->grid, impl_->cells);
   impl_->integrals = integrate_nodes(impl_->grid, impl_->colours, impl_->relative_density());
-  if (impl_->materials.is_uniform()) return;
-  if (impl_->grid.hanging.n() > 0)
+  if (!impl_->materials.is_uniform() && impl_->grid.hanging.n() > 0)
     throw std::invalid_argument("a body of several materials cannot be refined locally");
+  auto split = split_for_stress(impl_->grid, impl_->cells, impl_->materials);
+  if (split.copy.empty()) return;
   auto& seen = impl_->seen.emplace();
-  seen.split = split_at_interfaces(impl_->grid, impl_->cells, impl_->materials);
+  seen.split = std::move(split);
   seen.cells = cells_of_nodes(seen.split.grid);
   seen.volumes = integrate_nodes(seen.split.grid, impl_->colours);
 }

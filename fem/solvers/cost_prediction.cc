@@ -53,4 +53,19 @@ SolverReport predict_solver(const SolverReport& at_hand, std::size_t n_dofs, int
   return report;
 }
 
+SolverReport predict_solver(std::size_t n_dofs, int degree, bool tetrahedra, std::size_t n_loads,
+                            const SolverChoice& choice) {
+  constexpr double usual_aspect = 6;
+  SolverReport report;
+  report.predicted_direct = predict_direct(n_dofs, n_loads);
+  if (tetrahedra || degree < 2) return report;
+  report.largest_aspect = usual_aspect;
+  report.coarse_level = cheaper_coarse_level(n_dofs, degree, n_loads);
+  report.predicted_iterative = predict_iterative(n_dofs, degree, n_loads, usual_aspect, report.coarse_level);
+  report.used = choice.solver != Solver::automatic ? choice.solver
+                : saves_time(report)               ? Solver::iterative
+                                                   : Solver::direct;
+  return report;
+}
+
 }  // namespace fem

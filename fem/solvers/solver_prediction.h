@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/matrices/cholmod_factor.h"
 #include "fem/mesh/grid.h"
 #include "fem/operators/cell_materials.h"
 #include "fem/values/solver_choice.h"
@@ -33,11 +34,6 @@ double largest_aspect(const Grid& grid);
 /// unknowns, with the seconds coarse_factor_s (m / 2e5)^1.75, or aggregates of m unknowns. On slower machines
 /// the seconds of all grow alike, and the choice stays.
 SolverCost predict_direct(std::size_t n_dofs, std::size_t n_loads);
-
-/// Factorisations below stay on one thread: CHOLMOD's many small products gain little from more, and BLAS
-/// threads wait for each other by yielding, which beside any other program costs five to ten times the
-/// seconds.
-constexpr double flops_worth_threads = 3e11;
 
 /// The same of a matrix that was analysed, for a body of any shape, with recovery: factor_s_per_dof n +
 /// factor_s_per_flop flops + (factor_s_per_entry entries + factor_s_per_response n) k seconds; its bytes.

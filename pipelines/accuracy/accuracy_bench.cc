@@ -1,8 +1,9 @@
 #include "pipelines/accuracy/accuracy_bench.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
-#include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/estimates/fineness.h"
 #include "pipelines/refinement/refinement.h"
@@ -56,7 +57,7 @@ std::optional<SolidRun> AccuracyBench::run_solid(const std::string& model, const
   scene.bodies[body_] = body;
   std::optional<SceneRun> last;
   AccuracyRow row;
-  const auto refused = refusal_of([&] {
+  const bool done = is_done(name, [&] {
     row = repeated(name, [&] {
       StageClock own;
       last = run_scene(scene, run_options(), own);
@@ -65,9 +66,13 @@ std::optional<SolidRun> AccuracyBench::run_solid(const std::string& model, const
       return result;
     });
   });
-  if (refused.empty()) return SolidRun{std::move(row), std::move(*last)};
-  leave_out(name, refused);
-  return std::nullopt;
+  if (!done) return std::nullopt;
+  return SolidRun{std::move(row), std::move(*last)};
+}
+
+void AccuracyBench::leave_out_for_time(const std::string& name, double predicted_s, double left_s) {
+  leave_out(name, fmt::format("it would take about {:.2g} s, and {:.2g} s are left for it", predicted_s,
+                              std::max(0.0, left_s)));
 }
 
 void AccuracyBench::take_mean(AccuracyRow& row, const std::vector<double>& seconds) {

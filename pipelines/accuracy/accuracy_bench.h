@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,8 @@
 
 #include "fem/common/memory.h"
 #include "pipelines/accuracy/accuracy.h"
+#include "pipelines/estimates/in_time.h"
+#include "pipelines/common/refusal_of.h"
 #include "pipelines/search/scene_run.h"
 
 namespace pipelines {
@@ -71,11 +74,29 @@ public:
     });
   }
 
+  /// Work that adds to the study, or is among what is left out, with the reason: a mesh is refused, cannot be
+  /// solved, or the time is up before it is done. The first one has all the time that it takes, since there
+  /// would be no study without it.
+  /// @return whether it was done
+  template <typename Work>
+  bool is_done(const std::string& name, Work&& work) {
+    const double seconds = has_any_ ? seconds_left() : std::numeric_limits<double>::infinity();
+    std::string why = seconds > 0 ? "" : "no time is left for it";
+    if (why.empty() && !in_time(seconds, [&] { why = refusal_of(work); }))
+      why = "the time was up before it was done";
+    if (why.empty())
+      has_any_ = true;
+    else
+      leave_out(name, why);
+    return why.empty();
+  }
+
   /// The scene with `body` in the place of the studied one, from mesh to stress.
   /// @param name  of the stage that shows
   /// @return nothing if the mesh is refused or cannot be solved; then it is among those left out
   std::optional<SolidRun> run_solid(const std::string& model, const std::string& name, const BodyScene& body);
 
+  void leave_out_for_time(const std::string& name, double predicted_s, double left_s);
   void leave_out(const std::string& name, const std::string& why) { left_out_.push_back({name, why}); }
   const std::vector<LeftOutModel>& left_out() const { return left_out_; }
 
@@ -89,6 +110,7 @@ private:
   StageClock& clock_;
   std::chrono::steady_clock::time_point start_;
   std::vector<MeshedBody> meshed_;
+  bool has_any_ = false;  ///< of its runs
   std::vector<LeftOutModel> left_out_;
 };
 

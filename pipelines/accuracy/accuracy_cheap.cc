@@ -7,7 +7,6 @@
 #include "pipelines/accuracy/accuracy_models.h"
 #include "pipelines/cheap_models/chamber_tube.h"
 #include "pipelines/cheap_models/cheap_responses.h"
-#include "pipelines/common/refusal_of.h"
 #include "pipelines/estimates/fineness.h"
 #include "pipelines/scene_reader/why_not.h"
 
@@ -76,7 +75,7 @@ std::optional<AccuracyRow> cheap_model(const std::string& name, AccuracyBench& b
                                        const LoadedScene& loaded, Solve&& solve) {
   const auto& mesh = bench.own().mesh;
   std::optional<AccuracyRow> row;
-  const auto refused = refusal_of([&] {
+  bench.is_done(name + ", " + fineness_text(body), [&] {
     row = bench.repeated(name, [&] {
       StageClock own;
       auto model =
@@ -84,7 +83,6 @@ std::optional<AccuracyRow> cheap_model(const std::string& name, AccuracyBench& b
       return row_of(name, bench, loaded, std::move(model.value()), own);
     });
   });
-  if (!refused.empty()) bench.leave_out(name + ", " + fineness_text(body), refused);
   return row;
 }
 

@@ -173,7 +173,7 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
                        percent * row.true_error_Pa, row.seconds, row.spread_s, row.gigabytes, row.fineness);
   }
   for (const auto& model : study.left_out)
-    out << fmt::format("    {:<16}left out: {}\n", model.model, model.why);
+    out << fmt::format("    {:<15} left out: {}\n", model.model, model.why);
   const auto e = effectivities(study);
   out << fmt::format(
              "\n  > chosen: cheapest within {:g} % by its own estimate; * no cheaper run is closer; R "

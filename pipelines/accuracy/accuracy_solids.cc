@@ -6,7 +6,6 @@
 
 #include "pipelines/accuracy/accuracy_models.h"
 #include "pipelines/body_stages/superpose_body.h"
-#include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_report.h"
 #include "pipelines/estimates/fineness.h"
 #include "pipelines/refinement/refinement.h"
@@ -93,17 +92,28 @@ double stress_order(const AccuracyBench& bench, int degree) {
   return degree == 1 || bench.has_hot_spots() ? 1 : 2;
 }
 
+/// By the run before, or where a series begins, by the last of another; 0 where nothing was run.
+double predicted_s(const std::optional<AccuracyRow>& before, const std::vector<AccuracyRow>& others,
+                   double n_dofs) {
+  if (!before && others.empty()) return 0;
+  const AccuracyRow& known = before ? *before : others.back();
+  return known.seconds * std::pow(n_dofs / double(known.n_dofs), growth_of_seconds);
+}
+
 void run_series(AccuracyBench& bench, const Series& series, double end_s, SolidModels& models) {
   std::optional<AccuracyRow> before;  // its budget as it says itself
   const bool refinable = can_be_refined(bench.body());
   for (const double factor : refinable ? series.factors : std::vector<double>{1}) {
+    const auto name = fmt::format("{}, cells 1/{:g}", series.model, factor);
     const double dofs = double(bench.own().model->n_dofs()) * std::pow(factor * series.degree / 2, 3);
-    const double predicted =
-        before ? before->seconds * std::pow(dofs / double(before->n_dofs), growth_of_seconds) : 0;
-    if (bench.elapsed_s() + predicted > end_s) return;
+    const double predicted = predicted_s(before, models.rows, dofs), left_s = end_s - bench.elapsed_s();
+    if (predicted > left_s) {
+      bench.leave_out_for_time(name, predicted, left_s);
+      continue;
+    }
     auto body = with_fineness(bench.body(), factor);
     body.degree = series.degree;
-    auto solid = bench.run_solid(series.model, fmt::format("{}, cells 1/{:g}", series.model, factor), body);
+    auto solid = bench.run_solid(series.model, name, body);
     if (!solid) continue;
     auto& row = solid->row;
     // Too little finer for whole numbers of cells?
@@ -146,17 +156,19 @@ std::vector<AccuracyRow> refined_meshes(AccuracyBench& bench) {
   std::vector<AccuracyRow> rows;
   auto options = bench.run_options();
   options.accuracy.tolerance = bench.overkill();
-  options.accuracy.time_limit_s = bench.seconds_left();
-  if (!can_be_refined(bench.body()) || options.accuracy.time_limit_s <= 0) return rows;
+  if (!can_be_refined(bench.body())) return rows;
   StageClock own;
   std::optional<SceneRun> found;
-  const auto refused = refusal_of(
-      [&] { found = bench.timed("refined meshes", [&] { return run_scene(bench.scene(), options, own); }); });
-  if (!found) {
-    bench.leave_out("refined mesh", refused);
+  if (!bench.is_done("refined mesh", [&] {
+        options.accuracy.time_limit_s = std::max(1e-3, bench.seconds_left());
+        found = bench.timed("refined meshes", [&] { return run_scene(bench.scene(), options, own); });
+      }))
+    return rows;
+  const SceneRun& run = *found;
+  if (bench.body().natural_frequencies > 0 && !run.analyses.front().vibration) {
+    bench.leave_out("refined mesh", "no time was left for its natural frequencies");
     return rows;
   }
-  const SceneRun& run = *found;
   AccuracyRow row = row_of("refined mesh", run);
   const auto last = row.errors;
   for (const auto& step : run.analyses.front().search.steps) {

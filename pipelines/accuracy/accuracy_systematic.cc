@@ -66,9 +66,12 @@ SystematicModels systematic_meshes(AccuracyBench& bench) {
         before_level > 0
             ? models.rows.back().seconds * std::pow(double(level) / before_level, 3 * growth_of_seconds)
             : 0;
-    if (predicted > bench.seconds_left()) break;
-    auto solid = bench.run_solid("systematic mesh", fmt::format("systematic mesh {}", level),
-                                 systematic_mesh(bench.body(), level));
+    const auto name = fmt::format("systematic mesh {}", level);
+    if (predicted > bench.seconds_left()) {
+      bench.leave_out_for_time(name, predicted, bench.seconds_left());
+      break;
+    }
+    auto solid = bench.run_solid("systematic mesh", name, systematic_mesh(bench.body(), level));
     if (!solid) continue;
     before_level = level;
     add(study, *solid);

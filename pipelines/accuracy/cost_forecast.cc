@@ -10,6 +10,7 @@
 #include "fem/solvers/cost_prediction.h"
 #include "fem/values/cost_constants.h"
 #include "pipelines/analysis/crest_elsewhere.h"
+#include "pipelines/cheap_models/described_body.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/estimates/fineness.h"
 #include "pipelines/refinement/refinement.h"
@@ -23,6 +24,16 @@ namespace {
 constexpr double even_factors[] = {0.5, 0.75, 1.5, 2, 3};
 constexpr double beam_nodes = 1500;
 
+/// Those of its mesh, or about as many where none was made.
+std::size_t unknowns_of(const BodyScene& body, const MeshedBody& meshed) {
+  return meshed.model ? meshed.model->n_dofs() : estimated_unknowns(body);
+}
+
+bool is_of_tetrahedra(const BodyScene& body) {
+  return std::holds_alternative<meshes::Import>(body.shape) ||
+         (body.shaft() != nullptr && !body.shaft()->keyways.empty());
+}
+
 class Forecaster {
 public:
   Forecaster(const BodyScene& body, const ForecastLoads& loads, const CostCalibration& calibration)
@@ -30,15 +41,18 @@ public:
     choice_.solver = body.solver;
   }
 
-  ModelForecast of(const std::string& model, const MeshedBody& meshed) {
-    at_hand_ = meshed.model->predict_solver(loads_.n_channels, choice_);
-    return of(model, meshed.model->n_dofs(), *at_hand_);
+  /// @param meshed  the body's mesh, or without a model: by formula
+  ModelForecast of(const std::string& model, const BodyScene& body, const MeshedBody& meshed) {
+    n_dofs_ = unknowns_of(body, meshed);
+    at_hand_ = meshed.model ? meshed.model->predict_solver(loads_.n_channels, choice_)
+                            : fem::predict_solver(n_dofs_, body.degree, is_of_tetrahedra(body),
+                                                  loads_.n_channels, choice_);
+    return of(model, n_dofs_, *at_hand_);
   }
   /// Cells of the mesh looked at last become `factor` times smaller.
-  ModelForecast finer(const std::string& model, const MeshedBody& meshed, double factor) const {
-    const auto n_dofs = std::size_t(double(meshed.model->n_dofs()) * factor * factor * factor);
-    return of(model, n_dofs,
-              fem::predict_solver(*at_hand_, n_dofs, meshed.body.degree, loads_.n_channels, choice_));
+  ModelForecast finer(const std::string& model, const BodyScene& body, double factor) const {
+    const auto n_dofs = std::size_t(double(n_dofs_) * factor * factor * factor);
+    return of(model, n_dofs, fem::predict_solver(*at_hand_, n_dofs, body.degree, loads_.n_channels, choice_));
   }
   /// A model that superposes `n_nodes` nodes.
   ModelForecast cheap(const std::string& model, double n_dofs, double solve_s, double n_nodes) const {
@@ -70,6 +84,7 @@ private:
   ForecastLoads loads_;
   CostCalibration calibration_;
   fem::SolverChoice choice_;
+  std::size_t n_dofs_ = 0;
   std::optional<fem::SolverReport> at_hand_;
 };
 
@@ -78,22 +93,27 @@ private:
 std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
                                            const ForecastLoads& loads, const CostCalibration& calibration) {
   Forecaster forecaster(body, loads, calibration);
-  std::vector<ModelForecast> models{forecaster.of("the scene's mesh", meshed)};
+  std::vector<ModelForecast> models{forecaster.of("the scene's mesh", body, meshed)};
+  const double n_dofs = double(models.front().n_dofs);
   if (why_not_beam(body).empty()) models.push_back(forecaster.cheap("beam", 3 * beam_nodes, 0, beam_nodes));
   if (why_not_axisymmetric(body).empty()) {
     // Meridian cells of degree 3 where the solid has 2; one problem for each harmonic.
     const double n_harmonics = 1 + std::max(1, body.pressure_harmonics);
-    const double per_harmonic = 9.0 / 8 / body.shaft()->mesh.n_sectors * double(meshed.model->n_dofs());
+    const double per_harmonic = 9.0 / 8 / body.shaft()->mesh.n_sectors * n_dofs;
     models.push_back(forecaster.cheap("axisymmetric", n_harmonics * per_harmonic,
                                       fem::cost::harmonic_s_per_dof * n_harmonics * per_harmonic,
                                       per_harmonic));
   }
   if (!can_be_refined(body)) return models;
   for (const double factor : even_factors)
-    models.push_back(forecaster.finer(fmt::format("even mesh, cells 1/{:g}", factor), meshed, factor));
+    models.push_back(forecaster.finer(fmt::format("even mesh, cells 1/{:g}", factor), body, factor));
   const std::string first = "first of a search";
   const double tolerance = with_default({}).tolerance;
   std::string refused;
+  if (!meshed.model) {
+    models.push_back(forecaster.of(first, first_meshes(body).front(), meshed));
+    return models;
+  }
   for (const auto& candidate : first_meshes(body)) {  // as a search tries them
     refused = refusal_of([&] {
       auto coarse = mesh_body(candidate, loads.springs);
@@ -101,7 +121,7 @@ std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBo
                              ? axisymmetric_second_model(candidate, coarse, *loads.of_body, tolerance, 1)
                              : std::nullopt;
       if (model) coarse = mesh_body(guided_by(*model, candidate), loads.springs);
-      models.push_back(forecaster.of(first, coarse));
+      models.push_back(forecaster.of(first, candidate, coarse));
     });
     if (refused.empty()) return models;
   }
@@ -132,9 +152,9 @@ std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed,
                             const CostCalibration& calibration) {
   std::string text;
   if (body.natural_frequencies > 0)
-    text +=
-        fmt::format("  natural frequencies take about {:.2g} s more on the scene's mesh\n",
-                    calibration.direct * fem::cost::frequencies_s_per_dof * double(meshed.model->n_dofs()));
+    text += fmt::format(
+        "  natural frequencies take about {:.2g} s more on the scene's mesh\n",
+        calibration.direct * fem::cost::frequencies_s_per_dof * double(unknowns_of(body, meshed)));
   if (const auto n_toes = meshed.mesh.hot_spots.size(); n_toes > 0)
     text += fmt::format(
         "  with --tolerance none submodels take about {:.2g} s more for each weld toe that may lead, of {}\n",
@@ -145,6 +165,9 @@ std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed,
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
                     const ForecastLoads& loads) {
   const auto calibration = read_calibration(calibration_file());
+  if (!meshed.model)
+    out << "  by formula, since nothing was meshed: unknowns within a third, tetrahedra and seconds a factor "
+           "of three\n";
   print_models(out, forecast_ladder(body, meshed, loads, calibration));
   out << forecast_beside(body, meshed, calibration);
   if (!calibration.fault.empty()) out << "  (" << calibration.fault << ")\n";

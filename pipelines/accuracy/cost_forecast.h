@@ -31,7 +31,8 @@ struct ForecastLoads {
 
 /// First the scene's own mesh; then beam and harmonics (round shafts), even meshes whose cells are 1/0.5 to
 /// 1/3 of the scene's, and the mesh that a search for a tolerance begins with, which is built for it. Models
-/// that the body does not have are left out; one whose mesh is refused says why.
+/// that the body does not have are left out; one whose mesh is refused says why. Of a body that is described
+/// alone (described_body.h) all follow from its measures, and nothing is built.
 std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
                                            const ForecastLoads& loads, const CostCalibration& calibration);
 

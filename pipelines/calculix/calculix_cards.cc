@@ -7,10 +7,13 @@
 
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/files/whole_file.h"
 #include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
+
+const std::string about_ends = "); N, N m, s";  // of the first line
 
 constexpr std::size_t longest_name = 80;  // of CalculiX
 
@@ -84,7 +87,7 @@ std::string amplitude(const Card& card, const kinetics::LoadHistory& loads, bool
 CalculixCards calculix_cards(const kinetics::LoadHistory& loads, bool repeats) {
   CalculixCards result;
   std::set<std::string> sets;
-  const std::string about = "** " + loads.machine + " (" + loads.convention + "); N, N m, s\n";
+  const std::string about = "** " + loads.machine + " (" + loads.convention + about_ends + "\n";
   result.amplitudes = about;
   result.loads = about;
   for (const Card& card : cards_of(loads)) {
@@ -97,11 +100,23 @@ CalculixCards calculix_cards(const kinetics::LoadHistory& loads, bool repeats) {
   return result;
 }
 
+std::vector<std::filesystem::path> calculix_card_files(const std::filesystem::path& prefix) {
+  if (prefix.empty()) return {};
+  return {prefix.string() + "_amplitudes.inp", prefix.string() + "_loads.inp"};
+}
+
+bool is_calculix_cards(const std::filesystem::path& file) {
+  const std::string line = first_line(file);
+  return line.compare(0, 3, "** ") == 0 && line.size() > about_ends.size() &&
+         line.compare(line.size() - about_ends.size(), about_ends.size(), about_ends) == 0;
+}
+
 void write_calculix_cards(const std::filesystem::path& prefix, const kinetics::LoadHistory& loads,
                           bool repeats) {
   const auto cards = calculix_cards(loads, repeats);
-  write_text_file(prefix.string() + "_amplitudes.inp", cards.amplitudes);
-  write_text_file(prefix.string() + "_loads.inp", cards.loads);
+  const auto files = calculix_card_files(prefix);
+  write_text_file(files.at(0), cards.amplitudes, is_calculix_cards);
+  write_text_file(files.at(1), cards.loads, is_calculix_cards);
 }
 
 }  // namespace pipelines

@@ -26,7 +26,14 @@ struct CalculixCards {
 /// @throws StageRefused if two loads would get the same name
 CalculixCards calculix_cards(const kinetics::LoadHistory& loads, bool repeats);
 
-/// Writes `<prefix>_amplitudes.inp` and `<prefix>_loads.inp`.
+/// `<prefix>_amplitudes.inp` and `<prefix>_loads.inp`; none without a prefix.
+std::vector<std::filesystem::path> calculix_card_files(const std::filesystem::path& prefix);
+
+/// Whether a file begins as those that write_calculix_cards leaves.
+bool is_calculix_cards(const std::filesystem::path& file);
+
+/// Writes both files.
+/// @throws OptionError if a file that is there is none of these
 void write_calculix_cards(const std::filesystem::path& prefix, const kinetics::LoadHistory& loads,
                           bool repeats);
 

@@ -8,6 +8,7 @@
 
 #include "pipelines/channels/rigid_part.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/disk/open_directory.h"
 #include "pipelines/files/atomic_file.h"
 
 namespace pipelines {
@@ -77,13 +78,13 @@ void write_calculix_model(const std::filesystem::path& file, const std::string& 
     throw std::invalid_argument("write_calculix_model: a name for each load is needed");
   AtomicFile target(file);
   File out(std::fopen(target.temporary().c_str(), "wb"), std::fclose);
-  if (!out) throw FileError(file.string() + ": cannot be written");
+  if (!out) throw FileError(shown(file) + ": cannot be written");
   write_model(out.get(), title, material, loads, kept);
   for (std::size_t k = 0; k < channels.size(); ++k)
     write_step(out.get(), channels[k], &forces.force_N[k * per_load], kept, loads.nodes.n);
   const bool failed = std::ferror(out.get()) != 0;
   if (std::fclose(out.release()) != 0 || failed)
-    throw FileError(file.string() + ": cannot be written; is the disk full?");
+    throw FileError(shown(file) + ": cannot be written; is the disk full?");
   target.commit();
 }
 

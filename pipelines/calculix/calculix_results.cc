@@ -19,7 +19,13 @@ public:
 
   /// Whether there is another line.
   bool next() {
-    if (!std::getline(in_, line_)) return false;
+    constexpr std::streamsize longest = 1000;  // lines of CalculiX have 85 characters
+    char line[longest];
+    if (!in_.getline(line, longest)) {
+      if (in_.gcount() == longest - 1) fail("the line after is too long; write the .frd as text");
+      return false;
+    }
+    line_ = line;
     ++n_lines_;
     return true;
   }

@@ -8,13 +8,12 @@
 #include "pipelines/accuracy/accuracy.h"
 #include "pipelines/accuracy/accuracy_report.h"
 #include "pipelines/command_options/option_value.h"
-#include "pipelines/command_options/output_files.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/process_limits.h"
+#include "pipelines/disk/staging.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/pictures/accuracy_chart.h"
-#include "pipelines/report/html_report.h"
 #include "pipelines/result_files/manifest.h"
 #include "pipelines/result_files/staged_results.h"
 
@@ -50,15 +49,19 @@ AccuracyOptions study_options_of(const AccuracyCommandOptions& options, const Sc
   return study;
 }
 
+bool has_run(const std::filesystem::path& directory) {
+  return std::filesystem::exists(directory / "summary.json");
+}
+
 /// The page of the run beside which the study stands, if there is one, with the study in it.
 void write_page(const std::filesystem::path& study) {
   const auto run = study.parent_path();
   finish_exchange(run);
-  if (!std::filesystem::exists(run / "summary.json")) return;
+  if (!has_run(run)) return;
   if (const auto check = check_manifest(run); check.is_mixed())
     std::cerr << "millstress: no report.html: " << check.text(run) << '\n';
   else
-    write_html_report(run, study);
+    publish_html_report(run, study);
 }
 
 void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
@@ -68,31 +71,40 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
                        ": has no body, and the load stage alone is exact; add one, as [shaft], to the scene");
   AccuracyOptions study_options = study_options_of(options, scene);
   const auto directory = results_directory(options.output, scene) / "accuracy";
+  const auto names_of_body = [](const std::string& name) {
+    return std::vector<std::string>{name + ".txt", name + ".csv", name + "_gci.csv", name + ".png"};
+  };
+  std::vector<std::string> names{"accuracy.h5"};
   for (const auto& body : scene.bodies)
-    require_writable(output_files(
-        "-o", directory,
-        {body.name + ".txt", body.name + ".csv", body.name + "_gci.csv", body.name + ".png", "accuracy.h5"}));
+    for (const auto& name : names_of_body(body.name)) names.push_back(name);
+  require_own_outputs(directory, names_of(names));
+  if (has_run(directory.parent_path()))
+    require_own_outputs(directory.parent_path(), names_of({"report.html"}));
   StageClock clock(progress_on_stderr(options.verbosity()));
   const fem::Environment environment(options.n_threads);
   std::vector<AccuracyStudy> studies;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& name = scene.bodies[i].name;
     if (!options.body.empty() && name != options.body) continue;
-    study_options.directory = directory / name;
+    StagedResults staged(directory, names_of(names_of_body(name)));
+    const Staging models(OpenDirectory::at(staged.directory()));
+    study_options.directory = models.folder().path();
     studies.push_back(study_accuracy(scene, i, study_options, clock));
     std::ostringstream table;
     print_accuracy(table, studies.back());
     out << table.str();
-    write_text_file(directory / (name + ".txt"), table.str());
-    write_accuracy_csv(directory / (name + ".csv"), studies.back());
-    if (studies.back().grid) write_grid_csv(directory / (name + "_gci.csv"), *studies.back().grid);
+    const auto folder = staged.folder();
+    write_text_file(folder / (name + ".txt"), table.str());
+    write_accuracy_csv(folder / (name + ".csv"), studies.back());
+    if (studies.back().grid) write_grid_csv(folder / (name + "_gci.csv"), *studies.back().grid);
     if (!write_accuracy_chart(studies.back(), scene.title + ": what accuracy costs in time",
-                              directory / (name + ".png")))
+                              folder / (name + ".png")))
       std::cerr << "no chart: " << why_nothing_draws() << "; the CSV has the same figures\n";
-    std::error_code ignored;
-    std::filesystem::remove(study_options.directory, ignored);
+    staged.publish();
   }
-  write_accuracy_h5(directory / "accuracy.h5", studies);
+  StagedResults staged(directory, names_of({"accuracy.h5"}));
+  write_accuracy_h5(staged.folder() / "accuracy.h5", studies);
+  staged.publish();
   write_page(directory);
   out << "\n  results in " << directory.string() << '\n';
 }
@@ -107,7 +119,8 @@ void add_accuracy_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_option("--body", options->body, "this body alone, like shaft");
   command->add_option("--tolerance", options->tolerance,
                       "what a run is chosen for (default: the scene's, or \"5 %\")");
-  command->add_option("--time-limit", options->time_limit, "for each body (default: \"600 s\")");
+  command->add_option("--time-limit", options->time_limit,
+                      "for each body; models that do not end in time are named (default: \"120 s\")");
   command->add_option("--reference", options->reference,
                       "a known stress, like \"104.8 MPa\" (default: an overkill run)");
   command->add_flag("--gci", options->grid_convergence,

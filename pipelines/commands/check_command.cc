@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <utility>
@@ -14,12 +15,15 @@
 #include "pipelines/analysis/crest_elsewhere.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/between_instants/factor_spectrum.h"
+#include "pipelines/cheap_models/described_body.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/effects/effect_choice.h"
+#include "pipelines/estimates/fineness.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/machine_reports/torsion_report.h"
+#include "pipelines/machines/load_table_reader.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/scene/body_effects.h"
 #include "pipelines/scene/machine_kind.h"
@@ -50,6 +54,9 @@ void print_scene(std::ostream& out, const Scene& scene) {
   out << "\ndefaults used\n";
   for (const auto& d : scene.defaults) out << fmt::format("  {} = {}  ({})\n", d.key, d.value, d.reason);
   if (scene.defaults.empty()) out << "  none\n";
+  const auto samples = samples_read(scene.machine);
+  if (!samples.empty()) out << "\nsamples read\n";
+  for (const auto& of_effect : samples) out << "  " << of_effect.text() << '\n';
   for (const auto& warning : scene.warnings) out << "warning: " << warning << '\n';
 }
 
@@ -83,9 +90,12 @@ void print_blocks(std::ostream& out, const Scene& scene, const std::vector<Meshe
   }
 }
 
-/// Mesh, masses, ports, cost and channels of one body.
-void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                const MassAgreement& masses, const BodyLoads& loads) {
+/// The mesh, where it was made.
+void print_mesh(std::ostream& out, const BodyScene& body, const MeshedBody& meshed) {
+  if (!meshed.model) {
+    out << fmt::format("\n{}: not meshed; --thorough does, and looks for bad cells\n", body.name);
+    return;
+  }
   const auto& quality = meshed.mesh.quality;
   out << fmt::format(
       "\n{}: {} cells, scaled Jacobian at least {:.2f}, median {:.2f}; aspect at most {:.0f}\n", body.name,
@@ -93,6 +103,24 @@ void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, co
   const auto& geometry = meshed.geometry_error;
   out << fmt::format("  curved faces off by at most {:.2g} of their radius ({} faces)\n", geometry.relative,
                      geometry.n_faces);
+}
+
+/// Mesh, masses, ports, cost and channels of one body.
+void print_body(std::ostream& out, const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                const MassAgreement& masses, const BodyLoads& loads) {
+  print_mesh(out, body, meshed);
+  if (meshed.mesh.smallest_size_m > 0)
+    out << fmt::format("  curvature asks for no edges shorter than {:.2g} mm (smallest_size)\n",
+                       meshed.mesh.smallest_size_m * 1e3);
+  if (const auto& straight = meshed.mesh.straight_edges; !straight.empty()) {
+    const auto& most = *std::max_element(straight.begin(), straight.end(),
+                                         [](const auto& a, const auto& b) { return a.off_m < b.off_m; });
+    out << fmt::format(
+        "  {} edges between tangent faces are straighter than their surface, by {:.2g} mm at most, at ({:.2f}, "
+        "{:.2f}, {:.2f}) mm\n",
+        straight.size(), most.off_m * 1e3, most.middle_m[0] * 1e3, most.middle_m[1] * 1e3,
+        most.middle_m[2] * 1e3);
+  }
   out << fmt::format("  mass {:.4g} kg\n", meshed.masses.mass_kg);
   for (const auto& figure : masses.figures)
     if (figure.body == body.name)
@@ -137,6 +165,26 @@ void check_load_stage(std::ostream& out, Scene scene) {
   print_blocks(out, scene, {});
 }
 
+/// A body whose ports a mesh alone tells: what its file and its table tell.
+void print_outline(std::ostream& out, const Scene& scene, const BodyScene& body,
+                   const MeshedBody& described) {
+  print_mesh(out, body, described);
+  out << fmt::format("  mass {:.4g} kg, by the CAD kernel\n", described.masses.mass_kg);
+  const auto& ports = std::get<meshes::Import>(body.shape).ports;
+  out << "  ports that the scene asks for; --thorough looks for them, and has their channels\n";
+  std::size_t n_channels = 0;
+  for (const auto& port : ports) {
+    const bool is_face = port.kind == meshes::Port::Kind::face;
+    out << fmt::format("    {:<24}{}\n", port.name,
+                       is_face                                 ? "face"
+                       : port.kind == meshes::Port::Kind::bore ? "bore"
+                                                               : "seat");
+    n_channels += is_face ? 3 : std::size_t(3 + 2 * body.pressure_harmonics);
+  }
+  const auto n_instants = std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn);
+  print_forecast(out, body, described, {n_channels, n_instants, springs_of(scene)});
+}
+
 /// A large mesh keeps silent for long: it is told before.
 void tell_what_takes_long(const Scene& scene) {
   constexpr double many_cells = 1e5;
@@ -151,20 +199,50 @@ void tell_what_takes_long(const Scene& scene) {
   }
 }
 
-/// The mesh is a second's work and the only honest answer to what will be solved; it is made aside and thrown
-/// away.
-void check_bodies(std::ostream& out, Scene scene) {
+/// Bodies of STEP files have their ports once they are meshed: until then the loads that enter them are not
+/// known, nor what of the effects they would leave on.
+void check_outlines(std::ostream& out, const Scene& scene, const std::vector<MeshedBody>& described) {
+  if (scene.masses_from_mesh.empty()) {
+    print_load_warnings(out, load_stage(for_a_look(scene), scene.machine));
+    try_torsion(scene, scene.machine);
+  }
+  for (std::size_t i = 0; i < described.size(); ++i)
+    if (has_known_ports(scene.bodies[i]))
+      print_mesh(out, scene.bodies[i], described[i]);
+    else
+      print_outline(out, scene, scene.bodies[i], described[i]);
+}
+
+/// Bodies as their measures describe them, or meshed aside and thrown away: then what a mesh alone can tell
+/// is checked, too.
+std::vector<MeshedBody> bodies_of(const Scene& scene, bool thorough, StageClock& clock) {
+  if (thorough) {
+    tell_what_takes_long(scene);
+    return clock.run("mesh", [&] { return mesh_bodies(scene); });
+  }
+  return clock.run("describe", [&] {
+    std::vector<MeshedBody> bodies;
+    for (const auto& body : scene.bodies) bodies.push_back(describe_body(body, springs_of(scene)));
+    return bodies;
+  });
+}
+
+void check_bodies(std::ostream& out, Scene scene, bool thorough, StageClock& clock) {
   require_blocks(scene);
-  tell_what_takes_long(scene);
-  const fem::Environment environment(all_cores);
-  const auto meshed = mesh_bodies(scene);
+  const bool has_cells = thorough || !std::all_of(scene.bodies.begin(), scene.bodies.end(), can_be_refined);
+  std::optional<fem::Environment> environment;  // MPI and its threads take longer than all the rest
+  if (has_cells) environment.emplace(all_cores);
+  const auto meshed = bodies_of(scene, thorough, clock);
+  if (!thorough && !std::all_of(scene.bodies.begin(), scene.bodies.end(), has_known_ports)) {
+    check_outlines(out, scene, meshed);
+    return;
+  }
   for (std::size_t i = 0; i < meshed.size(); ++i) require_toes(scene.bodies[i], meshed[i].mesh);
   const auto masses = agree_masses(scene, meshed);
   const double limit = negligible_share(scene.accuracy.tolerance);
   scene = with_effects_chosen(std::move(scene), meshed, limit);
   print_effect_choice(out, scene, {});
-  StageClock silent;
-  const auto loaded = load_bodies(for_a_look(scene), meshed, silent);
+  const auto loaded = load_bodies(for_a_look(scene), meshed, clock);
   print_load_warnings(out, loaded.loads);
   try_torsion(scene, masses.machine);
   for (std::size_t i = 0; i < meshed.size(); ++i)
@@ -172,23 +250,34 @@ void check_bodies(std::ostream& out, Scene scene) {
   print_blocks(out, scene, meshed);
 }
 
-/// Throws what a run would throw before it solves.
-void check(const SceneOptions& options, std::ostream& printed) {
+struct CheckOptions : SceneOptions {
+  bool thorough = false;  ///< bodies are meshed
+};
+
+/// Throws what a run would throw before it meshes, or thoroughly: before it solves.
+void check(const CheckOptions& options, std::ostream& printed) {
   const Scene scene = read_scene(options.scene, options.settings);
   std::ostringstream out;  // nothing is called valid before all of it is
   print_scene(out, scene);
-  (scene.bodies.empty() ? check_load_stage : check_bodies)(out, scene);
+  StageClock clock(options.verbosity() == Verbosity::verbose ? progress_on_stderr(Verbosity::verbose)
+                                                             : ProgressListener{});
+  if (scene.bodies.empty())
+    check_load_stage(out, scene);
+  else
+    check_bodies(out, scene, options.thorough, clock);
   printed << out.str();
 }
 
 }  // namespace
 
 void add_check_command(CLI::App& app, ChosenCommand& chosen) {
-  auto options = std::make_shared<SceneOptions>();
-  auto* command = add_scene_command(
-      app, "check",
-      "validate the scene, list effects, defaults, ports and channels, estimate the cost; solve nothing",
-      *options);
+  auto options = std::make_shared<CheckOptions>();
+  auto* command = add_scene_command(app, "check",
+                                    "validate the scene, list effects, defaults, ports and channels, "
+                                    "estimate the cost; mesh and solve nothing",
+                                    *options);
+  command->add_flag("--thorough", options->thorough,
+                    "mesh every body, too: bad cells, ports of CAD files, unknowns to the last one");
   command->callback(to_choose(chosen, options, check));
 }
 

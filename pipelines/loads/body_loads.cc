@@ -1,5 +1,6 @@
 #include "pipelines/loads/body_loads.h"
 
+#include <optional>
 #include <sstream>
 
 #include "pipelines/common/errors.h"
@@ -7,12 +8,33 @@
 
 namespace pipelines {
 
+namespace {
+
+/// PressureModel::ring_factor; nothing where the body's shape does not tell.
+std::optional<double> ring_factor(const BodyScene& scene, const meshes::Port& port) {
+  const auto* shaft = scene.shaft();
+  if (shaft == nullptr || port.kind != meshes::Port::Kind::seat) return std::nullopt;
+  const double middle_m = (port.begin_m + port.end_m) / 2;
+  for (const auto& segment : shaft->geometry.segments)
+    if (segment.begin_m <= middle_m && middle_m <= segment.end_m && segment.bore_m > 0)
+      return (segment.diameter_m + segment.bore_m) / (segment.diameter_m - segment.bore_m);
+  return 1;
+}
+
+}  // namespace
+
 LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed) {
-  LoadedBody loaded{scene.name, meshed.mesh.ports, meshed.regions, scene.pressures};
+  const double nu = scene.material.poisson_ratio;
+  LoadedBody loaded{
+      scene.name, meshed.mesh.ports, meshed.regions, {}, scene.material.youngs_modulus_Pa / (1 - nu * nu)};
   for (const auto& port : meshed.mesh.ports) {
-    PressureModel usual;
-    usual.highest_harmonic = scene.pressure_harmonics;
-    loaded.pressures.try_emplace(port.name, usual);
+    const auto own = scene.pressures.find(port.name);
+    PressureModel model = own != scene.pressures.end() ? own->second : usual_pressure(scene, port.name);
+    const auto factor = ring_factor(scene, port);
+    model.ring_factor = factor.value_or(1);
+    // Without the second harmonic nothing tells how much a wall of unknown thickness bends.
+    model.solves_missing = scene.felt_seats.count(port.name) > 0 || (model.highest_harmonic < 2 && !factor);
+    loaded.pressures.emplace(port.name, std::move(model));
   }
   return loaded;
 }

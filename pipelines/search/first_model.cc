@@ -6,6 +6,7 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/beam_run.h"
 #include "pipelines/cheap_models/cheap_responses.h"
+#include "pipelines/estimates/in_time.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/estimates/fineness.h"
 #include "pipelines/scene_reader/why_not.h"
@@ -26,11 +27,13 @@ Method first_method(const Scene& scene, std::size_t i_body, double tolerance) {
 }
 
 std::optional<SecondModel> second_model_of(const BodyScene& body, const MeshedBody& meshed,
-                                           const BodyLoads& loads, double tolerance, int n_threads) {
+                                           const BodyLoads& loads, double tolerance, int n_threads,
+                                           double seconds) {
   std::optional<SecondModel> model;
   try {
-    const auto refusal =
-        refusal_of([&] { model = axisymmetric_second_model(body, meshed, loads, tolerance, n_threads); });
+    const auto refusal = refusal_of([&] {
+      in_time(seconds, [&] { model = axisymmetric_second_model(body, meshed, loads, tolerance, n_threads); });
+    });
     if (refusal.empty()) return model;
   } catch (const std::bad_alloc&) {  // a strict tolerance asks for fine sections
   }

@@ -14,9 +14,12 @@ namespace pipelines {
 /// @param tolerance  of the governing stress; 0: none is asked for, and the choice is the solid
 Method first_method(const Scene& scene, std::size_t i_body, double tolerance);
 
-/// axisymmetric_second_model where it applies and fits into memory: the solid can do without.
+/// axisymmetric_second_model where it applies, fits into memory and is found in time: the solid can do
+/// without.
+/// @param seconds  that it may take; infinite: no limit
 std::optional<SecondModel> second_model_of(const BodyScene& body, const MeshedBody& meshed,
-                                           const BodyLoads& loads, double tolerance, int n_threads);
+                                           const BodyLoads& loads, double tolerance, int n_threads,
+                                           double seconds);
 
 /// What a search keeps of its present mesh.
 SearchStep step_of(const Scene& scene, std::size_t i_body, const GoverningStress& stress,

@@ -17,6 +17,7 @@ void FoundBody::enter(Scene& scene, std::size_t i_body) const {
   other.degree = body.degree;
   other.refinements = body.refinements;
   other.singular = body.singular;
+  other.felt_seats = body.felt_seats;
   other.pressure_harmonics += added_harmonics;
   for (auto& [port, pressure] : other.pressures) pressure.highest_harmonic += added_harmonics;
   scene.sampling.instants_per_turn = std::max(scene.sampling.instants_per_turn, instants_per_turn);

@@ -14,7 +14,8 @@ struct FoundBody {
   /// @param found    after it
   FoundBody(const Scene& as_read, const Scene& found, std::size_t i_body);
 
-  /// Puts mesh, and the harmonics and instants that were added, into another version of the scene.
+  /// Puts mesh, and the harmonics, felt seats and instants that were added, into another version of the
+  /// scene.
   void enter(Scene& scene, std::size_t i_body) const;
 };
 

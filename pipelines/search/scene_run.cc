@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "pipelines/analysis/load_patch.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/body_stages/analyse_body.h"
 #include "pipelines/body_stages/body_vibration.h"
@@ -18,14 +19,15 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
+#include "pipelines/estimates/in_time.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_bounds.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/estimates/fineness.h"
 #include "pipelines/estimates/submodels.h"
-#include "pipelines/life/body_fatigue.h"
 #include "pipelines/refinement/refinement.h"
 #include "pipelines/refinement/singular_edge.h"
+#include "pipelines/search/after_search.h"
 #include "pipelines/search/duty_loads.h"
 #include "pipelines/search/first_model.h"
 #include "pipelines/search/search_judgement.h"
@@ -110,7 +112,8 @@ private:
       const auto refusal = refusal_of([&] { analysis = search_without_mesh(i); });
       if (refusal.empty()) {
         const auto stress = governing_stress(*analysis);
-        if (stress.errors.reducible_Pa() <= tolerance() * stress.value_Pa) return std::move(*analysis);
+        const bool is_met = stress.errors.reducible_Pa() <= tolerance() * stress.value_Pa;
+        if (is_met || seconds_until(end_of(i)) <= 0) return std::move(*analysis);
       }
       if (methods_[i] == Method::beam) {
         methods_[i] = Method::axisymmetric;
@@ -152,7 +155,8 @@ private:
   BodyAnalysis analyse(std::size_t i) {
     if (methods_[i] == Method::axisymmetric)
       return analyse_axisymmetric(run_.scene, run_.scene.bodies[i], run_.loaded.meshed[i],
-                                  run_.loaded.body_loads[i], options_of(i), clock_, tolerance());
+                                  run_.loaded.body_loads[i], options_of(i), clock_, tolerance(),
+                                  seconds_until(end_of(i)));
     if (methods_[i] == Method::beam) {
       auto analysis = analyse_beam(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
                                    options_of(i), clock_);
@@ -167,27 +171,22 @@ private:
     if (options_.keep && !is_without_mesh(i))
       run_.kept_under[run_.scene.bodies[i].name + '/' + kept_responses_name(Method::solid)] =
           keep_responses(run_.scene.bodies[i], run_.loaded.meshed[i], analysis, options_of(i), clock_);
-    add_vibration(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, analysis, clock_);
-    for (auto& warning :
-         {analysis.vibration ? warning_of(analysis.scene, *analysis.vibration) : "",
-          analysis.vibration ? warning_of_frequencies(analysis.scene, *analysis.vibration) : "",
-          warning_of_covered(analysis.scene.name, run_.loaded.meshed[i].mesh)})
+    auto warnings = add_frequencies(run_.scene, run_.loaded.meshed[i], run_.loaded.loads, seconds_to_finish(),
+                                    analysis, clock_);
+    warnings.push_back(warning_of_covered(analysis.scene.name, run_.loaded.meshed[i].mesh));
+    for (auto& warning : warnings)
       if (!warning.empty()) warnings_.push_back(warning);
     clock_.run("superpose", [&] { bound_dropped_effects(run_.scene, i, run_.loaded, analysis); });
     run_.loaded.meshed[i].model.reset();
   }
 
-  /// Fatigue, where the scene asks for it: of the final stresses.
+  /// Fatigue, where the scene asks for it; operating blocks need it, however long it takes.
   void add_fatigue(BodyAnalysis& analysis) {
     if (!analysis.scene.fatigue || !options_.fatigue) return;
-    clock_.run("fatigue", [&] {
-      const auto& grid = run_.scene.sampling;
-      const auto& time_s = run_.loaded.loads.time_s;
-      const double step_s = time_s.size() > 1 ? time_s[1] - time_s[0] : 0;
-      analysis.fatigue = std::make_shared<const BodyFatigue>(judge_fatigue(
-          analysis, {step_s * double(time_s.size()), double(grid.turns)}, threads(options_.n_threads)));
-    });
-    for (const auto& warning : analysis.fatigue->warnings) warnings_.push_back(warning);
+    for (auto& warning :
+         pipelines::add_fatigue(run_.scene, run_.loaded.loads, options_.duty ? never : seconds_to_finish(),
+                                options_.n_threads, analysis, clock_))
+      warnings_.push_back(std::move(warning));
   }
 
   /// The start, where the scene asks for it, on the final responses.
@@ -210,15 +209,17 @@ private:
   }
 
   /// The submodels that tell them may take longer than the solution.
-  std::vector<PlaceStress> errors_of_places(const BodyAnalysis& analysis) {
-    return clock_.run("errors", [&] { return places_of_one_mesh(analysis); });
+  /// @param end_s  of the submodels; 0: never
+  std::vector<PlaceStress> errors_of_places(const BodyAnalysis& analysis, double end_s) {
+    const double seconds = n_ranks_of_a_body() > 1 ? never : std::max(1e-3, seconds_until(end_s));
+    return clock_.run("errors", [&] { return places_of_one_mesh(analysis, seconds); });
   }
 
   /// The scene's own mesh.
   BodyAnalysis solve_once(std::size_t i) {
     auto analysis = analyse(i);
     PlaceHistory history(mesh_parts(run_.scene.bodies[i]));
-    history.add(errors_of_places(analysis), std::nullopt);
+    history.add(errors_of_places(analysis, 0), std::nullopt);
     take_place_errors(analysis, history.judged(),
                       analysis.responses.nodes.shape().is_tetrahedron()
                           ? submodel_method
@@ -226,11 +227,12 @@ private:
     return analysis;
   }
 
-  std::optional<SecondModel> second_model(std::size_t i) {
+  /// None, too, where it would take more than half of the time that is left.
+  std::optional<SecondModel> second_model(std::size_t i, const SearchState& state) {
     if (!options_.second_model) return std::nullopt;
     return clock_.run("second model", [&] {
       return second_model_of(run_.scene.bodies[i], run_.loaded.meshed[i], run_.loaded.body_loads[i],
-                             tolerance(), options_.n_threads);
+                             tolerance(), options_.n_threads, seconds_until(state.end_s) / 2);
     });
   }
 
@@ -245,7 +247,7 @@ private:
 
   /// A second model tells a shaft's mesh where to be fine.
   void guide(std::size_t i, SearchState& state) {
-    auto model = second_model(i);
+    auto model = second_model(i, state);
     state.second_model_s = seconds_since(state.step_start);
     if (model) {
       const Scene unguided = run_.scene;
@@ -269,7 +271,7 @@ private:
   void take_stock(std::size_t i, SearchState& state, BodyAnalysis& analysis) {
     const bool grows = state.growth.at(analysis, state.step ? state.step->ratio : 1);
     if (grows && !is_locking(governing_stress(analysis))) leave_out(i, analysis);
-    state.history.add(errors_of_places(analysis), state.step);
+    state.history.add(errors_of_places(analysis, state.end_s), state.step);
     judge_places(run_.loaded.meshed[i], state, analysis, clock_);
     const auto stress = governing_stress(analysis);
     state.search.quantity = stress.name();
@@ -314,6 +316,7 @@ private:
     const double seconds_before =
         state.search.steps.back().seconds - std::exchange(state.second_model_s, 0.0);
     Scene next = run_.scene;
+    next.bodies[i].felt_seats.merge(felt_seats(analysis));
     const auto other =
         refine_sampling_and_harmonics(next, i, governing_stress(analysis), analysis.loads.history);
     if (other.possible && !other.mesh_matters) {
@@ -337,10 +340,12 @@ private:
         return mesh_refined(body, [&] { return mesh(finer, body, coarse); });
       };
       std::optional<SearchMesh> found;
-      if (seconds_left() >= 0) found = finer_mesh(finer.bodies[i], make, seconds_left, refusal);
+      if (seconds_left() >= 0)
+        in_time(seconds_until(state.end_s),
+                [&] { found = finer_mesh(finer.bodies[i], make, seconds_left, refusal); });
       if (!found && !(seconds_left() >= 0)) {
         state.search.next_seconds = seconds_before;  // at least
-        state.search.ended = "the time is up";
+        state.search.ended = time_is_up;
         return false;
       }
       if (!found) {
@@ -355,19 +360,27 @@ private:
     return false;
   }
 
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
   /// Infinite without a limit.
-  double seconds_until(double end_s) const {
-    return end_s > 0 ? end_s - seconds_since(start_) : std::numeric_limits<double>::infinity();
+  double seconds_until(double end_s) const { return end_s > 0 ? end_s - seconds_since(start_) : never; }
+
+  /// For what comes after a search: a tenth of a limit that was asked for, at least.
+  double seconds_to_finish() const {
+    constexpr double share = 0.1;
+    const double limit_s = options_.accuracy.by_default ? 0 : options_.accuracy.time_limit_s;
+    return std::max(share * limit_s, seconds_until(limit_s));
   }
 
   /// A stress that grows with every refinement has no peak to report: its place joins the sharp edges, which
-  /// are left out by a distance fixed in the geometry, and the search goes on for the rest. On a concave edge
-  /// the whole edge is left out: else the peak would only move along it.
+  /// are left out by a distance fixed in the geometry, and the search goes on for the rest. The whole edge is
+  /// left out: else the peak would only move along it. Where there is no edge, nothing is.
   void leave_out(std::size_t i, BodyAnalysis& analysis) {
-    const auto [spot, warning] = spot_without_bound(analysis);
-    warnings_.push_back(warning);
-    run_.scene.bodies[i].singular.push_back(spot);
-    run_.loaded.meshed[i].mesh.sharp_edges.push_back(spot);
+    const auto found = edge_without_bound(analysis);
+    if (!found) return;
+    warnings_.push_back(found->warning);
+    run_.scene.bodies[i].singular.push_back(found->edge);
+    run_.loaded.meshed[i].mesh.sharp_edges.push_back(found->edge);
     BodyAnalysis before = std::move(analysis);
     analysis = superposed_again(i, before);
   }
@@ -384,20 +397,30 @@ private:
     auto& search = state.search;
     const double growth = double(finer.model->n_dofs()) / double(analysis.responses.n_dofs);
     search.next_seconds = seconds_before * std::pow(growth, growth_of_seconds);
-    if (state.end_s > 0 && seconds_since(start_) + search.next_seconds > state.end_s) {
-      search.ended = "the time is up";
+    const double left_s =
+        seconds_until(state.end_s) - seconds_of_frequencies(run_.scene.bodies[i], finer.model->n_dofs());
+    if (search.next_seconds > left_s) {
+      search.ended = time_is_up;
       return false;
     }
+    // The mesh to return to; a factor that it holds takes memory, and is kept where it may be needed.
+    std::optional<MeshedBody> before;
+    if (std::isfinite(left_s) && (!options_of(i).keep_factor || 2 * search.next_seconds > left_s))
+      before = run_.loaded.meshed[i];
     const Scene previous = std::exchange(run_.scene, std::move(next));
     exchange_mesh(i, std::move(finer));
-    const auto without_finer_mesh = [&](const std::string& why) {
-      search.ended = "a finer mesh could not be solved: " + why;
+    const auto return_to_mesh = [&](const std::string& ended) {
+      search.ended = ended;
       run_.scene = previous;
-      exchange_mesh(i, mesh(i));
+      exchange_mesh(i, before ? std::move(*before) : mesh(i));
       return false;
     };
+    const auto without_finer_mesh = [&](const std::string& why) {
+      return return_to_mesh("a finer mesh could not be solved: " + why);
+    };
     try {
-      analysis = analyse(i);
+      if (!in_time(seconds_until(state.end_s), [&] { analysis = analyse(i); }))
+        return return_to_mesh(time_is_up);
     } catch (const fem::DoesNotFit& error) {
       return without_finer_mesh(error.what());
     } catch (const std::bad_alloc&) {  // what is taken beside the solver's own
@@ -407,7 +430,7 @@ private:
                             previous.bodies[i].pressure_harmonics == run_.scene.bodies[i].pressure_harmonics;
     if (!same_loads && state.history.second_model()) {
       const auto start = Clock::now();
-      if (auto model = second_model(i)) state.history.compare_with(std::move(*model));
+      if (auto model = second_model(i, state)) state.history.compare_with(std::move(*model));
       state.second_model_s = seconds_since(start);
     }
     return true;
@@ -458,25 +481,6 @@ private:
 };
 
 }  // namespace
-
-SceneRun::SceneRun() = default;
-SceneRun::SceneRun(const SceneRun&) = default;
-SceneRun::SceneRun(SceneRun&&) noexcept = default;
-SceneRun& SceneRun::operator=(const SceneRun&) = default;
-SceneRun& SceneRun::operator=(SceneRun&&) noexcept = default;
-SceneRun::~SceneRun() = default;
-
-bool SceneRun::met() const {
-  return std::all_of(analyses.begin(), analyses.end(), [](const auto& a) { return a.search.met; });
-}
-
-bool SceneRun::time_was_up() const {
-  return std::any_of(analyses.begin(), analyses.end(), [](const auto& a) { return a.search.time_was_up(); });
-}
-
-bool SceneRun::tells_of_damage() const {
-  return std::any_of(analyses.begin(), analyses.end(), [](const auto& a) { return !a.warnings.empty(); });
-}
 
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock) {
   Scene with_choice = scene;

@@ -1,6 +1,7 @@
 #include "pipelines/search/search_mesh.h"
 
 #include <fmt/core.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,18 @@ constexpr double share_of_meshing = 0.3, least_trial_s = 1, much_coarser = 0.8;
 /// Ends work done apart after so many seconds; none without a limit.
 std::unique_ptr<meshes::DeadlineApart> deadline_in(double seconds) {
   return std::isinf(seconds) ? nullptr : std::make_unique<meshes::DeadlineApart>(seconds);
+}
+
+/// Seconds of cores that this process and those that it started, and that have ended, have taken.
+double seconds_of_cores() {
+  double seconds = 0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage used{};
+    ::getrusage(who, &used);
+    for (const auto& time : {used.ru_utime, used.ru_stime})
+      seconds += double(time.tv_sec) + 1e-6 * double(time.tv_usec);
+  }
+  return seconds;
 }
 
 std::optional<SearchMesh> mesh_nearly_as_fine(const BodyScene& body,
@@ -51,6 +64,7 @@ std::optional<SearchMesh> first_mesh_in_time(const BodyScene& body,
       if (taken) break;
       continue;
     }
+    const double cores_s = seconds_of_cores();
     std::optional<MeshedBody> meshed;
     const auto refusal = refusal_of([&] {
       std::optional<meshes::DeadlineApart> deadline;
@@ -66,7 +80,9 @@ std::optional<SearchMesh> first_mesh_in_time(const BodyScene& body,
     if (taken && n_dofs > much_coarser * double(taken->meshed.model->n_dofs())) break;
     taken = SearchMesh{candidates[k], std::move(*meshed)};
     meshing_s = took_s;
-    if (seconds_of_tetrahedra(n_dofs) <= seconds_left()) break;
+    // What one mesh waited for a core, beside other programs, its solution will wait too.
+    const double pace = std::max(1.0, took_s / std::max(least_trial_s, seconds_of_cores() - cores_s));
+    if (pace * seconds_of_tetrahedra(n_dofs) <= seconds_left()) break;
   }
   return taken;
 }

@@ -135,16 +135,17 @@ TEST(Tolerance, AMeshThatDoesNotFitEndsTheSearchWithWhatItHas) {
     EXPECT_TRUE(fs::exists(directory / "out/shaft" / file)) << file;
 }
 
-// `check` knows the meshes of a run and of a search to the last unknown, the solver's memory to a factor of
-// two, and multiplies seconds by what earlier runs have taught.
+// `check --thorough` knows the meshes of a run and of a search to the last unknown, the solver's memory to a
+// factor of two, and multiplies seconds by what earlier runs have taught. By formula, unknowns are within a
+// third.
 TEST(Tolerance, CheckForecastsTheModels) {
   const results_test::Directory directory;
   write(directory / "small.toml", solid_shaft());
   struct Model {
     double unknowns = 0, solve_s = 0, superpose_s = 0, gigabytes = 0;
   };
-  const auto forecast = [&](const std::string& model) {
-    const auto check = millstress(directory.path, "check small.toml");
+  const auto forecast = [&](const std::string& model, const std::string& how = "--thorough") {
+    const auto check = millstress(directory.path, "check small.toml " + how);
     EXPECT_EQ(check.exit_code, 0) << check.err;
     const auto at = check.out.find(model);
     EXPECT_NE(at, std::string::npos) << model << check.out;
@@ -157,6 +158,9 @@ TEST(Tolerance, CheckForecastsTheModels) {
              finer = forecast("even mesh, cells 1/2");
   EXPECT_NEAR(finer.unknowns, 8 * once.unknowns, 8);
   EXPECT_GT(finer.solve_s, 4 * once.solve_s);
+  const double by_formula = forecast("the scene's mesh", "").unknowns;
+  EXPECT_GT(by_formula, once.unknowns / 1.34);
+  EXPECT_LT(by_formula, once.unknowns * 1.34);
 
   fs::create_directories(directory / "cache/millstress");
   std::ofstream(directory / "cache/millstress/costs.json")

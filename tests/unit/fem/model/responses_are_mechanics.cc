@@ -13,7 +13,7 @@ namespace {
 
 using Component = fem::SurfaceResultant::Component;
 
-std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
+std::vector<fem::UnitLoad> loads_of_every_kind(const fem_tests::ShaftBody& shaft) {
   std::vector<fem::UnitLoad> loads;
   for (const auto* port : {"bearing_1", "seat", "bearing_2"})
     for (const auto c : {Component::fx, Component::fy, Component::fz, Component::mx, Component::torque})
@@ -29,7 +29,7 @@ std::vector<fem::UnitLoad> some_loads(const fem_tests::ShaftBody& shaft) {
 struct Responses : testing::Test {
   static void SetUpTestSuite() {
     shaft = new fem_tests::ShaftBody(fem_tests::eccentric_shaft());
-    loads = some_loads(*shaft);
+    loads = loads_of_every_kind(*shaft);
     responses = fem::Model(shaft->body).unit_responses(loads, shaft->planes);
   }
   static void TearDownTestSuite() { delete shaft; }
