@@ -30,7 +30,7 @@ namespace kinetics {
 struct TrainInertia {
   std::string name;
   std::string shaft;         ///< the shaft line it sits on; all inertias of a line turn at one mean speed
-  double inertia_kg_m2 = 0;  ///< > 0
+  double inertia_kg_m2 = 0;  ///< >= 0; > 0 in sum with what rigid elements join it to
   double damping_N_m_s = 0;  ///< viscous damping against the ground, torque per rad/s, >= 0
   bool held = false;         ///< turns uniformly whatever the torque (a clamped end); at most one of a train
 };
@@ -119,7 +119,8 @@ struct NaturalModes {
 /// relative to itself, whatever the spread of inertias and stiffnesses.
 /// @throws MachineRefused naming parameter, value and remedy, for a train that is no connected tree,
 /// has
-///         an inertia or stiffness that is not positive, shaft lines with contradictory ratios, unknown names
+///         an inertia (joined rigidly to none) or stiffness that is not positive, shaft lines with
+///         contradictory ratios, unknown names
 NaturalModes natural_modes(const DriveTrain& train, Shapes shapes = Shapes::all);
 
 /// Response to one frequency; a quantity is Re(entry e^(i w t)).

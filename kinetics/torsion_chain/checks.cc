@@ -113,8 +113,7 @@ void check_parameters(const DriveTrain& train) {
   const TrainInertia* held = nullptr;
   for (const TrainInertia& inertia : train.inertias) {
     require_name("an inertia", inertia.name, taken);
-    require_positive(inertia.name + ".inertia_kg_m2", inertia.inertia_kg_m2,
-                     "the inertia; split a shaft without inertia of its own between its neighbours");
+    require_not_negative(inertia.name + ".inertia_kg_m2", inertia.inertia_kg_m2, "the inertia");
     require_not_negative(inertia.name + ".damping_N_m_s", inertia.damping_N_m_s, "the viscous damping");
     if (inertia.held && held)
       throw MachineRefused(inertia.name + ".held: " + held->name +

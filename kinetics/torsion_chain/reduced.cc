@@ -134,6 +134,12 @@ ReducedTrain reduce(const DriveTrain& train) {
     reduced.base = i;
   }
 
+  for (Index i = 0; i < n; ++i)
+    if (!(reduced.inertia[reduced.node_of[i]] > 0))
+      refuse(train.inertias[i].name + ".inertia_kg_m2", train.inertias[i].inertia_kg_m2,
+             "must be positive where no rigid element joins it to an inertia: write 1e-12, which vibrates so "
+             "fast by itself that nothing else feels it");
+
   reduced.link_ratio.resize(m);
   reduced.stiffness = reduced.edge_damping = reduced.loss_factor = Eigen::ArrayXd::Zero(n_nodes - 1);
   for (Index e = 0; e < m; ++e) {

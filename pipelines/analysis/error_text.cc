@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
+
+#include "pipelines/analysis/exclusion_border.h"
 
 namespace pipelines {
 namespace {
@@ -22,7 +25,8 @@ std::string in_MPa(double value_Pa) {
 /// What helps against an assumption.
 std::string remedy_of_model(const std::string& source) {
   if (source == "load_patches" || source == "load_edges")
-    return "give the seats' pressure as it is known (half_angle, harmonics); no mesh lowers it";
+    return "give the seats' pressure as it is known (half_angle, clearance, harmonics); no mesh lowers it";
+  if (source == "charge_patch") return "give the half_angle of the charge on inner_wall as it is known";
   if (source == "quasi_static")
     return "keep the natural frequencies, which may be lower by their errors, away from the harmonics of the "
            "stress; a mesh lowers their errors alone";
@@ -69,8 +73,8 @@ std::string value_with_errors(double value_Pa, const ErrorBudget& errors) {
   bool is_any = false;
   for (const auto& entry : errors.model) {
     if (entry.value_Pa < negligible_share * value_Pa || entry.value_Pa == 0) continue;
-    text += fmt::format("{} +- {} from {}", is_any ? "," : " and", in_MPa(entry.value_Pa),
-                        in_words(entry.source));
+    text += fmt::format("{} +- {} from {}{}", is_any ? "," : " and", in_MPa(entry.value_Pa),
+                        in_words(entry.source), entry.condition.empty() ? "" : " (" + entry.condition + ")");
     is_any = true;
   }
   return is_any ? text + ", which no mesh lowers" : text;
@@ -85,6 +89,18 @@ std::string corners_left_out(const BodyAnalysis& analysis) {
     text += fmt::format("{}{} ({:.2g} mm)", i > 0 ? ", " : "", edges[i].name, edges[i].distance_m * 1e3);
   if (edges.size() > told) text += fmt::format(" and {} more", edges.size() - told);
   return text;
+}
+
+std::string rises_towards_edge(const BodyAnalysis& analysis) {
+  if (governing_stress(analysis).kind != GoverningStress::Kind::peak) return {};
+  const auto* edge = edge_beside_peak(analysis);
+  if (edge == nullptr) return {};
+  return fmt::format(
+      "the stress rises towards the sharp inner edge {}, around which {:.2g} mm are left out: {} MPa at the "
+      "border, and no limit nearer to the edge; model its fillet, or judge a weld by the stress at points "
+      "farther away "
+      "(millstress history)",
+      edge->name, edge->distance_m * 1e3, fixed(largest_at_border_Pa(analysis) / 1e6, 1));
 }
 
 std::string not_known_well(const GoverningStress& stress, const Search& search) {

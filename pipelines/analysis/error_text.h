@@ -30,6 +30,10 @@ std::string corners_left_out(const BodyAnalysis& analysis);
 /// @param search  how the mesh was found; its steps are empty if it was the scene's own
 std::string not_known_well(const GoverningStress& stress, const Search& search);
 
+/// "the stress rises towards the sharp inner edge a/b, of which 1.8 mm are left out, ...": where the peak leads
+/// and lies at the border of what is left out; else empty. With what would give a stress to judge.
+std::string rises_towards_edge(const BodyAnalysis& analysis);
+
 /// Relative. A stress that is known no better is stated as such, first, with what would help.
 inline constexpr double largest_plain_error = 0.2;
 

@@ -69,7 +69,7 @@ void read_forces(SceneTable& table, const kinetics::DriveTrain& train, TrainShaf
   if (table.has("forces"))
     for (SceneTable& entry : table.tables("forces")) {
       GivenForce force;
-      force.effect = entry.text("effect");
+      force.effect = entry.name("effect");
       force.port = entry.text("port");
       const auto is_excitation = [&](const auto& excitation) { return excitation.name == force.effect; };
       if (force.effect == effect_name::shaft_inertia ||

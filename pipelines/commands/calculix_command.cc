@@ -8,12 +8,12 @@
 #include "fem/model/model.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/calculix/calculix_model.h"
-#include "pipelines/command_options/output_files.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
+#include "pipelines/result_files/staged_results.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/machine_kind.h"
 
@@ -40,7 +40,9 @@ void calculix(const CalculixCommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene, options.settings);
   refuse_what_has_no_equal(scene);
   const auto directory = results_directory(options.output, scene);
-  for (const auto& body : scene.bodies) require_writable(output_files("-o", directory, {body.name + ".inp"}));
+  std::vector<std::string> names;
+  for (const auto& body : scene.bodies) names.push_back(body.name + ".inp");
+  StagedResults staged(directory, names_of(names));
   StageClock clock(progress_on_stderr(options.verbosity()));
   const fem::Environment environment(all_cores);
   const auto meshed = clock.run("mesh", [&] { return mesh_bodies(scene); });
@@ -62,13 +64,15 @@ void calculix(const CalculixCommandOptions& options, std::ostream& out) {
     const auto nodal = fem::nodal_loads(meshed[i].body, loads[i].unit_loads);
     std::vector<std::string> channels;
     for (const auto& load : loads[i].unit_loads) channels.push_back(load.channel);
-    const auto file = directory / (body.name + ".inp");
+    const auto name = body.name + ".inp";
     clock.run("write", [&] {
-      write_calculix_model(file, scene.title + ", " + body.name, channels, body.material, nodal);
+      write_calculix_model(staged.folder() / name, scene.title + ", " + body.name, channels, body.material,
+                           nodal);
     });
     out << fmt::format("{}: {} elements, {} steps, one per unit load: {}\n", body.name, nodal.nodes.n_cells(),
-                       channels.size(), file.string());
+                       channels.size(), (directory / name).string());
   }
+  staged.publish();
   out << fmt::format("run: cd {} && ccx -i {}\n", directory.string(), scene.bodies.front().name);
 }
 

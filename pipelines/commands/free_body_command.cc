@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <optional>
 
 #include "pipelines/command_options/option_value.h"
 #include "pipelines/command_options/output_files.h"
@@ -9,6 +10,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/machine_reports/free_body_report.h"
 #include "pipelines/pictures/free_body_chart.h"
+#include "pipelines/result_files/staged_results.h"
 
 namespace pipelines {
 namespace {
@@ -35,15 +37,16 @@ void show_free_body(const FreeBodyCommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene, options.settings);
   scene.machine = machine_with_masses(scene);
   const auto body = free_body(scene);
-  auto files = free_body_files(body);
   const std::vector<std::string> pictures{"free_body.png", "free_body.svg"};
-  files.insert(files.end(), pictures.begin(), pictures.end());
-  require_writable(output_files("-o", options.output, files));
+  std::optional<StagedResults> staged;
+  if (!options.output.empty())
+    staged.emplace(options.output, names_like(R"(free_body(\.(csv|pvd|png|svg)|_[0-9]{3,}\.vtp))"));
   const auto instant = instant_at(body, angle_rad);
   bool is_drawn = false;
-  if (!options.output.empty()) {
-    write_free_body(options.output, scene, body);
-    is_drawn = draw_free_body(scene, body, instant, options.output / "free_body");
+  if (staged) {
+    write_free_body(staged->folder(), scene, body);
+    is_drawn = draw_free_body(scene, body, instant, staged->folder() / "free_body");
+    staged->publish();
     say_if_nothing_draws(is_drawn ? pictures : std::vector<std::string>(), is_drawn);
   }
   print_free_body(out, scene, body, instant, options.json);

@@ -6,6 +6,7 @@
 #include "pipelines/commands/run_results.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
+#include "pipelines/result_files/staged_results.h"
 #include "pipelines/result_files/stress_history_files.h"
 
 namespace pipelines {
@@ -25,7 +26,9 @@ void show_history(const HistoryCommandOptions& options, std::ostream& out) {
   const auto directory = options.output.empty()
                              ? std::filesystem::path(results_directory({}, scene).string() + "_history")
                              : options.output;
-  require_writable(output_files("-o", directory, {"histories.h5"}));
+  std::string bodies;
+  for (const auto& body : scene.bodies) bodies += (bodies.empty() ? "" : "|") + body.name;
+  require_own_outputs(directory, names_like(R"(histories\.h5|()" + bodies + R"()_.+\.csv)"));
   std::optional<ToleranceNotMet> not_met;
   const auto results = results_directory(options.results, scene);
   try {
@@ -35,8 +38,9 @@ void show_history(const HistoryCommandOptions& options, std::ostream& out) {
   }
   const auto histories = read_stress_histories(results, options.at);
   const auto files = stress_history_files(histories);
-  require_writable(output_files("-o", directory, files));
-  write_stress_histories(directory, histories);
+  StagedResults staged(directory, names_of(files));
+  write_stress_histories(staged.folder(), histories);
+  staged.publish();
   print_stress_histories(out, histories, options.json);
   if (!options.json) print_files(out, directory, files);
   if (not_met) throw *not_met;

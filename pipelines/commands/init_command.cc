@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <ostream>
 
 #include "pipelines/command_options/commands.h"
@@ -11,6 +9,8 @@
 #include "pipelines/commands/scene_templates.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/files/whole_file.h"
+#include "pipelines/files/replaceable.h"
 #include "pipelines/names/nearest_name.h"
 
 namespace pipelines {
@@ -42,8 +42,7 @@ const SceneTemplate& template_of(const std::string& kind) {
 bool has_text(const fs::path& file, const std::string& text) {
   std::error_code none;
   if (fs::symlink_status(file, none).type() != fs::file_type::regular) return false;
-  std::ifstream in(file, std::ios::binary);
-  return in && std::string{std::istreambuf_iterator<char>(in), {}} == text;
+  return whole_file(file, text.size()) == text;
 }
 
 void require_missing(const fs::path& file, const std::string& remedy) {
@@ -79,9 +78,11 @@ void init(const InitOptions& options, std::ostream& out) {
     require_missing(file, "the scene needs a file of this name: move it away, or give -o another folder");
     inputs.emplace_back(file, &input);
   }
-  require_writable(outputs);
-  for (const auto& [file, input] : inputs) write_text_file(file, input->text);
-  write_text_file(scene, chosen.scene.text);
+  for (const auto& output : outputs) require_replaceable(output.file, output.option);
+  require_different(outputs);
+  const auto replaces_nothing = [](const fs::path&) { return false; };
+  for (const auto& [file, input] : inputs) write_text_file(file, input->text, replaces_nothing);
+  write_text_file(scene, chosen.scene.text, replaces_nothing);
   out << scene.string() << ": a scene that runs; its comments say what to change\n";
   for (const auto& [file, input] : inputs) out << file.string() << ": is read by it\n";
   const auto name = quoted_name(scene);

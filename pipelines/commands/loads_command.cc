@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <ostream>
 #include <utility>
 #include <vector>
@@ -14,10 +15,12 @@
 #include "pipelines/drawing/offscreen_window.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/effects/effect_choice.h"
+#include "pipelines/files/atomic_file.h"
 #include "pipelines/loads/effect_closure.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/pictures/load_charts.h"
 #include "pipelines/report/summary.h"
+#include "pipelines/result_files/staged_results.h"
 
 namespace pipelines {
 namespace {
@@ -56,22 +59,24 @@ kinetics::LoadHistory loads_of(Scene& scene, StageClock& clock) {
   return std::move(trial.history);
 }
 
+const std::vector<std::string>& statistics_files() {
+  static const std::vector<std::string> names{
+      "statistics.csv", "harmonics.csv", "polar.csv",     "spectrum.csv",  "histories.png", "histories.svg",
+      "polar.png",      "polar.svg",     "harmonics.png", "harmonics.svg", "rainflow.png",  "rainflow.svg"};
+  return names;
+}
+
 void require_outputs(const LoadsCommandOptions& options) {
-  auto all = output_files(
-      "--statistics", options.statistics,
-      {"statistics.csv", "harmonics.csv", "polar.csv", "spectrum.csv", "histories.png", "histories.svg",
-       "polar.png", "polar.svg", "harmonics.png", "harmonics.svg", "rainflow.png", "rainflow.svg"});
-  if (!options.calculix.empty())
-    for (const char* end : {"_amplitudes.inp", "_loads.inp"})
-      all.push_back({"--calculix", options.calculix.string() + end});
-  for (const auto& [option, file] :
-       {std::pair("--output", options.output), std::pair("--csv", options.csv)}) {
-    if (file.empty()) continue;
+  auto all = output_files("--statistics", options.statistics, statistics_files());
+  const auto add = [&](const char* option, const std::filesystem::path& file, const IsOwnFile& is_own) {
+    if (file.empty()) return;
+    require_own(file, is_own, option);
     all.push_back({option, file});
-  }
-  require_writable(all);
-  for (const auto& output : all)
-    if (output.option == "--output" || output.option == "--csv") require_own_loads(output);
+  };
+  add("--output", options.output, is_loads_file);
+  add("--csv", options.csv, is_loads_file);
+  for (const auto& file : calculix_card_files(options.calculix)) add("--calculix", file, is_calculix_cards);
+  require_different(all);
 }
 
 void loads(const LoadsCommandOptions& options, std::ostream& out) {
@@ -83,6 +88,9 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
       "is written as CSV; for HDF5 write -o " + options.csv.string() + ", or end the name in .csv");
   Scene scene = read_scene(options.scene, options.settings);
   require_outputs(options);
+  std::optional<StagedResults> statistics;
+  if (!options.statistics.empty())
+    statistics.emplace(options.statistics, names_of(statistics_files()), "--statistics");
   StageClock clock(progress_on_stderr(options.verbosity()));
   auto history = loads_of(scene, clock);
   std::vector<BearingScene> bearings;  // those at a port of a body need `run`
@@ -90,16 +98,24 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
     if (scene.bodies.empty() || force_of(bearing.load, history, {})) bearings.push_back(bearing);
   const auto lives = bearing_lives(bearings, history, {});
   warn_beyond_ratings(bearings, lives, history);
-  if (!options.output.empty()) clock.run("write", [&] { write_loads_h5(options.output, history); });
-  if (!options.csv.empty()) clock.run("write", [&] { write_loads_csv(options.csv, history); });
+  const auto write_own = [&](const std::filesystem::path& file, auto write) {
+    if (file.empty()) return;
+    AtomicFile whole(file, is_loads_file);
+    clock.run("write", [&] { write(whole.temporary(), history); });
+    whole.commit();
+  };
+  write_own(options.output, [](const auto& file, const auto& loads) { write_loads_h5(file, loads); });
+  write_own(options.csv, [](const auto& file, const auto& loads) { write_loads_csv(file, loads); });
   std::vector<std::string> charts;
-  if (!options.statistics.empty()) {
+  if (statistics) {
     const int turns = scene.run_up ? 0 : scene.sampling.turns;
-    clock.run("write",
-              [&] { write_statistics(options.statistics, history, turns, course_of_loads(scene, history)); });
+    clock.run("write", [&] {
+      write_statistics(statistics->folder(), history, turns, course_of_loads(scene, history));
+    });
     charts = clock.run("charts",
-                       [&] { return write_load_charts(options.statistics, scene.title, history, turns); });
+                       [&] { return write_load_charts(statistics->folder(), scene.title, history, turns); });
     say_if_nothing_draws(charts, !charts.empty() || make_offscreen_window());
+    statistics->publish();
   }
   if (!options.calculix.empty())
     clock.run("write", [&] { write_calculix_cards(options.calculix, history, !scene.run_up); });

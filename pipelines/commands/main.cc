@@ -1,5 +1,9 @@
+#include <poll.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -33,11 +37,22 @@ int guarded(Command&& command) {
   }
 }
 
-/// What was printed may wait in buffers until now: a full disk behind stdout shows here at the latest.
+/// Whether stdout is a pipe whose reader has gone, as `head` does once it has its lines.
+bool reader_of_stdout_has_gone() {
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
+
+/// What was printed may wait in buffers until now: a full disk behind stdout shows here at the latest. Where
+/// its reader has gone, the process ends by SIGPIPE, as others in a pipeline do, but after its work.
 void require_written_stdout() {
   std::cout.flush();
-  if (std::cout && std::fflush(stdout) == 0) return;
-  throw pipelines::FileError("standard output cannot be written; is the disk full behind it?");
+  if (std::cout) return;
+  if (reader_of_stdout_has_gone() && !pipelines::interruption::closed_pipes_are_ignored) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  throw pipelines::FileError("standard output cannot be written; is it closed, or the disk full behind it?");
 }
 
 /// A value that a script forgot must not mean the default, and the shell's word for stdout no file of that
@@ -158,6 +173,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Else what was printed waits in the C library, whose failures PETSc meets at its end, tells and forgets.
+  std::ios::sync_with_stdio(false);
   if (const int fault = guarded(pipelines::require_usable_stack)) return fault;
   std::optional<fem::Environment> ranks;
   if (pipelines::started_on_several_ranks()) ranks.emplace(0);

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "fem/values/body_nodes.h"
-#include "pipelines/command_options/output_files.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/process_limits.h"
 #include "pipelines/loads/body_mesh.h"
 #include "pipelines/pictures/port_picture.h"
 #include "pipelines/pictures/port_surface.h"
+#include "pipelines/result_files/staged_results.h"
 
 namespace pipelines {
 namespace {
@@ -26,8 +26,10 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
     throw StageRefused(scene.file.string() +
                        ": has no body, and only bodies have ports; add one, as [shaft], to the scene");
   const auto directory = results_directory(options.output, scene);
+  std::vector<std::string> names;
   for (const auto& body : scene.bodies)
-    require_writable(output_files("-o", directory / body.name, {"ports.vtu", "ports.png"}));
+    for (const char* file : {"/ports.vtu", "/ports.png"}) names.push_back(body.name + file);
+  StagedResults staged(directory, names_of(names));
   StageClock clock(progress_on_stderr(options.verbosity()));
 
   // All meshes before any file: a body that cannot be meshed leaves nothing behind.
@@ -40,16 +42,18 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
     });
   for (std::size_t i = 0; i < meshed.size(); ++i) {
     const auto& name = scene.bodies[i].name;
-    const auto vtu = directory / name / "ports.vtu", png = directory / name / "ports.png";
+    const auto place = directory / name, folder = staged.folder() / name;
+    const auto vtu = folder / "ports.vtu";
     clock.run("write", [&] { write_port_surface(vtu, nodes[i], meshed[i]); });
     const bool drawn = clock.run("pictures", [&] {
-      return write_port_picture(vtu, scene.title + ": ports of the " + name, png,
+      return write_port_picture(vtu, scene.title + ": ports of the " + name, folder / "ports.png",
                                 cut_through_bores(meshed[i].ports));
     });
     if (!drawn) std::cerr << "no picture: " << why_nothing_draws() << "; ports.vtu opens in ParaView\n";
-    out << fmt::format("{}: {} ports, {}{}\n", name, meshed[i].ports.size(), vtu.string(),
-                       drawn ? ", " + png.string() : "");
+    out << fmt::format("{}: {} ports, {}{}\n", name, meshed[i].ports.size(), (place / "ports.vtu").string(),
+                       drawn ? ", " + (place / "ports.png").string() : "");
   }
+  staged.publish();
 }
 
 }  // namespace

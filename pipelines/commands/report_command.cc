@@ -4,9 +4,7 @@
 #include <ostream>
 
 #include "pipelines/command_options/commands.h"
-#include "pipelines/command_options/output_files.h"
 #include "pipelines/common/errors.h"
-#include "pipelines/report/html_report.h"
 #include "pipelines/result_files/manifest.h"
 #include "pipelines/result_files/staged_results.h"
 
@@ -14,7 +12,6 @@ namespace pipelines {
 namespace {
 
 void report(const std::filesystem::path& directory, std::ostream& out) {
-  require_writable({{"report", directory / "report.html"}});
   finish_exchange(directory);
   const auto check = check_manifest(directory);
   if (check.is_mixed())
@@ -23,7 +20,7 @@ void report(const std::filesystem::path& directory, std::ostream& out) {
   for (const auto& name : check.missing)
     std::cerr << "millstress: " << (directory / name).string()
               << ": is gone, of the files that the run wrote\n";
-  write_html_report(directory, directory / "accuracy");
+  publish_html_report(directory, directory / "accuracy", "report");
   out << (directory / "report.html").string() << '\n';
 }
 

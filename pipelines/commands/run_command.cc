@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <iostream>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/exclusion_border.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/body_stages/respond.h"
 #include "pipelines/channels/load_files.h"
@@ -65,20 +67,21 @@ const std::vector<DutyPlace>* places_of(const DutyResult& duty, const std::strin
 void note_lives_of_toes(const BodyAnalysis& analysis, const DutyResult* duty, PictureOptions& options) {
   constexpr std::size_t most = 4;
   const auto note = [&](std::size_t row, const std::array<double, 3>& toe_m,
-                        const std::optional<double>& life_s) {
-    if (life_s && options.notes.size() < most)
-      options.notes.push_back({toe_m, fmt::format("{}: {}", row + 1, life_text(life_s))});
+                        const std::optional<double>& life_s, const LifeCertainty& certainty) {
+    const bool may_end = life_s || (certainty.range && certainty.range->least_s);
+    if (may_end && options.notes.size() < most)
+      options.notes.push_back({toe_m, fmt::format("{}: {}", row + 1, life_text(life_s, certainty))});
   };
   if (!analysis.fatigue) return;
   if (const auto places = duty == nullptr ? nullptr : places_of(*duty, analysis.scene.name)) {
     options.notes_are = "weld toes by rank,\nlives over all blocks";
     for (std::size_t i = 0; i < places->size(); ++i)
-      if ((*places)[i].is_weld) note(i, (*places)[i].position_m, (*places)[i].life_s);
+      if ((*places)[i].is_weld) note(i, (*places)[i].position_m, (*places)[i].life_s, (*places)[i].certainty);
     return;
   }
   options.notes_are = "weld toes by rank, lives";
   const auto& welds = analysis.fatigue->welds;
-  for (std::size_t i = 0; i < welds.size(); ++i) note(i, welds[i].toe_m, welds[i].life_s);
+  for (std::size_t i = 0; i < welds.size(); ++i) note(i, welds[i].toe_m, welds[i].life_s, welds[i].certainty);
 }
 
 /// The envelope as a picture that marks the governing stress; a machine that cannot draw gets a line instead.
@@ -90,6 +93,10 @@ std::string draw(const std::filesystem::path& envelope, const std::filesystem::p
   PictureOptions options;
   options.scale = 1e-6;
   options.excluded = excluded_field;
+  options.beyond = beyond_field;
+  if (const double border_Pa = largest_at_border_Pa(analysis); border_Pa > 0)
+    options.excluded_is =
+        fmt::format("left out beside sharp edges,\n{} MPa at its border", fixed(border_Pa / 1e6, 1));
   options.mark = PictureMark{stress.position_m, fmt::format("{} {} MPa\n{}", stress.name(),
                                                             fixed(stress.value_Pa / 1e6, 1), stress.place)};
   note_lives_of_toes(analysis, duty, options);
@@ -171,10 +178,6 @@ std::vector<std::string> body_names(const Scene& scene) {
   return names;
 }
 
-void warn_of_earlier(const StagedResults& staged) {
-  if (!staged.warning().empty()) std::cerr << "millstress: " << staged.warning() << '\n';
-}
-
 /// Of a drive train, written into the folder torsion; nothing for other machines.
 std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machine,
                                         const std::filesystem::path& directory, StageClock& clock) {
@@ -207,8 +210,7 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   const auto lives = bearing_lives(scene.bearings, loads, {});
   warn_beyond_ratings(scene.bearings, lives, loads);
   const auto duty = duty_of_loads(given, scene, loads, request.options.n_threads, clock);
-  StagedResults staged(request.directory, {});
-  warn_of_earlier(staged);
+  StagedResults staged(request.directory, run_names({}));
   clock.run("write",
             [&] { write_load_results(staged.folder(), loads, {}, threads(request.options.n_threads)); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
@@ -261,11 +263,20 @@ std::string draw_body(const std::filesystem::path& place, const Scene& scene, co
   return draw(whole.temporary(), place, scene.title, analysis, duty);
 }
 
+/// A picture takes seconds, and results are not there before all are drawn.
+bool is_too_late_to_draw(const RequestedAccuracy& accuracy, std::chrono::steady_clock::time_point start) {
+  constexpr double grace = 1.1;
+  if (accuracy.by_default || accuracy.time_limit_s <= 0) return false;
+  const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - start;
+  return so_far.count() > grace * accuracy.time_limit_s;
+}
+
 /// The files of all bodies, and the loads'. While one body is drawn, another thread writes what comes next.
+/// @param start  of the run, for its limit of time
 /// @return why pictures are missing
 std::vector<std::string> write_and_draw(const Request& request, const Scene& scene, const SceneRun& run,
                                         const DutyResult* duty, const std::filesystem::path& folder,
-                                        StageClock& clock) {
+                                        std::chrono::steady_clock::time_point start, StageClock& clock) {
   const int n_threads = threads(request.options.n_threads), n_ranks = n_ranks_of_a_body();
   const auto& loads = run.loaded.loads;
   const auto place = [&](std::size_t i) { return folder / run.analyses[i].scene.name; };
@@ -282,8 +293,13 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
   clock.run("write", [&] { write(0); });
   for (std::size_t i = 0; i < run.analyses.size(); ++i) {
     auto next = std::async(policy, write, i + 1);
+    const bool draws = scene.pictures && is_first_rank();
     const auto fault =
-        scene.pictures && is_first_rank()
+        draws && is_too_late_to_draw(request.accuracy, start)
+            ? run.analyses[i].scene.name +
+                  ": no picture: the time was up; envelope.vtu opens in ParaView, a longer time limit draws "
+                  "it"
+        : draws
             ? clock.run("pictures", [&] { return draw_body(place(i), scene, run, run.analyses[i], duty); })
             : std::string();
     clock.run("write", [&] { next.get(); });
@@ -295,15 +311,17 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
 }
 
 void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
+  const auto start = std::chrono::steady_clock::now();
   const auto& options = request.options;
   require_blocks(scene);
   const auto accuracy = with_default(request.accuracy);
   const fem::Environment environment(options.n_threads);
   std::optional<StagedResults> staged;  // on the first rank
-  fem::on_first_rank(ranks_of_a_body(), [&] { staged.emplace(request.directory, body_names(scene)); });
-  if (staged) warn_of_earlier(*staged);
+  fem::on_first_rank(ranks_of_a_body(),
+                     [&] { staged.emplace(request.directory, run_names(body_names(scene))); });
   const auto folder = staged ? staged->folder() : std::filesystem::path();
-  SceneRunOptions run_options{request.directory, options.n_threads, options.fresh, true, accuracy};
+  SceneRunOptions run_options{staged ? staged->directory() : request.directory, options.n_threads,
+                              options.fresh, true, accuracy};
   run_options.duty = !scene.duty.empty();
   auto run = run_scene(scene, run_options, clock);
   std::optional<DutyResult> duty;
@@ -318,7 +336,7 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();
   const auto& loads = run.loaded.loads;
   RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings, ""};
-  for (const auto& fault : write_and_draw(request, scene, run, duty ? &*duty : nullptr, folder, clock))
+  for (const auto& fault : write_and_draw(request, scene, run, duty ? &*duty : nullptr, folder, start, clock))
     record.warnings.push_back(fault);
   if (duty && staged) clock.run("write", [&] { write_duty(folder / "duty.csv", *duty); });
   const Scene reported = with_machine(run.scene, run.loaded.masses.machine);

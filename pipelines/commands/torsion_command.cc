@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <ostream>
 
 #include "pipelines/command_options/output_files.h"
@@ -7,6 +8,7 @@
 #include "pipelines/drawing/offscreen_window.h"
 #include "pipelines/machine_reports/torsion_report.h"
 #include "pipelines/pictures/load_charts.h"
+#include "pipelines/result_files/staged_results.h"
 
 namespace pipelines {
 namespace {
@@ -20,12 +22,14 @@ void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene, options.settings);
   auto files = torsion_files();
   files.insert(files.end(), {"campbell.png", "campbell.svg", "modes.png", "modes.svg"});
-  require_writable(output_files("-o", options.output, files));
+  std::optional<StagedResults> staged;
+  if (!options.output.empty()) staged.emplace(options.output, names_of(files));
   const TorsionReport report = report_torsion(scene, machine_with_masses(scene));
   std::vector<std::string> charts;
-  if (!options.output.empty()) {
-    write_torsion_files(options.output, scene, report);
-    charts = write_torsion_charts(options.output, scene, report);
+  if (staged) {
+    write_torsion_files(staged->folder(), scene, report);
+    charts = write_torsion_charts(staged->folder(), scene, report);
+    staged->publish();
     say_if_nothing_draws(charts, !charts.empty() || make_offscreen_window());
   }
   if (options.json) {

@@ -9,12 +9,15 @@
 #include <thread>
 #include <vector>
 
+#include "fem/common/deadline.h"
+
 namespace pipelines {
 
 /// Calls work(worker, i) for all i below n, on the caller's thread as worker 0 and on others, as many of them
 /// as the system starts. What a worker throws ends its own work; once all others have ended, that of the
 /// smallest i is thrown.
 /// @param n_threads  at most, with the caller's
+/// @throws fem::OutOfTime before an item once the time is up
 template <typename Work>
 void for_each_parallel(std::size_t n, int n_threads, const Work& work) {
   std::atomic<std::size_t> next{0};
@@ -25,7 +28,10 @@ void for_each_parallel(std::size_t n, int n_threads, const Work& work) {
   const auto run = [&](std::size_t worker) {
     std::size_t i = 0;
     try {
-      for (i = next++; i < n; i = next++) work(worker, i);
+      for (i = next++; i < n; i = next++) {
+        fem::require_time();
+        work(worker, i);
+      }
     } catch (...) {
       const std::lock_guard lock(failing);
       if (i < failed) failure = std::current_exception();

@@ -11,11 +11,17 @@ namespace {
 
 constexpr int bar_width = 30;
 
+/// Who cannot be told goes without: fmt::print would throw where stderr is closed or its disk full, and stages
+/// end in destructors.
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+}
+
 void draw_bar(const std::string& stage, double share, const std::string& step) {
   const int full = int(share * bar_width);
   // Erase to the end of the line, so that a longer text before leaves nothing behind.
-  fmt::print(stderr, "\r  {:<12}[{:#<{}}{:.<{}}] {:3.0f} %  {}\x1b[K", stage, "", full, "", bar_width - full,
-             share * 100, step);
+  tell(fmt::format("\r  {:<12}[{:#<{}}{:.<{}}] {:3.0f} %  {}\x1b[K", stage, "", full, "", bar_width - full,
+                   share * 100, step));
   std::fflush(stderr);
 }
 
@@ -34,11 +40,11 @@ ProgressListener progress_on_stderr(Verbosity verbosity) {
     if (terminal)
       draw_bar(*stage, share, step);
     else if (verbose)
-      fmt::print(stderr, "  {}: {}\n", *stage, step);
+      tell(fmt::format("  {}: {}\n", *stage, step));
   };
   listener.end = [=](const StageCost& cost) {
-    if (terminal) fmt::print(stderr, "\r\x1b[K");
-    if (!terminal || verbose) fmt::print(stderr, "  {:<12}{:8.2f} s\n", cost.stage, cost.seconds);
+    if (terminal) tell("\r\x1b[K");
+    if (!terminal || verbose) tell(fmt::format("  {:<12}{:8.2f} s\n", cost.stage, cost.seconds));
     std::fflush(stderr);
   };
   return listener;

@@ -4,10 +4,9 @@
 
 #include <cctype>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
 #include "pipelines/exports/markup.h"
+#include "pipelines/files/whole_file.h"
 
 namespace pipelines {
 namespace {
@@ -79,12 +78,11 @@ void HtmlPage::table(const std::vector<std::string>& titles,
 }
 
 void HtmlPage::picture(const std::filesystem::path& png, const std::string& what_it_shows) {
-  std::ifstream file(png, std::ios::binary);
-  if (!file) return;
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const auto bytes = whole_file(png);
+  if (!bytes) return;
   body_ += fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-      escaped(what_it_shows), base64(bytes));
+      escaped(what_it_shows), base64(*bytes));
 }
 
 std::string HtmlPage::text() const {

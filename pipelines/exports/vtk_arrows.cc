@@ -12,6 +12,8 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/disk/open_directory.h"
+#include "pipelines/exports/markup.h"
 #include "pipelines/files/atomic_file.h"
 
 namespace pipelines {
@@ -23,7 +25,7 @@ void write_arrows_vtp(const std::filesystem::path& path, const std::string& fiel
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkDoubleArray> values;
-  values->SetName(field.c_str());
+  values->SetName(escaped(field).c_str());  // VTK writes attributes as they are
   values->SetNumberOfComponents(3);
   vtkNew<vtkTypeInt32Array> numbers;
   numbers->SetName("number");
@@ -59,7 +61,7 @@ void write_arrows_vtp(const std::filesystem::path& path, const std::string& fiel
   writer->EncodeAppendedDataOff();
   writer->SetHeaderTypeToUInt64();
   if (!writer->Write() || writer->GetErrorCode() != 0)
-    throw FileError(path.string() + ": cannot be written; check the directory and the free space");
+    throw FileError(shown(path) + ": cannot be written; check the directory and the free space");
   file.commit("</VTKFile>\n");
 }
 

@@ -26,6 +26,7 @@
 #include <utility>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/disk/open_directory.h"
 #include "pipelines/exports/markup.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
@@ -59,6 +60,8 @@ bool is_single(const NodalField& field) {
   return field.precision == FieldPrecision::float32 && fits_single_precision(field);
 }
 
+/// VTK writes names as they are into attributes, and reads them as XML: with entities for what they have of
+/// it.
 void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n_nodes,
                const std::vector<std::int32_t>& chosen) {
   const auto n_components = static_cast<std::size_t>(field.n_components);
@@ -73,29 +76,29 @@ void add_field(vtkUnstructuredGrid& grid, const NodalField& field, std::size_t n
     array = array_of<vtkFloatArray>(field.values, field.n_components, chosen);
   else
     array = array_of<vtkDoubleArray>(field.values, field.n_components, chosen);
-  array->SetName(field.name.c_str());
+  array->SetName(escaped(field.name).c_str());
   for (std::size_t c = 0; c < field.component_names.size(); ++c)
-    array->SetComponentName(static_cast<vtkIdType>(c), field.component_names[c].c_str());
+    array->SetComponentName(static_cast<vtkIdType>(c), escaped(field.component_names[c]).c_str());
   grid.GetPointData()->AddArray(array);
 }
 
 void add_names(vtkUnstructuredGrid& grid, const NameList& list) {
   vtkNew<vtkStringArray> array;
-  array->SetName(list.name.c_str());
+  array->SetName(escaped(list.name).c_str());
   for (const auto& name : list.names) array->InsertNextValue(name);
   grid.GetFieldData()->AddArray(array);
 }
 
 void add_numbers(vtkUnstructuredGrid& grid, const NumberList& list) {
   vtkNew<vtkDoubleArray> array;
-  array->SetName(list.name.c_str());
+  array->SetName(escaped(list.name).c_str());
   for (const double value : list.values) array->InsertNextValue(value);
   grid.GetFieldData()->AddArray(array);
 }
 
 void add_ids(vtkDataSetAttributes& data, const std::string& name, const std::vector<std::int32_t>& values) {
   vtkNew<vtkTypeInt32Array> array;
-  array->SetName(name.c_str());
+  array->SetName(escaped(name).c_str());
   array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   data.AddArray(array);
@@ -174,7 +177,7 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
     writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);  // half the time of the default for one percent more bytes
   if (!writer->Write() || writer->GetErrorCode() != 0 || failed)
-    throw FileError(path.string() + ": cannot be written; check the directory and the free space");
+    throw FileError(shown(path) + ": cannot be written; check the directory and the free space");
   file.commit("</VTKFile>\n");
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <regex>
 
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
@@ -163,15 +162,8 @@ std::optional<double> chamber_radius_m(const Scene& scene) {
   return std::nullopt;
 }
 
-std::vector<std::string> free_body_files(const kinetics::FreeBody& body) {
-  std::vector<std::string> names{"free_body.csv", "free_body.pvd"};
-  for (Index i = 0; i < body.time_s.size(); ++i) names.push_back(snapshot_name(i));
-  return names;
-}
-
 void write_free_body(const std::filesystem::path& directory, const Scene& scene,
                      const kinetics::FreeBody& body) {
-  const bool was_there = std::filesystem::exists(directory / "free_body.pvd");
   std::vector<PvdEntry> entries;
   for (Index i = 0; i < body.time_s.size(); ++i) {
     std::vector<PlacedVector> vectors;
@@ -183,16 +175,6 @@ void write_free_body(const std::filesystem::path& directory, const Scene& scene,
   }
   write_pvd(directory / "free_body.pvd", entries);
   write_table(directory / "free_body.csv", body);
-  if (!was_there) return;
-  static const std::regex snapshot("free_body_([0-9]{3,6})\\.vtp");
-  std::vector<std::filesystem::path> beyond;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    std::smatch match;
-    const auto name = entry.path().filename().string();
-    if (std::regex_match(name, match, snapshot) && std::stol(match[1]) >= body.time_s.size())
-      beyond.push_back(entry.path());
-  }
-  for (const auto& file : beyond) std::filesystem::remove(file);
 }
 
 }  // namespace pipelines

@@ -32,13 +32,9 @@ void print_free_body(std::ostream& out, const Scene& scene, const kinetics::Free
 /// The inner radius of the chamber, where the scene tells it.
 std::optional<double> chamber_radius_m(const Scene& scene);
 
-/// Where the files of an animation are: free_body.csv, free_body.pvd, free_body_000.vtp, ...
-std::vector<std::string> free_body_files(const kinetics::FreeBody& body);
-
-/// Writes them: a row per instant and load; per instant the loads' points with the vector field "force [N]",
-/// and as lines the chamber, and the bodies' links from the eccentric to chamber's centre and springs, at
-/// their places in that instant, from the shaft's axis. Snapshots that an earlier animation there has left
-/// beyond these are removed.
+/// Writes free_body.csv, free_body.pvd, free_body_000.vtp, ...: a row per instant and load; per instant the
+/// loads' points with the vector field "force [N]", and as lines the chamber, and the bodies' links from the
+/// eccentric to chamber's centre and springs, at their places in that instant, from the shaft's axis.
 void write_free_body(const std::filesystem::path& directory, const Scene& scene,
                      const kinetics::FreeBody& body);
 

@@ -164,7 +164,6 @@ std::vector<std::string> torsion_files() {
 void write_torsion_files(const std::filesystem::path& directory, const Scene& scene,
                          const TorsionReport& report) {
   const auto& train = train_of(scene);
-  std::filesystem::create_directories(directory);
   std::vector<CsvColumn> modes{numbers("frequency", "rad/s", report.modes.frequency_rad_s)};
   for (std::size_t i = 0; i < train.inertias.size(); ++i) {
     const auto row = Index(i);

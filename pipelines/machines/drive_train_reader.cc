@@ -50,8 +50,8 @@ bool flag_if_given(SceneTable& table, const std::string& name) {
 
 kinetics::TrainInertia read_inertia(SceneTable& table, std::vector<std::string>& masses_from_mesh) {
   kinetics::TrainInertia inertia;
-  inertia.name = table.text("name");
-  inertia.shaft = table.text("shaft");
+  inertia.name = table.name("name");
+  inertia.shaft = table.name("shaft");
   if (flag_if_given(table, "from_mesh")) {
     masses_from_mesh.push_back(inertia.name);
     table.know("inertia");
@@ -59,7 +59,9 @@ kinetics::TrainInertia read_inertia(SceneTable& table, std::vector<std::string>&
       table.refuse("inertia", "is given, and left to the mesh by from_mesh; keep one");
     inertia.inertia_kg_m2 = 1;  // until the mesh is there
   } else {
-    inertia.inertia_kg_m2 = table.quantity("inertia", "kg m2", between(1e-15, 1e12));
+    inertia.inertia_kg_m2 = table.quantity("inertia", "kg m2", not_negative(1e12));
+    if (inertia.inertia_kg_m2 > 0 && inertia.inertia_kg_m2 < 1e-15)
+      table.refuse("inertia", "must be 0, or at least 1e-15 kg m2; check the number and its unit");
   }
   inertia.damping_N_m_s = quantity_if_given(table, "damping", "N m s/rad", not_negative(1e12));
   inertia.held = flag_if_given(table, "held");
@@ -78,7 +80,7 @@ double read_ratio(SceneTable& table) {
 
 kinetics::TrainElement read_element(SceneTable& table) {
   kinetics::TrainElement element;
-  element.name = table.text("name");
+  element.name = table.name("name");
   const std::string kind = table.text("kind");
   if (kind == "belt")
     element.kind = ElementKind::belt;
@@ -128,7 +130,7 @@ void read_rate(SceneTable& table, Course& course) {
 
 kinetics::TrainExcitation read_excitation(SceneTable& table) {
   kinetics::TrainExcitation excitation;
-  excitation.name = table.text("name");
+  excitation.name = table.name("name");
   excitation.inertia = table.text("inertia");
   excitation.constant_Nm = quantity_if_given(table, "constant", "N m", torques);
   table.know("harmonics");
@@ -198,6 +200,20 @@ void read_transient(SceneTable& machine, TorsionScene& torsion) {
   torsion.transient = run;
 }
 
+/// An inertia of 0 is one only together with what rigid elements join it to.
+void refuse_massless(std::vector<SceneTable>& tables, const DriveTrain& train) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const auto& inertia = train.inertias[i];
+    const auto is_joined = [&](const kinetics::TrainElement& element) {
+      return element.rigid && (element.first == inertia.name || element.second == inertia.name);
+    };
+    if (inertia.inertia_kg_m2 == 0 && std::none_of(train.elements.begin(), train.elements.end(), is_joined))
+      tables[i].refuse("inertia",
+                       "must be positive where no rigid element joins it to an inertia: write 1e-12, which "
+                       "vibrates so fast by itself that nothing else feels it");
+  }
+}
+
 }  // namespace
 
 kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion,
@@ -217,7 +233,8 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
   reference.finish();
   train.modal_damping_ratio = quantity_if_given(machine, "modal_damping", "1", between(0, 0.999));
   std::set<std::string> taken, shafts;
-  for (SceneTable& table : machine.tables("inertias")) {
+  auto inertias = machine.tables("inertias");
+  for (SceneTable& table : inertias) {
     train.inertias.push_back(read_inertia(table, masses_from_mesh));
     refuse_second(table, train.inertias.back().name, taken);
     shafts.insert(train.inertias.back().shaft);
@@ -226,6 +243,7 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
     train.elements.push_back(read_element(table));
     refuse_second(table, train.elements.back().name, taken);
   }
+  refuse_massless(inertias, train);
   taken.clear();
   for (SceneTable& table : machine.tables("excitations")) {
     train.excitations.push_back(read_excitation(table));

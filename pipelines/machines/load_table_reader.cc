@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "pipelines/common/constants.h"
 #include "pipelines/files/table_file.h"
 #include "pipelines/names/name_fault.h"
 #include "pipelines/names/nearest_name.h"
@@ -40,13 +41,15 @@ std::optional<LoadName> parse_load(const std::string& name) {
   if (dot == std::string::npos || dot == 0) return std::nullopt;
   const std::string component = name.substr(dot + 1);
   const std::string unit = unit_of_component(component);
-  if (unit.empty() || name.find('/') != std::string::npos) return std::nullopt;
+  if (unit.empty() || !name_fault(name.substr(0, dot)).empty()) return std::nullopt;
   return LoadName{name.substr(0, dot), component, unit};
 }
 
 std::string not_a_load(const std::string& name) {
-  if (name.find('/') != std::string::npos)
-    return "has a \"/\" in the port's name, where features between two segments have theirs; rename the port";
+  if (std::string fault = cell_fault(name); !fault.empty()) return fault;
+  const auto dot = name.rfind('.');
+  if (const std::string fault = name_fault(name.substr(0, dot)); dot != std::string::npos && !fault.empty())
+    return "the port's name " + fault;
   return "is no load; write \"<port>.<component>\", the component one of " + component_list();
 }
 
@@ -104,7 +107,7 @@ void check_ascending(const TableFile& table, const Eigen::ArrayXd& angle_rad, Sc
 
 void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFindings& findings,
                kinetics::LoadTable& loads) {
-  const std::string effect = entry.text("effect"), name = entry.text("file");
+  const std::string effect = entry.name("effect"), name = entry.text("file");
   entry.finish();
   if (effect.empty() || name.empty()) return;
   TableFile table;
@@ -121,15 +124,15 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
     return;
   }
   check_ascending(table, *angle_rad, findings);
+  if (!table.doubt.empty()) findings.warnings.push_back(table.doubt);
   if (table.columns.size() < 2)
     entry.refuse("file", "has no load; add columns such as \"pulley_seat.fx [N]\"");
   for (std::size_t c = 1; c < table.columns.size(); ++c) {
     const auto& column = table.columns[c];
     const auto load = parse_load(column.name);
-    const std::string fault = name_fault(column.name);
-    if (!load || !fault.empty()) {
-      findings.errors.push_back({table.file.string(), table.title_line, column.column, column.name, "",
-                                 fault.empty() ? not_a_load(column.name) : fault});
+    if (!load) {
+      findings.errors.push_back(
+          {table.file.string(), table.title_line, column.column, column.name, "", not_a_load(column.name)});
       loads.loads.push_back(nothing_of(effect));
       continue;
     }
@@ -141,12 +144,12 @@ void read_file(SceneTable& entry, const std::filesystem::path& folder, SceneFind
 std::optional<LoadName> read_load_name(SceneTable& entry) {
   const std::string name = entry.text("load");
   auto load = parse_load(name);
-  if (!load && !name.empty()) entry.refuse("load", not_a_load(name));
+  if (!load && !name.empty() && cell_fault(name).empty()) entry.refuse("load", not_a_load(name));
   return load;
 }
 
 void read_harmonic(SceneTable& entry, kinetics::LoadTable& loads) {
-  const std::string effect = entry.text("effect");
+  const std::string effect = entry.name("effect");
   const auto load = read_load_name(entry);
   const std::string unit = load ? load->unit : "N";
   kinetics::HarmonicCourse harmonic;
@@ -160,7 +163,7 @@ void read_harmonic(SceneTable& entry, kinetics::LoadTable& loads) {
 }
 
 void read_constant(SceneTable& entry, kinetics::LoadTable& loads) {
-  const std::string effect = entry.text("effect");
+  const std::string effect = entry.name("effect");
   const auto load = read_load_name(entry);
   const double value = entry.quantity("value", load ? load->unit : "N", loads_within);
   entry.finish();
@@ -177,6 +180,28 @@ void read_list(SceneTable& machine, const std::string& name, Read&& read) {
 }
 
 }  // namespace
+
+std::string SamplesRead::text() const {
+  return effect + ": " + std::to_string(n) + " rows over the drive's angle from " + shown(from_deg) + " to " +
+         shown(to_deg) + " deg";
+}
+
+std::vector<SamplesRead> samples_read(const Machine& machine) {
+  std::vector<SamplesRead> all;
+  if (const auto* table = std::get_if<kinetics::LoadTable>(&machine))
+    for (const auto& load : table->loads) {
+      const auto* course = std::get_if<kinetics::SampledCourse>(&load.course);
+      if (course == nullptr || course->angle_rad.size() == 0) continue;
+      const auto in_deg = [](double angle_rad) { return std::round(angle_rad * 180 / pi * 1e6) / 1e6; };
+      const auto& at = course->angle_rad;
+      const SamplesRead read{load.effect, std::size_t(at.size()), in_deg(at[0]), in_deg(at[at.size() - 1])};
+      const auto is_same = [&](const SamplesRead& other) {
+        return other.effect == read.effect && other.n == read.n && other.to_deg == read.to_deg;
+      };
+      if (std::none_of(all.begin(), all.end(), is_same)) all.push_back(read);
+    }
+  return all;
+}
 
 std::string unit_of_component(const std::string& component) {
   const auto found = component_units().find(component);

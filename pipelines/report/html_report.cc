@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -16,6 +14,7 @@
 #include "pipelines/exports/html_page.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/json_file.h"
+#include "pipelines/files/whole_file.h"
 #include "pipelines/report/fatigue_html.h"
 #include "pipelines/report/html_values.h"
 #include "pipelines/report/torsion_html.h"
@@ -27,8 +26,7 @@ namespace {
 using html::Json, html::moment, html::MPa, html::number, html::Rows;
 
 std::string file_text(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return whole_file(file).value_or("");
 }
 
 std::string where(const Json& at) {
@@ -201,6 +199,9 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   page.heading(2, "The " + name);
   if (const auto trouble = body.at("governing").value("not_known_well", ""); !trouble.empty())
     page.warning("Not known well: " + trouble);
+  if (const auto strength = body.value("fatigue_strength", ""); !strength.empty()) page.paragraph(strength);
+  if (const auto rise = body.at("governing").value("rises_towards_edge", ""); !rise.empty())
+    page.warning("Sharp edge: " + rise);
   page.paragraph(number(body.at("dofs"), 1, "{:.0f}") + " unknowns, " + number(body.at("mass").at("value")) +
                  " kg, " + solved_by(body) + ".");
   add_headlines(page, body);
@@ -354,6 +355,8 @@ std::string html_report(const std::filesystem::path& directory, const std::files
                       "); run the scene again with this version");
   };
   const auto summary = read_json_file(file);
+  if (const auto size = size_of_file(file); size > most_bytes_of_a_result)
+    refuse("it has " + size_text(size) + ", more than any of them");
   if (summary.is_discarded()) refuse("it is no whole JSON text");
   std::string page;
   try {
@@ -362,6 +365,14 @@ std::string html_report(const std::filesystem::path& directory, const std::files
     refuse(error.what());
   }
   return page;
+}
+
+bool is_html_report(const std::filesystem::path& file) {
+  const std::string text = file_text(file), program = "; millstress ";
+  const std::string begin = HtmlPage("").text().substr(0, 60), end = "</body>\n</html>\n";
+  return text.compare(0, begin.size(), begin) == 0 && text.size() > end.size() &&
+         text.compare(text.size() - end.size(), end.size(), end) == 0 &&
+         text.find(program) != std::string::npos;
 }
 
 void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {

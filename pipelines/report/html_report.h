@@ -12,6 +12,9 @@ namespace pipelines {
 /// @throws OptionError naming the file and the remedy if summary.json is missing or is not one
 std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy);
 
+/// Whether a file is such a page, of whatever results.
+bool is_html_report(const std::filesystem::path& file);
+
 /// Writes it beside the summary.
 /// @throws as html_report; FileError if the page cannot be written
 void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy);

@@ -10,8 +10,10 @@
 #include "pipelines/channels/load_figures.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/machines/load_table_reader.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/report_parts/duty_report.h"
+#include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/report_parts/moment.h"
 #include "pipelines/report_parts/shaft_torsion_report.h"
@@ -108,6 +110,7 @@ void print_governing(std::ostream& out, const RunReport& report, const BodyAnaly
   out << "\n  " << analysis.scene.name << ": ";
   if (const auto trouble = not_known_well(stress, analysis.search); !trouble.empty())
     out << "NOT KNOWN WELL: " << trouble << "\n  ";
+  if (const auto rise = rises_towards_edge(analysis); !rise.empty()) out << "SHARP EDGE: " << rise << "\n  ";
   out << fmt::format("{} {}, safety against yield {}\n    at {} ({}), {}, {}\n", stress.name(),
                      value_with_errors(stress.value_Pa, stress.errors), fixed(stress.safety, 2), stress.place,
                      to_string(stress.surface), where(stress.position_m), when(report, stress.instant));
@@ -168,6 +171,7 @@ void print_solver(std::ostream& out, const BodyAnalysis& analysis) {
 }
 
 void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  if (analysis.fatigue) out << "\n  " << analysis.scene.name << ": " << strength_text(report.scene, analysis);
   print_governing(out, report, analysis);
   print_solver(out, analysis);
   out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
@@ -243,6 +247,7 @@ void print_report(std::ostream& out, const RunReport& report) {
   out << fmt::format("\n{}: {} ({}), {}\n", report.scene.title, report.loads.machine, report.loads.convention,
                      window_of(report));
   for (const auto& setting : report.scene.settings) out << "  set on the command line: " << setting << '\n';
+  for (const auto& samples : samples_read(report.scene.machine)) out << "  read " << samples.text() << '\n';
   out << '\n';
   print_loads(out, report);
   for (const auto& analysis : report.bodies) print_body(out, report, analysis);

@@ -12,6 +12,7 @@
 #include "pipelines/common/version.h"
 #include "pipelines/files/content_hash.h"
 #include "pipelines/machine_reports/torsion_json.h"
+#include "pipelines/machines/load_table_reader.h"
 #include "pipelines/report/summary_parts.h"
 #include "pipelines/report_parts/duty_report.h"
 #include "pipelines/report_parts/fatigue_report.h"
@@ -98,11 +99,19 @@ std::string summary_json(const RunReport& report) {
                           {"effects", report.scene.effects}});
   take_window(report, json["input"]);
   if (!report.scene.settings.empty()) json["input"]["settings"] = report.scene.settings;
+  for (const auto& samples : samples_read(report.scene.machine))
+    json["input"]["samples"].push_back(object({{"effect", samples.effect},
+                                               {"rows", samples.n},
+                                               {"from_deg", number(samples.from_deg)},
+                                               {"to_deg", number(samples.to_deg)}}));
   if (!report.scene.effect_choice.offered.empty()) json["dropped_effects"] = choice_json(report);
   json["warnings"] = Json::array();
   for (const auto& analysis : report.bodies)
     if (const auto text = not_known_well(governing_stress(analysis), analysis.search); !text.empty())
       json["warnings"].push_back(analysis.scene.name + ": NOT KNOWN WELL: " + text);
+  for (const auto& analysis : report.bodies)
+    if (const auto text = rises_towards_edge(analysis); !text.empty())
+      json["warnings"].push_back(analysis.scene.name + ": SHARP EDGE: " + text);
   for (const auto* warnings : {&report.loads.warnings, &report.scene.warnings})
     for (const auto& warning : *warnings) json["warnings"].push_back(warning);
   const Machine& machine = report.scene.machine;

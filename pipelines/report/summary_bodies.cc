@@ -2,12 +2,14 @@
 #include <cmath>
 
 #include "pipelines/analysis/error_text.h"
+#include "pipelines/analysis/exclusion_border.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/body_stages/body_vibration.h"
 #include "pipelines/body_stages/shaft_torsion.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/estimates/energy_errors.h"
 #include "pipelines/report/summary_parts.h"
+#include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/report_parts/moment.h"
 #include "pipelines/report_parts/shaft_torsion_report.h"
@@ -71,6 +73,7 @@ Json governing_json(const RunReport& report, const BodyAnalysis& analysis) {
   json.update(place_and_moment(report, stress.position_m, stress.place, stress.surface, stress.instant));
   const auto trouble = not_known_well(stress, analysis.search);
   if (!trouble.empty()) json["not_known_well"] = trouble;
+  if (const auto rise = rises_towards_edge(analysis); !rise.empty()) json["rises_towards_edge"] = rise;
   return json;
 }
 
@@ -161,6 +164,7 @@ Json energy_error_json(const BodyAnalysis& analysis) {
 Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& quality = analysis.mesh.quality;
   Json json;
+  if (analysis.fatigue) json["fatigue_strength"] = strength_text(report.scene, analysis);
   json["governing"] = governing_json(report, analysis);
   json["method"] = to_string(analysis.method);
   json["dofs"] = analysis.responses.n_dofs;
@@ -216,6 +220,13 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = budget_json(analysis.hot_spot_errors);
   if (analysis.fatigue) json["fatigue"] = fatigue_json(report, analysis);
   if (analysis.start_up) json["start_up"] = start_up_json(analysis);
+  if (const double border_Pa = largest_at_border_Pa(analysis); border_Pa > 0)
+    json["largest_beside_edges"] = figure(border_Pa, "Pa");
+  if (analysis.mesh.smallest_size_m > 0)
+    json["smallest_size"] = figure(analysis.mesh.smallest_size_m, "m");
+  for (const auto& edge : analysis.mesh.straight_edges)
+    json["straight_edges"].push_back(
+        object({{"position_m", edge.middle_m}, {"length_m", edge.length_m}, {"off_surface_m", edge.off_m}}));
   for (const auto& edge : analysis.mesh.sharp_edges)
     json["singular"].push_back(object({{"edge", edge.name}, {"excluded_within_m", edge.distance_m}}));
   for (const auto& figure : report.masses)

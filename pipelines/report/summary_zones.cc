@@ -1,6 +1,7 @@
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/life/body_fatigue.h"
 #include "pipelines/report/summary_parts.h"
+#include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/report_parts/moment.h"
 #include "pipelines/report_parts/zone_text.h"
 #include "pipelines/scene_values/effect_groups.h"
@@ -41,7 +42,10 @@ Json causes_json(const RunReport& report, const ChannelHistory& loads, const Zon
 Json damage_json(const ChannelHistory& loads, const ZoneDamage& damage) {
   if (!damage.is_on_surface) return nullptr;
   Json json = object({{"damage_per_turn", number(damage.damage_per_turn)},
-                      {"life_h", damage.life_s ? number(*damage.life_s / 3600) : Json(nullptr)}});
+                      {"life_h", damage.life_s ? number(*damage.life_s / 3600) : Json(nullptr)},
+                      {"life_range_h", life_range_json(damage.certainty)},
+                      {"beyond_sn_curve", beyond_json(damage.certainty)},
+                      {"stress_error", number_or_none(damage.error_share)}});
   if (!damage.shares.effects.empty()) json.update(shares_json(loads, damage.shares));
   return json;
 }

@@ -1,10 +1,10 @@
 #include "pipelines/responses/iteration_memory.h"
 
 #include <fstream>
-#include <system_error>
 
 #include "pipelines/common/errors.h"
 #include "pipelines/common/several_ranks.h"
+#include "pipelines/disk/open_directory.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/kept_file.h"
 
@@ -29,16 +29,15 @@ bool iteration_gave_up_before(const std::filesystem::path& directory, const std:
 void remember_iteration(const std::filesystem::path& directory, const std::string& key, bool gave_up) {
   if (!is_first_rank()) return;
   const auto path = file_in(directory);
-  std::error_code none;
   if (!gave_up) {
-    std::filesystem::remove(path, none);
+    if (is_own_kept_file(path)) OpenDirectory::at(directory).remove(path.filename());
     return;
   }
-  AtomicFile file(path);
+  AtomicFile file(path, is_own_kept_file);
   std::ofstream out(file.temporary(), std::ios::binary);
   out << key;
   out.close();
-  if (!out) throw FileError(path.string() + ": cannot be written; check the directory and the free space");
+  if (!out) throw FileError(shown(path) + ": cannot be written; check the directory and the free space");
   append_checksum(file.temporary(), key);
   file.commit();
 }

@@ -223,10 +223,10 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
     write_shared(nullptr, "/stress", responses.stress_Pa, {n, n_channels, 6}, {}, responses);
     return;
   }
-  AtomicFile file(path);
+  AtomicFile file(path, is_own_kept_file);
   Hdf5Writer out(file.temporary());
   out.attribute("/", "key", key);
-  out.attribute("/", "arrangement", arrangement);
+  out.attribute("/", kept_attribute, arrangement);
   out.attribute("/", "support_reaction", responses.support_reaction);
   out.attribute("/", "residual", responses.residual);
   out.attribute("/", "n_dofs", static_cast<double>(responses.n_dofs));

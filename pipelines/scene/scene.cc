@@ -7,10 +7,20 @@
 #include "pipelines/scene/body_effects.h"
 
 namespace pipelines {
+
 std::string mesh_key(const std::string& control) {
   const std::string unit = "_m";
   const bool has_unit = control.size() > unit.size() && control.substr(control.size() - 2) == unit;
   return has_unit ? control.substr(0, control.size() - unit.size()) : control;
+}
+
+PressureModel usual_pressure(const BodyScene& body, const std::string& port) {
+  PressureModel usual;
+  usual.highest_harmonic = body.pressure_harmonics;
+  usual.is_charge = port == "inner_wall" && (std::holds_alternative<ChamberOptions>(body.options) ||
+                                             std::holds_alternative<DrumOptions>(body.options));
+  if (usual.is_charge) usual.half_angles = half_angles_around(usual.pattern);
+  return usual;
 }
 
 BodyScene::BodyScene() = default;

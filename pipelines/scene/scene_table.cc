@@ -23,7 +23,10 @@ const TomlNode& empty_table() {
 
 /// Titles and paths may begin as they like: they head no column and no row of a table.
 std::string text_fault(const std::string& key, const std::string& text) {
-  return key == "title" || key == "file" ? control_character_in(text) : name_fault(text);
+  constexpr std::size_t longest_title = 200;  // bytes; a picture's first line has room for half of them
+  if (key == "title" && text.size() > longest_title)
+    return "is longer than a line; write " + std::to_string(longest_title) + " characters at most";
+  return key == "title" || key == "file" ? control_character_in(text) : cell_fault(text);
 }
 
 std::string item_of(const std::string& name, std::size_t index) {
@@ -230,6 +233,13 @@ std::string SceneTable::text(const std::string& name, const std::string& remedy)
   else if (const std::string fault = text_fault(name, entry->value.text); !fault.empty())
     refuse_node(entry->value, name, fault);
   return entry->value.text;
+}
+
+std::string SceneTable::name(const std::string& key, const std::string& remedy) {
+  const std::string name = text(key, remedy);
+  if (const std::string fault = name_fault(name); !fault.empty() && cell_fault(name).empty())
+    refuse(key, fault);
+  return name;
 }
 
 std::string SceneTable::text_or(const std::string& name, const std::string& value,

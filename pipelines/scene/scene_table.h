@@ -48,6 +48,8 @@ public:
   /// As many as are written, at least one.
   std::vector<double> list(const std::string& name, const std::string& si_unit, const Range& range);
   std::string text(const std::string& name, const std::string& remedy = "is missing; add it");
+  /// A text that names a thing (name_fault).
+  std::string name(const std::string& key, const std::string& remedy = "is missing; add it");
   std::vector<TextAt> texts(const std::string& name);
   SceneTable table(const std::string& name);
   std::vector<SceneTable> tables(const std::string& name);

@@ -21,7 +21,7 @@ void read_added_masses(SceneTable& table, const BodyKind& kind, BodyScene& body)
   if (table.has("added_masses"))
     for (SceneTable& entry : table.tables("added_masses")) {
       AddedMass added;
-      added.name = entry.text("name");
+      added.name = entry.name("name");
       added.port = entry.text("port");
       check_port(entry, "port", added.port, ports_of(body).all, "the ports of this body");
       added.mass_kg = entry.quantity("mass", "kg", positive(1e6));

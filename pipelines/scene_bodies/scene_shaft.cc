@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "pipelines/names/name_fault.h"
 #include "pipelines/names/name_lists.h"
 #include "pipelines/names/nearest_name.h"
 
@@ -45,7 +46,7 @@ void refuse_unknown_port(SceneTable& table, const std::string& key, const std::s
 void read_bore_port(SceneTable& table, const ContourRules& rules, meshes::ShaftSegment& segment) {
   table.know("bore_port");
   if (!table.has("bore_port")) return;
-  segment.bore_port = table.text("bore_port");
+  segment.bore_port = table.name("bore_port");
   if (!table.has("bore"))
     table.refuse("bore_port", "is a port inside a bore that is not there; give the bore's diameter as bore");
   if (segment.bore_port == "end_1" || segment.bore_port == "end_2")
@@ -60,14 +61,11 @@ meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) 
   if (segment.is_port && table.has("name"))
     table.refuse("name", "a port is called by its port; remove the name");
   if (!segment.is_port) table.know("port");
-  segment.name = table.text(segment.is_port ? "port" : "name",
+  segment.name = table.name(segment.is_port ? "port" : "name",
                             "is missing; give the segment a name, or a port where load enters it");
   table.know("name");
-  if (segment.name.size() > 100 || segment.name.find('"') != std::string::npos) {
-    table.refuse(segment.is_port ? "port" : "name",
-                 "has quotes or more than 100 characters, which meshes cannot carry; take a short name");
-  } else if (segment.is_port && !rules.any_port) {
-    refuse_unknown_port(table, "port", segment.name, rules);
+  if (segment.is_port && !rules.any_port) {
+    if (name_fault(segment.name).empty()) refuse_unknown_port(table, "port", segment.name, rules);
   } else if (segment.name == "end_1" || segment.name == "end_2") {
     table.refuse(segment.is_port ? "port" : "name", "is the name of an end face; take another one");
   }

@@ -127,7 +127,7 @@ void read_duty(SceneTable& root, const TomlNode& tree, Scene& scene, SceneFindin
   for (std::size_t i = 0; i < tables.size(); ++i) {
     auto& table = tables[i];
     DutyBlock block;
-    block.name = table.text("name");
+    block.name = table.name("name");
     if (contains(names, block.name)) table.refuse("name", "is the name of another block; write another");
     names.push_back(block.name);
     block.share = table.quantity("share", "1", {0, 1, true});

@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "meshes/values/utf8.h"
 #include "pipelines/files/replaceable.h"
 #include "pipelines/files/toml_tree.h"
+#include "pipelines/files/whole_file.h"
+#include "pipelines/names/name_fault.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/plausibility.h"
@@ -36,18 +37,20 @@ std::string read_text(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(status))
     refuse_file(file, "is a directory; give the path of a scene, a .toml file");
   constexpr std::uintmax_t most_bytes = 10'000'000;
-  if (!std::filesystem::is_regular_file(status) || std::filesystem::file_size(file, error) > most_bytes)
+  if (!std::filesystem::is_regular_file(status) || size_of_file(file) > most_bytes)
     refuse_file(file, "is no ordinary file of less than 10 MB; give the path of a scene, a .toml file");
   note_input(file);
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in) refuse_file(file, "cannot be read; check its permissions");
-  return text;
+  auto text = whole_file(file, most_bytes);
+  if (!text) refuse_file(file, "cannot be read; check its permissions");
+  return *std::move(text);
 }
 
 }  // namespace
 
 TomlNode read_scene_tree(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  if (!meshes::is_utf8(name) || !control_character_in(name).empty())
+    refuse_file(file, "the file's name stands in the results, and is no text in UTF-8; rename the file");
   TomlNode root;
   try {
     root = parse_toml(read_text(file));

@@ -63,7 +63,7 @@ std::vector<BearingScene> read_bearings(SceneTable& root) {
   if (!root.has("bearings")) return bearings;
   for (SceneTable& table : root.tables("bearings")) {
     BearingScene bearing;
-    bearing.name = table.text("name");
+    bearing.name = table.name("name");
     bearing.load = table.text("load");
     bearing.share = table.quantity_or("share", "1", {0, 1, true}, 1, "the bearing carries the whole load");
     bearing.dynamic_rating_N = table.quantity("dynamic_rating", "N", positive(1e9));

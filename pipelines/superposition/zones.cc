@@ -135,6 +135,46 @@ double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& e
   return nearest;
 }
 
+std::vector<double> beyond_left_out_m(const fem::Nodes& nodes, const NodePlaces& places,
+                                      const std::vector<meshes::SharpEdge>& edges) {
+  const auto is_excluded = [&](std::int32_t i) { return places.excluded[std::size_t(i)] != 0; };
+  std::vector<char> is_near(nodes.n, 0);
+  bool is_any = false;
+  for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
+    const auto cell = nodes.cell(c);
+    if (std::none_of(cell.begin(), cell.end(), is_excluded)) continue;
+    is_any = true;
+    for (const auto i : cell) is_near[std::size_t(i)] = 1;
+  }
+  if (!is_any) return {};
+  double largest_m = 0;
+  for (const auto& edge : edges) largest_m = std::max(largest_m, edge.distance_m);
+  std::vector<double> beyond_m(nodes.n, largest_m);
+  const auto come_nearer = [&](std::size_t i, const meshes::SharpEdge& edge, double border_m) {
+    const double* x = &nodes.xyz_m[3 * i];
+    beyond_m[i] = std::min(beyond_m[i], distance_m({x[0], x[1], x[2]}, edge) - within * border_m);
+  };
+  for (const auto& edge : edges) {
+    for (std::size_t i = 0; i < nodes.n; ++i)
+      if (is_near[i] != 0) come_nearer(i, edge, edge.distance_m);
+    for (std::size_t f = 0; f < nodes.n_faces(); ++f)
+      if (const auto own = edge.distance_on_m.find(nodes.face_boundary_id[f]);
+          own != edge.distance_on_m.end())
+        for (const auto node : nodes.face(f))
+          if (is_near[std::size_t(node)] != 0) come_nearer(std::size_t(node), edge, own->second);
+  }
+  return beyond_m;
+}
+
+bool is_left_out(const std::array<double, 3>& point, int boundary_id,
+                 const std::vector<meshes::SharpEdge>& edges) {
+  return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    const auto own = edge.distance_on_m.find(boundary_id);
+    const double on_surface_m = own == edge.distance_on_m.end() ? 0 : own->second;
+    return distance_m(point, edge) <= within * std::max(edge.distance_m, on_surface_m);
+  });
+}
+
 std::string to_string(Place place) {
   switch (place) {
     case Place::loaded_seat:

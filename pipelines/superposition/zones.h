@@ -32,6 +32,16 @@ NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Featu
 /// The feature that a node lies on, or of an interior one the nearest; empty if the body has none.
 std::string feature_at(const fem::Nodes& nodes, const NodePlaces& places, std::size_t node);
 
+/// Whether a point of a surface is within the exclusion distance of an edge, as `excluded` of nodes.
+bool is_left_out(const std::array<double, 3>& point, int boundary_id,
+                 const std::vector<meshes::SharpEdge>& edges);
+
+/// Distance of every node from the border of what is left out, negative within; exact of nodes in cells that
+/// the border passes through and within, elsewhere the largest exclusion distance. Empty where nothing is left
+/// out.
+std::vector<double> beyond_left_out_m(const fem::Nodes& nodes, const NodePlaces& places,
+                                      const std::vector<meshes::SharpEdge>& edges);
+
 /// From a point to the nearest of the edge's pieces.
 double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& edge);
 

@@ -21,7 +21,7 @@ BodyDesign::BodyDesign(const Scene& as_read, SceneRun& run, std::size_t i_body, 
   leading_ = std::make_shared<const LeadingStress>(analysis_);
   for (const auto& place : analysis_.place_stresses)
     if (place.value_Pa > 0) shares_[place.feature].judged = place.error_Pa / place.value_Pa;
-  for (const auto& place : places_of_one_mesh(analysis_, false))
+  for (const auto& place : places_of_one_mesh(analysis_, 0))
     if (place.value_Pa > 0) shares_[place.feature].own = place.error_Pa / place.value_Pa;
 }
 
@@ -39,7 +39,7 @@ BodyAnalysis BodyDesign::at_point(BodyAnalysis analysis, const BodyScene& body, 
   analysis = under_other_loads(std::move(analysis), meshed_, std::move(loads), std::move(leading), zones);
   // A place keeps the share of error that the search knows, more where this mesh alone is in more doubt of it
   // than at the point of the search: the maximum may have moved to larger cells.
-  auto places = places_of_one_mesh(analysis, false);
+  auto places = places_of_one_mesh(analysis, 0);
   for (auto& place : places) {
     const auto known = shares_.find(place.feature);
     if (known == shares_.end() || place.value_Pa <= 0) continue;

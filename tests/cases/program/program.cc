@@ -190,6 +190,7 @@ std::map<std::string, std::string> contents(const fs::path& directory) {
       auto json = nlohmann::ordered_json::parse(text);
       json["files"].erase("summary.json");
       json["files"].erase("run.json");
+      json["files"].erase("report.html");
       json.erase("checksum");
       text = json.dump();
     }

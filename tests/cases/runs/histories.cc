@@ -198,13 +198,16 @@ TEST(Histories, RefuseWhatIsNoPointAndFilesOfAnotherRun) {
   EXPECT_NE(refusal(directory.path, "'" + shipped("drive_train.toml").string() + "' -o h").find("no body"),
             std::string::npos);
 
-  // Loads of another run in the directory: the run sees it, and is run again.
+  // Loads of another run in the directory: they are not the run's, and stop it; gone, they are made anew.
   const auto own = results_test::bytes(directory / "results/scene/loads.h5");
   write(directory / "other.toml", with_edits(bent_shaft(), {{"load = \"middle.fx\"\namplitude = \"100 N\"",
                                                              "load = \"middle.fx\"\namplitude = \"90 N\""}}));
   ASSERT_EQ(millstress(directory.path, "run other.toml -o other").exit_code, 0);
   fs::copy_file(directory / "other/loads.h5", directory / "results/scene/loads.h5",
                 fs::copy_options::overwrite_existing);
+  EXPECT_NE(refusal(directory.path, "scene.toml -o h --at 'zone 1'").find("results/scene/loads.h5: is there"),
+            std::string::npos);
+  fs::remove(directory / "results/scene/loads.h5");
   const auto json = history(directory.path, "-o h --at 'zone 1'");
   EXPECT_EQ(results_test::bytes(directory / "results/scene/loads.h5"), own);
   EXPECT_NEAR(

@@ -98,10 +98,29 @@ TEST(WrongInput, OfTheProcessItselfIsTold) {
   const auto small_stack = millstress(directory.path, "run mill.toml", "ulimit -s 256");
   EXPECT_EQ(small_stack.exit_code, 2);
   EXPECT_NE(small_stack.err.find("256 kB (ulimit -s)"), std::string::npos) << small_stack.err;
+  const auto few_files = millstress(directory.path, "run mill.toml", "ulimit -n 20");
+  EXPECT_EQ(few_files.exit_code, 2);
+  EXPECT_EQ(few_files.err.rfind("millstress: this process may have 20 files open (ulimit -n)", 0), 0u)
+      << few_files.err;
+  const auto least_memory = millstress(directory.path, "run mill.toml", "ulimit -v 700000");
+  EXPECT_EQ(least_memory.exit_code, 3);
+  EXPECT_EQ(least_memory.err.rfind("millstress: this process may have 683 MB of memory (ulimit -v)", 0), 0u)
+      << least_memory.err;
   const auto little_memory = millstress(directory.path, "run mill.toml", "ulimit -v 800000");
   EXPECT_EQ(little_memory.exit_code, 3);
   EXPECT_NE(little_memory.err.find("781 MB of memory (ulimit -v or -d)"), std::string::npos)
       << little_memory.err;
+}
+
+// Its name stands in summary.json, which is UTF-8: an internal error came after the run.
+TEST(WrongInput, ASceneWhoseNameIsNoTextIsRefused) {
+  const results_test::Directory directory;
+  for (const std::string name : {"latin_\xe4.toml", "two\nlines.toml", "right_to_left_\xe2\x80\xae.toml"}) {
+    write(directory / name, shaft_alone(coarse()));
+    const auto outcome = millstress(directory.path, "check '" + name + "'");
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_NE(outcome.err.find("is no text in UTF-8; rename the file"), std::string::npos) << outcome.err;
+  }
 }
 
 TEST(WrongInput, AFolderInTheManifestsPlaceIsNamed) {
@@ -187,7 +206,7 @@ TEST(WrongInput, OutputThatCannotBeWrittenIsNamed) {
   EXPECT_EQ(results_test::bytes(directory / "file"), "not a directory");
   fs::create_symlink("nowhere", directory / "link");
   for (const auto& [option, said] :
-       {std::pair{"--statistics file", "--statistics file/statistics.csv: lies in file, which"},
+       {std::pair{"--statistics file", "--statistics file/manifest.json: lies in file, which"},
         {"--csv file/loads.csv", "--csv file/loads.csv: lies in file, which is no directory"},
         {"--statistics link/s", "lies in link, a symbolic link to nothing"}}) {
     const auto loads = millstress(directory.path, std::string("loads mill.toml -o loads.h5 ") + option);

@@ -39,6 +39,7 @@ struct Kind {
 const std::vector<Kind>& kinds();
 
 Verdict scene_case(Mutator&, const Place&);          ///< scenes of every machine: reader, load stage, summary
+Verdict name_case(Mutator&, const Place&);           ///< the same with names that files find hard to carry
 Verdict table_case(Mutator&, const Place&);          ///< CSV files of loads
 Verdict step_text_case(Mutator&, const Place&);      ///< the check before OpenCASCADE
 Verdict msh_text_case(Mutator&, const Place&);       ///< the check before gmsh

@@ -4,7 +4,8 @@ namespace fuzz {
 
 // Shares by what a case costs: imports start gmsh, programs load a hundred libraries.
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all = {{"scene", 375, scene_case},
+  static const std::vector<Kind> all = {{"scene", 345, scene_case},
+                                        {"name", 30, name_case},
                                         {"table", 130, table_case},
                                         {"step-text", 80, step_text_case},
                                         {"msh-text", 100, msh_text_case},

@@ -35,7 +35,7 @@ std::string fault_of_report(const std::filesystem::path& directory) {
   pipelines::finish_exchange(directory);
   if (const auto check = pipelines::check_manifest(directory); check.is_mixed())
     throw pipelines::OptionError(check.text(directory));
-  pipelines::write_html_report(directory, directory / "accuracy");
+  pipelines::publish_html_report(directory, directory / "accuracy", "report");
   const auto page = read_bytes(directory / "report.html");
   const std::string end = "</html>\n";
   if (page.size() < end.size() || page.compare(page.size() - end.size(), end.size(), end) != 0)
@@ -50,7 +50,8 @@ Verdict results_case(Mutator& random, const Place& place) {
   write_damaged_results(random, place, directory);
   auto before = all_files(directory);
   auto verdict = judged("results", [&] {
-    const pipelines::StagedResults next_run(directory, {"shaft"});  // looks, and publishes nothing
+    const pipelines::StagedResults next_run(directory,
+                                            pipelines::run_names({"shaft"}));  // looks, and publishes nothing
     return std::string();
   });
   if (!verdict.fault.empty()) return verdict;

@@ -10,6 +10,7 @@
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/scene.h"
 #include "tests/fuzz/kinds/samples.h"
+#include "tests/fuzz/kinds/scene_cases.h"
 #include "tests/fuzz/verdicts.h"
 
 namespace fuzz {
@@ -36,7 +37,8 @@ std::string fault_of_summary(const std::string& text) {
   return "";
 }
 
-/// Few instants, but the whole period where a table needs it.
+}  // namespace
+
 kinetics::TimeGrid few_instants(const pipelines::Scene& scene) {
   const bool is_table = pipelines::kind_of(scene.machine).has_samples();
   return {is_table ? scene.sampling.turns : std::min(scene.sampling.turns, 3), 16};
@@ -57,8 +59,6 @@ std::string fault_of_scene(const std::filesystem::path& file) {
     pipelines::require_finite(pipelines::report_torsion(scene, scene.machine));
   return fault_of_summary(pipelines::summary_json(report));
 }
-
-}  // namespace
 
 Verdict scene_case(Mutator& random, const Place& place) {
   const auto& scenes = place.samples.scenes;

@@ -98,6 +98,56 @@ TEST(TrainClosedForms, ForcedTwoMasses) {
   EXPECT_NEAR(std::abs(h.torque_Nm[0] - std::polar(torque_Nm, -0.4)), 0, 1e-13 * torque_Nm);
 }
 
+// A gear stage of ratio -1/3 whose wheels have no mass, between a motor and a load: one spring, of both
+// shafts in series on the motor's. The wheels are nothing at all (joined rigidly to the motor), or 1e-12 kg
+// m2 each, as the refusal of 0 advises, which adds a frequency far above and changes nothing else.
+TEST(TrainClosedForms, GearsWithoutMass) {
+  const double J1 = 0.02, J2 = 3, C1 = 1.7e4, C2 = 4e5, u = -1.0 / 3, w = 300, M = 5;
+  const auto train_with = [&](double wheel_kg_m2, bool is_stiff) {
+    kinetics::DriveTrain train;
+    train.inertias = {{"motor", "fast", J1},
+                      {"pinion", "fast", wheel_kg_m2},
+                      {"wheel", "slow", wheel_kg_m2},
+                      {"load", "slow", J2}};
+    const auto join = [&](const char* name, const char* first, const char* second) {
+      kinetics::TrainElement element;
+      element.name = name, element.first = first, element.second = second;
+      train.elements.push_back(element);
+    };
+    join("fast_shaft", "motor", "pinion");
+    join("gear", "pinion", "wheel");
+    join("slow_shaft", "wheel", "load");
+    train.elements[1].kind = kinetics::ElementKind::gear;
+    train.elements[1].ratio = u;
+    train.elements[1].rigid = true;
+    train.elements[0].rigid = is_stiff;
+    if (!is_stiff) train.elements[0].stiffness_N_m_rad = C1;
+    train.elements[2].stiffness_N_m_rad = C2;
+    train.reference_shaft = "fast";
+    train.reference_speed_rad_s = 150;
+    train.excitations = {trains::harmonic("motor", M, w)};
+    return train;
+  };
+  for (const bool is_stiff : {false, true}) {
+    const double behind = C2 * u * u, C = is_stiff ? behind : 1 / (1 / C1 + 1 / behind),
+                 J2_reduced = J2 * u * u;
+    const auto train = train_with(is_stiff ? 0 : 1e-12, is_stiff);
+    const double stiff_rad_s = std::sqrt(C * (1 / J1 + 1 / J2_reduced));
+    const auto modes = natural_modes(train);
+    EXPECT_NEAR(modes.frequency_rad_s[1], stiff_rad_s, 1e-9 * stiff_rad_s);
+    if (!is_stiff) {
+      EXPECT_GT(modes.frequency_rad_s[2], 1e4 * stiff_rad_s);
+    }
+    const double torque_Nm = C * M / J1 / (C * (1 / J1 + 1 / J2_reduced) - w * w);
+    const auto h = forced_response(train).harmonics.at(0);
+    EXPECT_NEAR(std::abs(h.reduced_torque_Nm[2] - torque_Nm), 0, 1e-9 * torque_Nm);
+    EXPECT_NEAR(std::abs(h.reduced_torque_Nm[1] - torque_Nm), 0, 1e-9 * torque_Nm);
+    if (!is_stiff) {
+      EXPECT_NEAR(std::abs(h.reduced_torque_Nm[0] - torque_Nm), 0, 1e-9 * torque_Nm);
+    }
+  }
+}
+
 // A mean torque on a free train: each section carries the share that accelerates what lies behind it.
 TEST(TrainClosedForms, MeanTorqueOfAFreeTrain) {
   auto train = trains::chain({1, 2, 3, 4}, {1e3, 1e9, 1e2});

@@ -36,7 +36,10 @@ struct Mistake {
 TEST(TrainWrongInput, Parameters) {
   const std::vector<Mistake> mistakes = {
       {[](auto& t) { t.inertias.clear(); }, {"inertias: none"}},
-      {[](auto& t) { t.inertias[4].inertia_kg_m2 = 0; }, {"disc.inertia_kg_m2 = 0", "must be positive"}},
+      {[](auto& t) { t.inertias[4].inertia_kg_m2 = 0; },
+       {"disc.inertia_kg_m2 = 0", "must be positive", "write 1e-12"}},
+      {[](auto& t) { t.inertias[4].inertia_kg_m2 = -1; },
+       {"disc.inertia_kg_m2 = -1", "must not be negative"}},
       {[](auto& t) { t.inertias[4].inertia_kg_m2 = not_a_number; }, {"disc.inertia_kg_m2 = nan"}},
       {[](auto& t) { t.inertias[0].damping_N_m_s = -1; }, {"rotor.damping_N_m_s = -1"}},
       {[](auto& t) { t.inertias[1].name = "rotor"; }, {"rotor is taken"}},

@@ -5,11 +5,14 @@
 
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "pipelines/estimates/in_time.h"
 
 namespace {
 
@@ -68,6 +71,25 @@ TEST(ParallelWork, IsDoneByTheCallerWhereNoThreadStarts) {
     ++times_done[i];
   });
   EXPECT_EQ(times_done, std::vector<int>(100, 1));
+}
+
+// Work that asks for the time ends when it is up, and what else it throws passes through. Red where an item
+// is begun whatever the time: a thousand of them take ten seconds on two threads.
+TEST(ParallelWork, EndsWhenTheTimeIsUp) {
+  std::atomic<int> n_done{0};
+  const auto work = [&](std::size_t, std::size_t) {
+    std::this_thread::sleep_for(milliseconds(20));
+    ++n_done;
+  };
+  EXPECT_FALSE(pipelines::in_time(0.05, [&] { pipelines::for_each_parallel(1000, 2, work); }));
+  EXPECT_LT(n_done, 900);
+  n_done = 0;
+  EXPECT_TRUE(pipelines::in_time(1000, [&] { pipelines::for_each_parallel(3, 2, work); }));
+  EXPECT_TRUE(pipelines::in_time(std::numeric_limits<double>::infinity(),
+                                 [&] { pipelines::for_each_parallel(3, 2, work); }));
+  EXPECT_EQ(n_done, 6);
+  EXPECT_THROW(pipelines::in_time(1000, [] { throw std::runtime_error("another matter"); }),
+               std::runtime_error);
 }
 
 }  // namespace

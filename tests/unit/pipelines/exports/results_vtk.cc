@@ -3,10 +3,12 @@
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkTriQuadraticHexahedron.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -121,6 +123,30 @@ TEST(EnvelopeVtu, CellsHaveTheVolumeOfTheBody) {
   write_envelope_vtu(at / "e.vtu", mapped_cube(1, 8, 1, ring), {});
   // Quadratic arcs of 11 degrees miss the circle by 1e-6 of the radius; straight ones would by 1e-2.
   EXPECT_NEAR(volume(*read_vtk(at / "e.vtu")), 3.0 / 8 * std::acos(-1.), 1e-5);
+}
+
+/// What a user may call an effect or a port. VTK writes names into attributes as they are, so that an & in
+/// one left a file that nothing reads.
+TEST(EnvelopeVtu, NamesWithMarkupComeBack) {
+  const Directory at;
+  const auto nodes = mapped_cube(1, 1, 1, quadratic_map);
+  const std::vector<double> shares(nodes.n * 2, 0.5);
+  const std::string field = "share of R&D <b> \"q\" 'a'", first = "R&D < 3 kN > \"x\" 'y'", second = "&amp;";
+  const std::vector<std::int32_t> ids(nodes.n, 7);
+  write_envelope_vtu(at / "e.vtu", nodes, {nodal_field(field, shares, 2, {first, second})}, {{first, ids}},
+                     VtuCompression::none, {{{field, {first, second}}}, {{second, {1}}}});
+  const auto grid = read_vtk(at / "e.vtu");
+  ASSERT_EQ(grid->GetNumberOfPoints(), vtkIdType(nodes.n));
+  auto* const read = grid->GetPointData()->GetArray(field.c_str());
+  ASSERT_NE(read, nullptr);
+  EXPECT_EQ(read->GetComponentName(0), first);
+  EXPECT_EQ(read->GetComponentName(1), second);
+  ASSERT_NE(grid->GetPointData()->GetArray(first.c_str()), nullptr);
+  EXPECT_EQ(read_node_ids(at / "e.vtu", first), ids);
+  auto* const names = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(field.c_str()));
+  ASSERT_NE(names, nullptr);
+  EXPECT_EQ(names->GetValue(0), first);
+  EXPECT_NE(grid->GetFieldData()->GetArray(second.c_str()), nullptr);
 }
 
 TEST(EnvelopeVtu, FieldsComeBackInThePrecisionAskedFor) {

@@ -85,20 +85,6 @@ TEST(FreeBodyFiles, SnapshotsHoldTheLoadsAtTheirPlaces) {
   EXPECT_EQ(count_of(bytes(directory / "free_body.csv"), "\n"), 1 + 8 * body.loads.size());
 }
 
-// A shorter animation leaves no snapshot of a longer one, and nothing else goes.
-TEST(FreeBodyFiles, ShorterAnimationsLeaveNoSnapshotBehind) {
-  const Directory directory;
-  const auto longer = shipped_scene("vibratory_mill.toml", {"sampling.instants_per_turn=12"});
-  const auto shorter = shipped_scene("vibratory_mill.toml", {"sampling.instants_per_turn=9"});
-  std::ofstream(directory / "free_body_011.vtp.kept") << "mine";
-  write_free_body(directory.path, longer, free_body(longer));
-  EXPECT_TRUE(std::filesystem::exists(directory / "free_body_011.vtp"));
-  write_free_body(directory.path, shorter, free_body(shorter));
-  EXPECT_TRUE(std::filesystem::exists(directory / "free_body_008.vtp"));
-  EXPECT_FALSE(std::filesystem::exists(directory / "free_body_009.vtp"));
-  EXPECT_TRUE(std::filesystem::exists(directory / "free_body_011.vtp.kept"));
-}
-
 TEST(FreeBodyReport, TakesTheInstantNearestToTheAngle) {
   const auto scene = shipped_scene("vibratory_mill.toml", {"sampling.instants_per_turn=36"});
   const auto body = free_body(scene);

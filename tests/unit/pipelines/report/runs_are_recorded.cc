@@ -29,7 +29,7 @@ const RunRecord record{
     "key", {{"shaft/unit_responses.h5", text_hash("responses")}}, {"no picture: why"}, "\n a table\n  b\n"};
 
 void publish(const fs::path& directory, const RunRecord& content) {
-  StagedResults staged(directory, {"shaft"});
+  StagedResults staged(directory, run_names({"shaft"}));
   write_text_file(staged.folder() / "summary.json", summary_text);
   write_text_file(staged.folder() / "shaft/zones.csv", "zones");
   write_html_report(staged.folder(), directory / "accuracy");
@@ -128,11 +128,11 @@ TEST(RunRecord, IsBelievedBesideItsOwnResultsAlone) {
   const auto text = bytes(page);
   EXPECT_NE(text.find(", 1 turn of 24 instants;"), std::string::npos) << text;
   write_text_file(page, text + " ");
-  EXPECT_FALSE(is_there(at.path)) << "a changed page";
+  EXPECT_THROW(is_there(at.path), OptionError) << "a changed page, which a run would replace";
   write_text_file(page, text);
   write_text_file(at / "accuracy/shaft.txt", "a table");
   EXPECT_FALSE(is_there(at.path)) << "the run would show what accuracy has found";
-  write_html_report(at.path, at / "accuracy");
+  publish_html_report(at.path, at / "accuracy");
   EXPECT_TRUE(is_there(at.path));
 
   keep(kept, "responses");
@@ -140,13 +140,13 @@ TEST(RunRecord, IsBelievedBesideItsOwnResultsAlone) {
   keep(kept, "of another run");
   EXPECT_FALSE(is_there(at.path)) << "unit responses of another run";
   write_text_file(kept, "no kept file");
-  EXPECT_FALSE(is_there(at.path));
+  EXPECT_THROW(is_there(at.path), OptionError) << "a run would replace it";
   fs::remove(kept);
   EXPECT_TRUE(is_there(at.path));
   keep(gave_up, "of any run");
   EXPECT_TRUE(is_there(at.path));
-  write_text_file(gave_up, "damaged");
-  EXPECT_FALSE(is_there(at.path));
+  write_text_file(gave_up, "d" + bytes(gave_up));
+  EXPECT_FALSE(is_there(at.path)) << "damaged";
   fs::remove(gave_up);
 
   fs::create_symlink("zones.csv", at / "shaft/mesh.msh");
