@@ -4,7 +4,7 @@
 # headers of fem. Inside a folder, a room (subfolder) includes only rooms below it.
 cmake_policy(VERSION 3.25)
 set(fem_public axisymmetric_responses beam_responses beam_shaft body body_nodes cell_shares cell_stress_at_node constants
-    cost_constants cost_prediction errors fillet_factors memory meridian_body model natural_mode
+    cost_constants cost_prediction deadline errors fillet_factors memory meridian_body model natural_mode
     near_loads nodal_loads plated_tube ranks region_volume solver_choice stress_goal submodel surface_stress tetrahedra_error
     unit_load unit_responses vtk_order)
 set(faults "")
@@ -63,7 +63,7 @@ set(rooms_fem values common mesh triangulation ranks matrices operators loads st
 set(rooms_kinetics values series vibratory_effects vibratory planetary_effects planetary torsion_chain torsion table)
 set(rooms_meshes values gmsh spacing checks shaft_layout shaft chamber solids keyed_shaft imported)
 set(rooms_pipelines
-    common names files exports fatigue scene_values scene scene_bodies scene_reader machines responses channels loads bodies
+    common names disk files exports fatigue scene_values scene scene_bodies scene_reader machines responses channels loads bodies
     kernels superposition between_instants estimates body_figures analysis body_stages life calculix cheap_models
     report_parts machine_reports report effects refinement search accuracy result_files variations sweep drawing pictures
     command_options sweep_command commands)
